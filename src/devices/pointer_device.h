@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "base/vector.h"
+
+namespace icome::devices {
+
+using base::Pose;
+using base::Quaternion;
+using base::Vector3;
+
+/// What a pointer device can do; from the vendor's data sheet or a profile (see device_profiles.h).
+struct DeviceInfo {
+  std::string name;
+  double workspace_radius = 0.1;      // m, sphere that the tip can reach
+  double max_force = 3.3;             // N, peak; 0 for a device without force
+  double continuous_force = 1.0;      // N, what it can hold for minutes
+  double nominal_stiffness = 1000.0;  // N/m, the hardest wall it renders well
+  double effective_mass = 0.1;        // kg, apparent at the tip
+};
+
+/// One reading of a pointer device, in the device's frame (metres, x right, y up, z to the user).
+struct PointerState {
+  Vector3 position = Vector3::Zero();                 // m
+  Vector3 velocity = Vector3::Zero();                 // m/s
+  Quaternion orientation = Quaternion::Identity();    // device_from_stylus
+  std::uint32_t buttons = 0;                          // bit i: button i is down
+};
+
+/// How a read or write went.
+enum class DeviceStatus : std::uint8_t {
+  Ok,       // fresh data
+  Stalled,  // the device is there but gave nothing new
+  Lost,     // unplugged or failed; forces go nowhere
+};
+
+/// A device that moves one pointer and may push back. Back-ends derive from it; whoever created the
+/// device owns it, and one thread (the servo) calls read() and write().
+class PointerDevice {
+ public:
+  virtual ~PointerDevice() = default;
+  virtual const DeviceInfo& info() const = 0;
+  /// The newest state; `state` keeps its old value unless Ok is returned. Real-time safe.
+  virtual DeviceStatus read(PointerState& state) = 0;
+  /// Sends a force (N, device frame) that is held until the next write. Real-time safe.
+  virtual DeviceStatus write(const Vector3& force) = 0;
+};
+
+}  // namespace icome::devices
