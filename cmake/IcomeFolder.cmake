@@ -1,30 +1,59 @@
 # One folder under src/ is one library and one namespace; one folder under tests/ is one test program.
 
 # icome_folder(NAME [USES folder...] [LINKS target...])
-# USES are other folders of src/ (checked against the include lines by tools/check_layers.py);
+# USES are other folders of src/ (tools/check_layers.py holds them against tools/layers.txt);
 # LINKS are third-party targets, private so that their headers stay behind this folder's sources.
 function(icome_folder name)
   cmake_parse_arguments(ARG "" "" "USES;LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(TRANSFORM ARG_USES PREPEND icome_)
+  if(NOT name STREQUAL "base")
+    list(PREPEND ARG_USES icome_base)
+  endif()
+  if(NOT sources)  # headers only
+    add_library(icome_${name} INTERFACE)
+    target_include_directories(icome_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(icome_${name} INTERFACE ${ARG_USES})
+    return()
+  endif()
   add_library(icome_${name} STATIC ${sources})
   target_include_directories(icome_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  if(NOT name STREQUAL "base")
-    target_link_libraries(icome_${name} PUBLIC icome_base)
-  endif()
-  foreach(use IN LISTS ARG_USES)
-    target_link_libraries(icome_${name} PUBLIC icome_${use})
-  endforeach()
-  target_link_libraries(icome_${name} PRIVATE ${ARG_LINKS})
+  target_link_libraries(icome_${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_LINKS})
 endfunction()
+
+# Every unit test program, so that a sanitizer build makes these and what they need, and no more.
+add_custom_target(icome_unit_tests)
 
 # icome_tests(NAME [LINKS target...]): the *_test.cpp files of this folder as one GoogleTest program.
 function(icome_tests name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  add_executable(icome_${name}_tests ${sources})
-  target_link_libraries(icome_${name}_tests PRIVATE icome_${name} GTest::gtest_main ${ARG_LINKS})
-  target_compile_definitions(icome_${name}_tests PRIVATE
+  if(NOT sources)
+    return()
+  endif()
+  set(program icome_${name}_tests)
+  add_executable(${program} ${sources})
+  add_dependencies(icome_unit_tests ${program})
+  target_link_libraries(${program} PRIVATE icome_${name} GTest::gtest_main ${ARG_LINKS})
+  target_compile_definitions(${program} PRIVATE
     ICOME_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
-  gtest_discover_tests(icome_${name}_tests TEST_PREFIX "${name}/" DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS ${name})
+  if(ICOME_SANITIZE)
+    # One process for the whole program: starting one for each test would cost more than the tests.
+    add_test(NAME ${name} COMMAND ${program})
+    set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT 600)
+  else()
+    gtest_discover_tests(${program} TEST_PREFIX "${name}/" DISCOVERY_MODE PRE_TEST
+      PROPERTIES LABELS unit TIMEOUT 120)
+  endif()
+endfunction()
+
+# icome_benchmark(NAME [LINKS target...]): the sources of this folder as the program
+# icome_NAME_benchmark, which `make bench` builds and runs.
+function(icome_benchmark name)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(program icome_${name}_benchmark)
+  add_executable(${program} ${sources})
+  target_link_libraries(${program} PRIVATE icome_base ${ARG_LINKS})
+  set_property(GLOBAL APPEND PROPERTY ICOME_BENCHMARKS ${program})
 endfunction()

@@ -1,4 +1,4 @@
-# Language level, warnings, sanitizers and where things are put: the same for every target.
+# Language level, warnings, sanitizers, the compiler cache and where things are put: the same for every target.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -7,20 +7,30 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 option(ICOME_BUILD_TESTS "Build the tests" ON)
 option(ICOME_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+option(ICOME_WARNINGS_AS_ERRORS "A compiler warning fails the build (what `make test` asks for)" OFF)
 set(ICOME_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, such as address,undefined")
 
+# The cache is shared by every clone on the machine: paths count from the source tree, and the
+# directory that a compiler runs in is not part of what it made.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
 endif()
 
 add_compile_options(-Wall -Wextra -Wshadow -Wno-psabi)
+if(ICOME_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
 # Equal inputs give equal bits whatever the optimiser does (replays are compared bit for bit).
 add_compile_options(-ffp-contract=off)
+# Where assert() is on, the containers of the standard library check their arguments too.
+add_compile_definitions($<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
 if(ICOME_SANITIZE)
   add_compile_options(-fsanitize=${ICOME_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${ICOME_SANITIZE})
 endif()
+
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(tl-expected REQUIRED)
