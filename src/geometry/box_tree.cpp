@@ -1,0 +1,146 @@
+#include "geometry/box_tree.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace icome::geometry {
+namespace {
+
+// One rounding from double is half of this; the rest covers the arithmetic of the tests.
+constexpr float kRounding = 1.2e-7f;
+constexpr float kTiny = 1e-37f;
+
+float below(double value) {
+  const auto rounded = float(value);
+  return rounded - (std::abs(rounded) * kRounding + kTiny);
+}
+
+float above(double value) {
+  const auto rounded = float(value);
+  return rounded + (std::abs(rounded) * kRounding + kTiny);
+}
+
+}  // namespace
+
+FloatBox FloatBox::empty() {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+}
+
+void FloatBox::extend(const FloatBox& other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis] = std::min(lo[axis], other.lo[axis]);
+    hi[axis] = std::max(hi[axis], other.hi[axis]);
+  }
+}
+
+FloatBox float_box(const Bounds& bounds) {
+  FloatBox box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = below(bounds.min()[axis]);
+    box.hi[axis] = above(bounds.max()[axis]);
+  }
+  return box;
+}
+
+FourBoxes::FourBoxes() {
+  for (unsigned which = 0; which < kCount; ++which) set(which, FloatBox::empty());
+}
+
+void FourBoxes::set(unsigned which, const FloatBox& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis][which] = box.lo[axis];
+    hi[axis][which] = box.hi[axis];
+  }
+}
+
+FloatBox FourBoxes::get(unsigned which) const {
+  return {{lo[0][which], lo[1][which], lo[2][which]}, {hi[0][which], hi[1][which], hi[2][which]}};
+}
+
+FloatBox FourBoxes::enclosing() const {
+  FloatBox box = get(0);
+  for (unsigned which = 1; which < kCount; ++which) box.extend(get(which));
+  return box;
+}
+
+SegmentQuery::SegmentQuery(const Vector3& a, const Vector3& b, double radius_in) {
+  const Vector3 reach = Vector3::Constant(radius_in);
+  const Vector3 low = a.cwiseMin(b) - reach;
+  const Vector3 high = a.cwiseMax(b) + reach;
+  box = float_box(Bounds(low, high));
+  const double magnitude = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  radius = float(radius_in + 16.0 * double(kRounding) * magnitude);
+  for (int axis = 0; axis < 3; ++axis) {
+    centre[axis] = float(0.5 * (a[axis] + b[axis]));
+    half[axis] = float(0.5 * (b[axis] - a[axis]));
+  }
+  slanted = (b - a).squaredNorm() > 4.0 * radius_in * radius_in;
+}
+
+BoxTree::BoxTree(std::span<const FloatBox> leaves) : leaf_count_(leaves.size()) {
+  std::size_t total = 0;
+  for (std::size_t count = leaves.size(); count > 0 && (levels_ == 0 || count > 1);) {
+    assert(levels_ < kMaxLevels);
+    count = (count + kWidth - 1) / kWidth;
+    start_[levels_++] = std::uint32_t(total);
+    total += count;
+  }
+  nodes_.assign(total, Node());
+  refit(leaves);
+}
+
+void BoxTree::refit(std::span<const FloatBox> leaves) {
+  assert(leaves.size() == leaf_count_);
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) set_child(0, leaf, leaves[leaf]);
+  for (unsigned level = 1; level < levels_; ++level) {
+    const std::size_t count = start_[level] - start_[level - 1];
+    for (std::size_t child = 0; child < count; ++child) {
+      set_child(level, child, nodes_[start_[level - 1] + child].enclosing());
+    }
+  }
+}
+
+void BoxTree::set_child(std::size_t level, std::size_t child, const FloatBox& box) {
+  nodes_[start_[level] + child / kWidth].set(unsigned(child % kWidth), box);
+}
+
+// Separating axes between a box grown by the radius and a segment: the three cross products of the
+// segment with the box axes (Ericson, Real-Time Collision Detection, 5.3.3); the box axes themselves
+// are what overlap_mask tested.
+bool BoxTree::touches(const Node& node, unsigned child, const SegmentQuery& query) {
+  std::array<float, 3> middle{};
+  std::array<float, 3> extent{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float lo = node.lo[axis][child];
+    const float hi = node.hi[axis][child];
+    middle[axis] = 0.5f * lo + 0.5f * hi - query.centre[axis];
+    extent[axis] = 0.5f * hi - 0.5f * lo + query.radius;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const float apart = std::abs(middle[u] * query.half[v] - middle[v] * query.half[u]);
+    const float reach = extent[u] * std::abs(query.half[v]) + extent[v] * std::abs(query.half[u]);
+    if (apart > reach) return false;
+  }
+  return true;
+}
+
+double BoxTree::distance_squared(const Node& node, unsigned child, const FloatPoint& point) {
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float p = point.position[axis];
+    const float outside = std::max(node.lo[axis][child] - p, p - node.hi[axis][child]) - point.rounding;
+    sum += outside > 0.0f ? outside * outside : 0.0f;
+  }
+  return double(sum) * (1.0 - 8.0 * double(kRounding));
+}
+
+BoxTree::FloatPoint BoxTree::float_point(const Vector3& point) {
+  return {{float(point.x()), float(point.y()), float(point.z())},
+          4.0f * kRounding * float(point.cwiseAbs().maxCoeff())};
+}
+
+}  // namespace icome::geometry

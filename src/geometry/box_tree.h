@@ -1,0 +1,179 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "base/vector.h"
+
+namespace icome::geometry {
+
+using base::Bounds;
+using base::Vector3;
+
+/// A box in single precision that never loses what it encloses: conversion rounds outwards.
+struct FloatBox {
+  std::array<float, 3> lo;
+  std::array<float, 3> hi;
+
+  static FloatBox empty();
+  void extend(const FloatBox& other);
+};
+FloatBox float_box(const Bounds& bounds);
+
+/// Four boxes, transposed so that one instruction looks at all of them. Empty when default-constructed.
+struct alignas(16) FourBoxes {
+  static constexpr unsigned kCount = 4;
+
+  FourBoxes();
+  void set(unsigned which, const FloatBox& box);
+  FloatBox get(unsigned which) const;
+  FloatBox enclosing() const;
+  /// Bit i is set when box i meets `box`. Real-time safe.
+  unsigned overlap_mask(const FloatBox& box) const;
+
+  float lo[3][kCount];
+  float hi[3][kCount];
+};
+
+/// "Which boxes come within `radius` of the segment from `a` to `b`?" A ball where a equals b.
+struct SegmentQuery {
+  SegmentQuery(const Vector3& a, const Vector3& b, double radius);
+
+  FloatBox box;                     // around the capsule
+  std::array<float, 3> centre;      // of the segment
+  std::array<float, 3> half;        // half the segment, signed
+  float radius;                     // with room for single-precision rounding
+  bool slanted;                     // worth more than the test against `box`
+};
+
+/// A tree over boxes that are already in spatial order (see hilbert_order): four children a node,
+/// no pointers, children found by counting (a packed Hilbert R-tree). Costs 32 bytes a leaf box.
+/// Owns its nodes. Queries never allocate and may run in several threads.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(std::span<const FloatBox> leaves);
+
+  /// New boxes for the same leaves, in the same order: O(leaves), takes no memory.
+  void refit(std::span<const FloatBox> leaves);
+
+  /// Calls `visit(leaf)` for every leaf box that comes within the query's radius of its segment, and
+  /// for some that only nearly do. Real-time safe when `visit` is.
+  template <typename Visit>
+  void near(const SegmentQuery& query, Visit&& visit) const;
+
+  /// Calls `visit(leaf)` on leaf boxes nearer to `point` than the square root of `limit` (m^2),
+  /// nearer subtrees first; `visit` returns the new limit. Real-time safe when `visit` is.
+  template <typename Visit>
+  void nearest(const Vector3& point, double limit, Visit&& visit) const;
+
+  std::size_t leaf_count() const { return leaf_count_; }
+  std::size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
+
+ private:
+  static constexpr unsigned kWidth = FourBoxes::kCount;
+  static constexpr unsigned kMaxLevels = 16;  // 4^16 leaves
+
+  using Node = FourBoxes;
+  struct Place {
+    std::uint32_t level, index;
+  };
+  struct FloatPoint {
+    std::array<float, 3> position;
+    float rounding;  // m, how far the position may be off
+  };
+
+  void set_child(std::size_t level, std::size_t child, const FloatBox& box);
+  static bool touches(const Node& node, unsigned child, const SegmentQuery& query);
+  /// A lower bound, so that rounding never prunes the nearest.
+  static double distance_squared(const Node& node, unsigned child, const FloatPoint& point);
+  static FloatPoint float_point(const Vector3& point);
+
+  std::vector<Node> nodes_;                         // level 0 (above the leaves) first, the root last
+  std::array<std::uint32_t, kMaxLevels> start_{};   // of each level in nodes_
+  unsigned levels_ = 0;
+  std::size_t leaf_count_ = 0;
+};
+
+inline unsigned FourBoxes::overlap_mask(const FloatBox& box) const {
+#if defined(__SSE2__)
+  __m128 in = _mm_cmple_ps(_mm_load_ps(lo[0]), _mm_set1_ps(box.hi[0]));
+  in = _mm_and_ps(in, _mm_cmpge_ps(_mm_load_ps(hi[0]), _mm_set1_ps(box.lo[0])));
+  for (int axis = 1; axis < 3; ++axis) {
+    in = _mm_and_ps(in, _mm_cmple_ps(_mm_load_ps(lo[axis]), _mm_set1_ps(box.hi[axis])));
+    in = _mm_and_ps(in, _mm_cmpge_ps(_mm_load_ps(hi[axis]), _mm_set1_ps(box.lo[axis])));
+  }
+  return unsigned(_mm_movemask_ps(in));
+#else
+  unsigned mask = 0;
+  for (unsigned which = 0; which < kCount; ++which) {
+    bool in = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      in = in && lo[axis][which] <= box.hi[axis] && hi[axis][which] >= box.lo[axis];
+    }
+    mask |= unsigned(in) << which;
+  }
+  return mask;
+#endif
+}
+
+template <typename Visit>
+void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
+  if (levels_ == 0) return;
+  std::array<Place, kMaxLevels * (kWidth - 1) + 1> stack;
+  unsigned depth = 0;
+  stack[depth++] = {levels_ - 1, 0};
+  while (depth > 0) {
+    const Place place = stack[--depth];
+    const Node& node = nodes_[start_[place.level] + place.index];
+    for (unsigned mask = node.overlap_mask(query.box); mask != 0; mask &= mask - 1) {
+      const auto child = unsigned(__builtin_ctz(mask));
+      if (query.slanted && !touches(node, child, query)) continue;
+      const std::uint32_t index = place.index * kWidth + child;
+      if (place.level == 0) {
+        visit(index);
+      } else {
+        stack[depth++] = {place.level - 1, index};
+      }
+    }
+  }
+}
+
+template <typename Visit>
+void BoxTree::nearest(const Vector3& point, double limit, Visit&& visit) const {
+  struct Candidate {
+    Place place;
+    double distance;
+  };
+  if (levels_ == 0) return;
+  const FloatPoint p = float_point(point);
+  std::array<Candidate, kMaxLevels * kWidth + 1> stack;
+  unsigned depth = 0;
+  stack[depth++] = {{levels_ - 1, 0}, 0.0};
+  while (depth > 0) {
+    const Candidate top = stack[--depth];
+    if (top.distance >= limit) continue;
+    const Node& node = nodes_[start_[top.place.level] + top.place.index];
+    const unsigned first = depth;
+    for (unsigned child = 0; child < kWidth; ++child) {
+      const double distance = distance_squared(node, child, p);
+      if (!(distance < limit)) continue;
+      const std::uint32_t index = top.place.index * kWidth + child;
+      if (top.place.level == 0) {
+        limit = visit(index);
+        continue;
+      }
+      unsigned slot = depth++;  // insertion keeps the nearest on top
+      for (; slot > first && stack[slot - 1].distance < distance; --slot) stack[slot] = stack[slot - 1];
+      stack[slot] = {{top.place.level - 1, index}, distance};
+    }
+  }
+}
+
+}  // namespace icome::geometry
