@@ -47,6 +47,18 @@ function(icome_tests name)
   endif()
 endfunction()
 
+# icome_script_tests(NAME): each *_test.py of this folder as one test. The scripts find the program in
+# the environment variable ICOME_PROGRAM and its version in ICOME_VERSION.
+function(icome_script_tests name)
+  file(GLOB scripts CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.py)
+  foreach(script IN LISTS scripts)
+    get_filename_component(test ${script} NAME_WE)
+    add_test(NAME ${name}/${test} COMMAND python3 -B ${script})
+    set_tests_properties(${name}/${test} PROPERTIES TIMEOUT 300 ENVIRONMENT
+      "ICOME_PROGRAM=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/icome;ICOME_VERSION=${PROJECT_VERSION}")
+  endforeach()
+endfunction()
+
 # icome_benchmark(NAME [LINKS target...]): the sources of this folder as the program
 # icome_NAME_benchmark, which `make bench` builds and runs.
 function(icome_benchmark name)
