@@ -22,10 +22,10 @@ struct DeviceInfo {
 
 /// One reading of a pointer device, in the device's frame (metres, x right, y up, z to the user).
 struct PointerState {
-  Vector3 position = Vector3::Zero();                 // m
-  Vector3 velocity = Vector3::Zero();                 // m/s
-  Quaternion orientation = Quaternion::Identity();    // device_from_stylus
-  std::uint32_t buttons = 0;                          // bit i: button i is down
+  Vector3 position = Vector3::Zero();               // m
+  Vector3 velocity = Vector3::Zero();               // m/s
+  Quaternion orientation = Quaternion::Identity();  // device_from_stylus
+  std::uint32_t buttons = 0;                        // bit i: button i is down
 };
 
 /// How a read or write went.

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "devices/pointer_device.h"
+
+namespace icome::devices {
+
+/// A device that replays tip positions from a file, one row a read, without a wall clock: the same file
+/// gives the same ticks on every machine, as fast as the machine can. Forces are accepted and ignored.
+class PathPlayer final : public PointerDevice {
+ public:
+  /// Reads a file whose first line is `t,x,y,z` and whose rows are seconds and metres, t increasing.
+  /// `info` is what the limiter and the display are told; its name becomes the file's. The error names
+  /// file and line.
+  static base::Result<PathPlayer> create(const std::string& path, DeviceInfo info = {});
+
+  /// As create(), from text in memory; `name` stands for the file in errors.
+  static base::Result<PathPlayer> parse(std::string_view text, const std::string& name, DeviceInfo info = {});
+
+  const DeviceInfo& info() const override { return info_; }
+  /// The next row and its velocity (backward difference, zero in the first row); Stalled after the last.
+  /// Real-time safe.
+  DeviceStatus read(PointerState& state) override;
+  /// Ok, and nothing happens: a path does not yield. Real-time safe.
+  DeviceStatus write(const Vector3& force) override;
+
+  /// Has every row been read? Real-time safe.
+  bool finished() const { return next_ == times_.size(); }
+  /// Time of the row that read() gave last, s; of the first row before that. Real-time safe.
+  double time() const { return times_[next_ == 0 ? 0 : next_ - 1]; }
+  /// Time of each row, s; at least one.
+  const std::vector<double>& times() const { return times_; }
+  /// Position in each row, m.
+  const std::vector<Vector3>& positions() const { return positions_; }
+
+ private:
+  PathPlayer() = default;
+
+  DeviceInfo info_;
+  std::vector<double> times_;       // s
+  std::vector<Vector3> positions_;  // m
+  std::size_t next_ = 0;            // row of the next read
+};
+
+}  // namespace icome::devices

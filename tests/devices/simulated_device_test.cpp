@@ -1,0 +1,159 @@
+#include "devices/simulated/simulated_device.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+namespace icome::devices {
+namespace {
+
+// 0.1 kg device + 0.1 kg hand on a 200 N/m spring: omega0 = sqrt(1000) rad/s.
+SimulatedSettings free_oscillator() {
+  SimulatedSettings settings;
+  settings.info.effective_mass = 0.1;
+  settings.hand = {.mass = 0.1, .stiffness = 200.0, .damping = 0.0};
+  return settings;
+}
+
+TEST(SimulatedDevice, StepResponseIsTheUndampedCosine) {
+  SimulatedDevice device(free_oscillator());
+  device.set_target(Vector3(0.01, 0, -0.02));
+  PointerState state;
+  const double omega = std::sqrt(1000.0);
+  for (int tick = 1; tick <= 5000; ++tick) {
+    ASSERT_EQ(device.read(state), DeviceStatus::Ok);
+    const double t = tick * 1e-3;
+    ASSERT_NEAR(state.position.x(), 0.01 * (1.0 - std::cos(omega * t)), 1e-12) << tick;
+    ASSERT_NEAR(state.velocity.z(), -0.02 * omega * std::sin(omega * t), 1e-10) << tick;
+  }
+  EXPECT_DOUBLE_EQ(device.time(), 5.0);
+}
+
+TEST(SimulatedDevice, DampedHandComesToRestWhereForceAndSpringBalance) {
+  SimulatedSettings settings;
+  settings.hand = {.mass = 0.05, .stiffness = 400.0, .damping = 5.0};
+  SimulatedDevice device(settings);
+  device.write(Vector3(0, 2.0, 0));
+  PointerState state;
+  for (int tick = 0; tick < 2000; ++tick) device.read(state);
+  EXPECT_NEAR(state.position.y(), 2.0 / 400.0, 1e-9);  // 5 mm
+  EXPECT_NEAR(state.velocity.norm(), 0.0, 1e-7);
+}
+
+TEST(SimulatedDevice, ForceIsHeldOverTheTick) {
+  SimulatedSettings settings;
+  settings.info.effective_mass = 0.25;
+  settings.hand = {.mass = 0.25, .stiffness = 0.0, .damping = 0.0};
+  settings.rate = 100.0;
+  SimulatedDevice device(settings);
+  PointerState state;
+  device.write(Vector3(3.0, 0, 0));
+  device.read(state);
+  EXPECT_NEAR(state.position.x(), 0.5 * 6.0 * 1e-4, 1e-15);  // a t^2/2, a = 3 N / 0.5 kg
+  EXPECT_NEAR(state.velocity.x(), 6.0 * 1e-2, 1e-14);
+}
+
+TEST(SimulatedDevice, FollowsATrajectoryOfTime) {
+  SimulatedSettings settings;
+  settings.trajectory = [](double t) { return Vector3(0.02 * std::sin(2.0 * t), 0, 0); };
+  SimulatedDevice device(settings);
+  PointerState state;
+  double worst = 0.0;
+  for (int tick = 0; tick < 4000; ++tick) {
+    device.read(state);
+    if (device.time() > 1.0) {
+      worst = std::max(worst, (state.position - settings.trajectory(device.time())).norm());
+    }
+  }
+  // A spring-damper lags by b v/k = 5 * 0.04 / 300 m.
+  EXPECT_GT(worst, 0.4e-3);
+  EXPECT_LT(worst, 0.8e-3);
+}
+
+TEST(SimulatedDevice, EncoderRoundsAndVelocityIsItsBackwardDifference) {
+  SimulatedSettings settings = free_oscillator();
+  settings.encoder_resolution = 3e-5;
+  SimulatedDevice device(settings);
+  device.set_target(Vector3(0.01, 0.002, 0));
+  PointerState before, state;
+  device.read(before);
+  for (int tick = 0; tick < 200; ++tick, before = state) {
+    device.read(state);
+    const Vector3 counts = state.position / 3e-5;
+    ASSERT_NEAR((counts - counts.array().round().matrix()).norm(), 0.0, 1e-9);
+    ASSERT_LE((state.position - device.true_position()).cwiseAbs().maxCoeff(), 1.5e-5 + 1e-12);
+    ASSERT_NEAR((state.velocity - (state.position - before.position) * 1000.0).norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(SimulatedDevice, SameCallsGiveTheSameBits) {
+  SimulatedDevice a, b;
+  PointerState left, right;
+  for (SimulatedDevice* device : {&a, &b}) device->set_target(Vector3(0.01, 0.02, 0.03));
+  for (int tick = 0; tick < 1000; ++tick) {
+    a.read(left);
+    b.read(right);
+    ASSERT_EQ(left.position, right.position);
+    a.write(-100.0 * left.position);
+    b.write(-100.0 * right.position);
+  }
+}
+
+TEST(SimulatedDevice, UnpluggedIsLostAndMotorsDie) {
+  SimulatedDevice device;
+  PointerState state;
+  device.write(Vector3(3, 0, 0));
+  for (int tick = 0; tick < 2000; ++tick) device.read(state);
+  const PointerState kept = state;
+  device.inject(SimulatedFailure::Unplugged);
+  for (int tick = 0; tick < 2000; ++tick) EXPECT_EQ(device.read(state), DeviceStatus::Lost);
+  EXPECT_EQ(device.write(Vector3(3, 0, 0)), DeviceStatus::Lost);
+  EXPECT_EQ(state.position, kept.position);        // the caller's state is left alone
+  EXPECT_LT(device.true_position().norm(), 1e-6);  // the hand went back to its target
+  device.inject(SimulatedFailure::None);
+  EXPECT_EQ(device.read(state), DeviceStatus::Ok);
+  EXPECT_LT(state.position.norm(), 1e-6);
+}
+
+TEST(SimulatedDevice, StalledHoldsTheForce) {
+  SimulatedDevice device;
+  PointerState state;
+  device.inject(SimulatedFailure::Stalled);
+  device.write(Vector3(3, 0, 0));
+  for (int tick = 0; tick < 2000; ++tick) ASSERT_EQ(device.read(state), DeviceStatus::Stalled);
+  EXPECT_EQ(state.position, Vector3::Zero());
+  EXPECT_NEAR(device.true_position().x(), 3.0 / 300.0, 1e-6);
+}
+
+TEST(SimulatedDevice, NotANumberReadsOkButIsNotFinite) {
+  SimulatedDevice device;
+  PointerState state;
+  device.inject(SimulatedFailure::NotANumber);
+  EXPECT_EQ(device.read(state), DeviceStatus::Ok);
+  EXPECT_FALSE(state.position.allFinite());
+  device.write(state.position);  // a force that is no number moves nothing
+  device.inject(SimulatedFailure::None);
+  device.read(state);
+  EXPECT_EQ(state.position, Vector3::Zero());
+}
+
+TEST(SimulatedDevice, TargetMayBeSetFromAnotherThread) {
+  SimulatedDevice device;
+  std::thread person([&device] {
+    for (int i = 1; i <= 1000; ++i) device.set_target(Vector3::Constant(i * 1e-5));
+  });
+  PointerState state;
+  for (int tick = 0; tick < 1000; ++tick) {
+    device.read(state);
+    // Never a torn target: all three axes always move alike.
+    ASSERT_EQ(state.position.x(), state.position.y());
+    ASSERT_EQ(state.position.x(), state.position.z());
+  }
+  person.join();
+  for (int tick = 0; tick < 2000; ++tick) device.read(state);
+  EXPECT_NEAR(state.position.x(), 0.01, 1e-6);
+}
+
+}  // namespace
+}  // namespace icome::devices
