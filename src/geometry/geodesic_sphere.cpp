@@ -13,19 +13,19 @@ constexpr int kEdges = 30;
 /// The icosahedron: three golden rectangles, each in a plane of two axes.
 const std::array<Vector3, kCorners>& icosahedron_corners() {
   constexpr double kGolden = std::numbers::phi;
-  static const std::array<Vector3, kCorners> corners{{{-1, kGolden, 0},
-                                                      {1, kGolden, 0},
-                                                      {-1, -kGolden, 0},
-                                                      {1, -kGolden, 0},
-                                                      {0, -1, kGolden},
-                                                      {0, 1, kGolden},
-                                                      {0, -1, -kGolden},
-                                                      {0, 1, -kGolden},
-                                                      {kGolden, 0, -1},
-                                                      {kGolden, 0, 1},
-                                                      {-kGolden, 0, -1},
-                                                      {-kGolden, 0, 1}}};
-  return corners;
+  static const std::array<Vector3, kCorners> kPositions{{{-1, kGolden, 0},
+                                                         {1, kGolden, 0},
+                                                         {-1, -kGolden, 0},
+                                                         {1, -kGolden, 0},
+                                                         {0, -1, kGolden},
+                                                         {0, 1, kGolden},
+                                                         {0, -1, -kGolden},
+                                                         {0, 1, -kGolden},
+                                                         {kGolden, 0, -1},
+                                                         {kGolden, 0, 1},
+                                                         {-kGolden, 0, -1},
+                                                         {-kGolden, 0, 1}}};
+  return kPositions;
 }
 
 /// Counter-clockwise seen from outside.

@@ -381,7 +381,8 @@ TEST(Primitive, BoxHas27Regions) {
   const Vector3 half(0.1, 0.2, 0.3);
   std::set<std::tuple<double, double, double>> answers;
   for (int region = 0; region < 27; ++region) {
-    const Vector3 side(region % 3 - 1, region / 3 % 3 - 1, region / 9 - 1);
+    const int y = region / 3 % 3 - 1, z = region / 9 - 1;
+    const Vector3 side(region % 3 - 1, y, z);
     if (side.isZero()) continue;
     // 0.01 beyond each face of the region, 0.01 off the middle along the others.
     const Vector3 middle = Vector3::Constant(0.01);
@@ -598,7 +599,7 @@ TEST(Primitive, RefusesWithWhatWasExpected) {
 double deviation(const TriangleMesh& mesh, const Primitive& primitive) {
   double largest = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vector3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const Vector3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
     for (const Vector3& point :
          {a, Vector3((a + b) / 2), Vector3((b + c) / 2), Vector3((c + a) / 2), Vector3((a + b + c) / 3)}) {
       largest = std::max(largest, std::abs(signed_distance(primitive, point)));
@@ -628,7 +629,7 @@ TEST(Primitive, TessellationFacesOut) {
   for (const Reference& reference : references()) {
     const TriangleMesh mesh = tessellate(reference.primitive, 1e-2 * reference.size);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Vector3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+      const Vector3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
       const Vector3 normal = (b - a).cross(c - a).normalized();
       EXPECT_GT(normal.dot(scp(reference.primitive, (a + b + c) / 3).normal), 0.5)
           << name(reference.primitive);
