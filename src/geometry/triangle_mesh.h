@@ -30,6 +30,13 @@ struct TriangleMesh {
 /// The smallest axis-aligned box around the positions; empty for a mesh without any.
 Bounds bounds(const TriangleMesh& mesh);
 
+/// The volume that the triangles enclose, m^3: positive when a closed mesh's fronts face out, negative
+/// when it is inside-out. For an open mesh the number depends on the frame and means nothing.
+double signed_volume(const TriangleMesh& mesh);
+
+/// The sum of the triangles' areas, m^2 (one side of each).
+double surface_area(const TriangleMesh& mesh);
+
 /// Unit normals at the vertices, each the average of its triangles' normals weighted by the angle
 /// at the vertex (Thuermer and Wuethrich 1998). Zero where a vertex has no triangle.
 std::vector<Vector3> vertex_normals(const TriangleMesh& mesh);
