@@ -145,6 +145,20 @@ std::optional<MeshHit> TriangleTree::nearest(const Vector3& point, double limit)
   return best;
 }
 
+bool TriangleTree::encloses(const Vector3& point) const {
+  const double length = 2.0 * (bounds_.sizes().norm() + (point - bounds_.center()).norm());
+  int votes = 0;
+  for (const Vector3& direction :
+       {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581), Vector3(-0.2357, -0.4714, 0.8498)}) {
+    const Vector3 step = length * direction;
+    unsigned crossings = 0;
+    near(point, point + step, 0.0,
+         [&](std::uint32_t slot) { crossings += crossing(corners_[slot], point, step).has_value(); });
+    votes += crossings % 2 == 1 ? 1 : -1;
+  }
+  return votes > 0;
+}
+
 std::size_t TriangleTree::bytes() const {
   return sizeof(*this) + order_.capacity() * sizeof(std::uint32_t) + corners_.capacity() * sizeof(Corners) +
          boxes_.bytes();

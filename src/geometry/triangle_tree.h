@@ -54,6 +54,10 @@ class TriangleTree {
   std::optional<MeshHit> nearest(const Vector3& point,
                                  double limit = std::numeric_limits<double>::infinity()) const;
 
+  /// Does a closed mesh enclose the point? Counts crossings in three directions and lets the majority
+  /// decide, as a ray through an edge counts it twice. Real-time safe.
+  bool encloses(const Vector3& point) const;
+
   const Corners& corners(std::uint32_t slot) const { return corners_[slot]; }
   std::uint32_t triangle(std::uint32_t slot) const { return order_[slot]; }
   std::size_t size() const { return corners_.size(); }

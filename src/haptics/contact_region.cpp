@@ -1,0 +1,101 @@
+#include "haptics/contact_region.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/haptic_scene.h"
+
+namespace icome::haptics {
+
+using geometry::FloatBox;
+using geometry::FourBoxes;
+
+ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::kCount) {
+  elements_.reserve(kElements);
+}
+
+void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
+                          double elapsed) {
+  scene_ = &scene;
+  a_ = a;
+  b_ = b;
+  reach_ = reach;
+  tip_ = tip;
+  elapsed_ = elapsed;
+  overflowed_ = false;
+  size_ = 0;
+  elements_.clear();
+}
+
+void ContactRegion::invalidate() {
+  reach_ = -1.0;
+  overflowed_ = false;
+  size_ = 0;
+}
+
+bool ContactRegion::take_box(const Bounds& bounds) {
+  overflowed_ = overflowed_ || size_ == kPieces || elements_.size() == kElements;
+  if (overflowed_) return false;
+  FourBoxes& boxes = boxes_[size_ / FourBoxes::kCount];
+  if (size_ % FourBoxes::kCount == 0) boxes = FourBoxes();
+  boxes.set(size_ % FourBoxes::kCount, relative_box(bounds));
+  return true;
+}
+
+void ContactRegion::add(const Element& element, const Bounds& bounds) {
+  if (!take_box(bounds)) return;
+  pieces_[size_++] = {element.object, element.feature, std::uint32_t(elements_.size()), 1};
+  elements_.push_back(element);
+}
+
+void ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds) {
+  if (!take_box(bounds)) return;
+  pieces_[size_++] = {object, piece, 0, 0};
+}
+
+std::span<const Element> ContactRegion::elements_of(Piece& piece) {
+  if (piece.count == 0) {
+    PieceElements made;
+    scene_->expand(piece.object, piece.piece, tip_, elapsed_, made);
+    overflowed_ = overflowed_ || elements_.size() + made.size() > kElements;
+    if (overflowed_) return {};
+    piece.first = std::uint32_t(elements_.size());
+    piece.count = std::uint32_t(made.size());
+    for (const Element& element : made.all()) elements_.push_back(element);
+  }
+  return {elements_.data() + piece.first, piece.count};
+}
+
+FloatBox ContactRegion::relative_box(const Bounds& bounds) const {
+  return geometry::float_box(Bounds(bounds.min() - a_, bounds.max() - a_));
+}
+
+double ContactRegion::clearance(const Vector3& position) const {
+  const Vector3 along = b_ - a_;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((position - a_).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return reach_ - (a_ + t * along - position).norm();
+}
+
+SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
+                              const Tolerance& tolerance, std::uint32_t ignored_object) {
+  const Vector3 end = start + step;
+  const Vector3 margin = Vector3::Constant(tolerance.touching());
+  const FloatBox path = relative_box(Bounds(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin));
+  SweepHit first{1.0, nullptr};
+  for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+    for (unsigned mask = boxes_[block].overlap_mask(path); mask != 0; mask &= mask - 1) {
+      Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
+      if (piece.object == ignored_object) continue;
+      for (const Element& element : elements_of(piece)) {
+        const auto same = [&](const Element& contact) { return same_surface(contact, element); };
+        if (std::any_of(ignored.begin(), ignored.end(), same)) continue;
+        const auto t = haptics::sweep(facing(element, start), start, step, tolerance);
+        if (t && (*t < first.t || first.element == nullptr)) first = {*t, &element};
+      }
+    }
+  }
+  return first;
+}
+
+}  // namespace icome::haptics

@@ -1,0 +1,89 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "geometry/box_tree.h"
+#include "haptics/element.h"
+
+namespace icome::haptics {
+
+/// No object's index.
+constexpr std::uint32_t kNoObject = 0xffff'ffff;
+
+/// Where a tip moved by a sweep comes to rest.
+struct SweepHit {
+  double t;                // along the step, in [0, 1]
+  const Element* element;  // what holds it there, in the region's list; null when nothing does
+};
+
+class HapticScene;
+
+/// What surrounds the surface contact point: in the world frame, every element that a tip whose
+/// centre stays within `reach` of the segment from `a` to `b` can meet. Gathered once, it answers all
+/// sweeps of a tick, and of the next ticks while the SCP stays inside. Pieces of large shapes are
+/// only boxes at first and become elements when a sweep comes near. Takes its memory when
+/// constructed; everything else is real-time safe.
+class ContactRegion {
+ public:
+  static constexpr std::size_t kPieces = 4096;
+  static constexpr std::size_t kElements = 8192;
+
+  ContactRegion();
+
+  /// Empties the region and sets what it will cover: for a tip of radius `tip` (m), `elapsed` seconds
+  /// after the moment of the scene's poses. The caller keeps the scene alive.
+  void start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
+             double elapsed);
+  /// Adds an element (world frame); `bounds` encloses the positions of the tip's centre at which it
+  /// can hold.
+  void add(const Element& element, const Bounds& bounds);
+  /// Adds a piece of an object that becomes elements later, by Shape::expand.
+  void defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds);
+  /// Forgets everything: covers nothing.
+  void invalidate();
+
+  /// Did more belong here than there is room for? Then sweeps may miss something: don't move.
+  bool overflowed() const { return overflowed_; }
+  std::size_t size() const { return size_; }
+
+  /// How far the tip may go from `position` in any direction without leaving; negative outside.
+  double clearance(const Vector3& position) const;
+
+  /// The first element that a tip moving from `start` by `step` comes to rest on, other than the
+  /// surfaces of `ignored` and those of `ignored_object`. Both ends lie in the region.
+  SweepHit sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
+                 const Tolerance& tolerance, std::uint32_t ignored_object = kNoObject);
+
+  const Vector3& a() const { return a_; }
+  const Vector3& b() const { return b_; }
+  double reach() const { return reach_; }
+  double tip() const { return tip_; }
+  double elapsed() const { return elapsed_; }
+
+ private:
+  /// A box and the elements in it; none yet for a deferred piece.
+  struct Piece {
+    std::uint32_t object;
+    std::uint32_t piece;
+    std::uint32_t first;  // in elements_
+    std::uint32_t count;
+  };
+
+  bool take_box(const Bounds& bounds);
+  std::span<const Element> elements_of(Piece& piece);
+  geometry::FloatBox relative_box(const Bounds& bounds) const;
+
+  const HapticScene* scene_ = nullptr;
+  Vector3 a_ = Vector3::Zero();
+  Vector3 b_ = Vector3::Zero();
+  double reach_ = -1.0;   // m
+  double tip_ = 0.0;      // m
+  double elapsed_ = 0.0;  // s
+  bool overflowed_ = false;
+  std::size_t size_ = 0;  // pieces
+  std::vector<Piece> pieces_;
+  std::vector<geometry::FourBoxes> boxes_;  // of the pieces, relative to a_
+  std::vector<Element> elements_;
+};
+
+}  // namespace icome::haptics

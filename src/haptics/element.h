@@ -1,0 +1,97 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "base/vector.h"
+
+namespace icome::haptics {
+
+using base::Bounds;
+using base::Pose;
+using base::Vector3;
+
+/// Lengths below which the contact arithmetic does not distinguish. They follow from the size of the
+/// scene, never from a unit, so a mesh in metres and the same mesh in millimetres feel alike.
+struct Tolerance {
+  /// m; the tip rests this far above a surface, so that its side is never in doubt.
+  double gap = 0.0;
+
+  /// 1e-10 of the largest coordinate: five orders above the rounding of double precision there and
+  /// far below what any device resolves.
+  static Tolerance for_extent(double largest_coordinate) { return {1e-10 * largest_coordinate}; }
+
+  double touching() const { return 4.0 * gap; }  // heights up to this count as contact
+  double behind() const { return 8.0 * gap; }    // further below than this is the other side
+  double rim() const { return 0.25 * gap; }      // edges reach this far out: no cracks between neighbours
+};
+
+/// One smooth piece of a surface, thickened by the radius of the tip: what can hold the surface
+/// contact point (SCP) at one side. A point tip has radius 0. A triangle with a sphere tip is a
+/// triangular face, three rods (its edges) and three balls (its corners). Heights are distances of
+/// the tip's centre to the thickened piece, positive on the free side (m). A plain value: shapes
+/// make it, regions and contacts keep copies.
+struct Element {
+  enum class Kind : std::uint8_t {
+    Plane,          // unlimited
+    Triangle,       // u, v, w: inward edge normals in its plane; a, b, c: their offsets
+    Parallelogram,  // u, v: unit axes in its plane; a, b: half lengths (a rectangle)
+    Disc,           // a: its radius
+    Rod,            // a cylinder of `radius` around axis, a: its length from origin
+    Ball,           // of `radius` around origin
+    Capsule,        // a rod with round ends
+    Ring,           // a torus: tube of `radius` around the circle of radius a
+    ConeSide,       // a: radius at origin, b: slant length, c: axial part of the outward normal
+  };
+
+  Kind kind = Kind::Plane;
+  bool two_sided = false;  // a sheet: whichever side the tip comes from holds it
+  bool inverted = false;   // curved kinds felt from within; the normal points inwards
+  bool guarded = false;    // a rod or ball of a mesh: holds only where its faces do not (u, v, w)
+  std::uint32_t object = 0;   // index in the haptic scene
+  std::uint32_t feature = 0;  // the shape's own number for the piece
+  Vector3 origin = Vector3::Zero();
+  Vector3 axis = Vector3::UnitZ();  // unit: normal of a flat piece, axis of a round one
+  Vector3 u = Vector3::Zero();
+  Vector3 v = Vector3::Zero();
+  Vector3 w = Vector3::Zero();
+  double a = 0.0, b = 0.0, c = 0.0;
+  double radius = 0.0;  // m, of the thickened piece; for flat kinds the tip's radius
+  double tip = 0.0;     // m, the tip's radius
+
+  bool flat() const { return kind <= Kind::Disc; }
+  /// Is every tangent plane free of the piece?
+  bool convex() const { return !inverted && kind != Kind::Ring; }
+};
+
+// All of the following: positions of the tip's centre in the element's frame, m. Real-time safe.
+
+/// Signed distance to the (extended) thickened piece; positive on the free side.
+double height(const Element& element, const Vector3& position);
+
+/// Unit normal at `position`, towards the free side.
+Vector3 normal(const Element& element, const Vector3& position);
+
+/// Does the piece itself, not only its extension, lie under `position`?
+bool covers(const Element& element, const Vector3& position, const Tolerance& tolerance);
+
+/// The point `gap` above the extended piece that is nearest to `position`.
+Vector3 settle(const Element& element, const Vector3& position, const Tolerance& tolerance);
+
+/// Where a tip that rests at `from` on the piece goes when `goal` pulls it: straight to the nearest
+/// point if that is close by along the surface, else a step towards it that is free of the piece.
+Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, const Tolerance& tolerance);
+
+/// The piece as felt from `position`: a two-sided one turned so that its free side is there.
+Element facing(const Element& element, const Vector3& position);
+
+/// When the tip's centre moves from `start` by t * `step`, t in [0, 1]: the first t at which it comes
+/// to rest on the piece. `element` is as facing(element, start) gives it.
+std::optional<double> sweep(const Element& element, const Vector3& start, const Vector3& step,
+                            const Tolerance& tolerance);
+
+/// Do both describe the same thickened surface (a shared edge or corner counts once)?
+bool same_surface(const Element& one, const Element& other);
+
+Element transformed(const Pose& to_from, const Element& element);
+
+}  // namespace icome::haptics

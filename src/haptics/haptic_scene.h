@@ -1,0 +1,95 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/object_id.h"
+#include "geometry/box_tree.h"
+#include "haptics/shape.h"
+#include "haptics/surface_force.h"
+
+namespace icome::haptics {
+
+using base::ObjectId;
+
+/// How an object goes on moving after the moment for which its pose was given. It holds still after
+/// HapticScene::kMotionHorizon, so that a program that stops answering cannot drag a hand along.
+struct Motion {
+  Vector3 linear = Vector3::Zero();   // m/s, world frame, of the object's origin
+  Vector3 angular = Vector3::Zero();  // rad/s, world frame, about the object's origin
+
+  bool still() const { return linear.isZero(0.0) && angular.isZero(0.0); }
+};
+
+/// One thing that can be touched.
+struct HapticObject {
+  ObjectId id;
+  std::shared_ptr<const Shape> shape;  // never null
+  Pose world_from_object = Pose::Identity();
+  Motion motion;
+  Surface surface;
+};
+
+/// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the
+/// shapes. The servo may read it while any other thread does too.
+class HapticScene {
+ public:
+  static constexpr double kMotionHorizon = 0.1;  // s
+
+  /// Compiles a scene. Ids must differ.
+  static std::shared_ptr<const HapticScene> compile(std::vector<HapticObject> objects);
+
+  /// The scene with other poses for some objects: the broad phase is refitted, not built anew. Ids
+  /// that the scene does not hold are passed over.
+  struct Move {
+    ObjectId id;
+    Pose world_from_object;
+    Motion motion;
+  };
+  std::shared_ptr<const HapticScene> moved(std::span<const Move> moves) const;
+
+  /// Fills a region that was started for this scene. Real-time safe.
+  void gather(ContactRegion& region) const;
+  /// The same for one object. Real-time safe.
+  void gather_object(ContactRegion& region, std::uint32_t object) const;
+  /// The elements of a deferred piece of an object, in the world. Real-time safe.
+  void expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed, PieceElements& elements) const;
+
+  /// Calls `visit(object)` for objects near the ball or segment. Real-time safe when `visit` is.
+  template <typename Visit>
+  void near(const Vector3& a, const Vector3& b, double reach, Visit&& visit) const {
+    tree_.near(geometry::SegmentQuery(a, b, reach), [&](std::uint32_t slot) { visit(order_[slot]); });
+  }
+
+  /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
+  Pose pose(std::uint32_t object, double elapsed) const;
+
+  /// The object's index in this scene. Real-time safe.
+  std::optional<std::uint32_t> find(ObjectId id) const;
+
+  const std::vector<HapticObject>& objects() const { return objects_; }
+  const Tolerance& tolerance() const { return tolerance_; }
+  /// Is any object in motion at all?
+  bool moves() const { return moves_; }
+  /// The box around all limited objects; empty when there are none.
+  const Bounds& bounds() const { return bounds_; }
+  std::size_t bytes() const;
+
+ private:
+  HapticScene() = default;
+
+  Bounds object_bounds(std::uint32_t object) const;
+  std::vector<geometry::FloatBox> slot_boxes() const;
+  void measure();
+
+  std::vector<HapticObject> objects_;
+  std::vector<std::uint32_t> order_;  // slot in the tree to object
+  std::vector<std::uint32_t> by_id_;  // objects in the order of their ids
+  geometry::BoxTree tree_;
+  Tolerance tolerance_;
+  Bounds bounds_;
+  bool moves_ = false;
+};
+
+}  // namespace icome::haptics

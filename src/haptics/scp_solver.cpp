@@ -1,0 +1,305 @@
+#include "haptics/scp_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace icome::haptics {
+namespace {
+
+// A region should hold enough pieces to serve several ticks and few enough to sweep quickly.
+constexpr std::size_t kFewPieces = 16;
+constexpr double kWantedPieces = 32.0;
+constexpr std::size_t kManyPieces = 80;
+
+constexpr int kMaxShrinks = 48;
+constexpr int kMaxWaysOut = 8;
+
+}  // namespace
+
+ScpSolver::ScpSolver(const ScpSettings& settings) : settings_(settings) {}
+
+void ScpSolver::reset() {
+  started_ = false;
+  sliding_ = false;
+  contacts_.clear();
+}
+
+void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> changes) {
+  const HapticScene* old = scene_;
+  const double old_elapsed = elapsed_;
+  scene_ = &scene;
+  elapsed_ = 0.0;
+  region_.invalidate();
+  if (reach_ <= 0.0) reach_ = 0.1 * largest_reach();
+  if (old == nullptr || !started_) return;
+  carry_contacts(*old, old_elapsed);
+  const Vector3 margin = Vector3::Constant(settings_.tip_radius + scene.tolerance().behind());
+  const geometry::FloatBox here = geometry::float_box(Bounds(position_ - margin, position_ + margin));
+  geometry::FourBoxes swept;
+  for (const SceneChange& change : changes) {
+    swept.set(0, change.swept);
+    if (swept.overlap_mask(here) == 0) continue;
+    const std::optional<std::uint32_t> now = scene.find(change.id);
+    if (!now) continue;
+    const std::optional<std::uint32_t> before = old->find(change.id);
+    if (before && old->objects()[*before].shape == scene.objects()[*now].shape) {
+      ride(*now, old->pose(*before, old_elapsed), scene.pose(*now, 0.0));
+    } else if (leave_solid(*now)) {
+      left_solid_ = true;
+    }
+  }
+}
+
+// Contacts stay with their objects: the SCP goes where its first contact's object takes it.
+void ScpSolver::carry_contacts(const HapticScene& old, double old_elapsed) {
+  bool carried = false;
+  Vector3 to = position_;
+  std::uint32_t pusher = kNoObject;
+  contacts_.forget_if([&](Element& contact) {
+    const HapticObject& before = old.objects()[contact.object];
+    const std::optional<std::uint32_t> now = scene_->find(before.id);
+    if (!now || scene_->objects()[*now].shape != before.shape) return true;
+    const Pose now_from_before = scene_->pose(*now, 0.0) * old.pose(contact.object, old_elapsed).inverse();
+    contact = transformed(now_from_before, contact);
+    contact.object = *now;
+    if (!carried) {
+      to = now_from_before * position_;
+      pusher = *now;
+      carried = true;
+    }
+    return false;
+  });
+  if (carried) shove(to, pusher);
+}
+
+const ScpState& ScpSolver::step(const Vector3& tip, double elapsed) {
+  if (scene_ == nullptr) {
+    state_ = {};
+    state_.scp = tip;
+    return state_;
+  }
+  if (!started_) start(tip);
+  if (scene_->moves()) carry(elapsed_, elapsed);
+  elapsed_ = elapsed;
+  tip_motion_ = (tip - last_tip_).norm();
+  last_tip_ = tip;
+  converge(tip);
+  report(tip);
+  return state_;
+}
+
+void ScpSolver::start(const Vector3& tip) {
+  started_ = true;
+  position_ = last_tip_ = tip;
+  region_.invalidate();
+  // One way out may lead into another solid: follow until free.
+  for (int i = 0; i < kMaxWaysOut; ++i) {
+    bool moved = false;
+    scene_->near(position_, position_, settings_.tip_radius,
+                 [&](std::uint32_t object) { moved = leave_solid(object) || moved; });
+    if (!moved) break;
+    left_solid_ = true;
+  }
+}
+
+bool ScpSolver::leave_solid(std::uint32_t object) {
+  const HapticObject& it = scene_->objects()[object];
+  if (it.surface.sides == TouchableSides::Both) return false;
+  const Pose world_from_object = scene_->pose(object, elapsed_);
+  const auto place = it.shape->way_out(world_from_object.inverse() * position_);
+  if (!place) return false;
+  const Vector3 out = world_from_object.linear() * place->normal;
+  position_ = world_from_object * place->point + out * (settings_.tip_radius + 2.0 * scene_->tolerance().gap);
+  return true;
+}
+
+void ScpSolver::carry(double from, double to) {
+  // What rests on a moving object moves with it.
+  Vector3 target = position_;
+  std::uint32_t pusher = kNoObject;
+  for (Element& contact : contacts_.all()) {
+    if (scene_->objects()[contact.object].motion.still()) continue;
+    const Pose now_from_before = scene_->pose(contact.object, to) * scene_->pose(contact.object, from).inverse();
+    contact = transformed(now_from_before, contact);
+    if (pusher == kNoObject) {
+      target = now_from_before * position_;
+      pusher = contact.object;
+    }
+  }
+  elapsed_ = to;
+  bool near_moving = false;
+  scene_->near(position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius, [&](std::uint32_t object) {
+    near_moving = near_moving || !scene_->objects()[object].motion.still();
+  });
+  if (near_moving) region_.invalidate();
+  if (pusher != kNoObject) shove(target, pusher);
+  if (!near_moving) return;
+  // What a moving object runs into is taken along.
+  scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
+    if (!scene_->objects()[object].motion.still()) ride(object, scene_->pose(object, from), scene_->pose(object, to));
+  });
+}
+
+// Seen from the object, the SCP moved from where it would be had it gone along to where it is.
+void ScpSolver::ride(std::uint32_t object, const Pose& before, const Pose& now) {
+  const auto held_by = [&](const Element& contact) { return contact.object == object; };
+  if (std::any_of(contacts_.all().begin(), contacts_.all().end(), held_by)) return;
+  const Vector3 along = now * (before.inverse() * position_);
+  const Tolerance& tolerance = scene_->tolerance();
+  if ((along - position_).norm() <= tolerance.gap) return;
+  ride_region_.start(*scene_, along, position_, tolerance.behind(), settings_.tip_radius, elapsed_);
+  scene_->gather_object(ride_region_, object);
+  const SweepHit hit = ride_region_.sweep(along, position_ - along, {}, tolerance);
+  if (hit.element == nullptr) return;
+  const Element contact = facing(*hit.element, along);
+  shove(along + hit.t * (position_ - along), object);
+  contacts_.add(contact);
+}
+
+// Moves the SCP because an object pushes it; others may stop it on the way.
+void ScpSolver::shove(const Vector3& to, std::uint32_t pusher) {
+  const Vector3 way = to - position_;
+  ride_region_.start(*scene_, position_, to, scene_->tolerance().behind(), settings_.tip_radius, elapsed_);
+  scene_->gather(ride_region_);
+  const SweepHit hit = ride_region_.sweep(position_, way, {}, scene_->tolerance(), pusher);
+  const Vector3 from = position_;
+  position_ += hit.t * way;
+  if (hit.element != nullptr) contacts_.add(facing(*hit.element, from));
+}
+
+void ScpSolver::converge(const Vector3& tip) {
+  const Tolerance& tolerance = scene_->tolerance();
+  state_.converged = false;
+  state_.iterations = 0;
+  while (state_.iterations < settings_.max_iterations) {
+    ++state_.iterations;
+    bool exact = false;
+    const Vector3 step = next_step(tip, exact);
+    if (step.squaredNorm() <= 4.0 * tolerance.gap * tolerance.gap) {
+      state_.converged = true;
+      return;
+    }
+    const std::size_t held = contacts_.size();
+    const bool whole = advance(step) >= 1.0;
+    if (whole && exact && contacts_.size() == held) {
+      state_.converged = true;
+      return;
+    }
+  }
+}
+
+/// The piece of way that the contacts allow. `exact`: if nothing is met, its end needs no second look.
+Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
+  const Vector3 pull = tip - position_;
+  exact = true;
+  if (contacts_.empty()) return pull;
+  const Tolerance& tolerance = scene_->tolerance();
+  if (contacts_.size() > 1) {
+    const Vector3 step = contacts_.constrained(position_, pull, tolerance);
+    for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
+    return with_friction(step, pull);
+  }
+  const Element& contact = contacts_.all().front();
+  if (normal(contact, position_).dot(pull) >= 0.0) {
+    exact = contact.flat();
+    return pull;
+  }
+  const Vector3 step = slide(contact, position_, tip, tolerance) - position_;
+  exact = contact.flat();
+  return with_friction(step, pull);
+}
+
+// Coulomb's cone in terms of the spring: the part of the pull that the step cannot follow presses,
+// the step itself is what the spring pulls sideways (Harwin and Melder 2002, "friction cone").
+Vector3 ScpSolver::with_friction(const Vector3& step, const Vector3& pull) {
+  const Surface& touched = surface();
+  if (touched.static_friction <= 0.0 && touched.dynamic_friction <= 0.0) return step;
+  const double press = (pull - step).norm();
+  const double along = step.norm();
+  const double limit = (sliding_ ? touched.dynamic_friction : touched.static_friction) * press;
+  if (along <= limit) {
+    sliding_ = false;
+    return Vector3::Zero();
+  }
+  sliding_ = true;
+  return step * (1.0 - touched.dynamic_friction * press / along);
+}
+
+const Surface& ScpSolver::surface() const {
+  return scene_->objects()[contacts_.all().back().object].surface;
+}
+
+/// Sweeps the SCP along `step`; returns the part of it that was covered.
+double ScpSolver::advance(const Vector3& step) {
+  const Tolerance& tolerance = scene_->tolerance();
+  const double length = step.norm();
+  if (region_.clearance(position_) < std::min(length, 0.25 * region_.reach())) surround(step);
+  double part = 1.0;
+  if (region_.clearance(position_ + step) < 0.0) part = std::min(1.0, region_.clearance(position_) / length);
+  const SweepHit hit = region_.sweep(position_, part * step, contacts_.all(), tolerance);
+  if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
+    region_.invalidate();
+    reach_ *= 0.5;
+    return 0.0;
+  }
+  const Vector3 from = position_;
+  position_ += hit.t * part * step;
+  contacts_.forget_if([&](const Element& contact) {
+    return height(contact, position_) > tolerance.touching() || !covers(contact, position_, tolerance);
+  });
+  if (hit.element != nullptr) contacts_.add(facing(*hit.element, from));
+  return hit.t * part;
+}
+
+/// A tenth of the scene.
+double ScpSolver::largest_reach() const { return 1e9 * scene_->tolerance().gap; }
+
+/// Gathers the region anew around the SCP and ahead of it.
+void ScpSolver::surround(const Vector3& step) {
+  double lead = std::min(step.norm(), std::max(reach_, tip_motion_));
+  const Vector3 direction = step.normalized();
+  for (int i = 0; i < kMaxShrinks; ++i) {
+    region_.start(*scene_, position_, position_ + lead * direction, reach_, settings_.tip_radius, elapsed_);
+    scene_->gather(region_);
+    const bool roomy = reach_ > 0.5 * tip_motion_;
+    if (!region_.overflowed() && (region_.size() <= kManyPieces || !roomy)) break;
+    reach_ *= region_.overflowed() ? 0.5 : std::max(0.25, std::sqrt(kWantedPieces / double(region_.size())));
+    if (region_.overflowed()) lead *= 0.5;
+  }
+  if (region_.size() < kFewPieces) reach_ = std::min(1.5 * reach_, largest_reach());
+}
+
+void ScpSolver::report(const Vector3& tip) {
+  const Tolerance& tolerance = scene_->tolerance();
+  const Vector3 pull = tip - position_;
+  state_.scp = position_;
+  state_.started_inside = left_solid_;
+  left_solid_ = false;
+  state_.touching = !contacts_.empty() && pull.squaredNorm() > std::pow(tolerance.touching(), 2);
+  state_.object = kNoObject;
+  state_.surface_velocity.setZero();
+  if (!state_.touching) {
+    if (contacts_.empty() && state_.converged) state_.scp = position_ = tip;
+    return;
+  }
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Element& contact : contacts_.all()) {
+    const double load = -normal(contact, position_).dot(pull);
+    if (load <= most) continue;
+    most = load;
+    state_.object = contact.object;
+    state_.feature = contact.feature;
+    state_.normal = normal(contact, position_);
+  }
+  if (contacts_.size() > 1) {
+    const Vector3 press = pull - contacts_.constrained(position_, pull, tolerance);
+    if (press.squaredNorm() > 0.0) state_.normal = -press.normalized();
+  }
+  const HapticObject& object = scene_->objects()[state_.object];
+  if (!object.motion.still() && elapsed_ < HapticScene::kMotionHorizon) {
+    const Vector3 arm = position_ - scene_->pose(state_.object, elapsed_).translation();
+    state_.surface_velocity = object.motion.linear + object.motion.angular.cross(arm);
+  }
+}
+
+}  // namespace icome::haptics

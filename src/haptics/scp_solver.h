@@ -1,0 +1,92 @@
+#pragma once
+#include <span>
+
+#include "haptics/contact_region.h"
+#include "haptics/contact_set.h"
+#include "haptics/haptic_scene.h"
+
+namespace icome::haptics {
+
+struct ScpSettings {
+  double tip_radius = 0.0;   // m, 0 is a point tip; usually 0 to 0.005
+  int max_iterations = 64;   // the tick's budget, in sweeps: counted, not timed, so that replays agree
+};
+
+/// What the solver found in a tick.
+struct ScpState {
+  Vector3 scp = Vector3::Zero();           // m, world; the tip's own position while nothing is touched
+  Vector3 normal = Vector3::UnitZ();       // unit, towards the free side, of what holds the SCP
+  Vector3 surface_velocity = Vector3::Zero();  // m/s, of the touched object at the SCP
+  bool touching = false;
+  bool started_inside = false;   // the SCP was put on the surface because the tip began inside
+  bool converged = true;         // false: the budget ran out; the SCP is valid but may still move
+  std::uint32_t object = kNoObject;  // in the scene, of the contact that carries most
+  std::uint32_t feature = 0;
+  int iterations = 0;
+};
+
+/// An object that differs between two scenes, and the box of everything it swept in between.
+struct SceneChange {
+  ObjectId id;
+  geometry::FloatBox swept;
+};
+
+/// Finds the surface contact point (SCP): the constraint-based method of Zilles and Salisbury (1995)
+/// and Ruspini et al. (1997), thesis 5.3.2, for point and sphere tips. From its last place the SCP
+/// moves towards the tip through free space only: every straight piece of the way is swept against
+/// all elements around, what is hit becomes a constraint, and the next piece is the shortest way to
+/// the tip that the constraints allow. This repeats until the SCP rests, within the tick. Coulomb
+/// friction shortens the pieces. Objects that move carry the SCP along. One thread owns a solver; it
+/// keeps a pointer to the scene, which the caller keeps alive.
+class ScpSolver {
+ public:
+  /// Takes all memory that stepping needs.
+  explicit ScpSolver(const ScpSettings& settings = {});
+
+  /// Forgets the SCP: the next step starts at the tip, or at the surface if that is inside a solid.
+  /// Real-time safe.
+  void reset();
+
+  /// Goes over to another scene. `changes` name the objects that differ from the last one and may
+  /// name more. Real-time safe.
+  void adopt(const HapticScene& scene, std::span<const SceneChange> changes);
+
+  /// Moves the SCP after the tip. `elapsed`: seconds since the moment of the scene's poses; `tip` is
+  /// finite (m, world). Real-time safe.
+  const ScpState& step(const Vector3& tip, double elapsed);
+
+  const ScpState& state() const { return state_; }
+
+ private:
+  void start(const Vector3& tip);
+  bool leave_solid(std::uint32_t object);
+  void carry(double from, double to);
+  void ride(std::uint32_t object, const Pose& before, const Pose& now);
+  void carry_contacts(const HapticScene& old, double old_elapsed);
+  void shove(const Vector3& to, std::uint32_t pusher);
+  void converge(const Vector3& tip);
+  double advance(const Vector3& step);
+  Vector3 next_step(const Vector3& tip, bool& exact);
+  Vector3 with_friction(const Vector3& step, const Vector3& pull);
+  void surround(const Vector3& step);
+  double largest_reach() const;
+  void report(const Vector3& tip);
+  const Surface& surface() const;
+
+  ScpSettings settings_;
+  const HapticScene* scene_ = nullptr;
+  double elapsed_ = 0.0;  // s, of the last step
+  bool started_ = false;
+  bool sliding_ = false;
+  bool left_solid_ = false;             // put on the surface since the last report
+  Vector3 position_ = Vector3::Zero();  // m, of the SCP (centre of the tip that rests)
+  Vector3 last_tip_ = Vector3::Zero();
+  double tip_motion_ = 0.0;             // m, of this tick
+  double reach_ = 0.0;                  // m, how far around the SCP the region looks
+  ContactSet contacts_;
+  ContactRegion region_;
+  ContactRegion ride_region_;
+  ScpState state_;
+};
+
+}  // namespace icome::haptics

@@ -1,0 +1,89 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "geometry/primitive.h"
+#include "haptics/contact_region.h"
+#include "haptics/surface_force.h"
+
+namespace icome::haptics {
+
+/// What a shape is asked for: what a tip of radius `tip` (m) can meet while its centre stays within
+/// `reach` of the segment from `a` to `b`, all in the shape's own frame.
+struct GatherRequest {
+  Vector3 a;
+  Vector3 b;
+  double reach;
+  double tip;
+  TouchableSides sides;
+};
+
+/// Takes what a shape hands out, in the shape's frame. Lives on the stack of one gather.
+class ElementSink {
+ public:
+  ElementSink(ContactRegion& region, std::uint32_t object, const Pose& world_from_object);
+
+  /// An element; `bounds` as for ContactRegion::add. Real-time safe.
+  void add(Element element, const Bounds& bounds);
+  /// A piece that Shape::expand will turn into elements when a sweep comes near. Real-time safe.
+  void defer(std::uint32_t piece, const Bounds& bounds);
+
+ private:
+  Bounds in_world(const Bounds& bounds) const;
+
+  ContactRegion& region_;
+  std::uint32_t object_;
+  const Pose& world_from_object_;
+  bool in_place_;  // the shape's frame is the world's
+};
+
+/// The elements of one piece. A fixed array: real-time safe.
+class PieceElements {
+ public:
+  static constexpr std::size_t kCapacity = 8;
+
+  void add(const Element& element) { elements_[size_++] = element; }
+  std::span<Element> all() { return {elements_.data(), size_}; }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::array<Element, kCapacity> elements_;
+  std::size_t size_ = 0;
+};
+
+/// Something that can be touched. To add a kind of shape, derive from this and say which elements lie
+/// where. Immutable once built, so that many objects and scenes may share it; whoever holds the
+/// shared pointer owns it.
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  /// Around the surface, in the shape's own frame; infinite for an unlimited shape.
+  virtual Bounds bounds() const = 0;
+
+  /// Hands out every element or piece that the request can meet, and perhaps others. Real-time safe.
+  virtual void gather(const GatherRequest& request, ElementSink& sink) const = 0;
+
+  /// The one to eight elements of a piece that gather deferred, in the shape's frame. Real-time safe.
+  virtual void expand(std::uint32_t /*piece*/, double /*tip*/, TouchableSides /*sides*/,
+                      PieceElements& /*elements*/) const {}
+
+  /// The nearest place of the surface when `position` is inside a solid that is touched from the
+  /// front; nothing when it is not inside, or the shape has no inside. Real-time safe.
+  virtual std::optional<geometry::SurfacePoint> way_out(const Vector3& position) const = 0;
+
+  /// The normal to feel at a position on element `feature`: interpolated between faces where the
+  /// shape has such normals (force shading, Morgenbesser and Srinivasan 1996), else `face_normal`.
+  /// Real-time safe.
+  virtual Vector3 shading_normal(std::uint32_t /*feature*/, const Vector3& /*position*/,
+                                 const Vector3& face_normal) const {
+    return face_normal;
+  }
+
+  /// Memory held, in bytes.
+  virtual std::size_t bytes() const = 0;
+};
+
+}  // namespace icome::haptics
