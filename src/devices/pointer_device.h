@@ -12,7 +12,7 @@ using base::Vector3;
 
 /// What a pointer device can do; from the vendor's data sheet or a profile (see device_profiles.h).
 struct DeviceInfo {
-  std::string name;
+  std::string name{};
   double workspace_radius = 0.1;      // m, sphere that the tip can reach
   double max_force = 3.3;             // N, peak; 0 for a device without force
   double continuous_force = 1.0;      // N, what it can hold for minutes

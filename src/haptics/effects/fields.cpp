@@ -1,0 +1,44 @@
+#include "haptics/effects/fields.h"
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace icome::haptics {
+
+Vector3 ConstantForce::force(const EffectInput& /*input*/) { return force_; }
+
+ForceField::ForceField(Function function) : function_(std::move(function)) { assert(function_); }
+
+Vector3 ForceField::force(const EffectInput& input) { return function_(input.position, input.time); }
+
+GravityWell::GravityWell(const Vector3& centre, double radius, double stiffness)
+    : centre_(centre), radius_(radius), stiffness_(stiffness) {
+  assert(radius > 0.0 && stiffness >= 0.0);
+}
+
+Vector3 GravityWell::force(const EffectInput& input) {
+  const Vector3 offset = centre_ - input.position;
+  const double left = 1.0 - offset.squaredNorm() / (radius_ * radius_);
+  if (left <= 0.0) return Vector3::Zero();
+  return stiffness_ * left * left * offset;
+}
+
+Recess::Recess(const RecessSettings& settings) : settings_(settings) {
+  assert(settings.axis.squaredNorm() > 0.0);
+  assert(settings.floor_radius >= 0.0 && settings.rim_radius > settings.floor_radius);
+  settings_.axis.normalize();
+}
+
+Vector3 Recess::force(const EffectInput& input) {
+  const Vector3 offset = settings_.centre - input.position;
+  const Vector3 inwards = offset - offset.dot(settings_.axis) * settings_.axis;
+  const double r = inwards.norm();
+  if (r <= settings_.floor_radius || r >= settings_.rim_radius) return Vector3::Zero();
+  const double across = (r - settings_.floor_radius) / (settings_.rim_radius - settings_.floor_radius);
+  const double wave = std::sin(std::numbers::pi * across);
+  return inwards * (settings_.peak_force * wave * wave / r);
+}
+
+}  // namespace icome::haptics

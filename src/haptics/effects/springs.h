@@ -1,0 +1,65 @@
+#pragma once
+#include <vector>
+
+#include "haptics/effects/effect.h"
+
+namespace icome::haptics {
+
+/// How hard a spring effect holds. Damping acts only in the directions in which the spring does and is
+/// kept within what is stable for the device and the tick (stable_damping).
+struct SpringSettings {
+  double stiffness = 200.0;  // N/m, usually 50 to 500
+  double damping = 1.0;      // N s/m, usually 0 to 5
+};
+
+/// Holds the tip at a point.
+class PointSpring final : public Effect {
+ public:
+  PointSpring(const Vector3& point, const SpringSettings& settings) : point_(point), settings_(settings) {}
+  Vector3 force(const EffectInput& input) override;
+
+ private:
+  Vector3 point_;  // m
+  SpringSettings settings_;
+};
+
+/// Holds the tip on an endless line, along which it moves freely.
+class LineSpring final : public Effect {
+ public:
+  /// The line through `point` (m) along `direction` (any length but 0).
+  LineSpring(const Vector3& point, const Vector3& direction, const SpringSettings& settings);
+  Vector3 force(const EffectInput& input) override;
+
+ private:
+  Vector3 point_;      // m
+  Vector3 direction_;  // unit
+  SpringSettings settings_;
+};
+
+/// Holds the tip on a plane, from both sides.
+class PlaneSpring final : public Effect {
+ public:
+  /// The plane through `point` (m) with `normal` (any length but 0).
+  PlaneSpring(const Vector3& point, const Vector3& normal, const SpringSettings& settings);
+  Vector3 force(const EffectInput& input) override;
+
+ private:
+  Vector3 point_;   // m
+  Vector3 normal_;  // unit
+  SpringSettings settings_;
+};
+
+/// Holds the tip on a curve given as a polyline, along which it moves freely; beyond an end it is held at
+/// the end. Each tick looks at every segment, about 10 ns each: keep to some hundred.
+class CurveSpring final : public Effect {
+ public:
+  /// At least one point (m); equal neighbours do no harm. A closed curve repeats its first point.
+  CurveSpring(std::vector<Vector3> points, const SpringSettings& settings);
+  Vector3 force(const EffectInput& input) override;
+
+ private:
+  std::vector<Vector3> points_;  // m
+  SpringSettings settings_;
+};
+
+}  // namespace icome::haptics

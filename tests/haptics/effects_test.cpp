@@ -1,0 +1,312 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "base/random.h"
+#include "devices/simulated/simulated_device.h"
+#include "haptics/effects/drag.h"
+#include "haptics/effects/effect.h"
+#include "haptics/effects/fields.h"
+#include "haptics/effects/springs.h"
+
+namespace icome::haptics {
+namespace {
+
+constexpr SpringSettings kSpring{.stiffness = 200.0, .damping = 2.0};
+constexpr double kTight = 1e-12;  // N
+
+EffectInput at(const Vector3& position, const Vector3& velocity = Vector3::Zero()) {
+  EffectInput input;
+  input.position = input.scp = position;
+  input.velocity = velocity;
+  return input;
+}
+
+void expect_force(Effect& effect, const EffectInput& input, const Vector3& expected) {
+  EXPECT_NEAR((effect.force(input) - expected).norm(), 0.0, kTight) << effect.force(input).transpose();
+}
+
+// Work (J) that an effect does on a tip taken slowly along a closed polygon; 0 for a conservative force.
+double work_around(Effect& effect, const std::vector<Vector3>& corners) {
+  double work = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3& from = corners[i];
+    const Vector3 step = (corners[(i + 1) % corners.size()] - from) / 20000.0;
+    for (int k = 0; k < 20000; ++k) work += effect.force(at(from + (k + 0.5) * step)).dot(step);
+  }
+  return work;
+}
+
+TEST(PointSpring, PullsAndDampsInAllDirections) {
+  PointSpring spring(Vector3(0.01, 0, 0), kSpring);
+  expect_force(spring, at(Vector3(0, 0.01, 0), Vector3(0, 0, 0.5)), Vector3(2, -2, -1));
+}
+
+TEST(LineSpring, LeavesTheLineFree) {
+  LineSpring spring(Vector3(0, 0, 0.01), Vector3(5, 0, 0), kSpring);
+  expect_force(spring, at(Vector3(0.3, 0.01, 0), Vector3(1, 0.5, 0)), Vector3(0, -3, 2));
+}
+
+TEST(PlaneSpring, HoldsFromBothSidesAndLeavesThePlaneFree) {
+  PlaneSpring spring(Vector3(0, 0, 0.01), Vector3(0, 0, 2), kSpring);
+  expect_force(spring, at(Vector3(0.3, 0.2, 0.02), Vector3(1, 1, 0.1)), Vector3(0, 0, -2.2));
+  expect_force(spring, at(Vector3(0.3, 0.2, 0.0)), Vector3(0, 0, 2));
+}
+
+TEST(CurveSpring, HoldsOnTheNearestSegmentAtACornerAndAtTheEnds) {
+  CurveSpring spring({Vector3(0, 0, 0), Vector3(0.1, 0, 0), Vector3(0.1, 0, 0), Vector3(0.1, 0.1, 0)},
+                     kSpring);
+  // Over the first segment: along x the tip is free, velocity too.
+  expect_force(spring, at(Vector3(0.05, 0, 0.01), Vector3(1, 0, 0.1)), Vector3(0, 0, -2.2));
+  // Outside the corner: held by the corner, on all sides.
+  expect_force(spring, at(Vector3(0.11, -0.01, 0), Vector3(0.1, 0, 0)), Vector3(-2.2, 2, 0));
+  // Beyond the ends.
+  expect_force(spring, at(Vector3(-0.01, 0, 0)), Vector3(2, 0, 0));
+  expect_force(spring, at(Vector3(0.1, 0.12, 0)), Vector3(0, -4, 0));
+}
+
+TEST(CurveSpring, AgreesWithDenseSamplingOfTheCurve) {
+  base::Random random(21);
+  std::vector<Vector3> points;
+  for (int i = 0; i < 12; ++i) points.push_back(random.uniform(0, 0.05) * random.direction());
+  CurveSpring spring(points, {.stiffness = 200.0, .damping = 0.0});
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vector3 position = random.uniform(0, 0.08) * random.direction();
+    double least = 1.0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      for (int k = 0; k <= 1000; ++k) {
+        const Vector3 sample = points[i - 1] + (k / 1000.0) * (points[i] - points[i - 1]);
+        least = std::min(least, (sample - position).norm());
+      }
+    }
+    EXPECT_NEAR(spring.force(at(position)).norm(), 200.0 * least, 200.0 * 1e-4);
+    EXPECT_LE(spring.force(at(position)).norm(), 200.0 * least + kTight);
+  }
+}
+
+TEST(CurveSpring, OnePointIsAPointSpring) {
+  CurveSpring spring({Vector3(0.01, 0, 0)}, kSpring);
+  expect_force(spring, at(Vector3::Zero(), Vector3(0, 0, 0.5)), Vector3(2, 0, -1));
+}
+
+TEST(ConstantForce, IsTheSameEverywhere) {
+  ConstantForce weight(Vector3(0, -0.5, 0));
+  expect_force(weight, at(Vector3(1, 2, 3), Vector3(4, 5, 6)), Vector3(0, -0.5, 0));
+}
+
+TEST(ForceField, IsTheUsersFunctionOfPlaceAndTime) {
+  ForceField wind([](const Vector3& position, double time) { return Vector3(time, position.x(), 0); });
+  EffectInput input = at(Vector3(0.25, 0, 0));
+  input.time = 1.5;
+  expect_force(wind, input, Vector3(1.5, 0.25, 0));
+}
+
+TEST(GravityWell, IsASpringAtItsCentreAndNothingAtTheRim) {
+  GravityWell well(Vector3(0, 0, 0.1), 0.02, 100.0);
+  EXPECT_NEAR(well.force(at(Vector3(1e-6, 0, 0.1))).x(), -1e-4, 1e-9);
+  expect_force(well, at(Vector3(0.02, 0, 0.1)), Vector3::Zero());
+  expect_force(well, at(Vector3(0.5, 0, 0.1)), Vector3::Zero());
+  // Half way: 100 * 0.01 * (1 - 1/4)^2 = 0.5625 N.
+  expect_force(well, at(Vector3(0, 0, 0.11)), Vector3(0, 0, -0.5625));
+}
+
+TEST(GravityWell, PullsHardestWhereItSays) {
+  GravityWell well(Vector3::Zero(), 0.02, 100.0);
+  double strongest = 0.0, where = 0.0;
+  for (double r = 0.0; r < 0.02; r += 1e-6) {
+    const double pull = well.force(at(Vector3(r, 0, 0))).norm();
+    if (pull > strongest) strongest = pull, where = r;
+  }
+  EXPECT_NEAR(strongest, 0.286 * 100.0 * 0.02, 1e-3);
+  EXPECT_NEAR(where, 0.02 / std::sqrt(5.0), 2e-6);
+}
+
+TEST(GravityWell, ForceAndItsSlopeAreContinuousAtTheRim) {
+  GravityWell well(Vector3::Zero(), 0.02, 100.0);
+  const double inside = well.force(at(Vector3(0.02 - 1e-6, 0, 0))).norm();
+  EXPECT_LT(inside / 1e-6, 0.1);  // N/m, of a spring with 100 at its centre
+}
+
+TEST(Recess, FloorAndOutsideAreFreeAndTheSlopePushesInwards) {
+  const RecessSettings settings{.centre = Vector3(0.1, 0, 0),
+                                .axis = Vector3(0, 0, 3),
+                                .floor_radius = 0.008,
+                                .rim_radius = 0.012,
+                                .peak_force = 1.5};
+  Recess recess(settings);
+  expect_force(recess, at(Vector3(0.107, 0, 0.5)), Vector3::Zero());
+  expect_force(recess, at(Vector3(0.1, 0.0121, 0)), Vector3::Zero());
+  expect_force(recess, at(Vector3(0.1, 0.010, 0.2)), Vector3(0, -1.5, 0));    // half way up: the peak
+  expect_force(recess, at(Vector3(0.09 + 1e-3, 0, 0)), Vector3(0.75, 0, 0));  // a quarter: sin^2 45
+}
+
+TEST(Recess, LeavingCostsTheStatedEnergy) {
+  Recess recess({});
+  double work = 0.0;
+  for (int i = 0; i < 40000; ++i) work += recess.force(at(Vector3((i + 0.5) * 5e-7, 0, 0))).x() * 5e-7;
+  EXPECT_NEAR(work, -1.0 * 0.004 / 2.0, 1e-8);  // 2 mJ
+}
+
+TEST(Fields, WellAndRecessGiveBackWhatTheyTake) {
+  GravityWell well(Vector3::Zero(), 0.02, 100.0);
+  Recess recess({});
+  const std::vector<Vector3> tour = {Vector3(0.001, 0.002, 0), Vector3(0.015, -0.003, 0.004),
+                                     Vector3(-0.002, 0.03, 0.01)};
+  EXPECT_NEAR(work_around(well, tour), 0.0, 1e-8);
+  EXPECT_NEAR(work_around(recess, tour), 0.0, 1e-8);
+}
+
+TEST(ViscousDamping, ResistsVelocity) {
+  ViscousDamping syrup(3.0);
+  expect_force(syrup, at(Vector3::Zero(), Vector3(0.1, 0, -0.2)), Vector3(-0.3, 0, 0.6));
+}
+
+TEST(ViscousDamping, StaysBelowWhatIsStableForTheTick) {
+  ViscousDamping syrup(1e6);
+  EffectInput input = at(Vector3::Zero(), Vector3(0.1, 0, 0));
+  input.device_mass = 0.1;
+  // Half of m/dt = 100 N s/m: a quarter of the stable limit 2 m/dt.
+  expect_force(syrup, input, Vector3(-5.0, 0, 0));
+}
+
+// Drags the tip at 10 mm/s from 0 to `distance` and returns the forces against it.
+std::vector<double> drag_forces(FrictionEffect& friction, double distance) {
+  std::vector<double> forces;
+  for (double x = 0.0; x < distance; x += 1e-5) {
+    forces.push_back(-friction.force(at(Vector3(x, 0, 0), Vector3(0.01, 0, 0))).x());
+  }
+  return forces;
+}
+
+TEST(FrictionEffect, SticksUpToStaticThenSlidesAgainstDynamicForce) {
+  FrictionEffect friction({.static_force = 0.5, .dynamic_force = 0.3, .stiffness = 1000.0});
+  const std::vector<double> forces = drag_forces(friction, 0.01);
+  double peak = 0.0;
+  for (const double force : forces) peak = std::max(peak, force);
+  EXPECT_NEAR(peak, 0.5, 0.02);
+  EXPECT_LE(peak, 0.5 + kTight);
+  EXPECT_NEAR(forces.back(), 0.3, 1e-9);
+}
+
+TEST(FrictionEffect, HoldsAStillTipWithoutDrift) {
+  FrictionEffect friction({.static_force = 0.5, .dynamic_force = 0.3, .stiffness = 1000.0});
+  friction.force(at(Vector3::Zero()));
+  for (int tick = 0; tick < 10000; ++tick) {
+    ASSERT_NEAR(friction.force(at(Vector3(2e-4, 0, 0))).x(), -0.2, kTight) << tick;
+  }
+}
+
+TEST(FrictionEffect, TurnsWithTheMotion) {
+  FrictionEffect friction({});
+  drag_forces(friction, 0.01);
+  double last = 0.0;
+  for (double x = 0.01; x > 0.0; x -= 1e-5) {
+    last = friction.force(at(Vector3(x, 0, 0), Vector3(-0.01, 0, 0))).x();
+  }
+  EXPECT_NEAR(last, 0.4, 1e-9);
+}
+
+TEST(FrictionEffect, ResetForgetsTheAnchor) {
+  FrictionEffect friction({});
+  friction.force(at(Vector3::Zero()));
+  friction.reset();
+  expect_force(friction, at(Vector3(0.05, 0, 0)), Vector3::Zero());
+}
+
+// A device without a hand's spring: pushed with a force, its speed after `seconds` tells the mass felt.
+double speed_after_push(Effect& effect, double push, double device_mass, double seconds, double encoder) {
+  devices::SimulatedSettings settings;
+  settings.info.effective_mass = device_mass;
+  settings.hand = {.mass = 0.0, .stiffness = 0.0, .damping = 0.0};
+  settings.encoder_resolution = encoder;
+  devices::SimulatedDevice device(settings);
+  devices::PointerState state;
+  double fastest_change = 0.0, last = 0.0;
+  for (int tick = 0; tick < static_cast<int>(seconds * 1000.0); ++tick) {
+    device.read(state);
+    EffectInput input = at(state.position, state.velocity);
+    input.device_mass = device_mass;
+    device.write(effect.force(input) + Vector3(push, 0, 0));
+    fastest_change = std::max(fastest_change, std::abs(device.true_velocity().x() - last));
+    last = device.true_velocity().x();
+  }
+  EXPECT_LE(fastest_change, push / device_mass * 1e-3 * 1.0001);  // never faster than without the effect
+  return device.true_velocity().x();
+}
+
+TEST(Inertia, TheTipFeelsAsHeavyAsItSays) {
+  for (const double felt : {0.1, 0.5, 2.0}) {
+    for (const double encoder : {0.0, 1e-9}) {
+      Inertia inertia(felt);
+      const double speed = speed_after_push(inertia, 1.0, 0.1, 2.0, encoder);
+      // a = F/(m + M); the low-pass lets the first moments pass lighter.
+      EXPECT_NEAR(speed, 2.0 / (0.1 + felt), 0.1 * 2.0 / (0.1 + felt)) << felt << " " << encoder;
+    }
+  }
+}
+
+TEST(Inertia, IsStableForAMassFarBeyondTheDevices) {
+  for (const double encoder : {0.0, 1e-9}) {
+    Inertia heavy(50.0, 1000.0);
+    const double speed = speed_after_push(heavy, 1.0, 0.05, 5.0, encoder);
+    EXPECT_GT(speed, 0.0);
+    EXPECT_LT(speed, 1.0);
+  }
+}
+
+TEST(Inertia, FeelsNothingAtConstantSpeedAndAfterReset) {
+  Inertia inertia(1.0);
+  for (int tick = 0; tick < 10; ++tick) {
+    expect_force(inertia, at(Vector3(tick * 1e-3, 0, 0), Vector3(1, 0, 0)), Vector3::Zero());
+  }
+  inertia.reset();
+  expect_force(inertia, at(Vector3::Zero(), Vector3(-5, 0, 0)), Vector3::Zero());
+}
+
+TEST(EffectSet, IsTheSumOfWhatIsOn) {
+  EffectSet set;
+  set.add(std::make_unique<ConstantForce>(Vector3(1, 0, 0)));
+  const std::size_t second = set.add(std::make_unique<ConstantForce>(Vector3(0, 2, 0)));
+  auto nested = std::make_unique<EffectSet>();
+  nested->add(std::make_unique<ConstantForce>(Vector3(0, 0, 4)));
+  set.add(std::move(nested));
+  EXPECT_EQ(set.size(), 3u);
+  expect_force(set, {}, Vector3(1, 2, 4));
+  set.set_enabled(second, false);
+  expect_force(set, {}, Vector3(1, 0, 4));
+}
+
+TEST(EffectSet, SwitchingOnStartsAfreshAndResetReachesAll) {
+  EffectSet set;
+  set.add(std::make_unique<FrictionEffect>(FrictionSettings{}));
+  set.force(at(Vector3::Zero()));
+  set.set_enabled(0, true);  // on already: keeps its anchor
+  EXPECT_GT(set.force(at(Vector3(2e-4, 0, 0))).norm(), 0.1);
+  set.set_enabled(0, false);
+  set.set_enabled(0, true);
+  expect_force(set, at(Vector3(0.05, 0, 0)), Vector3::Zero());
+  set.reset();
+  expect_force(set, at(Vector3(0.09, 0, 0)), Vector3::Zero());
+}
+
+// An effect of one's own, as GHOST lets one derive (4.3.1).
+class Buzz final : public Effect {
+ public:
+  Vector3 force(const EffectInput& input) override {
+    return {0.2 * std::sin(2.0 * std::numbers::pi * 100.0 * input.time), 0, 0};
+  }
+};
+
+TEST(EffectSet, TakesEffectsOfOnesOwn) {
+  EffectSet set;
+  set.add(std::make_unique<Buzz>());
+  EffectInput input;
+  input.time = 0.0025;  // a quarter of its period
+  expect_force(set, input, Vector3(0.2, 0, 0));
+}
+
+}  // namespace
+}  // namespace icome::haptics
