@@ -65,6 +65,9 @@ class HapticScene {
   /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
   Pose pose(std::uint32_t object, double elapsed) const;
 
+  /// Everything the object can reach from its pose within the horizon, world frame.
+  Bounds object_bounds(std::uint32_t object) const;
+
   /// The object's index in this scene. Real-time safe.
   std::optional<std::uint32_t> find(ObjectId id) const;
 
@@ -79,7 +82,6 @@ class HapticScene {
  private:
   HapticScene() = default;
 
-  Bounds object_bounds(std::uint32_t object) const;
   std::vector<geometry::FloatBox> slot_boxes() const;
   void measure();
 

@@ -1,0 +1,53 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "haptics/haptic_scene.h"
+#include "haptics/scp_solver.h"
+#include "realtime/latest_value.h"
+
+namespace icome::haptics {
+
+/// A scene as the servo receives it: with what it needs so as to go over to it without a jump.
+struct PublishedScene {
+  std::uint64_t version = 0;
+  std::shared_ptr<const HapticScene> scene;  // never null
+  std::vector<SceneChange> changes;          // since the last version that the servo had taken, or before
+  std::vector<Surface> surfaces;             // by object, made stable for device and rate
+};
+
+/// How a surface is fitted to the device that renders it.
+struct SurfaceLimits {
+  double nominal_stiffness = 1000.0;  // N/m, for surfaces that name none
+  double effective_mass = 0.1;        // kg
+  double dt = 0.001;                  // s, the tick
+};
+
+/// Brings scenes from one thread (main) to the servo: a latest-value box, so neither waits. Owns the
+/// scenes until the servo has gone over to a later one, so that the servo never frees anything.
+class SceneFeed {
+ public:
+  explicit SceneFeed(const SurfaceLimits& limits) : limits_(limits) {}
+
+  /// Makes `scene` the one to touch. The main thread calls this.
+  void publish(std::shared_ptr<const HapticScene> scene);
+
+  /// The newest scene when there is one that take() has not returned yet, else null. The servo calls
+  /// this, and from then on no longer uses what it was given before. Real-time safe.
+  const PublishedScene* take();
+
+ private:
+  SurfaceLimits limits_;
+  std::uint64_t next_version_ = 1;
+  std::deque<std::unique_ptr<PublishedScene>> kept_;  // newest last
+  realtime::LatestValue<const PublishedScene*> newest_{nullptr};
+  std::atomic<std::uint64_t> taken_ = 0;  // version in use by the servo
+};
+
+/// What differs between two scenes: objects that moved, changed their shape or motion, appeared or went.
+std::vector<SceneChange> changes_between(const HapticScene& before, const HapticScene& after);
+
+}  // namespace icome::haptics

@@ -1,0 +1,140 @@
+#include "haptics/servo/servo.h"
+
+#include <numeric>
+
+#include "base/clock.h"
+
+namespace icome::haptics {
+namespace {
+
+SurfaceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
+  return {device.nominal_stiffness, device.effective_mass, 1.0 / rate_hz};
+}
+
+/// Measures the stages of a tick, one after the other.
+class StageClock {
+ public:
+  explicit StageClock(std::array<std::int64_t, kStages>& stages) : stages_(stages), last_(base::steady_nanoseconds()) {}
+
+  void ends(Stage stage) {
+    const std::int64_t now = base::steady_nanoseconds();
+    stages_[std::size_t(stage)] = now - last_;
+    last_ = now;
+  }
+
+ private:
+  std::array<std::int64_t, kStages>& stages_;
+  std::int64_t last_;
+};
+
+}  // namespace
+
+std::int64_t TickReport::own_ns() const {
+  return std::accumulate(stage_ns.begin() + std::size_t(Stage::Scene), stage_ns.begin() + std::size_t(Stage::Write),
+                         std::int64_t{0});
+}
+
+Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings, Effect* effects)
+    : device_(device),
+      settings_(settings),
+      effects_(effects),
+      feed_(limits_of(device.info(), settings.rate_hz)),
+      solver_(settings.scp),
+      limiter_(device.info(), settings.limiter) {}
+
+const TickReport& Servo::tick(double dt) {
+  StageClock clock(report_.stage_ns);
+  const bool fresh = read();
+  clock.ends(Stage::Read);
+  follow_scene(dt);
+  clock.ends(Stage::Scene);
+  if (fresh) find_contact();
+  clock.ends(Stage::Contact);
+  Vector3 wanted = surface_force();
+  clock.ends(Stage::Force);
+  wanted += effect_force(dt);
+  clock.ends(Stage::Effects);
+  report_.force = limiter_.limit(wanted, dt,
+                                 {fresh, report_.status != devices::DeviceStatus::Lost,
+                                  report_.contact.started_inside});
+  clock.ends(Stage::Limit);
+  const devices::DeviceStatus written =
+      device_.write(settings_.world_from_device.linear().transpose() * report_.force);
+  if (written == devices::DeviceStatus::Lost) report_.status = written;
+  clock.ends(Stage::Write);
+  time_ += dt;
+  return report_;
+}
+
+/// True when the device gave a new, finite state.
+bool Servo::read() {
+  devices::PointerState state = state_;
+  report_.status = device_.read(state);
+  if (report_.status != devices::DeviceStatus::Ok) return false;
+  if (!state.position.allFinite() || !state.velocity.allFinite()) {
+    report_.status = devices::DeviceStatus::Stalled;
+    return false;
+  }
+  state_ = state;
+  report_.tip = settings_.world_from_device * state.position;
+  tip_velocity_ = settings_.world_from_device.linear() * state.velocity;
+  return true;
+}
+
+void Servo::follow_scene(double dt) {
+  elapsed_ += dt;
+  const PublishedScene* newer = feed_.take();
+  if (newer == nullptr) return;
+  scene_ = newer;
+  elapsed_ = 0.0;
+  solver_.adopt(*newer->scene, newer->changes);
+}
+
+void Servo::find_contact() {
+  report_.contact = solver_.step(report_.tip, elapsed_);
+  if (report_.contact.touching) report_.object = scene_->scene->objects()[report_.contact.object].id;
+}
+
+Vector3 Servo::surface_force() const {
+  const ScpState& contact = report_.contact;
+  if (!contact.touching) return Vector3::Zero();
+  const Surface& surface = scene_->surfaces[contact.object];
+  Vector3 force = spring_damper_force(
+      {report_.tip, contact.scp, tip_velocity_, contact.surface_velocity, contact.normal}, surface);
+  if (settings_.force_shading) force = shaded(force);
+  if (surface.texture == nullptr) return force;
+  const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
+  const Pose object_from_world = world_from_object.inverse();
+  TextureSample sample = surface.texture->sample(object_from_world * contact.scp,
+                                                 object_from_world.linear() * contact.normal);
+  sample.gradient = world_from_object.linear() * sample.gradient;
+  return textured_force(force, contact.normal, surface.stiffness, sample);
+}
+
+/// The force with its normal part turned to the interpolated normal: facets feel round.
+Vector3 Servo::shaded(const Vector3& force) const {
+  const ScpState& contact = report_.contact;
+  const HapticObject& object = scene_->scene->objects()[contact.object];
+  const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
+  const Pose object_from_world = world_from_object.inverse();
+  const Vector3 normal =
+      world_from_object.linear() * object.shape->shading_normal(contact.feature, object_from_world * contact.scp,
+                                                                object_from_world.linear() * contact.normal);
+  const double press = force.dot(contact.normal);
+  return force + press * (normal - contact.normal);
+}
+
+Vector3 Servo::effect_force(double dt) {
+  if (effects_ == nullptr) return Vector3::Zero();
+  EffectInput input;
+  input.time = time_;
+  input.dt = dt;
+  input.position = report_.tip;
+  input.velocity = tip_velocity_;
+  input.scp = report_.contact.touching ? report_.contact.scp : report_.tip;
+  input.touching = report_.contact.touching;
+  input.device_mass = device_.info().effective_mass;
+  return effects_->force(input);
+}
+
+}  // namespace icome::haptics

@@ -1,0 +1,79 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "devices/pointer_device.h"
+#include "haptics/effects/effect.h"
+#include "haptics/force_limiter.h"
+#include "haptics/scp_solver.h"
+#include "haptics/servo/scene_feed.h"
+
+namespace icome::haptics {
+
+struct ServoSettings {
+  double rate_hz = 1000.0;                      // Hz, 500 to 10,000
+  ScpSettings scp;
+  LimiterSettings limiter;
+  Pose world_from_device = Pose::Identity();    // where the device's workspace lies in the world
+  bool force_shading = false;                   // feel interpolated normals (Shape::shading_normal)
+};
+
+/// The stages of a tick, in their order.
+enum class Stage : std::uint8_t { Read, Scene, Contact, Force, Effects, Limit, Write };
+constexpr std::size_t kStages = 7;
+
+/// What happened in a tick; world frame.
+struct TickReport {
+  devices::DeviceStatus status = devices::DeviceStatus::Stalled;
+  Vector3 tip = Vector3::Zero();    // m
+  Vector3 force = Vector3::Zero();  // N, as written, in the world frame
+  ScpState contact;
+  ObjectId object;                  // what is touched, when contact.touching
+  std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
+
+  /// All that the tick took except device input and output, ns.
+  std::int64_t own_ns() const;
+};
+
+/// The servo's tick: reads the device, goes over to the newest scene, finds the surface contact point,
+/// makes a force of it, adds effects, limits, writes. Owns the solver and the limiter; device and
+/// effects are the caller's and outlive it. One thread calls tick(), a loop or a test; another may
+/// call publish().
+class Servo {
+ public:
+  /// `effects` may be null.
+  Servo(devices::PointerDevice& device, const ServoSettings& settings, Effect* effects = nullptr);
+
+  /// The scene to touch from the next tick on. From one thread, the main one.
+  void publish(std::shared_ptr<const HapticScene> scene) { feed_.publish(std::move(scene)); }
+
+  /// One turn of the servo loop, `dt` seconds after the last. Real-time safe.
+  const TickReport& tick(double dt);
+
+  const TickReport& last() const { return report_; }
+  const ForceLimiter& limiter() const { return limiter_; }
+
+ private:
+  bool read();
+  void follow_scene(double dt);
+  void find_contact();
+  Vector3 surface_force() const;
+  Vector3 shaded(const Vector3& force) const;
+  Vector3 effect_force(double dt);
+
+  devices::PointerDevice& device_;
+  ServoSettings settings_;
+  Effect* effects_;  // may be null
+  SceneFeed feed_;
+  ScpSolver solver_;
+  ForceLimiter limiter_;
+  const PublishedScene* scene_ = nullptr;  // null until the first publish()
+  double elapsed_ = 0.0;                   // s since the scene was taken
+  double time_ = 0.0;                      // s since the first tick
+  devices::PointerState state_;
+  Vector3 tip_velocity_ = Vector3::Zero();  // m/s, world
+  TickReport report_;
+};
+
+}  // namespace icome::haptics
