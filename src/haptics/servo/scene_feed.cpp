@@ -50,11 +50,6 @@ void SceneFeed::publish(std::shared_ptr<const HapticScene> scene) {
   newest_.publish(kept_.back().get());
 }
 
-const PublishedScene* SceneFeed::take() {
-  if (!newest_.update()) return nullptr;
-  const PublishedScene* scene = newest_.read();
-  taken_.store(scene->version, std::memory_order_release);
-  return scene;
-}
+const PublishedScene* SceneFeed::take() { return newest_.update() ? newest_.read() : nullptr; }
 
 }  // namespace icome::haptics

@@ -36,15 +36,18 @@ class SceneFeed {
   void publish(std::shared_ptr<const HapticScene> scene);
 
   /// The newest scene when there is one that take() has not returned yet, else null. The servo calls
-  /// this, and from then on no longer uses what it was given before. Real-time safe.
+  /// this. Real-time safe.
   const PublishedScene* take();
+
+  /// The servo says that it no longer uses any scene older than `scene`. Real-time safe.
+  void done_before(const PublishedScene& scene) { taken_.store(scene.version, std::memory_order_release); }
 
  private:
   SurfaceLimits limits_;
   std::uint64_t next_version_ = 1;
   std::deque<std::unique_ptr<PublishedScene>> kept_;  // newest last
   realtime::LatestValue<const PublishedScene*> newest_{nullptr};
-  std::atomic<std::uint64_t> taken_ = 0;  // version in use by the servo
+  std::atomic<std::uint64_t> taken_ = 0;  // oldest version that the servo may use
 };
 
 /// What differs between two scenes: objects that moved, changed their shape or motion, appeared or went.

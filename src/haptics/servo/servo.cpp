@@ -88,6 +88,7 @@ void Servo::follow_scene(double dt) {
   scene_ = newer;
   elapsed_ = 0.0;
   solver_.adopt(*newer->scene, newer->changes);
+  feed_.done_before(*newer);
 }
 
 void Servo::find_contact() {
