@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,31 @@ TEST(BakeryLock, LetsOneThreadInAtATime) {
   });
   EXPECT_EQ(crowd.clashes, 0u);
   EXPECT_EQ(crowd.entries, kThreads * kEntries);
+}
+
+TEST(BakeryLock, LetsOneThreadInWhenTwoComeAtTheSameMoment) {
+  // The race that the memory order decides: both draw a ticket before either sees the other's. They
+  // meet before each entry, since threads that queue rarely come to the door together.
+  constexpr std::uint64_t kEntries = 100000;
+  BakeryLock<2> lock;
+  std::uint64_t entries = 0;
+  std::array<std::atomic<std::uint64_t>, 2> arrivals{};
+  const auto enter = [&](std::size_t thread) {
+    for (std::uint64_t entry = 1; entry <= kEntries; ++entry) {
+      arrivals[thread].store(entry, std::memory_order_relaxed);
+      SpinWait spin;
+      while (arrivals[1 - thread].load(std::memory_order_relaxed) < entry) spin.pause();
+      // A few nanoseconds before or after the other: each entry tries another offset.
+      for (std::uint64_t i = 0; i < entry % (thread == 0 ? 61 : 37); ++i) asm volatile("");
+      lock.lock(thread);
+      ++entries;
+      lock.unlock(thread);
+    }
+  };
+  std::thread other(enter, 1);
+  enter(0);
+  other.join();
+  EXPECT_EQ(entries, 2 * kEntries);
 }
 
 TEST(SpinLock, LetsOneThreadInAtATime) {

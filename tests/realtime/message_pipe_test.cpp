@@ -47,11 +47,15 @@ TEST(MessagePipe, LeavesARefusedMessageWithItsSender) {
 }
 
 TEST(MessagePipe, KeepsNoPartOfAPoppedMessageAndFreesTheRest) {
+  // Const, so that moving it out leaves a copy behind: only the pipe can let go of that.
+  struct Holder {
+    const std::shared_ptr<int> payload;
+  };
   const auto payload = std::make_shared<int>(1);
   {
-    MessagePipe<std::shared_ptr<int>> pipe(4);
-    pipe.try_push(payload);
-    pipe.try_push(payload);
+    MessagePipe<Holder> pipe(4);
+    pipe.try_push(Holder{payload});
+    pipe.try_push(Holder{payload});
     EXPECT_EQ(payload.use_count(), 3);
     pipe.try_pop();
     EXPECT_EQ(payload.use_count(), 2) << "the pipe kept a popped message alive";
