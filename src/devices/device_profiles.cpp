@@ -20,8 +20,8 @@ constexpr double kUnknownMass = 0.1;  // kg
 // Stiffness of a device whose maker gives none; the common softest device renders less, most render more.
 constexpr double kUnknownStiffness = 1000.0;  // N/m
 
-DeviceInfo profile(std::string_view name, double workspace_radius, double max_force, double continuous_force,
-                   double nominal_stiffness, double effective_mass) {
+DeviceInfo profile_of(std::string_view name, double workspace_radius, double max_force,
+                      double continuous_force, double nominal_stiffness, double effective_mass) {
   return {std::string(name), workspace_radius,  max_force,
           continuous_force,  nominal_stiffness, effective_mass};
 }
@@ -29,20 +29,20 @@ DeviceInfo profile(std::string_view name, double workspace_radius, double max_fo
 // Peak force, stiffness and workspace: makers' data sheets and the limits that drivers apply. Continuous
 // force and mass of the PHANToMs: thesis table 4.1 (its inertia is an upper bound); of the Touch and Omni:
 // data sheet (0.88 N, 45 g). Their nominal stiffness is the one used in practice, not the catalogue's.
-const std::array<DeviceInfo, 12>& table() {
+const std::array<DeviceInfo, 12>& profile_table() {
   static const std::array<DeviceInfo, 12> devices = {
-      profile("omega.x", 0.075, 12.0, 12.0 * kContinuousShare, 5000.0, kUnknownMass),
-      profile("delta.3", 0.15, 20.0, 20.0 * kContinuousShare, 5000.0, kUnknownMass),
-      profile("sigma.7", 0.075, 12.0, 12.0 * kContinuousShare, 4000.0, kUnknownMass),
-      profile("lambda.7", 0.1125, 12.0, 12.0 * kContinuousShare, 8000.0, kUnknownMass),
-      profile("Novint Falcon", 0.04, 8.0, 8.0 * kContinuousShare, 3000.0, kUnknownMass),
-      profile("Touch", 0.10, 3.3, 0.88, 550.0, 0.045),
-      profile("Omni", 0.075, 3.3, 0.88, 550.0, 0.045),
-      profile("PHANToM Desktop", 0.10, 6.4, 1.7, 1000.0, 0.075),
-      profile("PHANToM Premium 1", 0.09, 8.5, 1.4, 800.0, 0.075),
-      profile("PHANToM Premium 1.5", 0.12, 8.5, 1.4, 800.0, 0.075),
-      profile("PHANToM Premium 3.0", 0.25, 22.0, 3.0, 1000.0, 0.15),
-      profile("Haply Inverse3", 0.10, 5.0, 5.0 * kContinuousShare, kUnknownStiffness, kUnknownMass),
+      profile_of("omega.x", 0.075, 12.0, 12.0 * kContinuousShare, 5000.0, kUnknownMass),
+      profile_of("delta.3", 0.15, 20.0, 20.0 * kContinuousShare, 5000.0, kUnknownMass),
+      profile_of("sigma.7", 0.075, 12.0, 12.0 * kContinuousShare, 4000.0, kUnknownMass),
+      profile_of("lambda.7", 0.1125, 12.0, 12.0 * kContinuousShare, 8000.0, kUnknownMass),
+      profile_of("Novint Falcon", 0.04, 8.0, 8.0 * kContinuousShare, 3000.0, kUnknownMass),
+      profile_of("Touch", 0.10, 3.3, 0.88, 550.0, 0.045),
+      profile_of("Omni", 0.075, 3.3, 0.88, 550.0, 0.045),
+      profile_of("PHANToM Desktop", 0.10, 6.4, 1.7, 1000.0, 0.075),
+      profile_of("PHANToM Premium 1", 0.09, 8.5, 1.4, 800.0, 0.075),
+      profile_of("PHANToM Premium 1.5", 0.12, 8.5, 1.4, 800.0, 0.075),
+      profile_of("PHANToM Premium 3.0", 0.25, 22.0, 3.0, 1000.0, 0.15),
+      profile_of("Haply Inverse3", 0.10, 5.0, 5.0 * kContinuousShare, kUnknownStiffness, kUnknownMass),
   };
   return devices;
 }
@@ -55,14 +55,14 @@ bool same_ignoring_case(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::span<const DeviceInfo> device_profiles() { return table(); }
+std::span<const DeviceInfo> device_profiles() { return profile_table(); }
 
 base::Result<DeviceInfo> find_device_profile(std::string_view name) {
-  for (const DeviceInfo& device : table()) {
+  for (const DeviceInfo& device : profile_table()) {
     if (same_ignoring_case(device.name, name)) return device;
   }
   std::string known;
-  for (const DeviceInfo& device : table()) known += (known.empty() ? "" : ", ") + device.name;
+  for (const DeviceInfo& device : profile_table()) known += (known.empty() ? "" : ", ") + device.name;
   return base::fail(fmt::format("no device profile is called \"{}\"; choose one of: {}", name, known));
 }
 

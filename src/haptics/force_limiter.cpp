@@ -15,7 +15,7 @@ constexpr double kThermalKnee = 0.5;
 
 constexpr double kFullForceSeconds = 0.002;  // s, of the default rate
 
-double sensible(double value) { return std::isfinite(value) ? std::max(0.0, value) : 0.0; }
+double sensible_limit(double value) { return std::isfinite(value) ? std::max(0.0, value) : 0.0; }
 
 // `force` with its direction and at most `longest` long; exact for every finite force, also where its
 // square overflows.
@@ -31,8 +31,8 @@ Vector3 shortened(const Vector3& force, double longest) {
 }  // namespace
 
 ForceLimiter::ForceLimiter(const devices::DeviceInfo& device, const LimiterSettings& settings)
-    : max_force_(sensible(device.max_force) * kRoundingRoom),
-      continuous_force_(std::min(sensible(device.continuous_force), max_force_)),
+    : max_force_(sensible_limit(device.max_force) * kRoundingRoom),
+      continuous_force_(std::min(sensible_limit(device.continuous_force), max_force_)),
       max_rate_(settings.max_rate > 0.0 ? settings.max_rate : max_force_ / kFullForceSeconds),
       settings_(settings) {
   assert(settings.ramp_seconds >= 0.0 && settings.thermal_seconds > 0.0);

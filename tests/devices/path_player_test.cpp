@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "realtime/guard/guard.h"
+
 namespace icome::devices {
 namespace {
 
@@ -46,6 +48,18 @@ TEST(PathPlayer, IgnoresForces) {
   EXPECT_EQ(player.write(Vector3(100, 0, 0)), DeviceStatus::Ok);
   player.read(state);
   EXPECT_EQ(state.position, Vector3(1, 2, 3));
+}
+
+TEST(PathPlayer, ReadTakesNoMemoryAndNoLock) {
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP();
+  auto player = PathPlayer::parse("t,x,y,z\n0,1,2,3\n1,1,2,3\n", "path.csv").value();
+  PointerState state;
+  realtime::RealtimeGuard guard;
+  while (!player.finished()) player.read(state);
+  player.read(state);
+  player.write(Vector3::Zero());
+  guard.stop();
+  EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0u);
 }
 
 TEST(PathPlayer, AcceptsWindowsLinesBlanksAndExponents) {

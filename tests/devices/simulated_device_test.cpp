@@ -5,6 +5,8 @@
 #include <cmath>
 #include <thread>
 
+#include "realtime/guard/guard.h"
+
 namespace icome::devices {
 namespace {
 
@@ -136,6 +138,23 @@ TEST(SimulatedDevice, NotANumberReadsOkButIsNotFinite) {
   device.inject(SimulatedFailure::None);
   device.read(state);
   EXPECT_EQ(state.position, Vector3::Zero());
+}
+
+TEST(SimulatedDevice, ReadAndWriteTakeNoMemoryAndNoLock) {
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP();
+  SimulatedSettings settings;
+  settings.trajectory = [](double t) { return Vector3(t, 0, 0); };
+  settings.encoder_resolution = 3e-5;
+  SimulatedDevice device(settings);
+  PointerState state;
+  realtime::RealtimeGuard guard;
+  for (int tick = 0; tick < 100; ++tick) {
+    device.set_target(Vector3(0.01, 0, 0));
+    device.read(state);
+    device.write(-100.0 * state.position);
+  }
+  guard.stop();
+  EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0u);
 }
 
 TEST(SimulatedDevice, TargetMayBeSetFromAnotherThread) {

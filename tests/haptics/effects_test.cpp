@@ -16,9 +16,9 @@ namespace icome::haptics {
 namespace {
 
 constexpr SpringSettings kSpring{.stiffness = 200.0, .damping = 2.0};
-constexpr double kTight = 1e-12;  // N
+constexpr double kEffectTolerance = 1e-12;  // N
 
-EffectInput at(const Vector3& position, const Vector3& velocity = Vector3::Zero()) {
+EffectInput tip_at(const Vector3& position, const Vector3& velocity = Vector3::Zero()) {
   EffectInput input;
   input.position = input.scp = position;
   input.velocity = velocity;
@@ -26,7 +26,8 @@ EffectInput at(const Vector3& position, const Vector3& velocity = Vector3::Zero(
 }
 
 void expect_force(Effect& effect, const EffectInput& input, const Vector3& expected) {
-  EXPECT_NEAR((effect.force(input) - expected).norm(), 0.0, kTight) << effect.force(input).transpose();
+  EXPECT_NEAR((effect.force(input) - expected).norm(), 0.0, kEffectTolerance)
+      << effect.force(input).transpose();
 }
 
 // Work (J) that an effect does on a tip taken slowly along a closed polygon; 0 for a conservative force.
@@ -35,37 +36,37 @@ double work_around(Effect& effect, const std::vector<Vector3>& corners) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector3& from = corners[i];
     const Vector3 step = (corners[(i + 1) % corners.size()] - from) / 20000.0;
-    for (int k = 0; k < 20000; ++k) work += effect.force(at(from + (k + 0.5) * step)).dot(step);
+    for (int k = 0; k < 20000; ++k) work += effect.force(tip_at(from + (k + 0.5) * step)).dot(step);
   }
   return work;
 }
 
 TEST(PointSpring, PullsAndDampsInAllDirections) {
   PointSpring spring(Vector3(0.01, 0, 0), kSpring);
-  expect_force(spring, at(Vector3(0, 0.01, 0), Vector3(0, 0, 0.5)), Vector3(2, -2, -1));
+  expect_force(spring, tip_at(Vector3(0, 0.01, 0), Vector3(0, 0, 0.5)), Vector3(2, -2, -1));
 }
 
 TEST(LineSpring, LeavesTheLineFree) {
   LineSpring spring(Vector3(0, 0, 0.01), Vector3(5, 0, 0), kSpring);
-  expect_force(spring, at(Vector3(0.3, 0.01, 0), Vector3(1, 0.5, 0)), Vector3(0, -3, 2));
+  expect_force(spring, tip_at(Vector3(0.3, 0.01, 0), Vector3(1, 0.5, 0)), Vector3(0, -3, 2));
 }
 
 TEST(PlaneSpring, HoldsFromBothSidesAndLeavesThePlaneFree) {
   PlaneSpring spring(Vector3(0, 0, 0.01), Vector3(0, 0, 2), kSpring);
-  expect_force(spring, at(Vector3(0.3, 0.2, 0.02), Vector3(1, 1, 0.1)), Vector3(0, 0, -2.2));
-  expect_force(spring, at(Vector3(0.3, 0.2, 0.0)), Vector3(0, 0, 2));
+  expect_force(spring, tip_at(Vector3(0.3, 0.2, 0.02), Vector3(1, 1, 0.1)), Vector3(0, 0, -2.2));
+  expect_force(spring, tip_at(Vector3(0.3, 0.2, 0.0)), Vector3(0, 0, 2));
 }
 
 TEST(CurveSpring, HoldsOnTheNearestSegmentAtACornerAndAtTheEnds) {
   CurveSpring spring({Vector3(0, 0, 0), Vector3(0.1, 0, 0), Vector3(0.1, 0, 0), Vector3(0.1, 0.1, 0)},
                      kSpring);
   // Over the first segment: along x the tip is free, velocity too.
-  expect_force(spring, at(Vector3(0.05, 0, 0.01), Vector3(1, 0, 0.1)), Vector3(0, 0, -2.2));
+  expect_force(spring, tip_at(Vector3(0.05, 0, 0.01), Vector3(1, 0, 0.1)), Vector3(0, 0, -2.2));
   // Outside the corner: held by the corner, on all sides.
-  expect_force(spring, at(Vector3(0.11, -0.01, 0), Vector3(0.1, 0, 0)), Vector3(-2.2, 2, 0));
+  expect_force(spring, tip_at(Vector3(0.11, -0.01, 0), Vector3(0.1, 0, 0)), Vector3(-2.2, 2, 0));
   // Beyond the ends.
-  expect_force(spring, at(Vector3(-0.01, 0, 0)), Vector3(2, 0, 0));
-  expect_force(spring, at(Vector3(0.1, 0.12, 0)), Vector3(0, -4, 0));
+  expect_force(spring, tip_at(Vector3(-0.01, 0, 0)), Vector3(2, 0, 0));
+  expect_force(spring, tip_at(Vector3(0.1, 0.12, 0)), Vector3(0, -4, 0));
 }
 
 TEST(CurveSpring, AgreesWithDenseSamplingOfTheCurve) {
@@ -82,42 +83,42 @@ TEST(CurveSpring, AgreesWithDenseSamplingOfTheCurve) {
         least = std::min(least, (sample - position).norm());
       }
     }
-    EXPECT_NEAR(spring.force(at(position)).norm(), 200.0 * least, 200.0 * 1e-4);
-    EXPECT_LE(spring.force(at(position)).norm(), 200.0 * least + kTight);
+    EXPECT_NEAR(spring.force(tip_at(position)).norm(), 200.0 * least, 200.0 * 1e-4);
+    EXPECT_LE(spring.force(tip_at(position)).norm(), 200.0 * least + kEffectTolerance);
   }
 }
 
 TEST(CurveSpring, OnePointIsAPointSpring) {
   CurveSpring spring({Vector3(0.01, 0, 0)}, kSpring);
-  expect_force(spring, at(Vector3::Zero(), Vector3(0, 0, 0.5)), Vector3(2, 0, -1));
+  expect_force(spring, tip_at(Vector3::Zero(), Vector3(0, 0, 0.5)), Vector3(2, 0, -1));
 }
 
 TEST(ConstantForce, IsTheSameEverywhere) {
   ConstantForce weight(Vector3(0, -0.5, 0));
-  expect_force(weight, at(Vector3(1, 2, 3), Vector3(4, 5, 6)), Vector3(0, -0.5, 0));
+  expect_force(weight, tip_at(Vector3(1, 2, 3), Vector3(4, 5, 6)), Vector3(0, -0.5, 0));
 }
 
 TEST(ForceField, IsTheUsersFunctionOfPlaceAndTime) {
   ForceField wind([](const Vector3& position, double time) { return Vector3(time, position.x(), 0); });
-  EffectInput input = at(Vector3(0.25, 0, 0));
+  EffectInput input = tip_at(Vector3(0.25, 0, 0));
   input.time = 1.5;
   expect_force(wind, input, Vector3(1.5, 0.25, 0));
 }
 
 TEST(GravityWell, IsASpringAtItsCentreAndNothingAtTheRim) {
   GravityWell well(Vector3(0, 0, 0.1), 0.02, 100.0);
-  EXPECT_NEAR(well.force(at(Vector3(1e-6, 0, 0.1))).x(), -1e-4, 1e-9);
-  expect_force(well, at(Vector3(0.02, 0, 0.1)), Vector3::Zero());
-  expect_force(well, at(Vector3(0.5, 0, 0.1)), Vector3::Zero());
+  EXPECT_NEAR(well.force(tip_at(Vector3(1e-6, 0, 0.1))).x(), -1e-4, 1e-9);
+  expect_force(well, tip_at(Vector3(0.02, 0, 0.1)), Vector3::Zero());
+  expect_force(well, tip_at(Vector3(0.5, 0, 0.1)), Vector3::Zero());
   // Half way: 100 * 0.01 * (1 - 1/4)^2 = 0.5625 N.
-  expect_force(well, at(Vector3(0, 0, 0.11)), Vector3(0, 0, -0.5625));
+  expect_force(well, tip_at(Vector3(0, 0, 0.11)), Vector3(0, 0, -0.5625));
 }
 
 TEST(GravityWell, PullsHardestWhereItSays) {
   GravityWell well(Vector3::Zero(), 0.02, 100.0);
   double strongest = 0.0, where = 0.0;
   for (double r = 0.0; r < 0.02; r += 1e-6) {
-    const double pull = well.force(at(Vector3(r, 0, 0))).norm();
+    const double pull = well.force(tip_at(Vector3(r, 0, 0))).norm();
     if (pull > strongest) strongest = pull, where = r;
   }
   EXPECT_NEAR(strongest, 0.286 * 100.0 * 0.02, 1e-3);
@@ -126,7 +127,7 @@ TEST(GravityWell, PullsHardestWhereItSays) {
 
 TEST(GravityWell, ForceAndItsSlopeAreContinuousAtTheRim) {
   GravityWell well(Vector3::Zero(), 0.02, 100.0);
-  const double inside = well.force(at(Vector3(0.02 - 1e-6, 0, 0))).norm();
+  const double inside = well.force(tip_at(Vector3(0.02 - 1e-6, 0, 0))).norm();
   EXPECT_LT(inside / 1e-6, 0.1);  // N/m, of a spring with 100 at its centre
 }
 
@@ -137,16 +138,16 @@ TEST(Recess, FloorAndOutsideAreFreeAndTheSlopePushesInwards) {
                                 .rim_radius = 0.012,
                                 .peak_force = 1.5};
   Recess recess(settings);
-  expect_force(recess, at(Vector3(0.107, 0, 0.5)), Vector3::Zero());
-  expect_force(recess, at(Vector3(0.1, 0.0121, 0)), Vector3::Zero());
-  expect_force(recess, at(Vector3(0.1, 0.010, 0.2)), Vector3(0, -1.5, 0));    // half way up: the peak
-  expect_force(recess, at(Vector3(0.09 + 1e-3, 0, 0)), Vector3(0.75, 0, 0));  // a quarter: sin^2 45
+  expect_force(recess, tip_at(Vector3(0.107, 0, 0.5)), Vector3::Zero());
+  expect_force(recess, tip_at(Vector3(0.1, 0.0121, 0)), Vector3::Zero());
+  expect_force(recess, tip_at(Vector3(0.1, 0.010, 0.2)), Vector3(0, -1.5, 0));    // half way up: the peak
+  expect_force(recess, tip_at(Vector3(0.09 + 1e-3, 0, 0)), Vector3(0.75, 0, 0));  // a quarter: sin^2 45
 }
 
 TEST(Recess, LeavingCostsTheStatedEnergy) {
   Recess recess({});
   double work = 0.0;
-  for (int i = 0; i < 40000; ++i) work += recess.force(at(Vector3((i + 0.5) * 5e-7, 0, 0))).x() * 5e-7;
+  for (int i = 0; i < 40000; ++i) work += recess.force(tip_at(Vector3((i + 0.5) * 5e-7, 0, 0))).x() * 5e-7;
   EXPECT_NEAR(work, -1.0 * 0.004 / 2.0, 1e-8);  // 2 mJ
 }
 
@@ -161,12 +162,12 @@ TEST(Fields, WellAndRecessGiveBackWhatTheyTake) {
 
 TEST(ViscousDamping, ResistsVelocity) {
   ViscousDamping syrup(3.0);
-  expect_force(syrup, at(Vector3::Zero(), Vector3(0.1, 0, -0.2)), Vector3(-0.3, 0, 0.6));
+  expect_force(syrup, tip_at(Vector3::Zero(), Vector3(0.1, 0, -0.2)), Vector3(-0.3, 0, 0.6));
 }
 
 TEST(ViscousDamping, StaysBelowWhatIsStableForTheTick) {
   ViscousDamping syrup(1e6);
-  EffectInput input = at(Vector3::Zero(), Vector3(0.1, 0, 0));
+  EffectInput input = tip_at(Vector3::Zero(), Vector3(0.1, 0, 0));
   input.device_mass = 0.1;
   // Half of m/dt = 100 N s/m: a quarter of the stable limit 2 m/dt.
   expect_force(syrup, input, Vector3(-5.0, 0, 0));
@@ -176,7 +177,7 @@ TEST(ViscousDamping, StaysBelowWhatIsStableForTheTick) {
 std::vector<double> drag_forces(FrictionEffect& friction, double distance) {
   std::vector<double> forces;
   for (double x = 0.0; x < distance; x += 1e-5) {
-    forces.push_back(-friction.force(at(Vector3(x, 0, 0), Vector3(0.01, 0, 0))).x());
+    forces.push_back(-friction.force(tip_at(Vector3(x, 0, 0), Vector3(0.01, 0, 0))).x());
   }
   return forces;
 }
@@ -187,15 +188,15 @@ TEST(FrictionEffect, SticksUpToStaticThenSlidesAgainstDynamicForce) {
   double peak = 0.0;
   for (const double force : forces) peak = std::max(peak, force);
   EXPECT_NEAR(peak, 0.5, 0.02);
-  EXPECT_LE(peak, 0.5 + kTight);
+  EXPECT_LE(peak, 0.5 + kEffectTolerance);
   EXPECT_NEAR(forces.back(), 0.3, 1e-9);
 }
 
 TEST(FrictionEffect, HoldsAStillTipWithoutDrift) {
   FrictionEffect friction({.static_force = 0.5, .dynamic_force = 0.3, .stiffness = 1000.0});
-  friction.force(at(Vector3::Zero()));
+  friction.force(tip_at(Vector3::Zero()));
   for (int tick = 0; tick < 10000; ++tick) {
-    ASSERT_NEAR(friction.force(at(Vector3(2e-4, 0, 0))).x(), -0.2, kTight) << tick;
+    ASSERT_NEAR(friction.force(tip_at(Vector3(2e-4, 0, 0))).x(), -0.2, kEffectTolerance) << tick;
   }
 }
 
@@ -204,16 +205,42 @@ TEST(FrictionEffect, TurnsWithTheMotion) {
   drag_forces(friction, 0.01);
   double last = 0.0;
   for (double x = 0.01; x > 0.0; x -= 1e-5) {
-    last = friction.force(at(Vector3(x, 0, 0), Vector3(-0.01, 0, 0))).x();
+    last = friction.force(tip_at(Vector3(x, 0, 0), Vector3(-0.01, 0, 0))).x();
   }
   EXPECT_NEAR(last, 0.4, 1e-9);
 }
 
 TEST(FrictionEffect, ResetForgetsTheAnchor) {
   FrictionEffect friction({});
-  friction.force(at(Vector3::Zero()));
+  friction.force(tip_at(Vector3::Zero()));
   friction.reset();
-  expect_force(friction, at(Vector3(0.05, 0, 0)), Vector3::Zero());
+  expect_force(friction, tip_at(Vector3(0.05, 0, 0)), Vector3::Zero());
+}
+
+// A hand drags a light device to and fro over friction alone: the friction takes energy, never gives it
+// (port and sum as in passivity_test.cpp), and the tip comes to rest when the hand does.
+TEST(FrictionEffect, TakesEnergyFromAClosedLoopAndLetsItRest) {
+  devices::SimulatedSettings settings;
+  settings.info.effective_mass = 0.05;
+  settings.hand = {.mass = 0.0, .stiffness = 300.0, .damping = 0.0};
+  settings.trajectory = [](double t) { return Vector3(t < 2.0 ? 0.03 * std::sin(6.0 * t) : 0.0, 0, 0); };
+  devices::SimulatedDevice device(settings);
+  FrictionEffect friction({});
+  devices::PointerState state;
+  Vector3 last = Vector3::Zero(), held = Vector3::Zero();
+  double energy = 0.0;  // J, into the friction
+  for (int tick = 0; tick < 6000; ++tick) {
+    device.read(state);
+    energy -= held.dot(device.true_position() - last);
+    ASSERT_GE(energy, -1e-12) << tick;
+    last = device.true_position();
+    EffectInput input = tip_at(state.position, state.velocity);
+    input.device_mass = 0.05;
+    held = friction.force(input);
+    device.write(held);
+  }
+  EXPECT_GT(energy, 0.05);  // about 0.4 N over 4 passes of 6 cm and more
+  EXPECT_LT(device.true_velocity().norm(), 1e-6);
 }
 
 // A device without a hand's spring: pushed with a force, its speed after `seconds` tells the mass felt.
@@ -227,7 +254,7 @@ double speed_after_push(Effect& effect, double push, double device_mass, double 
   double fastest_change = 0.0, last = 0.0;
   for (int tick = 0; tick < static_cast<int>(seconds * 1000.0); ++tick) {
     device.read(state);
-    EffectInput input = at(state.position, state.velocity);
+    EffectInput input = tip_at(state.position, state.velocity);
     input.device_mass = device_mass;
     device.write(effect.force(input) + Vector3(push, 0, 0));
     fastest_change = std::max(fastest_change, std::abs(device.true_velocity().x() - last));
@@ -260,10 +287,10 @@ TEST(Inertia, IsStableForAMassFarBeyondTheDevices) {
 TEST(Inertia, FeelsNothingAtConstantSpeedAndAfterReset) {
   Inertia inertia(1.0);
   for (int tick = 0; tick < 10; ++tick) {
-    expect_force(inertia, at(Vector3(tick * 1e-3, 0, 0), Vector3(1, 0, 0)), Vector3::Zero());
+    expect_force(inertia, tip_at(Vector3(tick * 1e-3, 0, 0), Vector3(1, 0, 0)), Vector3::Zero());
   }
   inertia.reset();
-  expect_force(inertia, at(Vector3::Zero(), Vector3(-5, 0, 0)), Vector3::Zero());
+  expect_force(inertia, tip_at(Vector3::Zero(), Vector3(-5, 0, 0)), Vector3::Zero());
 }
 
 TEST(EffectSet, IsTheSumOfWhatIsOn) {
@@ -282,14 +309,14 @@ TEST(EffectSet, IsTheSumOfWhatIsOn) {
 TEST(EffectSet, SwitchingOnStartsAfreshAndResetReachesAll) {
   EffectSet set;
   set.add(std::make_unique<FrictionEffect>(FrictionSettings{}));
-  set.force(at(Vector3::Zero()));
+  set.force(tip_at(Vector3::Zero()));
   set.set_enabled(0, true);  // on already: keeps its anchor
-  EXPECT_GT(set.force(at(Vector3(2e-4, 0, 0))).norm(), 0.1);
+  EXPECT_GT(set.force(tip_at(Vector3(2e-4, 0, 0))).norm(), 0.1);
   set.set_enabled(0, false);
   set.set_enabled(0, true);
-  expect_force(set, at(Vector3(0.05, 0, 0)), Vector3::Zero());
+  expect_force(set, tip_at(Vector3(0.05, 0, 0)), Vector3::Zero());
   set.reset();
-  expect_force(set, at(Vector3(0.09, 0, 0)), Vector3::Zero());
+  expect_force(set, tip_at(Vector3(0.09, 0, 0)), Vector3::Zero());
 }
 
 // An effect of one's own, as GHOST lets one derive (4.3.1).

@@ -12,54 +12,56 @@
 namespace icome::haptics {
 namespace {
 
-constexpr double kDt = 1e-3;  // s
+constexpr double kLimiterStep = 1e-3;  // s
 
-devices::DeviceInfo premium() { return {.name = "premium", .max_force = 8.5, .continuous_force = 1.4}; }
+devices::DeviceInfo premium_device() {
+  return {.name = "premium", .max_force = 8.5, .continuous_force = 1.4};
+}
 
-LimiterSettings at_once() {
+LimiterSettings without_ramp() {
   LimiterSettings settings;
   settings.ramp_seconds = 0.0;
   settings.max_rate = 1e9;
   return settings;
 }
 
-double infinity() { return std::numeric_limits<double>::infinity(); }
+double infinite_number() { return std::numeric_limits<double>::infinity(); }
 double not_a_number() { return std::numeric_limits<double>::quiet_NaN(); }
 
 // Lets the ramp-in pass without heating the motors.
 void finish_ramp(ForceLimiter& limiter) {
-  for (int tick = 0; tick < 600; ++tick) limiter.limit(Vector3::Zero(), kDt);
+  for (int tick = 0; tick < 600; ++tick) limiter.limit(Vector3::Zero(), kLimiterStep);
 }
 
 TEST(ForceLimiter, SmallForcePassesUnchanged) {
-  ForceLimiter limiter(premium());
+  ForceLimiter limiter(premium_device());
   finish_ramp(limiter);
   const Vector3 wanted(0.3, -0.4, 0.5);
-  EXPECT_EQ(limiter.limit(wanted, kDt), wanted);
+  EXPECT_EQ(limiter.limit(wanted, kLimiterStep), wanted);
   for (std::size_t act = 0; act < kLimiterActs; ++act) {
     EXPECT_EQ(limiter.count(static_cast<LimiterAct>(act)), 0u) << act;
   }
 }
 
 TEST(ForceLimiter, ClampsToTheMaximumAndKeepsTheDirection) {
-  ForceLimiter limiter(premium(), at_once());
-  const Vector3 force = limiter.limit(Vector3(30, -40, 0), kDt);
+  ForceLimiter limiter(premium_device(), without_ramp());
+  const Vector3 force = limiter.limit(Vector3(30, -40, 0), kLimiterStep);
   EXPECT_NEAR((force - Vector3(5.1, -6.8, 0)).norm(), 0.0, 1e-12);
   EXPECT_TRUE(limiter.acted(LimiterAct::Clamped));
   EXPECT_EQ(limiter.count(LimiterAct::Clamped), 1u);
 }
 
 TEST(ForceLimiter, ClampsForcesWhoseSquareOverflows) {
-  ForceLimiter limiter(premium(), at_once());
-  const Vector3 force = limiter.limit(Vector3(1e308, 1e308, -1e308), kDt);
+  ForceLimiter limiter(premium_device(), without_ramp());
+  const Vector3 force = limiter.limit(Vector3(1e308, 1e308, -1e308), kLimiterStep);
   EXPECT_NEAR(force.norm(), 8.5, 1e-12);
   EXPECT_NEAR(force.x(), -force.z(), 1e-12);
 }
 
 TEST(ForceLimiter, RampsInOverTheGivenTime) {
-  ForceLimiter limiter(premium());  // 0.5 s
+  ForceLimiter limiter(premium_device());  // 0.5 s
   std::vector<double> force;
-  for (int tick = 0; tick < 600; ++tick) force.push_back(limiter.limit(Vector3(1, 0, 0), kDt).x());
+  for (int tick = 0; tick < 600; ++tick) force.push_back(limiter.limit(Vector3(1, 0, 0), kLimiterStep).x());
   EXPECT_NEAR(force[0], 0.002, 1e-12);
   EXPECT_NEAR(force[249], 0.5, 1e-9);
   EXPECT_NEAR(force[499], 1.0, 1e-9);
@@ -68,12 +70,12 @@ TEST(ForceLimiter, RampsInOverTheGivenTime) {
 }
 
 TEST(ForceLimiter, RampsInAgainWhenTheTipStartsInsideAnObject) {
-  ForceLimiter limiter(premium());
+  ForceLimiter limiter(premium_device());
   finish_ramp(limiter);
   LimiterInput inside{.started_inside = true};
   double last = 0.0;
   for (int tick = 0; tick < 400; ++tick) {  // a deep start would want 50 N at once
-    const double force = limiter.limit(Vector3(0, 0, 50), kDt, inside).norm();
+    const double force = limiter.limit(Vector3(0, 0, 50), kLimiterStep, inside).norm();
     ASSERT_LE(force - last, 8.5 / 500.0 + 1e-9);
     last = force;
   }
@@ -81,89 +83,90 @@ TEST(ForceLimiter, RampsInAgainWhenTheTipStartsInsideAnObject) {
 }
 
 TEST(ForceLimiter, ZeroOnEveryKindOfNonFiniteValueThenRampsIn) {
-  for (const double bad : {not_a_number(), infinity(), -infinity()}) {
+  for (const double bad : {not_a_number(), infinite_number(), -infinite_number()}) {
     for (int axis = 0; axis < 3; ++axis) {
-      ForceLimiter limiter(premium());
+      ForceLimiter limiter(premium_device());
       finish_ramp(limiter);
-      limiter.limit(Vector3(1, 1, 1), kDt);
+      limiter.limit(Vector3(1, 1, 1), kLimiterStep);
       Vector3 wanted(1, 1, 1);
       wanted[axis] = bad;
-      EXPECT_EQ(limiter.limit(wanted, kDt), Vector3::Zero());
+      EXPECT_EQ(limiter.limit(wanted, kLimiterStep), Vector3::Zero());
       EXPECT_TRUE(limiter.acted(LimiterAct::NotFinite));
-      EXPECT_NEAR(limiter.limit(Vector3(1, 0, 0), kDt).x(), 0.002, 1e-12);
+      EXPECT_NEAR(limiter.limit(Vector3(1, 0, 0), kLimiterStep).x(), 0.002, 1e-12);
       EXPECT_FALSE(limiter.acted(LimiterAct::NotFinite));
     }
   }
 }
 
 TEST(ForceLimiter, ZeroOnATimeStepThatIsNone) {
-  for (const double bad : {not_a_number(), infinity(), 0.0, -1e-3}) {
-    ForceLimiter limiter(premium(), at_once());
+  for (const double bad : {not_a_number(), infinite_number(), 0.0, -1e-3}) {
+    ForceLimiter limiter(premium_device(), without_ramp());
     EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), bad), Vector3::Zero()) << bad;
-    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kDt), Vector3(1, 0, 0));
+    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kLimiterStep), Vector3(1, 0, 0));
   }
 }
 
 TEST(ForceLimiter, ZeroOnAStalledSourceThenRampsIn) {
-  ForceLimiter limiter(premium());  // 10 ticks
+  ForceLimiter limiter(premium_device());  // 10 ticks
   finish_ramp(limiter);
   const LimiterInput stale{.source_fresh = false};
   for (int tick = 0; tick < 9; ++tick) {
-    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kDt, stale), Vector3(1, 0, 0)) << tick;
+    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kLimiterStep, stale), Vector3(1, 0, 0)) << tick;
   }
   for (int tick = 0; tick < 50; ++tick) {
-    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kDt, stale), Vector3::Zero());
+    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kLimiterStep, stale), Vector3::Zero());
     EXPECT_TRUE(limiter.acted(LimiterAct::Stalled));
   }
-  EXPECT_NEAR(limiter.limit(Vector3(1, 0, 0), kDt).x(), 0.002, 1e-12);
+  EXPECT_NEAR(limiter.limit(Vector3(1, 0, 0), kLimiterStep).x(), 0.002, 1e-12);
 }
 
 TEST(ForceLimiter, OneFreshTickRestartsTheStallCount) {
-  ForceLimiter limiter(premium());
+  ForceLimiter limiter(premium_device());
   finish_ramp(limiter);
   for (int tick = 0; tick < 100; ++tick) {
-    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kDt, {.source_fresh = tick % 10 == 9}), Vector3(1, 0, 0));
+    EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kLimiterStep, {.source_fresh = tick % 10 == 9}),
+              Vector3(1, 0, 0));
   }
 }
 
 TEST(ForceLimiter, ZeroOnALostDeviceThenRampsIn) {
-  ForceLimiter limiter(premium());
+  ForceLimiter limiter(premium_device());
   finish_ramp(limiter);
-  limiter.limit(Vector3(1, 0, 0), kDt);
-  EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kDt, {.device_ok = false}), Vector3::Zero());
+  limiter.limit(Vector3(1, 0, 0), kLimiterStep);
+  EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kLimiterStep, {.device_ok = false}), Vector3::Zero());
   EXPECT_TRUE(limiter.acted(LimiterAct::DeviceLost));
-  EXPECT_NEAR(limiter.limit(Vector3(1, 0, 0), kDt).x(), 0.002, 1e-12);
+  EXPECT_NEAR(limiter.limit(Vector3(1, 0, 0), kLimiterStep).x(), 0.002, 1e-12);
 }
 
 TEST(ForceLimiter, ChangesAtMostAtTheRate) {
   LimiterSettings settings;
   settings.max_rate = 500.0;  // 0.5 N a tick
-  ForceLimiter limiter(premium(), settings);
+  ForceLimiter limiter(premium_device(), settings);
   finish_ramp(limiter);
-  EXPECT_NEAR(limiter.limit(Vector3(0, 2, 0), kDt).y(), 0.5, 1e-12);
+  EXPECT_NEAR(limiter.limit(Vector3(0, 2, 0), kLimiterStep).y(), 0.5, 1e-12);
   EXPECT_TRUE(limiter.acted(LimiterAct::RateLimited));
-  EXPECT_NEAR(limiter.limit(Vector3(0, 2, 0), kDt).y(), 1.0, 1e-12);
-  EXPECT_NEAR(limiter.limit(Vector3(0, -2, 0), kDt).y(), 0.5, 1e-12);
-  EXPECT_NEAR(limiter.limit(Vector3(0, 0.7, 0), kDt).y(), 0.7, 1e-12);
+  EXPECT_NEAR(limiter.limit(Vector3(0, 2, 0), kLimiterStep).y(), 1.0, 1e-12);
+  EXPECT_NEAR(limiter.limit(Vector3(0, -2, 0), kLimiterStep).y(), 0.5, 1e-12);
+  EXPECT_NEAR(limiter.limit(Vector3(0, 0.7, 0), kLimiterStep).y(), 0.7, 1e-12);
   EXPECT_FALSE(limiter.acted(LimiterAct::RateLimited));
 }
 
 TEST(ForceLimiter, ALateTickMovesNoFurtherThanTheLongestStep) {
   LimiterSettings settings;
   settings.max_rate = 100.0;
-  ForceLimiter limiter(premium(), settings);
+  ForceLimiter limiter(premium_device(), settings);
   finish_ramp(limiter);
   EXPECT_NEAR(limiter.limit(Vector3(5, 0, 0), 3.0).x(), 1.0, 1e-12);  // 100 N/s for 0.01 s
 }
 
 TEST(ForceLimiter, SustainedForceComesDownToTheContinuousRatingSmoothly) {
-  ForceLimiter limiter(premium(), at_once());
+  ForceLimiter limiter(premium_device(), without_ramp());
   double last = 8.5, seconds_at_peak = 0.0;
   for (int tick = 0; tick < 20000; ++tick) {
-    const double force = limiter.limit(Vector3(0, 0, -20), kDt).norm();
+    const double force = limiter.limit(Vector3(0, 0, -20), kLimiterStep).norm();
     ASSERT_LE(force, last + 1e-12);         // only downwards
     ASSERT_LE(last - force, 0.07) << tick;  // and without a jump
-    if (force > 8.49) seconds_at_peak += kDt;
+    if (force > 8.49) seconds_at_peak += kLimiterStep;
     last = force;
   }
   // Half the budget is free at peak: -20 s ln(1 - 0.5 * 1.4^2/8.5^2).
@@ -174,33 +177,34 @@ TEST(ForceLimiter, SustainedForceComesDownToTheContinuousRatingSmoothly) {
 }
 
 TEST(ForceLimiter, ContinuousForceMayLastForEver) {
-  ForceLimiter limiter(premium(), at_once());
+  ForceLimiter limiter(premium_device(), without_ramp());
   for (int tick = 0; tick < 200000; ++tick) {
-    ASSERT_NEAR(limiter.limit(Vector3(1.399, 0, 0), kDt).x(), 1.399, 1e-12) << tick;
+    ASSERT_NEAR(limiter.limit(Vector3(1.399, 0, 0), kLimiterStep).x(), 1.399, 1e-12) << tick;
   }
 }
 
 TEST(ForceLimiter, RestCoolsTheMotors) {
-  ForceLimiter limiter(premium(), at_once());
-  for (int tick = 0; tick < 20000; ++tick) limiter.limit(Vector3(0, 0, -20), kDt);
-  for (int tick = 0; tick < 20000; ++tick) limiter.limit(Vector3::Zero(), kDt);
+  ForceLimiter limiter(premium_device(), without_ramp());
+  for (int tick = 0; tick < 20000; ++tick) limiter.limit(Vector3(0, 0, -20), kLimiterStep);
+  for (int tick = 0; tick < 20000; ++tick) limiter.limit(Vector3::Zero(), kLimiterStep);
   EXPECT_NEAR(limiter.heat(), std::exp(-1.0), 1e-3);
-  EXPECT_NEAR(limiter.limit(Vector3(0, 0, -20), kDt).norm(), 8.5, 1e-9);
+  EXPECT_NEAR(limiter.limit(Vector3(0, 0, -20), kLimiterStep).norm(), 8.5, 1e-9);
 }
 
 TEST(ForceLimiter, ReconnectingDoesNotCoolTheMotors) {
-  ForceLimiter limiter(premium(), at_once());
-  for (int tick = 0; tick < 20000; ++tick) limiter.limit(Vector3(0, 0, -20), kDt);
+  ForceLimiter limiter(premium_device(), without_ramp());
+  for (int tick = 0; tick < 20000; ++tick) limiter.limit(Vector3(0, 0, -20), kLimiterStep);
   limiter.restart();
-  EXPECT_LT(limiter.limit(Vector3(0, 0, -20), kDt).norm(), 1.5);
+  EXPECT_LT(limiter.limit(Vector3(0, 0, -20), kLimiterStep).norm(), 1.5);
 }
 
 TEST(ForceLimiter, DeviceWithoutSensibleLimitsGetsNoForce) {
-  for (const double bad : {0.0, -1.0, not_a_number(), infinity()}) {
-    devices::DeviceInfo device = premium();
+  for (const double bad : {0.0, -1.0, not_a_number(), infinite_number()}) {
+    devices::DeviceInfo device = premium_device();
     device.max_force = bad;
     ForceLimiter limiter(device);
-    for (int tick = 0; tick < 1000; ++tick) EXPECT_EQ(limiter.limit(Vector3(1, 2, 3), kDt), Vector3::Zero());
+    for (int tick = 0; tick < 1000; ++tick)
+      EXPECT_EQ(limiter.limit(Vector3(1, 2, 3), kLimiterStep), Vector3::Zero());
   }
 }
 
@@ -216,7 +220,7 @@ Vector3 nasty_force(base::Random& random) {
     case 3:
       return Vector3(not_a_number(), 1, 2);
     case 4:
-      return Vector3(1, -infinity(), 2);
+      return Vector3(1, -infinite_number(), 2);
     default:
       return random.uniform(0, 30) * random.direction();
   }
@@ -260,20 +264,20 @@ TEST(ForceLimiter, HoldsEveryGuaranteeAgainstRandomAdversaries) {
 
 TEST(ForceLimiter, LengthLimitsKeepTheDirectionOfRandomForces) {
   base::Random random(12);
-  ForceLimiter limiter(premium(), at_once());
+  ForceLimiter limiter(premium_device(), without_ramp());
   for (int tick = 0; tick < 20000; ++tick) {
     const Vector3 wanted = random.uniform(0.1, 100.0) * random.direction();
-    const Vector3 force = limiter.limit(wanted, kDt);
+    const Vector3 force = limiter.limit(wanted, kLimiterStep);
     ASSERT_NEAR(force.normalized().dot(wanted.normalized()), 1.0, 1e-12);
   }
 }
 
 TEST(ForceLimiter, SameCallsGiveTheSameBits) {
-  ForceLimiter a(premium()), b(premium());
+  ForceLimiter a(premium_device()), b(premium_device());
   base::Random random(13);
   for (int tick = 0; tick < 5000; ++tick) {
     const Vector3 wanted = random.uniform(0, 20) * random.direction();
-    ASSERT_EQ(a.limit(wanted, kDt), b.limit(wanted, kDt));
+    ASSERT_EQ(a.limit(wanted, kLimiterStep), b.limit(wanted, kLimiterStep));
   }
 }
 

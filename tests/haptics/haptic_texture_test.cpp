@@ -12,17 +12,17 @@
 namespace icome::haptics {
 namespace {
 
-constexpr double kDepth = 0.0004;  // m
+constexpr double kReliefDepth = 0.0004;  // m
 
 std::vector<std::unique_ptr<HapticTexture>> all_textures() {
   std::vector<std::unique_ptr<HapticTexture>> textures;
-  textures.push_back(std::make_unique<GrooveTexture>(Vector3(1, 2, -1), 0.003, kDepth));
-  textures.push_back(std::make_unique<BumpTexture>(0.004, kDepth));
-  textures.push_back(std::make_unique<GrainTexture>(0.002, kDepth, 7));
+  textures.push_back(std::make_unique<GrooveTexture>(Vector3(1, 2, -1), 0.003, kReliefDepth));
+  textures.push_back(std::make_unique<BumpTexture>(0.004, kReliefDepth));
+  textures.push_back(std::make_unique<GrainTexture>(0.002, kReliefDepth, 7));
   return textures;
 }
 
-Vector3 random_point(base::Random& random) {
+Vector3 random_place(base::Random& random) {
   return {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
 }
 
@@ -30,7 +30,7 @@ TEST(HapticTexture, GradientIsTheFiniteDifferenceOfTheHeight) {
   base::Random random(3);
   for (const auto& texture : all_textures()) {
     for (int i = 0; i < 2000; ++i) {
-      const Vector3 point = random_point(random);
+      const Vector3 point = random_place(random);
       const Vector3 gradient = texture->sample(point, Vector3::UnitZ()).gradient;
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3 step = 1e-7 * Vector3::Unit(axis);
@@ -47,31 +47,31 @@ TEST(HapticTexture, OnlyCarvesAndUsesItsDepth) {
   for (const auto& texture : all_textures()) {
     double lowest = 0.0, highest = -1.0;
     for (int i = 0; i < 50000; ++i) {
-      const double height = texture->sample(random_point(random), Vector3::UnitZ()).height;
+      const double height = texture->sample(random_place(random), Vector3::UnitZ()).height;
       lowest = std::min(lowest, height);
       highest = std::max(highest, height);
     }
     EXPECT_LE(highest, 1e-18);
-    EXPECT_GE(lowest, -kDepth - 1e-18);
-    EXPECT_GT(highest - lowest, 0.9 * kDepth);
+    EXPECT_GE(lowest, -kReliefDepth - 1e-18);
+    EXPECT_GT(highest - lowest, 0.9 * kReliefDepth);
   }
 }
 
 TEST(GrooveTexture, RidgeAndBottomAreHalfAWaveApart) {
-  const GrooveTexture grooves(Vector3(5, 0, 0), 0.002, kDepth);
+  const GrooveTexture grooves(Vector3(5, 0, 0), 0.002, kReliefDepth);
   EXPECT_NEAR(grooves.sample(Vector3(0, 3, 4), Vector3::UnitZ()).height, 0.0, 1e-12);
-  EXPECT_NEAR(grooves.sample(Vector3(0.001, 3, 4), Vector3::UnitZ()).height, -kDepth, 1e-12);
+  EXPECT_NEAR(grooves.sample(Vector3(0.001, 3, 4), Vector3::UnitZ()).height, -kReliefDepth, 1e-12);
 }
 
 TEST(BumpTexture, IsFeltOnTheLatticePlanesToo) {
-  const BumpTexture bumps(0.004, kDepth);
+  const BumpTexture bumps(0.004, kReliefDepth);
   const double on = bumps.sample(Vector3(0, 0, 0), Vector3::UnitZ()).height;
   const double between = bumps.sample(Vector3(0.002, 0.002, 0), Vector3::UnitZ()).height;
-  EXPECT_NEAR(on - between, kDepth * 2.0 / 3.0, 1e-12);  // two of the three cosines
+  EXPECT_NEAR(on - between, kReliefDepth * 2.0 / 3.0, 1e-12);  // two of the three cosines
 }
 
 TEST(GrainTexture, SeedMakesTheGrain) {
-  const GrainTexture a(0.002, kDepth, 1), same(0.002, kDepth, 1), other(0.002, kDepth, 2);
+  const GrainTexture a(0.002, kReliefDepth, 1), same(0.002, kReliefDepth, 1), other(0.002, kReliefDepth, 2);
   const Vector3 point(0.0123, -0.0456, 0.0789);
   EXPECT_EQ(a.sample(point, Vector3::UnitZ()).height, same.sample(point, Vector3::UnitZ()).height);
   EXPECT_NE(a.sample(point, Vector3::UnitZ()).height, other.sample(point, Vector3::UnitZ()).height);
@@ -93,7 +93,7 @@ TEST(TexturedForce, IsTheGradientOfTheSpringsEnergy) {
       return 0.5 * stiffness * depth * depth;
     };
     for (int i = 0; i < 500; ++i) {
-      Vector3 tip = random_point(random);
+      Vector3 tip = random_place(random);
       tip.z() = -random.uniform(0.0, 0.002);
       const TextureSample sample = texture->sample(Vector3(tip.x(), tip.y(), 0.0), Vector3::UnitZ());
       const Vector3 force =
@@ -111,7 +111,7 @@ TEST(TexturedForce, BeginsAtZeroWhenTheTipTouchesAndNeverPulls) {
   for (const auto& texture : all_textures()) {
     for (int i = 0; i < 1000; ++i) {
       const Vector3 normal = random.direction();
-      const TextureSample sample = texture->sample(random_point(random), normal);
+      const TextureSample sample = texture->sample(random_place(random), normal);
       EXPECT_NEAR(textured_force(Vector3::Zero(), normal, 900.0, sample).norm(), 0.0, 1e-12);
       const double push = random.uniform(0.0, 3.0);
       const double out = textured_force(push * normal, normal, 900.0, sample).dot(normal);

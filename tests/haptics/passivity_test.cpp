@@ -22,7 +22,7 @@ using devices::SimulatedSettings;
 
 constexpr double kNoEnergy = 1e-12;  // J, rounding
 
-struct Outcome {
+struct PressOutcome {
   double least_energy = 0.0;   // J, the lowest that the sum of energy into the wall ever was
   double energy = 0.0;         // J, at the end
   double last_speed = 0.0;     // m/s, largest of the last tenth
@@ -42,18 +42,18 @@ Vector3 wall_force(const devices::PointerState& state, const Surface& surface) {
   return spring_damper_force(contact, surface);
 }
 
-struct Loop {
+struct PressLoop {
   bool limited = false;
   int delay = 0;  // ticks that a force waits before the device gets it
 };
 
-Outcome press(const SimulatedSettings& settings, const Surface& surface, double seconds,
-              const Loop& loop = {}) {
+PressOutcome press(const SimulatedSettings& settings, const Surface& surface, double seconds,
+                   const PressLoop& loop = {}) {
   SimulatedDevice device(settings);
   ForceLimiter limiter(settings.info);
   const double dt = 1.0 / settings.rate;
   const int ticks = static_cast<int>(seconds * settings.rate);
-  Outcome outcome;
+  PressOutcome outcome;
   Vector3 last = device.true_position(), held = Vector3::Zero(), waiting = Vector3::Zero();
   double highest = -1.0, lowest = 1.0;
   devices::PointerState state;
@@ -108,7 +108,7 @@ Surface stable_surface(const DeviceInfo& device, double rate, double damping = k
   return surface;
 }
 
-void expect_passive_and_settled(const Outcome& outcome, double height) {
+void expect_passive_and_settled(const PressOutcome& outcome, double height) {
   EXPECT_GE(outcome.least_energy, -kNoEnergy);
   EXPECT_GT(outcome.energy, 0.0);
   EXPECT_LT(outcome.last_speed, 1e-6);
@@ -137,7 +137,7 @@ TEST_P(PassivityAtRate, EvenWithoutTheHandsMassAndDamping) {
       const Surface surface = stable_surface(device, GetParam(), damping);
       SimulatedSettings settings = pressing_hand(device, surface, GetParam());
       settings.hand.mass = settings.hand.damping = 0.0;
-      const Outcome outcome = press(settings, surface, 4.0);
+      const PressOutcome outcome = press(settings, surface, 4.0);
       EXPECT_GE(outcome.least_energy, -kNoEnergy);
       EXPECT_LT(outcome.deepest, 0.02);
       if (damping != 0.0) {
@@ -172,7 +172,7 @@ TEST_P(PassivityAtRate, SettlesWithATickOfDelay) {
     SCOPED_TRACE(device.name);
     const Surface surface = stable_surface(device, GetParam());
     const SimulatedSettings settings = pressing_hand(device, surface, GetParam());
-    const Outcome outcome = press(settings, surface, 4.0, {.limited = true, .delay = 1});
+    const PressOutcome outcome = press(settings, surface, 4.0, {.limited = true, .delay = 1});
     EXPECT_LT(outcome.last_speed, 1e-6);
   }
 }
@@ -189,7 +189,7 @@ TEST(Passivity, EncoderStepsOnlyTrembleByAStep) {
     const Surface surface = stable_surface(device, 1000.0);
     SimulatedSettings settings = pressing_hand(device, surface, 1000.0);
     settings.encoder_resolution = 3e-5;  // thesis table 4.1
-    const Outcome outcome = press(settings, surface, 4.0, {.limited = true});
+    const PressOutcome outcome = press(settings, surface, 4.0, {.limited = true});
     EXPECT_GE(outcome.least_energy, -kNoEnergy);
     EXPECT_LT(outcome.last_spread, 2.0 * 3e-5);
   }
@@ -227,11 +227,11 @@ TEST(Passivity, TooLargeADampingConstantMakesThePressUnstable) {
   settings.encoder_resolution = 1e-9;  // velocity by backward difference, as the bound assumes
   const double most = stable_damping_range(800.0, device.effective_mass, 1e-3).most;
   surface.damping = 0.5 * most;
-  const Outcome stable = press(settings, surface, 4.0);
+  const PressOutcome stable = press(settings, surface, 4.0);
   EXPECT_LT(stable.last_speed, 1e-3);
   EXPECT_GE(stable.least_energy, -kNoEnergy);
   surface.damping = 1.1 * most;
-  const Outcome unstable = press(settings, surface, 4.0);
+  const PressOutcome unstable = press(settings, surface, 4.0);
   EXPECT_GT(unstable.last_speed, 0.05);
   EXPECT_LT(unstable.least_energy, -1e-3);
 }
@@ -242,7 +242,7 @@ TEST(Passivity, UndampedWallGivesEnergyToTheHand) {
   const Surface surface{.stiffness = 5000.0, .damping = 0.0};
   SimulatedSettings settings = pressing_hand(device, surface, 1000.0);
   settings.hand.damping = settings.hand.mass = 0.0;
-  const Outcome outcome = press(settings, surface, 4.0);
+  const PressOutcome outcome = press(settings, surface, 4.0);
   EXPECT_LT(outcome.least_energy, -1e-3);
   EXPECT_GT(outcome.last_speed, 0.1);
 }
@@ -254,7 +254,7 @@ TEST(Passivity, SaturatedDeviceStillSettles) {
   SimulatedSettings settings = pressing_hand(device, surface, 1000.0);
   const double target = -3.0 * device.continuous_force / settings.hand.stiffness;
   settings.trajectory = [target](double t) { return Vector3(0, 0, t < 0.6 ? 0.02 : target); };
-  const Outcome outcome = press(settings, surface, 60.0, {.limited = true});
+  const PressOutcome outcome = press(settings, surface, 60.0, {.limited = true});
   EXPECT_GE(outcome.least_energy, -kNoEnergy);
   EXPECT_LE(outcome.largest_force, device.max_force);
   // In the end the device gives its continuous force, so the hand's spring holds that much.

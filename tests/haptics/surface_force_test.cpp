@@ -148,30 +148,31 @@ Contact pressed_one_millimetre() {
   return contact;
 }
 
-constexpr double kTight = 1e-12;  // N
+constexpr double kForceTolerance = 1e-12;  // N
 
 TEST(SpringDamperForce, SpringPushesOut) {
   const Surface surface{.stiffness = 1000.0, .damping = 5.0};
-  EXPECT_NEAR((spring_damper_force(pressed_one_millimetre(), surface) - Vector3(0, 0, 1)).norm(), 0, kTight);
+  EXPECT_NEAR((spring_damper_force(pressed_one_millimetre(), surface) - Vector3(0, 0, 1)).norm(), 0,
+              kForceTolerance);
 }
 
 TEST(SpringDamperForce, DampsApproachAndRetreatAlongTheNormalOnly) {
   const Surface surface{.stiffness = 1000.0, .damping = 5.0};
   Contact contact = pressed_one_millimetre();
   contact.tip_velocity = Vector3(7.0, -3.0, -0.1);
-  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 1.5)).norm(), 0, kTight);
+  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 1.5)).norm(), 0, kForceTolerance);
   contact.tip_velocity = Vector3(7.0, -3.0, 0.1);
-  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 0.5)).norm(), 0, kTight);
+  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 0.5)).norm(), 0, kForceTolerance);
 }
 
 TEST(SpringDamperForce, NeverPullsATipThatLeavesFast) {
   const Surface surface{.stiffness = 1000.0, .damping = 5.0};
   Contact contact = pressed_one_millimetre();
   contact.tip_velocity = Vector3(0, 0, 2.0);  // the damper alone would pull with 10 N
-  EXPECT_NEAR(spring_damper_force(contact, surface).norm(), 0, kTight);
+  EXPECT_NEAR(spring_damper_force(contact, surface).norm(), 0, kForceTolerance);
   contact.tip.z() = 0.001;  // outside already
   contact.tip_velocity = Vector3(0, 0, -2.0);
-  EXPECT_NEAR(spring_damper_force(contact, surface).norm(), 0, kTight);
+  EXPECT_NEAR(spring_damper_force(contact, surface).norm(), 0, kForceTolerance);
 }
 
 TEST(SpringDamperForce, FrictionsSidewaysSpringIsKept) {
@@ -179,14 +180,14 @@ TEST(SpringDamperForce, FrictionsSidewaysSpringIsKept) {
   Contact contact = pressed_one_millimetre();
   contact.scp.x() -= 0.0005;
   contact.tip_velocity = Vector3(0, 0, 2.0);
-  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(-0.5, 0, 0)).norm(), 0, kTight);
+  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(-0.5, 0, 0)).norm(), 0, kForceTolerance);
 }
 
 TEST(SpringDamperForce, VelocityIsRelativeToAMovingSurface) {
   const Surface surface{.stiffness = 1000.0, .damping = 5.0};
   Contact contact = pressed_one_millimetre();
   contact.tip_velocity = contact.scp_velocity = Vector3(0, 0, 0.7);
-  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 1)).norm(), 0, kTight);
+  EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 1)).norm(), 0, kForceTolerance);
 }
 
 TEST(SpringDamperForce, ContactNeverPullsInwardsWhateverComes) {
@@ -198,7 +199,7 @@ TEST(SpringDamperForce, ContactNeverPullsInwardsWhateverComes) {
     contact.tip_velocity = random.uniform(0, 3.0) * random.direction();
     contact.scp_velocity = random.uniform(0, 3.0) * random.direction();
     const Surface surface{.stiffness = random.uniform(0, 5000), .damping = random.uniform(0, 100)};
-    EXPECT_GE(spring_damper_force(contact, surface).dot(contact.normal), -kTight);
+    EXPECT_GE(spring_damper_force(contact, surface).dot(contact.normal), -kForceTolerance);
   }
 }
 
