@@ -1,0 +1,37 @@
+#include "render/length_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace icome::render {
+
+double nice_length_below(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  // A hair of slack: 0.2 / 0.1 must not count as less than 2.
+  const double ratio = length / power * (1.0 + 1e-12);
+  return power * (ratio >= 5.0 ? 5.0 : ratio >= 2.0 ? 2.0 : 1.0);
+}
+
+std::string length_text(double metres) {
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  constexpr Unit kUnits[] = {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-6, "\u00b5m"}, {1e-9, "nm"}};
+  for (const Unit& unit : kUnits) {
+    if (metres >= unit.metres * (1.0 - 1e-9))
+      return fmt::format("{:.4g} {}", metres / unit.metres, unit.name);
+  }
+  return fmt::format("{:.3g} m", metres);
+}
+
+std::string grouped(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), ",");
+  }
+  return digits;
+}
+
+}  // namespace icome::render

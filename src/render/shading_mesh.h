@@ -1,0 +1,35 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+#include "geometry/triangle_mesh.h"
+
+namespace icome::render {
+
+/// A mesh as a graphics card takes it. Owns its arrays. Positions are single precision in a frame of
+/// their own, within about -1 ... 1, so that a model far from its origin or of any size keeps its digits.
+struct ShadingMesh {
+  struct Vertex {
+    Eigen::Vector3f position;  ///< (mesh position - centre) / radius
+    Eigen::Vector3f normal;    ///< unit
+  };
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;   ///< three a triangle
+  base::Vector3 centre{0.0, 0.0, 0.0};  ///< mesh frame, metres
+  double radius = 1.0;                  ///< metres, > 0
+};
+
+/// Splits vertices where the surface creases: a corner's normal averages the triangles round its vertex
+/// that bend less than `crease_angle` (rad; 0 is flat, pi is smooth) from its own, weighted by their
+/// angle there (Thuermer and Wuethrich 1998). Triangles without area or with non-finite corners or
+/// indices out of range are left out.
+ShadingMesh make_shading_mesh(const geometry::TriangleMesh& mesh, double crease_angle);
+
+/// A coarser mesh for shadows and far views: vertices that share a cell of a grid with that edge (in the
+/// buffers' frame, where the mesh spans about -1 ... 1; >= 1/512) become one at their mean, and triangles
+/// that collapse vanish (Rossignac and Borrel 1993).
+ShadingMesh clustered(const ShadingMesh& mesh, double cell);
+
+}  // namespace icome::render

@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vector.h"
+#include "render/image.h"
+#include "render/studio.h"
+
+namespace icome::render {
+
+/// One tick of a touch session; world frame, SI units.
+struct TouchSample {
+  double t;             ///< s
+  base::Vector3 tip;    ///< m, the device's tip
+  base::Vector3 scp;    ///< m, the surface contact point; counts only while touching
+  base::Vector3 force;  ///< N
+  bool touching;
+};
+
+/// What a picture of a touch session shows. Refers to meshes and samples that must outlive the drawing.
+struct TouchPicture {
+  std::string title;                     ///< such as the model's name
+  std::vector<std::string> notes;        ///< up to two short lines at the upper right
+  std::vector<StudioBody> bodies;        ///< what was touched, where it stood
+  std::span<const TouchSample> samples;  ///< in order of time, any number
+  double rate_hz = 0.0;                  ///< of the servo, for the caption; 0 leaves it out
+  base::Vector3 up{0.0, 1.0, 0.0};       ///< world direction that stands upright, any length > 0
+  int width = 1600;                      ///< pixels, 400 ... 16384; text grows with the picture
+  int height = 1200;                     ///< pixels, 400 ... 16384
+};
+
+/// Draws the session as for a paper: the model, seen from where most contact shows; the path of the tip,
+/// faint where the model hides it; the path of the surface contact point (thesis 5.3.1) coloured by the
+/// magnitude of the force; a scale bar, a colour bar, and force over time under it. Samples that are not
+/// finite are left out. Needs neither window nor display server. Fails when the size is out of range or
+/// OpenGL is missing.
+base::Result<Image> draw_touch_picture(const TouchPicture& picture);
+
+/// Draws it into a PNG file that appears whole or not at all; fails also when it cannot be written.
+base::Result<void> write_touch_picture(const TouchPicture& picture, const std::filesystem::path& path);
+
+}  // namespace icome::render
