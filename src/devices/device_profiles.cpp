@@ -30,7 +30,7 @@ DeviceInfo profile_of(std::string_view name, double workspace_radius, double max
 // force and mass of the PHANToMs: thesis table 4.1 (its inertia is an upper bound); of the Touch and Omni:
 // data sheet (0.88 N, 45 g). Their nominal stiffness is the one used in practice, not the catalogue's.
 const std::array<DeviceInfo, 12>& profile_table() {
-  static const std::array<DeviceInfo, 12> devices = {
+  static const std::array<DeviceInfo, 12> kDevices = {
       profile_of("omega.x", 0.075, 12.0, 12.0 * kContinuousShare, 5000.0, kUnknownMass),
       profile_of("delta.3", 0.15, 20.0, 20.0 * kContinuousShare, 5000.0, kUnknownMass),
       profile_of("sigma.7", 0.075, 12.0, 12.0 * kContinuousShare, 4000.0, kUnknownMass),
@@ -44,7 +44,7 @@ const std::array<DeviceInfo, 12>& profile_table() {
       profile_of("PHANToM Premium 3.0", 0.25, 22.0, 3.0, 1000.0, 0.15),
       profile_of("Haply Inverse3", 0.10, 5.0, 5.0 * kContinuousShare, kUnknownStiffness, kUnknownMass),
   };
-  return devices;
+  return kDevices;
 }
 
 bool same_ignoring_case(std::string_view a, std::string_view b) {

@@ -73,6 +73,20 @@ TEST(SimulatedDevice, FollowsATrajectoryOfTime) {
   EXPECT_LT(worst, 0.8e-3);
 }
 
+TEST(SimulatedDevice, TrajectoryIsFollowedWithinTheTick) {
+  SimulatedSettings settings = free_oscillator();
+  settings.trajectory = [](double t) { return Vector3(t < 0.0005 ? 0.0 : 0.01, 0, 0); };
+  PointerState state;
+  SimulatedDevice fine(settings);
+  fine.read(state);
+  // Half a tick of 0.01 m * 200 N/m / 0.2 kg = 10 m/s^2.
+  EXPECT_NEAR(state.velocity.x(), 10.0 * 0.0005, 1e-6);
+  settings.substeps = 1;
+  SimulatedDevice coarse(settings);
+  coarse.read(state);
+  EXPECT_EQ(state.velocity.x(), 0.0);
+}
+
 TEST(SimulatedDevice, EncoderRoundsAndVelocityIsItsBackwardDifference) {
   SimulatedSettings settings = free_oscillator();
   settings.encoder_resolution = 3e-5;

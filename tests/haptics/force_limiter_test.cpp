@@ -151,6 +151,20 @@ TEST(ForceLimiter, ChangesAtMostAtTheRate) {
   EXPECT_FALSE(limiter.acted(LimiterAct::RateLimited));
 }
 
+TEST(ForceLimiter, RateHoldsWhileTheRatingComesDown) {
+  LimiterSettings settings = without_ramp();
+  settings.thermal_seconds = 5.0;
+  settings.max_rate = 70.0;  // N/s, little above the rating's own decline of up to 63 N/s
+  ForceLimiter limiter(premium_device(), settings);
+  Vector3 last = Vector3::Zero();
+  for (int tick = 0; tick < 20000; ++tick) {
+    const double angle = tick * 5e-3;
+    const Vector3 force = limiter.limit(20.0 * Vector3(std::cos(angle), std::sin(angle), 0), kLimiterStep);
+    ASSERT_LE((force - last).norm(), 0.07 * (1.0 + 1e-9)) << tick;
+    last = force;
+  }
+}
+
 TEST(ForceLimiter, ALateTickMovesNoFurtherThanTheLongestStep) {
   LimiterSettings settings;
   settings.max_rate = 100.0;
