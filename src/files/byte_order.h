@@ -1,0 +1,21 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace icome::files {
+
+enum class ByteOrder { LittleEndian, BigEndian };
+
+/// The number whose bytes lie at `bytes` in the given order; any alignment.
+template <typename Number>
+Number load(const char* bytes, ByteOrder order) {
+  std::array<char, sizeof(Number)> raw;
+  std::memcpy(raw.data(), bytes, raw.size());
+  if ((order == ByteOrder::LittleEndian) != (std::endian::native == std::endian::little))
+    std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<Number>(raw);
+}
+
+}  // namespace icome::files

@@ -1,0 +1,19 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace icome::files {
+
+/// The whole content of a regular file. Fails, naming the file, when it is missing, a folder or other
+/// special file, may not be read, or is larger than `limit` bytes.
+base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uint64_t limit);
+
+/// Unpacks xz data (all its streams) piece by piece, so that a small file which unpacks to more than
+/// `limit` bytes is refused before they are taken. `name` is for the errors.
+base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name);
+
+}  // namespace icome::files

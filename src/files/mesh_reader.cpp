@@ -1,0 +1,153 @@
+#include "files/mesh_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "base/clock.h"
+#include "files/file_bytes.h"
+#include "files/mesh_formats.h"
+#include "files/text_scanner.h"
+
+namespace icome::files {
+namespace {
+
+using geometry::TriangleMesh;
+using geometry::Vector3;
+
+/// Coordinates further out than this are a mistake, and their products lose all meaning, m.
+constexpr double kFarthest = 1e15;
+
+struct Unit {
+  std::string_view name;
+  double metres;
+};
+constexpr std::array<Unit, 6> kUnits{
+    {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}}};
+
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&);
+struct FileType {
+  std::string_view extension;
+  Parser parse;
+};
+constexpr std::array<FileType, 5> kFileTypes{{{".obj", parse_obj},
+                                              {".ply", parse_ply},
+                                              {".stl", parse_stl},
+                                              {".off", parse_off},
+                                              {".glb", parse_glb}}};
+
+struct NamedType {
+  Parser parse = nullptr;  ///< null when the extension is not known
+  bool packed = false;
+};
+
+NamedType type_of(std::filesystem::path path) {
+  NamedType type;
+  type.packed = same_word(path.extension().string(), ".xz");
+  if (type.packed) path = path.stem();
+  for (const FileType& known : kFileTypes)
+    if (same_word(path.extension().string(), known.extension)) type.parse = known.parse;
+  return type;
+}
+
+/// The file's vector in metres and the world's axes. Turning y up to z up is a rotation about x.
+Vector3 to_world(const Vector3& v, const ReadOptions& options) {
+  const Vector3 turned = options.up == UpAxis::Y ? Vector3(v.x(), -v.z(), v.y()) : v;
+  return turned * options.unit;
+}
+
+base::Result<ParsedMesh> parse_file(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = path.string();
+  const NamedType type = type_of(path);
+  base::Result<std::string> bytes = read_bytes(path, options.size_limit);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (type.parse == nullptr)
+    return base::fail(name +
+                      ": is not of a known type; .obj, .ply, .stl, .off and .glb are, also with .xz after");
+  if (bytes->empty()) return base::fail(name + ": the file is empty");
+  if (type.packed) bytes = unpack_xz(*bytes, options.size_limit, name);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (bytes->empty()) return base::fail(name + ": the file is empty once unpacked");
+  base::Result<ParsedMesh> parsed = type.parse(*bytes, name);
+  if (parsed && type.packed) parsed->format += ", xz";
+  return parsed;
+}
+
+/// Puts the positions into the world and checks that they are of this world.
+base::Result<void> place(TriangleMesh& mesh, const ReadOptions& options, const std::string& name) {
+  double farthest = 0.0;
+  for (Vector3& position : mesh.positions) {
+    position = to_world(position, options);
+    if (position.allFinite()) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
+  }
+  if (farthest > kFarthest)
+    return base::fail(
+        fmt::format("{}: has coordinates of {:.2g} m, beyond {:.0g} m: check the file and its unit", name,
+                    farthest, kFarthest));
+  return {};
+}
+
+void fit_longest_side(TriangleMesh& mesh, double length) {
+  const double scale = length / geometry::bounds(mesh).sizes().maxCoeff();
+  for (Vector3& position : mesh.positions) position *= scale;
+}
+
+bool usable_length(double length) { return std::isfinite(length) && length > 0.0; }
+
+base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = path.string();
+  const std::int64_t started = base::steady_nanoseconds();
+  base::Result<ParsedMesh> parsed = parse_file(path, options);
+  if (!parsed) return tl::unexpected(parsed.error());
+  LoadedMesh loaded;
+  loaded.mesh = std::move(parsed->mesh);
+  loaded.format = std::move(parsed->format);
+  loaded.notes = std::move(parsed->notes);
+  if (loaded.mesh.triangles.empty())
+    return base::fail(fmt::format("{}: has no triangles{}{}", name, loaded.notes.empty() ? "" : ": ",
+                                  fmt::join(loaded.notes, ", ")));
+  const base::Result<void> placed = place(loaded.mesh, options, name);
+  if (!placed) return tl::unexpected(placed.error());
+  const std::int64_t read = base::steady_nanoseconds();
+  loaded.repair = geometry::repair(loaded.mesh);
+  if (loaded.mesh.triangles.empty())
+    return base::fail(fmt::format("{}: has no triangle that can be touched: {}", name,
+                                  fmt::join(loaded.sentences(), ", ")));
+  if (options.fit) fit_longest_side(loaded.mesh, *options.fit);
+  loaded.read_seconds = 1e-9 * static_cast<double>(read - started);
+  loaded.repair_seconds = 1e-9 * static_cast<double>(base::steady_nanoseconds() - read);
+  return loaded;
+}
+
+}  // namespace
+
+std::vector<std::string> LoadedMesh::sentences() const {
+  std::vector<std::string> lines = notes;
+  for (std::string& line : repair.sentences()) lines.push_back(std::move(line));
+  return lines;
+}
+
+base::Result<LoadedMesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options) try {
+  if (!usable_length(options.unit)) return base::fail("the unit must be a positive number of metres");
+  if (options.fit && !usable_length(*options.fit))
+    return base::fail("the size to fit must be a positive number of metres");
+  return read_checked(path, options);
+} catch (const std::bad_alloc&) {
+  return base::fail(path.string() + ": there is not enough memory to read it");
+}
+
+base::Result<double> parse_unit(std::string_view name) {
+  std::string known;
+  for (const Unit& unit : kUnits) {
+    if (name == unit.name) return unit.metres;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", unit.name);
+  }
+  return base::fail(fmt::format("{} is not a unit of length; these are: {}", quoted(name), known));
+}
+
+}  // namespace icome::files

@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "files/byte_order.h"
+#include "files/face_collector.h"
+#include "files/mesh_formats.h"
+#include "files/ply_header.h"
+#include "files/text_scanner.h"
+
+namespace icome::files {
+namespace {
+
+/// The numbers of a binary file, one after the other. The first failure sticks, as in TextScanner.
+class BinaryRows {
+ public:
+  BinaryRows(std::string_view bytes, std::size_t begin, std::string name, ByteOrder order)
+      : at_(bytes.data() + begin), end_(bytes.data() + bytes.size()), name_(std::move(name)), order_(order) {}
+
+  double number(PlyType type) {
+    if (left() < size_of(type)) {
+      fail("the data ends too early: the file is cut short");
+      return 0.0;
+    }
+    const char* const bytes = at_;
+    at_ += size_of(type);
+    switch (type) {
+      case PlyType::Int8:
+        return load<std::int8_t>(bytes, order_);
+      case PlyType::UInt8:
+        return load<std::uint8_t>(bytes, order_);
+      case PlyType::Int16:
+        return load<std::int16_t>(bytes, order_);
+      case PlyType::UInt16:
+        return load<std::uint16_t>(bytes, order_);
+      case PlyType::Int32:
+        return load<std::int32_t>(bytes, order_);
+      case PlyType::UInt32:
+        return load<std::uint32_t>(bytes, order_);
+      case PlyType::Float32:
+        return load<float>(bytes, order_);
+      case PlyType::Float64:
+        break;
+    }
+    return load<double>(bytes, order_);
+  }
+
+  void fail(const std::string& message) {
+    if (failed()) return;
+    error_.message = name_ + ": " + message;
+    at_ = end_;
+  }
+  bool failed() const { return !error_.message.empty(); }
+  const base::Error& error() const { return error_; }
+  /// At most this many rows of the element can still be there.
+  std::size_t rows_left(const PlyElement& element) const { return left() / element.smallest_row(); }
+
+ private:
+  std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
+
+  const char* at_;
+  const char* end_;
+  std::string name_;
+  ByteOrder order_;
+  base::Error error_;
+};
+
+/// The numbers of an ascii file. Line ends are mere space here, as for most readers.
+class AsciiRows {
+ public:
+  AsciiRows(std::string_view bytes, const std::string& name)
+      : scanner_(bytes, name, TextScanner::Lines::AreSpace, '\0'), size_(bytes.size()) {}
+
+  void skip_header(std::size_t lines_end) {
+    while (scanner_.position() < lines_end) scanner_.skip_line();
+  }
+  double number(PlyType) { return scanner_.number("a number"); }
+  void fail(const std::string& message) { scanner_.fail(message); }
+  bool failed() const { return scanner_.failed(); }
+  const base::Error& error() const { return scanner_.error(); }
+  std::size_t rows_left(const PlyElement& element) const {
+    return (size_ - scanner_.position()) / (2 * element.properties.size());
+  }
+
+ private:
+  TextScanner scanner_;
+  std::size_t size_;
+};
+
+template <typename Rows>
+class PlyBody {
+ public:
+  PlyBody(const PlyHeader& header, Rows& rows) : header_(header), rows_(rows) {
+    for (const PlyElement& element : header.elements)
+      if (element.name == "vertex") vertices_ = std::min<std::uint64_t>(element.rows, 0xffffffff);
+  }
+
+  void run(FaceCollector& faces) {
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex")
+        read_vertices(element, faces);
+      else if (element.name == "face")
+        read_faces(element, faces);
+      else if (!element.properties.empty())
+        skip(element);
+    }
+  }
+
+ private:
+  void read_vertices(const PlyElement& element, FaceCollector& faces) {
+    std::array<std::size_t, 3> columns{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const char name = static_cast<char>('x' + axis);
+      const std::optional<std::size_t> column = element.column({&name, 1});
+      if (!column || element.properties[*column].length_type)
+        return rows_.fail(fmt::format("the vertices have no coordinate {}", name));
+      columns[axis] = *column;
+    }
+    faces.reserve_positions(std::min<std::size_t>(element.rows, rows_.rows_left(element)));
+    std::vector<double> row(element.properties.size());
+    for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i) {
+      for (std::size_t p = 0; p < row.size(); ++p) row[p] = read(element.properties[p]);
+      faces.add_position({row[columns[0]], row[columns[1]], row[columns[2]]});
+    }
+  }
+
+  void read_faces(const PlyElement& element, FaceCollector& faces) {
+    std::optional<std::size_t> list = element.column("vertex_indices");
+    if (!list) list = element.column("vertex_index");
+    if (!list || !element.properties[*list].length_type)
+      return rows_.fail("the faces have no list 'vertex_indices'");
+    faces.reserve(std::min<std::size_t>(element.rows, rows_.rows_left(element)));
+    for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p)
+        if (p == *list)
+          read_corners(element.properties[p], i);
+        else
+          read(element.properties[p]);
+      if (!rows_.failed() && !faces.add_face(corners_)) rows_.fail(too_many_corners(corners_.size()));
+    }
+  }
+
+  void skip(const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i)
+      for (const PlyProperty& property : element.properties) read(property);
+  }
+
+  /// Reads past the property; returns its number, 0 for a list.
+  double read(const PlyProperty& property) {
+    if (!property.length_type) return rows_.number(property.type);
+    const double length = read_length(property);
+    for (double i = 0; i < length && !rows_.failed(); ++i) rows_.number(property.type);
+    return 0.0;
+  }
+
+  double read_length(const PlyProperty& property) {
+    const double length = rows_.number(*property.length_type);
+    if (!(length >= 0.0 && length <= 4294967295.0)) rows_.fail("a list has an impossible length");
+    return length;
+  }
+
+  void read_corners(const PlyProperty& property, std::uint64_t face) {
+    corners_.clear();
+    const double length = read_length(property);
+    for (double i = 0; i < length && !rows_.failed(); ++i) {
+      const double index = rows_.number(property.type);
+      if (!(index >= 0.0 && index < static_cast<double>(vertices_)))
+        return rows_.fail(fmt::format("face {} refers to vertex {:.10g}; the {} vertices are numbered from 0",
+                                      face + 1, index, vertices_));
+      corners_.push_back(static_cast<std::uint32_t>(index));
+    }
+  }
+
+  const PlyHeader& header_;
+  Rows& rows_;
+  std::uint64_t vertices_ = 0;
+  std::vector<std::uint32_t> corners_;
+};
+
+template <typename Rows>
+base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const char* format,
+                                    const std::string& name) {
+  FaceCollector faces;
+  PlyBody<Rows>(header, rows).run(faces);
+  if (rows.failed()) return tl::unexpected(rows.error());
+  if (faces.positions() == 0) return base::fail(name + ": has no vertices");
+  return ParsedMesh{faces.take(), format, faces.notes()};
+}
+
+}  // namespace
+
+base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name) {
+  const base::Result<PlyHeader> header = parse_ply_header(bytes, name);
+  if (!header) return tl::unexpected(header.error());
+  if (header->encoding == PlyEncoding::Ascii) {
+    AsciiRows rows(bytes, name);
+    rows.skip_header(header->size);
+    return parse_body(*header, std::move(rows), "ascii PLY", name);
+  }
+  const bool little = header->encoding == PlyEncoding::LittleEndian;
+  BinaryRows rows(bytes, header->size, name, little ? ByteOrder::LittleEndian : ByteOrder::BigEndian);
+  return parse_body(*header, std::move(rows), "binary PLY", name);
+}
+
+}  // namespace icome::files
