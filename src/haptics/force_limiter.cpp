@@ -20,8 +20,9 @@ double sensible_limit(double value) { return std::isfinite(value) ? std::max(0.0
 // `force` with its direction and at most `longest` long; exact for every finite force, also where its
 // square overflows.
 Vector3 shortened(const Vector3& force, double longest) {
+  if (longest <= 0.0) return Vector3::Zero();
+  if (force.squaredNorm() <= longest * longest) return force;  // nearly always
   const double largest = force.cwiseAbs().maxCoeff();
-  if (largest <= 0.0) return force;
   const Vector3 scaled = force / largest;
   const double length = scaled.norm();  // 1 to sqrt(3)
   if (largest <= longest / length) return force;
@@ -91,7 +92,9 @@ Vector3 ForceLimiter::ramped(const Vector3& force, double step) {
 
 void ForceLimiter::warm(double force, double dt) {
   const double limit = continuous_force_ * continuous_force_;
-  const double share = -std::expm1(-dt / settings_.thermal_seconds);
+  // 1 - exp(-x) to x^3: ticks are thousands of times shorter than the motors take to warm.
+  const double x = std::min(1.0, dt / settings_.thermal_seconds);
+  const double share = x * (1.0 - x * (0.5 - x / 6.0));
   mean_square_ = std::min(limit, mean_square_ + share * (force * force - mean_square_));
 }
 

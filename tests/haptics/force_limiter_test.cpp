@@ -217,8 +217,10 @@ TEST(ForceLimiter, DeviceWithoutSensibleLimitsGetsNoForce) {
     devices::DeviceInfo device = premium_device();
     device.max_force = bad;
     ForceLimiter limiter(device);
-    for (int tick = 0; tick < 1000; ++tick)
+    for (int tick = 0; tick < 1000; ++tick) {
       EXPECT_EQ(limiter.limit(Vector3(1, 2, 3), kLimiterStep), Vector3::Zero());
+    }
+    EXPECT_EQ(limiter.limit(Vector3(1e-200, 0, 0), kLimiterStep), Vector3::Zero());
   }
 }
 
