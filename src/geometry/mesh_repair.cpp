@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "geometry/enclosure.h"
+#include "geometry/weld.h"
 
 namespace icome::geometry {
 namespace {
@@ -55,41 +54,6 @@ void drop_non_finite(TriangleMesh& mesh, RepairReport& report) {
   report.non_finite_faces = drop_triangles(mesh, [&](const Triangle& triangle) {
     return std::ranges::any_of(triangle, [&](std::uint32_t v) { return !mesh.positions[v].allFinite(); });
   });
-}
-
-std::uint64_t position_hash(const Vector3& position) {
-  std::uint64_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    // Adding +0 turns -0 into +0: they are equal and must hash alike.
-    hash = (hash ^ std::bit_cast<std::uint64_t>(position[axis] + 0.0)) * 0x9e3779b97f4a7c15ULL;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-/// For each vertex the first one at exactly its position (itself when it is the first). Non-finite
-/// vertices equal nothing. An open-addressing hash table: one probe a vertex on average.
-std::vector<std::uint32_t> first_at_position(const std::vector<Vector3>& positions) {
-  std::vector<std::uint32_t> first(positions.size());
-  const std::size_t mask = std::bit_ceil(2 * positions.size() + 1) - 1;
-  std::vector<std::uint32_t> slots(mask + 1, kNoTriangle);
-  for (std::uint32_t v = 0; v < positions.size(); ++v) {
-    first[v] = v;
-    if (!positions[v].allFinite()) continue;
-    std::size_t slot = position_hash(positions[v]) & mask;
-    while (slots[slot] != kNoTriangle && positions[slots[slot]] != positions[v]) slot = (slot + 1) & mask;
-    if (slots[slot] == kNoTriangle) slots[slot] = v;
-    first[v] = slots[slot];
-  }
-  return first;
-}
-
-void weld(TriangleMesh& mesh, RepairReport& report) {
-  const std::vector<std::uint32_t> first = first_at_position(mesh.positions);
-  for (std::uint32_t v = 0; v < first.size(); ++v) report.welded_vertices += first[v] != v;
-  if (report.welded_vertices == 0) return;
-  for (Triangle& triangle : mesh.triangles)
-    for (std::uint32_t& index : triangle) index = first[index];
 }
 
 bool repeats_a_vertex(const Triangle& triangle) {
@@ -202,75 +166,90 @@ void drop_duplicates(TriangleMesh& mesh, RepairReport& report) {
 
 void turn(Triangle& triangle) { std::swap(triangle[1], triangle[2]); }
 
-/// True for each patch whose own triangles meet every edge an even number of times.
-std::vector<bool> closed_patches(const TriangleMesh& mesh, const Patches& patches,
-                                 const EdgeNeighbours& neighbours) {
-  // Only edges without a neighbour need counting, and only within their patch.
-  std::vector<std::array<std::uint32_t, 3>> loose;  // patch, low vertex, high vertex
+/// What a patch encloses, measured from the middle of its box.
+struct PatchVolume {
+  Bounds box;
+  double six_volumes = 0.0;
+  Vector3 twice_area_vector = Vector3::Zero();  ///< zero for a closed surface
+
+  /// Does the patch have an inside and an outside? The volume under an open surface depends on where it
+  /// is measured from; with holes small beside the whole, its sign is the same from anywhere in the box.
+  bool has_inside() const {
+    const double variation = twice_area_vector.cwiseAbs().dot(box.sizes() / 2.0);
+    return std::abs(six_volumes) > variation;
+  }
+};
+
+std::vector<PatchVolume> measure_patches(const TriangleMesh& mesh, const Patches& patches) {
+  std::vector<PatchVolume> measured(patches.count());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int side = 0; side < 3; ++side) {
-      if (neighbours[t][side] != kNoTriangle) continue;
-      const auto [low, high] = std::minmax(mesh.triangles[t][side], mesh.triangles[t][(side + 1) % 3]);
-      loose.push_back({patches.patch_of_triangle[t], low, high});
-    }
-  std::ranges::sort(loose);
-  std::vector<bool> closed(patches.count(), true);
-  for (std::size_t begin = 0, end = 0; begin < loose.size(); begin = end) {
-    while (end < loose.size() && loose[end] == loose[begin]) ++end;
-    if ((end - begin) % 2 == 1) closed[loose[begin][0]] = false;
-  }
-  return closed;
-}
-
-/// Six times the signed volume of each patch, measured from a vertex of its own.
-std::vector<double> patch_volumes(const TriangleMesh& mesh, const Patches& patches) {
-  std::vector<std::optional<Vector3>> origins(patches.count());
-  std::vector<double> volumes(patches.count(), 0.0);
+    for (int i = 0; i < 3; ++i) measured[patches.patch_of_triangle[t]].box.extend(mesh.corner(t, i));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::optional<Vector3>& origin = origins[patches.patch_of_triangle[t]];
-    if (!origin) origin = mesh.corner(t, 0);
-    const Vector3 a = mesh.corner(t, 0) - *origin;
-    const Vector3 b = mesh.corner(t, 1) - *origin;
-    const Vector3 c = mesh.corner(t, 2) - *origin;
-    volumes[patches.patch_of_triangle[t]] += a.dot(b.cross(c));
+    PatchVolume& patch = measured[patches.patch_of_triangle[t]];
+    const Vector3 middle = patch.box.center();
+    const Vector3 a = mesh.corner(t, 0) - middle;
+    const Vector3 b = mesh.corner(t, 1) - middle;
+    const Vector3 c = mesh.corner(t, 2) - middle;
+    patch.six_volumes += a.dot(b.cross(c));
+    patch.twice_area_vector += (b - a).cross(c - a);
   }
-  return volumes;
+  return measured;
 }
 
-/// The closed patches that are inside-out and not inside another closed patch.
-std::vector<bool> patches_to_turn_out(const TriangleMesh& mesh, const Patches& patches,
-                                      const std::vector<bool>& closed) {
-  const std::vector<double> volumes = patch_volumes(mesh, patches);
-  std::vector<std::uint32_t> closed_patch_of_triangle = patches.patch_of_triangle;
-  std::vector<bool> asked(patches.count(), false);
+/// The triangles' patches, kNoTriangle where `counts(patch)` does not hold.
+template <typename Predicate>
+std::vector<std::uint32_t> parts_where(const Patches& patches, Predicate counts) {
+  std::vector<std::uint32_t> parts = patches.patch_of_triangle;
+  for (std::uint32_t& part : parts)
+    if (!counts(part)) part = kNoTriangle;
+  return parts;
+}
+
+/// One query for each patch for which `asked(patch)` holds, at the first corner of its first triangle.
+template <typename Predicate>
+std::vector<EnclosureQuery> queries_where(const TriangleMesh& mesh, const Patches& patches, Predicate asked) {
   std::vector<EnclosureQuery> queries;
+  std::vector<bool> seen(patches.count(), false);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint32_t patch = patches.patch_of_triangle[t];
-    if (!closed[patch]) closed_patch_of_triangle[t] = kNoTriangle;
-    if (!closed[patch] || !patches.orientable[patch] || !(volumes[patch] < 0.0) || asked[patch]) continue;
-    asked[patch] = true;
-    queries.push_back({mesh.corner(t, 0), patch});
+    if (!seen[patch] && asked(patch)) queries.push_back({mesh.corner(t, 0), patch});
+    seen[patch] = true;
   }
-  const std::vector<bool> inside = enclosed(mesh, closed_patch_of_triangle, queries);
-  std::vector<bool> turn_out(patches.count(), false);
-  for (std::size_t i = 0; i < queries.size(); ++i) turn_out[queries[i].part] = !inside[i];
-  return turn_out;
+  return queries;
+}
+
+/// The patches to turn: first those that are inside-out and not inside another, then, as the file's
+/// fronts are then likely all inside-out, the walls of the cavities in these.
+std::vector<bool> patches_to_turn(const TriangleMesh& mesh, const Patches& patches) {
+  const std::vector<PatchVolume> volumes = measure_patches(mesh, patches);
+  const auto has_inside = [&](std::uint32_t p) { return patches.orientable[p] && volumes[p].has_inside(); };
+  const auto inside_out = [&](std::uint32_t p) { return has_inside(p) && volumes[p].six_volumes < 0.0; };
+  std::vector<bool> turned(patches.count(), false);
+  const std::vector<EnclosureQuery> shells = queries_where(mesh, patches, inside_out);
+  const std::vector<bool> in_another = enclosed(mesh, parts_where(patches, has_inside), shells);
+  for (std::size_t i = 0; i < shells.size(); ++i) turned[shells[i].part] = !in_another[i];
+  const std::vector<EnclosureQuery> walls =
+      queries_where(mesh, patches, [&](std::uint32_t p) { return has_inside(p) && !inside_out(p); });
+  const std::vector<std::uint32_t> turned_parts =
+      parts_where(patches, [&](std::uint32_t p) { return turned[p]; });
+  const std::vector<bool> in_turned = enclosed(mesh, turned_parts, walls);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    if (in_turned[i]) turned[walls[i].part] = true;
+  return turned;
 }
 
 void orient(TriangleMesh& mesh, RepairReport& report) {
-  const EdgeNeighbours neighbours = edge_neighbours(mesh);
-  const Patches patches = find_patches(mesh, neighbours);
+  const Patches patches = find_patches(mesh, edge_neighbours(mesh));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!patches.turn[t]) continue;
     turn(mesh.triangles[t]);
     ++report.rewound_faces;
   }
   report.unorientable_patches = static_cast<std::size_t>(std::ranges::count(patches.orientable, false));
-  const std::vector<bool> turn_out =
-      patches_to_turn_out(mesh, patches, closed_patches(mesh, patches, neighbours));
-  report.components_turned_out = static_cast<std::size_t>(std::ranges::count(turn_out, true));
+  const std::vector<bool> turned = patches_to_turn(mesh, patches);
+  report.turned_parts = static_cast<std::size_t>(std::ranges::count(turned, true));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (turn_out[patches.patch_of_triangle[t]]) turn(mesh.triangles[t]);
+    if (turned[patches.patch_of_triangle[t]]) turn(mesh.triangles[t]);
 }
 
 /// "1 face", "12 faces".
@@ -285,6 +264,8 @@ void describe_changes(const RepairReport& report, std::vector<std::string>& line
                                 counted(report.non_finite_faces, "face", "faces")));
   if (report.welded_vertices > 0)
     lines.push_back(counted(report.welded_vertices, "duplicate vertex", "duplicate vertices") + " welded");
+  if (report.crack_vertices > 0)
+    lines.push_back(counted(report.crack_vertices, "vertex", "vertices") + " welded across hairline cracks");
   if (report.degenerate_faces > 0)
     lines.push_back(counted(report.degenerate_faces, "degenerate face", "degenerate faces") + " dropped");
   if (report.flipped_edges > 0)
@@ -296,9 +277,8 @@ void describe_changes(const RepairReport& report, std::vector<std::string>& line
     lines.push_back(counted(report.unused_vertices, "unused vertex", "unused vertices") + " removed");
   if (report.rewound_faces > 0)
     lines.push_back(counted(report.rewound_faces, "face", "faces") + " turned to agree with the neighbours");
-  if (report.components_turned_out > 0)
-    lines.push_back(counted(report.components_turned_out, "inside-out part", "inside-out parts") +
-                    " turned outward");
+  if (report.turned_parts > 0)
+    lines.push_back(counted(report.turned_parts, "inside-out part", "inside-out parts") + " turned");
 }
 
 void describe_surface(const RepairReport& report, std::vector<std::string>& lines) {
@@ -316,8 +296,8 @@ void describe_surface(const RepairReport& report, std::vector<std::string>& line
 }  // namespace
 
 bool RepairReport::changed() const {
-  return non_finite_vertices + non_finite_faces + welded_vertices + degenerate_faces + flipped_edges +
-             duplicate_faces + unused_vertices + rewound_faces + components_turned_out >
+  return non_finite_vertices + non_finite_faces + welded_vertices + crack_vertices + degenerate_faces +
+             flipped_edges + duplicate_faces + unused_vertices + rewound_faces + turned_parts >
          0;
 }
 
@@ -332,12 +312,13 @@ RepairReport repair(TriangleMesh& mesh) {
   RepairReport report;
   const std::size_t vertices_before = mesh.positions.size();
   drop_non_finite(mesh, report);
-  weld(mesh, report);
+  report.welded_vertices = weld_equal(mesh);
+  report.crack_vertices = weld_cracks(mesh);
   save_or_drop_flat(mesh, report);
   drop_duplicates(mesh, report);
   drop_unused_vertices(mesh);
-  report.unused_vertices =
-      vertices_before - mesh.positions.size() - report.non_finite_vertices - report.welded_vertices;
+  report.unused_vertices = vertices_before - mesh.positions.size() - report.non_finite_vertices -
+                           report.welded_vertices - report.crack_vertices;
   orient(mesh, report);
   report.surface = analyse_topology(mesh).report;
   return report;
