@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "table.h"
+
+namespace icome::benchmarks {
+
+/// How much is measured.
+struct Extent {
+  std::vector<int> frequencies;  // of the bumpy spheres, coarse to fine; 20 f^2 triangles each
+  int reference;                 // the frequency at which peers and builds are compared
+  std::size_t ticks;             // of each slide
+  int stabs;
+  int presses;                             // into each wall
+  std::vector<std::size_t> object_counts;  // of the scenes of primitives
+  int repeats;                             // of each timed run
+  int builds;                              // of each tree
+};
+
+/// Slides and stabs on meshes with a point and a sphere tip, building trees, and the packaged peers.
+std::vector<Section> mesh_figures(const Extent& extent);
+
+/// Large scenes of primitives, of which one is touched.
+Section primitive_figures(const Extent& extent);
+
+/// Walls of 1 mm that are pressed 5 mm deep.
+Section wall_figures(const Extent& extent);
+
+}  // namespace icome::benchmarks

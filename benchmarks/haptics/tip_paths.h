@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace icome::benchmarks {
+
+using base::Vector3;
+
+// Ways of the tip, one position (m, world) a tick at 1 kHz; the same arguments give the same way. The
+// tip never stops for the surface, as a strong hand on a weak device.
+constexpr double kTick = 0.001;  // s
+
+/// The model of issue and findings: a sphere with bumps around the origin.
+struct BumpySphere {
+  double radius = 0.05;       // m
+  double bump_height = 0.04;  // of the radius
+  int bumps = 9;
+
+  /// Distance of the surface from the origin in a direction (unit), m.
+  double surface(const Vector3& direction) const;
+};
+
+/// Wanders over the sphere at `speed` (m/s), its depth below the surface `depth` (m, radial), once it has
+/// come down from the air above.
+std::vector<Vector3> slide_path(const BumpySphere& sphere, double speed, double depth, std::size_t ticks);
+
+/// Straight stabs at random places, up to 45 degrees oblique, at 0.1 to 2 m/s, until `depth` (m, radial)
+/// below the surface and out again; from one to the next through the air.
+std::vector<Vector3> stab_path(const BumpySphere& sphere, double depth, int stabs);
+
+/// Presses into a wall whose face is z = `face` (m), free side +z, until `depth` (m) below it, at 0.1 to
+/// 2 m/s and up to 30 degrees oblique, a while there, and out again; within `half` (m) of the z axis.
+struct Presses {
+  std::vector<Vector3> tips;
+  std::vector<std::size_t> starts;  // first tick of each press
+};
+Presses press_path(double face, double depth, double half, int presses);
+
+/// Comes down on one place after another (random ones of `tops`, the highest points of objects) and
+/// circles there at 0.1 m/s, 2 mm around it and `depth` (m) below; through the air in between.
+struct Visits {
+  std::vector<Vector3> tips;
+  std::vector<std::size_t> places;  // by tick: index in tops
+};
+Visits visit_path(const std::vector<Vector3>& tops, double depth, std::size_t ticks);
+
+}  // namespace icome::benchmarks

@@ -1,0 +1,66 @@
+#include "touch_run.h"
+
+#include <utility>
+
+#include "haptics/servo/servo.h"
+#include "tip_paths.h"
+
+namespace icome::benchmarks {
+namespace {
+
+/// A device whose tip is where a list of positions says.
+class ListDevice final : public devices::PointerDevice {
+ public:
+  explicit ListDevice(const std::vector<Vector3>& tips) : tips_(tips) {}
+  const devices::DeviceInfo& info() const override { return info_; }
+  devices::DeviceStatus read(devices::PointerState& state) override {
+    state.velocity = next_ == 0 ? Vector3::Zero() : Vector3((tips_[next_] - tips_[next_ - 1]) / kTick);
+    state.position = tips_[next_++];
+    return devices::DeviceStatus::Ok;
+  }
+  devices::DeviceStatus write(const Vector3& /*force*/) override { return devices::DeviceStatus::Ok; }
+
+ private:
+  const std::vector<Vector3>& tips_;
+  std::size_t next_ = 0;
+  devices::DeviceInfo info_;
+};
+
+}  // namespace
+
+std::shared_ptr<const haptics::HapticScene> scene_of(std::shared_ptr<const haptics::Shape> shape) {
+  haptics::HapticObject object;
+  object.shape = std::move(shape);
+  return haptics::HapticScene::compile({std::move(object)});
+}
+
+TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double tip_radius,
+               const std::vector<Vector3>& tips, int repeats) {
+  TouchRun result;
+  std::vector<std::vector<std::int32_t>> own(repeats);
+  std::vector<std::vector<std::int32_t>> solver(repeats);
+  for (int run = 0; run < repeats; ++run) {
+    ListDevice device(tips);
+    haptics::ServoSettings settings;
+    settings.scp.tip_radius = tip_radius;
+    haptics::Servo servo(device, settings);
+    servo.publish(scene);
+    own[run].resize(tips.size());
+    solver[run].resize(tips.size());
+    result.scps.resize(tips.size());
+    std::size_t touching = 0;
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      const haptics::TickReport& report = servo.tick(kTick);
+      own[run][i] = std::int32_t(report.own_ns());
+      solver[run][i] = std::int32_t(report.stage_ns[std::size_t(haptics::Stage::Contact)]);
+      result.scps[i] = report.contact.scp;
+      touching += report.contact.touching;
+    }
+    result.touching = double(touching) / double(tips.size());
+  }
+  result.tick = best_run(own);
+  result.solver_us = quantiles_us(std::move(solver[result.tick.index]));
+  return result;
+}
+
+}  // namespace icome::benchmarks

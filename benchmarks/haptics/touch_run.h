@@ -1,0 +1,27 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "haptics/haptic_scene.h"
+#include "measure.h"
+
+namespace icome::benchmarks {
+
+using base::Vector3;
+
+/// A servo run along a path: what it cost and where the surface contact point (SCP) was.
+struct TouchRun {
+  BestRun tick;               // all that Servo::tick does except device input and output
+  Quantiles solver_us;        // of the same run: the contact stage alone
+  std::vector<Vector3> scps;  // by tick, m, of the tip's centre; the tip's own place without contact
+  double touching = 0.0;      // share of the ticks
+};
+
+/// A scene of one object at the origin that keeps still.
+std::shared_ptr<const haptics::HapticScene> scene_of(std::shared_ptr<const haptics::Shape> shape);
+
+/// Runs the servo at 1 kHz ticks, as fast as it goes, along `tips` (m), `repeats` times anew.
+TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double tip_radius,
+               const std::vector<Vector3>& tips, int repeats);
+
+}  // namespace icome::benchmarks
