@@ -166,17 +166,21 @@ void drop_duplicates(TriangleMesh& mesh, RepairReport& report) {
 
 void turn(Triangle& triangle) { std::swap(triangle[1], triangle[2]); }
 
+/// How much of a patch its holes may be, by area, for it still to have an inside.
+constexpr double kSmallHoles = 0.1;
+
 /// What a patch encloses, measured from the middle of its box.
 struct PatchVolume {
   Bounds box;
   double six_volumes = 0.0;
-  Vector3 twice_area_vector = Vector3::Zero();  ///< zero for a closed surface
+  double twice_area = 0.0;
+  Vector3 twice_area_vector = Vector3::Zero();  ///< of the holes, turned round: zero for a closed surface
 
-  /// Does the patch have an inside and an outside? The volume under an open surface depends on where it
-  /// is measured from; with holes small beside the whole, its sign is the same from anywhere in the box.
+  /// Does the patch have an inside and an outside? Its holes must be small, and the volume's sign the
+  /// same wherever in the box it is measured from (only for a closed surface is the volume too).
   bool has_inside() const {
     const double variation = twice_area_vector.cwiseAbs().dot(box.sizes() / 2.0);
-    return std::abs(six_volumes) > variation;
+    return twice_area_vector.norm() <= kSmallHoles * twice_area && std::abs(six_volumes) > variation;
   }
 };
 
@@ -191,7 +195,9 @@ std::vector<PatchVolume> measure_patches(const TriangleMesh& mesh, const Patches
     const Vector3 b = mesh.corner(t, 1) - middle;
     const Vector3 c = mesh.corner(t, 2) - middle;
     patch.six_volumes += a.dot(b.cross(c));
-    patch.twice_area_vector += (b - a).cross(c - a);
+    const Vector3 twice_area = (b - a).cross(c - a);
+    patch.twice_area += twice_area.norm();
+    patch.twice_area_vector += twice_area;
   }
   return measured;
 }

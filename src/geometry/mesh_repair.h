@@ -40,7 +40,7 @@ struct RepairReport {
 ///
 /// A part is inside-out when its volume is negative and it does not lie inside another part, where it
 /// may be the wall of a cavity; the walls of cavities in a part that is turned are turned with it. Open
-/// parts count too when their holes are so small that the volume's sign is beyond doubt.
+/// parts count too when their holes are less than a tenth of them.
 ///
 /// Precondition: indices in range, coordinates below 1e70. The mesh may come out empty.
 RepairReport repair(TriangleMesh& mesh);
