@@ -20,7 +20,7 @@ enum class UpAxis { Z, Y };
 struct ReadOptions {
   double unit = 1.0;                       ///< metres per file unit, > 0; usually 1, 0.01 or 0.001
   UpAxis up = UpAxis::Z;                   ///< Y turns the file's y to the world's z
-  std::optional<double> fit;               ///< scale so that the longest side is this, m; usually 0.1
+  std::optional<double> fit = {};          ///< scale so that the longest side is this, m; usually 0.1
   std::uint64_t size_limit = 2ULL << 30U;  ///< bytes, packed and unpacked; guards against xz bombs
 };
 

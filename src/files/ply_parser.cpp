@@ -90,6 +90,31 @@ class AsciiRows {
   std::size_t size_;
 };
 
+/// The list of a face's corners, which goes by two names.
+std::optional<std::size_t> corner_column(const PlyElement& faces) {
+  const std::optional<std::size_t> column = faces.column("vertex_indices");
+  return column ? column : faces.column("vertex_index");
+}
+
+/// What the header lacks for a mesh, as the end of a sentence; empty when it lacks nothing.
+std::string missing_from(const PlyHeader& header) {
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "vertex") {
+      for (const char* axis : {"x", "y", "z"}) {
+        const std::optional<std::size_t> column = element.column(axis);
+        if (!column || element.properties[*column].length_type)
+          return fmt::format("the vertices have no coordinate {}", axis);
+      }
+    } else if (element.name == "face") {
+      const std::optional<std::size_t> column = corner_column(element);
+      if (!column || !element.properties[*column].length_type)
+        return "the faces have no list 'vertex_indices'";
+    }
+  }
+  return {};
+}
+
+/// The body of a file whose header has been checked.
 template <typename Rows>
 class PlyBody {
  public:
@@ -111,14 +136,8 @@ class PlyBody {
 
  private:
   void read_vertices(const PlyElement& element, FaceCollector& faces) {
-    std::array<std::size_t, 3> columns{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const char name = static_cast<char>('x' + axis);
-      const std::optional<std::size_t> column = element.column({&name, 1});
-      if (!column || element.properties[*column].length_type)
-        return rows_.fail(fmt::format("the vertices have no coordinate {}", name));
-      columns[axis] = *column;
-    }
+    const std::array<std::size_t, 3> columns{*element.column("x"), *element.column("y"),
+                                             *element.column("z")};
     faces.reserve_positions(std::min<std::size_t>(element.rows, rows_.rows_left(element)));
     std::vector<double> row(element.properties.size());
     for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i) {
@@ -128,14 +147,11 @@ class PlyBody {
   }
 
   void read_faces(const PlyElement& element, FaceCollector& faces) {
-    std::optional<std::size_t> list = element.column("vertex_indices");
-    if (!list) list = element.column("vertex_index");
-    if (!list || !element.properties[*list].length_type)
-      return rows_.fail("the faces have no list 'vertex_indices'");
+    const std::size_t list = *corner_column(element);
     faces.reserve(std::min<std::size_t>(element.rows, rows_.rows_left(element)));
     for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i) {
       for (std::size_t p = 0; p < element.properties.size(); ++p)
-        if (p == *list)
+        if (p == list)
           read_corners(element.properties[p], i);
         else
           read(element.properties[p]);
@@ -195,6 +211,8 @@ base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const ch
 base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name) {
   const base::Result<PlyHeader> header = parse_ply_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
+  if (const std::string missing = missing_from(*header); !missing.empty())
+    return base::fail(name + ": " + missing);
   if (header->encoding == PlyEncoding::Ascii) {
     AsciiRows rows(bytes, name);
     rows.skip_header(header->size);

@@ -1,0 +1,169 @@
+#include "files/mesh_formats.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <utility>
+
+#include "sample_files.h"
+
+namespace icome::files {
+namespace {
+
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&);
+
+std::string error_of(Parser parse, std::string_view bytes) {
+  const auto parsed = parse(bytes, "f");
+  return parsed ? "it was read" : parsed.error().message;
+}
+
+constexpr const char* kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+std::string obj_with(const std::string& lines) { return kThreeVertices + lines; }
+
+TEST(ObjParser, FacesMayComeBeforeTheirVertices) {
+  const auto parsed = parse_obj(std::string("f 1 2 3\n") + kThreeVertices, "f");
+  ASSERT_TRUE(parsed);
+  EXPECT_EQ(parsed->mesh.triangles.size(), 1U);
+}
+
+TEST(ObjParser, EveryLineEndWorks) {
+  for (const char* text :
+       {"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 \\\r\n3\r\n", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3"}) {
+    const auto parsed = parse_obj(text, "f");
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    EXPECT_EQ(parsed->mesh.triangles.size(), 1U);
+  }
+}
+
+TEST(ObjParser, PolygonsAreCut) {
+  const auto parsed = parse_obj(obj_with("v 1 1 0\nf 1 2 4 3\n"), "f");
+  ASSERT_TRUE(parsed);
+  EXPECT_EQ(parsed->mesh.triangles.size(), 2U);
+  EXPECT_DOUBLE_EQ(geometry::surface_area(parsed->mesh), 1.0);
+}
+
+TEST(ObjParser, BadLinesAreNamed) {
+  EXPECT_EQ(error_of(parse_obj, obj_with("f 1 2 9\n")), "f:4: face refers to vertex 9 of 3");
+  EXPECT_EQ(error_of(parse_obj, obj_with("f 1 2 -4\n")), "f:4: face refers to vertex -4 of 3");
+  EXPECT_EQ(error_of(parse_obj, obj_with("f 0 1 2\n")),
+            "f:4: face refers to vertex 0, but the first vertex is 1");
+  EXPECT_EQ(error_of(parse_obj, obj_with("f 1 2 x\n")), "f:4: 'x' is not a vertex index");
+  EXPECT_EQ(error_of(parse_obj, obj_with("f 1 2 2.5\n")), "f:4: '2.5' is not a vertex index");
+  EXPECT_EQ(error_of(parse_obj, obj_with("f 1 2 99999999999999999999\n")),
+            "f:4: '99999999999999999999' is not a vertex index");
+  EXPECT_EQ(error_of(parse_obj, "v 0 0\nv 1 0 0\n"), "f:1: the line ends where a coordinate is expected");
+  EXPECT_EQ(error_of(parse_obj, "v 0 0 0\n\nv 1,5 0 0\n"), "f:3: '1,5' is not a coordinate");
+  EXPECT_EQ(error_of(parse_obj, "v 0 0"),
+            "f:1: the file ends where a coordinate is expected: it may be cut short");
+}
+
+TEST(ObjParser, FaceOfTooManyCornersIsRefused) {
+  std::string text = std::string(kThreeVertices) + "f";
+  for (int i = 0; i < 20'001; ++i) text += " 1";
+  EXPECT_EQ(error_of(parse_obj, text), "f:4: a face has 20001 corners; 20000 are the most that can be read");
+}
+
+TEST(OffParser, VariantsAreRead) {
+  for (const char* text : {"OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                           "COFF\n3 1\n0 0 0 9 9 9 9\n1 0 0 9 9 9 9\n0 1 0 9 9 9 9\n3 0 1 2\n",
+                           "STCNOFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2 7"}) {
+    const auto parsed = parse_off(text, "f");
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    EXPECT_EQ(parsed->mesh.positions[1], geometry::Vector3(1, 0, 0));
+    EXPECT_EQ(parsed->mesh.triangles[0], (geometry::TriangleMesh::Triangle{0, 1, 2}));
+  }
+}
+
+TEST(OffParser, BadLinesAreNamed) {
+  EXPECT_EQ(error_of(parse_off, "OFF\n1 1 0\n0 0 0\n3 0 1 0\n"),
+            "f:4: face refers to vertex 1; the 1 vertices are numbered from 0");
+  EXPECT_EQ(error_of(parse_off, "OFF\n-1 1 0\n"), "f:2: -1 is not a number of vertices");
+  EXPECT_EQ(error_of(parse_off, "OFF BINARY\n"), "f:1: 'BINARY' is not a number of vertices");
+  EXPECT_EQ(error_of(parse_off, "OFF\n4000000000000 4000000000000 0\n0 0 0\n"),
+            "f:4: the file ends where a coordinate is expected: it may be cut short");
+  EXPECT_EQ(error_of(parse_off, "OFF\n1 1 0\n0 0 0\n4000000000 0 0\n"),
+            "f:4: the line ends where a vertex index is expected");
+}
+
+TEST(StlParser, SizeDecidesWhetherItIsBinary) {
+  EXPECT_EQ(parse_stl(sample_binary_stl(), "f")->format, "binary STL");
+  EXPECT_EQ(parse_stl(sample_ascii_stl(), "f")->format, "ascii STL");
+}
+
+TEST(StlParser, TruncatedFilesAreRefused) {
+  const std::string binary = sample_binary_stl();
+  EXPECT_EQ(error_of(parse_stl, binary.substr(0, binary.size() - 1)),
+            "f: declares 4 triangles but holds 3: it is cut short or not an STL file");
+  const std::string text = sample_ascii_stl();
+  EXPECT_EQ(error_of(parse_stl, text.substr(0, text.find("endsolid"))),
+            "f:29: the file ends without 'endsolid': it may be cut short");
+  EXPECT_EQ(error_of(parse_stl, text.substr(0, text.find("endloop"))),
+            "f:7: the file ends within a facet: it may be cut short");
+}
+
+TEST(StlParser, HugeCountInATinyFileIsRefused) {
+  std::string bytes(80, '\0');
+  bytes += bytes_of(std::uint32_t{0xffffffff}) + std::string(50, '\0');
+  EXPECT_EQ(error_of(parse_stl, bytes),
+            "f: declares 4294967295 triangles but holds 1: it is cut short or not an STL file");
+}
+
+TEST(PlyParser, BadHeadersAreNamed) {
+  EXPECT_EQ(error_of(parse_ply, "ply\nformat ascii 1.0\nend_header\n"), "f: has no vertices");
+  EXPECT_EQ(error_of(parse_ply, "ply\nend_header\n"), "f:2: the header has no format line");
+  EXPECT_EQ(error_of(parse_ply, "ply\nformat xml 1.0\n"), "f:2: 'xml' is not a PLY format");
+  EXPECT_EQ(error_of(parse_ply, "ply\nformat ascii 1.0\nproperty int x\n"),
+            "f:3: the property belongs to no element");
+  EXPECT_EQ(error_of(parse_ply, "ply\nformat ascii 1.0\nelement vertex 3\nproperty half x\n"),
+            "f:4: 'half' is not a PLY number type");
+  EXPECT_EQ(error_of(parse_ply, "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nend_header\n"),
+            "f: the vertices have no coordinate y");
+}
+
+std::string ply_body(const std::string& counts_and_body,
+                     const std::string& face = "uchar int vertex_indices") {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list " +
+         face + "\nend_header\n" + counts_and_body;
+}
+
+TEST(PlyParser, BadRowsAreNamed) {
+  EXPECT_EQ(error_of(parse_ply, ply_body("0 0 0 1 0 0 0 1 0\n3 0 1 3\n")),
+            "f:11: face 1 refers to vertex 3; the 3 vertices are numbered from 0");
+  EXPECT_EQ(error_of(parse_ply, ply_body("0 0 0 1 0 0 0 1 0\n3 0 1 -1\n")),
+            "f:11: face 1 refers to vertex -1; the 3 vertices are numbered from 0");
+  EXPECT_EQ(error_of(parse_ply, ply_body("0 0 0 1 0 0 0 1 0\n-3 0 1 2\n")),
+            "f:11: a list has an impossible length");
+  EXPECT_EQ(error_of(parse_ply, ply_body("0 0 0 1 0 zero 0 1 0\n")), "f:10: 'zero' is not a number");
+  EXPECT_EQ(error_of(parse_ply, ply_body("", "uchar int corners")).substr(0, 2), "f:");
+}
+
+TEST(PlyParser, HugeCountsInATinyFileAreRefused) {
+  for (const char* format : {"ascii", "binary_little_endian"}) {
+    const std::string text = std::string("ply\nformat ") + format +
+                             " 1.0\nelement nothing 9000000000000000000\nelement vertex 9000000000000000000\n"
+                             "property float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
+    EXPECT_NE(error_of(parse_ply, text).find("cut short"), std::string::npos);
+  }
+}
+
+TEST(PlyParser, HostileIndicesAreRefused) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement face 1\nproperty list double double vertex_indices\nelement vertex "
+      "9000000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n3 0 1 "
+      "8999999999999\n";
+  EXPECT_NE(error_of(parse_ply, text).find("refers to vertex"), std::string::npos);
+}
+
+TEST(GlbParser, OtherFilesAreNeverOpened) {
+  const std::string bytes = sample_glb("x");
+  const ScratchFolder folder;
+  folder.write("x", bytes.substr(bytes.size() - 96));
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(error_of(parse_glb, bytes).substr(0, 32), "f: is not a readable GLB file: ");
+  std::filesystem::current_path(before);
+}
+
+}  // namespace
+}  // namespace icome::files
