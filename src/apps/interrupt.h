@@ -1,0 +1,12 @@
+#pragma once
+
+namespace icome::apps {
+
+/// From here on Ctrl-C (and a request to terminate) asks the run to end instead of killing the program;
+/// a second one kills it. Call once.
+void catch_interrupts();
+
+/// Was the run asked to end?
+bool interrupted();
+
+}  // namespace icome::apps

@@ -1,0 +1,22 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "apps/command_line.h"
+#include "apps/touch_command.h"
+
+int main(int argc, char** argv) {
+  try {
+    const icome::apps::CommandLine command_line = icome::apps::parse_command_line(argc, argv);
+    if (!command_line.touch) return command_line.exit_code;
+    return icome::apps::run_touch(*command_line.touch);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "icome: there is not enough memory for this; close other programs or use a smaller model.\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "icome: {}\n", error.what());
+  }
+  return 1;
+}

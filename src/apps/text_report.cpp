@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "apps/touch_report.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr std::size_t kLabelWidth = 14;
+constexpr std::size_t kBarWidth = 24;
+
+/// Rows of "label  value"; a row without a label goes on with the one before.
+class Table {
+ public:
+  void row(std::string_view label, std::string_view value) {
+    text_ += fmt::format("  {:<{}}{}\n", label, kLabelWidth, value);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string grouped(std::uint64_t number) {
+  if (number < 1000) return fmt::format("{}", number);
+  return fmt::format("{},{:03}", grouped(number / 1000), number % 1000);
+}
+
+std::string seconds_text(double seconds) {
+  if (seconds < 1.0) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
+
+std::string counted(std::uint64_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", grouped(count), thing, count == 1 ? "" : "s");
+}
+
+void add_model(Table& table, const TouchModel& model) {
+  table.row("model", model.name);
+  const base::Vector3 size = model.tree->bounds().sizes();
+  const std::string extent = is_half_space(model) ? std::string("unlimited")
+                                                  : fmt::format("{} x {} x {}", length_text(size.x()),
+                                                                length_text(size.y()), length_text(size.z()));
+  const char* const sides = model.sides == haptics::TouchableSides::Both ? "both sides" : "the front";
+  if (model.primitive) {
+    table.row("", fmt::format("{}, {}, touchable from {}", model.kind, extent, sides));
+    return;
+  }
+  table.row("", fmt::format("{}, {} triangles, {}", model.kind, grouped(model.triangles), extent));
+  table.row("", fmt::format("{}, touchable from {}", model.closed ? "closed" : "open", sides));
+  for (const std::string& sentence : model.repairs) table.row("", sentence);
+  table.row("", fmt::format("read in {}", seconds_text(model.read_seconds)));
+}
+
+void add_histogram(Table& table, const TouchFigures& figures) {
+  constexpr std::array<std::string_view, TouchFigures::kLoadBins> labels = {
+      "     up to 0.1 %", "     0.1 - 0.3 %", "       0.3 - 1 %", "         1 - 3 %",
+      "        3 - 10 %", "      10 - 100 %", " more than 100 %"};
+  const auto& bins = figures.load_bins;
+  const std::uint64_t most = std::max<std::uint64_t>(1, *std::max_element(bins.begin(), bins.end()));
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    if (bins[i] == 0) continue;
+    const double share = static_cast<double>(bins[i]) / static_cast<double>(most);
+    const auto length = static_cast<std::size_t>(std::ceil(share * kBarWidth));
+    table.row("",
+              fmt::format("{}  {:<{}} {}", labels[i], std::string(length, '#'), kBarWidth, grouped(bins[i])));
+  }
+}
+
+void add_run(Table& table, const TouchFigures& figures, const RunOutcome& outcome,
+             const TouchOptions& options) {
+  table.row("built in", seconds_text(figures.build_seconds));
+  if (options.path) {
+    table.row("run", fmt::format("{} along {} in {}, no clock", counted(figures.ticks, "tick"),
+                                 options.path->string(), seconds_text(outcome.wall_seconds)));
+  } else {
+    table.row("run", fmt::format("{} at {:g} Hz by a simulated hand ({})", counted(figures.ticks, "tick"),
+                                 figures.rate_hz, options.device));
+    table.row("lateness", fmt::format("median {:.3g} us, 99.9 % within {:.3g} us, worst {:.3g} us",
+                                      outcome.lateness.median * 1e6, outcome.lateness.p999 * 1e6,
+                                      outcome.lateness.max * 1e6));
+  }
+  const realtime::Quantiles& tick = figures.tick_us;
+  table.row("tick",
+            fmt::format("median {:.3g} us, 99 % within {:.3g} us, 99.9 % within {:.3g} us, worst {:.3g} us",
+                        tick.median, tick.p99, tick.p999, tick.max));
+  table.row("haptic load", fmt::format("median {}, 99.9 % within {}, worst {}", percent(figures.load.median),
+                                       percent(figures.load.p999), percent(figures.load.max)));
+  add_histogram(table, figures);
+  table.row("overruns",
+            fmt::format("{}, {} skipped", grouped(figures.overruns), counted(outcome.skipped, "deadline")));
+}
+
+}  // namespace
+
+std::string length_text(double metres) {
+  if (metres < 1e-3) return fmt::format("{:.3g} um", metres * 1e6);
+  if (metres < 1.0) return fmt::format("{:.3g} mm", metres * 1e3);
+  return fmt::format("{:.3g} m", metres);
+}
+
+std::string text_report(const TouchFigures& figures, const std::vector<TouchModel>& models,
+                        const RunOutcome& outcome, const TouchOptions& options) {
+  Table table;
+  for (const TouchModel& model : models) add_model(table, model);
+  add_run(table, figures, outcome, options);
+  table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
+  table.row("force", fmt::format("at most {:.3g} N", figures.max_force));
+  if (figures.pops && figures.sticks) {
+    table.row("check",
+              fmt::format("{}, {}", counted(*figures.pops, "pop"), counted(*figures.sticks, "stick")));
+  }
+  table.row("memory",
+            fmt::format("{:.3g} MB at most", static_cast<double>(figures.peak_memory_bytes) * 1e-6));
+  return table.text();
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,232 @@
+#include "apps/touch_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "apps/exploration.h"
+#include "apps/interrupt.h"
+#include "apps/status_line.h"
+#include "apps/stopwatch.h"
+#include "apps/touch_diary.h"
+#include "apps/touch_figures.h"
+#include "apps/touch_models.h"
+#include "apps/touch_report.h"
+#include "apps/touch_run.h"
+#include "apps/trace_file.h"
+#include "devices/device_profiles.h"
+#include "devices/path_player.h"
+#include "haptics/contact_judge.h"
+#include "render/touch_picture.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kInterrupted = 130;  // what shells report for Ctrl-C
+
+/// All that a run needs, made ready before it begins.
+struct Prepared {
+  std::vector<TouchModel> models;
+  std::shared_ptr<const haptics::HapticScene> scene;
+  double build_seconds = 0.0;
+  devices::DeviceInfo device;
+  std::optional<devices::PathPlayer> player;  // none: explore
+  std::optional<haptics::ContactJudge> judge;
+  std::optional<TraceFile> trace;
+};
+
+void tell(const std::string& message) { fmt::print(stderr, "icome: {}\n", message); }
+
+base::Result<devices::DeviceInfo> chosen_device(const std::string& name) {
+  if (name == "simulated") return devices::DeviceInfo{.name = name};
+  auto profile = devices::find_device_profile(name);
+  if (!profile) return base::fail("--device: " + profile.error().message + ", or simulated.");
+  return profile;
+}
+
+base::Result<void> check_picture_place(const std::filesystem::path& path) {
+  std::filesystem::path folder = path.parent_path();
+  if (folder.empty()) folder = ".";
+  std::error_code error;
+  const bool possible =
+      std::filesystem::is_directory(folder, error) && ::access(folder.c_str(), W_OK) == 0 &&
+      (!std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error));
+  if (possible) return {};
+  return base::fail(fmt::format("{}: a picture cannot be written there.", path.string()));
+}
+
+base::Result<void> load_models(const TouchOptions& options, StatusLine& status, Prepared& prepared) {
+  for (const std::string& text : options.models) {
+    status.say("Reading " + text);
+    auto model = load_model(text, options);
+    if (!model) return tl::unexpected(model.error());
+    prepared.build_seconds += model->build_seconds;
+    prepared.models.push_back(std::move(*model));
+  }
+  const Stopwatch watch;
+  prepared.scene = compile_scene(prepared.models, options);
+  prepared.build_seconds += watch.seconds();
+  return {};
+}
+
+haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const TouchOptions& options) {
+  std::vector<haptics::JudgedObject> objects;
+  for (const TouchModel& model : models) {
+    haptics::JudgedObject object;
+    if (model.primitive) {
+      object.surface = *model.primitive;
+    } else {
+      object.surface = model.mesh;
+    }
+    object.closed = model.closed;
+    object.two_sided = model.sides == haptics::TouchableSides::Both;
+    objects.push_back(std::move(object));
+  }
+  haptics::JudgeSettings settings;
+  settings.tip_radius = options.radius;
+  settings.static_friction = options.static_friction;
+  return {objects, settings};
+}
+
+// What is quick to find wrong is looked for first; the trace is opened last, so that nothing is left
+// behind when something else fails.
+base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) {
+  Prepared prepared;
+  auto device = chosen_device(options.device);
+  if (!device) return tl::unexpected(device.error());
+  prepared.device = std::move(*device);
+  if (options.picture) {
+    if (const auto checked = check_picture_place(*options.picture); !checked)
+      return tl::unexpected(checked.error());
+  }
+  if (options.path) {
+    status.say("Reading " + options.path->string());
+    auto player = devices::PathPlayer::create(*options.path, prepared.device);
+    if (!player) return tl::unexpected(player.error());
+    prepared.player = std::move(*player);
+  }
+  if (const auto loaded = load_models(options, status, prepared); !loaded)
+    return tl::unexpected(loaded.error());
+  if (options.check) prepared.judge = judge_for(prepared.models, options);
+  if (options.trace) {
+    auto trace = TraceFile::create(*options.trace);
+    if (!trace) return tl::unexpected(trace.error());
+    prepared.trace.emplace(std::move(*trace));
+  }
+  status.clear();
+  return prepared;
+}
+
+base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, TouchDiary& diary,
+                             StatusLine& status) {
+  if (prepared.player) return replay(*prepared.player, prepared.scene, options, diary, status);
+  status.say("Planning where to touch");
+  const Exploration exploration = Exploration::plan(prepared.models, *prepared.scene, options.radius,
+                                                    options.seconds.value_or(kDefaultSeconds));
+  status.clear();
+  return explore(exploration, prepared.device, prepared.scene, options, diary, status);
+}
+
+base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
+                        const TouchOptions& options) {
+  render::TouchPicture picture;
+  for (const TouchModel& model : prepared.models) {
+    const std::string name =
+        model.primitive ? model.name : std::filesystem::path(model.name).filename().string();
+    picture.title += (picture.title.empty() ? "" : ", ") + name;
+    picture.bodies.push_back({*model.mesh});
+  }
+  if (figures.triangles > 0) picture.notes.push_back(fmt::format("{} triangles", figures.triangles));
+  picture.notes.push_back(fmt::format("tick {:.2g} us median, {:.2g} us worst in 1,000",
+                                      figures.tick_us.median, figures.tick_us.p999));
+  picture.samples = diary.samples();
+  picture.rate_hz = options.rate_hz;
+  picture.up = base::Vector3::UnitZ();
+  return render::write_touch_picture(picture, *options.picture);
+}
+
+/// Mesh files do not name their unit, and a model of 100 m is rarely meant.
+void tell_odd_size(const TouchModel& model) {
+  constexpr double smallest = 0.001;  // m
+  constexpr double largest = 10.0;    // m
+  const double size = model.tree->bounds().sizes().maxCoeff();
+  if (model.primitive || (size >= smallest && size <= largest)) return;
+  tell(fmt::format("{} is {} large: --unit or --fit give it another size.", model.name, length_text(size)));
+}
+
+void tell_outcome(const RunOutcome& outcome) {
+  if (outcome.interrupted) tell("interrupted: the report covers what was touched so far.");
+  if (!outcome.notice.empty()) tell(outcome.notice);
+  if (outcome.lost_rows > 0) {
+    tell(fmt::format(
+        "{} ticks are missing in trace, check and figures: they came faster than they could be taken "
+        "down.",
+        outcome.lost_rows));
+  }
+}
+
+/// Writes what was asked for beside the report; false when something failed, which it tells.
+bool write_files(Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
+                 const TouchOptions& options, StatusLine& status) {
+  bool good = true;
+  const auto note = [&](const base::Result<void>& written) {
+    status.clear();
+    if (written) return;
+    tell(written.error().message);
+    good = false;
+  };
+  if (prepared.trace) note(prepared.trace->finish());
+  if (options.picture) {
+    status.say("Drawing " + options.picture->string());
+    note(draw(prepared, diary, figures, options));
+  }
+  return good;
+}
+
+std::string names_of_files(const TouchOptions& options) {
+  std::string names;
+  if (options.trace) names += fmt::format("  {:<14}{}\n", "trace", options.trace->string());
+  if (options.picture) names += fmt::format("  {:<14}{}\n", "picture", options.picture->string());
+  return names;
+}
+
+}  // namespace
+
+int run_touch(const TouchOptions& options) {
+  StatusLine status;
+  auto prepared = prepare(options, status);
+  if (!prepared) {
+    status.clear();
+    tell(prepared.error().message);
+    return kFailed;
+  }
+  for (const TouchModel& model : prepared->models) tell_odd_size(model);
+  catch_interrupts();
+  TouchDiary diary(prepared->trace ? &*prepared->trace : nullptr,
+                   prepared->judge ? &*prepared->judge : nullptr, options.picture.has_value());
+  const auto outcome = run(*prepared, options, diary, status);
+  if (!outcome) {
+    tell(outcome.error().message);
+    return kFailed;
+  }
+  tell_outcome(*outcome);
+  const TouchFigures figures =
+      figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options.rate_hz);
+  if (options.json) {
+    fmt::print("{}\n", json_report(figures));
+  } else {
+    fmt::print("{}", text_report(figures, prepared->models, *outcome, options));
+  }
+  std::fflush(stdout);
+  const bool written = write_files(*prepared, diary, figures, options, status);
+  if (!options.json && written) fmt::print("{}", names_of_files(options));
+  if (!written) return kFailed;
+  return outcome->interrupted && options.path ? kInterrupted : 0;
+}
+
+}  // namespace icome::apps

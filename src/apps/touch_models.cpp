@@ -1,0 +1,136 @@
+#include "apps/touch_models.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "apps/stopwatch.h"
+#include "files/mesh_reader.h"
+#include "geometry/primitive.h"
+#include "haptics/mesh_shape.h"
+#include "haptics/primitive_shape.h"
+
+namespace icome::apps {
+namespace {
+
+using haptics::TouchableSides;
+
+constexpr double kPictureTolerance = 0.0005;  // of the size: what a picture of a primitive may be off
+
+bool names_primitive(std::string_view text) {
+  constexpr std::array<std::string_view, 7> keywords = {"plane", "box",   "sphere", "cylinder",
+                                                        "cone",  "torus", "capsule"};
+  return std::find(keywords.begin(), keywords.end(), text.substr(0, text.find(':'))) != keywords.end();
+}
+
+/// The same primitive, every length times `factor`.
+class Scaled {
+ public:
+  explicit Scaled(double factor) : factor_(factor) {}
+
+  geometry::Primitive operator()(const geometry::Plane& it) const { return it; }
+  geometry::Primitive operator()(const geometry::Box& it) const {
+    return geometry::Box{base::Vector3(factor_ * it.half)};
+  }
+  geometry::Primitive operator()(const geometry::Sphere& it) const {
+    return geometry::Sphere{factor_ * it.radius};
+  }
+  geometry::Primitive operator()(const geometry::Cylinder& it) const {
+    return geometry::Cylinder{factor_ * it.radius, factor_ * it.height};
+  }
+  geometry::Primitive operator()(const geometry::Cone& it) const {
+    return geometry::Cone{factor_ * it.bottom_radius, factor_ * it.top_radius, factor_ * it.height};
+  }
+  geometry::Primitive operator()(const geometry::Torus& it) const {
+    return geometry::Torus{factor_ * it.major_radius, factor_ * it.minor_radius};
+  }
+  geometry::Primitive operator()(const geometry::Capsule& it) const {
+    return geometry::Capsule{factor_ * it.radius, factor_ * it.height};
+  }
+
+ private:
+  double factor_;
+};
+
+base::Result<TouchModel> load_primitive(const std::string& text, const TouchOptions& options) {
+  auto primitive = geometry::parse_primitive(text);
+  if (!primitive) return tl::unexpected(primitive.error());
+  TouchModel model;
+  const bool unlimited = std::holds_alternative<geometry::Plane>(*primitive);
+  if (options.fit && !unlimited) {
+    const double longest = geometry::bounds(*primitive).sizes().maxCoeff();
+    *primitive = std::visit(Scaled(*options.fit / longest), *primitive);
+  }
+  model.kind = "primitive";
+  model.primitive = *primitive;
+  const double size = unlimited ? 1.0 : geometry::bounds(*primitive).sizes().maxCoeff();
+  model.mesh = std::make_shared<const geometry::TriangleMesh>(
+      geometry::tessellate(*primitive, kPictureTolerance * size));
+  model.tree = std::make_shared<const geometry::TriangleTree>(*model.mesh);
+  const Stopwatch watch;
+  model.shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
+  model.build_seconds = watch.seconds();
+  return model;
+}
+
+base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& options) {
+  const auto unit = files::parse_unit(options.unit);
+  if (!unit) return tl::unexpected(unit.error());
+  files::ReadOptions how;
+  how.unit = *unit;
+  how.up = options.y_up ? files::UpAxis::Y : files::UpAxis::Z;
+  how.fit = options.fit;
+  auto loaded = files::read_mesh(text, how);
+  if (!loaded) return tl::unexpected(loaded.error());
+  TouchModel model;
+  model.kind = loaded->format;
+  model.repairs = loaded->sentences();
+  model.triangles = loaded->mesh.triangles.size();
+  model.closed = loaded->repair.surface.closed;
+  model.read_seconds = loaded->read_seconds + loaded->repair_seconds;
+  model.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
+  const Stopwatch watch;
+  haptics::MeshShapeSettings settings;
+  settings.closed = model.closed;
+  settings.interpolate_normals = options.smooth_shading;
+  settings.tip_radius = options.radius;
+  const auto shape = std::make_shared<const haptics::MeshShape>(model.mesh, settings);
+  model.build_seconds = watch.seconds();
+  model.tree = std::shared_ptr<const geometry::TriangleTree>(shape, &shape->tree());  // lives in the shape
+  model.shape = shape;
+  return model;
+}
+
+}  // namespace
+
+base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options) {
+  auto model = names_primitive(text) ? load_primitive(text, options) : load_file(text, options);
+  if (!model) return model;
+  model->name = text;
+  model->sides = options.sides.value_or(model->closed ? TouchableSides::Front : TouchableSides::Both);
+  return model;
+}
+
+bool is_half_space(const TouchModel& model) {
+  return model.primitive && std::holds_alternative<geometry::Plane>(*model.primitive);
+}
+
+std::shared_ptr<const haptics::HapticScene> compile_scene(const std::vector<TouchModel>& models,
+                                                          const TouchOptions& options) {
+  std::vector<haptics::HapticObject> objects;
+  objects.reserve(models.size());
+  for (const TouchModel& model : models) {
+    haptics::HapticObject object;
+    object.id = {static_cast<std::uint32_t>(objects.size()), 1};
+    object.shape = model.shape;
+    object.surface.stiffness = options.stiffness;
+    object.surface.static_friction = options.static_friction;
+    object.surface.dynamic_friction = options.dynamic_friction;
+    object.surface.sides = model.sides;
+    objects.push_back(std::move(object));
+  }
+  return haptics::HapticScene::compile(std::move(objects));
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/touch_figures.h"
+#include "apps/touch_models.h"
+#include "apps/touch_options.h"
+#include "apps/touch_run.h"
+
+namespace icome::apps {
+
+/// The figures as a JSON object on several lines: the names are a contract with scripts (see the help).
+std::string json_report(const TouchFigures& figures);
+
+/// The run as a table for a person.
+std::string text_report(const TouchFigures& figures, const std::vector<TouchModel>& models,
+                        const RunOutcome& outcome, const TouchOptions& options);
+
+/// A length with the unit that people would use: "0.1 m" is "100 mm".
+std::string length_text(double metres);
+
+}  // namespace icome::apps
