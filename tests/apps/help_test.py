@@ -1,0 +1,32 @@
+"""The help teaches: what the program is, its commands, and examples that work."""
+import re
+import unittest
+
+from icome_program import ProgramTest, TRACE_HEADER, run
+
+
+class HelpTest(ProgramTest):
+    def test_help_names_the_command_and_gives_three_examples(self):
+        text = self.succeeds("--help").stdout
+        self.assertRegex(text, r"\n  touch +\S")
+        self.assertGreaterEqual(len(re.findall(r"^  icome touch ", text, re.M)), 3)
+
+    def test_without_arguments_the_help_is_printed(self):
+        self.assertEqual(self.succeeds().stdout, self.succeeds("--help").stdout)
+
+    def test_touch_help_tells_every_option_the_units_and_the_formats(self):
+        text = self.succeeds("touch", "--help").stdout
+        for option in ("--path", "--device", "--seconds", "--rate", "--fit", "--radius", "--sides", "--stiffness",
+                       "--friction", "--check", "--trace", "--picture", "--json", "--unit", "--up", "--shading"):
+            self.assertIn(option + " ", text)
+        self.assertIn("metres", text)
+        self.assertIn(TRACE_HEADER, text)
+
+    def test_the_first_example_works(self):
+        example = re.search(r"^  icome (touch sphere:\S+)", self.succeeds("--help").stdout, re.M).group(1)
+        done = run(*example.split(), "--seconds", "0.05")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
