@@ -178,8 +178,10 @@ std::vector<Vector3> tried_out(const PressPlan& plan, const Vector3& start, cons
     if (!contact.touching || (contact.scp - plan.targets[i]).norm() < tip + kLostDepths * plan.depth)
       continue;
     go_to(contact.scp + lift * contact.normal);
-    go_to(plan.places[i].point + lift * (contact.normal + plan.places[i].normal).normalized());
-    go_to(plan.places[i].point + lift * plan.places[i].normal);
+    // The contact was left a depth before the edge at the latest: so much further, the edge is cleared.
+    const ProbedPoint& place = plan.places[i];
+    go_to(contact.scp + lift * contact.normal + (lift + plan.depth) * place.normal);
+    go_to(place.point + lift * place.normal);
   }
   return way;
 }

@@ -25,14 +25,14 @@ class Table {
   std::string text_;
 };
 
-std::string grouped(std::uint64_t number) {
-  if (number < 1000) return fmt::format("{}", number);
-  return fmt::format("{},{:03}", grouped(number / 1000), number % 1000);
-}
-
 std::string seconds_text(double seconds) {
   if (seconds < 1.0) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.2f} s", seconds);
+}
+
+std::string microseconds_text(double microseconds) {
+  if (microseconds < 1e3) return fmt::format("{:.3g} us", microseconds);
+  return seconds_text(microseconds * 1e-6);
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
@@ -59,7 +59,7 @@ void add_model(Table& table, const TouchModel& model) {
 }
 
 void add_histogram(Table& table, const TouchFigures& figures) {
-  constexpr std::array<std::string_view, TouchFigures::kLoadBins> labels = {
+  constexpr std::array<std::string_view, TouchFigures::kLoadBins> kLabels = {
       "     up to 0.1 %", "     0.1 - 0.3 %", "       0.3 - 1 %", "         1 - 3 %",
       "        3 - 10 %", "      10 - 100 %", " more than 100 %"};
   const auto& bins = figures.load_bins;
@@ -68,8 +68,8 @@ void add_histogram(Table& table, const TouchFigures& figures) {
     if (bins[i] == 0) continue;
     const double share = static_cast<double>(bins[i]) / static_cast<double>(most);
     const auto length = static_cast<std::size_t>(std::ceil(share * kBarWidth));
-    table.row("",
-              fmt::format("{}  {:<{}} {}", labels[i], std::string(length, '#'), kBarWidth, grouped(bins[i])));
+    table.row(
+        "", fmt::format("{}  {:<{}} {}", kLabels[i], std::string(length, '#'), kBarWidth, grouped(bins[i])));
   }
 }
 
@@ -82,14 +82,15 @@ void add_run(Table& table, const TouchFigures& figures, const RunOutcome& outcom
   } else {
     table.row("run", fmt::format("{} at {:g} Hz by a simulated hand ({})", counted(figures.ticks, "tick"),
                                  figures.rate_hz, options.device));
-    table.row("lateness", fmt::format("median {:.3g} us, 99.9 % within {:.3g} us, worst {:.3g} us",
-                                      outcome.lateness.median * 1e6, outcome.lateness.p999 * 1e6,
-                                      outcome.lateness.max * 1e6));
+    const realtime::Quantiles& late = outcome.lateness;
+    table.row("lateness",
+              fmt::format("median {}, 99.9 % within {}, worst {}", microseconds_text(late.median * 1e6),
+                          microseconds_text(late.p999 * 1e6), microseconds_text(late.max * 1e6)));
   }
   const realtime::Quantiles& tick = figures.tick_us;
-  table.row("tick",
-            fmt::format("median {:.3g} us, 99 % within {:.3g} us, 99.9 % within {:.3g} us, worst {:.3g} us",
-                        tick.median, tick.p99, tick.p999, tick.max));
+  table.row("tick", fmt::format("median {}, 99 % within {}, 99.9 % within {}, worst {}",
+                                microseconds_text(tick.median), microseconds_text(tick.p99),
+                                microseconds_text(tick.p999), microseconds_text(tick.max)));
   table.row("haptic load", fmt::format("median {}, 99.9 % within {}, worst {}", percent(figures.load.median),
                                        percent(figures.load.p999), percent(figures.load.max)));
   add_histogram(table, figures);
@@ -98,6 +99,11 @@ void add_run(Table& table, const TouchFigures& figures, const RunOutcome& outcom
 }
 
 }  // namespace
+
+std::string grouped(std::uint64_t number) {
+  if (number < 1000) return fmt::format("{}", number);
+  return fmt::format("{},{:03}", grouped(number / 1000), number % 1000);
+}
 
 std::string length_text(double metres) {
   if (metres < 1e-3) return fmt::format("{:.3g} um", metres * 1e6);

@@ -141,7 +141,7 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
     picture.title += (picture.title.empty() ? "" : ", ") + name;
     picture.bodies.push_back({*model.mesh});
   }
-  if (figures.triangles > 0) picture.notes.push_back(fmt::format("{} triangles", figures.triangles));
+  if (figures.triangles > 0) picture.notes.push_back(grouped(figures.triangles) + " triangles");
   picture.notes.push_back(fmt::format("tick {:.2g} us median, {:.2g} us worst in 1,000",
                                       figures.tick_us.median, figures.tick_us.p999));
   picture.samples = diary.samples();
@@ -152,10 +152,10 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
 
 /// Mesh files do not name their unit, and a model of 100 m is rarely meant.
 void tell_odd_size(const TouchModel& model) {
-  constexpr double smallest = 0.001;  // m
-  constexpr double largest = 10.0;    // m
+  constexpr double kSmallest = 0.001;  // m
+  constexpr double kLargest = 10.0;    // m
   const double size = model.tree->bounds().sizes().maxCoeff();
-  if (model.primitive || (size >= smallest && size <= largest)) return;
+  if (model.primitive || (size >= kSmallest && size <= kLargest)) return;
   tell(fmt::format("{} is {} large: --unit or --fit give it another size.", model.name, length_text(size)));
 }
 

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kMostSamples = 1 << 20;
 
 std::uint32_t saturated(std::int64_t nanoseconds) {
-  constexpr std::int64_t longest = std::numeric_limits<std::uint32_t>::max();
-  return static_cast<std::uint32_t>(std::clamp(nanoseconds, std::int64_t{0}, longest));
+  constexpr std::int64_t kLongest = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(std::clamp(nanoseconds, std::int64_t{0}, kLongest));
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ using haptics::TouchableSides;
 constexpr double kPictureTolerance = 0.0005;  // of the size: what a picture of a primitive may be off
 
 bool names_primitive(std::string_view text) {
-  constexpr std::array<std::string_view, 7> keywords = {"plane", "box",   "sphere", "cylinder",
-                                                        "cone",  "torus", "capsule"};
-  return std::find(keywords.begin(), keywords.end(), text.substr(0, text.find(':'))) != keywords.end();
+  constexpr std::array<std::string_view, 7> kKeywords = {"plane", "box",   "sphere", "cylinder",
+                                                         "cone",  "torus", "capsule"};
+  return std::find(kKeywords.begin(), kKeywords.end(), text.substr(0, text.find(':'))) != kKeywords.end();
 }
 
 /// The same primitive, every length times `factor`.
