@@ -1,0 +1,248 @@
+// The judge must find what is planted and nothing else: tip and SCP are made by hand here, no solver runs.
+#include "haptics/contact_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/geodesic_sphere.h"
+#include "haptics/contact_world.h"
+
+namespace icome::haptics {
+namespace {
+
+JudgedObject solid(std::string_view text) { return {primitive(text)}; }
+JudgedObject solid(const MeshPointer& mesh, const Pose& pose = Pose::Identity()) { return {mesh, pose}; }
+JudgedObject sheet(const MeshPointer& mesh) { return {mesh, Pose::Identity(), false, true}; }
+MeshPointer flat_sheet() {
+  return shared(height_field(0.1, 8, [](double, double) { return 0.0; }));
+}
+
+ContactJudge judge_of(std::vector<JudgedObject> objects, double tip_radius = 0.0, double friction = 0.0) {
+  JudgeSettings settings;
+  settings.tip_radius = tip_radius;
+  settings.static_friction = friction;
+  return {objects, settings};
+}
+
+bool fine(const Judgement& judgement) { return !judgement.pop && !judgement.stick; }
+
+TEST(ContactJudge, PassesFreeMotionAndAPerfectPress) {
+  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+    ContactJudge judge = judge_of({box});
+    for (int i = 0; i <= 100; ++i) {
+      const Vector3 tip(0.01, 0.02, 0.06 - 0.0002 * i);
+      Vector3 scp = tip;
+      scp.z() = std::max(tip.z(), 0.05);
+      EXPECT_TRUE(fine(judge.judge(tip, scp, tip.z() < 0.05))) << i;
+    }
+    EXPECT_EQ(judge.ticks(), 101u);
+  }
+}
+
+TEST(ContactJudge, CountsEveryTickInsideASolid) {
+  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+    ContactJudge judge = judge_of({box});
+    judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
+    for (int i = 0; i < 5; ++i) judge.judge({0, 0, 0.045}, {0, 0, 0.0496}, true);  // 0.4 mm
+    EXPECT_EQ(judge.pops(), 5u);
+    EXPECT_EQ(judge.sticks(), 0u);
+  }
+}
+
+TEST(ContactJudge, ForgivesAShallowerPenetration) {
+  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))});
+  judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
+  judge.judge({0, 0, 0.0498}, {0, 0, 0.0498}, true);  // 0.2 mm
+  EXPECT_EQ(judge.pops(), 0u);
+}
+
+TEST(ContactJudge, SeesInsideWhereSolidsOverlap) {
+  const MeshPointer cross =
+      shared(joined(box_mesh({0.1, 0.03, 0.03}), box_mesh({0.03, 0.1, 0.03}), Vector3(0.001, 0.002, 0.003)));
+  ContactJudge judge = judge_of({solid(cross)});
+  EXPECT_TRUE(judge.judge({0.001, 0.002, 0.003}, {0.001, 0.002, 0.003}, false)
+                  .pop);  // in both: parity would say outside
+  EXPECT_FALSE(judge.judge({0.04, 0.04, 0.0}, {0.04, 0.04, 0.0}, false).pop);
+}
+
+TEST(ContactJudge, CatchesATipThatWentThroughAThinWall) {
+  for (const JudgedObject& wall : {solid("box:0.1x0.1x0.001"), solid(shared(box_mesh({0.1, 0.1, 0.001})))}) {
+    ContactJudge judge = judge_of({wall});
+    judge.judge({0, 0, -0.001}, {0, 0, 0.0005 + 1e-12}, true);
+    EXPECT_TRUE(judge.judge({0, 0, -0.005}, {0, 0, -0.005}, false).pop);
+    EXPECT_FALSE(judge.judge({0, 0, -0.006}, {0, 0, -0.006}, false).pop);  // once
+  }
+}
+
+TEST(ContactJudge, ApprovesAPressThroughAThinWall) {
+  for (const JudgedObject& wall : {solid("box:0.1x0.1x0.001"), solid(shared(box_mesh({0.1, 0.1, 0.001})))}) {
+    ContactJudge judge = judge_of({wall});
+    for (int i = 0; i < 50; ++i) {
+      EXPECT_TRUE(fine(judge.judge({0, 0, 0.0005 - 1e-4 * i}, {0, 0, 0.0005 + 1e-12}, true))) << i;
+    }
+  }
+}
+
+TEST(ContactJudge, CatchesASheetLeftByTheOtherSide) {
+  ContactJudge judge = judge_of({sheet(flat_sheet())});
+  EXPECT_TRUE(fine(judge.judge({0.003, 0.001, 0.002}, {0.003, 0.001, 0.002}, false)));
+  EXPECT_TRUE(fine(judge.judge({0.003, 0.001, -0.002}, {0.003, 0.001, 1e-12}, true)));
+  EXPECT_TRUE(judge.judge({0.003, 0.001, -0.002}, {0.003, 0.001, -0.002}, false).pop);
+}
+
+TEST(ContactJudge, CatchesASheetPassedInSmallSteps) {
+  ContactJudge judge = judge_of({sheet(flat_sheet())});
+  for (int i = 0; i < 40; ++i) {  // 0.05 mm each, from 1 mm in front to 1 mm behind
+    const Vector3 tip(0.003, 0.001, 0.001 - 5e-5 * i);
+    judge.judge(tip, tip, false);
+  }
+  EXPECT_EQ(judge.pops(), 1u);
+}
+
+TEST(ContactJudge, ForgivesATipThatDipsInAndComesBack) {
+  ContactJudge judge = judge_of({sheet(flat_sheet())});
+  for (const double z : {0.001, 0.0002, -0.0002, 0.0002, 0.001})
+    judge.judge({0.003, 0.001, z}, {0.003, 0.001, z}, false);
+  EXPECT_EQ(judge.pops(), 0u);
+}
+
+TEST(ContactJudge, ApprovesTheWayRoundARim) {
+  ContactJudge judge = judge_of({sheet(flat_sheet())});
+  judge.judge({0.0495, 0.0, -0.0005}, {0.0495, 0.0, 1e-12}, true);
+  EXPECT_TRUE(fine(judge.judge({0.0505, 0.0, -0.001}, {0.0505, 0.0, -0.001}, false)));
+  EXPECT_TRUE(fine(judge.judge({0.0485, 0.0, -0.001}, {0.0485, 0.0, -0.001}, false)));
+}
+
+TEST(ContactJudge, ApprovesALongSlideOffAnEdge) {
+  // Pressed deep at one face, the tip leaves by the next: within a tick the SCP goes round the edge.
+  for (const bool two_sided : {false, true}) {
+    JudgedObject wall = solid(shared(box_mesh({0.1, 0.1, 0.001})));
+    wall.two_sided = two_sided;
+    ContactJudge judge = judge_of({wall});
+    judge.judge({0.0444922, -0.00673525, -0.000492117}, {0.050000000005, -0.00673525, -0.000492117}, true);
+    EXPECT_TRUE(
+        fine(judge.judge({0.0435711, -0.0067274, -0.0005018}, {0.0435711, -0.0067274, -0.0005018}, false)));
+  }
+}
+
+TEST(ContactJudge, CatchesAContactWithNothingInTheWay) {
+  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))});
+  EXPECT_TRUE(judge.judge({0, 0, 0.06}, {0, 0, 0.05 + 1e-12}, true).stick);
+}
+
+TEST(ContactJudge, CatchesAnScpAwayFromTheTipWithoutAContact) {
+  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))});
+  EXPECT_TRUE(judge.judge({0, 0, 0.045}, {0, 0, 0.05 + 1e-12}, false).stick);
+}
+
+TEST(ContactJudge, CatchesAnScpThatLagsBehind) {
+  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+    for (const double radius : {0.0, 0.001}) {
+      ContactJudge judge = judge_of({box}, radius);
+      const double z = 0.05 + radius + 1e-12;
+      EXPECT_TRUE(fine(judge.judge({0, 0, z - 0.002}, {0, 0, z}, true)));
+      EXPECT_TRUE(judge.judge({0.004, 0, z - 0.002}, {0, 0, z}, true).stick);
+      EXPECT_TRUE(fine(judge.judge({0.004, 0, z - 0.002}, {0.004, 0, z}, true)));
+    }
+  }
+}
+
+TEST(ContactJudge, LetsFrictionHoldWithinItsCone) {
+  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))}, 0.0, 0.5);
+  EXPECT_TRUE(fine(judge.judge({0.00095, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true)));
+  EXPECT_TRUE(judge.judge({0.003, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true).stick);
+}
+
+TEST(ContactJudge, LetsAConcaveCornerHold) {
+  const MeshPointer step = shared(prism({{0, 0}, {.06, 0}, {.06, .02}, {.02, .02}, {.02, .06}, {0, .06}},
+                                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0.05));
+  ContactJudge judge = judge_of({solid(step)});
+  EXPECT_TRUE(fine(judge.judge({0.017, 0.012, 0.003}, {0.02 + 1e-12, 0.02 + 1e-12, 0.003}, true)));
+  EXPECT_TRUE(judge.judge({0.017, 0.012, 0.006}, {0.02 + 1e-12, 0.02 + 1e-12, 0.003}, true)
+                  .stick);  // along the corner
+}
+
+TEST(ContactJudge, LetsASphereRestInAGrooveTooNarrowForIt) {
+  // A V of 4 degrees: a 1 mm ball rests where it touches both walls.
+  const double slope = std::tan(1.5358897417550099);  // 88 degrees
+  const MeshPointer groove =
+      shared(height_field(0.02, 2, [&](double x, double) { return slope * std::abs(x); }));
+  JudgedObject v{groove, Pose::Identity(), false, true};
+  ContactJudge judge = judge_of({v}, 0.001);
+  const double rest = 0.001 / std::cos(1.5358897417550099);
+  EXPECT_TRUE(fine(judge.judge({0, 0.001, rest - 0.004}, {0, 0.001, rest + 1e-9}, true)));
+  EXPECT_TRUE(judge.judge({0, 0.001, rest - 0.004}, {0, 0.001, rest + 0.001}, true).stick);
+}
+
+TEST(ContactJudge, CatchesASphereThatOverlaps) {
+  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+    ContactJudge judge = judge_of({box}, 0.005);
+    EXPECT_FALSE(judge.judge({0, 0, 0.054}, {0, 0, 0.0548}, true).pop);
+    EXPECT_TRUE(judge.judge({0, 0, 0.054}, {0, 0, 0.0545}, true).pop);
+  }
+}
+
+TEST(ContactJudge, LetsASphereStandBehindAFrontTouchedSheet) {
+  JudgedObject front{flat_sheet(), Pose::Identity(), false, false};
+  ContactJudge judge = judge_of({front}, 0.005);
+  EXPECT_TRUE(fine(judge.judge({0, 0, -0.002}, {0, 0, -0.002}, false)));
+  EXPECT_TRUE(fine(judge.judge({0, 0, 0.006}, {0, 0, 0.006}, false)));  // out through the back is free
+  EXPECT_TRUE(judge.judge({0, 0, 0.002}, {0, 0, 0.002}, false).pop);
+}
+
+TEST(ContactJudge, HearsAllObjectsAndTheirPoses) {
+  const MeshPointer box = shared(box_mesh({0.1, 0.1, 0.1}));
+  Pose turned = translation(0.3, 0.0, 0.0);
+  turned.linear() = Eigen::AngleAxisd(0.7853981633974483, Vector3::UnitY()).toRotationMatrix();
+  ContactJudge judge = judge_of({solid(box), solid(box, turned)});
+  const double top = 0.05 * std::sqrt(2.0);
+  EXPECT_TRUE(fine(judge.judge({0.3, 0.0, top + 0.001}, {0.3, 0.0, top + 0.001}, false)));
+  EXPECT_TRUE(judge.judge({0.3, 0.0, top - 0.002}, {0.3, 0.0, top - 0.002}, false).pop);
+  EXPECT_TRUE(judge.judge({0.0, 0.0, 0.045}, {0.0, 0.0, 0.045}, false).pop);
+}
+
+TEST(ContactJudge, ScalesItsLengthsToTinyAndHugeModels) {
+  EXPECT_DOUBLE_EQ(judge_of({solid("box:0.1x0.1x0.1")}).pop_depth(), 0.3e-3);
+  const double tiny = 1e-4 * std::sqrt(3.0);
+  EXPECT_NEAR(judge_of({solid("box:0.0001x0.0001x0.0001")}).pop_depth(), 1e-2 * tiny, 1e-12);
+  EXPECT_NEAR(judge_of({solid("box:1000x1000x1000")}).stick_move(), 1e-5 * 1000 * std::sqrt(3.0), 1e-9);
+}
+
+TEST(ContactJudge, ToleratesTheRoundingOfATraceFile) {
+  ContactJudge judge = judge_of({solid(shared(geometry::bumpy_geodesic_sphere(17, 0.05, 0.0, 0)))});
+  const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(17, 0.05, 0.0, 0));
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 direction = Vector3(std::cos(0.01 * i), std::sin(0.01 * i), 0.2).normalized();
+    Vector3 scp = brute_nearest(*mesh, 0.048 * direction).point;
+    scp = (scp * 1e8).array().round() / 1e8;
+    EXPECT_TRUE(fine(judge.judge(0.048 * direction, scp, true))) << i;
+  }
+}
+
+// Everything at once: a good run along a bumpy sphere with 40 mistakes planted in it.
+TEST(ContactJudge, FindsExactlyThePlantedMistakes) {
+  const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(12, 0.05, 0.0, 0));
+  ContactJudge judge = judge_of({solid(mesh)});
+  Random random(3);
+  std::uint64_t pops = 0, sticks = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vector3 direction = Vector3(std::cos(0.004 * i), std::sin(0.004 * i), 0.3).normalized();
+    const Vector3 tip = 0.047 * direction;
+    const BruteNearest nearest = brute_nearest(*mesh, tip);
+    const Vector3 out = (nearest.point - tip).normalized();
+    Vector3 scp = nearest.point + 1e-12 * out;
+    if (i % 20 == 7) scp -= out * random.uniform(0.35e-3, 1.5e-3);
+    if (i % 20 == 17) scp += out * random.uniform(0.4e-3, 1.5e-3);
+    const Judgement judgement = judge.judge(tip, scp, true);
+    EXPECT_EQ(judgement.pop, i % 20 == 7) << i;
+    EXPECT_EQ(judgement.stick, i % 20 == 17) << i;
+    pops += i % 20 == 7;
+    sticks += i % 20 == 17;
+  }
+  EXPECT_EQ(judge.pops(), pops);
+  EXPECT_EQ(judge.sticks(), sticks);
+}
+
+}  // namespace
+}  // namespace icome::haptics
