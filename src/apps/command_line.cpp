@@ -71,7 +71,10 @@ void add_run_options(CLI::App& touch, Entries& entries) {
                   "Replay tip positions from a CSV file: t,x,y,z in s and m, one row a tick")
       ->type_name("PATH.csv");
   touch.add_option("--device", options.device, kDeviceHelp)->type_name("NAME");
-  touch.add_option("--seconds", options.seconds, "How long the hand explores (default 5)")->type_name("S");
+  touch
+      .add_option("--seconds", options.seconds,
+                  "When to end (default: after 5 s of exploring, at the end of a path)")
+      ->type_name("S");
   touch.add_option("--rate", options.rate_hz, "Ticks a second, 500 to 10000 (default 1000)")->type_name("HZ");
 }
 

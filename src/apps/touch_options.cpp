@@ -28,9 +28,6 @@ bool read_number(std::string_view text, double& value) {
 }  // namespace
 
 base::Result<void> check(const TouchOptions& options) {
-  if (options.path && options.seconds) {
-    return base::fail("--path and --seconds exclude each other: a path lasts as long as its rows.");
-  }
   struct Range {
     const char* option;
     double value, least, most;
@@ -51,6 +48,9 @@ base::Result<void> check(const TouchOptions& options) {
         fmt::format("--friction {},{}: the first, static coefficient must not be below the second, "
                     "dynamic one.",
                     options.static_friction, options.dynamic_friction));
+  }
+  if (options.trace && options.trace == options.path) {
+    return base::fail("--path and --trace name the same file: the trace would replace the path.");
   }
   if (options.trace && options.picture && *options.trace == *options.picture) {
     return base::fail("--trace and --picture name the same file: give each its own.");

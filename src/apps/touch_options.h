@@ -18,7 +18,7 @@ struct TouchOptions {
 
   std::string device = "simulated";           // or a profile's name
   double rate_hz = 1000.0;                    // Hz, 500 to 10,000
-  std::optional<double> seconds;              // s, of exploring; not with a path
+  std::optional<double> seconds;              // s, after which a run ends; none: see kDefaultSeconds
   std::optional<std::filesystem::path> path;  // tip positions to replay
   double radius = 0.0;                        // m, of the tip; 0 is a point
 
@@ -34,7 +34,7 @@ struct TouchOptions {
   std::optional<std::filesystem::path> picture;
 };
 
-constexpr double kDefaultSeconds = 5.0;  // s, of exploring
+constexpr double kDefaultSeconds = 5.0;  // s, of exploring; a path is replayed to its end
 
 /// Says which option has a value that makes no sense, or which two contradict each other.
 base::Result<void> check(const TouchOptions& options);

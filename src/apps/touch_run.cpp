@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -31,6 +32,13 @@ haptics::ServoSettings servo_settings(const TouchOptions& options) {
   settings.scp.tip_radius = options.radius;
   settings.force_shading = options.smooth_shading;
   return settings;
+}
+
+/// How many rows of a path belong to its first `seconds`.
+std::size_t rows_within(const std::vector<double>& times, const std::optional<double>& seconds) {
+  if (!seconds) return times.size();
+  const double last = times.front() + *seconds;
+  return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), last) - times.begin());
 }
 
 TickRow row_of(const haptics::TickReport& report, double t) {
@@ -105,13 +113,14 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
   servo.publish(scene);
   RunOutcome outcome;
   const std::vector<double>& times = player.times();
-  diary.reserve(times.size());
+  const std::size_t rows = rows_within(times, options.seconds);
+  diary.reserve(rows);
   std::vector<TickRow> block;
-  block.reserve(std::min(kBlockRows, times.size()));
+  block.reserve(std::min(kBlockRows, rows));
   const double period = 1.0 / options.rate_hz;
   const Stopwatch watch;
-  for (std::size_t row = 0; row < times.size() && !outcome.interrupted;) {
-    const std::size_t end = std::min(times.size(), row + kBlockRows);
+  for (std::size_t row = 0; row < rows && !outcome.interrupted;) {
+    const std::size_t end = std::min(rows, row + kBlockRows);
     for (; row < end; ++row) {
       const haptics::TickReport& report = servo.tick(row == 0 ? period : times[row] - times[row - 1]);
       block.push_back(row_of(report, times[row]));
@@ -121,8 +130,8 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
       if (static_cast<double>(it.own_ns) * 1e-9 > period) ++outcome.overruns;
     }
     block.clear();
-    outcome.interrupted = interrupted() && row < times.size();
-    status.progress("Replaying", static_cast<double>(row), static_cast<double>(times.size()), "rows");
+    outcome.interrupted = interrupted() && row < rows;
+    status.progress("Replaying", static_cast<double>(row), static_cast<double>(rows), "rows");
   }
   outcome.wall_seconds = watch.seconds();
   status.clear();

@@ -31,8 +31,9 @@ class UsageTest(ProgramTest):
             self.fails("touch", "sphere:0.05", option, "sideways", code=2, saying=option)
         self.fails("touch", "sphere:0.05", "--rate", "fast", code=2, saying="--rate")
 
-    def test_path_and_seconds_exclude_each_other(self):
-        self.fails("touch", "sphere:0.05", "--path", "p.csv", "--seconds", "1", code=2, saying="--seconds")
+    def test_one_file_cannot_be_two_things(self):
+        self.fails("touch", "sphere:0.05", "--path", "a.csv", "--trace", "a.csv", code=2, saying="--trace")
+        self.fails("touch", "sphere:0.05", "--picture", "a.png", "--trace", "a.png", code=2, saying="--picture")
 
 
 class FileTest(ProgramTest):

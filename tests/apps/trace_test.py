@@ -31,6 +31,10 @@ class TraceTest(ProgramTest):
         self.assertEqual([row["t"] for row in rows], [i / 1000.0 for i in range(500)])
         self.assertEqual([point(row, "tip") for row in rows], points)
 
+    def test_seconds_end_a_path_early(self):
+        rows = self.trace("sphere:0.05", "--path", self.path_file(self.circle(500)), "--seconds", "0.2")
+        self.assertEqual([row["t"] for row in rows], [i / 1000.0 for i in range(201)])
+
     def test_untouched_rows_have_the_tip_as_scp_no_force_and_no_object(self):
         rows = self.trace("sphere:0.05", "--path", self.path_file(self.circle()))
         free = [row for row in rows if row["touching"] == 0]
