@@ -60,8 +60,8 @@ void print_row(const Row& row) {
              faults(row), pair(row.to_reach, row.p999_to_reach), ratio(row), row.elsewhere);
 }
 
-nlohmann::json to_json(const Row& row) {
-  nlohmann::json json{{"figure", row.figure}, {"unit", row.unit}};
+nlohmann::ordered_json to_json(const Row& row) {
+  nlohmann::ordered_json json{{"figure", row.figure}, {"unit", row.unit}};
   const auto put = [&](const char* key, const std::optional<double>& value) {
     if (value) json[key] = *value;
   };
@@ -101,9 +101,9 @@ void print_table(const std::vector<Section>& sections) {
 }
 
 void print_json(const std::vector<Section>& sections) {
-  nlohmann::json json{{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}};
+  nlohmann::ordered_json json{{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}};
   for (const Section& section : sections) {
-    nlohmann::json& rows = json["sections"][section.title] = nlohmann::json::array();
+    nlohmann::ordered_json& rows = json["sections"][section.title] = nlohmann::ordered_json::array();
     for (const Row& row : section.rows) rows.push_back(to_json(row));
   }
   fmt::print("{}\n", json.dump(2));

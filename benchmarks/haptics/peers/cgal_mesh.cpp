@@ -15,7 +15,7 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using CgalTriangle = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 
 std::size_t heap_bytes() {
   const struct mallinfo2 info = mallinfo2();
@@ -26,7 +26,7 @@ std::size_t heap_bytes() {
 
 struct CgalMesh::Tree {
   Triangles triangles;
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> boxes;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CgalTriangle>> boxes;
 };
 
 CgalMesh::CgalMesh(const geometry::TriangleMesh& mesh) {
