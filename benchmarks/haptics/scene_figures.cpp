@@ -125,13 +125,17 @@ Section wall_figures(const Extent& extent) {
   const Presses presses = press_path(0.5 * kWallThickness, kPressDepth, 0.4 * kWallSide, extent.presses);
   const Primitive wall(geometry::Box{0.5 * Vector3(kWallSide, kWallSide, kWallThickness)});
   const auto box = std::make_shared<const haptics::PrimitiveShape>(wall);
-  const auto mesh = std::make_shared<const haptics::MeshShape>(
-      std::make_shared<const geometry::TriangleMesh>(geometry::tessellate(wall, kWallThickness)), true);
+  const auto triangles =
+      std::make_shared<const geometry::TriangleMesh>(geometry::tessellate(wall, kWallThickness));
+  const auto mesh = [&](double tip_radius) {
+    return std::make_shared<const haptics::MeshShape>(
+        triangles, haptics::MeshShapeSettings{.closed = true, .tip_radius = tip_radius});
+  };
   return {
       "walls of 1 mm pressed 5 mm deep at 100 to 2,000 mm/s, up to 30 degrees oblique",
       {wall_row("box, point tip", box, 0.0, presses), wall_row("box, sphere tip", box, kTipRadius, presses),
-       wall_row("mesh, point tip", mesh, 0.0, presses),
-       wall_row("mesh, sphere tip", mesh, kTipRadius, presses)}};
+       wall_row("mesh, point tip", mesh(0.0), 0.0, presses),
+       wall_row("mesh, sphere tip", mesh(kTipRadius), kTipRadius, presses)}};
 }
 
 }  // namespace icome::benchmarks
