@@ -155,14 +155,48 @@ TEST(PlyParser, HostileIndicesAreRefused) {
   EXPECT_NE(error_of(parse_ply, text).find("refers to vertex"), std::string::npos);
 }
 
-TEST(GlbParser, OtherFilesAreNeverOpened) {
-  const std::string bytes = sample_glb("x");
-  const ScratchFolder folder;
-  folder.write("x", bytes.substr(bytes.size() - 96));
-  const std::filesystem::path before = std::filesystem::current_path();
-  std::filesystem::current_path(folder.path());
-  EXPECT_EQ(error_of(parse_glb, bytes).substr(0, 32), "f: is not a readable GLB file: ");
-  std::filesystem::current_path(before);
+/// The sample with one piece of its JSON replaced by another of at most its length.
+std::string glb_with(std::string_view old, std::string replacement) {
+  std::string bytes = sample_glb();
+  replacement.resize(old.size(), ' ');
+  return bytes.replace(bytes.find(old), old.size(), replacement);
+}
+const std::string kGlbError = "f: is not a GLB file that can be read: ";
+
+TEST(GlbParser, DataInOtherFilesIsNotRead) {
+  EXPECT_EQ(error_of(parse_glb, sample_glb("x")), kGlbError + "it keeps its data in another file");
+}
+
+TEST(GlbParser, StripsAndFansAreCut) {
+  for (const char* mode : {"\"mode\":5 ", "\"mode\":6 "}) {
+    const auto parsed = parse_glb(glb_with("\"indices\":1", mode), "f");
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    // Four corners in a row give two triangles; the mirroring node turns both round.
+    ASSERT_EQ(parsed->mesh.triangles.size(), 2U);
+    EXPECT_EQ(parsed->mesh.triangles[0], (geometry::TriangleMesh::Triangle{0, 2, 1}));
+    EXPECT_EQ(parsed->mesh.triangles[1][0], mode[7] == '5' ? 1U : 0U);
+    EXPECT_EQ(parsed->mesh.triangles[1][1], mode[7] == '5' ? 2U : 3U);
+  }
+}
+
+TEST(GlbParser, PlaceOfTheNodesIsKept) {
+  const auto parsed = parse_glb(sample_glb(), "f");
+  ASSERT_TRUE(parsed);
+  EXPECT_EQ(parsed->mesh.positions[1], geometry::Vector3(-2, 0, 5));
+  EXPECT_EQ(parsed->mesh.positions[3], geometry::Vector3(0, 0, 7));
+}
+
+TEST(GlbParser, MalformedFilesAreRefused) {
+  EXPECT_EQ(error_of(parse_glb, sample_glb().substr(0, sample_glb().size() - 1)),
+            kGlbError + "it is cut short");
+  EXPECT_EQ(error_of(parse_glb, glb_with("\"count\":12", "\"count\":13")),
+            kGlbError + "an accessor reaches beyond its data");
+  EXPECT_EQ(error_of(parse_glb, glb_with("\"children\":[1]", "\"children\":[0]")),
+            kGlbError + "its nodes do not form a tree");
+  EXPECT_EQ(error_of(parse_glb, glb_with("\"count\":4,", "\"count\":3,")),
+            kGlbError + "face refers to vertex 3; the 3 vertices are numbered from 0");
+  EXPECT_EQ(error_of(parse_glb, glb_with("\"nodes\":[{", "\"nodes\":[[")),
+            kGlbError + "its JSON does not describe a glTF 2.0 model");
 }
 
 }  // namespace
