@@ -133,6 +133,8 @@ struct PressPlan {
   std::vector<ProbedPoint> places;
   std::vector<Vector3> targets;  // one each place
   double depth = 0.0;            // m
+  Vector3 first_seen;            // m, the first place that was seen
+  Vector3 to_eye;                // unit, from there to where it was seen from: through free space
 };
 
 /// The places that a spiral's lines of sight meet.
@@ -147,6 +149,8 @@ PressPlan press_along(const Spiral& spiral, const SurfaceProbe& probe) {
     sights[i] = spiral.at(spiral.length().share * static_cast<double>(i) / static_cast<double>(count - 1));
     seen[i] = probe.look(sights[i].from, sights[i].to, sights[i].near).point;
   }
+  plan.first_seen = seen.front();
+  plan.to_eye = (sights.front().from - seen.front()).normalized();
   // From one part of the model to another the smoothed way may lead far inside or outside: back to the
   // surface, and from there to the depth.
   seen = smoothed(seen);
@@ -195,8 +199,7 @@ Exploration Exploration::plan(const std::vector<TouchModel>& models, const hapti
   const double length = speed * seconds;
   const PressPlan press = probe.front().isZero(0.0) ? press_along(RoundSpiral(probe, length), probe)
                                                     : press_along(FlatSpiral(probe, length), probe);
-  const ProbedPoint& first = press.places.front();
-  const Vector3 start = first.point + (tip + kStartSeconds * speed) * first.normal;
+  const Vector3 start = press.first_seen + (tip + kStartSeconds * speed) * press.to_eye;
   Exploration exploration;
   exploration.centre_ = probe.bounds().center();
   exploration.follow(tried_out(press, start, scene, tip), speed, seconds);
