@@ -39,7 +39,8 @@ inline std::shared_ptr<const Shape> shape_of(const geometry::Primitive& primitiv
 }
 
 /// `tip_radius`: what the shape prepares for (m); it must serve any other as well.
-inline std::shared_ptr<const Shape> shape_of(const MeshPointer& mesh, bool closed = true, double tip_radius = 0.0) {
+inline std::shared_ptr<const Shape> shape_of(const MeshPointer& mesh, bool closed = true,
+                                             double tip_radius = 0.0) {
   MeshShapeSettings settings;
   settings.closed = closed;
   settings.tip_radius = tip_radius;

@@ -1,0 +1,135 @@
+// The servo's tick: what it takes from the machine, and what it does when device or scene come and go.
+#include "haptics/servo/servo.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/geodesic_sphere.h"
+#include "haptics/contact_world.h"
+#include "realtime/guard/guard.h"
+
+namespace icome::haptics {
+namespace {
+
+using devices::DeviceStatus;
+
+/// A device that reads what the test says.
+class ScriptedDevice final : public devices::PointerDevice {
+ public:
+  const devices::DeviceInfo& info() const override { return info_; }
+  DeviceStatus read(devices::PointerState& state) override {
+    if (status == DeviceStatus::Ok) state.position = position;
+    return status;
+  }
+  DeviceStatus write(const Vector3& written) override {
+    force = written;
+    return status == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Ok;
+  }
+
+  Vector3 position = Vector3::Zero();
+  Vector3 force = Vector3::Zero();
+  DeviceStatus status = DeviceStatus::Ok;
+
+ private:
+  devices::DeviceInfo info_;
+};
+
+ScenePointer box_scene(double x = 0.0) {
+  return HapticScene::compile({object(1, shape_of(primitive("box:0.1x0.1x0.1")), translation(x, 0, 0))});
+}
+
+void press(Servo& servo, ScriptedDevice& device, double depth) {
+  for (int i = 0; i <= 2000; ++i) {
+    device.position = {0.0, 0.0, 0.051 - (0.001 + depth) * std::min(1.0, i / 50.0)};
+    servo.tick(1e-3);
+  }
+}
+
+TEST(Servo, PushesOutOfASurface) {
+  ScriptedDevice device;
+  Servo servo(device, {});
+  servo.publish(box_scene());
+  press(servo, device, 0.0005);
+  EXPECT_TRUE(servo.last().contact.touching);
+  EXPECT_EQ(servo.last().object, (base::ObjectId{1, 1}));
+  EXPECT_NEAR(device.force.z(), 1000.0 * 0.0005, 1e-6);  // the nominal stiffness, at rest
+  EXPECT_NEAR(device.force.head<2>().norm(), 0.0, 1e-9);
+}
+
+TEST(Servo, IsQuietWithoutASceneAndAboveTheSurface) {
+  ScriptedDevice device;
+  Servo servo(device, {});
+  servo.tick(1e-3);
+  EXPECT_EQ(device.force, Vector3::Zero());
+  servo.publish(box_scene());
+  device.position = {0.0, 0.0, 0.06};
+  servo.tick(1e-3);
+  EXPECT_EQ(device.force, Vector3::Zero());
+}
+
+TEST(Servo, LetsGoOfALostDeviceAndOfNumbersThatAreNone) {
+  ScriptedDevice device;
+  Servo servo(device, {});
+  servo.publish(box_scene());
+  press(servo, device, 0.0005);
+  ASSERT_GT(device.force.z(), 0.1);
+  device.status = DeviceStatus::Lost;
+  servo.tick(1e-3);
+  EXPECT_EQ(device.force, Vector3::Zero());
+  device.status = DeviceStatus::Ok;
+  device.position.x() = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 200; ++i) {
+    servo.tick(1e-3);
+    ASSERT_TRUE(device.force.allFinite());
+  }
+  EXPECT_EQ(device.force, Vector3::Zero());
+}
+
+TEST(Servo, LetsGoWhenTheTouchedObjectGoes) {
+  ScriptedDevice device;
+  Servo servo(device, {});
+  servo.publish(box_scene());
+  press(servo, device, 0.0005);
+  servo.publish(HapticScene::compile({}));
+  for (int i = 0; i < 50; ++i) servo.tick(1e-3);
+  EXPECT_FALSE(servo.last().contact.touching);
+  EXPECT_EQ(device.force, Vector3::Zero());
+}
+
+TEST(Servo, TakesNoMemoryAndNoLocks) {
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
+  for (const double radius : {0.0, 0.001}) {
+    ScriptedDevice device;
+    ServoSettings settings;
+    settings.scp.tip_radius = radius;
+    Servo servo(device, settings);
+    const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(40, 0.05, 0.05, 8));
+    const auto shape = shape_of(mesh, true, radius);
+    HapticObject moving = object(2, shape_of(primitive("torus:0.06x0.005")));
+    moving.motion.angular = {1.0, 0.0, 0.0};
+    Random random(1);
+    Vector3 goal(0.06, 0.0, 0.0);
+    device.position = goal;
+    for (int part = 0; part < 10; ++part) {
+      servo.publish(HapticScene::compile({object(1, shape, translation(1e-3 * part, 0, 0)), moving}));
+      const realtime::RealtimeGuard watched = [&] {
+        realtime::RealtimeGuard guard;
+        for (int i = 0; i < 200; ++i) {
+          if ((goal - device.position).norm() < 1e-3) goal = 0.055 * random.direction();
+          device.position += 5e-4 * (goal - device.position).normalized();
+          servo.tick(1e-3);
+        }
+        guard.stop();
+        return guard;
+      }();
+      EXPECT_EQ(watched.allocations(), 0u);
+      EXPECT_EQ(watched.frees(), 0u);
+      EXPECT_EQ(watched.locks(), 0u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace icome::haptics
