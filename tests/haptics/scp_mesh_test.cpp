@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "geometry/geodesic_sphere.h"
@@ -61,6 +62,8 @@ struct JudgedMesh {
   MeshPointer mesh;
   bool closed;
   TouchableSides sides;
+
+  friend void PrintTo(const JudgedMesh& mesh, std::ostream* out) { *out << mesh.name; }
 };
 
 TriangleMesh sliver_sheet() {
