@@ -12,7 +12,8 @@ namespace icome::base {
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, Body&& body) {
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t parts = std::min(cores, std::max<std::size_t>(1, count / std::max<std::size_t>(1, grain)));
+  const std::size_t parts =
+      std::min(cores, std::max<std::size_t>(1, count / std::max<std::size_t>(1, grain)));
   const auto edge = [&](std::size_t part) { return count * part / parts; };
   std::vector<std::thread> others;
   others.reserve(parts - 1);

@@ -3,25 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace icome::geometry {
-namespace {
 
-// One rounding from double is half of this; the rest covers the arithmetic of the tests.
-constexpr float kRounding = 1.2e-7f;
-constexpr float kTiny = 1e-37f;
-
-float below(double value) {
-  const auto rounded = float(value);
-  return rounded - (std::abs(rounded) * kRounding + kTiny);
-}
-
-float above(double value) {
-  const auto rounded = float(value);
-  return rounded + (std::abs(rounded) * kRounding + kTiny);
-}
-
-}  // namespace
+using detail::kRounding;
 
 FloatBox FloatBox::empty() {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -35,24 +21,8 @@ void FloatBox::extend(const FloatBox& other) {
   }
 }
 
-FloatBox float_box(const Bounds& bounds) {
-  FloatBox box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = below(bounds.min()[axis]);
-    box.hi[axis] = above(bounds.max()[axis]);
-  }
-  return box;
-}
-
 FourBoxes::FourBoxes() {
   for (unsigned which = 0; which < kCount; ++which) set(which, FloatBox::empty());
-}
-
-void FourBoxes::set(unsigned which, const FloatBox& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    lo[axis][which] = box.lo[axis];
-    hi[axis][which] = box.hi[axis];
-  }
 }
 
 FloatBox FourBoxes::get(unsigned which) const {

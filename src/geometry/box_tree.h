@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,7 +24,7 @@ struct FloatBox {
   static FloatBox empty();
   void extend(const FloatBox& other);
 };
-FloatBox float_box(const Bounds& bounds);
+inline FloatBox float_box(const Bounds& bounds);
 
 /// Four boxes, transposed so that one instruction looks at all of them. Empty when default-constructed.
 struct alignas(16) FourBoxes {
@@ -45,11 +45,11 @@ struct alignas(16) FourBoxes {
 struct SegmentQuery {
   SegmentQuery(const Vector3& a, const Vector3& b, double radius);
 
-  FloatBox box;                     // around the capsule
-  std::array<float, 3> centre;      // of the segment
-  std::array<float, 3> half;        // half the segment, signed
-  float radius;                     // with room for single-precision rounding
-  bool slanted;                     // worth more than the test against `box`
+  FloatBox box;                 // around the capsule
+  std::array<float, 3> centre;  // of the segment
+  std::array<float, 3> half;    // half the segment, signed
+  float radius;                 // with room for single-precision rounding
+  bool slanted;                 // worth more than the test against `box`
 };
 
 /// A tree over boxes that are already in spatial order (see hilbert_order): four children a node,
@@ -95,11 +95,43 @@ class BoxTree {
   static double distance_squared(const Node& node, unsigned child, const FloatPoint& point);
   static FloatPoint float_point(const Vector3& point);
 
-  std::vector<Node> nodes_;                         // level 0 (above the leaves) first, the root last
-  std::array<std::uint32_t, kMaxLevels> start_{};   // of each level in nodes_
+  std::vector<Node> nodes_;                        // level 0 (above the leaves) first, the root last
+  std::array<std::uint32_t, kMaxLevels> start_{};  // of each level in nodes_
   unsigned levels_ = 0;
   std::size_t leaf_count_ = 0;
 };
+
+namespace detail {
+
+// One rounding from double is half of this; the rest covers the arithmetic of the tests.
+constexpr float kRounding = 1.2e-7f;
+constexpr float kTiny = 1e-37f;
+
+inline float below(double value) {
+  const auto rounded = float(value);
+  return rounded - (std::abs(rounded) * kRounding + kTiny);
+}
+
+inline float above(double value) {
+  const auto rounded = float(value);
+  return rounded + (std::abs(rounded) * kRounding + kTiny);
+}
+
+}  // namespace detail
+
+inline FloatBox float_box(const Bounds& bounds) {
+  const Vector3& min = bounds.min();
+  const Vector3& max = bounds.max();
+  return {{detail::below(min.x()), detail::below(min.y()), detail::below(min.z())},
+          {detail::above(max.x()), detail::above(max.y()), detail::above(max.z())}};
+}
+
+inline void FourBoxes::set(unsigned which, const FloatBox& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis][which] = box.lo[axis];
+    hi[axis][which] = box.hi[axis];
+  }
+}
 
 inline unsigned FourBoxes::overlap_mask(const FloatBox& box) const {
 #if defined(__SSE2__)
@@ -126,7 +158,7 @@ inline unsigned FourBoxes::overlap_mask(const FloatBox& box) const {
 template <typename Visit>
 void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
   if (levels_ == 0) return;
-  std::array<Place, kMaxLevels * (kWidth - 1) + 1> stack;
+  std::array<Place, kMaxLevels*(kWidth - 1) + 1> stack;
   unsigned depth = 0;
   stack[depth++] = {levels_ - 1, 0};
   while (depth > 0) {
@@ -140,6 +172,7 @@ void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
         visit(index);
       } else {
         stack[depth++] = {place.level - 1, index};
+        __builtin_prefetch(&nodes_[start_[place.level - 1] + index]);
       }
     }
   }

@@ -11,7 +11,7 @@ namespace {
 constexpr int kBits = 16;
 constexpr int kDigitBits = 12;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-constexpr std::size_t kGrain = 1 << 16;
+constexpr std::size_t kKeyGrain = 1 << 16;
 
 struct Keyed {
   std::uint64_t key;
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> hilbert_order(const std::vector<Eigen::Vector3f>& poi
   const float scale = longest > 0.0f ? float((1 << kBits) - 1) / longest : 0.0f;
 
   std::vector<Keyed> items(points.size());
-  base::parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  base::parallel_for(points.size(), kKeyGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f cell = (points[i] - box.min()) * scale;
       items[i] = {hilbert_key({std::uint32_t(cell.x()), std::uint32_t(cell.y()), std::uint32_t(cell.z())}),

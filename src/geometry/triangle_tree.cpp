@@ -9,11 +9,11 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::size_t kGrain = 1 << 15;
+constexpr std::size_t kTriangleGrain = 1 << 15;
 
 std::vector<Eigen::Vector3f> centroids(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3f> result(mesh.triangles.size());
-  base::parallel_for(result.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  base::parallel_for(result.size(), kTriangleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3 sum = mesh.corner(i, 0) + mesh.corner(i, 1) + mesh.corner(i, 2);
       result[i] = (sum / 3.0).cast<float>();
@@ -76,19 +76,19 @@ Vector3 nearest_point(const Corners& corners, const Vector3& point) {
 TriangleTree::TriangleTree(const TriangleMesh& mesh)
     : order_(hilbert_order(centroids(mesh))), corners_(mesh.triangles.size()) {
   copy_corners(mesh);
-  boxes_ = BoxTree(group_boxes());
+  boxes_ = boxes_around([this](std::uint32_t slot) { return triangle_bounds(slot); });
 }
 
 void TriangleTree::refit(const TriangleMesh& mesh) {
   assert(mesh.triangles.size() == corners_.size());
   copy_corners(mesh);
-  boxes_.refit(group_boxes());
+  boxes_.refit(group_boxes([this](std::uint32_t slot) { return triangle_bounds(slot); }));
 }
 
 void TriangleTree::copy_corners(const TriangleMesh& mesh) {
   bounds_.setEmpty();
   std::mutex mutex;
-  base::parallel_for(corners_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  base::parallel_for(corners_.size(), kTriangleGrain, [&](std::size_t begin, std::size_t end) {
     Bounds part;
     for (std::size_t slot = begin; slot < end; ++slot) {
       for (int which = 0; which < 3; ++which) {
@@ -101,19 +101,26 @@ void TriangleTree::copy_corners(const TriangleMesh& mesh) {
   });
 }
 
-std::vector<FloatBox> TriangleTree::group_boxes() const {
+Bounds TriangleTree::triangle_bounds(std::uint32_t slot) const {
+  const auto& [a, b, c] = corners_[slot];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+std::vector<FloatBox> TriangleTree::group_boxes(const std::function<Bounds(std::uint32_t)>& around) const {
   std::vector<FloatBox> boxes((corners_.size() + kGroup - 1) / kGroup);
-  base::parallel_for(boxes.size(), kGrain / kGroup, [&](std::size_t begin, std::size_t end) {
+  base::parallel_for(boxes.size(), kTriangleGrain / kGroup, [&](std::size_t begin, std::size_t end) {
     for (std::size_t group = begin; group < end; ++group) {
       Bounds box;
       const std::size_t last = std::min(group * kGroup + kGroup, corners_.size());
-      for (std::size_t slot = group * kGroup; slot < last; ++slot) {
-        for (const Vector3& corner : corners_[slot]) box.extend(corner);
-      }
+      for (std::size_t slot = group * kGroup; slot < last; ++slot) box.extend(around(std::uint32_t(slot)));
       boxes[group] = float_box(box);
     }
   });
   return boxes;
+}
+
+BoxTree TriangleTree::boxes_around(const std::function<Bounds(std::uint32_t)>& around) const {
+  return BoxTree(group_boxes(around));
 }
 
 std::optional<MeshHit> TriangleTree::first_hit(const Vector3& a, const Vector3& b) const {
@@ -148,8 +155,8 @@ std::optional<MeshHit> TriangleTree::nearest(const Vector3& point, double limit)
 bool TriangleTree::encloses(const Vector3& point) const {
   const double length = 2.0 * (bounds_.sizes().norm() + (point - bounds_.center()).norm());
   int votes = 0;
-  for (const Vector3& direction :
-       {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581), Vector3(-0.2357, -0.4714, 0.8498)}) {
+  for (const Vector3& direction : {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581),
+                                   Vector3(-0.2357, -0.4714, 0.8498)}) {
     const Vector3 step = length * direction;
     unsigned crossings = 0;
     near(point, point + step, 0.0,

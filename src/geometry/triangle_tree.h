@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -19,9 +20,9 @@ Vector3 nearest_point(const Corners& corners, const Vector3& point);
 
 /// Where a query met a mesh.
 struct MeshHit {
-  Vector3 point;             // m
-  std::uint32_t triangle;    // index in the mesh
-  double parameter;          // along the segment, 0 at its start; for nearest(), the distance in m
+  Vector3 point;           // m
+  std::uint32_t triangle;  // index in the mesh
+  double parameter;        // along the segment, 0 at its start; for nearest(), the distance in m
 };
 
 /// A spatial tree over the triangles of a mesh, laid out for a tip that moves little from one tick to
@@ -40,11 +41,36 @@ class TriangleTree {
   /// some that are only near it. Real-time safe when `visit` is.
   template <typename Visit>
   void near(const Vector3& a, const Vector3& b, double radius, Visit&& visit) const {
-    boxes_.near(SegmentQuery(a, b, radius), [&](std::uint32_t group) {
-      const std::uint32_t end = std::min(group * kGroup + kGroup, std::uint32_t(corners_.size()));
-      for (std::uint32_t slot = group * kGroup; slot < end; ++slot) visit(slot);
-    });
+    near_in(boxes_, a, b, radius, visit);
   }
+
+  /// The same with other boxes around the triangles, as boxes_around() made them. Real-time safe when
+  /// `visit` is.
+  template <typename Visit>
+  void near_in(const BoxTree& boxes, const Vector3& a, const Vector3& b, double radius, Visit&& visit) const {
+    // Groups are looked at a few at a time, so that memory fetches their corners side by side.
+    std::array<std::uint32_t, kBatch> groups;
+    unsigned count = 0;
+    const auto look = [&] {
+      for (unsigned i = 0; i < count; ++i) {
+        const std::uint32_t end = std::min(groups[i] * kGroup + kGroup, std::uint32_t(corners_.size()));
+        for (std::uint32_t slot = groups[i] * kGroup; slot < end; ++slot) visit(slot);
+      }
+      count = 0;
+    };
+    boxes.near(SegmentQuery(a, b, radius), [&](std::uint32_t group) {
+      const char* corners = reinterpret_cast<const char*>(&corners_[group * kGroup]);
+      for (std::size_t line = 0; line < kGroup * sizeof(Corners); line += kCacheLine) {
+        __builtin_prefetch(corners + line);
+      }
+      groups[count++] = group;
+      if (count == kBatch) look();
+    });
+    look();
+  }
+
+  /// A tree for near_in(): `around(slot)` gives the box of a triangle. Calls it from all cores.
+  BoxTree boxes_around(const std::function<Bounds(std::uint32_t)>& around) const;
 
   /// The first triangle that the segment from `a` to `b` crosses, from either side. Watertight: a
   /// segment through a shared edge or vertex meets one of its triangles. Real-time safe.
@@ -67,10 +93,13 @@ class TriangleTree {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::uint32_t kGroup = 4;  // triangles below one leaf box
+  static constexpr std::uint32_t kGroup = 4;     // triangles below one leaf box
+  static constexpr std::size_t kBatch = 16;      // groups
+  static constexpr std::size_t kCacheLine = 64;  // bytes
 
   void copy_corners(const TriangleMesh& mesh);
-  std::vector<FloatBox> group_boxes() const;
+  std::vector<FloatBox> group_boxes(const std::function<Bounds(std::uint32_t)>& around) const;
+  Bounds triangle_bounds(std::uint32_t slot) const;
 
   std::vector<std::uint32_t> order_;  // slot to triangle
   std::vector<Corners> corners_;      // by slot

@@ -14,8 +14,8 @@ ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::k
   elements_.reserve(kElements);
 }
 
-void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
-                          double elapsed) {
+void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach,
+                          double tip, double elapsed) {
   scene_ = &scene;
   a_ = a;
   b_ = b;
@@ -55,13 +55,11 @@ void ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bound
 
 std::span<const Element> ContactRegion::elements_of(Piece& piece) {
   if (piece.count == 0) {
-    PieceElements made;
+    PieceElements made(elements_);
     scene_->expand(piece.object, piece.piece, tip_, elapsed_, made);
-    overflowed_ = overflowed_ || elements_.size() + made.size() > kElements;
-    if (overflowed_) return {};
-    piece.first = std::uint32_t(elements_.size());
-    piece.count = std::uint32_t(made.size());
-    for (const Element& element : made.all()) elements_.push_back(element);
+    overflowed_ = overflowed_ || !made.complete();
+    piece.first = std::uint32_t(made.all().data() - elements_.data());
+    piece.count = std::uint32_t(made.all().size());
   }
   return {elements_.data() + piece.first, piece.count};
 }
@@ -80,7 +78,7 @@ double ContactRegion::clearance(const Vector3& position) const {
 SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                               const Tolerance& tolerance, std::uint32_t ignored_object) {
   const Vector3 end = start + step;
-  const Vector3 margin = Vector3::Constant(tolerance.touching());
+  const Vector3 margin = Vector3::Constant(tolerance.touching() + edge_dip(tip_));
   const FloatBox path = relative_box(Bounds(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin));
   SweepHit first{1.0, nullptr};
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {

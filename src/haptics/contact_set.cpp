@@ -35,7 +35,8 @@ class Polyhedron {
     for (std::size_t i = 0; i < count_; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         for (std::size_t k = 0; k < j; ++k) {
-          if (const auto step = on_three(planes_[i], planes_[j], planes_[k]); step && allows(*step)) return *step;
+          if (const auto step = on_three(planes_[i], planes_[j], planes_[k]); step && allows(*step))
+            return *step;
         }
       }
     }
@@ -75,7 +76,8 @@ class Polyhedron {
     const Vector3 across = j.normal.cross(k.normal);
     const double volume = i.normal.dot(across);
     if (volume * volume < kParallel) return std::nullopt;
-    return (i.least * across + j.least * k.normal.cross(i.normal) + k.least * i.normal.cross(j.normal)) / volume;
+    return (i.least * across + j.least * k.normal.cross(i.normal) + k.least * i.normal.cross(j.normal)) /
+           volume;
   }
 
   double slack_;
@@ -93,7 +95,8 @@ void ContactSet::add(const Element& element) {
   elements_[size_++] = element;
 }
 
-Vector3 ContactSet::constrained(const Vector3& position, const Vector3& pull, const Tolerance& tolerance) const {
+Vector3 ContactSet::constrained(const Vector3& position, const Vector3& pull,
+                                const Tolerance& tolerance) const {
   return Polyhedron(all(), position, tolerance).project(pull);
 }
 

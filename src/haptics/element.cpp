@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace icome::haptics {
 namespace {
 
 using Kind = Element::Kind;
 
-constexpr double kCloseBy = 0.995;     // cosine between normals (0.1 rad): the chord is as good as the arc
-constexpr double kArcStep = 0.1;       // rad, on pieces whose tangent plane is not free
-constexpr int kMaxTraceSteps = 64;
+constexpr double kCloseBy = 0.995;  // cosine between normals (0.1 rad): the chord is as good as the arc
+constexpr double kArcStep = 0.1;    // rad, on pieces whose tangent plane is not free
+constexpr int kMaxTraceSteps = 100;
+constexpr int kBisections = 48;
 
 /// Some unit vector at right angles to `axis`.
 Vector3 perpendicular(const Vector3& axis) { return axis.unitOrthogonal(); }
@@ -21,14 +23,17 @@ Vector3 radial(const Vector3& offset, const Vector3& axis) { return offset - axi
 /// The point of the element's skeleton (axis, centre, circle) that its round surface surrounds.
 Vector3 skeleton_point(const Element& e, const Vector3& position) {
   switch (e.kind) {
-    case Kind::Rod: return e.origin + e.axis * e.axis.dot(position - e.origin);
-    case Kind::Capsule: return e.origin + e.axis * std::clamp(e.axis.dot(position - e.origin), 0.0, e.a);
+    case Kind::Rod:
+      return e.origin + e.axis * e.axis.dot(position - e.origin);
+    case Kind::Capsule:
+      return e.origin + e.axis * std::clamp(e.axis.dot(position - e.origin), 0.0, e.a);
     case Kind::Ring: {
       const Vector3 out = radial(position - e.origin, e.axis);
       const double length = out.norm();
       return e.origin + e.a * (length > 0.0 ? Vector3(out / length) : perpendicular(e.axis));
     }
-    default: return e.origin;
+    default:
+      return e.origin;
   }
 }
 
@@ -91,7 +96,8 @@ bool covers_cone(const Element& e, const Vector3& position, double rim) {
 
 /// The first t in [0, 1] at which the distance to an axis-free quadric centre falls to `reach`:
 /// |offset + t step| = reach, entering (or, from within, leaving).
-std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& step, double reach, bool leaving) {
+std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& step, double reach,
+                                       bool leaving) {
   const double a = step.squaredNorm();
   const double b = offset.dot(step);
   const double c = offset.squaredNorm() - reach * reach;
@@ -99,31 +105,51 @@ std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& ste
   if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
   const double root = std::sqrt(discriminant);
   // The form without cancellation of each root.
-  const double t = leaving ? (b > 0.0 ? -c / (b + root) : (root - b) / a)
-                           : (b < 0.0 ? c / (root - b) : (-b - root) / a);
+  const double t =
+      leaving ? (b > 0.0 ? -c / (b + root) : (root - b) / a) : (b < 0.0 ? c / (root - b) : (-b - root) / a);
   return t >= 0.0 && t <= 1.0 ? std::optional(t) : std::nullopt;
 }
 
-/// Steps along by the height itself, which never passes a root since heights change no faster than
-/// the tip moves. Stops where the height falls to the gap.
-std::optional<double> traced_crossing(const Element& e, const Vector3& start, const Vector3& step, double gap) {
+/// How sharply the height can bend towards the surface along a path near `position`: the radius (m) of
+/// the tightest concave curve of the piece there; infinite where the piece is convex.
+double concave_radius(const Element& e, const Vector3& position) {
+  double radius = std::numeric_limits<double>::infinity();
+  if (e.kind == Kind::Ring) radius = radial(position - e.origin, e.axis).norm();  // the hole
+  if (!e.inverted) return radius;
+  const double around = e.kind == Kind::ConeSide ? cone_place(e, position).radial
+                                                 : (position - skeleton_point(e, position)).norm();
+  return std::min(radius, around);
+}
+
+/// The first t at which the height falls to the gap. Each step goes as far as a bound on the height
+/// allows: it falls no faster than its slope and the piece's curvature say, so no root is passed. On
+/// convex pieces this is Newton's method from outside.
+std::optional<double> traced_crossing(const Element& e, const Vector3& start, const Vector3& step,
+                                      double gap) {
   const double length = step.norm();
-  const double skim = 0.1 * kArcStep * (e.kind == Kind::ConeSide ? e.b : e.radius) / length;
   double t = 0.0;
   for (int i = 0; i < kMaxTraceSteps && t <= 1.0; ++i) {
     const Vector3 position = start + t * step;
-    const double clear = height(e, position);
-    if (clear <= gap) {
-      if (normal(e, position).dot(step) < 0.0) return t;
-      t += skim;  // off a surface that it is leaving
-    } else {
-      t += (clear - 0.5 * gap) / length;
+    const double slope = normal(e, position).dot(step);
+    const double clear = height(e, position) - 0.5 * gap;
+    if (clear <= 0.5 * gap && slope < 0.0) return t;
+    const double concave = concave_radius(e, position);
+    if (!std::isfinite(concave)) {
+      if (slope >= 0.0) return std::nullopt;
+      t -= clear / slope;
+      continue;
     }
+    // Half the radius leaves room for the curvature to change on the way.
+    const double bend = 2.0 * length * length / std::max(concave, gap);
+    const double ahead = std::max(0.0, clear);
+    const double bounded = (slope + std::sqrt(slope * slope + 2.0 * bend * ahead)) / bend;
+    t += std::max({std::min(bounded, 0.5 * concave / length), ahead / length, gap / length});
   }
-  return std::nullopt;
+  return t <= 1.0 ? std::optional(t) : std::nullopt;  // out of steps: to stop short is safe
 }
 
-std::optional<double> curved_crossing(const Element& e, const Vector3& start, const Vector3& step, double gap) {
+std::optional<double> curved_crossing(const Element& e, const Vector3& start, const Vector3& step,
+                                      double gap) {
   const Vector3 offset = start - e.origin;
   switch (e.kind) {
     case Kind::Ball:
@@ -131,21 +157,74 @@ std::optional<double> curved_crossing(const Element& e, const Vector3& start, co
     case Kind::Rod:
       return quadric_crossing(radial(offset, e.axis), radial(step, e.axis),
                               e.inverted ? e.radius - gap : e.radius + gap, e.inverted);
-    default: return traced_crossing(e, start, step, gap);
+    default:
+      return traced_crossing(e, start, step, gap);
   }
+}
+
+/// Does a sphere tip at `position`, just over the piece, overlap it with its centre on the free side?
+bool comes_over(const Element& e, const Vector3& position, const Tolerance& tolerance) {
+  const double h = height(e, position);
+  return h < tolerance.gap && h + e.tip >= -tolerance.behind() && covers(e, position, tolerance);
+}
+
+/// The t at which the path, outside a flat piece at its start, comes over it.
+std::optional<double> entry(const Element& e, const Vector3& start, const Vector3& step,
+                            const Tolerance& tolerance) {
+  const Vector3 offset = start - e.origin;
+  if (e.kind == Kind::Disc) {
+    const auto t = quadric_crossing(radial(offset, e.axis), radial(step, e.axis), e.a, false);
+    return t && comes_over(e, start + *t * step, tolerance) ? t : std::nullopt;
+  }
+  double t = 0.0;
+  const auto cross = [&](const Vector3& inward, double edge) {
+    const double outside = edge - inward.dot(offset);
+    if (outside > 0.0) t = std::max(t, inward.dot(step) > 0.0 ? outside / inward.dot(step) : 2.0);
+  };
+  if (e.kind == Kind::Triangle) {
+    cross(e.u, e.a);
+    cross(e.v, e.b);
+    cross(e.w, e.c);
+  } else if (e.kind == Kind::Parallelogram) {
+    cross(e.u, -e.a);
+    cross(-e.u, -e.a);
+    cross(e.v, -e.b);
+    cross(-e.v, -e.b);
+  }
+  return t <= 1.0 && comes_over(e, start + t * step, tolerance) ? std::optional(t) : std::nullopt;
 }
 
 std::optional<double> sweep_flat(const Element& e, const Vector3& start, const Vector3& step, double h0,
                                  const Tolerance& tolerance) {
   const double fall = e.axis.dot(step);
   const double h1 = h0 + fall;
-  if (fall >= 0.0 || h1 >= 0.5 * tolerance.gap) return std::nullopt;
+  if (h1 >= 0.5 * tolerance.gap) return std::nullopt;
+  // A sphere tip comes round a convex edge, below the face's plane until it is over the face.
+  if (e.tip > 0.0 && h0 < 0.5 * tolerance.gap && !covers(e, start, tolerance))
+    return entry(e, start, step, tolerance);
+  if (fall >= 0.0) return std::nullopt;
   const double rest = std::clamp((tolerance.gap - h0) / fall, 0.0, 1.0);
   if (covers(e, start + rest * step, tolerance)) return rest;
   // Just past an edge the resting plane has a crack that the piece itself does not have.
   if (h1 >= 0.0) return std::nullopt;
   const double through = std::clamp(-h0 / fall, 0.0, 1.0);
   return covers(e, start + through * step, tolerance) ? std::optional(rest) : std::nullopt;
+}
+
+/// The same for a curved piece that lies under the end of the path, by bisection.
+std::optional<double> curved_entry(const Element& e, const Vector3& start, const Vector3& step,
+                                   const Tolerance& tolerance) {
+  const Vector3 end = start + step;
+  if (height(e, end) >= 0.5 * tolerance.gap || covers(e, start, tolerance) || !covers(e, end, tolerance)) {
+    return std::nullopt;
+  }
+  double outside = 0.0;
+  double inside = 1.0;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (outside + inside);
+    (covers(e, start + middle * step, tolerance) ? inside : outside) = middle;
+  }
+  return comes_over(e, start + inside * step, tolerance) ? std::optional(inside) : std::nullopt;
 }
 
 }  // namespace
@@ -166,18 +245,22 @@ bool covers(const Element& e, const Vector3& position, const Tolerance& toleranc
   switch (e.kind) {
     case Kind::Plane:
     case Kind::Capsule:
-    case Kind::Ring: return true;
+    case Kind::Ring:
+      return true;
     case Kind::Triangle:
       return e.u.dot(offset) >= e.a - rim && e.v.dot(offset) >= e.b - rim && e.w.dot(offset) >= e.c - rim;
     case Kind::Parallelogram:
       return std::abs(e.u.dot(offset)) <= e.a + rim && std::abs(e.v.dot(offset)) <= e.b + rim;
-    case Kind::Disc: return radial(offset, e.axis).norm() <= e.a + rim;
+    case Kind::Disc:
+      return radial(offset, e.axis).norm() <= e.a + rim;
     case Kind::Rod: {
       const double along = e.axis.dot(offset);
       return along >= -rim && along <= e.a + rim && guard_allows(e, offset - along * e.axis, tolerance);
     }
-    case Kind::Ball: return guard_allows(e, offset, tolerance);
-    case Kind::ConeSide: return covers_cone(e, position, rim);
+    case Kind::Ball:
+      return guard_allows(e, offset, tolerance);
+    case Kind::ConeSide:
+      return covers_cone(e, position, rim);
   }
   return false;
 }
@@ -190,17 +273,23 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
   const Vector3 nearest = settle(element, goal, tolerance);
   if (element.flat()) return nearest;
   const Vector3 here = normal(element, from);
-  if (normal(element, nearest).dot(here) >= kCloseBy) return nearest;
-  const Vector3 pull = goal - from;
-  const Vector3 tangential = pull - here * here.dot(pull);
-  if (element.convex()) return from + tangential;
-  const double length = tangential.norm();
-  const double limit = kArcStep * element.radius;
-  return settle(element, from + (length > limit ? Vector3(tangential * (limit / length)) : tangential), tolerance);
+  const double cosine = normal(element, nearest).dot(here);
+  if (cosine >= kCloseBy) return nearest;
+  // To above the nearest point, from where it is reached by falling.
+  if (element.convex() && !element.guarded && cosine > 0.0) return from + radial(nearest - from, here);
+  const Vector3 pull = radial(goal - from, here);
+  const double length = pull.norm();
+  if (length <= 0.0) return from;
+  if (!element.convex()) {
+    return settle(element, from + pull * std::min(1.0, kArcStep * element.radius / length), tolerance);
+  }
+  // To the other side of a round solid: a quarter of the way round. On an edge the pull is enough.
+  return from + pull * (element.guarded ? std::min(1.0, element.radius / length) : element.radius / length);
 }
 
 Element facing(const Element& element, const Vector3& position) {
-  if (!element.two_sided || !element.flat() || element.axis.dot(position - element.origin) >= 0.0) return element;
+  if (!element.two_sided || !element.flat() || element.axis.dot(position - element.origin) >= 0.0)
+    return element;
   Element turned = element;
   turned.axis = -element.axis;
   return turned;
@@ -209,14 +298,16 @@ Element facing(const Element& element, const Vector3& position) {
 std::optional<double> sweep(const Element& e, const Vector3& start, const Vector3& step,
                             const Tolerance& tolerance) {
   const double h0 = height(e, start);
-  if (h0 + e.tip < -tolerance.behind()) return std::nullopt;
+  // The two sides of a curved shell are two pieces, a gap to either side of it.
+  const double behind = e.two_sided && !e.flat() ? 0.5 * tolerance.gap : tolerance.behind();
+  if (h0 + e.tip < -behind) return std::nullopt;
   if (e.flat()) return sweep_flat(e, start, step, h0, tolerance);
   if (h0 > step.norm() + tolerance.gap) return std::nullopt;
-  if (h0 <= tolerance.gap && normal(e, start).dot(step) < 0.0) {
-    return covers(e, start, tolerance) ? std::optional(0.0) : std::nullopt;
-  }
-  const std::optional<double> t = curved_crossing(e, start, step, tolerance.gap);
-  return t && covers(e, start + *t * step, tolerance) ? t : std::nullopt;
+  std::optional<double> t = 0.0;
+  if (h0 > tolerance.gap || normal(e, start).dot(step) >= 0.0)
+    t = curved_crossing(e, start, step, tolerance.gap);
+  if (t && covers(e, start + *t * step, tolerance)) return t;
+  return e.tip > 0.0 ? curved_entry(e, start, step, tolerance) : std::nullopt;
 }
 
 bool same_surface(const Element& one, const Element& other) {

@@ -25,6 +25,10 @@ struct Tolerance {
   double rim() const { return 0.25 * gap; }      // edges reach this far out: no cracks between neighbours
 };
 
+/// How far below a thickened piece the straight way of a tip (radius in m) along a rounded edge may dip
+/// before the neighbouring face is asked: boxes around pieces are looked at with this margin.
+constexpr double edge_dip(double tip) { return 0.02 * tip; }
+
 /// One smooth piece of a surface, thickened by the radius of the tip: what can hold the surface
 /// contact point (SCP) at one side. A point tip has radius 0. A triangle with a sphere tip is a
 /// triangular face, three rods (its edges) and three balls (its corners). Heights are distances of
@@ -44,9 +48,9 @@ struct Element {
   };
 
   Kind kind = Kind::Plane;
-  bool two_sided = false;  // a sheet: whichever side the tip comes from holds it
-  bool inverted = false;   // curved kinds felt from within; the normal points inwards
-  bool guarded = false;    // a rod or ball of a mesh: holds only where its faces do not (u, v, w)
+  bool two_sided = false;     // a sheet: whichever side the tip comes from holds it
+  bool inverted = false;      // curved kinds felt from within; the normal points inwards
+  bool guarded = false;       // a rod or ball of a mesh: holds only where its faces do not (u, v, w)
   std::uint32_t object = 0;   // index in the haptic scene
   std::uint32_t feature = 0;  // the shape's own number for the piece
   Vector3 origin = Vector3::Zero();

@@ -64,7 +64,8 @@ void HapticScene::measure() {
     moves_ = moves_ || !objects_[i].motion.still();
   }
   const double extent =
-      bounds_.isEmpty() ? 1.0 : std::max(bounds_.min().cwiseAbs().maxCoeff(), bounds_.max().cwiseAbs().maxCoeff());
+      bounds_.isEmpty() ? 1.0
+                        : std::max(bounds_.min().cwiseAbs().maxCoeff(), bounds_.max().cwiseAbs().maxCoeff());
   tolerance_ = Tolerance::for_extent(extent);
 }
 
@@ -97,7 +98,7 @@ std::vector<geometry::FloatBox> HapticScene::slot_boxes() const {
 }
 
 void HapticScene::gather(ContactRegion& region) const {
-  near(region.a(), region.b(), region.reach() + region.tip(),
+  near(region.a(), region.b(), region.reach() + region.tip() + edge_dip(region.tip()),
        [&](std::uint32_t object) { gather_object(region, object); });
 }
 
@@ -106,9 +107,10 @@ void HapticScene::gather_object(ContactRegion& region, std::uint32_t object) con
   const Pose world_from_object = pose(object, region.elapsed());
   const Pose object_from_world = world_from_object.inverse();
   ElementSink sink(region, object, world_from_object);
-  it.shape->gather({object_from_world * region.a(), object_from_world * region.b(), region.reach(), region.tip(),
-                    it.surface.sides},
-                   sink);
+  const double reach = region.reach() + edge_dip(region.tip());
+  it.shape->gather(
+      {object_from_world * region.a(), object_from_world * region.b(), reach, region.tip(), it.surface.sides},
+      sink);
 }
 
 void HapticScene::expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed,
@@ -116,9 +118,10 @@ void HapticScene::expand(std::uint32_t object, std::uint32_t piece, double tip, 
   const HapticObject& it = objects_[object];
   it.shape->expand(piece, tip, it.surface.sides, elements);
   const Pose world_from_object = pose(object, elapsed);
+  const bool in_place = world_from_object.matrix().isIdentity(0.0);
   for (Element& element : elements.all()) {
     element.object = object;
-    element = transformed(world_from_object, element);
+    if (!in_place) element = transformed(world_from_object, element);
   }
 }
 
@@ -133,8 +136,9 @@ Pose HapticScene::pose(std::uint32_t object, double elapsed) const {
 }
 
 std::optional<std::uint32_t> HapticScene::find(ObjectId id) const {
-  const auto place = std::lower_bound(by_id_.begin(), by_id_.end(), id,
-                                      [&](std::uint32_t object, ObjectId key) { return objects_[object].id < key; });
+  const auto place =
+      std::lower_bound(by_id_.begin(), by_id_.end(), id,
+                       [&](std::uint32_t object, ObjectId key) { return objects_[object].id < key; });
   if (place == by_id_.end() || objects_[*place].id != id) return std::nullopt;
   return *place;
 }

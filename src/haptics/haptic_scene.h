@@ -54,7 +54,8 @@ class HapticScene {
   /// The same for one object. Real-time safe.
   void gather_object(ContactRegion& region, std::uint32_t object) const;
   /// The elements of a deferred piece of an object, in the world. Real-time safe.
-  void expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed, PieceElements& elements) const;
+  void expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed,
+              PieceElements& elements) const;
 
   /// Calls `visit(object)` for objects near the ball or segment. Real-time safe when `visit` is.
   template <typename Visit>

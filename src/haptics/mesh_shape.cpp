@@ -1,10 +1,7 @@
 #include "haptics/mesh_shape.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
-
-#include "base/parallel.h"
 
 namespace icome::haptics {
 namespace {
@@ -15,10 +12,6 @@ using geometry::Corners;
 constexpr std::uint32_t kPartBits = 3;
 constexpr std::uint32_t kFirstEdge = 1;
 constexpr std::uint32_t kFirstCorner = 4;
-
-// Spreads of normals are kept in steps of 1/180 of the unit sphere's radius.
-constexpr double kSpreadSteps = 180.0;
-constexpr std::uint8_t kWide = 180;  // too wide to be worth telling apart
 
 /// The same order for the two triangles that share an edge, so that their rods are the same.
 bool comes_first(const Vector3& a, const Vector3& b) {
@@ -90,80 +83,73 @@ class TriangleElements {
 
 }  // namespace
 
-MeshShape::MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, bool closed, Shading shading)
-    : mesh_(std::move(mesh)), tree_(*mesh_), closed_(closed) {
-  if (closed) measure_spread();
-  if (shading == Shading::Interpolated) normals_ = geometry::vertex_normals(*mesh_);
+MeshShape::MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, const MeshShapeSettings& settings)
+    : mesh_(std::move(mesh)), tree_(*mesh_), settings_(settings) {
+  if (settings_.closed && settings_.tip_radius > 0.0) thicken();
+  if (settings_.interpolate_normals) normals_ = geometry::vertex_normals(*mesh_);
 }
 
-// A chord of the unit sphere, from the triangle's normal to the farthest of its neighbours' normals,
-// goes by way of the mean normal at the corner that they share.
-void MeshShape::measure_spread() {
-  const std::size_t count = mesh_->triangles.size();
-  const auto face_normal = [&](std::size_t i) {
-    const Vector3& a = mesh_->corner(i, 0);
-    return Vector3((mesh_->corner(i, 1) - a).cross(mesh_->corner(i, 2) - a).normalized());
-  };
-  std::vector<Vector3> mean(mesh_->positions.size(), Vector3::Zero());
-  std::vector<double> farthest(mesh_->positions.size(), 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const std::uint32_t vertex : mesh_->triangles[i]) mean[vertex] += face_normal(i);
-  }
-  for (Vector3& normal : mean) normal.normalize();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const std::uint32_t vertex : mesh_->triangles[i]) {
-      farthest[vertex] = std::max(farthest[vertex], (mean[vertex] - face_normal(i)).norm());
-    }
-  }
-  spread_.resize(count);
-  base::parallel_for(count, std::size_t{1} << 15, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      const std::uint32_t triangle = tree_.triangle(std::uint32_t(slot));
-      double chord = 0.0;
-      for (const std::uint32_t vertex : mesh_->triangles[triangle]) {
-        chord = std::max(chord, farthest[vertex] + (mean[vertex] - face_normal(triangle)).norm());
-      }
-      spread_[slot] = std::uint8_t(std::min(double(kWide), std::ceil(chord * kSpreadSteps) + 1.0));
-    }
-  });
+// For a sphere tip on a smooth closed mesh: boxes around where the tip's centre can be, much smaller
+// than boxes around the triangles grown by the tip on all sides.
+void MeshShape::thicken() {
+  const std::vector<Neighbourhood> by_triangle = neighbourhoods(*mesh_);
+  neighbourhood_.resize(by_triangle.size());
+  for (std::uint32_t slot = 0; slot < tree_.size(); ++slot)
+    neighbourhood_[slot] = by_triangle[tree_.triangle(slot)];
+  thick_ = tree_.boxes_around(
+      [this](std::uint32_t slot) { return tip_bounds(slot, settings_.tip_radius, TouchableSides::Front); });
 }
 
 void MeshShape::gather(const GatherRequest& request, ElementSink& sink) const {
   const Vector3 margin = Vector3::Constant(request.reach);
   const Bounds wanted(request.a.cwiseMin(request.b) - margin, request.a.cwiseMax(request.b) + margin);
-  tree_.near(request.a, request.b, request.reach + request.tip, [&](std::uint32_t slot) {
-    const Bounds bounds = tip_bounds(slot, request);
+  const auto look = [&](std::uint32_t slot) {
+    const Bounds bounds = tip_bounds(slot, request.tip, request.sides);
     if (bounds.intersects(wanted)) sink.defer(slot, bounds);
-  });
+  };
+  const bool prepared = thick_.leaf_count() > 0 && request.tip == settings_.tip_radius &&
+                        request.sides == TouchableSides::Front;
+  if (prepared) {
+    tree_.near_in(thick_, request.a, request.b, request.reach, look);
+  } else {
+    tree_.near(request.a, request.b, request.reach + request.tip, look);
+  }
+}
+
+/// Do all normals around the triangle point much the same way, and is the free side known?
+bool MeshShape::narrow(std::uint32_t slot, TouchableSides sides) const {
+  return !neighbourhood_.empty() && sides == TouchableSides::Front && neighbourhood_[slot].spread < kWide;
 }
 
 // Where the tip's centre can be while it rests on the triangle, its edges or its corners: the triangle
 // moved out along its normal and, as the normals of edges and corners differ from it, a bit around.
-Bounds MeshShape::tip_bounds(std::uint32_t slot, const GatherRequest& request) const {
+Bounds MeshShape::tip_bounds(std::uint32_t slot, double tip, TouchableSides sides) const {
   const Corners& corners = tree_.corners(slot);
-  Bounds bounds(corners[0]);
-  bounds.extend(corners[1]);
-  bounds.extend(corners[2]);
-  if (request.tip <= 0.0) return bounds;
-  const bool narrow = !spread_.empty() && request.sides == TouchableSides::Front && spread_[slot] < kWide;
-  const Vector3 out = narrow ? Vector3((corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized())
-                             : Vector3::Zero();
-  const Vector3 around = Vector3::Constant(request.tip * (narrow ? spread_[slot] / kSpreadSteps : 1.0));
-  return {bounds.min() + request.tip * out - around, bounds.max() + request.tip * out + around};
+  const Bounds triangle(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
+                        corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]));
+  if (tip <= 0.0) return triangle;
+  const bool tight = narrow(slot, sides);
+  const Vector3 margin = Vector3::Constant(tight ? tip * neighbourhood_[slot].spread / kSpreadSteps : tip);
+  const Vector3 out =
+      tight ? Vector3(tip * (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized())
+            : Vector3::Zero();
+  return {triangle.min() + out - margin, triangle.max() + out + margin};
 }
 
 void MeshShape::expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const {
   const TriangleElements triangle(tree_.corners(piece), piece, tip, sides);
   elements.add(triangle.face());
   if (tip <= 0.0) return;
+  const unsigned owned = narrow(piece, sides) ? neighbourhood_[piece].owned : ~0u;
   for (int i = 0; i < 3; ++i) {
-    elements.add(triangle.edge(i));
-    elements.add(triangle.corner(i));
+    if (owned >> i & 1) elements.add(triangle.edge(i));
+    if (owned >> (3 + i) & 1) elements.add(triangle.corner(i));
   }
 }
 
 std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position) const {
-  if (!closed_ || !tree_.bounds().contains(position) || !tree_.encloses(position)) return std::nullopt;
+  if (!settings_.closed || !tree_.bounds().contains(position) || !tree_.encloses(position))
+    return std::nullopt;
   const std::optional<geometry::MeshHit> hit = tree_.nearest(position);
   const Vector3 away = hit->point - position;
   const double length = away.norm();
@@ -192,6 +178,9 @@ Vector3 MeshShape::shading_normal(std::uint32_t feature, const Vector3& position
   return length > 0.0 ? Vector3(turned / length) : face_normal;
 }
 
-std::size_t MeshShape::bytes() const { return tree_.bytes() + spread_.capacity() + normals_.capacity() * sizeof(Vector3); }
+std::size_t MeshShape::bytes() const {
+  return tree_.bytes() + thick_.bytes() + neighbourhood_.capacity() * sizeof(Neighbourhood) +
+         normals_.capacity() * sizeof(Vector3);
+}
 
 }  // namespace icome::haptics

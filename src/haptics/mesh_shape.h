@@ -4,18 +4,23 @@
 
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
+#include "haptics/mesh_neighbourhood.h"
 #include "haptics/shape.h"
 
 namespace icome::haptics {
+
+/// How a mesh is to be touched.
+struct MeshShapeSettings {
+  bool closed = false;               // it encloses a solid, outward normals out: only then has it an inside
+  bool interpolate_normals = false;  // for force shading
+  double tip_radius = 0.0;           // m; a sphere tip of just this radius is served fastest
+};
 
 /// A triangle mesh that can be touched: its faces, and with a sphere tip its edges and corners too.
 /// Shares the mesh, owns the tree over it.
 class MeshShape final : public Shape {
  public:
-  enum class Shading : std::uint8_t { Flat, Interpolated };
-
-  /// `closed` says that the mesh encloses a solid, outward normals out: only then has it an inside.
-  MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, bool closed, Shading shading = Shading::Flat);
+  MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, const MeshShapeSettings& settings);
 
   Bounds bounds() const override { return tree_.bounds(); }
   void gather(const GatherRequest& request, ElementSink& sink) const override;
@@ -29,14 +34,16 @@ class MeshShape final : public Shape {
   const geometry::TriangleTree& tree() const { return tree_; }
 
  private:
-  void measure_spread();
-  Bounds tip_bounds(std::uint32_t slot, const GatherRequest& request) const;
+  bool narrow(std::uint32_t slot, TouchableSides sides) const;
+  Bounds tip_bounds(std::uint32_t slot, double tip, TouchableSides sides) const;
+  void thicken();
 
   std::shared_ptr<const geometry::TriangleMesh> mesh_;
   geometry::TriangleTree tree_;
-  bool closed_;
-  std::vector<std::uint8_t> spread_;  // by slot: how far neighbours' normals differ; empty when open
-  std::vector<Vector3> normals_;  // by vertex; empty when flat
+  MeshShapeSettings settings_;
+  std::vector<Neighbourhood> neighbourhood_;  // by slot; only of a closed mesh for a sphere tip
+  geometry::BoxTree thick_;                   // over tip_bounds of the prepared radius, likewise
+  std::vector<Vector3> normals_;              // by vertex; empty unless interpolated
 };
 
 }  // namespace icome::haptics

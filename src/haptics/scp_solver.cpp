@@ -7,9 +7,11 @@ namespace icome::haptics {
 namespace {
 
 // A region should hold enough pieces to serve several ticks and few enough to sweep quickly.
-constexpr std::size_t kFewPieces = 16;
-constexpr double kWantedPieces = 32.0;
-constexpr std::size_t kManyPieces = 80;
+constexpr std::size_t kFewPieces = 12;
+constexpr double kWantedPieces = 24.0;
+constexpr std::size_t kManyPieces = 48;
+constexpr double kTicksAhead = 4.0;
+constexpr double kLeastShare = 1e-3;
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxWaysOut = 8;
@@ -32,6 +34,7 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
   region_.invalidate();
   if (reach_ <= 0.0) reach_ = 0.1 * largest_reach();
   if (old == nullptr || !started_) return;
+  follow_reported_object(*old);
   carry_contacts(*old, old_elapsed);
   const Vector3 margin = Vector3::Constant(settings_.tip_radius + scene.tolerance().behind());
   const geometry::FloatBox here = geometry::float_box(Bounds(position_ - margin, position_ + margin));
@@ -48,6 +51,14 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
       left_solid_ = true;
     }
   }
+}
+
+// The last report names an object by its place in the old scene.
+void ScpSolver::follow_reported_object(const HapticScene& old) {
+  if (!state_.touching) return;
+  const std::optional<std::uint32_t> now = scene_->find(old.objects()[state_.object].id);
+  state_.touching = now.has_value();
+  state_.object = now.value_or(kNoObject);
 }
 
 // Contacts stay with their objects: the SCP goes where its first contact's object takes it.
@@ -82,8 +93,11 @@ const ScpState& ScpSolver::step(const Vector3& tip, double elapsed) {
   if (scene_->moves()) carry(elapsed_, elapsed);
   elapsed_ = elapsed;
   tip_motion_ = (tip - last_tip_).norm();
+  last_slide_ = 0.0;
   last_tip_ = tip;
+  const Vector3 before = position_;
   converge(tip);
+  drift_ = position_ - before;
   report(tip);
   return state_;
 }
@@ -119,7 +133,8 @@ void ScpSolver::carry(double from, double to) {
   std::uint32_t pusher = kNoObject;
   for (Element& contact : contacts_.all()) {
     if (scene_->objects()[contact.object].motion.still()) continue;
-    const Pose now_from_before = scene_->pose(contact.object, to) * scene_->pose(contact.object, from).inverse();
+    const Pose now_from_before =
+        scene_->pose(contact.object, to) * scene_->pose(contact.object, from).inverse();
     contact = transformed(now_from_before, contact);
     if (pusher == kNoObject) {
       target = now_from_before * position_;
@@ -128,15 +143,16 @@ void ScpSolver::carry(double from, double to) {
   }
   elapsed_ = to;
   bool near_moving = false;
-  scene_->near(position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius, [&](std::uint32_t object) {
-    near_moving = near_moving || !scene_->objects()[object].motion.still();
-  });
+  scene_->near(
+      position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius,
+      [&](std::uint32_t object) { near_moving = near_moving || !scene_->objects()[object].motion.still(); });
   if (near_moving) region_.invalidate();
   if (pusher != kNoObject) shove(target, pusher);
   if (!near_moving) return;
   // What a moving object runs into is taken along.
   scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
-    if (!scene_->objects()[object].motion.still()) ride(object, scene_->pose(object, from), scene_->pose(object, to));
+    if (!scene_->objects()[object].motion.still())
+      ride(object, scene_->pose(object, from), scene_->pose(object, to));
   });
 }
 
@@ -176,11 +192,12 @@ void ScpSolver::converge(const Vector3& tip) {
     bool exact = false;
     const Vector3 step = next_step(tip, exact);
     if (step.squaredNorm() <= 4.0 * tolerance.gap * tolerance.gap) {
+      if (escape(tip)) continue;
       state_.converged = true;
       return;
     }
     const std::size_t held = contacts_.size();
-    const bool whole = advance(step) >= 1.0;
+    const bool whole = advance(step);
     if (whole && exact && contacts_.size() == held) {
       state_.converged = true;
       return;
@@ -191,80 +208,120 @@ void ScpSolver::converge(const Vector3& tip) {
 /// The piece of way that the contacts allow. `exact`: if nothing is met, its end needs no second look.
 Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   const Vector3 pull = tip - position_;
-  exact = true;
-  if (contacts_.empty()) return pull;
   const Tolerance& tolerance = scene_->tolerance();
+  exact = true;
+  for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
   if (contacts_.size() > 1) {
     const Vector3 step = contacts_.constrained(position_, pull, tolerance);
-    for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
-    return with_friction(step, pull);
+    let_go(step);
+    return step * slip(step.norm(), (pull - step).norm());
   }
-  const Element& contact = contacts_.all().front();
-  if (normal(contact, position_).dot(pull) >= 0.0) {
-    exact = contact.flat();
-    return pull;
+  if (contacts_.size() == 1) {
+    const Element& contact = contacts_.all().front();
+    const Vector3 out = normal(contact, position_);
+    const double press = -out.dot(pull);
+    if (press > 0.0) {
+      const Vector3 step = slide(contact, position_, tip, tolerance) - position_;
+      return step * slip((pull + press * out).norm(), press);
+    }
+    contacts_.clear();
   }
-  const Vector3 step = slide(contact, position_, tip, tolerance) - position_;
-  exact = contact.flat();
-  return with_friction(step, pull);
+  return pull;
 }
 
-// Coulomb's cone in terms of the spring: the part of the pull that the step cannot follow presses,
-// the step itself is what the spring pulls sideways (Harwin and Melder 2002, "friction cone").
-Vector3 ScpSolver::with_friction(const Vector3& step, const Vector3& pull) {
+/// Where faces meet in a saddle, the half-spaces of all of them together hold a tip that could still
+/// move: a face does not reach beyond its edges. Leaves out one contact at a time; the sweep, which
+/// sees faces as they are, says whether that opens a way. True when the SCP moved.
+bool ScpSolver::escape(const Vector3& tip) {
+  if (contacts_.size() < 2 || sliding_ || surface().static_friction > 0.0) return false;
+  const Vector3 pull = tip - position_;
+  const ContactSet all = contacts_;
+  for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
+    contacts_ = all;
+    contacts_.forget_if([&](const Element& contact) { return &contact == &contacts_.all()[left_out]; });
+    const Vector3 step = contacts_.constrained(position_, pull, scene_->tolerance());
+    const Vector3 from = position_;
+    advance(step);
+    if ((position_ - from).squaredNorm() > std::pow(scene_->tolerance().touching(), 2)) return true;
+    position_ = from;
+  }
+  contacts_ = all;
+  return false;
+}
+
+/// Forgets contacts that a step leaves and could run into again, as the two sides of a ring's hole.
+void ScpSolver::let_go(const Vector3& step) {
+  contacts_.forget_if([&](const Element& contact) {
+    return !contact.convex() && normal(contact, position_).dot(step) > scene_->tolerance().touching();
+  });
+}
+
+/// The share of a step that friction lets through, where the spring pulls `along` metres sideways and
+/// presses by `press` metres: Coulomb's cone in terms of the spring (Harwin and Melder 2002).
+double ScpSolver::slip(double along, double press) {
   const Surface& touched = surface();
-  if (touched.static_friction <= 0.0 && touched.dynamic_friction <= 0.0) return step;
-  const double press = (pull - step).norm();
-  const double along = step.norm();
-  const double limit = (sliding_ ? touched.dynamic_friction : touched.static_friction) * press;
-  if (along <= limit) {
-    sliding_ = false;
-    return Vector3::Zero();
-  }
-  sliding_ = true;
-  return step * (1.0 - touched.dynamic_friction * press / along);
+  if (touched.static_friction <= 0.0 && touched.dynamic_friction <= 0.0) return 1.0;
+  const double coefficient = sliding_ ? touched.dynamic_friction : touched.static_friction;
+  sliding_ = along > coefficient * press;
+  return sliding_ ? 1.0 - touched.dynamic_friction * press / along : 0.0;
 }
 
-const Surface& ScpSolver::surface() const {
-  return scene_->objects()[contacts_.all().back().object].surface;
-}
+const Surface& ScpSolver::surface() const { return scene_->objects()[contacts_.all().back().object].surface; }
 
-/// Sweeps the SCP along `step`; returns the part of it that was covered.
-double ScpSolver::advance(const Vector3& step) {
+/// Sweeps the SCP along `wanted`, or as far as the region goes; false when something was in the way.
+bool ScpSolver::advance(const Vector3& wanted) {
   const Tolerance& tolerance = scene_->tolerance();
-  const double length = step.norm();
-  if (region_.clearance(position_) < std::min(length, 0.25 * region_.reach())) surround(step);
-  double part = 1.0;
-  if (region_.clearance(position_ + step) < 0.0) part = std::min(1.0, region_.clearance(position_) / length);
-  const SweepHit hit = region_.sweep(position_, part * step, contacts_.all(), tolerance);
+  if (region_.clearance(position_) < std::min(wanted.norm(), 0.25 * region_.reach())) surround(wanted);
+  const Vector3 step = within_region(wanted);
+  const SweepHit hit = region_.sweep(position_, step, contacts_.all(), tolerance);
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
     region_.invalidate();
     reach_ *= 0.5;
-    return 0.0;
+    return false;
   }
   const Vector3 from = position_;
-  position_ += hit.t * part * step;
+  position_ += hit.t * step;
   contacts_.forget_if([&](const Element& contact) {
     return height(contact, position_) > tolerance.touching() || !covers(contact, position_, tolerance);
   });
   if (hit.element != nullptr) contacts_.add(facing(*hit.element, from));
-  return hit.t * part;
+  return hit.element == nullptr && step == wanted;
+}
+
+/// The beginning of a step that would leave the region.
+Vector3 ScpSolver::within_region(const Vector3& step) const {
+  if (region_.clearance(position_ + step) >= 0.0) return step;
+  const double part = std::min(1.0, region_.clearance(position_) / step.norm());
+  if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
+  if (height(contacts_.all().front(), position_ + step) > scene_->tolerance().touching()) return part * step;
+  // Half-way along a chord the SCP would lie in the solid: end on the surface, which the region covers
+  // if the chord is short enough.
+  const Element& contact = contacts_.all().front();
+  for (double share = part; share > kLeastShare * part; share *= 0.5) {
+    const Vector3 end = settle(contact, position_ + share * step, scene_->tolerance());
+    if (region_.clearance(end) >= 0.0) return end - position_;
+  }
+  return Vector3::Zero();
 }
 
 /// A tenth of the scene.
 double ScpSolver::largest_reach() const { return 1e9 * scene_->tolerance().gap; }
 
-/// Gathers the region anew around the SCP and ahead of it.
+/// Gathers the region anew: around the SCP and ahead, where it went last tick and goes on to.
 void ScpSolver::surround(const Vector3& step) {
-  double lead = std::min(step.norm(), std::max(reach_, tip_motion_));
-  const Vector3 direction = step.normalized();
+  // A step that falls back to a surface points at the tip, which says little about the way to come.
+  const bool falling = contacts_.empty() && state_.touching;
+  const double likely = falling ? std::min(step.norm(), std::max(tip_motion_, last_slide_)) : step.norm();
+  if (!contacts_.empty()) last_slide_ = step.norm();
+  Vector3 ahead = kTicksAhead * drift_;
+  if (ahead.norm() < likely) ahead = step.normalized() * likely;
+  const double least_reach = 0.25 * tip_motion_;
   for (int i = 0; i < kMaxShrinks; ++i) {
-    region_.start(*scene_, position_, position_ + lead * direction, reach_, settings_.tip_radius, elapsed_);
+    region_.start(*scene_, position_, position_ + ahead, reach_, settings_.tip_radius, elapsed_);
     scene_->gather(region_);
-    const bool roomy = reach_ > 0.5 * tip_motion_;
-    if (!region_.overflowed() && (region_.size() <= kManyPieces || !roomy)) break;
+    if (!region_.overflowed() && (region_.size() <= kManyPieces || reach_ <= least_reach)) break;
+    if (region_.overflowed()) ahead *= 0.5;
     reach_ *= region_.overflowed() ? 0.5 : std::max(0.25, std::sqrt(kWantedPieces / double(region_.size())));
-    if (region_.overflowed()) lead *= 0.5;
   }
   if (region_.size() < kFewPieces) reach_ = std::min(1.5 * reach_, largest_reach());
 }
@@ -272,16 +329,23 @@ void ScpSolver::surround(const Vector3& step) {
 void ScpSolver::report(const Vector3& tip) {
   const Tolerance& tolerance = scene_->tolerance();
   const Vector3 pull = tip - position_;
+  const bool apart = pull.squaredNorm() > std::pow(tolerance.touching(), 2);
   state_.scp = position_;
   state_.started_inside = left_solid_;
   left_solid_ = false;
-  state_.touching = !contacts_.empty() && pull.squaredNorm() > std::pow(tolerance.touching(), 2);
-  state_.object = kNoObject;
+  if (contacts_.empty() && state_.touching && apart) return;  // out of budget on its way: still held
+  state_.touching = !contacts_.empty() && apart;
   state_.surface_velocity.setZero();
   if (!state_.touching) {
+    state_.object = kNoObject;
     if (contacts_.empty() && state_.converged) state_.scp = position_ = tip;
     return;
   }
+  report_contact(pull);
+}
+
+/// What holds the SCP most against `pull`.
+void ScpSolver::report_contact(const Vector3& pull) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Element& contact : contacts_.all()) {
     const double load = -normal(contact, position_).dot(pull);
@@ -292,7 +356,7 @@ void ScpSolver::report(const Vector3& tip) {
     state_.normal = normal(contact, position_);
   }
   if (contacts_.size() > 1) {
-    const Vector3 press = pull - contacts_.constrained(position_, pull, tolerance);
+    const Vector3 press = pull - contacts_.constrained(position_, pull, scene_->tolerance());
     if (press.squaredNorm() > 0.0) state_.normal = -press.normalized();
   }
   const HapticObject& object = scene_->objects()[state_.object];

@@ -8,18 +8,18 @@
 namespace icome::haptics {
 
 struct ScpSettings {
-  double tip_radius = 0.0;   // m, 0 is a point tip; usually 0 to 0.005
-  int max_iterations = 64;   // the tick's budget, in sweeps: counted, not timed, so that replays agree
+  double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
+  int max_iterations = 64;  // the tick's budget, in sweeps: counted, not timed, so that replays agree
 };
 
 /// What the solver found in a tick.
 struct ScpState {
-  Vector3 scp = Vector3::Zero();           // m, world; the tip's own position while nothing is touched
-  Vector3 normal = Vector3::UnitZ();       // unit, towards the free side, of what holds the SCP
+  Vector3 scp = Vector3::Zero();               // m, world; the tip's own position while nothing is touched
+  Vector3 normal = Vector3::UnitZ();           // unit, towards the free side, of what holds the SCP
   Vector3 surface_velocity = Vector3::Zero();  // m/s, of the touched object at the SCP
   bool touching = false;
-  bool started_inside = false;   // the SCP was put on the surface because the tip began inside
-  bool converged = true;         // false: the budget ran out; the SCP is valid but may still move
+  bool started_inside = false;       // the SCP was put on the surface because the tip began inside
+  bool converged = true;             // false: the budget ran out; the SCP is valid but may still move
   std::uint32_t object = kNoObject;  // in the scene, of the contact that carries most
   std::uint32_t feature = 0;
   int iterations = 0;
@@ -62,15 +62,20 @@ class ScpSolver {
   bool leave_solid(std::uint32_t object);
   void carry(double from, double to);
   void ride(std::uint32_t object, const Pose& before, const Pose& now);
+  void follow_reported_object(const HapticScene& old);
   void carry_contacts(const HapticScene& old, double old_elapsed);
   void shove(const Vector3& to, std::uint32_t pusher);
   void converge(const Vector3& tip);
-  double advance(const Vector3& step);
+  bool advance(const Vector3& wanted);
+  Vector3 within_region(const Vector3& step) const;
   Vector3 next_step(const Vector3& tip, bool& exact);
-  Vector3 with_friction(const Vector3& step, const Vector3& pull);
+  bool escape(const Vector3& tip);
+  void let_go(const Vector3& step);
+  double slip(double along, double press);
   void surround(const Vector3& step);
   double largest_reach() const;
   void report(const Vector3& tip);
+  void report_contact(const Vector3& pull);
   const Surface& surface() const;
 
   ScpSettings settings_;
@@ -81,8 +86,10 @@ class ScpSolver {
   bool left_solid_ = false;             // put on the surface since the last report
   Vector3 position_ = Vector3::Zero();  // m, of the SCP (centre of the tip that rests)
   Vector3 last_tip_ = Vector3::Zero();
-  double tip_motion_ = 0.0;             // m, of this tick
-  double reach_ = 0.0;                  // m, how far around the SCP the region looks
+  double tip_motion_ = 0.0;          // m, of this tick
+  double last_slide_ = 0.0;          // m, the last step along a surface in this tick
+  Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
+  double reach_ = 0.0;               // m, how far around the SCP the region looks
   ContactSet contacts_;
   ContactRegion region_;
   ContactRegion ride_region_;

@@ -1,8 +1,8 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geometry/primitive.h"
 #include "haptics/contact_region.h"
@@ -39,18 +39,23 @@ class ElementSink {
   bool in_place_;  // the shape's frame is the world's
 };
 
-/// The elements of one piece. A fixed array: real-time safe.
+/// Takes the elements of one piece, in the shape's frame; lives on the stack of one Shape::expand.
 class PieceElements {
  public:
-  static constexpr std::size_t kCapacity = 8;
+  explicit PieceElements(std::vector<Element>& into) : into_(into), first_(into.size()) {}
 
-  void add(const Element& element) { elements_[size_++] = element; }
-  std::span<Element> all() { return {elements_.data(), size_}; }
-  std::size_t size() const { return size_; }
+  /// Without memory left, the element is dropped and complete() turns false. Real-time safe.
+  void add(const Element& element) {
+    complete_ = complete_ && into_.size() < into_.capacity();
+    if (complete_) into_.push_back(element);
+  }
+  std::span<Element> all() { return std::span(into_).subspan(first_); }
+  bool complete() const { return complete_; }
 
  private:
-  std::array<Element, kCapacity> elements_;
-  std::size_t size_ = 0;
+  std::vector<Element>& into_;
+  std::size_t first_;
+  bool complete_ = true;
 };
 
 /// Something that can be touched. To add a kind of shape, derive from this and say which elements lie
@@ -66,7 +71,7 @@ class Shape {
   /// Hands out every element or piece that the request can meet, and perhaps others. Real-time safe.
   virtual void gather(const GatherRequest& request, ElementSink& sink) const = 0;
 
-  /// The one to eight elements of a piece that gather deferred, in the shape's frame. Real-time safe.
+  /// The elements, one or more, of a piece that gather deferred, in the shape's frame. Real-time safe.
   virtual void expand(std::uint32_t /*piece*/, double /*tip*/, TouchableSides /*sides*/,
                       PieceElements& /*elements*/) const {}
 

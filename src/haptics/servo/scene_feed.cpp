@@ -7,8 +7,8 @@ namespace icome::haptics {
 namespace {
 
 bool same_place(const HapticObject& a, const HapticObject& b) {
-  return a.shape == b.shape && a.world_from_object.matrix() == b.world_from_object.matrix() && a.motion.still() &&
-         b.motion.still();
+  return a.shape == b.shape && a.world_from_object.matrix() == b.world_from_object.matrix() &&
+         a.motion.still() && b.motion.still();
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ SurfaceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
 /// Measures the stages of a tick, one after the other.
 class StageClock {
  public:
-  explicit StageClock(std::array<std::int64_t, kStages>& stages) : stages_(stages), last_(base::steady_nanoseconds()) {}
+  explicit StageClock(std::array<std::int64_t, kStages>& stages)
+      : stages_(stages), last_(base::steady_nanoseconds()) {}
 
   void ends(Stage stage) {
     const std::int64_t now = base::steady_nanoseconds();
@@ -30,8 +31,8 @@ class StageClock {
 }  // namespace
 
 std::int64_t TickReport::own_ns() const {
-  return std::accumulate(stage_ns.begin() + std::size_t(Stage::Scene), stage_ns.begin() + std::size_t(Stage::Write),
-                         std::int64_t{0});
+  return std::accumulate(stage_ns.begin() + std::size_t(Stage::Scene),
+                         stage_ns.begin() + std::size_t(Stage::Write), std::int64_t{0});
 }
 
 Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings, Effect* effects)
@@ -54,9 +55,8 @@ const TickReport& Servo::tick(double dt) {
   clock.ends(Stage::Force);
   wanted += effect_force(dt);
   clock.ends(Stage::Effects);
-  report_.force = limiter_.limit(wanted, dt,
-                                 {fresh, report_.status != devices::DeviceStatus::Lost,
-                                  report_.contact.started_inside});
+  report_.force = limiter_.limit(
+      wanted, dt, {fresh, report_.status != devices::DeviceStatus::Lost, report_.contact.started_inside});
   clock.ends(Stage::Limit);
   const devices::DeviceStatus written =
       device_.write(settings_.world_from_device.linear().transpose() * report_.force);
@@ -106,8 +106,8 @@ Vector3 Servo::surface_force() const {
   if (surface.texture == nullptr) return force;
   const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
   const Pose object_from_world = world_from_object.inverse();
-  TextureSample sample = surface.texture->sample(object_from_world * contact.scp,
-                                                 object_from_world.linear() * contact.normal);
+  TextureSample sample =
+      surface.texture->sample(object_from_world * contact.scp, object_from_world.linear() * contact.normal);
   sample.gradient = world_from_object.linear() * sample.gradient;
   return textured_force(force, contact.normal, surface.stiffness, sample);
 }
@@ -118,9 +118,9 @@ Vector3 Servo::shaded(const Vector3& force) const {
   const HapticObject& object = scene_->scene->objects()[contact.object];
   const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
   const Pose object_from_world = world_from_object.inverse();
-  const Vector3 normal =
-      world_from_object.linear() * object.shape->shading_normal(contact.feature, object_from_world * contact.scp,
-                                                                object_from_world.linear() * contact.normal);
+  const Vector3 normal = world_from_object.linear() *
+                         object.shape->shading_normal(contact.feature, object_from_world * contact.scp,
+                                                      object_from_world.linear() * contact.normal);
   const double press = force.dot(contact.normal);
   return force + press * (normal - contact.normal);
 }

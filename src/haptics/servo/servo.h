@@ -12,11 +12,11 @@
 namespace icome::haptics {
 
 struct ServoSettings {
-  double rate_hz = 1000.0;                      // Hz, 500 to 10,000
+  double rate_hz = 1000.0;  // Hz, 500 to 10,000
   ScpSettings scp;
   LimiterSettings limiter;
-  Pose world_from_device = Pose::Identity();    // where the device's workspace lies in the world
-  bool force_shading = false;                   // feel interpolated normals (Shape::shading_normal)
+  Pose world_from_device = Pose::Identity();  // where the device's workspace lies in the world
+  bool force_shading = false;                 // feel interpolated normals (Shape::shading_normal)
 };
 
 /// The stages of a tick, in their order.
@@ -29,7 +29,7 @@ struct TickReport {
   Vector3 tip = Vector3::Zero();    // m
   Vector3 force = Vector3::Zero();  // N, as written, in the world frame
   ScpState contact;
-  ObjectId object;                  // what is touched, when contact.touching
+  ObjectId object;                               // what is touched, when contact.touching
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
 
   /// All that the tick took except device input and output, ns.
