@@ -64,7 +64,7 @@ class BoxTree {
   void refit(std::span<const FloatBox> leaves);
 
   /// Calls `visit(leaf)` for every leaf box that comes within the query's radius of its segment, and
-  /// for some that only nearly do. Real-time safe when `visit` is.
+  /// for some that only nearly do, until it returns false. Real-time safe when `visit` is.
   template <typename Visit>
   void near(const SegmentQuery& query, Visit&& visit) const;
 
@@ -169,7 +169,7 @@ void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
       if (query.slanted && !touches(node, child, query)) continue;
       const std::uint32_t index = place.index * kWidth + child;
       if (place.level == 0) {
-        visit(index);
+        if (!visit(index)) return;
       } else {
         stack[depth++] = {place.level - 1, index};
         __builtin_prefetch(&nodes_[start_[place.level - 1] + index]);

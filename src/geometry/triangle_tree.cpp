@@ -129,6 +129,7 @@ std::optional<MeshHit> TriangleTree::first_hit(const Vector3& a, const Vector3& 
   near(a, b, 0.0, [&](std::uint32_t slot) {
     const std::optional<double> t = crossing(corners_[slot], a, direction);
     if (t && (!best || *t < best->parameter)) best = MeshHit{a + *t * direction, order_[slot], *t};
+    return true;
   });
   return best;
 }
@@ -155,13 +156,16 @@ std::optional<MeshHit> TriangleTree::nearest(const Vector3& point, double limit)
 bool TriangleTree::encloses(const Vector3& point) const {
   const double length = 2.0 * (bounds_.sizes().norm() + (point - bounds_.center()).norm());
   int votes = 0;
-  for (const Vector3& direction : {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581),
-                                   Vector3(-0.2357, -0.4714, 0.8498)}) {
+  for (const Vector3& direction :
+       {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581), Vector3(-0.2357, -0.4714, 0.8498)}) {
     const Vector3 step = length * direction;
-    unsigned crossings = 0;
-    near(point, point + step, 0.0,
-         [&](std::uint32_t slot) { crossings += crossing(corners_[slot], point, step).has_value(); });
-    votes += crossings % 2 == 1 ? 1 : -1;
+    int left = 0;  // fronts passed on the way out, less backs
+    near(point, point + step, 0.0, [&](std::uint32_t slot) {
+      const auto& [a, b, c] = corners_[slot];
+      if (crossing(corners_[slot], point, step)) left += (b - a).cross(c - a).dot(step) > 0.0 ? 1 : -1;
+      return true;
+    });
+    votes += left > 0 ? 1 : -1;
   }
   return votes > 0;
 }

@@ -38,7 +38,7 @@ class TriangleTree {
   void refit(const TriangleMesh& mesh);
 
   /// Calls `visit(slot)` for every triangle within `radius` of the segment from `a` to `b`, and for
-  /// some that are only near it. Real-time safe when `visit` is.
+  /// some that are only near it, until it returns false. Real-time safe when `visit` is.
   template <typename Visit>
   void near(const Vector3& a, const Vector3& b, double radius, Visit&& visit) const {
     near_in(boxes_, a, b, radius, visit);
@@ -51,12 +51,14 @@ class TriangleTree {
     // Groups are looked at a few at a time, so that memory fetches their corners side by side.
     std::array<std::uint32_t, kBatch> groups;
     unsigned count = 0;
+    bool more = true;
     const auto look = [&] {
       for (unsigned i = 0; i < count; ++i) {
         const std::uint32_t end = std::min(groups[i] * kGroup + kGroup, std::uint32_t(corners_.size()));
-        for (std::uint32_t slot = groups[i] * kGroup; slot < end; ++slot) visit(slot);
+        for (std::uint32_t slot = groups[i] * kGroup; more && slot < end; ++slot) more = visit(slot);
       }
       count = 0;
+      return more;
     };
     boxes.near(SegmentQuery(a, b, radius), [&](std::uint32_t group) {
       const char* corners = reinterpret_cast<const char*>(&corners_[group * kGroup]);
@@ -64,7 +66,7 @@ class TriangleTree {
         __builtin_prefetch(corners + line);
       }
       groups[count++] = group;
-      if (count == kBatch) look();
+      return count < kBatch || look();
     });
     look();
   }
@@ -80,8 +82,8 @@ class TriangleTree {
   std::optional<MeshHit> nearest(const Vector3& point,
                                  double limit = std::numeric_limits<double>::infinity()) const;
 
-  /// Does a closed mesh enclose the point? Counts crossings in three directions and lets the majority
-  /// decide, as a ray through an edge counts it twice. Real-time safe.
+  /// Does a closed mesh, outward normals out, enclose the point? Its parts may overlap. The majority of
+  /// three rays decides, as one through an edge counts it twice. Real-time safe.
   bool encloses(const Vector3& point) const;
 
   const Corners& corners(std::uint32_t slot) const { return corners_[slot]; }

@@ -88,9 +88,10 @@ class MeshWitness final : public Witness {
     const Vector3 step = b - a;
     tree_.near(a, b, 0.0, [&](std::uint32_t slot) {
       const std::optional<Crossing> crossing = cross(tree_.corners(slot), a, step);
-      if (!crossing || !(two_sided_ || crossing->from_front) || crossing->t >= first) return;
+      if (!crossing || !(two_sided_ || crossing->from_front) || crossing->t >= first) return true;
       first = crossing->t;
       met = slot;
+      return true;
     });
     if (first > 1.0) return std::nullopt;
     const Corners& corners = tree_.corners(met);
@@ -111,6 +112,7 @@ class MeshWitness final : public Witness {
       const Vector3 nearest = geometry::nearest_point(corners, point);
       const Vector3 front = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
       if (front.dot(point - nearest) > 0.0) deepest = std::max(deepest, radius - (point - nearest).norm());
+      return true;
     });
     return deepest;
   }
@@ -137,9 +139,10 @@ class MeshWitness final : public Witness {
       const Vector3 step = length * Vector3(x, y, z);
       tree_.near(point, point + step, 0.0, [&](std::uint32_t slot) {
         const std::optional<Crossing> crossing = cross(tree_.corners(slot), point, step);
-        if (!crossing) return;
+        if (!crossing) return true;
         count += crossing->from_front ? -1 : 1;
         clear = clear && crossing->margin > 1e-9;
+        return true;
       });
       if (clear) break;
     }

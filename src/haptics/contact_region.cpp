@@ -14,8 +14,9 @@ ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::k
   elements_.reserve(kElements);
 }
 
-void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach,
-                          double tip, double elapsed) {
+void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
+                          double elapsed, std::size_t limit) {
+  limit_ = std::min(limit, kPieces);
   scene_ = &scene;
   a_ = a;
   b_ = b;
@@ -34,7 +35,7 @@ void ContactRegion::invalidate() {
 }
 
 bool ContactRegion::take_box(const Bounds& bounds) {
-  overflowed_ = overflowed_ || size_ == kPieces || elements_.size() == kElements;
+  overflowed_ = overflowed_ || size_ == limit_ || elements_.size() == kElements;
   if (overflowed_) return false;
   FourBoxes& boxes = boxes_[size_ / FourBoxes::kCount];
   if (size_ % FourBoxes::kCount == 0) boxes = FourBoxes();
@@ -42,15 +43,17 @@ bool ContactRegion::take_box(const Bounds& bounds) {
   return true;
 }
 
-void ContactRegion::add(const Element& element, const Bounds& bounds) {
-  if (!take_box(bounds)) return;
+bool ContactRegion::add(const Element& element, const Bounds& bounds) {
+  if (!take_box(bounds)) return false;
   pieces_[size_++] = {element.object, element.feature, std::uint32_t(elements_.size()), 1};
   elements_.push_back(element);
+  return true;
 }
 
-void ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds) {
-  if (!take_box(bounds)) return;
+bool ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds) {
+  if (!take_box(bounds)) return false;
   pieces_[size_++] = {object, piece, 0, 0};
+  return true;
 }
 
 std::span<const Element> ContactRegion::elements_of(Piece& piece) {

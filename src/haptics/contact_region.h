@@ -31,14 +31,14 @@ class ContactRegion {
   ContactRegion();
 
   /// Empties the region and sets what it will cover: for a tip of radius `tip` (m), `elapsed` seconds
-  /// after the moment of the scene's poses. The caller keeps the scene alive.
+  /// after the moment of the scene's poses, with at most `limit` pieces. The caller keeps the scene alive.
   void start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
-             double elapsed);
+             double elapsed, std::size_t limit = kPieces);
   /// Adds an element (world frame); `bounds` encloses the positions of the tip's centre at which it
-  /// can hold.
-  void add(const Element& element, const Bounds& bounds);
-  /// Adds a piece of an object that becomes elements later, by Shape::expand.
-  void defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds);
+  /// can hold. False when there was no room.
+  bool add(const Element& element, const Bounds& bounds);
+  /// Adds a piece of an object that becomes elements later, by Shape::expand. False without room.
+  bool defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds);
   /// Forgets everything: covers nothing.
   void invalidate();
 
@@ -80,6 +80,7 @@ class ContactRegion {
   double tip_ = 0.0;      // m
   double elapsed_ = 0.0;  // s
   bool overflowed_ = false;
+  std::size_t limit_ = kPieces;
   std::size_t size_ = 0;  // pieces
   std::vector<Piece> pieces_;
   std::vector<geometry::FourBoxes> boxes_;  // of the pieces, relative to a_

@@ -99,7 +99,10 @@ std::vector<geometry::FloatBox> HapticScene::slot_boxes() const {
 
 void HapticScene::gather(ContactRegion& region) const {
   near(region.a(), region.b(), region.reach() + region.tip() + edge_dip(region.tip()),
-       [&](std::uint32_t object) { gather_object(region, object); });
+       [&](std::uint32_t object) {
+         gather_object(region, object);
+         return !region.overflowed();
+       });
 }
 
 void HapticScene::gather_object(ContactRegion& region, std::uint32_t object) const {

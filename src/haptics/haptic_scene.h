@@ -57,10 +57,11 @@ class HapticScene {
   void expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed,
               PieceElements& elements) const;
 
-  /// Calls `visit(object)` for objects near the ball or segment. Real-time safe when `visit` is.
+  /// Calls `visit(object)` for objects near the ball or segment until it returns false. Real-time safe
+  /// when `visit` is.
   template <typename Visit>
   void near(const Vector3& a, const Vector3& b, double reach, Visit&& visit) const {
-    tree_.near(geometry::SegmentQuery(a, b, reach), [&](std::uint32_t slot) { visit(order_[slot]); });
+    tree_.near(geometry::SegmentQuery(a, b, reach), [&](std::uint32_t slot) { return visit(order_[slot]); });
   }
 
   /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.

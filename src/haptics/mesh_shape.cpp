@@ -105,7 +105,7 @@ void MeshShape::gather(const GatherRequest& request, ElementSink& sink) const {
   const Bounds wanted(request.a.cwiseMin(request.b) - margin, request.a.cwiseMax(request.b) + margin);
   const auto look = [&](std::uint32_t slot) {
     const Bounds bounds = tip_bounds(slot, request.tip, request.sides);
-    if (bounds.intersects(wanted)) sink.defer(slot, bounds);
+    return !bounds.intersects(wanted) || sink.defer(slot, bounds);
   };
   const bool prepared = thick_.leaf_count() > 0 && request.tip == settings_.tip_radius &&
                         request.sides == TouchableSides::Front;

@@ -8,9 +8,9 @@ namespace {
 
 // A region should hold enough pieces to serve several ticks and few enough to sweep quickly.
 constexpr std::size_t kFewPieces = 12;
-constexpr double kWantedPieces = 24.0;
 constexpr std::size_t kManyPieces = 48;
 constexpr double kTicksAhead = 4.0;
+constexpr double kSameWay = 0.9;  // cosine
 constexpr double kLeastShare = 1e-3;
 
 constexpr int kMaxShrinks = 48;
@@ -110,7 +110,10 @@ void ScpSolver::start(const Vector3& tip) {
   for (int i = 0; i < kMaxWaysOut; ++i) {
     bool moved = false;
     scene_->near(position_, position_, settings_.tip_radius,
-                 [&](std::uint32_t object) { moved = leave_solid(object) || moved; });
+                 [&](std::uint32_t object) {
+      moved = leave_solid(object) || moved;
+      return true;
+    });
     if (!moved) break;
     left_solid_ = true;
   }
@@ -143,9 +146,11 @@ void ScpSolver::carry(double from, double to) {
   }
   elapsed_ = to;
   bool near_moving = false;
-  scene_->near(
-      position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius,
-      [&](std::uint32_t object) { near_moving = near_moving || !scene_->objects()[object].motion.still(); });
+  scene_->near(position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius,
+               [&](std::uint32_t object) {
+                 near_moving = !scene_->objects()[object].motion.still();
+                 return !near_moving;
+               });
   if (near_moving) region_.invalidate();
   if (pusher != kNoObject) shove(target, pusher);
   if (!near_moving) return;
@@ -153,6 +158,7 @@ void ScpSolver::carry(double from, double to) {
   scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
     if (!scene_->objects()[object].motion.still())
       ride(object, scene_->pose(object, from), scene_->pose(object, to));
+    return true;
   });
 }
 
@@ -307,23 +313,34 @@ Vector3 ScpSolver::within_region(const Vector3& step) const {
 /// A tenth of the scene.
 double ScpSolver::largest_reach() const { return 1e9 * scene_->tolerance().gap; }
 
-/// Gathers the region anew: around the SCP and ahead, where it went last tick and goes on to.
+/// Gathers the region anew: around the SCP and ahead of it. Too many pieces are slow to sweep, so the
+/// region shrinks until few are left or it is as small as the motion allows.
 void ScpSolver::surround(const Vector3& step) {
-  // A step that falls back to a surface points at the tip, which says little about the way to come.
-  const bool falling = contacts_.empty() && state_.touching;
-  const double likely = falling ? std::min(step.norm(), std::max(tip_motion_, last_slide_)) : step.norm();
-  if (!contacts_.empty()) last_slide_ = step.norm();
-  Vector3 ahead = kTicksAhead * drift_;
-  if (ahead.norm() < likely) ahead = step.normalized() * likely;
+  Vector3 ahead = way_ahead(step);
   const double least_reach = 0.25 * tip_motion_;
   for (int i = 0; i < kMaxShrinks; ++i) {
-    region_.start(*scene_, position_, position_ + ahead, reach_, settings_.tip_radius, elapsed_);
+    const bool least = reach_ <= least_reach;
+    region_.start(*scene_, position_, position_ + ahead, reach_, settings_.tip_radius, elapsed_,
+                  least ? ContactRegion::kPieces : kManyPieces);
     scene_->gather(region_);
-    if (!region_.overflowed() && (region_.size() <= kManyPieces || reach_ <= least_reach)) break;
-    if (region_.overflowed()) ahead *= 0.5;
-    reach_ *= region_.overflowed() ? 0.5 : std::max(0.25, std::sqrt(kWantedPieces / double(region_.size())));
+    if (!region_.overflowed()) break;
+    if (least) ahead *= 0.5;
+    reach_ *= 0.5;
   }
-  if (region_.size() < kFewPieces) reach_ = std::min(1.5 * reach_, largest_reach());
+  if (region_.size() < kFewPieces) reach_ = std::min(1.4 * reach_, largest_reach());
+}
+
+/// Where the SCP will go: as a rule on, as in the last tick, for a few ticks.
+Vector3 ScpSolver::way_ahead(const Vector3& step) {
+  const double length = step.norm();
+  const Vector3 on = kTicksAhead * drift_;
+  if (contacts_.empty() && state_.touching) {
+    // A step that falls back to the surface points at the tip, which says little about the way.
+    const double likely = std::min(length, std::max(tip_motion_, last_slide_));
+    return on.norm() >= likely ? on : Vector3(step * (likely / length));
+  }
+  if (!contacts_.empty()) last_slide_ = length;
+  return on.dot(step) >= kSameWay * on.norm() * length && on.norm() >= length ? on : step;
 }
 
 void ScpSolver::report(const Vector3& tip) {

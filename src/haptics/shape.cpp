@@ -10,13 +10,13 @@ ElementSink::ElementSink(ContactRegion& region, std::uint32_t object, const Pose
       world_from_object_(world_from_object),
       in_place_(world_from_object.matrix().isIdentity(0.0)) {}
 
-void ElementSink::add(Element element, const Bounds& bounds) {
+bool ElementSink::add(Element element, const Bounds& bounds) {
   element.object = object_;
-  region_.add(in_place_ ? element : transformed(world_from_object_, element), in_world(bounds));
+  return region_.add(in_place_ ? element : transformed(world_from_object_, element), in_world(bounds));
 }
 
-void ElementSink::defer(std::uint32_t piece, const Bounds& bounds) {
-  region_.defer(object_, piece, in_world(bounds));
+bool ElementSink::defer(std::uint32_t piece, const Bounds& bounds) {
+  return region_.defer(object_, piece, in_world(bounds));
 }
 
 /// The box around the turned box.

@@ -25,10 +25,12 @@ class ElementSink {
  public:
   ElementSink(ContactRegion& region, std::uint32_t object, const Pose& world_from_object);
 
+  // Both return false when there is no room for more: then the rest need not be handed out.
+
   /// An element; `bounds` as for ContactRegion::add. Real-time safe.
-  void add(Element element, const Bounds& bounds);
+  bool add(Element element, const Bounds& bounds);
   /// A piece that Shape::expand will turn into elements when a sweep comes near. Real-time safe.
-  void defer(std::uint32_t piece, const Bounds& bounds);
+  bool defer(std::uint32_t piece, const Bounds& bounds);
 
  private:
   Bounds in_world(const Bounds& bounds) const;
