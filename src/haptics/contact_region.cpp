@@ -14,8 +14,8 @@ ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::k
   elements_.reserve(kElements);
 }
 
-void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
-                          double elapsed, std::size_t limit) {
+void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach,
+                          double tip, double elapsed, std::size_t limit) {
   limit_ = std::min(limit, kPieces);
   scene_ = &scene;
   a_ = a;

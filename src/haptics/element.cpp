@@ -10,7 +10,9 @@ namespace {
 using Kind = Element::Kind;
 
 constexpr double kCloseBy = 0.995;  // cosine between normals (0.1 rad): the chord is as good as the arc
-constexpr double kArcStep = 0.1;    // rad, on pieces whose tangent plane is not free
+// The same round a shell, where not even the chord's dip may meet the other side: 1e-5 rad.
+constexpr double kVeryCloseBy = 1.0 - 5e-11;
+constexpr double kArcStep = 0.1;  // rad, on pieces whose tangent plane is not free
 constexpr int kMaxTraceSteps = 100;
 constexpr int kBisections = 48;
 
@@ -104,9 +106,11 @@ std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& ste
   const double discriminant = b * b - a * c;
   if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
   const double root = std::sqrt(discriminant);
-  // The form without cancellation of each root.
-  const double t =
-      leaving ? (b > 0.0 ? -c / (b + root) : (root - b) / a) : (b < 0.0 ? c / (root - b) : (-b - root) / a);
+  // The form without cancellation of each root. Who heads for the surface and is at it, up to rounding,
+  // meets it at once.
+  double t = leaving ? (root - b) / a : (-b - root) / a;
+  if (leaving && b > 0.0) t = std::max(0.0, -c / (b + root));
+  if (!leaving && b < 0.0) t = std::max(0.0, c / (root - b));
   return t >= 0.0 && t <= 1.0 ? std::optional(t) : std::nullopt;
 }
 
@@ -143,7 +147,8 @@ std::optional<double> traced_crossing(const Element& e, const Vector3& start, co
     const double bend = 2.0 * length * length / std::max(concave, gap);
     const double ahead = std::max(0.0, clear);
     const double bounded = (slope + std::sqrt(slope * slope + 2.0 * bend * ahead)) / bend;
-    t += std::max({std::min(bounded, 0.5 * concave / length), ahead / length, gap / length});
+    t += std::max(
+        {std::min(bounded, 0.5 * concave / length), ahead / length, slope >= 0.0 ? gap / length : 0.0});
   }
   return t <= 1.0 ? std::optional(t) : std::nullopt;  // out of steps: to stop short is safe
 }
@@ -274,7 +279,8 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
   if (element.flat()) return nearest;
   const Vector3 here = normal(element, from);
   const double cosine = normal(element, nearest).dot(here);
-  if (cosine >= kCloseBy) return nearest;
+  if (cosine >= (element.two_sided && element.convex() && !element.guarded ? kVeryCloseBy : kCloseBy))
+    return nearest;
   // To above the nearest point, from where it is reached by falling.
   if (element.convex() && !element.guarded && cosine > 0.0) return from + radial(nearest - from, here);
   const Vector3 pull = radial(goal - from, here);
@@ -299,7 +305,7 @@ std::optional<double> sweep(const Element& e, const Vector3& start, const Vector
                             const Tolerance& tolerance) {
   const double h0 = height(e, start);
   // The two sides of a curved shell are two pieces, a gap to either side of it.
-  const double behind = e.two_sided && !e.flat() ? 0.5 * tolerance.gap : tolerance.behind();
+  const double behind = e.two_sided && !e.flat() ? tolerance.rim() : tolerance.behind();
   if (h0 + e.tip < -behind) return std::nullopt;
   if (e.flat()) return sweep_flat(e, start, step, h0, tolerance);
   if (h0 > step.norm() + tolerance.gap) return std::nullopt;
@@ -311,9 +317,11 @@ std::optional<double> sweep(const Element& e, const Vector3& start, const Vector
 }
 
 bool same_surface(const Element& one, const Element& other) {
-  if (one.kind != other.kind || one.object != other.object || one.inverted != other.inverted) return false;
+  if (one.kind != other.kind || one.object != other.object) return false;
   if (one.flat()) return one.feature == other.feature;
-  if (one.origin != other.origin || one.radius != other.radius) return false;
+  // The two sides of a curved shell are one surface: who rests on one side does not meet the other.
+  if (one.origin != other.origin || (one.inverted == other.inverted && one.radius != other.radius))
+    return false;
   return one.kind == Kind::Ball || (one.axis == other.axis && one.a == other.a);
 }
 

@@ -10,7 +10,6 @@ namespace {
 constexpr std::size_t kFewPieces = 12;
 constexpr std::size_t kManyPieces = 48;
 constexpr double kTicksAhead = 4.0;
-constexpr double kSameWay = 0.9;  // cosine
 constexpr double kLeastShare = 1e-3;
 
 constexpr int kMaxShrinks = 48;
@@ -109,8 +108,7 @@ void ScpSolver::start(const Vector3& tip) {
   // One way out may lead into another solid: follow until free.
   for (int i = 0; i < kMaxWaysOut; ++i) {
     bool moved = false;
-    scene_->near(position_, position_, settings_.tip_radius,
-                 [&](std::uint32_t object) {
+    scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
       moved = leave_solid(object) || moved;
       return true;
     });
@@ -219,8 +217,9 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
   if (contacts_.size() > 1) {
     const Vector3 step = contacts_.constrained(position_, pull, tolerance);
+    const double share = slip(step.norm(), (pull - step).norm());
     let_go(step);
-    return step * slip(step.norm(), (pull - step).norm());
+    return share * step;
   }
   if (contacts_.size() == 1) {
     const Element& contact = contacts_.all().front();
@@ -277,7 +276,10 @@ const Surface& ScpSolver::surface() const { return scene_->objects()[contacts_.a
 /// Sweeps the SCP along `wanted`, or as far as the region goes; false when something was in the way.
 bool ScpSolver::advance(const Vector3& wanted) {
   const Tolerance& tolerance = scene_->tolerance();
-  if (region_.clearance(position_) < std::min(wanted.norm(), 0.25 * region_.reach())) surround(wanted);
+  const double room = region_.clearance(position_);
+  const bool leaves = room < 0.0 || region_.clearance(position_ + wanted) < 0.0;
+  const bool long_way = !falling() && (contacts_.empty() || wanted.norm() > region_.reach());
+  if (leaves && (long_way || room < 0.25 * region_.reach())) surround(wanted);
   const Vector3 step = within_region(wanted);
   const SweepHit hit = region_.sweep(position_, step, contacts_.all(), tolerance);
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
@@ -330,17 +332,21 @@ void ScpSolver::surround(const Vector3& step) {
   if (region_.size() < kFewPieces) reach_ = std::min(1.4 * reach_, largest_reach());
 }
 
+/// Is the SCP in the air between two places of a surface? Then its step points at the tip, which says
+/// little about how far it will go.
+bool ScpSolver::falling() const { return contacts_.empty() && state_.touching; }
+
 /// Where the SCP will go: as a rule on, as in the last tick, for a few ticks.
 Vector3 ScpSolver::way_ahead(const Vector3& step) {
   const double length = step.norm();
   const Vector3 on = kTicksAhead * drift_;
-  if (contacts_.empty() && state_.touching) {
-    // A step that falls back to the surface points at the tip, which says little about the way.
+  if (falling()) {
     const double likely = std::min(length, std::max(tip_motion_, last_slide_));
     return on.norm() >= likely ? on : Vector3(step * (likely / length));
   }
   if (!contacts_.empty()) last_slide_ = length;
-  return on.dot(step) >= kSameWay * on.norm() * length && on.norm() >= length ? on : step;
+  const double beside = on.cross(step).norm();
+  return on.dot(step) >= step.squaredNorm() && beside <= 0.5 * reach_ * on.norm() ? on : step;
 }
 
 void ScpSolver::report(const Vector3& tip) {

@@ -73,6 +73,7 @@ class ScpSolver {
   void let_go(const Vector3& step);
   double slip(double along, double press);
   void surround(const Vector3& step);
+  bool falling() const;
   Vector3 way_ahead(const Vector3& step);
   double largest_reach() const;
   void report(const Vector3& tip);
