@@ -16,7 +16,7 @@ build:  ## the program, build/release/bin/icome
 
 run: build  ## touch the Stanford bunny, see touch.png
 	tools/install-packages run
-	$(PROGRAM) touch /usr/share/glmark2/models/bunny.obj --fit 0.1 --seconds 5 --picture touch.png
+	$(PROGRAM) touch /usr/share/glmark2/models/bunny.obj --up y --fit 0.1 --seconds 5 --picture touch.png
 
 # Quick checks first, so that a slip is told early; the release tests last, so that their total ends the log.
 test:  ## every check: layout, names, layers, unit and program tests, sanitizers

@@ -38,6 +38,7 @@ function(icome_tests name)
   endif()
   add_dependencies(icome_unit_tests ${program})
   target_link_libraries(${program} PRIVATE icome_${name} GTest::gtest_main ${ARG_LINKS})
+  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${program} PRIVATE
     ICOME_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
   if(ICOME_SANITIZE)

@@ -156,8 +156,8 @@ std::optional<MeshHit> TriangleTree::nearest(const Vector3& point, double limit)
 bool TriangleTree::encloses(const Vector3& point) const {
   const double length = 2.0 * (bounds_.sizes().norm() + (point - bounds_.center()).norm());
   int votes = 0;
-  for (const Vector3& direction :
-       {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581), Vector3(-0.2357, -0.4714, 0.8498)}) {
+  for (const Vector3& direction : {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581),
+                                   Vector3(-0.2357, -0.4714, 0.8498)}) {
     const Vector3 step = length * direction;
     int left = 0;  // fronts passed on the way out, less backs
     near(point, point + step, 0.0, [&](std::uint32_t slot) {

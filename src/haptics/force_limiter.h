@@ -45,8 +45,8 @@ constexpr std::size_t kLimiterActs = 7;
 ///   free until h reaches half of that, then the limit falls smoothly towards the continuous force,
 /// - changes by at most max_rate * dt a tick (dt at most longest_step) except to zero after a fault; a
 ///   max_rate below (max_force/continuous_force)^2 max_force/thermal_seconds yields to the motors' rating,
-/// - is zero on a non-finite value, a stalled source or a lost device, and afterwards, as at the start
-///   and when the tip starts inside an object, grows from zero over ramp_seconds,
+/// - is zero on a non-finite value, a stalled source or a lost device, and afterwards, as when the tip
+///   starts inside an object, grows from zero over ramp_seconds,
 /// - keeps the wanted direction wherever only its length is limited.
 /// Owns nothing else; one thread calls it.
 class ForceLimiter {
@@ -81,7 +81,7 @@ class ForceLimiter {
   LimiterSettings settings_;
   Vector3 last_ = Vector3::Zero();  // N, what was returned last
   double mean_square_ = 0.0;        // N^2, h above
-  double ramp_ = 0.0;               // 0 to 1
+  double ramp_ = 1.0;               // 0 to 1
   int stale_ticks_ = 0;
   bool was_inside_ = false;
   unsigned acts_ = 0;  // one bit an act

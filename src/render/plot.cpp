@@ -10,7 +10,7 @@ namespace {
 
 using base::Vector2;
 
-const Colour kInk{0.25, 0.27, 0.31};
+const Colour kPlotInk{0.25, 0.27, 0.31};
 const Colour kGrid{0.90, 0.91, 0.93};
 const Colour kShade{0.925, 0.94, 0.965};
 constexpr double kTextSize = 16.0;
@@ -67,14 +67,14 @@ void draw_x_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
   const double base = axes.frame.bottom();
   for (const double value : ticks.at) {
     const Vector2 mark[] = {{axes.x(value), base}, {axes.x(value), base + 5.0}};
-    canvas.line(mark, {kInk, 1.0, {}});
+    canvas.line(mark, {kPlotInk, 1.0, {}});
     canvas.text({axes.x(value), base + 24.0}, tick_label(value, ticks.decimals),
-                {kTextSize, kInk, false, 0.5});
+                {kTextSize, kPlotInk, false, 0.5});
   }
   canvas.text({axes.frame.x + 0.5 * axes.frame.width, base + 50.0}, label,
-              {kTextSize + 1.0, kInk, false, 0.5});
+              {kTextSize + 1.0, kPlotInk, false, 0.5});
   const Vector2 line[] = {{axes.frame.x, base}, {axes.frame.right(), base}};
-  canvas.line(line, {kInk, 1.2, {}});
+  canvas.line(line, {kPlotInk, 1.2, {}});
 }
 
 void draw_y_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
@@ -83,10 +83,10 @@ void draw_y_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
     const Vector2 grid[] = {{axes.frame.x, axes.y(value)}, {axes.frame.right(), axes.y(value)}};
     if (value > 0.0) canvas.line(grid, {kGrid, 1.0, {}});
     canvas.text({axes.frame.x - 10.0, axes.y(value) + 0.36 * kTextSize}, tick_label(value, ticks.decimals),
-                {kTextSize, kInk, false, 1.0});
+                {kTextSize, kPlotInk, false, 1.0});
   }
   canvas.text({axes.frame.x - 58.0, axes.frame.y + 0.5 * axes.frame.height}, label,
-              {kTextSize + 1.0, kInk, false, 0.5, 0.5 * M_PI});
+              {kTextSize + 1.0, kPlotInk, false, 0.5, 0.5 * M_PI});
 }
 
 void draw_shades(Canvas& canvas, const Axes& axes, const std::vector<Span>& shaded) {

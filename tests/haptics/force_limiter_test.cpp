@@ -58,8 +58,15 @@ TEST(ForceLimiter, ClampsForcesWhoseSquareOverflows) {
   EXPECT_NEAR(force.x(), -force.z(), 1e-12);
 }
 
+TEST(ForceLimiter, StartsWithoutARamp) {
+  ForceLimiter limiter(premium_device());
+  EXPECT_EQ(limiter.limit(Vector3(1, 0, 0), kLimiterStep), Vector3(1, 0, 0));
+  EXPECT_FALSE(limiter.acted(LimiterAct::RampedIn));
+}
+
 TEST(ForceLimiter, RampsInOverTheGivenTime) {
   ForceLimiter limiter(premium_device());  // 0.5 s
+  limiter.restart();
   std::vector<double> force;
   for (int tick = 0; tick < 600; ++tick) force.push_back(limiter.limit(Vector3(1, 0, 0), kLimiterStep).x());
   EXPECT_NEAR(force[0], 0.002, 1e-12);
