@@ -1,6 +1,8 @@
 #include "geometry/triangle_tree.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <mutex>
 
 #include "base/parallel.h"
@@ -10,6 +12,7 @@ namespace icome::geometry {
 namespace {
 
 constexpr std::size_t kTriangleGrain = 1 << 15;
+constexpr double kRoundingOfVolume = 4e-16;
 
 std::vector<Eigen::Vector3f> centroids(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3f> result(mesh.triangles.size());
@@ -37,9 +40,12 @@ std::optional<double> crossing(const Corners& corners, const Vector3& start, con
   const double a = edge_side(v, w, direction);
   const double b = edge_side(w, u, direction);
   const double c = edge_side(u, v, direction);
-  if ((a < 0.0 || b < 0.0 || c < 0.0) && (a > 0.0 || b > 0.0 || c > 0.0)) return std::nullopt;
+  // What rounding can make of zero: a path through a corner belongs to all triangles that meet there.
+  const double zero = kRoundingOfVolume * std::sqrt(direction.squaredNorm()) *
+                      std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+  if (std::min({a, b, c}) < -zero && std::max({a, b, c}) > zero) return std::nullopt;
   const double sum = a + b + c;
-  if (sum == 0.0) return std::nullopt;  // the segment runs in the triangle's plane
+  if (std::abs(sum) <= zero) return std::nullopt;  // the segment runs in the triangle's plane
   const double t = (a * u + b * v + c * w).dot(direction) / (sum * direction.squaredNorm());
   if (!(t >= 0.0 && t <= 1.0)) return std::nullopt;
   return t;

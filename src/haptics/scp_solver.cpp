@@ -202,6 +202,7 @@ void ScpSolver::converge(const Vector3& tip) {
     }
     const std::size_t held = contacts_.size();
     const bool whole = advance(step);
+    if (region_.overflowed()) return;
     if (whole && exact && contacts_.size() == held) {
       state_.converged = true;
       return;
@@ -276,6 +277,7 @@ const Surface& ScpSolver::surface() const { return scene_->objects()[contacts_.a
 /// Sweeps the SCP along `wanted`, or as far as the region goes; false when something was in the way.
 bool ScpSolver::advance(const Vector3& wanted) {
   const Tolerance& tolerance = scene_->tolerance();
+  if (region_.overflowed()) region_.invalidate();
   const double room = region_.clearance(position_);
   const bool leaves = room < 0.0 || region_.clearance(position_ + wanted) < 0.0;
   const bool long_way = !falling() && (contacts_.empty() || wanted.norm() > region_.reach());
@@ -283,7 +285,6 @@ bool ScpSolver::advance(const Vector3& wanted) {
   const Vector3 step = within_region(wanted);
   const SweepHit hit = region_.sweep(position_, step, contacts_.all(), tolerance);
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
-    region_.invalidate();
     reach_ *= 0.5;
     return false;
   }
