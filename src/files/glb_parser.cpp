@@ -27,15 +27,8 @@ struct Malformed : std::runtime_error {
 };
 
 /// The codes that glTF 2.0 took over from OpenGL.
-enum ComponentType {
-  kInt8 = 5120,
-  kUInt8 = 5121,
-  kInt16 = 5122,
-  kUInt16 = 5123,
-  kUInt32 = 5125,
-  kFloat = 5126
-};
-enum PrimitiveMode { kTriangles = 4, kStrip = 5, kFan = 6 };
+enum ComponentType { Int8 = 5120, UInt8 = 5121, Int16 = 5122, UInt16 = 5123, UInt32 = 5125, Float = 5126 };
+enum PrimitiveMode { Triangles = 4, Strip = 5, Fan = 6 };
 
 /// A whole number of the object, at most `limit`; `otherwise` where there is none.
 std::uint64_t whole(const json& object, const char* key, std::uint64_t limit,
@@ -93,7 +86,7 @@ class Accessor {
     const std::size_t view_begin = whole(view, "byteOffset", binary.size(), 0);
     const std::size_t view_size = whole(view, "byteLength", binary.size() - view_begin);
     const std::size_t begin = whole(accessor, "byteOffset", view_size, 0);
-    type_ = whole(accessor, "componentType", kFloat);
+    type_ = whole(accessor, "componentType", Float);
     normalized_ = accessor.value("normalized", false);
     count_ = whole(accessor, "count", view_size);
     const std::size_t size = components * component_size();
@@ -104,21 +97,21 @@ class Accessor {
   }
 
   std::size_t count() const { return count_; }
-  bool is_float() const { return type_ == kFloat; }
+  bool is_float() const { return type_ == Float; }
 
   double number(std::size_t element, std::size_t component) const {
     const char* const at = data_ + element * stride_ + component * component_size();
     constexpr ByteOrder kOrder = ByteOrder::LittleEndian;
     switch (type_) {
-      case kInt8:
+      case Int8:
         return scaled(load<std::int8_t>(at, kOrder), 127.0);
-      case kUInt8:
+      case UInt8:
         return scaled(load<std::uint8_t>(at, kOrder), 255.0);
-      case kInt16:
+      case Int16:
         return scaled(load<std::int16_t>(at, kOrder), 32767.0);
-      case kUInt16:
+      case UInt16:
         return scaled(load<std::uint16_t>(at, kOrder), 65535.0);
-      case kUInt32:
+      case UInt32:
         return load<std::uint32_t>(at, kOrder);
       default:
         return load<float>(at, kOrder);
@@ -132,14 +125,14 @@ class Accessor {
 
   std::size_t component_size() const {
     switch (type_) {
-      case kInt8:
-      case kUInt8:
+      case Int8:
+      case UInt8:
         return 1;
-      case kInt16:
-      case kUInt16:
+      case Int16:
+      case UInt16:
         return 2;
-      case kUInt32:
-      case kFloat:
+      case UInt32:
+      case Float:
         return 4;
       default:
         throw Malformed(fmt::format("{} is not a component type", type_));
@@ -161,7 +154,7 @@ Eigen::Affine3d parent_from(const json& node) {
     for (int i = 0; i < 16; ++i) transform.matrix()(i % 4, i / 4) = matrix->at(i).get<double>();
     return transform;
   }
-  const auto vector = [&](const char* key, std::vector<double> otherwise) {
+  const auto vector = [&](const char* key, const std::vector<double>& otherwise) {
     std::vector<double> numbers = node.value(key, otherwise);
     if (numbers.size() != otherwise.size()) throw Malformed(fmt::format("'{}' has the wrong length", key));
     return numbers;
@@ -229,8 +222,8 @@ class GlbReading {
 
   void add_mesh(const json& mesh, const Eigen::Affine3d& scene_from_mesh) {
     for (const json& primitive : mesh.at("primitives")) {
-      const std::uint64_t mode = whole(primitive, "mode", kFan, kTriangles);
-      if (mode < kTriangles || !primitive.at("attributes").contains("POSITION"))
+      const std::uint64_t mode = whole(primitive, "mode", Fan, Triangles);
+      if (mode < Triangles || !primitive.at("attributes").contains("POSITION"))
         ++others_;
       else
         add_primitive(primitive, mode, scene_from_mesh);
@@ -249,11 +242,11 @@ class GlbReading {
       mesh_.positions.push_back(
           scene_from_mesh * Vector3(positions.number(v, 0), positions.number(v, 1), positions.number(v, 2)));
     const bool mirrored = scene_from_mesh.linear().determinant() < 0.0;
-    const std::size_t step = mode == kTriangles ? 3 : 1;
+    const std::size_t step = mode == Triangles ? 3 : 1;
     for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
-      TriangleMesh::Triangle triangle{corners[mode == kFan ? 0 : i], corners[i + 1], corners[i + 2]};
+      TriangleMesh::Triangle triangle{corners[mode == Fan ? 0 : i], corners[i + 1], corners[i + 2]};
       // In a strip every second triangle runs the other way round.
-      if ((mode == kStrip && i % 2 == 1) != mirrored) std::swap(triangle[1], triangle[2]);
+      if ((mode == Strip && i % 2 == 1) != mirrored) std::swap(triangle[1], triangle[2]);
       for (std::uint32_t& corner : triangle) corner += first;
       mesh_.triangles.push_back(triangle);
     }

@@ -88,7 +88,9 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
     for (unsigned mask = boxes_[block].overlap_mask(path); mask != 0; mask &= mask - 1) {
       Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
       if (piece.object == ignored_object) continue;
-      for (const Element& element : elements_of(piece)) {
+      const std::span<const Element> elements = elements_of(piece);
+      looked_at_ += elements.size();
+      for (const Element& element : elements) {
         const auto same = [&](const Element& contact) { return same_surface(contact, element); };
         if (std::any_of(ignored.begin(), ignored.end(), same)) continue;
         const auto t = haptics::sweep(facing(element, start), start, step, tolerance);

@@ -54,6 +54,9 @@ class ContactRegion {
   SweepHit sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                  const Tolerance& tolerance, std::uint32_t ignored_object = kNoObject);
 
+  /// Elements that sweeps have looked at so far: what they cost, as a number that replays repeat.
+  std::uint64_t looked_at() const { return looked_at_; }
+
   const Vector3& a() const { return a_; }
   const Vector3& b() const { return b_; }
   double reach() const { return reach_; }
@@ -81,6 +84,7 @@ class ContactRegion {
   double elapsed_ = 0.0;  // s
   bool overflowed_ = false;
   std::size_t limit_ = kPieces;
+  std::uint64_t looked_at_ = 0;
   std::size_t size_ = 0;  // pieces
   std::vector<Piece> pieces_;
   std::vector<geometry::FourBoxes> boxes_;  // of the pieces, relative to a_

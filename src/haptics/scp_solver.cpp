@@ -191,7 +191,8 @@ void ScpSolver::converge(const Vector3& tip) {
   const Tolerance& tolerance = scene_->tolerance();
   state_.converged = false;
   state_.iterations = 0;
-  while (state_.iterations < settings_.max_iterations) {
+  const std::uint64_t most = region_.looked_at() + std::uint64_t(settings_.max_elements);
+  while (state_.iterations < settings_.max_iterations && region_.looked_at() < most) {
     ++state_.iterations;
     bool exact = false;
     const Vector3 step = next_step(tip, exact);

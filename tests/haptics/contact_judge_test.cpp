@@ -18,7 +18,8 @@ MeshPointer flat_sheet() {
   return shared(height_field(0.1, 8, [](double, double) { return 0.0; }));
 }
 
-ContactJudge judge_of(std::vector<JudgedObject> objects, double tip_radius = 0.0, double friction = 0.0) {
+ContactJudge judge_of(const std::vector<JudgedObject>& objects, double tip_radius = 0.0,
+                      double friction = 0.0) {
   JudgeSettings settings;
   settings.tip_radius = tip_radius;
   settings.static_friction = friction;

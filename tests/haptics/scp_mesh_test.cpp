@@ -63,7 +63,7 @@ struct JudgedMesh {
   bool closed;
   TouchableSides sides;
 
-  friend void PrintTo(const JudgedMesh& mesh, std::ostream* out) { *out << mesh.name; }
+  friend std::ostream& operator<<(std::ostream& out, const JudgedMesh& mesh) { return out << mesh.name; }
 };
 
 TriangleMesh sliver_sheet() {
