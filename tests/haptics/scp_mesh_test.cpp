@@ -244,5 +244,27 @@ TEST(ScpOnMeshes, TouchesASheetFromTheSideWhereItCame) {
   }
 }
 
+// A sphere tip over a thousand slender triangles costs more than a tick's budget: then the SCP lags, but
+// it neither falls through nor looks at much more than the budget allows.
+TEST(ScpOnMeshes, NeverPopsWhenTheBudgetIsShort) {
+  const MeshPointer mesh = shared(fan(1000, 0.05, 0.0));
+  const double radius = 0.001;
+  Toucher toucher(HapticScene::compile(
+                      {object(1, shape_of(mesh, false, radius), Pose::Identity(), TouchableSides::Both)}),
+                  radius, 500);
+  Random random(9);
+  Vector3 tip(0.01, 0.0, 0.01);
+  int out_of_budget = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const ScpState& state = toucher.step(tip);
+    ASSERT_GE(state.scp.z(), radius - 1e-9) << i;
+    out_of_budget += state.converged ? 0 : 1;
+    tip += Vector3(random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), 0.0);
+    tip.z() = i < 100 ? 0.01 - 1.5e-4 * i : -0.004;
+    if (tip.head<2>().norm() > 0.03) tip.head<2>() *= 0.5;
+  }
+  EXPECT_GT(out_of_budget, 0);
+}
+
 }  // namespace
 }  // namespace icome::haptics
