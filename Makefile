@@ -22,7 +22,7 @@ run: build  ## touch the Stanford bunny, see touch.png
 test:  ## every check: layout, names, layers, unit and program tests, sanitizers
 	tools/install-packages
 	tools/check-format
-	cmake --preset release -DICOME_BUILD_BENCHMARKS=ON -DICOME_WARNINGS_AS_ERRORS=ON $(if $(CI),-DICOME_UNITE_TESTS=ON)
+	cmake --preset release -DICOME_BUILD_BENCHMARKS=ON -DICOME_WARNINGS_AS_ERRORS=ON
 	tools/check-names -j $(JOBS)
 	for preset in asan-ubsan tsan; do \
 	  cmake --preset $$preset && cmake --build --preset $$preset -j $(JOBS) && \

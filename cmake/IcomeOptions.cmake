@@ -8,7 +8,6 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 option(ICOME_BUILD_TESTS "Build the tests" ON)
 option(ICOME_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(ICOME_WARNINGS_AS_ERRORS "A compiler warning fails the build (what `make test` asks for)" OFF)
-option(ICOME_UNITE_TESTS "Compile the tests several sources at a time: quicker from scratch, slower after an edit" OFF)
 set(ICOME_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, such as address,undefined")
 
 # The cache is shared by every clone on the machine: paths count from the source tree, and the
