@@ -228,8 +228,13 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
     const Vector3 out = normal(contact, position_);
     const double press = -out.dot(pull);
     if (press > 0.0) {
-      const Vector3 step = slide(contact, position_, tip, tolerance) - position_;
-      return step * slip((pull + press * out).norm(), press);
+      const Vector3 way = slide(contact, position_, tip, tolerance) - position_;
+      const double share = slip((pull + press * out).norm(), press);
+      const Vector3 end = position_ + share * way;
+      // Friction may end the way half-way along a chord: on the surface, not under it.
+      if (share > 0.0 && share < 1.0 && height(contact, end) < 0.0)
+        return settle(contact, end, tolerance) - position_;
+      return share * way;
     }
     contacts_.clear();
   }

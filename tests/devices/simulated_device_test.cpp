@@ -155,7 +155,7 @@ TEST(SimulatedDevice, NotANumberReadsOkButIsNotFinite) {
 }
 
 TEST(SimulatedDevice, ReadAndWriteTakeNoMemoryAndNoLock) {
-  if (!realtime::RealtimeGuard::available()) GTEST_SKIP();
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
   SimulatedSettings settings;
   settings.trajectory = [](double t) { return Vector3(t, 0, 0); };
   settings.encoder_resolution = 3e-5;

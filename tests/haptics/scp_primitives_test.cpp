@@ -229,5 +229,29 @@ TEST(ScpSolver, TouchesNothingInAnEmptyScene) {
   EXPECT_EQ(without_scene.step({0.1, 0.2, 0.3}, 0.0).scp, Vector3(0.1, 0.2, 0.3));
 }
 
+// Friction shortens the way round a curved surface: the SCP still ends on it.
+TEST(ScpOnPrimitives, StaysOnACurvedSurfaceWithFriction) {
+  for (const char* name :
+       {"sphere:0.05", "cylinder:0.03x0.1", "cone:0.05x0.1", "torus:0.05x0.02", "capsule:0.03x0.1"}) {
+    const Primitive solid = primitive(name);
+    for (const double radius : {0.0, 0.001}) {
+      HapticObject touched = object(1, shape_of(solid));
+      touched.surface.static_friction = 0.4;
+      touched.surface.dynamic_friction = 0.3;
+      Toucher toucher(HapticScene::compile({touched}), radius);
+      for (int i = 0; i < 3000; ++i) {
+        const double angle = 0.002 * i;
+        const Vector3 out = 0.2 * Vector3(std::cos(angle), std::sin(angle), 0.3 * std::sin(3.0 * angle));
+        const geometry::SurfacePoint surface = geometry::scp_from_outside(solid, out);
+        const Vector3 tip = surface.point + (i == 0 ? 0.01 : -0.002) * surface.normal;
+        const ScpState& state = toucher.step(tip);
+        if (!geometry::inside(solid, tip)) continue;  // the start, and beside a sharp rim
+        ASSERT_TRUE(state.touching) << name << " " << i;
+        ASSERT_NEAR(geometry::signed_distance(solid, state.scp), radius, kExact) << name << " " << i;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace icome::haptics
