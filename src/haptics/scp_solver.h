@@ -3,6 +3,7 @@
 
 #include "haptics/contact_region.h"
 #include "haptics/contact_set.h"
+#include "haptics/contact_solver.h"
 #include "haptics/haptic_scene.h"
 
 namespace icome::haptics {
@@ -14,25 +15,6 @@ struct ScpSettings {
   int max_elements = 8'000;  // looked at by sweeps, some 10 ns each; usually below 100
 };
 
-/// What the solver found in a tick.
-struct ScpState {
-  Vector3 scp = Vector3::Zero();               // m, world; the tip's own position while nothing is touched
-  Vector3 normal = Vector3::UnitZ();           // unit, towards the free side, of what holds the SCP
-  Vector3 surface_velocity = Vector3::Zero();  // m/s, of the touched object at the SCP
-  bool touching = false;
-  bool started_inside = false;       // the SCP was put on the surface because the tip began inside
-  bool converged = true;             // false: the budget ran out; the SCP is valid but may still move
-  std::uint32_t object = kNoObject;  // in the scene, of the contact that carries most
-  std::uint32_t feature = 0;
-  int iterations = 0;
-};
-
-/// An object that differs between two scenes, and the box of everything it swept in between.
-struct SceneChange {
-  ObjectId id;
-  geometry::FloatBox swept;
-};
-
 /// Finds the surface contact point (SCP): the constraint-based method of Zilles and Salisbury (1995)
 /// and Ruspini et al. (1997), thesis 5.3.2, for point and sphere tips. From its last place the SCP
 /// moves towards the tip through free space only: every straight piece of the way is swept against
@@ -40,24 +22,15 @@ struct SceneChange {
 /// the tip that the constraints allow. This repeats until the SCP rests, within the tick. Coulomb
 /// friction shortens the pieces. Objects that move carry the SCP along. One thread owns a solver; it
 /// keeps a pointer to the scene, which the caller keeps alive.
-class ScpSolver {
+class ScpSolver final : public ContactSolver {
  public:
   /// Takes all memory that stepping needs.
   explicit ScpSolver(const ScpSettings& settings = {});
 
-  /// Forgets the SCP: the next step starts at the tip, or at the surface if that is inside a solid.
-  /// Real-time safe.
-  void reset();
-
-  /// Goes over to another scene. `changes` name the objects that differ from the last one and may
-  /// name more. Real-time safe.
-  void adopt(const HapticScene& scene, std::span<const SceneChange> changes);
-
-  /// Moves the SCP after the tip. `elapsed`: seconds since the moment of the scene's poses; `tip` is
-  /// finite (m, world). Real-time safe.
-  const ScpState& step(const Vector3& tip, double elapsed);
-
-  const ScpState& state() const { return state_; }
+  void reset() override;
+  void adopt(const HapticScene& scene, std::span<const SceneChange> changes) override;
+  const ScpState& step(const Vector3& tip, double elapsed) override;
+  const ScpState& state() const override { return state_; }
 
  private:
   void start(const Vector3& tip);

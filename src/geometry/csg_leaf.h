@@ -1,0 +1,73 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "geometry/primitive.h"
+#include "geometry/triangle_mesh.h"
+#include "geometry/triangle_tree.h"
+
+namespace icome::geometry {
+
+using base::Affine3;
+
+/// A closed mesh as an operand of a CSG tree, with the tree that answers for it. Immutable, shared.
+struct MeshSolid {
+  explicit MeshSolid(TriangleMesh closed_mesh) : mesh(std::move(closed_mesh)), tree(mesh) {}
+
+  TriangleMesh mesh;  // closed, triangles facing out
+  TriangleTree tree;
+};
+
+/// A primitive of your own: what can answer the three questions of thesis section 5.5 can be an operand
+/// of a CSG tree. Immutable, in its own frame (m).
+class CsgPrimitive {
+ public:
+  virtual ~CsgPrimitive() = default;
+
+  // As the functions of the same names in primitive.h. All real-time safe.
+  virtual bool inside(const Vector3& point) const = 0;
+  virtual SurfacePoint scp_from_inside(const Vector3& point) const = 0;
+  virtual SurfacePoint scp_from_outside(const Vector3& point) const = 0;
+
+  virtual Bounds bounds() const = 0;
+  /// A closed mesh for pictures that deviates at most `tolerance` metres.
+  virtual TriangleMesh tessellate(double tolerance) const = 0;
+  virtual std::string name() const = 0;
+};
+
+/// What a leaf may be. Pointers are never null.
+using CsgShape =
+    std::variant<Primitive, std::shared_ptr<const MeshSolid>, std::shared_ptr<const CsgPrimitive>>;
+
+/// A shape placed in a tree by an invertible affine transform, which may stretch, shear and mirror it.
+class CsgLeaf {
+ public:
+  CsgLeaf(CsgShape shape, const Affine3& tree_from_shape);
+
+  const CsgShape& shape() const { return shape_; }
+  const Affine3& tree_from_shape() const { return tree_from_shape_; }
+  const Affine3& shape_from_tree() const { return shape_from_tree_; }
+  /// In the tree's frame, as tight as the shape allows (exact for a stretched box, sphere, cylinder,
+  /// cone, torus and mesh).
+  const Bounds& bounds() const { return bounds_; }
+
+  // The three questions of 5.5 in the tree's frame (m). Exact under rotation, translation and uniform
+  // scale; under other transforms the points are the images of the shape's own answers, on the surface
+  // but not quite the nearest, and the normals are the surface's there. Real-time safe.
+  bool inside(const Vector3& point) const;
+  SurfacePoint scp_from_inside(const Vector3& point) const;
+  SurfacePoint scp_from_outside(const Vector3& point) const;
+
+  /// A closed mesh, facing out also when mirrored, at most `tolerance` metres off.
+  TriangleMesh tessellate(double tolerance) const;
+  std::string name() const;
+
+ private:
+  CsgShape shape_;
+  Affine3 tree_from_shape_;
+  Affine3 shape_from_tree_;
+  Bounds bounds_;
+};
+
+}  // namespace icome::geometry
