@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "geometry/primitive.h"
@@ -40,6 +41,14 @@ class CsgPrimitive {
 using CsgShape =
     std::variant<Primitive, std::shared_ptr<const MeshSolid>, std::shared_ptr<const CsgPrimitive>>;
 
+/// Is the point, in the shape's frame, in the shape or on its surface? Points of a mesh's surface count as
+/// inside within a few units in the last place. Real-time safe.
+bool shape_encloses(const CsgShape& shape, const Vector3& point);
+/// The box around the shape when placed, as tight as CsgLeaf::bounds.
+Bounds shape_bounds(const CsgShape& shape, const Affine3& placing);
+/// For people: "box:0.1x0.2x0.3", "mesh of 12 triangles", or the name of a primitive of your own.
+std::string shape_name(const CsgShape& shape);
+
 /// A shape placed in a tree by an invertible affine transform, which may stretch, shear and mirror it.
 class CsgLeaf {
  public:
@@ -48,8 +57,8 @@ class CsgLeaf {
   const CsgShape& shape() const { return shape_; }
   const Affine3& tree_from_shape() const { return tree_from_shape_; }
   const Affine3& shape_from_tree() const { return shape_from_tree_; }
-  /// In the tree's frame, as tight as the shape allows (exact for a stretched box, sphere, cylinder,
-  /// cone, torus and mesh).
+  /// In the tree's frame, as tight as the shape allows (exact for every built-in primitive and a mesh,
+  /// stretched, sheared or mirrored; for a primitive of your own, around the corners of its box).
   const Bounds& bounds() const { return bounds_; }
 
   // The three questions of 5.5 in the tree's frame (m). Exact under rotation, translation and uniform

@@ -64,6 +64,8 @@ CsgCount count(const CsgTree& tree);
 /// Around the solid, by the rules of 5.5.5: of a union the box of both, of an intersection what the boxes
 /// share, of a difference the box of the left. Empty for an empty solid.
 Bounds bounds(const CsgTree& tree);
+/// The rule for one operation; empty boxes are those of empty solids.
+Bounds combined_bounds(CsgOperator op, const Bounds& left, const Bounds& right);
 
 /// Is the point in the solid (or on its surface, up to rounding)? By walking the tree: the reference, not
 /// the fast way. Does not recurse.
