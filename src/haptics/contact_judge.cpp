@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/triangle_tree.h"
+#include "haptics/contact_witness.h"
 
 namespace icome::haptics {
 namespace {
@@ -14,197 +14,8 @@ namespace {
 using base::Bounds;
 using base::Pose;
 using base::Vector3;
-using geometry::Corners;
 
-constexpr double kNoise = 1e-6;          // of the diagonal: what positions may be off
 constexpr double kLeastCosine = 0.2588;  // of the angle between the pull and a move that counts
-
-/// Where a way is blocked: the share of it that is free, and the unit normal that blocks it, against the way.
-struct Block {
-  double t;
-  Vector3 normal;
-};
-
-/// What two kinds of surface answer. Points in the object's frame, m.
-class Witness {
- public:
-  virtual ~Witness() = default;
-
-  virtual Bounds bounds() const = 0;
-
-  /// The first place at which a point going from `a` to `b` meets a side that stops it.
-  virtual std::optional<Block> blocked(const Vector3& a, const Vector3& b) const = 0;
-
-  /// The distance from `point` to the nearest surface, `limit` when there is none within that.
-  virtual double distance(const Vector3& point, double limit) const = 0;
-
-  /// How far the surface reaches into a ball around `point`, from a side that stops it; 0 if not at all.
-  virtual double overlap(const Vector3& point, double radius) const = 0;
-
-  /// Is the point inside a solid touched from the front?
-  virtual bool inside(const Vector3& point) const = 0;
-};
-
-/// Where a segment crosses a triangle, and from which side.
-struct Crossing {
-  double t;
-  bool from_front;
-  double margin;  // how clearly it passes through the triangle and not by its rim: least barycentric part
-};
-
-/// The triple product of u, v and w. Exchanging u and v changes exactly the sign: two triangles agree on
-/// which side of their edge a segment passes, and none slips between them.
-double side_of(const Vector3& u, const Vector3& v, const Vector3& w) {
-  return (u.y() * v.z() - u.z() * v.y()) * w.x() + (u.z() * v.x() - u.x() * v.z()) * w.y() +
-         (u.x() * v.y() - u.y() * v.x()) * w.z();
-}
-
-/// By the sides on which the segment passes the three edges; edges count as part of the triangle.
-std::optional<Crossing> cross(const Corners& corners, const Vector3& start, const Vector3& step) {
-  const Vector3 a = corners[0] - start;
-  const Vector3 b = corners[1] - start;
-  const Vector3 c = corners[2] - start;
-  const double at_a = side_of(b, c, step);
-  const double at_b = side_of(c, a, step);
-  const double at_c = side_of(a, b, step);
-  const auto [least, most] = std::minmax({at_a, at_b, at_c});
-  const double sum = at_a + at_b + at_c;
-  if ((least < 0.0 && most > 0.0) || sum == 0.0) return std::nullopt;
-  const double t = (at_a * a + at_b * b + at_c * c).dot(step) / (sum * step.squaredNorm());
-  if (!(t >= 0.0 && t <= 1.0)) return std::nullopt;
-  return Crossing{t, sum < 0.0, std::min(std::abs(least), std::abs(most)) / std::abs(sum)};
-}
-
-class MeshWitness final : public Witness {
- public:
-  explicit MeshWitness(const JudgedObject& object)
-      : tree_(*std::get<0>(object.surface)), closed_(object.closed), two_sided_(object.two_sided) {}
-
-  Bounds bounds() const override { return tree_.bounds(); }
-
-  std::optional<Block> blocked(const Vector3& a, const Vector3& b) const override {
-    double first = 2.0;
-    std::uint32_t met = 0;
-    const Vector3 step = b - a;
-    tree_.near(a, b, 0.0, [&](std::uint32_t slot) {
-      const std::optional<Crossing> crossing = cross(tree_.corners(slot), a, step);
-      if (!crossing || !(two_sided_ || crossing->from_front) || crossing->t >= first) return true;
-      first = crossing->t;
-      met = slot;
-      return true;
-    });
-    if (first > 1.0) return std::nullopt;
-    const Corners& corners = tree_.corners(met);
-    const Vector3 front = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    return Block{first, front.dot(step) < 0.0 ? front : Vector3(-front)};
-  }
-
-  double distance(const Vector3& point, double limit) const override {
-    const auto hit = tree_.nearest(point, limit);
-    return hit ? hit->parameter : limit;
-  }
-
-  double overlap(const Vector3& point, double radius) const override {
-    if (closed_ || two_sided_) return radius - distance(point, radius);
-    double deepest = 0.0;  // behind an open front-touched sheet the tip is free
-    tree_.near(point, point, radius, [&](std::uint32_t slot) {
-      const Corners& corners = tree_.corners(slot);
-      const Vector3 nearest = geometry::nearest_point(corners, point);
-      const Vector3 front = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-      if (front.dot(point - nearest) > 0.0) deepest = std::max(deepest, radius - (point - nearest).norm());
-      return true;
-    });
-    return deepest;
-  }
-
-  bool inside(const Vector3& point) const override {
-    return closed_ && !two_sided_ && tree_.bounds().contains(point) && winding(point) > 0;
-  }
-
- private:
-  /// How often the surface winds around the point: fronts passed on the way out count against backs, so
-  /// that parts may overlap. A ray near an edge is ambiguous: another one is tried.
-  int winding(const Vector3& point) const {
-    constexpr std::array<std::array<double, 3>, 6> kDirections{{{0.532, 0.713, 0.457},
-                                                                {-0.617, 0.281, 0.735},
-                                                                {0.271, -0.829, 0.489},
-                                                                {-0.443, -0.389, -0.808},
-                                                                {0.903, -0.137, -0.407},
-                                                                {-0.159, 0.921, -0.355}}};
-    const double length = 2.0 * (tree_.bounds().sizes().norm() + (point - tree_.bounds().center()).norm());
-    int count = 0;
-    for (const auto& [x, y, z] : kDirections) {
-      count = 0;
-      bool clear = true;
-      const Vector3 step = length * Vector3(x, y, z);
-      tree_.near(point, point + step, 0.0, [&](std::uint32_t slot) {
-        const std::optional<Crossing> crossing = cross(tree_.corners(slot), point, step);
-        if (!crossing) return true;
-        count += crossing->from_front ? -1 : 1;
-        clear = clear && crossing->margin > 1e-9;
-        return true;
-      });
-      if (clear) break;
-    }
-    return count;
-  }
-
-  geometry::TriangleTree tree_;
-  bool closed_;
-  bool two_sided_;
-};
-
-class PrimitiveWitness final : public Witness {
- public:
-  explicit PrimitiveWitness(const JudgedObject& object)
-      : primitive_(std::get<1>(object.surface)), two_sided_(object.two_sided) {
-    const double size = bounds().sizes().norm();
-    slack_ = kNoise * (std::isfinite(size) ? size : 1.0);
-  }
-
-  Bounds bounds() const override { return geometry::bounds(primitive_); }
-
-  std::optional<Block> blocked(const Vector3& a, const Vector3& b) const override {
-    const double at_a = geometry::signed_distance(primitive_, a);
-    const double sign = two_sided_ && at_a < 0.0 ? -1.0 : 1.0;
-    const std::optional<double> t = first_below(a, b, sign, two_sided_ || at_a >= -slack_);
-    if (!t) return std::nullopt;
-    return Block{*t, sign * geometry::scp_from_inside(primitive_, a + *t * (b - a)).normal};
-  }
-
-  double distance(const Vector3& point, double limit) const override {
-    return std::min(limit, std::abs(geometry::signed_distance(primitive_, point)));
-  }
-
-  double overlap(const Vector3& point, double radius) const override {
-    const double signed_distance = geometry::signed_distance(primitive_, point);
-    return std::max(0.0, radius - (two_sided_ ? std::abs(signed_distance) : signed_distance));
-  }
-
-  bool inside(const Vector3& point) const override {
-    return !two_sided_ && geometry::signed_distance(primitive_, point) < 0.0;
-  }
-
- private:
-  /// The first t in [0, 1] at which `sign` times the signed distance falls below -slack. A distance
-  /// changes no faster than its point moves, which clears whole stretches at once. When it starts
-  /// below (`out` is false), from where the way has come out.
-  std::optional<double> first_below(const Vector3& a, const Vector3& b, double sign, bool out) const {
-    const double length = (b - a).norm();
-    if (length <= 0.0) return std::nullopt;
-    for (double t = 0.0;;) {
-      const double here = sign * geometry::signed_distance(primitive_, a + t * (b - a));
-      out = out || here >= 0.0;
-      if (out && here < -slack_) return t;
-      if (t >= 1.0) return std::nullopt;
-      t = std::min(1.0, t + std::max(std::abs(here), slack_) / length);
-    }
-  }
-
-  geometry::Primitive primitive_;
-  bool two_sided_;
-  double slack_ = 0.0;  // m
-};
 
 /// One object with its pose.
 struct Party {
@@ -212,24 +23,14 @@ struct Party {
   Pose object_from_world;
 };
 
-Party party_of(const JudgedObject& object) {
-  std::unique_ptr<Witness> witness;
-  if (std::holds_alternative<geometry::Primitive>(object.surface)) {
-    witness = std::make_unique<PrimitiveWitness>(object);
-  } else {
-    witness = std::make_unique<MeshWitness>(object);
-  }
-  return {std::move(witness), object.world_from_object.inverse()};
-}
-
 /// The diagonal of the box around all limited objects; 1 m when there is none.
-double diagonal(const std::vector<JudgedObject>& objects, const std::vector<Party>& parties) {
+double diagonal(const std::vector<JudgedObject>& objects) {
   Bounds all;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const Bounds box = parties[i].witness->bounds();
-    if (!box.min().allFinite() || !box.max().allFinite()) continue;
-    const Vector3 centre = objects[i].world_from_object * Vector3(box.center());
-    const Vector3 reach = objects[i].world_from_object.linear().cwiseAbs() * (0.5 * box.sizes());
+  for (const JudgedObject& object : objects) {
+    const Bounds box = bounds(object);
+    if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) continue;
+    const Vector3 centre = object.world_from_object * Vector3(box.center());
+    const Vector3 reach = object.world_from_object.linear().cwiseAbs() * (0.5 * box.sizes());
     all.extend(Bounds(centre - reach, centre + reach));
   }
   return all.isEmpty() || all.sizes().norm() <= 0.0 ? 1.0 : all.sizes().norm();
@@ -253,17 +54,23 @@ std::array<Vector3, kCount> ring(const Vector3& axis) {
 class ContactJudge::Court {
  public:
   Court(const std::vector<JudgedObject>& objects, const JudgeSettings& settings) : settings_(settings) {
-    for (const JudgedObject& object : objects) parties_.push_back(party_of(object));
-    const double size = diagonal(objects, parties_);
+    const double size = diagonal(objects);
     const auto scaled = [&](double length) { return std::clamp(length, 1e-5 * size, 1e-2 * size); };
     settings_.pop_depth = scaled(settings.pop_depth);
     settings_.stick_move = scaled(settings.stick_move);
-    noise_ = kNoise * size;
+    noise_ = kJudgeNoise * size;
+    const Resolution resolution{noise_, settings_.pop_depth / 8.0};
+    for (const JudgedObject& object : objects) {
+      parties_.push_back({make_witness(object, resolution), object.world_from_object.inverse()});
+    }
   }
 
   const JudgeSettings& settings() const { return settings_; }
 
-  Judgement judge(const Vector3& tip, const Vector3& scp, bool touching) {
+  Judgement judge(const Vector3& tip, const Vector3& scp, bool touching, double time) {
+    for (const Party& party : parties_) party.witness->set_time(time);
+    if (time != time_) rise();
+    time_ = time;
     Judgement judgement;
     judgement.pop = too_deep(scp) || passed_through(scp, tip);
     if (!judgement.pop) judgement.stick = sticks(tip, scp, touching);
@@ -281,9 +88,21 @@ class ContactJudge::Court {
     return first;
   }
 
+  bool passes(const Vector3& a, const Vector3& b) const {
+    return std::all_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      return party.witness->passes(party.object_from_world * a, party.object_from_world * b);
+    });
+  }
+
   double distance(const Vector3& point, double limit) const {
     for (const Party& party : parties_)
       limit = party.witness->distance(party.object_from_world * point, limit);
+    return limit;
+  }
+
+  double least_distance(const Vector3& point, double limit) const {
+    for (const Party& party : parties_)
+      limit = party.witness->least_distance(party.object_from_world * point, limit);
     return limit;
   }
 
@@ -301,23 +120,36 @@ class ContactJudge::Court {
     });
   }
 
+  /// A surface that moved over the place where the SCP was seen lifts it.
+  void rise() {
+    if (!seen_ || !inside(*seen_)) return;
+    const std::array<Vector3, 3> axes{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+    for (double far = noise_; far <= 16.0 * settings_.pop_depth; far *= 1.25) {
+      for (const Vector3& axis : axes) {
+        for (const Vector3& side : ring<16>(axis)) {
+          if (inside(*seen_ + far * side)) continue;
+          seen_ = *seen_ + far * side;
+          return;
+        }
+      }
+    }
+    seen_.reset();  // a solid has appeared around it
+  }
+
   bool too_deep(const Vector3& scp) {
     if (settings_.tip_radius > 0.0 && overlap(scp, settings_.tip_radius) > settings_.pop_depth) return true;
-    for (const Party& party : parties_) {
-      const Vector3 local = party.object_from_world * scp;
-      if (party.witness->distance(local, settings_.pop_depth) < settings_.pop_depth) continue;
-      if (!party.witness->inside(local)) continue;
-      seen_ = scp;  // a passage that led here is counted by this
-      return true;
-    }
-    return false;
+    const bool deep = std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      return party.witness->deep(party.object_from_world * scp, settings_.pop_depth);
+    });
+    if (deep) seen_ = scp;  // a passage that led here is counted by this
+    return deep;
   }
 
   // `seen_` follows the SCP on the side where it ought to be: where the SCP is a bit behind a surface, by
   // noise or by the beginning of a pop, `seen_` stays in front of it.
   bool passed_through(const Vector3& scp, const Vector3& tip) {
     std::optional<Vector3> place =
-        clearest(scp, [&](const Vector3& to) { return seen_ ? !blocked(*seen_, to) : !inside(to); });
+        clearest(scp, [&](const Vector3& to) { return seen_ ? passes(*seen_, to) : !inside(to); });
     if (!place && seen_) place = clearest(scp, [&](const Vector3& to) { return around(*seen_, to); });
     if (!place && (!seen_ || slides_to(scp, tip))) place = scp;
     if (place) {
@@ -358,16 +190,17 @@ class ContactJudge::Court {
     const Vector3 direction = way.normalized();
     const Vector3 off_face = (block->normal - block->normal.dot(direction) * direction).normalized();
     const auto sides = ring<16>(direction);
-    return passes(a, way, off_face) ||
-           std::any_of(sides.begin(), sides.end(), [&](const Vector3& side) { return passes(a, way, side); });
+    return passes_by(a, way, off_face) || std::any_of(sides.begin(), sides.end(), [&](const Vector3& side) {
+             return passes_by(a, way, side);
+           });
   }
 
   /// Is a way from `a` by a point on this side of `way` free?
-  bool passes(const Vector3& a, const Vector3& way, const Vector3& side) const {
+  bool passes_by(const Vector3& a, const Vector3& way, const Vector3& side) const {
     for (const double off : {0.1, 0.3, 1.0}) {
       for (const double along : {0.5, 0.1, 0.9}) {
         const Vector3 apex = a + along * way + off * way.norm() * side;
-        if (!blocked(a, apex) && !blocked(apex, a + way)) return true;
+        if (passes(a, apex) && passes(apex, a + way)) return true;
       }
     }
     return false;
@@ -436,8 +269,8 @@ class ContactJudge::Court {
 
   /// Nothing is nearer to the tip than the SCP is, give or take half a move.
   bool nearest_possible(const Vector3& tip, double way) const {
-    const double least = distance(tip, way) + settings_.tip_radius;
-    return way <= least + 0.5 * settings_.stick_move && blocked(*seen_, tip).has_value();
+    const double least = least_distance(tip, way) + settings_.tip_radius;
+    return way <= least + 0.5 * settings_.stick_move && !passes(*seen_, tip);
   }
 
   /// Tries the ways along what blocks the pull, then fans of directions around the pull; the widest is 15
@@ -477,7 +310,7 @@ class ContactJudge::Court {
   /// May the tip go straight from `a` to `b`? A sphere may brush along what it touches already: the noise,
   /// and a thousandth of the way, which still tells walls from gaps in a groove of a tenth of a degree.
   bool free(const Vector3& a, const Vector3& b) const {
-    if (blocked(a, b)) return false;
+    if (!passes(a, b)) return false;
     const double radius = settings_.tip_radius;
     if (radius <= 0.0) return true;
     const double length = (b - a).norm();
@@ -492,6 +325,7 @@ class ContactJudge::Court {
   JudgeSettings settings_;
   std::vector<Party> parties_;
   double noise_ = 0.0;           // m
+  double time_ = 0.0;            // s
   std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
 };
 
@@ -501,8 +335,8 @@ ContactJudge::~ContactJudge() = default;
 ContactJudge::ContactJudge(ContactJudge&&) noexcept = default;
 ContactJudge& ContactJudge::operator=(ContactJudge&&) noexcept = default;
 
-Judgement ContactJudge::judge(const Vector3& tip, const Vector3& scp, bool touching) {
-  const Judgement judgement = court_->judge(tip, scp, touching);
+Judgement ContactJudge::judge(const Vector3& tip, const Vector3& scp, bool touching, double time) {
+  const Judgement judgement = court_->judge(tip, scp, touching, time);
   ++ticks_;
   pops_ += judgement.pop;
   sticks_ += judgement.stick;

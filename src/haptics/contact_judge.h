@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -9,9 +10,16 @@
 
 namespace icome::haptics {
 
-/// Something that the judged tip could touch. The mesh is shared, never null, and in its own frame.
+/// A solid of which is known, by an evaluation that is not the one judged, what lies in it.
+struct MembershipSolid {
+  /// Is the point (own frame, m) inside at that time (s)? Deterministic.
+  std::function<bool(const base::Vector3& point, double time)> inside;
+  base::Bounds bounds;  // around it at all times
+};
+
+/// Something that the judged tip could touch, in its own frame. The mesh is shared, never null.
 struct JudgedObject {
-  std::variant<std::shared_ptr<const geometry::TriangleMesh>, geometry::Primitive> surface;
+  std::variant<std::shared_ptr<const geometry::TriangleMesh>, geometry::Primitive, MembershipSolid> surface;
   base::Pose world_from_object = base::Pose::Identity();
   bool closed = true;      // a mesh that encloses a solid, fronts out; primitives always do
   bool two_sided = false;  // both sides stop the tip; else only the front does
@@ -31,7 +39,8 @@ struct Judgement {
 };
 
 /// Judges surface contact points, tick by tick, without the code that finds them: from the triangles
-/// and closed-form distances alone. Objects stand still. For checks outside the servo: it allocates.
+/// and closed-form distances alone, or from samples of what is inside. Objects stand still, though a solid
+/// known by membership may change with time. For checks outside the servo: it allocates.
 ///
 /// A pop: the SCP (its deepest point, for a sphere tip) is more than the pop depth inside a solid; or its
 /// way since it was last seen on the right side crosses a surface that should have held it, it is by
@@ -47,6 +56,8 @@ struct Judgement {
 ///
 /// Both lengths are meant for things of 3 cm to 30 m; for smaller models they shrink to 1 % of the
 /// diagonal of the objects' box, for larger ones they grow to 1e-5 of it. (A plane counts as 1 m.)
+/// Solids known by membership are sampled at every eighth of the pop depth: walls thinner than that may be
+/// passed unseen, and solids thinner than that along the way do not count as one.
 /// Positions may be off by 1e-6 of the diagonal (rounding in a file) without harm.
 class ContactJudge {
  public:
@@ -55,8 +66,9 @@ class ContactJudge {
   ContactJudge(ContactJudge&&) noexcept;
   ContactJudge& operator=(ContactJudge&&) noexcept;
 
-  /// Judges the next tick: all in the world frame (m); `scp` is the centre of a sphere tip.
-  Judgement judge(const base::Vector3& tip, const base::Vector3& scp, bool touching);
+  /// Judges the next tick: all in the world frame (m); `scp` is the centre of a sphere tip. `time` (s) is the
+  /// moment for solids that change.
+  Judgement judge(const base::Vector3& tip, const base::Vector3& scp, bool touching, double time = 0.0);
 
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t pops() const { return pops_; }

@@ -13,9 +13,23 @@ namespace {
 
 JudgedObject solid(std::string_view text) { return {primitive(text)}; }
 JudgedObject solid(const MeshPointer& mesh, const Pose& pose = Pose::Identity()) { return {mesh, pose}; }
+JudgedObject samples(std::string_view text) {
+  const geometry::Primitive it = primitive(text);
+  return {MembershipSolid{[it](const Vector3& p, double) { return geometry::inside(it, p); },
+                          geometry::bounds(it)}};
+}
 JudgedObject sheet(const MeshPointer& mesh) { return {mesh, Pose::Identity(), false, true}; }
 MeshPointer flat_sheet() {
   return shared(height_field(0.1, 8, [](double, double) { return 0.0; }));
+}
+
+/// The same solid in the ways in which a judge may know one.
+std::vector<JudgedObject> boxes() {
+  return {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1}))), samples("box:0.1x0.1x0.1")};
+}
+std::vector<JudgedObject> walls() {
+  return {solid("box:0.1x0.1x0.001"), solid(shared(box_mesh({0.1, 0.1, 0.001}))),
+          samples("box:0.1x0.1x0.001")};
 }
 
 ContactJudge judge_of(const std::vector<JudgedObject>& objects, double tip_radius = 0.0,
@@ -29,7 +43,7 @@ ContactJudge judge_of(const std::vector<JudgedObject>& objects, double tip_radiu
 bool fine(const Judgement& judgement) { return !judgement.pop && !judgement.stick; }
 
 TEST(ContactJudge, PassesFreeMotionAndAPerfectPress) {
-  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+  for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
     for (int i = 0; i <= 100; ++i) {
       const Vector3 tip(0.01, 0.02, 0.06 - 0.0002 * i);
@@ -42,7 +56,7 @@ TEST(ContactJudge, PassesFreeMotionAndAPerfectPress) {
 }
 
 TEST(ContactJudge, CountsEveryTickInsideASolid) {
-  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+  for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
     judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
     for (int i = 0; i < 5; ++i) judge.judge({0, 0, 0.045}, {0, 0, 0.0496}, true);  // 0.4 mm
@@ -52,10 +66,12 @@ TEST(ContactJudge, CountsEveryTickInsideASolid) {
 }
 
 TEST(ContactJudge, ForgivesAShallowerPenetration) {
-  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))});
-  judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
-  judge.judge({0, 0, 0.0498}, {0, 0, 0.0498}, true);  // 0.2 mm
-  EXPECT_EQ(judge.pops(), 0u);
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box});
+    judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
+    judge.judge({0, 0, 0.0498}, {0, 0, 0.0498}, true);  // 0.2 mm
+    EXPECT_EQ(judge.pops(), 0u);
+  }
 }
 
 TEST(ContactJudge, SeesInsideWhereSolidsOverlap) {
@@ -68,7 +84,7 @@ TEST(ContactJudge, SeesInsideWhereSolidsOverlap) {
 }
 
 TEST(ContactJudge, CatchesATipThatWentThroughAThinWall) {
-  for (const JudgedObject& wall : {solid("box:0.1x0.1x0.001"), solid(shared(box_mesh({0.1, 0.1, 0.001})))}) {
+  for (const JudgedObject& wall : walls()) {
     ContactJudge judge = judge_of({wall});
     judge.judge({0, 0, -0.001}, {0, 0, 0.0005 + 1e-12}, true);
     EXPECT_TRUE(judge.judge({0, 0, -0.005}, {0, 0, -0.005}, false).pop);
@@ -77,7 +93,7 @@ TEST(ContactJudge, CatchesATipThatWentThroughAThinWall) {
 }
 
 TEST(ContactJudge, ApprovesAPressThroughAThinWall) {
-  for (const JudgedObject& wall : {solid("box:0.1x0.1x0.001"), solid(shared(box_mesh({0.1, 0.1, 0.001})))}) {
+  for (const JudgedObject& wall : walls()) {
     ContactJudge judge = judge_of({wall});
     for (int i = 0; i < 50; ++i) {
       EXPECT_TRUE(fine(judge.judge({0, 0, 0.0005 - 1e-4 * i}, {0, 0, 0.0005 + 1e-12}, true))) << i;
@@ -128,17 +144,21 @@ TEST(ContactJudge, ApprovesALongSlideOffAnEdge) {
 }
 
 TEST(ContactJudge, CatchesAContactWithNothingInTheWay) {
-  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))});
-  EXPECT_TRUE(judge.judge({0, 0, 0.06}, {0, 0, 0.05 + 1e-12}, true).stick);
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box});
+    EXPECT_TRUE(judge.judge({0, 0, 0.06}, {0, 0, 0.05 + 1e-12}, true).stick);
+  }
 }
 
 TEST(ContactJudge, CatchesAnScpAwayFromTheTipWithoutAContact) {
-  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))});
-  EXPECT_TRUE(judge.judge({0, 0, 0.045}, {0, 0, 0.05 + 1e-12}, false).stick);
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box});
+    EXPECT_TRUE(judge.judge({0, 0, 0.045}, {0, 0, 0.05 + 1e-12}, false).stick);
+  }
 }
 
 TEST(ContactJudge, CatchesAnScpThatLagsBehind) {
-  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+  for (const JudgedObject& box : boxes()) {
     for (const double radius : {0.0, 0.001}) {
       ContactJudge judge = judge_of({box}, radius);
       const double z = 0.05 + radius + 1e-12;
@@ -150,9 +170,11 @@ TEST(ContactJudge, CatchesAnScpThatLagsBehind) {
 }
 
 TEST(ContactJudge, LetsFrictionHoldWithinItsCone) {
-  ContactJudge judge = judge_of({solid(shared(box_mesh({0.1, 0.1, 0.1})))}, 0.0, 0.5);
-  EXPECT_TRUE(fine(judge.judge({0.00095, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true)));
-  EXPECT_TRUE(judge.judge({0.003, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true).stick);
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box}, 0.0, 0.5);
+    EXPECT_TRUE(fine(judge.judge({0.00095, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true)));
+    EXPECT_TRUE(judge.judge({0.003, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true).stick);
+  }
 }
 
 TEST(ContactJudge, LetsAConcaveCornerHold) {
@@ -177,7 +199,7 @@ TEST(ContactJudge, LetsASphereRestInAGrooveTooNarrowForIt) {
 }
 
 TEST(ContactJudge, CatchesASphereThatOverlaps) {
-  for (const JudgedObject& box : {solid("box:0.1x0.1x0.1"), solid(shared(box_mesh({0.1, 0.1, 0.1})))}) {
+  for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box}, 0.005);
     EXPECT_FALSE(judge.judge({0, 0, 0.054}, {0, 0, 0.0548}, true).pop);
     EXPECT_TRUE(judge.judge({0, 0, 0.054}, {0, 0, 0.0545}, true).pop);

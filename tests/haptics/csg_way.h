@@ -1,0 +1,116 @@
+#pragma once
+// Did the surface contact point (SCP) come by a way that a tip can go? By search on a lattice.
+#include <array>
+#include <cstdint>
+#include <queue>
+#include <unordered_map>
+
+#include "csg_brute.h"
+
+namespace icome::haptics {
+
+/// Where the straight way from `a` to `b` is in the solid: how deep at least.
+inline double brute_depth_between(const BruteSolid& solid, const Vector3& a, const Vector3& b,
+                                  double finest) {
+  const double length = (b - a).norm();
+  double deepest = 0.0;
+  for (double t = 0.0;;) {
+    const double here = solid.bound(a + (length > 0.0 ? t / length : 0.0) * (b - a));
+    deepest = std::max(deepest, -here);
+    if (t >= length) return deepest;
+    t = std::min(length, t + std::max(std::abs(here), finest));
+  }
+}
+
+enum class Way { Straight, Around, None, Unknown };
+
+/// A search for a way through the free space that is nearer to the tip than the SCP was: an SCP that is
+/// pulled there never moves away from the tip.
+class BruteWay {
+ public:
+  BruteWay(const BruteSolid& solid, const Vector3& from, const Vector3& to, const Vector3& tip)
+      : solid_(solid), from_(from), to_(to), tip_(tip), farthest_((from - tip).norm()) {}
+
+  Way search(double cell, std::size_t most) {
+    cell_ = cell;
+    come_.clear();
+    std::priority_queue<Open> open;
+    std::size_t looked_at = 0;
+    for (const Key& key : around(key_of(from_))) reach(open, key, from_);
+    for (; !open.empty(); ++looked_at) {
+      if (looked_at > most) return Way::Unknown;
+      const Key key = open.top().key;
+      open.pop();
+      const Vector3 here = place(key);
+      if ((here - to_).norm() < 4.0 * cell_ && free(here, to_)) return Way::Around;
+      for (const Key& next : around(key)) reach(open, next, here);
+    }
+    return Way::None;
+  }
+
+ private:
+  using Key = std::array<int, 3>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      return std::size_t(key[0]) * 73856093u ^ std::size_t(key[1]) * 19349663u ^
+             std::size_t(key[2]) * 83492791u;
+    }
+  };
+  struct Open {
+    double cost;
+    Key key;
+    bool operator<(const Open& other) const { return cost > other.cost; }
+  };
+
+  Key key_of(const Vector3& point) const {
+    const Vector3 at = (point - from_) / cell_;
+    return {int(std::lround(at.x())), int(std::lround(at.y())), int(std::lround(at.z()))};
+  }
+  Vector3 place(const Key& key) const { return from_ + cell_ * Vector3(key[0], key[1], key[2]); }
+
+  static std::array<Key, 26> around(const Key& key) {
+    std::array<Key, 26> result;
+    int count = 0;
+    for (int i = 0; i < 27; ++i) {
+      if (i != 13)
+        result[std::size_t(count++)] = {key[0] + i / 9 - 1, key[1] + i / 3 % 3 - 1, key[2] + i % 3 - 1};
+    }
+    return result;
+  }
+
+  bool free(const Vector3& a, const Vector3& b) const {
+    return brute_depth_between(solid_, a, b, 0.02 * cell_) <= 1e-4 * cell_;
+  }
+
+  void reach(std::priority_queue<Open>& open, const Key& key, const Vector3& before) {
+    if (come_.count(key) != 0) return;
+    const Vector3 there = place(key);
+    if ((there - tip_).norm() > farthest_ + 3.0 * cell_ || solid_.inside(there) || !free(before, there))
+      return;
+    come_[key] = true;
+    open.push({(there - to_).norm(), key});
+  }
+
+  const BruteSolid& solid_;
+  Vector3 from_, to_, tip_;
+  double farthest_;
+  double cell_ = 0.0;
+  std::unordered_map<Key, bool, Hash> come_;
+};
+
+/// How the SCP can have come from `from` to `to` while the tip was pulled to `tip`. What is thinner than 1e-4
+/// of `size` may be passed unseen.
+inline Way brute_way(const BruteSolid& whole, const Vector3& from, const Vector3& to, const Vector3& tip,
+                     double size) {
+  const double length = (to - from).norm();
+  const BruteSolid nearby = whole.near(0.5 * (from + to), 0.5 * length + 1e-3 * size);
+  if (brute_depth_between(nearby, from, to, 1e-4 * size) <= 1e-8 * size) return Way::Straight;
+  const BruteSolid solid = whole.near(tip, (from - tip).norm() + 0.05 * size);
+  Way way = Way::None;
+  for (double cell = std::max(length / 12.0, 1e-4 * size); way != Way::Around && cell > length / 200.0;
+       cell *= 0.4)
+    way = BruteWay(solid, from, to, tip).search(cell, 100'000);
+  return way;
+}
+
+}  // namespace icome::haptics
