@@ -129,7 +129,7 @@ TEST_P(MembershipJudge, ApprovesWhatBruteForceFindsAndNothingElse) {
     planted += wrong != scp;
   }
   EXPECT_GT(touching, std::uint64_t(ticks_of_press() / 3));
-  if (kSanitizerShare == 1) EXPECT_GT(planted, 0u);
+  EXPECT_TRUE(planted > 0 || kSanitizerShare > 1);
   EXPECT_EQ(angry.pops(), 0u);
 }
 
