@@ -29,6 +29,9 @@ class CsgSolid final : public SmoothSurface {
 
  private:
   class Compiled;
+
+  std::optional<SurfacePlace> straight_out(const Vector3& point) const;
+
   std::unique_ptr<const Compiled> compiled_;
 };
 

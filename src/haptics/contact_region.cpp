@@ -83,7 +83,7 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
   const Vector3 end = start + step;
   const Vector3 margin = Vector3::Constant(tolerance.touching() + edge_dip(tip_));
   const FloatBox path = relative_box(Bounds(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin));
-  SweepHit first{1.0, nullptr};
+  SweepHit first;
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
     for (unsigned mask = boxes_[block].overlap_mask(path); mask != 0; mask &= mask - 1) {
       Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
@@ -93,8 +93,9 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
       for (const Element& element : elements) {
         const auto same = [&](const Element& contact) { return same_surface(contact, element); };
         if (std::any_of(ignored.begin(), ignored.end(), same)) continue;
-        const auto t = haptics::sweep(facing(element, start), start, step, tolerance);
-        if (t && (*t < first.t || first.element == nullptr)) first = {*t, &element};
+        Element met = facing(element, start);
+        const auto t = haptics::sweep(met, start, step, tolerance);
+        if (t && (*t < first.t || !first.met)) first = {*t, true, met};
       }
     }
   }

@@ -12,8 +12,9 @@ constexpr std::uint32_t kNoObject = 0xffff'ffff;
 
 /// Where a tip moved by a sweep comes to rest.
 struct SweepHit {
-  double t;                // along the step, in [0, 1]
-  const Element* element;  // what holds it there, in the region's list; null when nothing does
+  double t = 1.0;    // along the step, in [0, 1]
+  bool met = false;  // did something hold it there?
+  Element contact;   // what, facing the tip
 };
 
 class HapticScene;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 
 #include "haptics/element.h"
@@ -37,7 +38,31 @@ class ContactSet {
   /// onto a polyhedral cone, by its active set of at most three planes.
   Vector3 constrained(const Vector3& position, const Vector3& pull, const Tolerance& tolerance) const;
 
+  /// Does any contact belong to a smooth surface?
+  bool any_smooth() const;
+
+  /// From `position`, where the contacts hold: the place nearest to `goal` that they all allow, as they
+  /// curve (not as their tangent planes say), and whether it was found exactly; else it lies on the way
+  /// there. Smooth contacts follow.
+  struct Rest {
+    Vector3 place;
+    bool exact;
+  };
+  Rest rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance);
+
+  /// What must be added to the middle of a straight way from `position` by `step`, with both ends on the
+  /// contacts, so that it passes above them where they bulge. Zero where they don't; nothing between walls
+  /// that leave no way up.
+  std::optional<Vector3> lift(const Vector3& position, const Vector3& step, const Tolerance& tolerance) const;
+
  private:
+  void follow(const Vector3& position);
+  bool free(const Vector3& place, const Tolerance& tolerance) const;
+  Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance);
+  using Normals = std::array<Vector3, kCapacity>;
+  Normals normals(const Vector3& position) const;
+  bool turned(const Normals& before, const Vector3& position) const;
+
   std::array<Element, kCapacity> elements_;
   std::size_t size_ = 0;
 };

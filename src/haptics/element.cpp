@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "haptics/smooth_element.h"
+
 namespace icome::haptics {
 namespace {
 
@@ -235,11 +237,13 @@ std::optional<double> curved_entry(const Element& e, const Vector3& start, const
 }  // namespace
 
 double height(const Element& element, const Vector3& position) {
+  if (element.smooth()) return smooth_height(element, position);
   const double outward = outward_height(element, position);
   return element.inverted ? -outward : outward;
 }
 
 Vector3 normal(const Element& element, const Vector3& position) {
+  if (element.smooth()) return smooth_normal(element, position);
   const Vector3 outward = outward_normal(element, position);
   return element.inverted ? Vector3(-outward) : outward;
 }
@@ -266,17 +270,20 @@ bool covers(const Element& e, const Vector3& position, const Tolerance& toleranc
       return guard_allows(e, offset, tolerance);
     case Kind::ConeSide:
       return covers_cone(e, position, rim);
+    case Kind::Smooth:
+      return smooth_covers(e, position, tolerance);
   }
   return false;
 }
 
 Vector3 settle(const Element& element, const Vector3& position, const Tolerance& tolerance) {
+  if (element.smooth()) return smooth_settle(element, position, tolerance);
   return position + normal(element, position) * (tolerance.gap - height(element, position));
 }
 
 Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, const Tolerance& tolerance) {
   const Vector3 nearest = settle(element, goal, tolerance);
-  if (element.flat()) return nearest;
+  if (element.flat() || element.smooth()) return nearest;
   const Vector3 here = normal(element, from);
   const double cosine = normal(element, nearest).dot(here);
   if (cosine >= (element.two_sided && element.convex() && !element.guarded ? kVeryCloseBy : kCloseBy))
@@ -301,8 +308,9 @@ Element facing(const Element& element, const Vector3& position) {
   return turned;
 }
 
-std::optional<double> sweep(const Element& e, const Vector3& start, const Vector3& step,
+std::optional<double> sweep(Element& e, const Vector3& start, const Vector3& step,
                             const Tolerance& tolerance) {
+  if (e.smooth()) return smooth_sweep(e, start, step, tolerance);
   const double h0 = height(e, start);
   // The two sides of a curved shell are two pieces, a gap to either side of it.
   const double behind = e.two_sided && !e.flat() ? tolerance.rim() : tolerance.behind();
@@ -319,6 +327,7 @@ std::optional<double> sweep(const Element& e, const Vector3& start, const Vector
 bool same_surface(const Element& one, const Element& other) {
   if (one.kind != other.kind || one.object != other.object) return false;
   if (one.flat()) return one.feature == other.feature;
+  if (one.smooth()) return one.surface->same(one.feature, other.feature);
   // The two sides of a curved shell are one surface: who rests on one side does not meet the other.
   if (one.origin != other.origin || (one.inverted == other.inverted && one.radius != other.radius))
     return false;

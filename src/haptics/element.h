@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/vector.h"
+#include "geometry/smooth_surface.h"
 
 namespace icome::haptics {
 
@@ -45,6 +46,7 @@ struct Element {
     Capsule,        // a rod with round ends
     Ring,           // a torus: tube of `radius` around the circle of radius a
     ConeSide,       // a: radius at origin, b: slant length, c: axial part of the outward normal
+    Smooth,         // piece `feature` of `surface`, for a point tip; origin, u, v, axis: the surface's frame
   };
 
   Kind kind = Kind::Plane;
@@ -61,10 +63,16 @@ struct Element {
   double a = 0.0, b = 0.0, c = 0.0;
   double radius = 0.0;  // m, of the thickened piece; for flat kinds the tip's radius
   double tip = 0.0;     // m, the tip's radius
+  const geometry::SmoothSurface* surface = nullptr;  // of Smooth; its shape keeps it alive
+  double time = 0.0;                                 // s, of Smooth: the surface's own time
+  // Of Smooth, in the surface's frame: the place where the tip was last over it, from which feet are found.
+  Vector3 hint = Vector3::Zero();
+  double hint_u = 0.0, hint_v = 0.0;
 
   bool flat() const { return kind <= Kind::Disc; }
   /// Is every tangent plane free of the piece?
-  bool convex() const { return !inverted && kind != Kind::Ring; }
+  bool convex() const { return !inverted && kind != Kind::Ring && kind != Kind::Smooth; }
+  bool smooth() const { return kind == Kind::Smooth; }
 };
 
 // All of the following: positions of the tip's centre in the element's frame, m. Real-time safe.
@@ -89,8 +97,9 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
 Element facing(const Element& element, const Vector3& position);
 
 /// When the tip's centre moves from `start` by t * `step`, t in [0, 1]: the first t at which it comes
-/// to rest on the piece. `element` is as facing(element, start) gives it.
-std::optional<double> sweep(const Element& element, const Vector3& start, const Vector3& step,
+/// to rest on the piece. `element` is as facing(element, start) gives it; a smooth one is told where it
+/// was met.
+std::optional<double> sweep(Element& element, const Vector3& start, const Vector3& step,
                             const Tolerance& tolerance);
 
 /// Do both describe the same thickened surface (a shared edge or corner counts once)?

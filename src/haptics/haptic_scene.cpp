@@ -61,7 +61,7 @@ void HapticScene::measure() {
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Bounds box = object_bounds(i);
     if (box.min().allFinite() && box.max().allFinite()) bounds_.extend(box);
-    moves_ = moves_ || !objects_[i].motion.still();
+    moves_ = moves_ || restless(i);
   }
   const double extent =
       bounds_.isEmpty() ? 1.0
@@ -111,9 +111,9 @@ void HapticScene::gather_object(ContactRegion& region, std::uint32_t object) con
   const Pose object_from_world = world_from_object.inverse();
   ElementSink sink(region, object, world_from_object);
   const double reach = region.reach() + edge_dip(region.tip());
-  it.shape->gather(
-      {object_from_world * region.a(), object_from_world * region.b(), reach, region.tip(), it.surface.sides},
-      sink);
+  it.shape->gather({object_from_world * region.a(), object_from_world * region.b(), reach, region.tip(),
+                    it.surface.sides, time(object, region.elapsed())},
+                   sink);
 }
 
 void HapticScene::expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed,
@@ -124,6 +124,7 @@ void HapticScene::expand(std::uint32_t object, std::uint32_t piece, double tip, 
   const bool in_place = world_from_object.matrix().isIdentity(0.0);
   for (Element& element : elements.all()) {
     element.object = object;
+    element.time = this->time(object, elapsed);
     if (!in_place) element = transformed(world_from_object, element);
   }
 }

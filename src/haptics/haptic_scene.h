@@ -29,6 +29,7 @@ struct HapticObject {
   Pose world_from_object = Pose::Identity();
   Motion motion;
   Surface surface;
+  double time = 0.0;  // s, the own time of a shape that changes, at the moment of the pose
 };
 
 /// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the
@@ -64,6 +65,14 @@ class HapticScene {
     tree_.near(geometry::SegmentQuery(a, b, reach), [&](std::uint32_t slot) { return visit(order_[slot]); });
   }
 
+  /// The own time of an object's shape then, s. Real-time safe.
+  double time(std::uint32_t object, double elapsed) const { return objects_[object].time + elapsed; }
+
+  /// Does the object move, or its shape change? Real-time safe.
+  bool restless(std::uint32_t object) const {
+    return !objects_[object].motion.still() || objects_[object].shape->changes();
+  }
+
   /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
   Pose pose(std::uint32_t object, double elapsed) const;
 
@@ -75,7 +84,7 @@ class HapticScene {
 
   const std::vector<HapticObject>& objects() const { return objects_; }
   const Tolerance& tolerance() const { return tolerance_; }
-  /// Is any object in motion at all?
+  /// Is any object restless?
   bool moves() const { return moves_; }
   /// The box around all limited objects; empty when there are none.
   const Bounds& bounds() const { return bounds_; }

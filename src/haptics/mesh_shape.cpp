@@ -147,7 +147,7 @@ void MeshShape::expand(std::uint32_t piece, double tip, TouchableSides sides, Pi
   }
 }
 
-std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position) const {
+std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position, double /*time*/) const {
   if (!settings_.closed || !tree_.bounds().contains(position) || !tree_.encloses(position))
     return std::nullopt;
   const std::optional<geometry::MeshHit> hit = tree_.nearest(position);

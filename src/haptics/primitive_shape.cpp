@@ -182,7 +182,8 @@ void PrimitiveShape::gather(const GatherRequest& request, ElementSink& sink) con
   std::visit(PrimitiveElements(request, sink), primitive_);
 }
 
-std::optional<geometry::SurfacePoint> PrimitiveShape::way_out(const Vector3& position) const {
+std::optional<geometry::SurfacePoint> PrimitiveShape::way_out(const Vector3& position,
+                                                              double /*time*/) const {
   if (!geometry::inside(primitive_, position)) return std::nullopt;
   return geometry::scp_from_inside(primitive_, position);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/smooth_element.h"
+
 namespace icome::haptics {
 namespace {
 
@@ -14,6 +16,8 @@ constexpr double kLeastShare = 1e-3;
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxWaysOut = 8;
+constexpr int kMaxArches = 12;
+constexpr double kSteepest = 0.1;  // rise of an arch for its length
 
 }  // namespace
 
@@ -121,7 +125,8 @@ bool ScpSolver::leave_solid(std::uint32_t object) {
   const HapticObject& it = scene_->objects()[object];
   if (it.surface.sides == TouchableSides::Both) return false;
   const Pose world_from_object = scene_->pose(object, elapsed_);
-  const auto place = it.shape->way_out(world_from_object.inverse() * position_);
+  const auto place =
+      it.shape->way_out(world_from_object.inverse() * position_, scene_->time(object, elapsed_));
   if (!place) return false;
   const Vector3 out = world_from_object.linear() * place->normal;
   position_ = world_from_object * place->point + out * (settings_.tip_radius + 2.0 * scene_->tolerance().gap);
@@ -133,20 +138,23 @@ void ScpSolver::carry(double from, double to) {
   Vector3 target = position_;
   std::uint32_t pusher = kNoObject;
   for (Element& contact : contacts_.all()) {
-    if (scene_->objects()[contact.object].motion.still()) continue;
+    if (!scene_->restless(contact.object)) continue;
     const Pose now_from_before =
         scene_->pose(contact.object, to) * scene_->pose(contact.object, from).inverse();
     contact = transformed(now_from_before, contact);
+    contact.time = scene_->time(contact.object, to);
     if (pusher == kNoObject) {
       target = now_from_before * position_;
       pusher = contact.object;
     }
+    if (contact.smooth() && height(contact, target) < scene_->tolerance().gap)
+      target = settle(contact, target, scene_->tolerance());
   }
   elapsed_ = to;
   bool near_moving = false;
   scene_->near(position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius,
                [&](std::uint32_t object) {
-                 near_moving = !scene_->objects()[object].motion.still();
+                 near_moving = scene_->restless(object);
                  return !near_moving;
                });
   if (near_moving) region_.invalidate();
@@ -156,8 +164,19 @@ void ScpSolver::carry(double from, double to) {
   scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
     if (!scene_->objects()[object].motion.still())
       ride(object, scene_->pose(object, from), scene_->pose(object, to));
+    if (scene_->objects()[object].shape->changes()) surface_through(object);
     return true;
   });
+}
+
+// A surface that changes may have swallowed the SCP: it comes to the top.
+void ScpSolver::surface_through(std::uint32_t object) {
+  const Pose world_from_object = scene_->pose(object, elapsed_);
+  const auto place = scene_->objects()[object].shape->way_out(world_from_object.inverse() * position_,
+                                                              scene_->time(object, elapsed_));
+  if (!place) return;
+  const Vector3 out = world_from_object.linear() * place->normal;
+  shove(world_from_object * place->point + out * scene_->tolerance().gap, object);
 }
 
 // Seen from the object, the SCP moved from where it would be had it gone along to where it is.
@@ -170,10 +189,9 @@ void ScpSolver::ride(std::uint32_t object, const Pose& before, const Pose& now) 
   ride_region_.start(*scene_, along, position_, tolerance.behind(), settings_.tip_radius, elapsed_);
   scene_->gather_object(ride_region_, object);
   const SweepHit hit = ride_region_.sweep(along, position_ - along, {}, tolerance);
-  if (hit.element == nullptr) return;
-  const Element contact = facing(*hit.element, along);
+  if (!hit.met) return;
   shove(along + hit.t * (position_ - along), object);
-  contacts_.add(contact);
+  contacts_.add(hit.contact);
 }
 
 // Moves the SCP because an object pushes it; others may stop it on the way.
@@ -182,9 +200,8 @@ void ScpSolver::shove(const Vector3& to, std::uint32_t pusher) {
   ride_region_.start(*scene_, position_, to, scene_->tolerance().behind(), settings_.tip_radius, elapsed_);
   scene_->gather(ride_region_);
   const SweepHit hit = ride_region_.sweep(position_, way, {}, scene_->tolerance(), pusher);
-  const Vector3 from = position_;
   position_ += hit.t * way;
-  if (hit.element != nullptr) contacts_.add(facing(*hit.element, from));
+  if (hit.met) contacts_.add(hit.contact);
 }
 
 void ScpSolver::converge(const Vector3& tip) {
@@ -202,9 +219,12 @@ void ScpSolver::converge(const Vector3& tip) {
       return;
     }
     const std::size_t held = contacts_.size();
+    const Vector3 from = position_;
     const bool whole = advance(step);
     if (region_.overflowed()) return;
-    if (whole && exact && contacts_.size() == held) {
+    // Held fast between walls, or where it should be.
+    const bool fast = position_ == from && contacts_.any_smooth() && contacts_.size() == held;
+    if (fast || (whole && exact && contacts_.size() == held)) {
       state_.converged = true;
       return;
     }
@@ -217,6 +237,7 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = scene_->tolerance();
   exact = true;
   for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
+  if (contacts_.any_smooth()) return next_smooth_step(tip, exact);
   if (contacts_.size() > 1) {
     const Vector3 step = contacts_.constrained(position_, pull, tolerance);
     const double share = slip(step.norm(), (pull - step).norm());
@@ -239,6 +260,25 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
     contacts_.clear();
   }
   return pull;
+}
+
+/// The same with smooth surfaces among the contacts, which are followed as they curve.
+Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
+  const Tolerance& tolerance = scene_->tolerance();
+  const Vector3 pull = tip - position_;
+  if (contacts_.size() == 1 && normal(contacts_.all().front(), position_).dot(pull) >= 0.0) {
+    contacts_.clear();
+    return pull;
+  }
+  ContactSet::Rest rest = contacts_.rest(position_, tip, tolerance);
+  exact = rest.exact;
+  const Vector3 step = rest.place - position_;
+  // The spring's share along the surface: for the cone, where it would rest is where it is pressed to.
+  const double share = slip(step.norm(), (tip - rest.place).norm());
+  if (share <= 0.0) return Vector3::Zero();
+  if (share < 1.0) rest = contacts_.rest(position_, position_ + share * step, tolerance);
+  if (contacts_.size() > 1) let_go(rest.place - position_);
+  return rest.place - position_;
 }
 
 /// Where faces meet in a saddle, the half-spaces of all of them together hold a tip that could still
@@ -283,30 +323,69 @@ const Surface& ScpSolver::surface() const { return scene_->objects()[contacts_.a
 /// Sweeps the SCP along `wanted`, or as far as the region goes; false when something was in the way.
 bool ScpSolver::advance(const Vector3& wanted) {
   const Tolerance& tolerance = scene_->tolerance();
+  const std::size_t held = contacts_.size();
   if (region_.overflowed()) region_.invalidate();
   const double room = region_.clearance(position_);
   const bool leaves = room < 0.0 || region_.clearance(position_ + wanted) < 0.0;
   const bool long_way = !falling() && (contacts_.empty() || wanted.norm() > region_.reach());
   if (leaves && (long_way || room < 0.25 * region_.reach())) surround(wanted);
   const Vector3 step = within_region(wanted);
-  const SweepHit hit = region_.sweep(position_, step, contacts_.all(), tolerance);
+  const bool smooth = contacts_.any_smooth();
+  const SweepHit hit = smooth ? arch(step) : sweep_on(step);
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
     reach_ *= 0.5;
     return false;
   }
-  const Vector3 from = position_;
-  position_ += hit.t * step;
+  const bool whole = !hit.met && (!smooth || contacts_.size() == held) && step == wanted;
   contacts_.forget_if([&](const Element& contact) {
     return height(contact, position_) > tolerance.touching() || !covers(contact, position_, tolerance);
   });
-  if (hit.element != nullptr) contacts_.add(facing(*hit.element, from));
-  return hit.element == nullptr && step == wanted;
+  if (hit.met) contacts_.add(hit.contact);
+  return whole;
+}
+
+/// Moves the SCP by `step` or to the first hit.
+SweepHit ScpSolver::sweep_on(const Vector3& step) {
+  SweepHit hit = region_.sweep(position_, step, contacts_.all(), scene_->tolerance());
+  if (!region_.overflowed()) position_ += hit.t * step;
+  return hit;
+}
+
+/// The same along contacts that may bulge: in two legs over the bulge. What is met up there need not be in
+/// the way, but bounds it: it joins the contacts, and the way to where all of them allow is tried.
+SweepHit ScpSolver::arch(Vector3 step) {
+  const Vector3 from = position_;
+  const Tolerance& tolerance = scene_->tolerance();
+  for (int i = 0; i < kMaxArches; ++i) {
+    const std::optional<Vector3> top = contacts_.lift(from, step, tolerance);
+    if (top && top->isZero(0.0)) return sweep_on(step);
+    if (!top || top->norm() > kSteepest * step.norm()) {
+      step = contacts_.rest(from, from + 0.5 * step, tolerance).place - from;
+      continue;
+    }
+    if (region_.clearance(from + 0.5 * step + *top) < 0.0) {
+      region_.start(*scene_, from, from + step, 2.0 * top->norm(), settings_.tip_radius, elapsed_);
+      scene_->gather(region_);
+    }
+    SweepHit hit = sweep_on(0.5 * step + *top);
+    if (!hit.met && !region_.overflowed()) hit = sweep_on(from + step - position_);
+    if (!hit.met && !region_.overflowed()) return hit;
+    position_ = from;
+    if (region_.overflowed()) return hit;
+    contacts_.add(hit.contact);
+    step = contacts_.rest(from, from + step, tolerance).place - from;
+  }
+  return {};
 }
 
 /// The beginning of a step that would leave the region.
 Vector3 ScpSolver::within_region(const Vector3& step) const {
   if (region_.clearance(position_ + step) >= 0.0) return step;
   const double part = std::min(1.0, region_.clearance(position_) / step.norm());
+  if (contacts_.size() > 1 && contacts_.any_smooth()) {
+    ContactSet there = contacts_;
+    return there.rest(position_, position_ + 0.5 * part * step, scene_->tolerance()).place - position_;
+  }
   if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
   if (height(contacts_.all().front(), position_ + step) > scene_->tolerance().touching()) return part * step;
   // Half-way along a chord the SCP would lie in the solid: end on the surface, which the region covers
@@ -394,6 +473,15 @@ void ScpSolver::report_contact(const Vector3& pull) {
     const Vector3 arm = position_ - scene_->pose(state_.object, elapsed_).translation();
     state_.surface_velocity = object.motion.linear + object.motion.angular.cross(arm);
   }
+  if (object.shape->changes()) state_.surface_velocity += swell();
+}
+
+/// How fast a changing surface itself moves under the SCP.
+Vector3 ScpSolver::swell() const {
+  for (const Element& contact : contacts_.all()) {
+    if (contact.smooth() && contact.object == state_.object) return smooth_velocity(contact, position_);
+  }
+  return Vector3::Zero();
 }
 
 }  // namespace icome::haptics

@@ -39,11 +39,15 @@ class ScpSolver final : public ContactSolver {
   void ride(std::uint32_t object, const Pose& before, const Pose& now);
   void follow_reported_object(const HapticScene& old);
   void carry_contacts(const HapticScene& old, double old_elapsed);
+  void surface_through(std::uint32_t object);
   void shove(const Vector3& to, std::uint32_t pusher);
   void converge(const Vector3& tip);
   bool advance(const Vector3& wanted);
   Vector3 within_region(const Vector3& step) const;
   Vector3 next_step(const Vector3& tip, bool& exact);
+  Vector3 next_smooth_step(const Vector3& tip, bool& exact);
+  SweepHit sweep_on(const Vector3& step);
+  SweepHit arch(Vector3 step);
   bool escape(const Vector3& tip);
   void let_go(const Vector3& step);
   double slip(double along, double press);
@@ -53,6 +57,7 @@ class ScpSolver final : public ContactSolver {
   double largest_reach() const;
   void report(const Vector3& tip);
   void report_contact(const Vector3& pull);
+  Vector3 swell() const;
   const Surface& surface() const;
 
   ScpSettings settings_;

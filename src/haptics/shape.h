@@ -18,6 +18,7 @@ struct GatherRequest {
   double reach;
   double tip;
   TouchableSides sides;
+  double time = 0.0;  // s, the shape's own
 };
 
 /// Takes what a shape hands out, in the shape's frame. Lives on the stack of one gather.
@@ -78,8 +79,8 @@ class Shape {
                       PieceElements& /*elements*/) const {}
 
   /// The nearest place of the surface when `position` is inside a solid that is touched from the
-  /// front; nothing when it is not inside, or the shape has no inside. Real-time safe.
-  virtual std::optional<geometry::SurfacePoint> way_out(const Vector3& position) const = 0;
+  /// front; nothing when it is not inside, or the shape has no inside. `time`: see changes(). Real-time safe.
+  virtual std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double time) const = 0;
 
   /// The normal to feel at a position on element `feature`: interpolated between faces where the
   /// shape has such normals (force shading, Morgenbesser and Srinivasan 1996), else `face_normal`.
@@ -88,6 +89,9 @@ class Shape {
                                  const Vector3& face_normal) const {
     return face_normal;
   }
+
+  /// Does the shape itself change with its time (HapticObject::time, s)?
+  virtual bool changes() const { return false; }
 
   /// Memory held, in bytes.
   virtual std::size_t bytes() const = 0;

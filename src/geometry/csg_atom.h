@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/csg_leaf.h"
+#include "geometry/polynomial.h"
+
+namespace icome::geometry {
+
+/// One smooth surface that divides space in two: what faces of solids lie on. A box is the intersection
+/// of six, a cylinder of three. In a frame of its own:
+struct CsgAtom {
+  enum class Kind : std::uint8_t {
+    Plane,     // solid below z = 0
+    Sphere,    // of radius a
+    Cylinder,  // of radius a about z
+    ConeSide,  // of radius a + b z about z; a > 0 or b != 0
+    Torus,     // tube of radius b around the circle of radius a in the plane z = 0
+    Mesh,      // a closed mesh; its triangles are separate faces
+    Custom,    // whatever answers the three questions
+  };
+
+  CsgAtom(Kind atom_kind, double size_a, double size_b, const Affine3& tree_from_frame);
+
+  Kind kind;
+  bool subtracted = false;  // the solid lies behind it: its faces are felt from within
+  double a, b;              // m
+  Affine3 tree_from_atom, atom_from_tree;
+  Matrix3 normal_map;   // takes unit normals of the atom's frame to normals of the tree's, not unit
+  Matrix3 metric;       // squared lengths of the tree's frame in terms of the atom's
+  double most_stretch;  // the largest factor of normal_map
+  bool similar;         // the transform keeps angles
+  std::shared_ptr<const MeshSolid> mesh;       // of a Mesh, else null
+  std::shared_ptr<const CsgPrimitive> custom;  // of a Custom, else null
+};
+
+/// The atoms of a leaf, whose intersection it is.
+std::vector<CsgAtom> atoms(const CsgLeaf& leaf);
+
+// All of the following: not for meshes, in the atom's own frame unless they say tree. Real-time safe.
+
+/// Signed distance to the surface (for a cone, beyond its apex, to the extended side); negative within.
+double signed_distance(const CsgAtom& atom, const Vector3& point);
+
+/// Where the distance is zero, straight along its gradient from `point`.
+SurfacePoint retract(const CsgAtom& atom, const Vector3& point);
+
+/// Where start + t step changes sides, t in [0, 1]: rising t. Not for Custom.
+RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& step);
+
+/// Walks along the surface, from the place nearest to `from`, downhill in the distance (as measured in
+/// the tree's frame) to `goal`; ends at the minimum or after turning some 0.3 rad.
+SurfacePoint walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal);
+
+/// The unit normal in the tree's frame for one in the atom's.
+inline Vector3 tree_normal(const CsgAtom& atom, const Vector3& normal) {
+  return (atom.normal_map * normal).normalized();
+}
+
+}  // namespace icome::geometry

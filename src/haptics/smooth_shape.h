@@ -1,0 +1,29 @@
+#pragma once
+#include <memory>
+#include <utility>
+
+#include "geometry/smooth_surface.h"
+#include "haptics/shape.h"
+
+namespace icome::haptics {
+
+/// A surface that is touched as what it is, without a mesh: a CSG solid, a subdivision surface's limit, an
+/// implicit surface. For a point tip.
+class SmoothShape final : public Shape {
+ public:
+  /// The surface is shared, never null.
+  explicit SmoothShape(std::shared_ptr<const geometry::SmoothSurface> surface)
+      : surface_(std::move(surface)) {}
+
+  Bounds bounds() const override { return surface_->bounds(); }
+  void gather(const GatherRequest& request, ElementSink& sink) const override;
+  void expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const override;
+  std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double time) const override;
+  bool changes() const override { return surface_->changes(); }
+  std::size_t bytes() const override { return sizeof(*this) + surface_->bytes(); }
+
+ private:
+  std::shared_ptr<const geometry::SmoothSurface> surface_;
+};
+
+}  // namespace icome::haptics
