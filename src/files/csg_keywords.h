@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace icome::files {
+
+/// What a statement of a .csg file asks for. Render and the top level are unions like Group.
+enum class CsgKeyword : std::uint8_t {
+  Cube,
+  Sphere,
+  Cylinder,
+  Polyhedron,
+  Multmatrix,
+  Color,
+  Union,
+  Intersection,
+  Difference,
+  Inexact,  // known, but without a form that can be touched exactly
+  Unknown
+};
+
+CsgKeyword csg_keyword(std::string_view name);
+
+constexpr bool is_primitive(CsgKeyword keyword) { return keyword <= CsgKeyword::Polyhedron; }
+
+/// Why a statement of this name cannot be read: the message for Inexact and Unknown.
+std::string refusal(std::string_view name, CsgKeyword keyword);
+
+}  // namespace icome::files

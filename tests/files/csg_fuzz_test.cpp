@@ -1,0 +1,116 @@
+// Damaged .csg files must be read or refused, never crash: seeded mutations of real files. The sanitizer
+// presets run this too.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "base/random.h"
+#include "files/csg_reader.h"
+#include "files/file_bytes.h"
+
+namespace icome::files {
+namespace {
+
+constexpr int kDamagedVariants = 4000;
+
+/// One of everything, for machines without the shared data.
+constexpr const char* kEverything =
+    "// all\n!group() { difference() { cube(size = [1, 2, 3], center = true); sphere($fn = 5, r = 2); }\n"
+    "multmatrix([[1, 0, 0.5, 0], [0, -1, 0, 2], [0, 0, 3, -1e-3], [0, 0, 0, 1]]) { intersection() {\n"
+    "%cylinder(h = 2, r1 = 1, r2 = 0, $fn = 0); #cylinder(2, 1, .5, $fn = 16); cube(2); } }\n"
+    "color(\"red\", 0.5) { render(convexity = 2) { polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]],\n"
+    "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]); } } *hull() { } /* end */ color([1, 0, 0, 1]) { cube(); } "
+    "}\n";
+
+constexpr std::array<std::string_view, 22> kNastyCsgWords{
+    "[",  "]",    "{",     "}",        "(",    ")",       ";",  ",",     "\"",       "/*",      "*/",
+    "//", "1e99", "-1e-9", "99999999", "hull", "group()", "\\", "undef", "cube(1);", "$fn = 3", "[[[["};
+
+void damage_csg_once(std::string& bytes, base::Random& random) {
+  if (bytes.empty()) return;
+  const std::size_t at = random.index(bytes.size());
+  switch (random.index(6)) {
+    case 0:
+      bytes[at] = static_cast<char>(random.bits());
+      break;
+    case 1:
+      bytes[at] = "0123456789"[random.index(10)];
+      break;
+    case 2:
+      if (random.index(4) == 0) bytes.resize(at);
+      break;
+    case 3:
+      bytes.erase(at, 1 + random.index(8));
+      break;
+    case 4:
+      bytes.insert(at, bytes.substr(random.index(bytes.size()), random.index(80)));
+      break;
+    default:
+      bytes.insert(at, kNastyCsgWords[random.index(kNastyCsgWords.size())]);
+  }
+}
+
+std::string damaged_csg(std::string bytes, base::Random& random) {
+  const std::uint64_t times = 1 + random.index(3);
+  for (std::uint64_t i = 0; i < times; ++i) damage_csg_once(bytes, random);
+  return bytes;
+}
+
+/// Asks a tree that came out of damaged bytes what a program would ask it.
+void check_tree(const geometry::CsgTree& tree) {
+  ASSERT_FALSE(tree.empty());
+  const geometry::Bounds box = geometry::bounds(tree);
+  for (const geometry::Affine3& transform : tree.tree_from_node())
+    ASSERT_TRUE(transform.matrix().allFinite() && transform.inverse().matrix().allFinite());
+  if (!box.isEmpty()) {
+    ASSERT_TRUE(box.min().allFinite() && box.max().allFinite());
+    geometry::inside(tree, box.center());
+  }
+}
+
+std::vector<std::string> small_real_files() {
+  std::vector<std::string> texts{kEverything};
+  const std::filesystem::path folder = std::filesystem::path(ICOME_SHARED_DATA) / "csg";
+  if (!std::filesystem::exists(folder)) return texts;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.file_size() < 2500) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files) texts.push_back(*read_bytes(file, 1U << 20U));
+  return texts;
+}
+
+TEST(CsgFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
+  base::Random random(20240301);
+  const std::vector<std::string> texts = small_real_files();
+  int refused = 0;
+  for (int i = 0; i < kDamagedVariants; ++i) {
+    const std::string text = damaged_csg(texts[random.index(texts.size())], random);
+    const auto loaded = parse_csg(text, "f");
+    if (loaded) {
+      check_tree(loaded->tree);
+    } else {
+      ++refused;
+      EXPECT_EQ(loaded.error().message.find('\n'), std::string::npos) << loaded.error().message;
+      EXPECT_TRUE(loaded.error().message.starts_with("f:")) << loaded.error().message;
+    }
+  }
+  EXPECT_GT(refused, kDamagedVariants / 20);
+  EXPECT_LT(refused, kDamagedVariants);
+}
+
+TEST(CsgFuzz, EveryBeginningOfAFileIsReadOrRefused) {
+  const std::string whole = kEverything;
+  ASSERT_TRUE(parse_csg(whole, "f")) << parse_csg(whole, "f").error().message;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto loaded = parse_csg(whole.substr(0, length), "f");
+    if (!loaded) {
+      EXPECT_TRUE(loaded.error().message.starts_with("f:")) << loaded.error().message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace icome::files
