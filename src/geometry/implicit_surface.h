@@ -3,16 +3,22 @@
 #include <string>
 
 #include "base/result.h"
+#include "geometry/dual_contouring.h"
 #include "geometry/smooth_surface.h"
 
 namespace icome::geometry {
 
-/// The surface f(x, y, z, t) = 0 of a formula, solid where f < 0, within a box (thesis 8.1.2). Lengths in
-/// metres, t in seconds. Gradients by automatic differentiation, sweeps by interval arithmetic: nothing is
-/// sampled, so nothing is missed. The box cuts the solid off with flat sides.
+/// The surface f(x, y, z, t) = 0 of a formula (see formula.h), solid where f < 0, within a box (thesis
+/// 8.1.2). Lengths in metres, t in seconds. Gradients by automatic differentiation, sweeps by interval
+/// arithmetic: nothing is sampled, so nothing is missed. The box cuts the solid off with flat sides. Where
+/// the formula has no value, there is nothing.
+///
+/// Piece 0 is the formula's surface, which goes on beyond the box (covers() knows); pieces 1 to 6 are the
+/// sides of the box towards -x, +x, -y, +y, -z, +z where they bound the solid.
 class ImplicitSurface final : public SmoothSurface {
  public:
-  /// Fails on a formula that cannot be read, naming the column, and on an empty or infinite box.
+  /// Fails on a formula that cannot be read, naming the column, on an empty or infinite box, and if there
+  /// is surely no surface in the box.
   static base::Result<std::shared_ptr<const ImplicitSurface>> create(const std::string& formula,
                                                                      const Bounds& box);
   ~ImplicitSurface() override;
@@ -24,6 +30,9 @@ class ImplicitSurface final : public SmoothSurface {
     double rate;  // df/dt
   };
   Value value(const Vector3& point, double time) const;
+
+  /// The box that cuts the solid off; bounds() may be tighter.
+  const Bounds& box() const { return box_; }
 
   Bounds bounds() const override;
   void near(const Vector3& a, const Vector3& b, double reach, double time, PieceVisitor visit) const override;
@@ -38,10 +47,18 @@ class ImplicitSurface final : public SmoothSurface {
   std::size_t bytes() const override;
 
  private:
-  class Formula;
-  ImplicitSurface(std::unique_ptr<const Formula> formula, const Bounds& box);
-  std::unique_ptr<const Formula> formula_;
+  struct Parts;
+  ImplicitSurface(std::unique_ptr<const Parts> parts, const Bounds& box);
+  std::optional<SurfaceEntry> entry_of_formula(const Vector3& start, const Vector3& step, bool from_behind,
+                                               double time, double slack) const;
+  std::optional<SurfaceEntry> entry_of_side(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                            bool from_behind, double time, double slack) const;
+
+  std::unique_ptr<const Parts> parts_;
   Bounds box_;
 };
+
+/// The solid at one time, for meshing; `surface` outlives it.
+SampledSolid sampled(const ImplicitSurface& surface, double time);
 
 }  // namespace icome::geometry

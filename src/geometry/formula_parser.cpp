@@ -1,0 +1,259 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <muParserBase.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <numbers>
+
+#include "geometry/formula.h"
+
+// muParser reads the text: it knows precedence and tells where something is wrong. But it computes numbers,
+// and we need to know how they come about. So its own operators and functions are left out, and ours are
+// put in their place, whose "values" are the numbers of nodes of an expression. Evaluated once, it has
+// built the expression. Its optimiser would fold those values and is off.
+
+namespace icome::geometry {
+namespace {
+
+using Node = Expression::Node;
+
+/// Where the operators of the parser that runs on this thread build. muParser's operators and literals
+/// carry no user data.
+struct FormulaSite {
+  Expression* expression;
+  const char* literal_too_large;  // where in the text
+};
+thread_local FormulaSite* current_site = nullptr;
+
+/// Makes `site` the current one while it lives.
+class AtSite {
+ public:
+  explicit AtSite(FormulaSite& site) { current_site = &site; }
+  ~AtSite() { current_site = nullptr; }
+  AtSite(const AtSite&) = delete;
+  AtSite& operator=(const AtSite&) = delete;
+};
+
+double as_value(Node node) { return node; }
+Node as_node(double value) { return static_cast<Node>(value); }
+
+template <Operation kOperation>
+double unary_step(double a) {
+  return as_value(current_site->expression->unary(kOperation, as_node(a)));
+}
+
+template <Operation kOperation>
+double binary_step(double a, double b) {
+  return as_value(current_site->expression->binary(kOperation, as_node(a), as_node(b)));
+}
+
+template <Operation kOperation>
+double many_step(const double* values, int count) {
+  Node result = as_node(values[0]);
+  for (int i = 1; i < count; ++i) {
+    result = current_site->expression->binary(kOperation, result, as_node(values[i]));
+  }
+  return as_value(result);
+}
+
+double plus_sign(double a) { return a; }
+
+double log10_step(double a) {
+  Expression& expression = *current_site->expression;
+  const Node natural = expression.unary(Operation::Log, as_node(a));
+  return as_value(expression.binary(Operation::Multiply, natural, expression.constant(std::numbers::log10e)));
+}
+
+/// Whether a number stands at `text`; if so, its node and how far it reaches.
+int read_literal(const char* text, int* position, double* value) {
+  const bool digit = text[0] >= '0' && text[0] <= '9';
+  const bool point = text[0] == '.' && text[1] >= '0' && text[1] <= '9';
+  if (!digit && !point) return 0;
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text, text + std::strlen(text), number);
+  if (error == std::errc::result_out_of_range && current_site->literal_too_large == nullptr) {
+    current_site->literal_too_large = text;
+  }
+  *position += static_cast<int>(end - text);
+  *value = as_value(current_site->expression->constant(number));
+  return 1;
+}
+
+constexpr std::array<const char*, 20> kFunctions{"abs", "acos",  "asin", "atan", "atan2", "cos", "cosh",
+                                                 "exp", "hypot", "ln",   "log",  "log10", "max", "min",
+                                                 "pow", "sin",   "sinh", "sqrt", "tan",   "tanh"};
+
+class FormulaParser : public mu::ParserBase {
+ public:
+  explicit FormulaParser(Expression& expression) {
+    EnableBuiltInOprt(false);
+    EnableOptimizer(false);
+    InitCharSets();
+    InitOprt();
+    InitFun();
+    AddValIdent(read_literal);
+    const std::array<const char*, 4> variables{"x", "y", "z", "t"};
+    for (std::uint32_t i = 0; i < 4; ++i) DefineConst(variables[i], as_value(expression.variable(i)));
+    DefineConst("pi", as_value(expression.constant(std::numbers::pi)));
+    DefineConst("e", as_value(expression.constant(std::numbers::e)));
+  }
+
+ protected:
+  void InitCharSets() override {  // NOLINT(readability-identifier-naming): muParser's name
+    DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    DefineOprtChars("+-*/^");
+    DefineInfixOprtChars("+-");
+  }
+  void InitOprt() override {  // NOLINT(readability-identifier-naming)
+    DefineOprt("+", binary_step<Operation::Add>, mu::prADD_SUB);
+    DefineOprt("-", binary_step<Operation::Subtract>, mu::prADD_SUB);
+    DefineOprt("*", binary_step<Operation::Multiply>, mu::prMUL_DIV);
+    DefineOprt("/", binary_step<Operation::Divide>, mu::prMUL_DIV);
+    DefineOprt("^", binary_step<Operation::Power>, mu::prPOW, mu::oaRIGHT);
+    DefineInfixOprt("-", unary_step<Operation::Negate>, mu::prINFIX, false);
+    DefineInfixOprt("+", plus_sign, mu::prINFIX, false);
+  }
+  void InitFun() override {  // NOLINT(readability-identifier-naming)
+    DefineFun("abs", unary_step<Operation::Abs>, false);
+    DefineFun("acos", unary_step<Operation::Acos>, false);
+    DefineFun("asin", unary_step<Operation::Asin>, false);
+    DefineFun("atan", unary_step<Operation::Atan>, false);
+    DefineFun("cos", unary_step<Operation::Cos>, false);
+    DefineFun("cosh", unary_step<Operation::Cosh>, false);
+    DefineFun("exp", unary_step<Operation::Exp>, false);
+    DefineFun("ln", unary_step<Operation::Log>, false);
+    DefineFun("log", unary_step<Operation::Log>, false);
+    DefineFun("sin", unary_step<Operation::Sin>, false);
+    DefineFun("sinh", unary_step<Operation::Sinh>, false);
+    DefineFun("sqrt", unary_step<Operation::Sqrt>, false);
+    DefineFun("tan", unary_step<Operation::Tan>, false);
+    DefineFun("tanh", unary_step<Operation::Tanh>, false);
+    DefineFun("log10", log10_step, false);
+    DefineFun("atan2", binary_step<Operation::Atan2>, false);
+    DefineFun("hypot", binary_step<Operation::Hypot>, false);
+    DefineFun("pow", binary_step<Operation::Power>, false);
+    DefineFun("min", many_step<Operation::Min>, false);
+    DefineFun("max", many_step<Operation::Max>, false);
+  }
+  void InitConst() override {}  // NOLINT(readability-identifier-naming)
+};
+
+std::string at_column(std::ptrdiff_t position, const std::string& complaint) {
+  return fmt::format("formula, column {}: {}", position + 1, complaint);
+}
+
+/// Characters that muParser would give a meaning that formulas here do not have, or that it cannot show.
+std::string wrong_character(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (letter || (c != '\0' && std::strchr("_.,+-*/^() \t\r\n", c) != nullptr)) continue;
+    const bool printable = c > 0x20 && c < 0x7f;
+    return at_column(static_cast<std::ptrdiff_t>(i),
+                     printable ? fmt::format("'{}' has no meaning in a formula", c)
+                               : std::string("there is a character that is not plain text"));
+  }
+  return {};
+}
+
+/// What to show of a part of the text that was not understood.
+std::string shown(std::string token) {
+  while (!token.empty() && token.back() == ' ') token.pop_back();
+  constexpr std::size_t kMost = 40;
+  return token.size() > kMost ? token.substr(0, kMost) + "..." : token;
+}
+
+std::string unknown(const std::string& token) {
+  if (token.empty() || std::strchr("+-*/^", token[0]) != nullptr) {
+    return fmt::format("a value is missing before \"{}\"", token);
+  }
+  for (const char* function : kFunctions) {
+    if (token == function) return fmt::format("\"{0}\" takes its values in parentheses: {0}(...)", token);
+  }
+  return fmt::format("\"{}\" is unknown; known are x, y, z, t, pi, e, {}", token,
+                     fmt::join(kFunctions, ", "));
+}
+
+std::string explain(const mu::ParserError& error, const std::string& text) {
+  const std::string token = shown(error.GetToken());
+  const auto end = static_cast<std::ptrdiff_t>(text.size());
+  const auto here = [&](const std::string& complaint) {
+    return at_column(std::min<std::ptrdiff_t>(error.GetPos(), end), complaint);
+  };
+  switch (error.GetCode()) {
+    case mu::ecEMPTY_EXPRESSION:
+      return "the formula is empty: write one such as x^2 + y^2 + z^2 - 0.05^2";
+    case mu::ecUNEXPECTED_EOF:
+      return at_column(end, "the formula ends too early");
+    case mu::ecUNASSIGNABLE_TOKEN:
+    case mu::ecINVALID_NAME:
+      return here(unknown(token));
+    case mu::ecMISSING_PARENS:
+      return here("a parenthesis is not closed");
+    case mu::ecUNEXPECTED_PARENS:
+      return here("this parenthesis has no counterpart or no content");
+    case mu::ecTOO_FEW_PARAMS:
+      return here(fmt::format("\"{}\" takes more values", token));
+    case mu::ecTOO_MANY_PARAMS:
+      return here(fmt::format("\"{}\" takes fewer values", token));
+    case mu::ecUNEXPECTED_ARG_SEP:
+    case mu::ecUNEXPECTED_ARG:
+      return here("a comma makes sense between a function's values only");
+    case mu::ecUNEXPECTED_VAL:
+    case mu::ecUNEXPECTED_VAR:
+    case mu::ecUNEXPECTED_FUN:
+      return here(fmt::format("an operator such as * is missing before \"{}\"", token));
+    case mu::ecUNEXPECTED_OPERATOR:
+      return here(fmt::format("a value is missing before \"{}\"", token));
+    default:
+      return here(fmt::format("\"{}\" is not expected here", token));
+  }
+}
+
+/// Position of the first comma outside all parentheses.
+std::size_t bare_comma(const std::string& text) {
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (text[i] == ',' && depth == 0) return i;
+  }
+  return text.size();
+}
+
+}  // namespace
+
+base::Result<Node> read_formula(const std::string& text, Expression& expression) {
+  if (std::string complaint = wrong_character(text); !complaint.empty()) {
+    return base::fail(std::move(complaint));
+  }
+  FormulaSite site{&expression, nullptr};
+  const AtSite here(site);
+  Node root = 0;
+  try {
+    FormulaParser parser(expression);
+    parser.SetExpr(text);
+    int results = 0;
+    const double* values = parser.Eval(results);
+    root = as_node(values[0]);
+    if (results != 1) {
+      return base::fail(at_column(static_cast<std::ptrdiff_t>(bare_comma(text)),
+                                  "a comma makes sense between a function's values only"));
+    }
+    if (site.literal_too_large != nullptr) {
+      const std::string_view rest(site.literal_too_large);
+      // muParser reads a copy of the text with a blank after it.
+      const auto column = static_cast<std::ptrdiff_t>(text.size() + 1 - rest.size());
+      return base::fail(at_column(column, "this number is too large or too small"));
+    }
+  } catch (const mu::ParserError& error) {
+    return base::fail(explain(error, text));
+  }
+  if (!expression.fault().empty()) return base::fail("formula: " + expression.fault());
+  return root;
+}
+
+}  // namespace icome::geometry

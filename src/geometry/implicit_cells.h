@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/function_ref.h"
+#include "geometry/formula.h"
+#include "geometry/triangle_mesh.h"
+
+namespace icome::geometry {
+
+/// The parts of a box in which a formula may be zero at some time: an octree, found by interval arithmetic.
+class ImplicitCells {
+ public:
+  ImplicitCells(const Formula& formula, const base::Bounds& box);
+
+  /// Around all parts; empty if f is surely never zero in the box.
+  const base::Bounds& bounds() const { return bounds_; }
+  /// Calls `visit(part)` for every part within `reach` of the segment, until it returns false; then the
+  /// answer is false. Real-time safe.
+  bool near(const base::Vector3& a, const base::Vector3& b, double reach,
+            base::FunctionRef<bool(const base::Bounds&)> visit) const;
+  std::size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
+
+ private:
+  /// Its eighths that count are `first`, `first` + 1, ... in the order of the bits in `eighths`; none: a
+  /// leaf.
+  struct Node {
+    std::uint32_t first;
+    std::uint8_t eighths;
+  };
+  struct Visit;
+  bool near(const Visit& visit, std::uint32_t node, const base::Bounds& box) const;
+
+  base::Bounds box_, bounds_;
+  std::vector<Node> nodes_;
+};
+
+/// Does f surely keep away from zero in the box, at all times? Then its sign there, else 0.
+int sign_in_box(const Formula& formula, const base::Bounds& box);
+
+}  // namespace icome::geometry

@@ -1,0 +1,204 @@
+#include "geometry/implicit_walk.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace icome::geometry {
+namespace {
+
+using base::Vector2;
+using base::Vector3;
+using Frame = Eigen::Matrix<double, 3, 2>;
+
+// Parts of the size up to which lengths count as nothing: rounding is some 1e-16 of it, contact
+// arithmetic's slack some 1e-11.
+constexpr double kExact = 1e-13;
+constexpr double kNear = 1e-9;
+constexpr int kMostLegs = 24;
+constexpr int kMostSteps = 8;
+// Legs are shortened by this factor until they are sure, and given up when they are that much shorter than
+// the size.
+constexpr double kShorter = 0.25;
+
+/// Two unit vectors that are orthogonal to `normal` and to each other.
+Frame tangents(const Vector3& normal) {
+  Frame frame;
+  frame.col(0) = normal.unitOrthogonal();
+  frame.col(1) = normal.cross(frame.col(0));
+  return frame;
+}
+
+/// A step of Newton's method for the nearest place to `goal` on the surface.
+struct NewtonStep {
+  Vector3 step;
+  double length;       // along the surface
+  double error_after;  // m, estimated
+  bool curbed;         // shortened, or for want of a minimum nearby only downhill
+};
+
+NewtonStep newton_step(const Formula::Bend& at, const Vector3& point, const Vector3& goal, double reach) {
+  const double steepness = at.gradient.norm();
+  const Vector3 normal = at.gradient / steepness;
+  const Frame frame = tangents(normal);
+  const Vector3 pull = goal - point;
+  const double above = pull.dot(normal);
+  const double sink = -at.value / steepness;
+  const base::Matrix3 bend = at.hessian / steepness;
+  const Eigen::Matrix2d curvature = frame.transpose() * bend * frame;
+  // The Hessian of distance^2 / 2 along the surface, and its slope where the surface will be met.
+  const Eigen::Matrix2d hessian = Eigen::Matrix2d::Identity() + above * curvature;
+  const Vector2 slope = frame.transpose() * (pull - above * sink * (bend * normal));
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(hessian);
+  // Where the distance curves downwards there is no minimum near: any step downhill will do.
+  constexpr double kFlattest = 0.02;
+  const Vector2 bending = axes.eigenvalues().cwiseAbs().cwiseMax(kFlattest);
+  const bool downhill_only = axes.eigenvalues().minCoeff() < kFlattest;
+  const Vector2 turned = (axes.eigenvectors().transpose() * slope).cwiseQuotient(bending);
+  Vector2 along = axes.eigenvectors() * turned;
+  const double steepest_curve = curvature.norm();
+  const double most = std::min(reach, steepest_curve > 0.0 ? 0.5 / steepest_curve : reach);
+  const double wanted = along.norm();
+  const bool too_long = wanted > most;
+  if (too_long) along *= most / wanted;
+  const double drop = -0.5 * along.dot(curvature * along);  // how the surface falls off meanwhile
+  const double length = along.norm();
+  return {frame * along + (sink + drop) * normal, length,
+          steepest_curve * (length * length + sink * sink) / bending.minCoeff(), too_long || downhill_only};
+}
+
+bool is_usable(const Formula::Bend& at) {
+  const double square = at.gradient.squaredNorm();
+  return std::isfinite(at.value) && square > 0.0 && std::isfinite(square) && at.hessian.allFinite();
+}
+
+}  // namespace
+
+std::optional<Vector3> ImplicitWalk::normal(const Vector3& point) const {
+  const Vector3 gradient = formula_.slope(point, time_).gradient;
+  const double steepness = gradient.norm();
+  if (!(steepness > 0.0) || !std::isfinite(steepness)) return std::nullopt;
+  return gradient / steepness;
+}
+
+std::optional<ImplicitWalk::Place> ImplicitWalk::settle(const Vector3& point, double reach) const {
+  Vector3 at = point;
+  double last_height = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3 * kMostSteps; ++i) {
+    const Formula::Slope here = formula_.slope(at, time_);
+    const double square = here.gradient.squaredNorm();
+    if (!std::isfinite(here.value) || !(square > 0.0) || !std::isfinite(square)) return std::nullopt;
+    const double steepness = std::sqrt(square);
+    const double height = std::fabs(here.value) / steepness;
+    const Vector3 next = at - here.value / square * here.gradient;
+    if (height <= kExact * size_ || (height <= kNear * size_ && height > 0.5 * last_height)) {
+      return Place{next, here.gradient / steepness};
+    }
+    last_height = height;
+    at = next;
+    if (!((at - point).squaredNorm() <= reach * reach)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Vector3& goal,
+                                                   double reach) const {
+  Vector3 at = from;
+  double left = reach;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Formula::Bend here = formula_.bend(at, time_);
+    if (!is_usable(here)) return std::nullopt;
+    const NewtonStep next = newton_step(here, at, goal, left);
+    at += next.step;
+    left -= next.length;
+    if (!next.curbed && next.error_after <= kExact * size_) {
+      // The normal has turned by the last step only, which was short.
+      const Vector3 turned = here.gradient + here.hessian * next.step;
+      return Leg{{at, turned.normalized()}, true};
+    }
+    if (left <= 0.0) break;
+  }
+  const auto end = settle(at, reach);
+  if (!end) return std::nullopt;
+  return Leg{*end, false};
+}
+
+bool ImplicitWalk::is_closer(const Vector3& from, const Vector3& to, const Vector3& goal) const {
+  const double gain = (from - to).dot(from + to - 2.0 * goal);
+  return gain >= -kExact * size_ * ((from - goal).norm() + (to - goal).norm());
+}
+
+/// Along a rectangle that holds both places, upright on the way between them, f rises everywhere upwards,
+/// and the surface can neither leave it above nor below: so the two are connected within it.
+bool ImplicitWalk::on_one_sheet(const Place& from, const Place& to) const {
+  const Vector3 way = to.point - from.point;
+  const Vector3 both = from.normal + to.normal;
+  if (!(both.squaredNorm() > 0.01)) return false;
+  const Vector3 up = both.normalized();
+  const double rise = way.dot(up);
+  const Vector3 level = way - rise * up;
+  const double length = level.norm();
+  if (!(length > kExact * size_)) return way.norm() <= kNear * size_;
+  const Vector3 ahead = level / length;
+  const double off = std::fabs(formula_.value(from.point, time_));
+  double half_height = 0.25 * length + 2.0 * std::fabs(rise);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto at =
+        formula_.patch_range(from.point, ahead, up, {0.0, length}, {-half_height, half_height}, time_);
+    const double steepness = at.slope[1].lo;
+    if (!at.range.total || !(steepness > 0.0)) return false;
+    const double needed = (off + magnitude(at.slope[0]) * length) / steepness;
+    if (needed <= half_height) return true;
+    if (needed > 3.0 * length) return false;
+    half_height = 1.25 * needed;
+  }
+  return false;
+}
+
+/// Beyond a crease of the surface (of abs, min or max) the gradient jumps, and Newton's method for one side
+/// leads nowhere on the other. The place across is looked for on the straight way to the goal along the
+/// tangent plane, and the descent goes on along that side, or along the crease.
+std::optional<ImplicitWalk::Place> ImplicitWalk::round_crease(const Place& from, const Vector3& goal,
+                                                              double reach) const {
+  const Vector3 pull = goal - from.point;
+  const Vector3 ahead = pull - pull.dot(from.normal) * from.normal;
+  const double length = ahead.norm();
+  if (!(length > kExact * size_)) return std::nullopt;
+  const auto other = normal(from.point + std::min(1.0, reach / length) * ahead);
+  if (!other || other->dot(from.normal) > 0.9999) return std::nullopt;
+  const Vector3 beyond = pull - pull.dot(*other) * *other;
+  const Vector3 crease = from.normal.cross(*other).normalized();
+  const Vector3 along = pull.dot(crease) * crease;
+  for (const Vector3& way : {beyond, along}) {
+    const double distance = way.norm();
+    if (!(distance > kExact * size_)) continue;
+    const auto end = settle(from.point + std::min(1.0, reach / distance) * way, reach);
+    const double gain = end ? (from.point - end->point).dot(from.point + end->point - 2.0 * goal) : 0.0;
+    if (gain > 0.0 && on_one_sheet(from, *end)) return end;
+  }
+  return std::nullopt;
+}
+
+ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& goal) const {
+  const double whole = size_ + (goal - from).norm();
+  const auto start = settle(from, whole);
+  if (!start) return {from, normal(from).value_or((from - goal).stableNormalized())};
+  Place at = *start;
+  double reach = whole;
+  for (int i = 0; i < kMostLegs && reach > kExact * size_; ++i) {
+    const auto next = leg(at.point, goal, reach);
+    if (next && is_closer(at.point, next->end.point, goal) && on_one_sheet(at, next->end)) {
+      const double gone = (next->end.point - at.point).norm();
+      at = next->end;
+      if (next->arrived) return at;
+      reach = std::max(reach, 2.0 * gone);
+      continue;
+    }
+    reach = std::min(reach, next ? (next->end.point - at.point).norm() : whole) * kShorter;
+    if (const auto across = round_crease(at, goal, reach)) at = *across;
+  }
+  return at;
+}
+
+}  // namespace icome::geometry
