@@ -9,7 +9,8 @@
 
 namespace icome::geometry {
 
-/// The parts of a box in which a formula may be zero at some time: an octree, found by interval arithmetic.
+/// The parts of a box in which a formula may be zero at some time (up to 1e9 s): an octree, found by interval
+/// arithmetic.
 class ImplicitCells {
  public:
   ImplicitCells(const Formula& formula, const base::Bounds& box);
