@@ -38,6 +38,8 @@ class CsgTree {
   void set_transform(Index node, const Affine3& parent_from_node);
   void set_operator(Index node, CsgOperator op);
 
+  void reserve(std::size_t nodes) { nodes_.reserve(nodes); }
+
   /// A tree without nodes is the empty solid.
   bool empty() const { return nodes_.empty(); }
   Index root() const { return root_; }
