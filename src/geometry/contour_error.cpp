@@ -13,14 +13,14 @@ namespace {
 /// Searches reach this many cells.
 constexpr double kErrorReach = 2.0;
 /// Where the surface is not within this many cells along the normal, other directions are tried as well.
-constexpr double kNear = 0.1;
+constexpr double kNearEnough = 0.1;
 /// Where it is not within this many, which is so beside knife edges only, in more directions.
 constexpr double kFar = 0.5;
 constexpr int kFewDirections = 8, kDirections = 128;
 
 /// Unit vectors that spread over the sphere evenly, also the first few of them: the cylinder that holds it
 /// has the same area, and the two numbers fill a square evenly (Roberts 2018, the R2 sequence).
-Vector3 direction(int i) {
+Vector3 spread_direction(int i) {
   const double z = std::fmod(0.5 + 0.7548776662466927 * i, 1.0) * 2 - 1;
   const double angle = std::fmod(0.5 + 0.5698402909980532 * i, 1.0) * 2 * std::numbers::pi;
   const double rho = std::sqrt(1 - z * z);
@@ -59,12 +59,12 @@ class ErrorMeter {
       if (found) nearest = std::min(nearest, (found->point - point).norm());
     };
     take(search_along(*solid_, point, normal, reach));
-    if (nearest <= kNear * cell_) return nearest;
+    if (nearest <= kNearEnough * cell_) return nearest;
     // Near thin parts the normal may pass the surface by: then another direction is shorter.
     take(search_finely_along(*solid_, point, normal, reach));
     for (int i = 0; i < kDirections; ++i) {
       if (i == kFewDirections && nearest <= kFar * cell_) break;
-      take(search_finely_along(*solid_, point, direction(i), reach));
+      take(search_finely_along(*solid_, point, spread_direction(i), reach));
     }
     return nearest;
   }

@@ -17,7 +17,7 @@ constexpr double kSame = 1 - 1e-12;
 /// Normals within this cosine of their mean (some 6 degrees) make a smooth sheet.
 constexpr double kSmooth = 0.995;
 /// How far beside its cell a vertex may be put on a smooth surface, in cells.
-constexpr double kBeside = 0.25;
+constexpr double kBesideCell = 0.25;
 /// Rounds of fitting a vertex to a curved edge, each on samples four times as near.
 constexpr int kFits = 3;
 
@@ -27,7 +27,7 @@ Vector3 snapped(const SampledSolid& solid, double cell, const Bounds& box, const
                 const Vector3& normal) {
   const auto found = search_along(solid, point, normal, cell / 2);
   const bool fits = found && found->normal.dot(normal) > 0 &&
-                    box.exteriorDistance(found->point) <= kBeside * cell &&
+                    box.exteriorDistance(found->point) <= kBesideCell * cell &&
                     (found->point - point).norm() > kOnPlanes * cell;
   return fits ? found->point : point;
 }

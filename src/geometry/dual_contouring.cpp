@@ -13,7 +13,7 @@ namespace icome::geometry {
 namespace {
 
 /// Numbers of vertices and edges are 32 bits wide.
-constexpr std::size_t kMostTriangles = std::size_t{1} << 31;
+constexpr std::size_t kMostContourTriangles = std::size_t{1} << 31;
 
 /// The parts of the whole that the stages take, as progress is told.
 class StageProgress {
@@ -43,7 +43,8 @@ base::Result<ContourMesh> contour(const SampledSolid& solid, const ContourOption
 
   StageProgress progress(options);
   const auto interrupted = [] { return base::fail("the meshing was interrupted"); };
-  const auto max_edges = static_cast<std::uint32_t>(std::min(options.max_triangles, kMostTriangles) / 2);
+  const auto max_edges =
+      static_cast<std::uint32_t>(std::min(options.max_triangles, kMostContourTriangles) / 2);
   const auto cells = sample_contour_cells(solid, *grid, max_edges, progress.stage(0.5));
   if (!cells) return base::fail(cells.error().message);
 

@@ -94,9 +94,9 @@ class AnalyticSolid {
 /// The box around the origin with this half size along every axis.
 inline Bounds cube_around_origin(double half) { return {Vector3::Constant(-half), Vector3::Constant(half)}; }
 
-inline Pose moved(double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); }
+inline Pose pose_at(double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); }
 
-inline Pose turned(double angle, const Vector3& axis) {
+inline Pose pose_turned(double angle, const Vector3& axis) {
   return Pose(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 

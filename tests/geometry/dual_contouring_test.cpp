@@ -118,7 +118,7 @@ TEST(DualContouring, TurnedBoxKeepsItsEdges) {
   Random random(5);
   int exact = 0;
   for (int i = 0; i < 20; ++i) {
-    const Pose pose = turned(random.uniform(0.1, 3), random.direction());
+    const Pose pose = pose_turned(random.uniform(0.1, 3), random.direction());
     AnalyticSolid box;
     box.add(Box{half}, pose);
     const double cell = 0.05;
@@ -155,7 +155,7 @@ TEST(DualContouring, CurvedEdgesAreMetExactly) {
 TEST(DualContouring, BoxWithoutBallHasTheRightVolume) {
   // A ball of radius r with its centre at the middle of a face: half of it is missing.
   AnalyticSolid solid;
-  solid.add(Box{{0.5, 0.5, 0.5}}).cut(Sphere{0.3}, moved(0, 0, 0.5));
+  solid.add(Box{{0.5, 0.5, 0.5}}).cut(Sphere{0.3}, pose_at(0, 0, 0.5));
   const double volume = 1.0 - 2 * pi / 3 * 0.027;
   for (const double cell : {0.1, 0.05}) {
     const ContourMesh made = meshed(solid, cube_around_origin(0.5), cell);
@@ -179,8 +179,8 @@ TEST(DualContouring, BallsThatTouchOrNearlyTouchStayManifold) {
     for (const double cell : {0.1, 0.06}) {
       const double x = 0.5 + gap / 2;
       AnalyticSolid pair;
-      const Pose turn = turned(0.7, {1, 2, 3});
-      pair.add(Sphere{0.5}, turn * moved(-x, 0, 0)).add(Sphere{0.5}, turn * moved(x, 0, 0));
+      const Pose turn = pose_turned(0.7, {1, 2, 3});
+      pair.add(Sphere{0.5}, turn * pose_at(-x, 0, 0)).add(Sphere{0.5}, turn * pose_at(x, 0, 0));
       const ContourMesh made = meshed(pair, cube_around_origin(1.1), cell);
       EXPECT_NEAR(signed_volume(made.mesh) / (pi / 3), 1.0, 3 * cell * cell + 0.01);
       EXPECT_LT(made.error, 0.5 * cell);
@@ -198,7 +198,7 @@ TEST(DualContouring, ThinPlateSurvives) {
   Random random(11);
   for (int i = 0; i < 10; ++i) {
     AnalyticSolid tilted;
-    tilted.add(Box{{0.5, 0.5, 0.075}}, turned(random.uniform(0, 3), random.direction()));
+    tilted.add(Box{{0.5, 0.5, 0.075}}, pose_turned(random.uniform(0, 3), random.direction()));
     const ContourMesh made = meshed(tilted, cube_around_origin(0.75), 0.1);
     EXPECT_NEAR(signed_volume(made.mesh) / 0.15, 1.0, 0.03);
   }
@@ -210,7 +210,7 @@ AnalyticSolid blobs(Random& random) {
   const auto parts = 2 + random.index(6);
   for (std::uint64_t i = 0; i < parts; ++i) {
     const Vector3 at = 0.7 * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    const Pose pose = moved(at.x(), at.y(), at.z()) * turned(random.uniform(0, 3), random.direction());
+    const Pose pose = pose_at(at.x(), at.y(), at.z()) * pose_turned(random.uniform(0, 3), random.direction());
     const auto how = i > 0 && random.index(3) == 0 ? AnalyticSolid::Join::Cut : AnalyticSolid::Join::Add;
     if (random.index(2) == 0) {
       solid.join(how, Sphere{random.uniform(0.05, 0.5)}, pose);
@@ -283,10 +283,10 @@ TEST(DualContouring, AnswersThatAreNoNumbersLeaveASoundMesh) {
 TEST(DualContouring, SameSolidInAnotherUnitGivesTheSameMesh) {
   AnalyticSolid one, other;
   const double scale = 1024.0;  // a power of two, so that even the rounding is the same
-  const Pose turn = turned(0.4, {1, 1, 2});
-  one.add(Box{{0.5, 0.4, 0.3}}, turn).cut(Sphere{0.35}, moved(0.3, 0.1, 0));
+  const Pose turn = pose_turned(0.4, {1, 1, 2});
+  one.add(Box{{0.5, 0.4, 0.3}}, turn).cut(Sphere{0.35}, pose_at(0.3, 0.1, 0));
   other.add(Box{{0.5 * scale, 0.4 * scale, 0.3 * scale}}, turn)
-      .cut(Sphere{0.35 * scale}, moved(0.3 * scale, 0.1 * scale, 0));
+      .cut(Sphere{0.35 * scale}, pose_at(0.3 * scale, 0.1 * scale, 0));
   const ContourMesh small = meshed(one, cube_around_origin(0.75), 0.06);
   const ContourMesh large = meshed(other, cube_around_origin(0.75 * scale), 0.06 * scale);
   ASSERT_EQ(small.mesh.triangles, large.mesh.triangles);
@@ -298,7 +298,7 @@ TEST(DualContouring, SameSolidInAnotherUnitGivesTheSameMesh) {
 
 TEST(DualContouring, BlocksWithoutSurfaceMakeNoDifference) {
   AnalyticSolid ball;
-  ball.add(Sphere{1.0}, moved(0.1, 0.2, 0.3));
+  ball.add(Sphere{1.0}, pose_at(0.1, 0.2, 0.3));
   const Bounds bounds(Vector3(-0.9, -0.8, -0.7), Vector3(4.1, 4.2, 4.3));
   std::atomic<int> asked = 0;
   SampledSolid solid = ball.sampled(bounds);
