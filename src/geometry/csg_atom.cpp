@@ -23,6 +23,11 @@ Vector3 direction(const Vector3& v, double length) {
   return length > 0.0 ? Vector3(v / length) : Vector3::UnitX();
 }
 
+/// The point of a capsule's axis that its surface surrounds nearest to `point`.
+Vector3 spine(const CsgAtom& capsule, const Vector3& point) {
+  return {0.0, 0.0, std::clamp(point.z(), -capsule.b, capsule.b)};
+}
+
 /// The circle's point that a torus's tube surrounds nearest to `point`.
 Vector3 core(const CsgAtom& torus, const Vector3& point) {
   const Vector3 out = across(point);
@@ -46,6 +51,10 @@ Vector3 gradient(const CsgAtom& atom, const Vector3& point) {
       const double length = arm.norm();
       return length > 0.0 ? Vector3(arm / length) : Vector3::UnitZ();
     }
+    case Kind::Capsule: {
+      const Vector3 arm = point - spine(atom, point);
+      return direction(arm, arm.norm());
+    }
     case Kind::Mesh:
     case Kind::Custom:
       break;
@@ -58,6 +67,9 @@ Vector3 bend(const CsgAtom& atom, const Vector3& point, const Vector3& along) {
   switch (atom.kind) {
     case Kind::Sphere:
       return along / atom.a;
+    case Kind::Capsule:
+      if (std::abs(point.z()) > atom.b) return along / atom.a;
+      [[fallthrough]];
     case Kind::Cylinder:
     case Kind::ConeSide: {
       const Vector3 out = across(point);
@@ -88,6 +100,7 @@ Vector3 bend(const CsgAtom& atom, const Vector3& point, const Vector3& along) {
 double tightest(const CsgAtom& atom, const Vector3& point) {
   switch (atom.kind) {
     case Kind::Sphere:
+    case Kind::Capsule:
       return atom.a;
     case Kind::Cylinder:
     case Kind::ConeSide:
@@ -164,6 +177,38 @@ RealRoots cone_crossings(const CsgAtom& atom, const Vector3& start, const Vector
   return roots;
 }
 
+RealRoots cylinder_crossings(double radius, const Vector3& start, const Vector3& step) {
+  const Vector3 flat_start = across(start);
+  const Vector3 flat_step = across(step);
+  return quadratic(flat_start.squaredNorm() - radius * radius, 2.0 * flat_start.dot(flat_step),
+                   flat_step.squaredNorm());
+}
+
+RealRoots sphere_crossings(double radius, const Vector3& start, const Vector3& step) {
+  return quadratic(start.squaredNorm() - radius * radius, 2.0 * start.dot(step), step.squaredNorm());
+}
+
+/// Of a convex body: one way in and one way out, on its side or one of its ends; on a seam both twice.
+RealRoots capsule_crossings(const CsgAtom& atom, const Vector3& start, const Vector3& step) {
+  RealRoots roots;
+  const auto height = [&](double t) { return start.z() + t * step.z(); };
+  const auto take = [&](double t) {
+    if (roots.count == roots.t.size()) return;
+    unsigned place = roots.count++;
+    for (; place > 0 && roots.t[place - 1] > t; --place) roots.t[place] = roots.t[place - 1];
+    roots.t[place] = t;
+  };
+  for (const double t : cylinder_crossings(atom.a, start, step).all()) {
+    if (std::abs(height(t)) <= atom.b) take(t);
+  }
+  for (const double end : {-atom.b, atom.b}) {
+    for (const double t : sphere_crossings(atom.a, start - end * Vector3::UnitZ(), step).all()) {
+      if (std::abs(height(t)) >= atom.b && (height(t) > 0.0) == (end > 0.0)) take(t);
+    }
+  }
+  return roots;
+}
+
 Affine3 placed(const Affine3& tree_from_leaf, const Vector3& origin, const Vector3& axis) {
   Affine3 leaf_from_atom = Affine3::Identity();
   leaf_from_atom.linear() = base::Quaternion::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
@@ -196,7 +241,7 @@ class PrimitiveAtoms {
     add_ends(cone.height);
   }
   void operator()(const Torus& torus) { add(Kind::Torus, torus.major_radius, torus.minor_radius); }
-  void operator()(const Capsule& capsule);
+  void operator()(const Capsule& capsule) { add(Kind::Capsule, capsule.radius, 0.5 * capsule.height); }
 
  private:
   void add(Kind kind, double a, double b) { into_.emplace_back(kind, a, b, tree_from_leaf_); }
@@ -211,32 +256,6 @@ class PrimitiveAtoms {
   const Affine3& tree_from_leaf_;
   std::vector<CsgAtom>& into_;
 };
-
-/// A capsule is smooth all over: one face, by its closed-form distance.
-class CapsulePrimitive final : public CsgPrimitive {
- public:
-  explicit CapsulePrimitive(const Capsule& capsule) : capsule_(capsule) {}
-  bool inside(const Vector3& point) const override { return geometry::inside(capsule_, point); }
-  SurfacePoint scp_from_inside(const Vector3& point) const override {
-    return geometry::scp_from_inside(capsule_, point);
-  }
-  SurfacePoint scp_from_outside(const Vector3& point) const override {
-    return geometry::scp_from_outside(capsule_, point);
-  }
-  Bounds bounds() const override { return geometry::bounds(capsule_); }
-  TriangleMesh tessellate(double tolerance) const override {
-    return geometry::tessellate(capsule_, tolerance);
-  }
-  std::string name() const override { return geometry::name(capsule_); }
-
- private:
-  Primitive capsule_;
-};
-
-void PrimitiveAtoms::operator()(const Capsule& capsule) {
-  add(Kind::Custom, 0.0, 0.0);
-  into_.back().custom = std::make_shared<const CapsulePrimitive>(capsule);
-}
 
 }  // namespace
 
@@ -279,6 +298,8 @@ double signed_distance(const CsgAtom& atom, const Vector3& point) {
       return (across(point).norm() - atom.a - atom.b * point.z()) / std::hypot(1.0, atom.b);
     case Kind::Torus:
       return (point - core(atom, point)).norm() - atom.b;
+    case Kind::Capsule:
+      return (point - spine(atom, point)).norm() - atom.a;
     case Kind::Mesh:
     case Kind::Custom:
       break;
@@ -308,13 +329,11 @@ RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& st
       return root;
     }
     case Kind::Sphere:
-      return quadratic(start.squaredNorm() - atom.a * atom.a, 2.0 * start.dot(step), step.squaredNorm());
-    case Kind::Cylinder: {
-      const Vector3 flat_start = across(start);
-      const Vector3 flat_step = across(step);
-      return quadratic(flat_start.squaredNorm() - atom.a * atom.a, 2.0 * flat_start.dot(flat_step),
-                       flat_step.squaredNorm());
-    }
+      return sphere_crossings(atom.a, start, step);
+    case Kind::Cylinder:
+      return cylinder_crossings(atom.a, start, step);
+    case Kind::Capsule:
+      return capsule_crossings(atom, start, step);
     case Kind::ConeSide:
       return cone_crossings(atom, start, step);
     case Kind::Torus:

@@ -17,6 +17,7 @@ struct CsgAtom {
     Cylinder,  // of radius a about z
     ConeSide,  // of radius a + b z about z; a > 0 or b != 0
     Torus,     // tube of radius b around the circle of radius a in the plane z = 0
+    Capsule,   // all within a of the axis from z = -b to b
     Mesh,      // a closed mesh; its triangles are separate faces
     Custom,    // whatever answers the three questions
   };

@@ -8,12 +8,16 @@
 namespace icome::haptics {
 namespace {
 
-constexpr int kMaxRests = 16;          // steps towards a place of rest
-constexpr int kMaxHalvings = 16;       // of a step on which contacts turn too much
+constexpr int kMaxRests = 24;          // steps towards a place of rest
 constexpr double kOpposite = 0.1;      // cosine: walls so much against each other leave no way up
 constexpr double kCloseEnough = 0.98;  // cosine between normals (0.2 rad)
-constexpr double kGeometric = 0.8;     // largest ratio of steps that are taken to shrink geometrically
-constexpr double kRoom = 1.1;          // how much further than need be a way is lifted
+constexpr double kLessPull = 0.2;      // share of the pull that is kept when contacts turn too much
+constexpr int kMaxTurns = 4;           // times that it may be cut so
+constexpr double kMaxGrowth = 8.0;     // of the share from one step to the next, either way
+constexpr double kNudge = 1e-3;        // share of the pull that presses on contacts without sliding far
+constexpr double kRounding = 1e-14;    // of squared distances
+constexpr int kMaxSettles = 3;
+constexpr double kRoom = 1.1;  // how much further than need be a way is lifted
 
 /// normal . step >= least
 struct HalfSpace {
@@ -24,11 +28,8 @@ struct HalfSpace {
 /// The half-spaces of a contact set, and the search for the active ones among them.
 class Polyhedron {
  public:
-  Polyhedron(std::span<const Element> contacts, const Vector3& position, const Tolerance& tolerance)
-      : slack_(0.25 * tolerance.gap) {
-    for (const Element& contact : contacts) {
-      planes_[count_++] = {normal(contact, position), tolerance.gap - height(contact, position)};
-    }
+  Polyhedron(std::span<const Footing> footings, const Tolerance& tolerance) : slack_(0.25 * tolerance.gap) {
+    for (const Footing& it : footings) planes_[count_++] = {it.normal, tolerance.gap - it.height};
   }
 
   /// The projection of `pull`; zero where rounding leaves no candidate, which keeps the SCP where it is.
@@ -107,7 +108,8 @@ void ContactSet::add(const Element& element) {
 
 Vector3 ContactSet::constrained(const Vector3& position, const Vector3& pull,
                                 const Tolerance& tolerance) const {
-  return Polyhedron(all(), position, tolerance).project(pull);
+  const Footings at = footings(position);
+  return Polyhedron(std::span(at).first(size_), tolerance).project(pull);
 }
 
 bool ContactSet::any_smooth() const {
@@ -115,85 +117,120 @@ bool ContactSet::any_smooth() const {
                      [](const Element& e) { return e.smooth(); });
 }
 
-void ContactSet::follow(const Vector3& position) {
-  for (Element& contact : all()) {
-    if (contact.smooth()) follow_foot(contact, position);
+ContactSet::Footings ContactSet::footings(const Vector3& position) const {
+  Footings result;
+  for (std::size_t i = 0; i < size_; ++i) result[i] = footing(elements_[i], position);
+  return result;
+}
+
+ContactSet::Footings ContactSet::follow(const Vector3& position) {
+  Footings result;
+  for (std::size_t i = 0; i < size_; ++i) {
+    Element& contact = elements_[i];
+    result[i] = contact.smooth() ? follow_foot(contact, position) : footing(contact, position);
   }
+  return result;
 }
 
 ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) {
   Element& contact = elements_.front();
   const Vector3 place = settle(contact, goal, tolerance);
-  follow_foot(contact, place);
+  const Vector3 out = follow_foot(contact, place).normal;
   const Vector3 pull = goal - place;
-  const Vector3 out = normal(contact, place);
   const double along = (pull - out * out.dot(pull)).norm();
   return {place, along <= tolerance.gap};
 }
 
-ContactSet::Normals ContactSet::normals(const Vector3& position) const {
-  Normals result;
-  for (std::size_t i = 0; i < size_; ++i) result[i] = normal(elements_[i], position);
-  return result;
-}
-
-/// Have smooth contacts turned so much from where they were that a straight way says little?
-bool ContactSet::turned(const Normals& before, const Vector3& position) const {
+/// Have smooth contacts turned so much that a straight way says little?
+bool ContactSet::turned(const Footings& before, const Footings& now) const {
   for (std::size_t i = 0; i < size_; ++i) {
-    if (elements_[i].smooth() && normal(elements_[i], position).dot(before[i]) < kCloseEnough) return true;
+    if (elements_[i].smooth() && now[i].normal.dot(before[i].normal) < kCloseEnough) return true;
   }
   return false;
 }
 
-ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance) {
-  if (size_ == 1) return rest_on_one(goal, tolerance);
-  const Normals before = normals(position);
-  Vector3 best = position;  // on the free side of all contacts
-  Vector3 at = position;
-  Vector3 last = Vector3::Zero();
-  for (int i = 0; i < kMaxRests; ++i) {
-    Vector3 step = constrained(at, goal - at, tolerance);
-    const double length = step.norm();
-    if (length <= tolerance.gap && free(at, tolerance)) return {at, true};
-    // Along an edge curve, steps shrink (or swing) geometrically: their sum is known.
-    const double ratio = last.isZero(0.0) ? 0.0 : step.dot(last) / last.squaredNorm();
-    last = step;
-    if (std::abs(ratio) < kGeometric && free(at + step / (1.0 - ratio), tolerance)) step /= 1.0 - ratio;
-    for (int k = 0; k < kMaxHalvings && turned(before, at + step); ++k) step *= 0.5;
-    at += step;
-    follow(at);
-    if (free(at, tolerance)) best = at;
-  }
-  follow(best);
-  return {best, false};
+bool ContactSet::free(const Footings& now, const Tolerance& tolerance) const {
+  return std::all_of(now.begin(), now.begin() + size_,
+                     [&](const Footing& it) { return it.height >= 0.5 * tolerance.gap; });
 }
 
-bool ContactSet::free(const Vector3& place, const Tolerance& tolerance) const {
-  return std::all_of(elements_.begin(), elements_.begin() + size_,
-                     [&](const Element& contact) { return height(contact, place) >= 0.5 * tolerance.gap; });
+// Projected gradient steps with the step lengths of Barzilai and Borwein (1988): along an edge curve that
+// is the secant method, and the curves' radii need not be known.
+ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance) {
+  if (size_ == 1) return rest_on_one(goal, tolerance);
+  const Footings before = follow(position);
+  Footings now = before;
+  Vector3 best = position;  // on the free side of all contacts
+  Vector3 at = position;
+  Vector3 last = Vector3::Zero();  // step of the whole pull
+  double share = 1.0;              // of the pull
+  int turns = 0;
+  for (int i = 0; i < kMaxRests && turns < kMaxTurns; ++i) {
+    const Vector3 step = Polyhedron(std::span(now).first(size_), tolerance).project(share * (goal - at));
+    if (step.norm() <= tolerance.gap && free(now, tolerance)) return {at, true};
+    const Footings there = follow(at + step);
+    if (turned(before, there)) {
+      share *= kLessPull;
+      now = follow(at);
+      ++turns;
+      continue;
+    }
+    const bool nearer = (goal - at - step).squaredNorm() <= (1.0 + kRounding) * (goal - best).squaredNorm();
+    if (free(there, tolerance) && !nearer) {
+      share *= kLessPull;
+      at = best;
+      now = follow(at);
+      last.setZero();
+      continue;
+    }
+    at += step;
+    now = there;
+    if (free(now, tolerance)) best = at;
+    const Vector3 whole = step / share;
+    if (!last.isZero(0.0)) {
+      const double shrunk = 1.0 - whole.dot(last) / last.squaredNorm();
+      share = shrunk * kMaxGrowth > 1.0 ? std::max(share / shrunk, share / kMaxGrowth) : share * kMaxGrowth;
+    }
+    last = whole;
+  }
+  return {settled(best, goal, tolerance), false};
+}
+
+/// Down to the contacts from a place little above them, hardly sideways.
+Vector3 ContactSet::settled(const Vector3& place, const Vector3& goal, const Tolerance& tolerance) {
+  Vector3 best = place;
+  Vector3 at = place;
+  Footings now = follow(at);
+  for (int i = 0; i < kMaxSettles; ++i) {
+    at += Polyhedron(std::span(now).first(size_), tolerance).project(kNudge * (goal - at));
+    now = follow(at);
+    if (free(now, tolerance)) best = at;
+  }
+  if (best != at) follow(best);
+  return best;
 }
 
 std::optional<Vector3> ContactSet::lift(const Vector3& position, const Vector3& step,
                                         const Tolerance& tolerance) const {
-  const Vector3 middle = position + 0.5 * step;
+  const Footings here = footings(position);
   double most = 0.0;
   Vector3 out = Vector3::Zero();
-  for (const Element& contact : all()) {
-    const Vector3 here = normal(contact, position);
-    out += here;
-    if (contact.flat()) continue;
-    // Neither leg may begin, or end, below the tangent plane; nor may the middle lie in a bulge.
-    const double down = -here.dot(step);
-    const double up = normal(contact, position + step).dot(step);
-    const bool ends_there = height(contact, position + step) <= tolerance.touching();
-    most = std::max({most, 0.5 * down, ends_there ? 0.5 * up : 0.0, tolerance.gap - height(contact, middle)});
+  for (std::size_t i = 0; i < size_; ++i) {
+    out += here[i].normal;
+    if (elements_[i].flat()) continue;
+    // Where it touches, neither leg may begin, or end, below the tangent plane; nor may the middle dip.
+    const Footing there = footing(elements_[i], position + step);
+    const double down = here[i].height <= tolerance.touching() ? -here[i].normal.dot(step) : 0.0;
+    const double up = there.height <= tolerance.touching() ? there.normal.dot(step) : 0.0;
+    const double dip = tolerance.gap - height(elements_[i], position + 0.5 * step);
+    most = std::max({most, 0.5 * down, 0.5 * up, dip});
   }
   if (most <= tolerance.gap) return Vector3::Zero();
   const double length = out.norm();
   if (length <= 0.0) return std::nullopt;
   out /= length;
   double least = 1.0;
-  for (const Element& contact : all()) least = std::min(least, out.dot(normal(contact, position)));
+  for (std::size_t i = 0; i < size_; ++i) least = std::min(least, out.dot(here[i].normal));
   if (least < kOpposite) return std::nullopt;
   return Vector3(out * (kRoom * most / least));
 }

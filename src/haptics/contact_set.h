@@ -56,12 +56,13 @@ class ContactSet {
   std::optional<Vector3> lift(const Vector3& position, const Vector3& step, const Tolerance& tolerance) const;
 
  private:
-  void follow(const Vector3& position);
-  bool free(const Vector3& place, const Tolerance& tolerance) const;
+  using Footings = std::array<Footing, kCapacity>;
+  Footings footings(const Vector3& position) const;
+  Footings follow(const Vector3& position);
   Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance);
-  using Normals = std::array<Vector3, kCapacity>;
-  Normals normals(const Vector3& position) const;
-  bool turned(const Normals& before, const Vector3& position) const;
+  Vector3 settled(const Vector3& place, const Vector3& goal, const Tolerance& tolerance);
+  bool turned(const Footings& before, const Footings& now) const;
+  bool free(const Footings& now, const Tolerance& tolerance) const;
 
   std::array<Element, kCapacity> elements_;
   std::size_t size_ = 0;

@@ -237,15 +237,20 @@ std::optional<double> curved_entry(const Element& e, const Vector3& start, const
 }  // namespace
 
 double height(const Element& element, const Vector3& position) {
-  if (element.smooth()) return smooth_height(element, position);
+  if (element.smooth()) return smooth_footing(element, position).height;
   const double outward = outward_height(element, position);
   return element.inverted ? -outward : outward;
 }
 
 Vector3 normal(const Element& element, const Vector3& position) {
-  if (element.smooth()) return smooth_normal(element, position);
+  if (element.smooth()) return smooth_footing(element, position).normal;
   const Vector3 outward = outward_normal(element, position);
   return element.inverted ? Vector3(-outward) : outward;
+}
+
+Footing footing(const Element& element, const Vector3& position) {
+  if (element.smooth()) return smooth_footing(element, position);
+  return {height(element, position), normal(element, position)};
 }
 
 bool covers(const Element& e, const Vector3& position, const Tolerance& tolerance) {

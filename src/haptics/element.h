@@ -80,6 +80,13 @@ struct Element {
 /// Signed distance to the (extended) thickened piece; positive on the free side.
 double height(const Element& element, const Vector3& position);
 
+/// Height and normal together: for a smooth surface, half the work of asking twice.
+struct Footing {
+  double height;
+  Vector3 normal;
+};
+Footing footing(const Element& element, const Vector3& position);
+
 /// Unit normal at `position`, towards the free side.
 Vector3 normal(const Element& element, const Vector3& position);
 

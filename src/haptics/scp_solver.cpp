@@ -277,7 +277,6 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const double share = slip(step.norm(), (tip - rest.place).norm());
   if (share <= 0.0) return Vector3::Zero();
   if (share < 1.0) rest = contacts_.rest(position_, position_ + share * step, tolerance);
-  if (contacts_.size() > 1) let_go(rest.place - position_);
   return rest.place - position_;
 }
 

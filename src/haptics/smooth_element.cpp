@@ -35,17 +35,16 @@ Vector3 felt_normal(const Element& e, const SurfacePlace& place) {
   return e.inverted ? Vector3(-outward) : outward;
 }
 
-}  // namespace
-
-double smooth_height(const Element& e, const Vector3& position) {
-  const Vector3 local = into_surface(e, position - e.origin);
-  const SurfacePlace place = foot(e, local);
-  const double outward = place.normal.dot(local - place.point);
-  return e.inverted ? -outward : outward;
+Footing footing_at(const Element& e, const SurfacePlace& place, const Vector3& in_surface) {
+  const double outward = place.normal.dot(in_surface - place.point);
+  return {e.inverted ? -outward : outward, felt_normal(e, place)};
 }
 
-Vector3 smooth_normal(const Element& e, const Vector3& position) {
-  return felt_normal(e, foot(e, into_surface(e, position - e.origin)));
+}  // namespace
+
+Footing smooth_footing(const Element& e, const Vector3& position) {
+  const Vector3 local = into_surface(e, position - e.origin);
+  return footing_at(e, foot(e, local), local);
 }
 
 bool smooth_covers(const Element& e, const Vector3& position, const Tolerance& tolerance) {
@@ -82,8 +81,11 @@ std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vecto
   return first;
 }
 
-void follow_foot(Element& e, const Vector3& position) {
-  take_hint(e, foot(e, into_surface(e, position - e.origin)));
+Footing follow_foot(Element& e, const Vector3& position) {
+  const Vector3 local = into_surface(e, position - e.origin);
+  const SurfacePlace place = foot(e, local);
+  take_hint(e, place);
+  return footing_at(e, place, local);
 }
 
 Vector3 smooth_velocity(const Element& e, const Vector3& position) {

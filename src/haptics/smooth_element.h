@@ -4,15 +4,14 @@
 
 namespace icome::haptics {
 
-double smooth_height(const Element& element, const Vector3& position);
-Vector3 smooth_normal(const Element& element, const Vector3& position);
+Footing smooth_footing(const Element& element, const Vector3& position);
 bool smooth_covers(const Element& element, const Vector3& position, const Tolerance& tolerance);
 Vector3 smooth_settle(const Element& element, const Vector3& position, const Tolerance& tolerance);
 std::optional<double> smooth_sweep(Element& element, const Vector3& start, const Vector3& step,
                                    const Tolerance& tolerance);
 
-/// Makes the foot of `position` the one from which the next feet are found. Real-time safe.
-void follow_foot(Element& element, const Vector3& position);
+/// The same, and makes the foot of `position` the one from which the next feet are found. Real-time safe.
+Footing follow_foot(Element& element, const Vector3& position);
 
 /// How fast the surface itself moves at `position` (m/s). Real-time safe.
 Vector3 smooth_velocity(const Element& element, const Vector3& position);
