@@ -62,7 +62,7 @@ class ErrorMeter {
     if (nearest <= kNearEnough * cell_) return nearest;
     // Near thin parts the normal may pass the surface by: then another direction is shorter.
     take(search_finely_along(*solid_, point, normal, reach));
-    for (int i = 0; i < kDirections; ++i) {
+    for (int i = 0; i < kDirections && nearest > kNearEnough * cell_; ++i) {
       if (i == kFewDirections && nearest <= kFar * cell_) break;
       take(search_finely_along(*solid_, point, spread_direction(i), reach));
     }

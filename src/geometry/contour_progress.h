@@ -10,6 +10,11 @@ namespace icome::geometry {
 /// Told the part of a stage that is done, in [0, 1]; answers whether to go on.
 using ContourProgress = std::function<bool(double part)>;
 
+/// Progress of a part of the stage: from `begin` on, `share` of it.
+inline ContourProgress contour_share(const ContourProgress& stage, double begin, double share) {
+  return [&stage, begin, share](double part) { return stage(begin + share * part); };
+}
+
 /// Calls `body(begin, end)` on parts of [0, count) in parallel, and `go_on` on this thread now and then.
 /// False when that stopped it.
 template <typename Body>

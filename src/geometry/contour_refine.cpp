@@ -15,6 +15,8 @@ constexpr double kFault = 0.02;
 constexpr int kRounds = 2;
 /// How far a vertex may leave its cell, and samples for it lie beside, in cells.
 constexpr double kBeyond = 0.5;
+/// A move by less than this part of a cell is none.
+constexpr double kStill = 1e-6;
 /// A move must make the faults around a vertex less by this part, so that rounding moves nothing.
 constexpr double kGain = 1e-3;
 /// Vertices of triangles without area are moved by this part of a cell, more each time.
@@ -26,7 +28,10 @@ using VertexQuad = std::pair<std::uint32_t, std::uint32_t>;
 class ContourRefiner {
  public:
   ContourRefiner(ContourDraft& draft, std::vector<QuadSplit>& splits)
-      : draft_(&draft), splitter_(*draft.solid, draft.grid->cell, draft.positions), splits_(&splits) {}
+      : draft_(&draft),
+        splitter_(*draft.solid, draft.grid->cell, draft.positions),
+        splits_(&splits),
+        fresh_(splits.size(), true) {}
 
   bool split_all(const ContourProgress& go_on) {
     return contour_in_batches(splits_->size(), go_on, [&](std::size_t begin, std::size_t end) {
@@ -37,18 +42,20 @@ class ContourRefiner {
   bool refine(const ContourProgress& go_on) {
     const std::vector<VertexQuad> around = quads_to_improve();
     const std::vector<std::size_t> first = first_of_each(around);
+    fresh_.assign(fresh_.size(), false);
     std::vector<Vector3> proposals(first.size());
     const auto quads_of = [&](std::size_t i) {
       const std::size_t end = i + 1 < first.size() ? first[i + 1] : around.size();
       return std::span(around).subspan(first[i], end - first[i]);
     };
-    const bool done = contour_in_batches(first.size(), go_on, [&](std::size_t begin, std::size_t end) {
+    const ContourProgress proposing = contour_share(go_on, 0.0, 0.5), moving = contour_share(go_on, 0.5, 0.5);
+    const bool done = contour_in_batches(first.size(), proposing, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) proposals[i] = propose(quads_of(i));
     });
     if (!done) return false;
     // One after the other: whether a move is good depends on where the neighbours went.
     for (std::size_t i = 0; i < first.size(); ++i) {
-      if (i % 1024 == 0 && !go_on(static_cast<double>(i) / static_cast<double>(first.size()))) return false;
+      if (i % 1024 == 0 && !moving(static_cast<double>(i) / static_cast<double>(first.size()))) return false;
       move_if_better(quads_of(i), proposals[i]);
     }
     return true;
@@ -58,6 +65,8 @@ class ContourRefiner {
   bool keep_apart(const ContourProgress& go_on) {
     double apart = kApart * draft_->grid->cell;
     for (int attempt = 0; attempt < kTriesApart; ++attempt, apart *= 2) {
+      const ContourProgress trying =
+          contour_share(go_on, static_cast<double>(attempt) / kTriesApart, 1.0 / kTriesApart);
       std::vector<std::uint32_t> vertices;
       for (const QuadSplit& split : *splits_) {
         for (const auto& triangle : split.triangles) {
@@ -70,7 +79,7 @@ class ContourRefiner {
       for (const std::uint32_t vertex : vertices) {
         draft_->positions[vertex] += apart * base::Random(vertex + vertices.size()).direction();
       }
-      if (!split_all(go_on)) return false;
+      if (!split_all(trying)) return false;
     }
     return true;
   }
@@ -80,12 +89,13 @@ class ContourRefiner {
     return splitter_.split((*draft_->quads)[quad], (*draft_->crossings)[quad].normal);
   }
 
-  /// The vertices of faulty quads, each with all quads around it, in order.
+  /// The vertices of faulty quads that are new since the last round, each with all quads around it, in
+  /// order.
   std::vector<VertexQuad> quads_to_improve() const {
     std::vector<bool> wanted(draft_->positions.size(), false);
     const auto& quads = *draft_->quads;
     for (std::size_t quad = 0; quad < quads.size(); ++quad) {
-      if ((*splits_)[quad].fault <= kFault * draft_->grid->cell) continue;
+      if (!fresh_[quad] || (*splits_)[quad].fault <= kFault * draft_->grid->cell) continue;
       for (const std::uint32_t vertex : quads[quad]) wanted[vertex] = true;
     }
     std::vector<VertexQuad> around;
@@ -138,9 +148,10 @@ class ContourRefiner {
   }
 
   void move_if_better(std::span<const VertexQuad> around, const Vector3& proposal) {
+    Vector3& position = draft_->positions[around.front().first];
+    if ((proposal - position).norm() <= kStill * draft_->grid->cell) return;
     double before = 0.0, after = 0.0;
     for (const VertexQuad& quad : around) before += (*splits_)[quad.second].fault;
-    Vector3& position = draft_->positions[around.front().first];
     const Vector3 old = std::exchange(position, proposal);
     std::vector<QuadSplit> moved;
     moved.reserve(around.size());
@@ -152,12 +163,16 @@ class ContourRefiner {
       position = old;
       return;
     }
-    for (std::size_t i = 0; i < around.size(); ++i) (*splits_)[around[i].second] = moved[i];
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      (*splits_)[around[i].second] = moved[i];
+      fresh_[around[i].second] = true;
+    }
   }
 
   ContourDraft* draft_;
   QuadSplitter splitter_;
   std::vector<QuadSplit>* splits_;
+  std::vector<bool> fresh_;  // quads that are not as they were in the last round
 };
 
 }  // namespace
@@ -165,11 +180,12 @@ class ContourRefiner {
 std::optional<std::vector<QuadSplit>> refine_and_split(ContourDraft& draft, const ContourProgress& go_on) {
   std::vector<QuadSplit> splits(draft.quads->size());
   ContourRefiner refiner(draft, splits);
-  if (!refiner.split_all(go_on)) return std::nullopt;
-  for (int round = 0; round < kRounds; ++round) {
-    if (!refiner.refine(go_on)) return std::nullopt;
+  constexpr double kShare = 1.0 / (kRounds + 2);
+  if (!refiner.split_all(contour_share(go_on, 0.0, kShare))) return std::nullopt;
+  for (int round = 1; round <= kRounds; ++round) {
+    if (!refiner.refine(contour_share(go_on, round * kShare, kShare))) return std::nullopt;
   }
-  if (!refiner.keep_apart(go_on)) return std::nullopt;
+  if (!refiner.keep_apart(contour_share(go_on, 1 - kShare, kShare))) return std::nullopt;
   return splits;
 }
 

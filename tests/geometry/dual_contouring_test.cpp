@@ -356,9 +356,9 @@ TEST(DualContouring, WhatCannotBeMeshedIsRefused) {
 }
 
 TEST(DualContouring, ProgressRisesAndStops) {
-  AnalyticSolid ball;
-  ball.add(Sphere{1.0});
-  const SampledSolid solid = ball.sampled(cube_around_origin(1));
+  AnalyticSolid box;  // with edges to refine
+  box.add(Box{{0.5, 0.4, 0.3}}, pose_turned(0.7, {1, 2, 3}));
+  const SampledSolid solid = box.sampled(cube_around_origin(0.75));
   std::vector<double> parts;
   ContourOptions options{.cell = 0.1};
   options.progress = [&](double part) {

@@ -1,0 +1,68 @@
+// Every shared .csg file that can be read, as a closed mesh.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "base/random.h"
+#include "files/csg_reader.h"
+#include "geometry/csg_mesh.h"
+#include "geometry/mesh_topology.h"
+
+namespace icome::files {
+namespace {
+
+using geometry::Bounds;
+using geometry::CsgTree;
+using geometry::Vector3;
+
+/// The share of the box that the solid fills, by throws of dice.
+double filled_share(const CsgTree& tree, const Bounds& box, int throws) {
+  base::Random random(1);
+  int hits = 0;
+  for (int i = 0; i < throws; ++i) {
+    const Vector3 part(random.uniform(), random.uniform(), random.uniform());
+    hits += inside(tree, box.min() + part.cwiseProduct(box.sizes()));
+  }
+  return static_cast<double>(hits) / throws;
+}
+
+void expect_meshed(const CsgTree& tree) {
+  const Bounds box = bounds(tree);
+  if (box.isEmpty()) return;
+  const double cell = box.diagonal().norm() / 40;
+  const auto made = contour(tree, {.cell = cell});
+  ASSERT_TRUE(made) << made.error().message;
+  const geometry::MeshReport report = analyse_topology(made->mesh).report;
+  EXPECT_EQ(report.boundary_edges + report.non_manifold_edges + report.inconsistent_edges, 0U);
+  EXPECT_LT(made->error, 2 * cell);
+
+  constexpr int kThrows = 5000;
+  const double share = filled_share(tree, box, kThrows);
+  const double spread = std::sqrt(share * (1 - share) / kThrows);
+  const double thin = 0.2 * cell * surface_area(made->mesh) / box.volume();  // what a coarse grid may miss
+  EXPECT_NEAR(signed_volume(made->mesh) / box.volume(), share, 5 * spread + thin + 0.01);
+}
+
+TEST(CsgMeshData, SharedFilesGiveClosedMeshes) {
+  const std::filesystem::path data = std::filesystem::path(ICOME_SHARED_DATA) / "csg" / "pure";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << "the shared data is not there: " << data;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  int meshed = 0;
+  for (const std::filesystem::path& file : files) {
+    SCOPED_TRACE(file.filename().string());
+    const auto loaded = read_csg(file);
+    // Hundreds of bars thinner than a cell: nothing to compare, and slow.
+    if (!loaded || count(loaded->tree).primitives > 150) continue;
+    expect_meshed(loaded->tree);
+    ++meshed;
+  }
+  EXPECT_GE(meshed, 20);
+}
+
+}  // namespace
+}  // namespace icome::files
