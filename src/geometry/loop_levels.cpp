@@ -128,7 +128,7 @@ base::Result<void> check_size(const TriangleMesh& mesh, const LoopLevelsSettings
       settings.finest, mesh.triangles.size(), mega * double(bytes), mega * double(settings.max_bytes), fits));
 }
 
-std::unique_ptr<Far::TopologyRefiner> refine(const ControlMesh& control, int levels) {
+std::unique_ptr<Far::TopologyRefiner> refined_topology(const ControlMesh& control, int levels) {
   const TriangleMesh& mesh = control.mesh;
   const std::vector<int> corners_per_face(mesh.triangles.size(), 3);
   std::vector<int> corners, creases, corner_vertices(control.corners.begin(), control.corners.end());
@@ -268,7 +268,7 @@ base::Result<std::shared_ptr<const LoopLevels>> LoopLevels::create(const Control
   if (const auto checked = check_size(control.mesh, settings); !checked)
     return tl::unexpected(checked.error());
   const ControlMesh used = used_part(control);
-  const auto refiner = refine(used, settings.finest);
+  const auto refiner = refined_topology(used, settings.finest);
   if (refiner == nullptr) return fail("OpenSubdiv does not take the control mesh as a surface");
   std::shared_ptr<LoopLevels> result(new LoopLevels());
   result->closed_ = report.closed;

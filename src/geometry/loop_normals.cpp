@@ -9,7 +9,7 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoSpoke = 0xffffffff;
 
 /// A part of the faces around a vertex between two sharp edges, or all of them.
 struct Sector {
@@ -38,14 +38,14 @@ class VertexFan {
   template <typename Take>
   void sectors(Take&& take) {
     for (const Spoke& spoke : spokes_) {
-      const bool rim = before(spoke.from) == kNone;
+      const bool rim = before(spoke.from) == kNoSpoke;
       sharp_edges_ += rim || is_sharp(spoke.from);
-      sharp_edges_ += after(spoke.to) == kNone;  // the other rim
+      sharp_edges_ += after(spoke.to) == kNoSpoke;  // the other rim
       parts_ += rim;
     }
     bool began = false;
     for (std::uint32_t i = 0; i < spokes_.size(); ++i) {
-      if (before(spokes_[i].from) != kNone && !is_sharp(spokes_[i].from)) continue;
+      if (before(spokes_[i].from) != kNoSpoke && !is_sharp(spokes_[i].from)) continue;
       began = true;
       take(walk(i));
     }
@@ -65,14 +65,14 @@ class VertexFan {
     std::uint32_t from, to, face;
   };
 
-  /// The spoke that ends in / begins with a neighbour; kNone at a boundary.
+  /// The spoke that ends in / begins with a neighbour; kNoSpoke at a boundary.
   std::uint32_t before(std::uint32_t from) const { return look_up(by_to_, from); }
   std::uint32_t after(std::uint32_t to) const { return look_up(by_from_, to); }
 
   using Links = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // neighbour, spoke; sorted
   static std::uint32_t look_up(const Links& links, std::uint32_t neighbour) {
     const auto place = std::lower_bound(links.begin(), links.end(), std::pair(neighbour, 0u));
-    return place != links.end() && place->first == neighbour ? place->second : kNone;
+    return place != links.end() && place->first == neighbour ? place->second : kNoSpoke;
   }
 
   bool is_sharp(std::uint32_t neighbour) const {
@@ -85,7 +85,7 @@ class VertexFan {
       sector.ring.push_back(spokes_[i].from);
       sector.faces.push_back(spokes_[i].face);
       const std::uint32_t next = after(spokes_[i].to);
-      if (next == kNone || (is_sharp(spokes_[i].to) && next != first)) {
+      if (next == kNoSpoke || (is_sharp(spokes_[i].to) && next != first)) {
         sector.ring.push_back(spokes_[i].to);
         break;
       }
