@@ -40,7 +40,7 @@ Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings, Effe
       settings_(settings),
       effects_(effects),
       feed_(limits_of(device.info(), settings.rate_hz)),
-      solver_(settings.scp),
+      solver_(make_solver(settings.renderer, settings.scp)),
       limiter_(device.info(), settings.limiter) {}
 
 const TickReport& Servo::tick(double dt) {
@@ -87,12 +87,13 @@ void Servo::follow_scene(double dt) {
   if (newer == nullptr) return;
   scene_ = newer;
   elapsed_ = 0.0;
-  solver_.adopt(*newer->scene, newer->changes);
+  solver_->adopt(*newer->scene, newer->changes);
+  report_.contact = solver_->state();  // names its object by its place in the new scene
   feed_.done_before(*newer);
 }
 
 void Servo::find_contact() {
-  report_.contact = solver_.step(report_.tip, elapsed_);
+  report_.contact = solver_->step(report_.tip, elapsed_);
   if (report_.contact.touching) report_.object = scene_->scene->objects()[report_.contact.object].id;
 }
 

@@ -6,13 +6,14 @@
 #include "devices/pointer_device.h"
 #include "haptics/effects/effect.h"
 #include "haptics/force_limiter.h"
-#include "haptics/scp_solver.h"
+#include "haptics/renderer.h"
 #include "haptics/servo/scene_feed.h"
 
 namespace icome::haptics {
 
 struct ServoSettings {
   double rate_hz = 1000.0;  // Hz, 500 to 10,000
+  Renderer renderer = Renderer::Exact;
   ScpSettings scp;
   LimiterSettings limiter;
   Pose world_from_device = Pose::Identity();  // where the device's workspace lies in the world
@@ -45,7 +46,8 @@ class Servo {
   /// `effects` may be null.
   Servo(devices::PointerDevice& device, const ServoSettings& settings, Effect* effects = nullptr);
 
-  /// The scene to touch from the next tick on. From one thread, the main one.
+  /// The scene to touch from the next tick on; check_renderer says whether the renderer can. From one
+  /// thread, the main one.
   void publish(std::shared_ptr<const HapticScene> scene) { feed_.publish(std::move(scene)); }
 
   /// One turn of the servo loop, `dt` seconds after the last. Real-time safe.
@@ -66,7 +68,7 @@ class Servo {
   ServoSettings settings_;
   Effect* effects_;  // may be null
   SceneFeed feed_;
-  ScpSolver solver_;
+  std::unique_ptr<ContactSolver> solver_;
   ForceLimiter limiter_;
   const PublishedScene* scene_ = nullptr;  // null until the first publish()
   double elapsed_ = 0.0;                   // s since the scene was taken

@@ -8,6 +8,7 @@
 
 #include "geometry/geodesic_sphere.h"
 #include "haptics/contact_world.h"
+#include "haptics/thesis/thesis_shapes.h"
 #include "realtime/guard/guard.h"
 
 namespace icome::haptics {
@@ -38,6 +39,12 @@ class ScriptedDevice final : public devices::PointerDevice {
 
 ScenePointer box_scene(double x = 0.0) {
   return HapticScene::compile({object(1, shape_of(primitive("box:0.1x0.1x0.1")), translation(x, 0, 0))});
+}
+
+std::shared_ptr<const Shape> thesis_shape(const geometry::Primitive& primitive) {
+  geometry::CsgTree tree;
+  tree.add_leaf(primitive);
+  return *ThesisCsgShape::create(tree);
 }
 
 void press(Servo& servo, ScriptedDevice& device, double depth) {
@@ -98,6 +105,33 @@ TEST(Servo, LetsGoWhenTheTouchedObjectGoes) {
   EXPECT_EQ(device.force, Vector3::Zero());
 }
 
+TEST(Servo, KnowsTheObjectInTheSceneThatItHasTaken) {
+  for (const Renderer renderer : {Renderer::Exact, Renderer::Thesis}) {
+    ScriptedDevice device;
+    ServoSettings settings;
+    settings.renderer = renderer;
+    Servo servo(device, settings);
+    const auto box = primitive("box:0.1x0.1x0.1");
+    const auto shape = renderer == Renderer::Exact ? shape_of(box) : thesis_shape(box);
+    std::vector<HapticObject> objects;
+    for (std::uint32_t i = 0; i < 50; ++i) objects.push_back(object(2 + i, shape, translation(1 + i, 0, 0)));
+    objects.push_back(object(1, shape));
+    servo.publish(HapticScene::compile(objects));
+    press(servo, device, 0.0005);
+    ASSERT_TRUE(servo.last().contact.touching);
+    ASSERT_EQ(servo.last().contact.object, 50u);
+    // The device is silent just when the object becomes the only one.
+    device.status = DeviceStatus::Stalled;
+    servo.publish(HapticScene::compile({objects.back()}));
+    servo.tick(1e-3);
+    EXPECT_TRUE(servo.last().contact.touching);
+    EXPECT_EQ(servo.last().contact.object, 0u);
+    servo.publish(HapticScene::compile({}));
+    servo.tick(1e-3);
+    EXPECT_FALSE(servo.last().contact.touching);
+  }
+}
+
 TEST(Servo, TakesNoMemoryAndNoLocks) {
   if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
   for (const double radius : {0.0, 0.001}) {
@@ -129,6 +163,49 @@ TEST(Servo, TakesNoMemoryAndNoLocks) {
       EXPECT_EQ(watched.locks(), 0u);
     }
   }
+}
+
+/// The rounded cube with a hole of thesis figure 5.6 and a ball that bites into it.
+std::shared_ptr<const Shape> thesis_tree() {
+  using geometry::CsgOperator;
+  geometry::CsgTree tree;
+  auto all = tree.add_leaf(primitive("box:0.1x0.1x0.1"));
+  all = tree.add(CsgOperator::Intersection, all, tree.add_leaf(primitive("sphere:0.065")));
+  all = tree.add(CsgOperator::Difference, all, tree.add_leaf(primitive("cylinder:0.025x0.14")));
+  const auto ball = tree.add_leaf(primitive("sphere:0.02"), base::Affine3(Eigen::Translation3d(0.05, 0, 0)));
+  tree.add(CsgOperator::Union, all, ball);
+  return *ThesisCsgShape::create(tree);
+}
+
+TEST(Servo, TheThesisTakesNoMemoryAndNoLocks) {
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
+  ScriptedDevice device;
+  ServoSettings settings;
+  settings.renderer = Renderer::Thesis;
+  Servo servo(device, settings);
+  const auto tree = thesis_tree();
+  const std::shared_ptr<const Shape> loop = *ThesisLoopShape::create(*geometry::LoopLevels::create(
+      {geometry::bumpy_geodesic_sphere(3, 0.05, 0.2, 4), {}, {}}, {.finest = 3}));
+  HapticObject moving = object(2, loop, translation(0.03, 0.0, 0.0));
+  moving.motion.angular = {1.0, 0.0, 0.0};
+  Random random(1);
+  Vector3 goal(0.06, 0.0, 0.0);
+  device.position = goal;
+  int touched = 0;
+  for (int part = 0; part < 10; ++part) {
+    servo.publish(HapticScene::compile({object(1, tree, translation(1e-3 * part, 0, 0)), moving}));
+    realtime::RealtimeGuard guard;
+    for (int i = 0; i < 200; ++i) {
+      if ((goal - device.position).norm() < 1e-3) goal = 0.055 * random.direction();
+      device.position += 5e-4 * (goal - device.position).normalized();
+      touched += servo.tick(1e-3).contact.touching;
+    }
+    guard.stop();
+    EXPECT_EQ(guard.allocations(), 0u);
+    EXPECT_EQ(guard.frees(), 0u);
+    EXPECT_EQ(guard.locks(), 0u);
+  }
+  EXPECT_GT(touched, 500);
 }
 
 }  // namespace
