@@ -276,7 +276,8 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   // The spring's share along the surface: for the cone, where it would rest is where it is pressed to.
   const double share = slip(step.norm(), (tip - rest.place).norm());
   if (share <= 0.0) return Vector3::Zero();
-  if (share < 1.0) rest = contacts_.rest(position_, position_ + share * step, tolerance);
+  goal_ = share < 1.0 ? Vector3(position_ + share * step) : tip;
+  if (share < 1.0) rest = contacts_.rest(position_, goal_, tolerance);
   return rest.place - position_;
 }
 
@@ -290,8 +291,11 @@ bool ScpSolver::escape(const Vector3& tip) {
   for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
     contacts_ = all;
     contacts_.forget_if([&](const Element& contact) { return &contact == &contacts_.all()[left_out]; });
-    const Vector3 step = contacts_.constrained(position_, pull, scene_->tolerance());
     const Vector3 from = position_;
+    goal_ = tip;
+    const Vector3 step = contacts_.any_smooth()
+                             ? Vector3(contacts_.rest(from, tip, scene_->tolerance()).place - from)
+                             : contacts_.constrained(from, pull, scene_->tolerance());
     advance(step);
     if ((position_ - from).squaredNorm() > std::pow(scene_->tolerance().touching(), 2)) return true;
     position_ = from;
@@ -357,22 +361,24 @@ SweepHit ScpSolver::arch(Vector3 step) {
   const Tolerance& tolerance = scene_->tolerance();
   for (int i = 0; i < kMaxArches; ++i) {
     const std::optional<Vector3> top = contacts_.lift(from, step, tolerance);
-    if (top && top->isZero(0.0)) return sweep_on(step);
     if (!top || top->norm() > kSteepest * step.norm()) {
-      step = contacts_.rest(from, from + 0.5 * step, tolerance).place - from;
+      goal_ = from + 0.5 * (goal_ - from);
+      step = contacts_.rest(from, goal_, tolerance).place - from;
       continue;
     }
-    if (region_.clearance(from + 0.5 * step + *top) < 0.0) {
-      region_.start(*scene_, from, from + step, 2.0 * top->norm(), settings_.tip_radius, elapsed_);
+    if (region_.clearance(from + step) < 0.0 || region_.clearance(from + 0.5 * step + *top) < 0.0) {
+      const double reach = 2.0 * top->norm() + tolerance.behind();
+      region_.start(*scene_, from, from + step, reach, settings_.tip_radius, elapsed_);
       scene_->gather(region_);
     }
+    if (top->isZero(0.0)) return sweep_on(step);
     SweepHit hit = sweep_on(0.5 * step + *top);
     if (!hit.met && !region_.overflowed()) hit = sweep_on(from + step - position_);
     if (!hit.met && !region_.overflowed()) return hit;
     position_ = from;
     if (region_.overflowed()) return hit;
     contacts_.add(hit.contact);
-    step = contacts_.rest(from, from + step, tolerance).place - from;
+    step = contacts_.rest(from, goal_, tolerance).place - from;
   }
   return {};
 }
@@ -383,7 +389,8 @@ Vector3 ScpSolver::within_region(const Vector3& step) const {
   const double part = std::min(1.0, region_.clearance(position_) / step.norm());
   if (contacts_.size() > 1 && contacts_.any_smooth()) {
     ContactSet there = contacts_;
-    return there.rest(position_, position_ + 0.5 * part * step, scene_->tolerance()).place - position_;
+    return there.rest(position_, position_ + 0.5 * part * (goal_ - position_), scene_->tolerance()).place -
+           position_;
   }
   if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
   if (height(contacts_.all().front(), position_ + step) > scene_->tolerance().touching()) return part * step;

@@ -68,8 +68,10 @@ class ScpSolver final : public ContactSolver {
   bool left_solid_ = false;             // put on the surface since the last report
   Vector3 position_ = Vector3::Zero();  // m, of the SCP (centre of the tip that rests)
   Vector3 last_tip_ = Vector3::Zero();
-  double tip_motion_ = 0.0;          // m, of this tick
-  double last_slide_ = 0.0;          // m, the last step along a surface in this tick
+  Vector3 goal_ =
+      Vector3::Zero();       // m, where smooth contacts are pulled: the tip, or as far as friction lets
+  double tip_motion_ = 0.0;  // m, of this tick
+  double last_slide_ = 0.0;  // m, the last step along a surface in this tick
   Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
   double reach_ = 0.0;               // m, how far around the SCP the region looks
   ContactSet contacts_;
