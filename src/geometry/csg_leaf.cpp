@@ -175,8 +175,8 @@ struct NameOfShape {
 };
 
 /// Normals transform by the inverse transpose, which keeps them pointing out under a mirror too.
-SurfacePoint placed_surface(const SurfacePoint& in_shape, const Affine3& placing, const Affine3& unplacing) {
-  return {placing * in_shape.point, (unplacing.linear().transpose() * in_shape.normal).stableNormalized()};
+SurfacePoint placed_surface(const SurfacePoint& in_shape, const Affine3& placing, const Affine3& inverse) {
+  return {placing * in_shape.point, (inverse.linear().transpose() * in_shape.normal).stableNormalized()};
 }
 
 }  // namespace
@@ -195,10 +195,21 @@ Bounds shape_bounds(const CsgShape& shape, const Affine3& placing) {
 
 std::string shape_name(const CsgShape& shape) { return std::visit(NameOfShape{}, shape); }
 
+Affine3 unplacing(const Affine3& placing) {
+  // Brought near size 1 by a power of two, which rounds nothing: determinants of tiny scales underflow.
+  const double largest = placing.linear().cwiseAbs().maxCoeff();
+  const double scale = std::ldexp(1.0, -std::ilogb(largest));
+  Affine3 result;
+  result.linear() = (scale * placing.linear()).inverse() * scale;
+  result.translation() = -(result.linear() * placing.translation());
+  result.makeAffine();
+  return result;
+}
+
 CsgLeaf::CsgLeaf(CsgShape shape, const Affine3& tree_from_shape)
     : shape_(std::move(shape)),
       tree_from_shape_(tree_from_shape),
-      shape_from_tree_(tree_from_shape.inverse(Eigen::Affine)),
+      shape_from_tree_(unplacing(tree_from_shape)),
       bounds_(shape_bounds(shape_, tree_from_shape)) {
   assert(shape_from_tree_.matrix().allFinite());
 }

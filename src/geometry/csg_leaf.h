@@ -46,6 +46,8 @@ using CsgShape =
 bool shape_encloses(const CsgShape& shape, const Vector3& point);
 /// The box around the shape when placed, as tight as CsgLeaf::bounds.
 Bounds shape_bounds(const CsgShape& shape, const Affine3& placing);
+/// The inverse, also of scales so small that their determinant underflows.
+Affine3 unplacing(const Affine3& placing);
 /// For people: "box:0.1x0.2x0.3", "mesh of 12 triangles", or the name of a primitive of your own.
 std::string shape_name(const CsgShape& shape);
 

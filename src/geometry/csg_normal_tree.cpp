@@ -19,7 +19,6 @@ namespace icome::geometry {
 namespace {
 
 using Index = CsgPlan::Index;
-constexpr Index kNone = CsgPlan::kNothing;
 
 /// A node of the plan, or its complement.
 struct Term {
@@ -42,7 +41,7 @@ class Multiplication {
       : plan_(plan), options_(options), steps_left_(kStepsPerNode * (options.max_nodes + plan.size())) {}
 
   base::Result<CsgTree> run() {
-    if (plan_.root() == kNone) return CsgTree();
+    if (plan_.root() == CsgPlan::kNothing) return CsgTree();
     const double whole = normal_size(plan_);
     if (!options_.prune && !(whole <= static_cast<double>(options_.max_nodes)))
       return base::fail(too_large());
@@ -77,7 +76,7 @@ class Multiplication {
   /// Meets all products, counts their nodes and, the second time, makes them.
   bool pass() {
     size_ = 0;
-    pending_ = kNone;
+    pending_ = CsgPlan::kNothing;
     cells_.clear();
     literals_.clear();
     box_ = plan_.node(plan_.root()).box;
@@ -99,7 +98,7 @@ class Multiplication {
 
   /// Down to the leaves of one product, taking the first side of each choice.
   void walk_down() {
-    while (pending_ != kNone && lives() && spend(1)) {
+    while (pending_ != CsgPlan::kNothing && lives() && spend(1)) {
       const Term term = cells_[pending_].term;
       pending_ = cells_[pending_].next;
       const CsgPlan::Node& node = plan_.node(term.node);
@@ -194,7 +193,7 @@ class Multiplication {
   std::uint64_t steps_left_;
 
   std::vector<Pending> cells_;
-  Index pending_ = kNone;
+  Index pending_ = CsgPlan::kNothing;
   std::vector<Term> literals_;
   std::vector<Choice> choices_;
   Bounds box_;  // of all that is intersected, pending terms included
@@ -214,7 +213,7 @@ struct ProductCount {
 }  // namespace
 
 double normal_size(const CsgPlan& plan) {
-  if (plan.root() == kNone) return 0.0;
+  if (plan.root() == CsgPlan::kNothing) return 0.0;
   const std::vector<CsgPlan::Side> sides = plan.sides();
   std::vector<ProductCount> counts(plan.size(), {1.0, 1.0});
   for (Index i = 0; i <= plan.root(); ++i) {

@@ -14,22 +14,21 @@ namespace icome::geometry {
 namespace {
 
 using Index = CsgPlan::Index;
-constexpr Index kNone = CsgPlan::kNothing;
 
 class SharedTree {
  public:
   struct Node {
     CsgOperator op;
-    Index left, right;  // of a leaf: kNone and its index in the plan
+    Index left, right;  // of a leaf: CsgPlan::kNothing and its index in the plan
     Bounds box;
     double size;  // nodes, once written out
-    bool is_leaf() const { return left == kNone; }
+    bool is_leaf() const { return left == CsgPlan::kNothing; }
   };
 
   explicit SharedTree(const CsgPlan& plan) : plan_(plan) {
-    if (plan.root() == kNone) return;
+    if (plan.root() == CsgPlan::kNothing) return;
     const std::vector<CsgPlan::Side> sides = plan.sides();
-    std::vector<Index> made(plan.size(), kNone);
+    std::vector<Index> made(plan.size(), CsgPlan::kNothing);
     for (Index i = 0; i <= plan.root(); ++i) {
       if (sides[i] != CsgPlan::Side::Added) continue;
       const CsgPlan::Node& node = plan.node(i);
@@ -46,7 +45,7 @@ class SharedTree {
 
   Index root() const { return root_; }
   const Node& node(Index index) const { return nodes_[index]; }
-  double size() const { return root_ == kNone ? 0.0 : nodes_[root_].size; }
+  double size() const { return root_ == CsgPlan::kNothing ? 0.0 : nodes_[root_].size; }
 
   CsgTree written_out() const;
 
@@ -60,17 +59,18 @@ class SharedTree {
   };
 
   Index add_leaf(Index leaf) {
-    nodes_.push_back({CsgOperator::Union, kNone, leaf, plan_.node(leaf).box, 1.0});
+    nodes_.push_back({CsgOperator::Union, CsgPlan::kNothing, leaf, plan_.node(leaf).box, 1.0});
     return static_cast<Index>(nodes_.size() - 1);
   }
 
   /// Unions with and intersections of nothing, and those of boxes that do not meet, are not made.
   Index add(CsgOperator op, Index left, Index right) {
-    if (op == CsgOperator::Union && (left == kNone || right == kNone)) return left == kNone ? right : left;
-    if (left == kNone || right == kNone) return kNone;
+    if (op == CsgOperator::Union && (left == CsgPlan::kNothing || right == CsgPlan::kNothing))
+      return left == CsgPlan::kNothing ? right : left;
+    if (left == CsgPlan::kNothing || right == CsgPlan::kNothing) return CsgPlan::kNothing;
     const Node& a = nodes_[left];
     const Node& b = nodes_[right];
-    if (op == CsgOperator::Intersection && !boxes_meet(a.box, b.box)) return kNone;
+    if (op == CsgOperator::Intersection && !boxes_meet(a.box, b.box)) return CsgPlan::kNothing;
     nodes_.push_back({op, left, right, combined_bounds(op, a.box, b.box), 1.0 + a.size + b.size});
     return static_cast<Index>(nodes_.size() - 1);
   }
@@ -80,17 +80,17 @@ class SharedTree {
 
   const CsgPlan& plan_;
   std::vector<Node> nodes_;
-  Index root_ = kNone;
+  Index root_ = CsgPlan::kNothing;
 };
 
 Index SharedTree::subtract(Index from, Index right, const std::vector<Index>& made) {
-  if (from == kNone) return kNone;
+  if (from == CsgPlan::kNothing) return CsgPlan::kNothing;
   std::vector<Rewriting> waiting;
   while (true) {
     const CsgPlan::Node* node = &plan_.node(right);
     bool meets = boxes_meet(nodes_[from].box, node->box);
     while (meets && !node->is_leaf) {
-      waiting.push_back({from, right, false, kNone});
+      waiting.push_back({from, right, false, CsgPlan::kNothing});
       right = node->left;
       node = &plan_.node(right);
       meets = boxes_meet(nodes_[from].box, node->box);
@@ -125,7 +125,7 @@ struct Growth {
 
 CsgTree SharedTree::written_out() const {
   CsgTree tree;
-  if (root_ == kNone) return tree;
+  if (root_ == CsgPlan::kNothing) return tree;
   tree.reserve(static_cast<std::size_t>(size()));
   struct Open {
     Index node;
@@ -135,7 +135,8 @@ CsgTree SharedTree::written_out() const {
   std::vector<Open> open;
   Index next = root_;
   while (true) {
-    for (; !nodes_[next].is_leaf(); next = nodes_[next].left) open.push_back({next, false, kNone});
+    for (; !nodes_[next].is_leaf(); next = nodes_[next].left)
+      open.push_back({next, false, CsgPlan::kNothing});
     Index made = plan_.copy_leaf(nodes_[next].right, tree);
     for (; !open.empty() && open.back().left_done; open.pop_back()) {
       made = tree.add(nodes_[open.back().node].op, open.back().left, made);
@@ -150,7 +151,7 @@ CsgTree SharedTree::written_out() const {
 }  // namespace
 
 double subnormal_size(const CsgPlan& plan) {
-  if (plan.root() == kNone) return 0.0;
+  if (plan.root() == CsgPlan::kNothing) return 0.0;
   const std::vector<CsgPlan::Side> sides = plan.sides();
   std::vector<Growth> growth(plan.size(), {1.0, 2.0});  // a primitive: the operation and itself
   std::vector<double> sizes(plan.size(), 1.0);

@@ -46,10 +46,8 @@ class FrameStack {
 
 CsgTree::Index CsgTree::add_leaf(CsgShape shape, const Affine3& parent_from_node,
                                  std::optional<Colour> colour) {
-  nodes_.push_back({.is_leaf = true,
-                    .shape = std::move(shape),
-                    .parent_from_node = parent_from_node,
-                    .colour = std::move(colour)});
+  nodes_.push_back(
+      {.is_leaf = true, .shape = std::move(shape), .parent_from_node = parent_from_node, .colour = colour});
   return root_ = static_cast<Index>(nodes_.size() - 1);
 }
 
@@ -142,7 +140,7 @@ bool inside(const CsgTree& tree, const Vector3& point) {
       waiting.push_back({node->op, false, node->right, frames.top()});
       node = &tree.node(node->left);
     }
-    bool answer = shape_encloses(*node->shape, frames.tree_from_top().inverse(Eigen::Affine) * point);
+    bool answer = shape_encloses(*node->shape, unplacing(frames.tree_from_top()) * point);
     // Upwards, past every operation that this answer decides.
     while (true) {
       if (waiting.empty()) return answer;

@@ -132,7 +132,7 @@ TEST(CsgTree, InsideAgreesWithRecursion) {
 }
 
 TEST(CsgTree, AMillionNodesInARowAreNoTrouble) {
-  const std::size_t operations = 500'000;  // a million nodes
+  const std::size_t operations = 500'000 / kLongShare;  // a million nodes
   for (const bool left_deep : {true, false}) {
     CsgTree tree = chain(operations, left_deep, {Op::Union});
     EXPECT_EQ(tree.tree_from_node().size(), tree.size());

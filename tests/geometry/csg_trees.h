@@ -12,6 +12,13 @@
 
 namespace icome::geometry {
 
+// Sanitizers make long chains ten times as slow, and recursion overflows their stack ten times as soon.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr std::size_t kLongShare = 10;
+#else
+inline constexpr std::size_t kLongShare = 1;
+#endif
+
 inline std::shared_ptr<const MeshSolid> mesh_solid(TriangleMesh mesh) {
   return std::make_shared<const MeshSolid>(std::move(mesh));
 }
