@@ -14,9 +14,11 @@ using Frame = Eigen::Matrix<double, 3, 2>;
 // Parts of the size up to which lengths count as nothing: rounding is some 1e-16 of it, contact
 // arithmetic's slack some 1e-11.
 constexpr double kExact = 1e-13;
+constexpr double kOnIt = 1e-12;
 constexpr double kNear = 1e-9;
-constexpr int kMostLegs = 24;
+constexpr int kMostLegs = 14;
 constexpr int kMostSteps = 8;
+constexpr int kHalvings = 3;  // of ways that are not sure at once
 // Legs are shortened by this factor until they are sure, and given up when they are that much shorter than
 // the size.
 constexpr double kShorter = 0.25;
@@ -109,33 +111,33 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Ve
   for (int i = 0; i < kMostSteps; ++i) {
     const Formula::Bend here = formula_.bend(at, time_);
     if (!is_usable(here)) return std::nullopt;
-    const NewtonStep next = newton_step(here, at, goal, left);
+    // Half of what is left, so that something is left to go on beyond an edge.
+    const NewtonStep next = newton_step(here, at, goal, 0.5 * left);
     at += next.step;
     left -= next.length;
-    if (!next.curbed && next.error_after <= kExact * size_) {
+    // Beyond a crease the surface is elsewhere than where it was expected.
+    if (!next.curbed && next.error_after <= kExact * size_ &&
+        std::fabs(formula_.value(at, time_)) <= kOnIt * size_ * here.gradient.norm()) {
       // The normal has turned by the last step only, which was short.
       const Vector3 turned = here.gradient + here.hessian * next.step;
       return Leg{{at, turned.normalized()}, true};
     }
-    if (left <= 0.0) break;
+    if (left <= 0.1 * reach) break;
   }
   const auto end = settle(at, reach);
   if (!end) return std::nullopt;
   return Leg{*end, false};
 }
 
-bool ImplicitWalk::is_closer(const Vector3& from, const Vector3& to, const Vector3& goal) const {
-  const double gain = (from - to).dot(from + to - 2.0 * goal);
-  return gain >= -kExact * size_ * ((from - goal).norm() + (to - goal).norm());
+/// By how much the square of the distance to `goal` is less at `to`.
+double ImplicitWalk::gain(const Vector3& from, const Vector3& to, const Vector3& goal) const {
+  return (from - to).dot(from + to - 2.0 * goal);
 }
 
-/// Along a rectangle that holds both places, upright on the way between them, f rises everywhere upwards,
+/// Along a rectangle that holds both places, upright on the way between them, f rises everywhere `up`,
 /// and the surface can neither leave it above nor below: so the two are connected within it.
-bool ImplicitWalk::on_one_sheet(const Place& from, const Place& to) const {
+bool ImplicitWalk::is_straight_on(const Place& from, const Place& to, const Vector3& up) const {
   const Vector3 way = to.point - from.point;
-  const Vector3 both = from.normal + to.normal;
-  if (!(both.squaredNorm() > 0.01)) return false;
-  const Vector3 up = both.normalized();
   const double rise = way.dot(up);
   const Vector3 level = way - rise * up;
   const double length = level.norm();
@@ -156,28 +158,18 @@ bool ImplicitWalk::on_one_sheet(const Place& from, const Place& to) const {
   return false;
 }
 
-/// Beyond a crease of the surface (of abs, min or max) the gradient jumps, and Newton's method for one side
-/// leads nowhere on the other. The place across is looked for on the straight way to the goal along the
-/// tangent plane, and the descent goes on along that side, or along the crease.
-std::optional<ImplicitWalk::Place> ImplicitWalk::round_crease(const Place& from, const Vector3& goal,
-                                                              double reach) const {
-  const Vector3 pull = goal - from.point;
-  const Vector3 ahead = pull - pull.dot(from.normal) * from.normal;
-  const double length = ahead.norm();
-  if (!(length > kExact * size_)) return std::nullopt;
-  const auto other = normal(from.point + std::min(1.0, reach / length) * ahead);
-  if (!other || other->dot(from.normal) > 0.9999) return std::nullopt;
-  const Vector3 beyond = pull - pull.dot(*other) * *other;
-  const Vector3 crease = from.normal.cross(*other).normalized();
-  const Vector3 along = pull.dot(crease) * crease;
-  for (const Vector3& way : {beyond, along}) {
-    const double distance = way.norm();
-    if (!(distance > kExact * size_)) continue;
-    const auto end = settle(from.point + std::min(1.0, reach / distance) * way, reach);
-    const double gain = end ? (from.point - end->point).dot(from.point + end->point - 2.0 * goal) : 0.0;
-    if (gain > 0.0 && on_one_sheet(from, *end)) return end;
-  }
-  return std::nullopt;
+/// Over long ways, by way of places in between.
+bool ImplicitWalk::on_one_sheet(const Place& from, const Place& to, const Vector3& up, int halvings) const {
+  if (is_straight_on(from, to, up)) return true;
+  if (halvings == 0) return false;
+  const double length = (to.point - from.point).norm();
+  const auto middle = settle(0.5 * (from.point + to.point), 0.5 * length);
+  if (!middle) return false;
+  const auto mean = [](const Place& a, const Place& b) -> Vector3 {
+    return (a.normal + b.normal).stableNormalized();
+  };
+  return on_one_sheet(from, *middle, mean(from, *middle), halvings - 1) &&
+         on_one_sheet(*middle, to, mean(*middle, to), halvings - 1);
 }
 
 ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& goal) const {
@@ -187,16 +179,29 @@ ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& go
   Place at = *start;
   double reach = whole;
   for (int i = 0; i < kMostLegs && reach > kExact * size_; ++i) {
+    // Rounding alone may seem to bring it closer or away.
+    const double doubt = kExact * size_ * (at.point - goal).norm();
     const auto next = leg(at.point, goal, reach);
-    if (next && is_closer(at.point, next->end.point, goal) && on_one_sheet(at, next->end)) {
-      const double gone = (next->end.point - at.point).norm();
-      at = next->end;
-      if (next->arrived) return at;
-      reach = std::max(reach, 2.0 * gone);
-      continue;
+    if (next) {
+      const double closer = gain(at.point, next->end.point, goal);
+      if (closer > (next->arrived ? -doubt : doubt) &&
+          on_one_sheet(at, next->end, (at.normal + next->end.normal).stableNormalized(), kHalvings)) {
+        reach = std::max(reach, 2.0 * (next->end.point - at.point).norm());
+        at = next->end;
+        if (next->arrived) return at;
+        continue;
+      }
     }
-    reach = std::min(reach, next ? (next->end.point - at.point).norm() : whole) * kShorter;
-    if (const auto across = round_crease(at, goal, reach)) at = *across;
+    Vector3 up;
+    if (const auto along = crease_leg(at, goal, reach, up)) {
+      const double closer = gain(at.point, along->end.point, goal);
+      if (closer > (along->arrived ? -doubt : doubt) && on_one_sheet(at, along->end, up, kHalvings)) {
+        at = along->end;
+        if (along->arrived) return at;
+        continue;
+      }
+    }
+    reach = kShorter * std::min(reach, next ? (next->end.point - at.point).norm() : reach);
   }
   return at;
 }

@@ -34,9 +34,13 @@ class ImplicitWalk {
   };
   /// Newton's method for the minimum, no further than `reach` from `from`. Nothing where it fails.
   std::optional<Leg> leg(const base::Vector3& from, const base::Vector3& goal, double reach) const;
-  bool is_closer(const base::Vector3& from, const base::Vector3& to, const base::Vector3& goal) const;
-  bool on_one_sheet(const Place& from, const Place& to) const;
-  std::optional<Place> round_crease(const Place& from, const base::Vector3& goal, double reach) const;
+  /// The same along a crease of the surface, where the gradient jumps (of abs, min and max). `up`, unit, is
+  /// the mean of the normals on both sides.
+  std::optional<Leg> crease_leg(const Place& from, const base::Vector3& goal, double reach,
+                                base::Vector3& up) const;
+  double gain(const base::Vector3& from, const base::Vector3& to, const base::Vector3& goal) const;
+  bool is_straight_on(const Place& from, const Place& to, const base::Vector3& up) const;
+  bool on_one_sheet(const Place& from, const Place& to, const base::Vector3& up, int halvings) const;
 
   const Formula& formula_;
   double time_;
