@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <string>
 
 namespace icome::files {
 
@@ -16,6 +17,15 @@ Number load(const char* bytes, ByteOrder order) {
   if ((order == ByteOrder::LittleEndian) != (std::endian::native == std::endian::little))
     std::reverse(raw.begin(), raw.end());
   return std::bit_cast<Number>(raw);
+}
+
+/// Appends the number's bytes in the given order.
+template <typename Number>
+void store(Number number, ByteOrder order, std::string& bytes) {
+  auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  if ((order == ByteOrder::LittleEndian) != (std::endian::native == std::endian::little))
+    std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.data(), raw.size());
 }
 
 }  // namespace icome::files
