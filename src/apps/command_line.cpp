@@ -16,6 +16,8 @@ constexpr int kBadUsage = 2;
 
 /// The options as CLI11 fills them in, before they mean anything.
 struct Entries {
+  CsgOptions csg;
+  std::string form = "tree";
   TouchOptions touch;
   std::string friction;
   std::string sides;
@@ -87,6 +89,34 @@ void add_output_options(CLI::App& touch, Entries& entries) {
   touch.add_flag("--json", options.json, "Print the report as JSON (fields below)");
 }
 
+void add_csg_options(CLI::App& csg, Entries& entries) {
+  CsgOptions& options = entries.csg;
+  csg.add_option("FILE.csg", options.file, "A CSG tree as OpenSCAD writes it, also .csg.xz")
+      ->required()
+      ->type_name("");
+  csg.add_option("--form", entries.form, kFormHelp)
+      ->type_name("tree|normal|subnormal")
+      ->check(CLI::IsMember({"tree", "normal", "subnormal"}));
+  csg.add_option("--max-nodes", options.max_nodes, "Limit of the form, which can explode (default 10000000)")
+      ->type_name("N");
+  csg.add_option("--inside", options.inside, "Judge points from a CSV file: x,y,z in m, one a row")
+      ->type_name("POINTS.csv");
+  csg.add_option("--mesh", options.mesh, "Write a closed mesh of the surface: binary STL, in mm")
+      ->type_name("OUT.stl");
+  csg.add_option("--cell", options.cell_mm,
+                 "Grid that the mesh is made with, mm (default 1/200 of the longest side)")
+      ->type_name("MM");
+  csg.add_flag("--json", options.json, "Print the report as JSON (fields below)");
+}
+
+base::Result<CsgOptions> understood_csg(const Entries& entries) {
+  CsgOptions options = entries.csg;
+  if (entries.form == "normal") options.form = geometry::CsgForm::Normal;
+  if (entries.form == "subnormal") options.form = geometry::CsgForm::Subnormal;
+  if (const auto checked = check(options); !checked) return tl::unexpected(checked.error());
+  return options;
+}
+
 /// Gives the entries their meaning.
 base::Result<TouchOptions> understood(Entries entries) {
   TouchOptions& options = entries.touch;
@@ -102,9 +132,18 @@ base::Result<TouchOptions> understood(Entries entries) {
   return options;
 }
 
-CommandLine bad_usage(const std::string& sentence, const char* help) {
+CommandLine bad_usage(const std::string& sentence, const std::string& help) {
   fmt::print(stderr, "icome: {}\nSee {}.\n", sentence, help);
-  return {std::nullopt, kBadUsage};
+  CommandLine command_line;
+  command_line.exit_code = kBadUsage;
+  return command_line;
+}
+
+/// The subcommand that the first word names; null when it names none.
+const CLI::App* named_subcommand(const CLI::App& app, int argc, char** argv) {
+  const auto named =
+      app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->check_name(argv[1]); });
+  return named.empty() ? nullptr : named.front();
 }
 
 }  // namespace
@@ -121,25 +160,35 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_feel_options(touch, entries);
   add_run_options(touch, entries);
   add_output_options(touch, entries);
+  CLI::App& csg = *app.add_subcommand("csg", kCsgSummary);
+  csg.footer(kCsgExamples);
+  add_csg_options(csg, entries);
+  const CLI::App* const named = named_subcommand(app, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
-  if (argc > 1 && argv[1][0] != '-' && !touch.check_name(argv[1])) {
+  if (argc > 1 && argv[1][0] != '-' && named == nullptr)
     return bad_usage(fmt::format("there is no command \"{}\".", argv[1]), "icome --help");
-  }
-  const char* const help = argc > 1 && argv[1] == touch.get_name() ? "icome touch --help" : "icome --help";
+  const std::string help = named != nullptr ? "icome " + named->get_name() + " --help" : "icome --help";
+  CommandLine command_line;
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // help or version
-    return {std::nullopt, app.exit(success)};
+    command_line.exit_code = app.exit(success);
+    return command_line;
   } catch (const CLI::ParseError& error) {
     return bad_usage(error.what(), help);
   }
-  if (!touch.parsed()) {
+  if (touch.parsed()) {
+    auto options = understood(std::move(entries));
+    if (!options) return bad_usage(options.error().message, help);
+    command_line.touch = std::move(*options);
+  } else if (csg.parsed()) {
+    auto options = understood_csg(entries);
+    if (!options) return bad_usage(options.error().message, help);
+    command_line.csg = std::move(*options);
+  } else {
     fmt::print("{}", app.help());
-    return {};
   }
-  auto options = understood(std::move(entries));
-  if (!options) return bad_usage(options.error().message, help);
-  return {std::move(*options), 0};
+  return command_line;
 }
 
 }  // namespace icome::apps

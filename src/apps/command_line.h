@@ -1,14 +1,17 @@
 #pragma once
 #include <optional>
 
+#include "apps/csg_options.h"
 #include "apps/touch_options.h"
 
 namespace icome::apps {
 
 /// What the command line asks for.
 struct CommandLine {
-  std::optional<TouchOptions> touch;  // set when a subcommand is to run
-  int exit_code = 0;                  // else what to return: help and version were printed, or an error
+  // The subcommand that is to run.
+  std::optional<TouchOptions> touch;
+  std::optional<CsgOptions> csg;
+  int exit_code = 0;  // what to return when none is: help and version were printed, or an error
 };
 
 /// Reads the command line. Help and version go to standard output; what is wrong is said in a sentence

@@ -15,8 +15,10 @@ constexpr const char* kProgramExamples =
     "                                              a scan, 0.1 m large, and a picture of the touch\n"
     "  icome touch part.stl --unit mm --path path.csv --trace out.csv\n"
     "                                              replay tip positions, keep what every tick did\n"
+    "  icome csg cup.csg --form normal --mesh cup.stl\n"
+    "                                              a solid from OpenSCAD: its normal form, and a mesh of it\n"
     "\n"
-    "icome touch --help tells all about touching.";
+    "icome touch --help tells all about touching, icome csg --help about solids.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
@@ -61,5 +63,49 @@ constexpr const char* kTouchExamples =
     "  without --check), peak_memory_bytes. It goes to standard output, all messages to standard error.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 a replay was interrupted.";
+
+constexpr const char* kCsgSummary =
+    "Look into a CSG solid from OpenSCAD: its tree and normal forms, which points it holds, a mesh of it";
+
+constexpr const char* kFormHelp =
+    "Which form to bring the solid to: the tree as it is in the file, the normal form (a union of products) "
+    "or "
+    "the sub-normal form (what is subtracted is always a primitive) (default tree)";
+
+constexpr const char* kCsgExamples =
+    "Examples:\n"
+    "  openscad -o cup.csg cup.scad                makes the file from a model\n"
+    "  icome csg cup.csg                           what is in it, how large it is\n"
+    "  icome csg cup.csg --form normal --json      the size of its normal form, for a script\n"
+    "  icome csg cup.csg --inside points.csv > inside.csv\n"
+    "  icome csg cup.csg --mesh cup.stl --cell 0.2\n"
+    "\n"
+    "Read are cube, sphere, cylinder and polyhedron under multmatrix, color, group, union, intersection,\n"
+    "difference and render. What has no exact form (hull, minkowski, extrusions, text, import and so on) is\n"
+    "refused by name, line and column. Spheres and cylinders are truly round, but with $fn from 3 to 16 "
+    "they\n"
+    "are the faceted solids that OpenSCAD makes. Lengths are mm in the file.\n"
+    "\n"
+    "--inside reads a CSV file with the header x,y,z and coordinates in metres. The answer goes to standard\n"
+    "output instead of the report: a CSV with the header inside and 1 or 0 for every point; with --json it "
+    "is\n"
+    "the field inside of the report, an array.\n"
+    "\n"
+    "--mesh writes a watertight mesh with sharp edges. STL has no unit; the numbers are mm, as in "
+    "OpenSCAD's\n"
+    "own files. Parts thinner than a cell may be lost. The report says how many triangles there are and how\n"
+    "far they are off the surface at most.\n"
+    "\n"
+    "JSON: nodes, primitives and depth of the tree in the file (operations and primitives; nodes on the\n"
+    "  longest way down), form, form_nodes, pruned (nodes that the form would have more if the bounding "
+    "boxes\n"
+    "  did not show that they contribute nothing), bounds {min, max} in metres (null for an empty solid),\n"
+    "  products (operands of the normal form's union, null for other forms), file, read_seconds, "
+    "form_seconds,\n"
+    "  notes (what was left out or put right), with --mesh also mesh {file, triangles, cell, error} (m), "
+    "with\n"
+    "  --inside also inside. It goes to standard output, all messages to standard error.\n"
+    "\n"
+    "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 
 }  // namespace icome::apps

@@ -5,13 +5,15 @@
 #include <new>
 
 #include "apps/command_line.h"
+#include "apps/csg_command.h"
 #include "apps/touch_command.h"
 
 int main(int argc, char** argv) {
   try {
     const icome::apps::CommandLine command_line = icome::apps::parse_command_line(argc, argv);
-    if (!command_line.touch) return command_line.exit_code;
-    return icome::apps::run_touch(*command_line.touch);
+    if (command_line.touch) return icome::apps::run_touch(*command_line.touch);
+    if (command_line.csg) return icome::apps::run_csg(*command_line.csg);
+    return command_line.exit_code;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,
                "icome: there is not enough memory for this; close other programs or use a smaller model.\n");
