@@ -112,6 +112,17 @@ std::optional<Projected> project(const Camera& camera, const Vector3& point) {
   return Projected{0.5 + 0.5 * clip.x() / clip.w(), 0.5 - 0.5 * clip.y() / clip.w(), -seen.z()};
 }
 
+base::Bounds device_box(const base::Bounds& box, const Matrix4& clip_from_box) {
+  base::Bounds seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3 at = box.corner(static_cast<base::Bounds::CornerType>(corner));
+    const Eigen::Vector4d clip = clip_from_box * at.homogeneous();
+    if (!(clip.w() > 0.0)) return {Vector3(-1.0, -1.0, -1.0), Vector3(1.0, 1.0, 1.0)};
+    seen.extend(Vector3(clip.head<3>() / clip.w()));
+  }
+  return seen;
+}
+
 double distance_of_depth(const Camera& camera, double depth) {
   const Matrix4& m = camera.clip_from_camera;
   const double ndc = 2.0 * depth - 1.0;

@@ -51,6 +51,10 @@ struct Projected {
 /// Where the point appears; nothing when it is not in front of the camera.
 std::optional<Projected> project(const Camera& camera, const base::Vector3& point);
 
+/// The box around where a box (in the frame that `clip_from_box` takes) appears, in OpenGL's normalised
+/// device coordinates; x and y are -1 ... 1 when part of it is not in front of the camera.
+base::Bounds device_box(const base::Bounds& box, const Matrix4& clip_from_box);
+
 /// The distance along the view axis that a depth buffer's value (0 ... 1) stands for.
 double distance_of_depth(const Camera& camera, double depth);
 

@@ -90,9 +90,9 @@ GlObject& GlObject::operator=(GlObject&& other) noexcept {
 GlObject::~GlObject() { remove(kind_, name_); }
 
 base::Result<GlObject> compile_program(std::string_view vertex, std::string_view fragment,
-                                       std::string_view defines) {
+                                       std::string_view defines, std::string_view profile) {
   const auto source = [&](std::string_view body) {
-    return fmt::format("#version 330 core\n{}{}", defines, body);
+    return fmt::format("#version 330 {}\n{}{}", profile, defines, body);
   };
   const auto vertex_shader = compile_shader(GL_VERTEX_SHADER, source(vertex));
   if (!vertex_shader) return base::fail(vertex_shader.error().message);
@@ -132,10 +132,10 @@ void set_uniform(const GlObject& program, const char* name, const Matrix4& value
 
 GlObject make_target(unsigned format, int width, int height) {
   GlObject texture(GlObject::Kind::Texture);
-  const bool depth = format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32F;
+  const bool depth = format == GL_DEPTH24_STENCIL8;
   glBindTexture(GL_TEXTURE_2D, texture.name());
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0,
-               depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, nullptr);
+               depth ? GL_DEPTH_STENCIL : GL_RGBA, depth ? GL_UNSIGNED_INT_24_8 : GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, depth ? GL_LINEAR : GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, depth ? GL_LINEAR : GL_NEAREST);
@@ -153,7 +153,9 @@ base::Result<GlObject> make_frame(const GlObject* colour, const GlObject* depth)
     glDrawBuffer(GL_NONE);
     glReadBuffer(GL_NONE);
   }
-  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->name(), 0);
+  if (depth) {
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth->name(), 0);
+  }
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return frame;
   return base::fail("the OpenGL driver cannot draw into a picture of that size; choose a smaller one");
 }

@@ -29,10 +29,10 @@ class GlObject {
 };
 
 /// Compiles and links a variant of a shader pair (GLSL 3.30 without the #version line); `defines` are
-/// lines such as "#define FLOOR\n" put before both. Vertex inputs: 0 is `position`, 1 is `normal`.
-/// Fails with the driver's message.
+/// lines such as "#define FLOOR\n" put before both. Vertex inputs: 0 is `position`, 1 is `normal`, or what
+/// OpenGL 2 has built in where the profile is "compatibility". Fails with the driver's message.
 base::Result<GlObject> compile_program(std::string_view vertex, std::string_view fragment,
-                                       std::string_view defines);
+                                       std::string_view defines, std::string_view profile = "core");
 
 // Uniforms of the program in use, by name; a name that the variant does not use is ignored.
 void set_uniform(const GlObject& program, const char* name, int value);
@@ -40,10 +40,11 @@ void set_uniform(const GlObject& program, const char* name, float value);
 void set_uniform(const GlObject& program, const char* name, const base::Vector3& value);
 void set_uniform(const GlObject& program, const char* name, const Matrix4& value);
 
-/// A texture without mipmaps to draw into: `format` is a sized internal format such as GL_RGBA16F.
+/// A texture without mipmaps to draw into: `format` is GL_DEPTH24_STENCIL8 or a sized colour format such as
+/// GL_RGBA16F.
 GlObject make_target(unsigned format, int width, int height);
 
-/// A frame that draws into those textures; `colour` may be null for a depth-only frame.
+/// A frame that draws into those textures; `colour` may be null for a frame of depth and stencil only.
 /// Fails when the driver does not take the combination.
 base::Result<GlObject> make_frame(const GlObject* colour, const GlObject* depth);
 

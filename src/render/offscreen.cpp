@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 namespace icome::render {
@@ -25,25 +26,37 @@ base::Result<EGLDisplay> surfaceless_display() {
   return display;
 }
 
-base::Result<EGLContext> core_context(EGLDisplay display) {
+/// No context when the driver does not offer that profile.
+EGLContext context_of_profile(EGLDisplay display, EGLConfig config, EGLint profile) {
+  const EGLint wish[] = {EGL_CONTEXT_MAJOR_VERSION,
+                         3,
+                         EGL_CONTEXT_MINOR_VERSION,
+                         3,
+                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                         profile,
+                         EGL_NONE};
+  return eglCreateContext(display, config, EGL_NO_CONTEXT, wish);
+}
+
+struct MadeContext {
+  EGLContext context;
+  bool compatible;
+};
+
+/// Compatible if possible, since images of CSG need that; core does for all else.
+base::Result<MadeContext> make_context(EGLDisplay display) {
   const EGLint config_wish[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-  const EGLint context_wish[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 3,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 3,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
-  const bool chosen =
-      eglBindAPI(EGL_OPENGL_API) && eglChooseConfig(display, config_wish, &config, 1, &count) && count == 1;
-  const EGLContext context =
-      chosen ? eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish) : EGL_NO_CONTEXT;
-  if (context == EGL_NO_CONTEXT) {
-    return base::fail("no picture can be drawn: the driver offers no OpenGL 3.3; install libgl1-mesa-dri");
+  if (eglBindAPI(EGL_OPENGL_API) && eglChooseConfig(display, config_wish, &config, 1, &count) && count == 1) {
+    for (const bool compatible : {true, false}) {
+      const EGLContext context = context_of_profile(
+          display, config,
+          compatible ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
+      if (context != EGL_NO_CONTEXT) return MadeContext{context, compatible};
+    }
   }
-  return context;
+  return base::fail("no picture can be drawn: the driver offers no OpenGL 3.3; install libgl1-mesa-dri");
 }
 
 }  // namespace
@@ -52,8 +65,10 @@ base::Result<EGLContext> core_context(EGLDisplay display) {
 struct Offscreen::Context {
   EGLDisplay display;
   EGLContext context;
+  bool compatible;
 
-  Context(EGLDisplay d, EGLContext c) : display(d), context(c) {}
+  Context(EGLDisplay d, const MadeContext& made)
+      : display(d), context(made.context), compatible(made.compatible) {}
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
   ~Context() {
@@ -65,10 +80,10 @@ struct Offscreen::Context {
 base::Result<Offscreen> Offscreen::create() {
   const auto display = surfaceless_display();
   if (!display) return base::fail(display.error().message);
-  const auto context = core_context(*display);
-  if (!context) return base::fail(context.error().message);
-  auto owned = std::make_unique<Context>(*display, *context);
-  if (!eglMakeCurrent(*display, EGL_NO_SURFACE, EGL_NO_SURFACE, *context)) {
+  const auto made = make_context(*display);
+  if (!made) return base::fail(made.error().message);
+  auto owned = std::make_unique<Context>(*display, *made);
+  if (!eglMakeCurrent(*display, EGL_NO_SURFACE, EGL_NO_SURFACE, made->context)) {
     return base::fail(fmt::format("no picture can be drawn: EGL error 0x{:x} on making the context current",
                                   eglGetError()));
   }
@@ -81,5 +96,13 @@ Offscreen& Offscreen::operator=(Offscreen&&) noexcept = default;
 Offscreen::~Offscreen() = default;
 
 std::string Offscreen::renderer() const { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
+
+bool Offscreen::is_software() const {
+  const std::string name = renderer();
+  const auto names = [&](std::string_view software) { return name.find(software) != std::string::npos; };
+  return names("llvmpipe") || names("softpipe") || names("SWR");
+}
+
+bool Offscreen::has_built_in_pipeline() const { return context_->compatible; }
 
 }  // namespace icome::render

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "render/csg_view.h"
 #include "render/gl_objects.h"
 #include "render/mesh_view.h"
 #include "render/shading_mesh.h"
@@ -22,7 +23,6 @@ namespace {
 using base::Pose;
 using base::Vector3;
 
-constexpr int kShadowSide = 1024;    // texels of one shadow map
 constexpr int kFloorSide = 512;      // texels of the floor's shadow
 constexpr double kFloorReach = 2.4;  // half the side of the floor, in the studio's unit
 constexpr int kLightsAPass = 4;
@@ -31,9 +31,14 @@ constexpr int kLightsAPass = 4;
 // origin: a model of any unit then meets the same numbers.
 
 constexpr char kVertexShader[] = R"(
+#ifdef SOLID
+#define position gl_Vertex.xyz
+#define normal gl_Normal
+#else
 in vec3 position;
 in vec3 normal;
 uniform mat4 clip_from_studio;
+#endif
 uniform mat4 studio_from_buffer;
 #ifndef DEPTH_ONLY
 uniform mat4 direction_from_buffer;
@@ -46,13 +51,18 @@ void main() {
   studio_position = studio.xyz;
   studio_normal = mat3(direction_from_buffer) * normal;
 #endif
+#ifdef SOLID
+  gl_Position = ftransform();
+#else
   gl_Position = clip_from_studio * studio;
+#endif
 }
 )";
 
 // A pass has LIGHTS lights; their shadow maps lie side by side in one texture. The lookup is shifted by a
 // little noise, so that the edges of few hard shadows melt into one another when the passes are averaged.
-// BODY: a lit surface. FLOOR: how much light the floor misses. DEPTH_ONLY: neither.
+// BODY: a lit surface. SOLID: likewise, of an operand of CSG. FLOOR: how much light the floor misses.
+// DEPTH_ONLY: none of these.
 constexpr char kFragmentShader[] = R"(
 #ifdef DEPTH_ONLY
 void main() {}
@@ -69,6 +79,7 @@ uniform vec3 albedo;
 uniform vec3 eye;
 uniform float share;
 uniform float pass_number;
+uniform float facing_out;
 
 vec3 noise(vec2 pixel) {
   vec3 seed = fract(vec3(pixel.xyx) * vec3(0.1031, 0.1030, 0.0973) + 0.137 * pass_number);
@@ -97,8 +108,13 @@ void main() {
 #else
 void main() {
   vec3 view = normalize(eye - studio_position);
+#ifdef SOLID
+  const bool front = true;
+  vec3 n = normalize(facing_out * studio_normal);
+#else
   bool front = gl_FrontFacing;
   vec3 n = normalize(front ? studio_normal : -studio_normal);
+#endif
   vec3 own = front ? albedo : albedo * vec3(0.74, 0.80, 0.90);
   vec3 spread = noise(gl_FragCoord.xy);
   // Within the surface's plane, so that the shift alone never puts a point into its own shadow.
@@ -240,11 +256,20 @@ Item make_item(const geometry::TriangleMesh& mesh, const Matrix4& studio_from_me
   return {MeshView(shading), std::move(caster), studio_from_mesh, direction, linear_rgb(colour)};
 }
 
-struct Programs {
-  GlObject depth, body, floor, copy;
+/// A CSG solid ready to be drawn.
+struct SolidItem {
+  CsgView view;
+  Matrix4 studio_from_tree;
+  Matrix4 direction_from_tree;  ///< turns normals
+  Colour colour;
 };
 
-base::Result<Programs> compile_programs() {
+struct Programs {
+  GlObject depth, body, floor, copy;
+  GlObject solid;  ///< none in a core context
+};
+
+base::Result<Programs> compile_programs(bool with_solids) {
   const std::string lights = fmt::format("#define LIGHTS {}\n", kLightsAPass);
   auto depth = compile_program(kVertexShader, kFragmentShader, "#define DEPTH_ONLY\n");
   if (!depth) return base::fail(depth.error().message);
@@ -254,7 +279,13 @@ base::Result<Programs> compile_programs() {
   if (!floor) return base::fail(floor.error().message);
   auto copy = compile_program(kCopyVertexShader, kCopyFragmentShader, "");
   if (!copy) return base::fail(copy.error().message);
-  return Programs{std::move(*depth), std::move(*body), std::move(*floor), std::move(*copy)};
+  Programs programs{std::move(*depth), std::move(*body), std::move(*floor), std::move(*copy), {}};
+  if (with_solids) {
+    auto solid = compile_program(kVertexShader, kFragmentShader, lights + "#define SOLID\n", "compatibility");
+    if (!solid) return base::fail(solid.error().message);
+    programs.solid = std::move(*solid);
+  }
+  return programs;
 }
 
 struct Target {
@@ -276,28 +307,35 @@ base::Result<Target> make_frame_target(unsigned colour_format, unsigned depth_fo
 /// the sum of the floor's shadow.
 struct Targets {
   Target pass, sum, shadow, floor;
+  Target solid_shadow;  ///< one shadow map, of solids only
 };
 
-base::Result<Targets> make_targets(int width, int height) {
-  auto pass = make_frame_target(GL_RGBA16F, GL_DEPTH_COMPONENT24, width, height);
+base::Result<Targets> make_targets(const StudioSettings& settings) {
+  auto pass = make_frame_target(GL_RGBA16F, GL_DEPTH24_STENCIL8, settings.width, settings.height);
   if (!pass) return base::fail(pass.error().message);
-  auto sum = make_frame_target(GL_RGBA32F, 0, width, height);
+  auto sum = make_frame_target(GL_RGBA32F, 0, settings.width, settings.height);
   if (!sum) return base::fail(sum.error().message);
-  auto shadow = make_frame_target(0, GL_DEPTH_COMPONENT24, kLightsAPass * kShadowSide, kShadowSide);
+  auto shadow =
+      make_frame_target(0, GL_DEPTH24_STENCIL8, kLightsAPass * settings.shadow_side, settings.shadow_side);
   if (!shadow) return base::fail(shadow.error().message);
   glBindTexture(GL_TEXTURE_2D, shadow->depth.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   auto floor = make_frame_target(GL_RGBA32F, 0, kFloorSide, kFloorSide);
   if (!floor) return base::fail(floor.error().message);
-  return Targets{std::move(*pass), std::move(*sum), std::move(*shadow), std::move(*floor)};
+  auto solid_shadow = make_frame_target(0, GL_DEPTH24_STENCIL8, settings.shadow_side, settings.shadow_side);
+  if (!solid_shadow) return base::fail(solid_shadow.error().message);
+  return Targets{std::move(*pass), std::move(*sum), std::move(*shadow), std::move(*floor),
+                 std::move(*solid_shadow)};
 }
 
 /// Fewer passes for models that cost more; the picture stays good from 8 on.
-int choose_passes(const StudioSettings& settings, const std::vector<Item>& items) {
+int choose_passes(const StudioSettings& settings, const std::vector<Item>& items,
+                  const std::vector<SolidItem>& solids) {
   if (settings.passes > 0) return std::clamp(settings.passes, 4, 64);
   double triangles = 1.0;
   for (const Item& item : items) triangles += static_cast<double>(item.view.triangle_count());
+  for (const SolidItem& solid : solids) triangles += static_cast<double>(solid.view.triangle_count());
   return static_cast<int>(std::clamp(12.0 * 4e5 / triangles, 8.0, 12.0));
 }
 
@@ -312,6 +350,7 @@ struct Studio {
   Programs programs;
   Targets targets;
   std::vector<Item> items;
+  std::vector<SolidItem> solids;
   Item floor;
   Matrix4 clip_from_studio;
   Matrix4 clip_from_floor;  ///< looks straight down on it
@@ -331,6 +370,12 @@ void draw_depth(const Studio& studio, const Matrix4& clip_from_studio, bool coar
   }
 }
 
+void draw_solids_depth(const Studio& studio, const Matrix4& clip_from_studio) {
+  for (const SolidItem& solid : studio.solids) {
+    solid.view.draw_depth(clip_from_studio, solid.studio_from_tree);
+  }
+}
+
 using ShadowMatrices = std::array<Matrix4, kLightsAPass>;
 
 ShadowMatrices shadow_matrices(const PassLights& lights) {
@@ -341,25 +386,50 @@ ShadowMatrices shadow_matrices(const PassLights& lights) {
   return matrices;
 }
 
+/// Solids are drawn by themselves and copied: images of CSG are made from pixel (0, 0) only.
+void draw_solid_shadows(const Studio& studio, const ShadowMatrices& shadows) {
+  const int side = studio.settings.shadow_side;
+  glViewport(0, 0, side, side);
+  for (int i = 0; i < kLightsAPass; ++i) {
+    glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.solid_shadow.frame.name());
+    glClear(GL_DEPTH_BUFFER_BIT);
+    draw_solids_depth(studio, shadows[static_cast<std::size_t>(i)]);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, studio.targets.shadow.frame.name());
+    glBlitFramebuffer(0, 0, side, side, i * side, 0, (i + 1) * side, side, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  }
+}
+
 void draw_shadow_maps(const Studio& studio, const ShadowMatrices& shadows) {
   glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.shadow.frame.name());
   glClear(GL_DEPTH_BUFFER_BIT);
+  if (!studio.solids.empty()) draw_solid_shadows(studio, shadows);
+  glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.shadow.frame.name());
+  const int side = studio.settings.shadow_side;
   for (int i = 0; i < kLightsAPass; ++i) {
-    glViewport(i * kShadowSide, 0, kShadowSide, kShadowSide);
+    glViewport(i * side, 0, side, side);
     draw_depth(studio, shadows[static_cast<std::size_t>(i)], true);
   }
 }
 
-void set_lights(const GlObject& program, const PassLights& lights, const ShadowMatrices& shadows, int pass) {
+/// One of the pictures that are averaged.
+struct Pass {
+  const PassLights& lights;
+  const ShadowMatrices& shadows;
+  int number;
+  double share;
+};
+
+void set_lights(const GlObject& program, const Pass& pass) {
   glUseProgram(program.name());
+  const PassLights& lights = pass.lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    set_uniform(program, fmt::format("shadow_from_studio[{}]", i).c_str(), shadows[i]);
+    set_uniform(program, fmt::format("shadow_from_studio[{}]", i).c_str(), pass.shadows[i]);
     set_uniform(program, fmt::format("to_light[{}]", i).c_str(), lights[i].to_light);
     set_uniform(program, fmt::format("light[{}]", i).c_str(), lights[i].intensity);
     set_uniform(program, fmt::format("gloss[{}]", i).c_str(), static_cast<float>(lights[i].gloss));
   }
   set_uniform(program, "shadow_map", 0);
-  set_uniform(program, "pass_number", static_cast<float>(pass));
+  set_uniform(program, "pass_number", static_cast<float>(pass.number));
 }
 
 void draw_item(const GlObject& program, const Item& item) {
@@ -369,17 +439,38 @@ void draw_item(const GlObject& program, const Item& item) {
   item.view.draw();
 }
 
-void draw_bodies(const Studio& studio, const Matrix4& clip, double share) {
-  const GlObject& program = studio.programs.body;
+void set_view(const Studio& studio, const GlObject& program, double share) {
+  set_uniform(program, "eye", studio.eye);
+  set_uniform(program, "share", static_cast<float>(share));
+}
+
+void draw_solid(const Studio& studio, const SolidItem& solid, const Matrix4& clip) {
+  const GlObject& program = studio.programs.solid;
+  set_uniform(program, "studio_from_buffer", Matrix4(solid.studio_from_tree * solid.view.tree_from_buffer()));
+  set_uniform(program, "direction_from_buffer", solid.direction_from_tree);
+  solid.view.shade(clip, solid.studio_from_tree, [&](const CsgFaces& faces) {
+    set_uniform(program, "albedo", linear_rgb(faces.colour.value_or(solid.colour)));
+    set_uniform(program, "facing_out", faces.subtracted ? -1.0F : 1.0F);
+  });
+}
+
+void draw_bodies(const Studio& studio, const Matrix4& clip, const Pass& pass) {
   glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.pass.frame.name());
   glViewport(0, 0, studio.settings.width, studio.settings.height);
   glEnable(GL_SCISSOR_TEST);
   glScissor(studio.drawn.x, studio.drawn.y, studio.drawn.width, studio.drawn.height);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  // Before anything is shaded, so that bodies hide behind solids.
+  draw_solids_depth(studio, clip);
+  const GlObject& program = studio.programs.body;
+  set_lights(program, pass);
+  set_view(studio, program, pass.share);
   set_uniform(program, "clip_from_studio", clip);
-  set_uniform(program, "eye", studio.eye);
-  set_uniform(program, "share", static_cast<float>(share));
   for (const Item& item : studio.items) draw_item(program, item);
+  if (studio.solids.empty()) return;
+  set_lights(studio.programs.solid, pass);
+  set_view(studio, studio.programs.solid, pass.share);
+  for (const SolidItem& solid : studio.solids) draw_solid(studio, solid, clip);
 }
 
 /// What follows adds to what is there, whatever its depth.
@@ -431,11 +522,11 @@ void accumulate(const Studio& studio, const std::vector<PassLights>& lights) {
     const PassLights& own = lights[static_cast<std::size_t>(pass)];
     const ShadowMatrices shadows = shadow_matrices(own);
     draw_shadow_maps(studio, shadows);
+    const Pass stage{own, shadows, pass, 1.0 / passes};
     glBindTexture(GL_TEXTURE_2D, studio.targets.shadow.depth.name());
-    set_lights(studio.programs.floor, own, shadows, pass);
+    set_lights(studio.programs.floor, stage);
     add_floor_shadow(studio);
-    set_lights(studio.programs.body, own, shadows, pass);
-    draw_bodies(studio, shifted(studio.clip_from_studio, pixel_shift(pass), studio.settings), 1.0 / passes);
+    draw_bodies(studio, shifted(studio.clip_from_studio, pixel_shift(pass), studio.settings), stage);
     add_to_sum(studio);
   }
 }
@@ -552,6 +643,7 @@ std::vector<float> measure_distance(const Studio& studio, const Camera& camera) 
   glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.pass.frame.name());
   glViewport(0, 0, width, height);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_solids_depth(studio, studio.clip_from_studio);
   draw_depth(studio, studio.clip_from_studio, false);
   const auto columns = static_cast<std::size_t>(width);
   std::vector<float> depth(columns * static_cast<std::size_t>(height));
@@ -572,16 +664,9 @@ Matrix4 studio_from_world(const StudioSettings& settings) {
   return m;
 }
 
-/// The pixels that the studio's ball of radius 1 can cover, from the corners of the cube around it.
+/// The pixels that the studio's ball of radius 1 can cover, from the cube around it.
 PixelBox covered_pixels(const Matrix4& clip_from_studio, const StudioSettings& settings) {
-  const PixelBox all{0, 0, settings.width, settings.height};
-  Eigen::AlignedBox2d box;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 at(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-    const Eigen::Vector4d clip = clip_from_studio * at.homogeneous();
-    if (!(clip.w() > 0.0)) return all;
-    box.extend(Eigen::Vector2d(clip.head<2>() / clip.w()));
-  }
+  const base::Bounds box = device_box({Vector3::Constant(-1.0), Vector3::Constant(1.0)}, clip_from_studio);
   const auto pixel = [](double ndc, int size, double slack) {
     return static_cast<int>(std::clamp((0.5 + 0.5 * ndc) * size + slack, 0.0, static_cast<double>(size)));
   };
@@ -591,18 +676,34 @@ PixelBox covered_pixels(const Matrix4& clip_from_studio, const StudioSettings& s
           pixel(box.max().y(), settings.height, 2.0) - bottom};
 }
 
-base::Result<Studio> make_studio(const std::vector<StudioBody>& bodies, const Camera& camera,
+base::Result<std::vector<SolidItem>> make_solids(const Offscreen& context,
+                                                 const std::vector<StudioSolid>& solids,
+                                                 const Matrix4& to_studio) {
+  std::vector<SolidItem> items;
+  for (const StudioSolid& solid : solids) {
+    auto view = CsgView::create(context, solid.geometry);
+    if (!view) return base::fail(view.error().message);
+    Matrix4 direction = Matrix4::Identity();
+    direction.topLeftCorner<3, 3>() = solid.world_from_tree.linear();
+    items.push_back({std::move(*view), to_studio * solid.world_from_tree.matrix(), direction, solid.colour});
+  }
+  return items;
+}
+
+base::Result<Studio> make_studio(const Offscreen& context, const StudioScene& scene, const Camera& camera,
                                  const StudioSettings& settings) {
-  auto programs = compile_programs();
+  auto programs = compile_programs(!scene.solids.empty());
   if (!programs) return base::fail(programs.error().message);
-  auto targets = make_targets(settings.width, settings.height);
+  auto targets = make_targets(settings);
   if (!targets) return base::fail(targets.error().message);
   const Matrix4 to_studio = studio_from_world(settings);
   std::vector<Item> items;
-  for (const StudioBody& body : bodies) {
+  for (const StudioBody& body : scene.bodies) {
     items.push_back(make_item(body.mesh, to_studio * body.world_from_mesh.matrix(), body.world_from_mesh,
                               body.colour, settings.crease_angle));
   }
+  auto solids = make_solids(context, scene.solids, to_studio);
+  if (!solids) return base::fail(solids.error().message);
   const Vector3 up = settings.up.normalized();
   const double height = settings.floor / settings.radius;
   Item floor = make_item(floor_square(height, up), Matrix4::Identity(), Pose::Identity(), {}, 0.0);
@@ -613,6 +714,7 @@ base::Result<Studio> make_studio(const std::vector<StudioBody>& bodies, const Ca
                 std::move(*programs),
                 std::move(*targets),
                 std::move(items),
+                std::move(*solids),
                 std::move(floor),
                 clip_from_studio,
                 clip_from_floor,
@@ -622,18 +724,23 @@ base::Result<Studio> make_studio(const std::vector<StudioBody>& bodies, const Ca
 
 }  // namespace
 
-base::Result<StudioPicture> draw_studio(const Offscreen&, const std::vector<StudioBody>& bodies,
+base::Result<StudioPicture> draw_studio(const Offscreen& context, const StudioScene& scene,
                                         const Camera& camera, const StudioSettings& settings) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  const int shadows = kLightsAPass * settings.shadow_side;
+  if (settings.shadow_side < 1 || shadows > largest) {
+    return base::fail(fmt::format("shadow maps of {} texels a side cannot be drawn; choose 1 to {}",
+                                  settings.shadow_side, largest / kLightsAPass));
+  }
   if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest) {
     return base::fail(fmt::format("a picture of {}x{} cannot be drawn; sides go from 1 to {} pixels",
                                   settings.width, settings.height, largest));
   }
-  const auto studio = make_studio(bodies, camera, settings);
+  const auto studio = make_studio(context, scene, camera, settings);
   if (!studio) return base::fail(studio.error().message);
   const Pose studio_from_camera(camera.camera_from_world.inverse());
-  accumulate(*studio, make_lights(choose_passes(settings, studio->items), studio_from_camera,
+  accumulate(*studio, make_lights(choose_passes(settings, studio->items, studio->solids), studio_from_camera,
                                   settings.up.normalized()));
   return StudioPicture{resolve(*studio), measure_distance(*studio, camera)};
 }

@@ -6,6 +6,7 @@
 #include "geometry/triangle_mesh.h"
 #include "render/camera.h"
 #include "render/colour.h"
+#include "render/csg_geometry.h"
 #include "render/image.h"
 #include "render/offscreen.h"
 
@@ -16,6 +17,19 @@ struct StudioBody {
   const geometry::TriangleMesh& mesh;  ///< metres, its own frame
   base::Pose world_from_mesh = base::Pose::Identity();
   Colour colour{0.80, 0.79, 0.77};
+};
+
+/// One CSG solid in a picture, drawn from images of its operands; refers to what must outlive the call.
+struct StudioSolid {
+  const CsgGeometry& geometry;  ///< metres, the tree's own frame
+  base::Pose world_from_tree = base::Pose::Identity();
+  Colour colour{0.80, 0.79, 0.77};  ///< of operands that have none of their own
+};
+
+/// What stands in the studio.
+struct StudioScene {
+  std::vector<StudioBody> bodies;
+  std::vector<StudioSolid> solids;
 };
 
 struct StudioSettings {
@@ -29,6 +43,7 @@ struct StudioSettings {
   /// to 2.2 rad at least: the rims of scans are full of sharp bends that are no edges.
   double crease_angle = 0.9;
   int passes = 0;                         ///< samples a pixel, four lights each; 4 ... 64, 0 chooses
+  int shadow_side = 1024;                 ///< texels along a shadow map, 64 ... 4096
   Colour background{1.0, 1.0, 1.0};       ///< in the middle of the picture
   Colour background_edge{1.0, 1.0, 1.0};  ///< in its corners
 };
@@ -43,8 +58,9 @@ struct StudioPicture {
 /// a sky, the shadows of both on an invisible floor. Several passes, each with a few lights, their shadow
 /// maps and a shift of less than a pixel, are averaged in linear light (the accumulation buffer of Haeberli
 /// and Akeley 1990): that gives soft shadow, ambient occlusion and smooth edges at once. The context must be
-/// current. Fails when the driver refuses the size or a shader.
-base::Result<StudioPicture> draw_studio(const Offscreen& context, const std::vector<StudioBody>& bodies,
+/// current. Fails when the driver refuses the size or a shader, or, if there are solids, when it offers no
+/// compatibility context.
+base::Result<StudioPicture> draw_studio(const Offscreen& context, const StudioScene& scene,
                                         const Camera& camera, const StudioSettings& settings);
 
 }  // namespace icome::render

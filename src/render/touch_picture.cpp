@@ -13,6 +13,7 @@
 #include "render/offscreen.h"
 #include "render/path_trace.h"
 #include "render/plot.h"
+#include "render/touch_solid.h"
 #include "render/touch_view.h"
 
 namespace icome::render {
@@ -129,8 +130,12 @@ std::vector<Vector3> points_to_show(const TouchPicture& picture, std::vector<Vec
   return points;
 }
 
-Scene make_scene(const TouchPicture& picture) {
-  const std::vector<Vector3> points = model_points(picture.bodies);
+Scene make_scene(const TouchPicture& picture, std::span<const PreparedSolid> solids) {
+  std::vector<Vector3> points = model_points(picture.bodies);
+  for (const PreparedSolid& solid : solids) {
+    const std::vector<Vector3> own = solid.points();
+    points.insert(points.end(), own.begin(), own.end());
+  }
   const ModelBall ball = model_ball(points, picture.up);
   const Layout layout = make_layout(picture);
   FitOptions fit;
@@ -144,9 +149,8 @@ Scene make_scene(const TouchPicture& picture) {
   return {picture, summary, layout, force_range(summary.greatest), ball, camera};
 }
 
-base::Result<StudioPicture> photograph(const Scene& scene) {
-  const auto context = Offscreen::create();
-  if (!context) return base::fail(context.error().message);
+base::Result<StudioPicture> photograph(const Scene& scene, const Offscreen& context,
+                                       const StudioScene& models) {
   StudioSettings settings;
   settings.width = scene.layout.view_width;
   settings.height = scene.layout.view_height;
@@ -156,7 +160,7 @@ base::Result<StudioPicture> photograph(const Scene& scene) {
   settings.floor = scene.ball.lowest;
   settings.background = kBackground;
   settings.background_edge = kBackgroundEdge;
-  return draw_studio(*context, scene.picture.bodies, scene.camera, settings);
+  return draw_studio(context, models, scene.camera, settings);
 }
 
 std::vector<Vector2> page_points(std::span<const TracePoint> run) {
@@ -362,8 +366,18 @@ base::Result<Image> draw_touch_picture(const TouchPicture& picture) {
     return base::fail(fmt::format("a picture of {}x{} cannot be drawn; choose sides from {} to {} pixels",
                                   picture.width, picture.height, kLeast, kMost));
   }
-  const Scene scene = make_scene(picture);
-  const auto view = photograph(scene);
+  const auto context = Offscreen::create();
+  if (!context) return base::fail(context.error().message);
+  auto solids = prepare_solids(picture.solids);
+  if (!solids) return base::fail(solids.error().message);
+  const Scene scene = make_scene(picture, *solids);
+  const double pixels = static_cast<double>(scene.layout.view_width) * scene.layout.view_height;
+  StudioScene models{picture.bodies, {}};
+  for (PreparedSolid& solid : *solids) {
+    const auto placed = solid.place(models, *context, scene.camera, pixels, picture.tell);
+    if (!placed) return base::fail(placed.error().message);
+  }
+  const auto view = photograph(scene, *context, models);
   if (!view) return base::fail(view.error().message);
   Canvas canvas(picture.width, picture.height, scene.layout.scale);
   draw_view(canvas, scene, *view);

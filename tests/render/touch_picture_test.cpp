@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "render/csg_scenes.h"
 #include "render/touch_view.h"
 
 namespace icome::render {
@@ -182,6 +183,45 @@ TEST(DrawTouchPicture, HidesWhatLiesBehindTheModel) {
   const int hidden = count(*behind, kViewTop, kViewEnd, is_warm);
   // The colour bar and the legend are in both.
   EXPECT_GT(seen, hidden + 400);
+}
+
+TouchPicture picture_of(const geometry::CsgTree& tree, std::vector<std::string>& told) {
+  TouchPicture picture;
+  picture.solids.push_back({tree, "solid"});
+  picture.width = 480;
+  picture.height = 400;
+  picture.tell = [&told](const std::string& sentence) { told.push_back(sentence); };
+  return picture;
+}
+
+TEST(DrawTouchPicture, ShowsACsgTreeWithoutAMesh) {
+  std::vector<std::string> told;
+  const geometry::CsgTree tree = figure_5_6();
+  const auto image = draw_touch_picture(picture_of(tree, told));
+  ASSERT_TRUE(image.has_value()) << image.error().message;
+  EXPECT_GT(count(*image, kViewTop, kViewEnd, is_clay), 5'000);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("images of its 3 operands"), std::string::npos) << told[0];
+}
+
+TEST(DrawTouchPicture, TakesTheMeshOfATreeWithTooManyOperands) {
+  std::vector<std::string> told;
+  const geometry::CsgTree tree = dented_ball(1'200);
+  TouchPicture picture = picture_of(tree, told);
+  const auto without = draw_touch_picture(picture);
+  ASSERT_FALSE(without.has_value());
+  EXPECT_NE(without.error().message.find("solid cannot be drawn without a mesh"), std::string::npos);
+  int asked = 0;
+  picture.solids[0].mesh = [&]() -> base::Result<TriangleMesh> {
+    ++asked;
+    return box({0.05, 0.05, 0.05});
+  };
+  const auto image = draw_touch_picture(picture);
+  ASSERT_TRUE(image.has_value()) << image.error().message;
+  EXPECT_EQ(asked, 1);
+  EXPECT_GT(count(*image, kViewTop, kViewEnd, is_clay), 5'000);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("mesh of 12 triangles"), std::string::npos) << told[0];
 }
 
 TEST(DrawTouchPicture, RefusesSizesOutOfRange) {
