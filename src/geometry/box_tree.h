@@ -74,6 +74,8 @@ class BoxTree {
   void nearest(const Vector3& point, double limit, Visit&& visit) const;
 
   std::size_t leaf_count() const { return leaf_count_; }
+  /// The box of one leaf. Real-time safe.
+  FloatBox leaf_box(std::size_t leaf) const { return nodes_[leaf / kWidth].get(unsigned(leaf % kWidth)); }
   std::size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
 
  private:

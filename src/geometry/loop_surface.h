@@ -9,6 +9,8 @@
 
 namespace icome::geometry {
 
+class LoopPatches;
+
 /// A control mesh with the edges and vertices that stay sharp. Sharpness is all or nothing.
 struct ControlMesh {
   TriangleMesh mesh;                                  // any topology; edges with three triangles are refused
@@ -51,9 +53,8 @@ class LoopSurface final : public SmoothSurface {
   std::size_t bytes() const override;
 
  private:
-  class Patches;
-  explicit LoopSurface(std::unique_ptr<const Patches> patches);
-  std::unique_ptr<const Patches> patches_;
+  explicit LoopSurface(std::unique_ptr<const LoopPatches> patches);
+  std::unique_ptr<const LoopPatches> patches_;
 };
 
 }  // namespace icome::geometry
