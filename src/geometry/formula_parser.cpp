@@ -18,7 +18,7 @@
 namespace icome::geometry {
 namespace {
 
-using Node = Expression::Node;
+using ReadNode = Expression::Node;
 
 /// Where the operators of the parser that runs on this thread build. muParser's operators and literals
 /// carry no user data.
@@ -37,8 +37,8 @@ class AtSite {
   AtSite& operator=(const AtSite&) = delete;
 };
 
-double as_value(Node node) { return node; }
-Node as_node(double value) { return static_cast<Node>(value); }
+double as_value(ReadNode node) { return node; }
+ReadNode as_node(double value) { return static_cast<ReadNode>(value); }
 
 template <Operation kOperation>
 double unary_step(double a) {
@@ -52,7 +52,7 @@ double binary_step(double a, double b) {
 
 template <Operation kOperation>
 double many_step(const double* values, int count) {
-  Node result = as_node(values[0]);
+  ReadNode result = as_node(values[0]);
   for (int i = 1; i < count; ++i) {
     result = current_site->expression->binary(kOperation, result, as_node(values[i]));
   }
@@ -63,7 +63,7 @@ double plus_sign(double a) { return a; }
 
 double log10_step(double a) {
   Expression& expression = *current_site->expression;
-  const Node natural = expression.unary(Operation::Log, as_node(a));
+  const ReadNode natural = expression.unary(Operation::Log, as_node(a));
   return as_value(expression.binary(Operation::Multiply, natural, expression.constant(std::numbers::log10e)));
 }
 
@@ -226,13 +226,13 @@ std::size_t bare_comma(const std::string& text) {
 
 }  // namespace
 
-base::Result<Node> read_formula(const std::string& text, Expression& expression) {
+base::Result<ReadNode> read_formula(const std::string& text, Expression& expression) {
   if (std::string complaint = wrong_character(text); !complaint.empty()) {
     return base::fail(std::move(complaint));
   }
   FormulaSite site{&expression, nullptr};
   const AtSite here(site);
-  Node root = 0;
+  ReadNode root = 0;
   try {
     FormulaParser parser(expression);
     parser.SetExpr(text);

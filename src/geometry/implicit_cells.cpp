@@ -30,7 +30,7 @@ Bounds eighth_of(const Bounds& box, unsigned number) {
 }
 
 /// A leaf so far.
-struct Pending {
+struct GrowingCell {
   std::uint32_t node;
   Bounds box;
 };
@@ -82,13 +82,13 @@ struct ImplicitCells::Visit {
 
 ImplicitCells::ImplicitCells(const Formula& formula, const Bounds& box) : box_(box) {
   nodes_.push_back({0, 0});
-  std::vector<Pending> level;
+  std::vector<GrowingCell> level;
   if (sign_in_box(formula, box) == 0) level.push_back({0, box});
   std::size_t work = 0;
   // Level by level, so that leaves are of one size, until the next level might be too much.
   while (!level.empty() && level.size() * 4 <= kMostLeaves && work < kMostWork) {
-    std::vector<Pending> next;
-    for (const Pending& cell : level) {
+    std::vector<GrowingCell> next;
+    for (const GrowingCell& cell : level) {
       nodes_[cell.node].first = static_cast<std::uint32_t>(nodes_.size());
       std::uint8_t eighths = 0;
       for (unsigned i = 0; i < 8; ++i) {
@@ -103,7 +103,7 @@ ImplicitCells::ImplicitCells(const Formula& formula, const Bounds& box) : box_(b
     work += level.size() * 8 * formula.steps();
     level = std::move(next);
   }
-  for (const Pending& cell : level) bounds_.extend(cell.box);
+  for (const GrowingCell& cell : level) bounds_.extend(cell.box);
   nodes_.shrink_to_fit();
 }
 

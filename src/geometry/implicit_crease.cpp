@@ -90,11 +90,11 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::crease_leg(const Place& from, con
   Crease crease({from.normal, from.point, 0.0}, *beyond);
   if (crease.cosine() > 0.9999 || crease.cosine() < -0.99) return std::nullopt;
   constexpr double kOffset = 1e-7, kArrived = 1e-12;  // of the size
-  constexpr int kMostSteps = 12;
+  constexpr int kMostTurns = 12;
   Vector3 at = from.point;
   double last_pull = 0.0, last_move = 0.0;
   bool arrived = false;
-  for (int i = 0; i < kMostSteps && !arrived; ++i) {
+  for (int i = 0; i < kMostTurns && !arrived; ++i) {
     const Vector3 direction = crease.direction();
     // The crease bends, and with it the pull along it: by the last step, how much (the secant method).
     const double pulled = direction.dot(goal - at);

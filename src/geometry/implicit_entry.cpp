@@ -12,7 +12,7 @@ constexpr int kMostCells = 1024;
 constexpr std::size_t kMostHalvings = 60;
 
 /// A part of the way.
-struct Cell {
+struct LinePart {
   double a, b;
 };
 
@@ -25,11 +25,11 @@ class CrossingSearch {
 
   std::optional<double> run() {
     look_at_start();
-    std::array<Cell, kMostHalvings + 2> stack;
+    std::array<LinePart, kMostHalvings + 2> stack;
     std::size_t size = 0;
     stack[size++] = {line_.first, line_.last};
     for (int left = kMostCells; size > 0; --left) {
-      const Cell cell = stack[--size];
+      const LinePart cell = stack[--size];
       if (left == 0) return cell.a;
       switch (look_at(cell)) {
         case Outcome::Crossing:
@@ -91,7 +91,7 @@ class CrossingSearch {
   }
   Outcome behind_from(double s) { return in_front_ ? crossing(s) : Outcome::Clear; }
 
-  Outcome look_at(const Cell& cell) {
+  Outcome look_at(const LinePart& cell) {
     Formula::SlopeRange<1> at = formula_.line_range(line_.start, line_.step, {cell.a, cell.b}, line_.time);
     if (surely_front(at.range)) return clear_front();
     if (surely_behind(at.range)) return behind_from(cell.a);
@@ -118,13 +118,13 @@ class CrossingSearch {
     return Outcome::Clear;
   }
 
-  Outcome look_at_rising(const Cell& cell) {
+  Outcome look_at_rising(const LinePart& cell) {
     if (is_front(value(cell.b))) return clear_front();
     if (in_front_ && height(cell.a) < 0.0) return crossing(cell.a);
     return Outcome::Clear;
   }
 
-  Outcome look_at_falling(const Cell& cell) {
+  Outcome look_at_falling(const LinePart& cell) {
     if (is_front(value(cell.b))) return clear_front();
     const double before = height(cell.a);
     if (height(cell.b) >= 0.0) return Outcome::Clear;
@@ -134,7 +134,7 @@ class CrossingSearch {
 
   /// Where the height goes through zero in a cell in which it falls: Newton's method, and halving where
   /// that leaves the cell.
-  double root(const Cell& cell, double before) const {
+  double root(const LinePart& cell, double before) const {
     double a = cell.a, b = cell.b;
     const double enough = std::max(0.01 * line_.slack / length_, 0x1p-52 * line_.last);
     double s = a;

@@ -9,7 +9,7 @@ namespace {
 
 using base::Vector2;
 using base::Vector3;
-using Frame = Eigen::Matrix<double, 3, 2>;
+using TangentFrame = Eigen::Matrix<double, 3, 2>;
 
 // Parts of the size up to which lengths count as nothing: rounding is some 1e-16 of it, contact
 // arithmetic's slack some 1e-11.
@@ -18,14 +18,14 @@ constexpr double kOnIt = 1e-12;
 constexpr double kNear = 1e-9;
 constexpr int kMostLegs = 14;
 constexpr int kMostSteps = 8;
-constexpr int kHalvings = 3;  // of ways that are not sure at once
+constexpr int kSheetHalvings = 3;  // of ways that are not sure at once
 // Legs are shortened by this factor until they are sure, and given up when they are that much shorter than
 // the size.
 constexpr double kShorter = 0.25;
 
 /// Two unit vectors that are orthogonal to `normal` and to each other.
-Frame tangents(const Vector3& normal) {
-  Frame frame;
+TangentFrame tangents(const Vector3& normal) {
+  TangentFrame frame;
   frame.col(0) = normal.unitOrthogonal();
   frame.col(1) = normal.cross(frame.col(0));
   return frame;
@@ -42,7 +42,7 @@ struct NewtonStep {
 NewtonStep newton_step(const Formula::Bend& at, const Vector3& point, const Vector3& goal, double reach) {
   const double steepness = at.gradient.norm();
   const Vector3 normal = at.gradient / steepness;
-  const Frame frame = tangents(normal);
+  const TangentFrame frame = tangents(normal);
   const Vector3 pull = goal - point;
   const double above = pull.dot(normal);
   const double sink = -at.value / steepness;
@@ -185,7 +185,7 @@ ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& go
     if (next) {
       const double closer = gain(at.point, next->end.point, goal);
       if (closer > (next->arrived ? -doubt : doubt) &&
-          on_one_sheet(at, next->end, (at.normal + next->end.normal).stableNormalized(), kHalvings)) {
+          on_one_sheet(at, next->end, (at.normal + next->end.normal).stableNormalized(), kSheetHalvings)) {
         reach = std::max(reach, 2.0 * (next->end.point - at.point).norm());
         at = next->end;
         if (next->arrived) return at;
@@ -195,7 +195,7 @@ ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& go
     Vector3 up;
     if (const auto along = crease_leg(at, goal, reach, up)) {
       const double closer = gain(at.point, along->end.point, goal);
-      if (closer > (along->arrived ? -doubt : doubt) && on_one_sheet(at, along->end, up, kHalvings)) {
+      if (closer > (along->arrived ? -doubt : doubt) && on_one_sheet(at, along->end, up, kSheetHalvings)) {
         at = along->end;
         if (along->arrived) return at;
         continue;
