@@ -227,7 +227,7 @@ TEST(DualContouring, RandomBlobsAreClosedManifolds) {
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
     const AnalyticSolid solid = blobs(random);
-    const ContourMesh made = meshed(solid.sampled(cube_around_origin(1.3)), random.uniform(0.15, 0.35));
+    const ContourMesh made = meshed(solid.sampled(cube_around_origin(1.3)), random.uniform(0.2, 0.4));
     if (!made.mesh.triangles.empty()) expect_sound(made.mesh);
     if (HasFailure()) return;
   }
@@ -264,7 +264,7 @@ TEST(DualContouring, SolidsThatReachTheirBoundsOrBeyondAreClosed) {
                                 [](const Vector3& a, const Vector3& b) {
                                   return SurfacePoint{(a + b) / 2, Vector3::Zero()};
                                 }};
-  expect_sound(meshed(everything, 0.3).mesh);
+  expect_sound(meshed(everything, 0.7).mesh);
 }
 
 TEST(DualContouring, AnswersThatAreNoNumbersLeaveASoundMesh) {
