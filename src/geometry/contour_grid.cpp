@@ -292,6 +292,18 @@ const ContourCell* find_contour_cell(const std::vector<ContourCell>& cells, Key 
   return ContourCellCursor(cells, key).find(key);
 }
 
+bool is_lone_point(const ContourGrid& grid, const std::vector<ContourCell>& cells, const ContourCell& cell,
+                   int corner) {
+  const Key point = cell.key + grid.corner_offset(corner);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Key start : {point, point - grid.stride[axis]}) {
+      const ContourCell* at = find_contour_cell(cells, start);
+      if (at == nullptr || !crosses_axis(*at, axis)) return false;
+    }
+  }
+  return true;
+}
+
 ContourCellCursor::ContourCellCursor(const std::vector<ContourCell>& cells, Key start)
     : next_(std::lower_bound(cells.data(), cells.data() + cells.size(), start,
                              [](const ContourCell& cell, Key wanted) { return cell.key < wanted; })),

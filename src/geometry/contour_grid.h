@@ -81,6 +81,11 @@ base::Result<ContourCells> sample_contour_cells(const SampledSolid& solid, const
 /// The cell with this key, null when it is not among them.
 const ContourCell* find_contour_cell(const std::vector<ContourCell>& cells, ContourGrid::Key key);
 
+/// Are all six edges at the cell's corner crossed, so that the surface around its point is a sheet of its
+/// own, smaller than two cells?
+bool is_lone_point(const ContourGrid& grid, const std::vector<ContourCell>& cells, const ContourCell& cell,
+                   int corner);
+
 /// Finds cells in the order of their keys, each time by walking on from the last: constant time when keys
 /// are asked for in rising order.
 class ContourCellCursor {

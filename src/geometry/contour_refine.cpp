@@ -129,7 +129,9 @@ class ContourRefiner {
     const ContourCell& cell = cell_of(vertex);
     SheetSampler sampler(*draft_->grid, *draft_->cells, *draft_->crossings, cell.key);
     auto sheets = sampler.samples(cell);
-    const auto own = sheets[vertex - cell.first_vertex].all();
+    SheetSamples& sheet = sheets[vertex - cell.first_vertex];
+    if (is_lone_sheet(*draft_->grid, *draft_->cells, cell, sheet)) return draft_->positions[vertex];
+    const auto own = sheet.all();
     std::vector<SurfacePoint> samples(own.begin(), own.end());
 
     const double size = draft_->grid->cell;

@@ -1,6 +1,7 @@
 #include "geometry/contour_samples.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "geometry/contour_search.h"
 #include "geometry/contour_sheets.h"
@@ -50,6 +51,8 @@ SheetSampler::SheetSampler(const ContourGrid& grid, const ContourCells& cells,
 std::array<SheetSamples, 4> SheetSampler::samples(const ContourCell& cell) {
   const CellSheets sheets = cell_sheets(cell.signs, cell.joins);
   std::array<SheetSamples, 4> samples;
+  std::array<unsigned, 4> shared;  // corners, as bits, of all edges so far
+  shared.fill(0xff);
   for (int edge = 0; edge < 12; ++edge) {
     if (sheets.of_edge[edge] < 0) continue;
     const int corner = edge_start(edge), axis = edge_axis(edge);
@@ -60,6 +63,11 @@ std::array<SheetSamples, 4> SheetSampler::samples(const ContourCell& cell) {
     sample.point = grid_->point(owner.key);
     sample.point[axis] += crossing.t * grid_->cell;
     sample.normal = crossing.normal;
+    shared[sheets.of_edge[edge]] &= 1U << corner | 1U << edge_end(edge);
+  }
+  for (int sheet = 0; sheet < sheets.count; ++sheet) {
+    if (samples[sheet].count == 3 && shared[sheet] != 0)
+      samples[sheet].corner = std::countr_zero(shared[sheet]);
   }
   return samples;
 }

@@ -25,6 +25,7 @@ std::optional<std::vector<EdgeCrossing>> find_edge_crossings(const SampledSolid&
 struct SheetSamples {
   std::array<SurfacePoint, 12> at;
   std::size_t count = 0;
+  int corner = -1;  // the cell's corner at which all of them start or end, if they are three around one
 
   std::span<SurfacePoint> all() { return {at.data(), count}; }
 };

@@ -48,14 +48,30 @@ Vector3 fitted_to_edge(const SampledSolid& solid, double cell, const Bounds& box
   return point;
 }
 
+Vector3 mean_normal(std::span<const SurfacePoint> samples) {
+  Vector3 sum = Vector3::Zero();
+  for (const SurfacePoint& sample : samples) sum += sample.normal;
+  return sum.normalized();
+}
+
+/// For one of the eight vertices around a lone point. Those could turn a part of the solid that is thinner
+/// than a cell inside out, unless they are corners of it or keep to the samples' means.
+Vector3 fit_lone_vertex(const SampledSolid& solid, double cell, const Bounds& box,
+                        std::span<const SurfacePoint> samples) {
+  const Vector3 corner = nearest_to_planes(samples, box);
+  const bool on_planes = farthest_plane(samples, corner) <= kOnPlanes * cell;
+  if (on_planes && snapped(solid, cell, box, corner, mean_normal(samples)) == corner) return corner;
+  Vector3 sum = Vector3::Zero();
+  for (const SurfacePoint& sample : samples) sum += sample.point;
+  return sum / static_cast<double>(samples.size());
+}
+
 }  // namespace
 
 Vector3 fit_vertex(const SampledSolid& solid, double cell, const Bounds& box,
                    std::span<SurfacePoint> samples) {
   const Vector3 first = nearest_to_planes(samples, box);
-  Vector3 mean = Vector3::Zero();
-  for (const SurfacePoint& sample : samples) mean += sample.normal;
-  mean.normalize();
+  const Vector3 mean = mean_normal(samples);
   double least = 1.0;
   for (const SurfacePoint& sample : samples) least = std::min(least, sample.normal.dot(mean));
   const bool on_planes = farthest_plane(samples, first) <= kOnPlanes * cell;
@@ -64,6 +80,11 @@ Vector3 fit_vertex(const SampledSolid& solid, double cell, const Bounds& box,
   // Three planes always meet; that the surface has its corner there shows in the surface.
   if (least >= kSmooth || (on_planes && near == first)) return near;
   return snapped(solid, cell, box, fitted_to_edge(solid, cell, box, first, samples), mean);
+}
+
+bool is_lone_sheet(const ContourGrid& grid, const ContourCells& cells, const ContourCell& cell,
+                   const SheetSamples& sheet) {
+  return sheet.corner >= 0 && is_lone_point(grid, cells.cells, cell, sheet.corner);
 }
 
 Bounds vertex_space(const ContourGrid& grid, const ContourCell& cell) {
@@ -84,7 +105,10 @@ std::optional<std::vector<Vector3>> place_vertices(const SampledSolid& solid, co
       std::array<SheetSamples, 4> samples = sampler.samples(cell);
       const Bounds space = vertex_space(grid, cell);
       for (int sheet = 0; sheet < cell_sheets(cell.signs, cell.joins).count; ++sheet) {
-        vertices[cell.first_vertex + sheet] = fit_vertex(solid, grid.cell, space, samples[sheet].all());
+        SheetSamples& own = samples[sheet];
+        vertices[cell.first_vertex + sheet] = is_lone_sheet(grid, cells, cell, own)
+                                                  ? fit_lone_vertex(solid, grid.cell, space, own.all())
+                                                  : fit_vertex(solid, grid.cell, space, own.all());
       }
     }
   });

@@ -12,6 +12,10 @@ namespace icome::geometry {
 Vector3 fit_vertex(const SampledSolid& solid, double cell, const Bounds& box,
                    std::span<SurfacePoint> samples);
 
+/// Does the sheet go around a lone point (is_lone_point)?
+bool is_lone_sheet(const ContourGrid& grid, const ContourCells& cells, const ContourCell& cell,
+                   const SheetSamples& sheet);
+
 /// The space of a cell for its vertices: all of it but a thin rim, so that the vertices of neighbours never
 /// coincide.
 Bounds vertex_space(const ContourGrid& grid, const ContourCell& cell);

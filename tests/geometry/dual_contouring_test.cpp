@@ -233,6 +233,22 @@ TEST(DualContouring, RandomBlobsAreClosedManifolds) {
   }
 }
 
+TEST(DualContouring, SpecksAroundOnePointFaceOut) {
+  Random random(2);
+  int specks = 0;
+  for (int i = 0; i < 500; ++i) {
+    // Thinner than a cell, so that most meshes enclose a single point of the grid, if any.
+    const Vector3 half(random.uniform(0.05, 0.5), random.uniform(0.05, 0.5), random.uniform(0.01, 0.2));
+    AnalyticSolid blade;
+    blade.add(Box{half}, pose_turned(random.uniform(0, 3), random.direction()));
+    const ContourMesh made = meshed(blade.sampled(cube_around_origin(0.8)), 0.6);
+    if (made.mesh.triangles.size() != 12) continue;
+    ++specks;
+    expect_sound(made.mesh);
+  }
+  EXPECT_GT(specks, 50);
+}
+
 TEST(DualContouring, RandomSignsAreClosedManifolds) {
   // No geometry at all: every grid point is inside or outside by a throw of dice, so that every kind of cell
   // occurs beside every other.
