@@ -72,8 +72,6 @@ class OperandView {
     glBindVertexArray(0);
   }
 
-  std::size_t triangles() const { return static_cast<std::size_t>(count_) / 3; }
-
   base::Bounds bounds;
   std::optional<unsigned> layers;
   CsgFaces faces;
@@ -214,14 +212,6 @@ CsgView::CsgView(std::unique_ptr<Solid> solid, const Matrix4& tree_from_buffer)
 CsgView::CsgView(CsgView&&) noexcept = default;
 CsgView& CsgView::operator=(CsgView&&) noexcept = default;
 CsgView::~CsgView() = default;
-
-std::size_t CsgView::triangle_count() const {
-  std::size_t sum = 0;
-  for (const ProductView& product : solid_->products) {
-    for (const OperandView& operand : product) sum += operand.triangles();
-  }
-  return sum;
-}
 
 void CsgView::draw_depth(const Matrix4& clip_from_studio, const Matrix4& studio_from_tree) const {
   glUseProgram(0);

@@ -32,8 +32,6 @@ class CsgView {
   /// From the buffers' frame to the tree's own (metres): a scale and a shift.
   const Matrix4& tree_from_buffer() const { return tree_from_buffer_; }
 
-  std::size_t triangle_count() const;
-
   /// Leaves the nearer of what is there and the solid in the depth buffer of the frame in use, which needs
   /// 8 bits of stencil; the stencil is lost. The viewport must begin at pixel (0, 0) (OpenCSG 1.5 takes its
   /// corner for a size); the scissor is heeded. Leaves no program in use.

@@ -15,8 +15,6 @@ class MeshView {
   /// From the buffers' frame to the mesh's own (metres): a scale and a shift.
   const Matrix4& mesh_from_buffer() const { return mesh_from_buffer_; }
 
-  std::size_t triangle_count() const { return index_count_ / 3; }
-
   /// Issues the triangles with the program in use; inputs 0 and 1 are position and normal.
   void draw() const;
 

@@ -310,33 +310,46 @@ struct Targets {
   Target solid_shadow;  ///< one shadow map, of solids only
 };
 
-base::Result<Targets> make_targets(const StudioSettings& settings) {
+base::Result<Targets> make_targets(const StudioSettings& settings, int shadow_side) {
   auto pass = make_frame_target(GL_RGBA16F, GL_DEPTH24_STENCIL8, settings.width, settings.height);
   if (!pass) return base::fail(pass.error().message);
   auto sum = make_frame_target(GL_RGBA32F, 0, settings.width, settings.height);
   if (!sum) return base::fail(sum.error().message);
-  auto shadow =
-      make_frame_target(0, GL_DEPTH24_STENCIL8, kLightsAPass * settings.shadow_side, settings.shadow_side);
+  auto shadow = make_frame_target(0, GL_DEPTH24_STENCIL8, kLightsAPass * shadow_side, shadow_side);
   if (!shadow) return base::fail(shadow.error().message);
   glBindTexture(GL_TEXTURE_2D, shadow->depth.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   auto floor = make_frame_target(GL_RGBA32F, 0, kFloorSide, kFloorSide);
   if (!floor) return base::fail(floor.error().message);
-  auto solid_shadow = make_frame_target(0, GL_DEPTH24_STENCIL8, settings.shadow_side, settings.shadow_side);
+  auto solid_shadow = make_frame_target(0, GL_DEPTH24_STENCIL8, shadow_side, shadow_side);
   if (!solid_shadow) return base::fail(solid_shadow.error().message);
   return Targets{std::move(*pass), std::move(*sum), std::move(*shadow), std::move(*floor),
                  std::move(*solid_shadow)};
 }
 
-/// Fewer passes for models that cost more; the picture stays good from 8 on.
-int choose_passes(const StudioSettings& settings, const std::vector<Item>& items,
-                  const std::vector<SolidItem>& solids) {
-  if (settings.passes > 0) return std::clamp(settings.passes, 4, 64);
+/// How finely the light is sampled.
+struct Sampling {
+  int passes;
+  int shadow_side;  ///< texels
+};
+
+/// Fewer passes for models that cost more; the picture stays good from 8 on. Shadow maps of solids cost more
+/// than the rest of a pass, and solids tend to have holes, where the light of each sample shows: smaller maps
+/// and more passes look better in the same time.
+Sampling choose_sampling(const StudioSettings& settings, const StudioScene& scene) {
   double triangles = 1.0;
-  for (const Item& item : items) triangles += static_cast<double>(item.view.triangle_count());
-  for (const SolidItem& solid : solids) triangles += static_cast<double>(solid.view.triangle_count());
-  return static_cast<int>(std::clamp(12.0 * 4e5 / triangles, 8.0, 12.0));
+  for (const StudioBody& body : scene.bodies) triangles += static_cast<double>(body.mesh.triangles.size());
+  Sampling sampling{static_cast<int>(std::clamp(12.0 * 4e5 / triangles, 8.0, 12.0)), 1024};
+  if (!scene.solids.empty()) {
+    for (const StudioSolid& solid : scene.solids) {
+      triangles += static_cast<double>(solid.geometry.triangle_count());
+    }
+    sampling = {static_cast<int>(std::clamp(24.0 * 6e4 / triangles, 10.0, 24.0)), 512};
+  }
+  if (settings.passes > 0) sampling.passes = std::clamp(settings.passes, 4, 64);
+  if (settings.shadow_side > 0) sampling.shadow_side = std::clamp(settings.shadow_side, 64, 4096);
+  return sampling;
 }
 
 /// Pixels of the picture, counted from the lower left as OpenGL does.
@@ -347,6 +360,7 @@ struct PixelBox {
 /// Everything of one picture, so that its stages need no long argument lists.
 struct Studio {
   const StudioSettings& settings;
+  Sampling sampling;
   Programs programs;
   Targets targets;
   std::vector<Item> items;
@@ -388,7 +402,7 @@ ShadowMatrices shadow_matrices(const PassLights& lights) {
 
 /// Solids are drawn by themselves and copied: images of CSG are made from pixel (0, 0) only.
 void draw_solid_shadows(const Studio& studio, const ShadowMatrices& shadows) {
-  const int side = studio.settings.shadow_side;
+  const int side = studio.sampling.shadow_side;
   glViewport(0, 0, side, side);
   for (int i = 0; i < kLightsAPass; ++i) {
     glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.solid_shadow.frame.name());
@@ -404,7 +418,7 @@ void draw_shadow_maps(const Studio& studio, const ShadowMatrices& shadows) {
   glClear(GL_DEPTH_BUFFER_BIT);
   if (!studio.solids.empty()) draw_solid_shadows(studio, shadows);
   glBindFramebuffer(GL_FRAMEBUFFER, studio.targets.shadow.frame.name());
-  const int side = studio.settings.shadow_side;
+  const int side = studio.sampling.shadow_side;
   for (int i = 0; i < kLightsAPass; ++i) {
     glViewport(i * side, 0, side, side);
     draw_depth(studio, shadows[static_cast<std::size_t>(i)], true);
@@ -694,7 +708,8 @@ base::Result<Studio> make_studio(const Offscreen& context, const StudioScene& sc
                                  const StudioSettings& settings) {
   auto programs = compile_programs(!scene.solids.empty());
   if (!programs) return base::fail(programs.error().message);
-  auto targets = make_targets(settings);
+  const Sampling sampling = choose_sampling(settings, scene);
+  auto targets = make_targets(settings, sampling.shadow_side);
   if (!targets) return base::fail(targets.error().message);
   const Matrix4 to_studio = studio_from_world(settings);
   std::vector<Item> items;
@@ -711,6 +726,7 @@ base::Result<Studio> make_studio(const Offscreen& context, const StudioScene& sc
   const Matrix4 clip_from_studio = camera.clip_from_world() * to_studio.inverse();
   const Vector3 eye = (camera.eye() - settings.centre) / settings.radius;
   return Studio{settings,
+                sampling,
                 std::move(*programs),
                 std::move(*targets),
                 std::move(items),
@@ -728,11 +744,6 @@ base::Result<StudioPicture> draw_studio(const Offscreen& context, const StudioSc
                                         const Camera& camera, const StudioSettings& settings) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  const int shadows = kLightsAPass * settings.shadow_side;
-  if (settings.shadow_side < 1 || shadows > largest) {
-    return base::fail(fmt::format("shadow maps of {} texels a side cannot be drawn; choose 1 to {}",
-                                  settings.shadow_side, largest / kLightsAPass));
-  }
   if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest) {
     return base::fail(fmt::format("a picture of {}x{} cannot be drawn; sides go from 1 to {} pixels",
                                   settings.width, settings.height, largest));
@@ -740,8 +751,7 @@ base::Result<StudioPicture> draw_studio(const Offscreen& context, const StudioSc
   const auto studio = make_studio(context, scene, camera, settings);
   if (!studio) return base::fail(studio.error().message);
   const Pose studio_from_camera(camera.camera_from_world.inverse());
-  accumulate(*studio, make_lights(choose_passes(settings, studio->items, studio->solids), studio_from_camera,
-                                  settings.up.normalized()));
+  accumulate(*studio, make_lights(studio->sampling.passes, studio_from_camera, settings.up.normalized()));
   return StudioPicture{resolve(*studio), measure_distance(*studio, camera)};
 }
 

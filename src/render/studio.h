@@ -43,7 +43,7 @@ struct StudioSettings {
   /// to 2.2 rad at least: the rims of scans are full of sharp bends that are no edges.
   double crease_angle = 0.9;
   int passes = 0;                         ///< samples a pixel, four lights each; 4 ... 64, 0 chooses
-  int shadow_side = 1024;                 ///< texels along a shadow map, 64 ... 4096
+  int shadow_side = 0;                    ///< texels along a shadow map; 64 ... 4096, 0 chooses
   Colour background{1.0, 1.0, 1.0};       ///< in the middle of the picture
   Colour background_edge{1.0, 1.0, 1.0};  ///< in its corners
 };
