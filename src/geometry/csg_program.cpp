@@ -12,7 +12,7 @@ namespace {
 
 using Kind = CsgAtom::Kind;
 
-constexpr double kMargin = 1e-9;       // boxes are this much larger than what they hold, relatively
+constexpr double kBoxMargin = 1e-9;    // boxes are this much larger than what they hold, relatively
 constexpr double kAlong = 1e-5;        // rad, between faces that count as flush
 constexpr std::size_t kGroup = 4;      // operands of a union below one box
 constexpr unsigned kMaxBranches = 64;  // ways kept in mind while something counts as either
@@ -86,7 +86,7 @@ class CsgProgram::Compiler {
   Bounds inflated(Bounds box) const {
     if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) return box;
     const double size = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-    const Vector3 margin = Vector3::Constant(kMargin * size);
+    const Vector3 margin = Vector3::Constant(kBoxMargin * size);
     return {box.min() - margin, box.max() + margin};
   }
 
