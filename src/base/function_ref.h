@@ -15,7 +15,7 @@ class FunctionRef<Return(Arguments...)> {
  public:
   template <typename Callable>
   requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef>)
-      FunctionRef(Callable&& callable)  // NOLINT(google-explicit-constructor): made from a lambda at the call
+      FunctionRef(Callable&& callable)  // NOLINT(bugprone-forwarding-reference-overload): not for copies
       : object_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
         call_([](void* object, Arguments... arguments) -> Return {
           return (*static_cast<std::remove_reference_t<Callable>*>(object))(

@@ -88,8 +88,8 @@ struct SheetTable {
 };
 
 const SheetTable& sheet_table() {
-  static const SheetTable table;
-  return table;
+  static const SheetTable kTable;
+  return kTable;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 // Evaluations of intervals before the answer is "no further than here, to be sure". A way through a
 // hundred sheets takes some hundreds, and they take tens of microseconds.
 constexpr int kMostCells = 1024;
-constexpr std::size_t kMostHalvings = 60;
+constexpr std::size_t kMostLineHalvings = 60;
 
 /// A part of the way.
 struct LinePart {
@@ -25,7 +25,7 @@ class CrossingSearch {
 
   std::optional<double> run() {
     look_at_start();
-    std::array<LinePart, kMostHalvings + 2> stack;
+    std::array<LinePart, kMostLineHalvings + 2> stack;
     std::size_t size = 0;
     stack[size++] = {line_.first, line_.last};
     for (int left = kMostCells; size > 0; --left) {

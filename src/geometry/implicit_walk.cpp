@@ -17,7 +17,7 @@ constexpr double kExact = 1e-13;
 constexpr double kOnIt = 1e-12;
 constexpr double kNear = 1e-9;
 constexpr int kMostLegs = 14;
-constexpr int kMostSteps = 8;
+constexpr int kMostWalkSteps = 8;
 constexpr int kSheetHalvings = 3;  // of ways that are not sure at once
 // Legs are shortened by this factor until they are sure, and given up when they are that much shorter than
 // the size.
@@ -87,7 +87,7 @@ std::optional<Vector3> ImplicitWalk::normal(const Vector3& point) const {
 std::optional<ImplicitWalk::Place> ImplicitWalk::settle(const Vector3& point, double reach) const {
   Vector3 at = point;
   double last_height = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3 * kMostSteps; ++i) {
+  for (int i = 0; i < 3 * kMostWalkSteps; ++i) {
     const Formula::Slope here = formula_.slope(at, time_);
     const double square = here.gradient.squaredNorm();
     if (!std::isfinite(here.value) || !(square > 0.0) || !std::isfinite(square)) return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Ve
                                                    double reach) const {
   Vector3 at = from;
   double left = reach;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostWalkSteps; ++i) {
     const Formula::Bend here = formula_.bend(at, time_);
     if (!is_usable(here)) return std::nullopt;
     // Half of what is left, so that something is left to go on beyond an edge.

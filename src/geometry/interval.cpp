@@ -9,9 +9,9 @@ namespace {
 using rounding::down;
 using rounding::kLargest;
 using rounding::up;
+using std::numbers::pi;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
 // glibc's functions are off by a few units in the last place at most (its manual, "Errors in Math
 // Functions"); this is more than that.
 constexpr double kLibrary = 8 * rounding::kRelative;
@@ -33,13 +33,13 @@ bool may_hold_phase(const Interval& a, double phase, double period) {
 /// The image under sin or cos, whose values at the ends are given and which is 1 at `top` + 2 pi k.
 Interval wave(const Interval& a, double at_lo, double at_hi, double top) {
   Interval image = monotone(std::min(at_lo, at_hi), std::max(at_lo, at_hi));
-  if (may_hold_phase(a, top, 2 * kPi)) image.hi = 1.0;
-  if (may_hold_phase(a, top + kPi, 2 * kPi)) image.lo = -1.0;
+  if (may_hold_phase(a, top, 2 * pi)) image.hi = 1.0;
+  if (may_hold_phase(a, top + pi, 2 * pi)) image.lo = -1.0;
   return clamped(image, -1.0, 1.0);
 }
 
 /// Too wide, too far out, or infinite: not worth asking where the tops are.
-bool all_around(const Interval& a) { return !(a.hi - a.lo < 2 * kPi) || magnitude(a) > 0x1p40; }
+bool all_around(const Interval& a) { return !(a.hi - a.lo < 2 * pi) || magnitude(a) > 0x1p40; }
 
 }  // namespace
 
@@ -87,7 +87,7 @@ Interval log(const Interval& a) {
 
 Interval sin(const Interval& a) {
   if (all_around(a)) return {-1.0, 1.0};
-  return wave(a, std::sin(a.lo), std::sin(a.hi), kPi / 2);
+  return wave(a, std::sin(a.lo), std::sin(a.hi), pi / 2);
 }
 
 Interval cos(const Interval& a) {
@@ -100,12 +100,12 @@ void sine_and_cosine(const Interval& a, Interval& sine, Interval& cosine) {
   if (all_around(a)) return;
   const double sin_lo = std::sin(a.lo), cos_lo = std::cos(a.lo);  // one sincos() call each
   const double sin_hi = std::sin(a.hi), cos_hi = std::cos(a.hi);
-  sine = wave(a, sin_lo, sin_hi, kPi / 2);
+  sine = wave(a, sin_lo, sin_hi, pi / 2);
   cosine = wave(a, cos_lo, cos_hi, 0.0);
 }
 
 bool may_hold_tangent_pole(const Interval& a) {
-  return !(a.hi - a.lo < kPi) || magnitude(a) > 0x1p40 || may_hold_phase(a, kPi / 2, kPi);
+  return !(a.hi - a.lo < pi) || magnitude(a) > 0x1p40 || may_hold_phase(a, pi / 2, pi);
 }
 
 Interval tan(const Interval& a) {
@@ -137,7 +137,7 @@ Interval tanh(const Interval& a) { return clamped(monotone(std::tanh(a.lo), std:
 
 Interval atan2(const Interval& y, const Interval& x) {
   const bool over_cut = x.lo <= 0.0 && y.lo <= 0.0 && y.hi >= 0.0;  // or over the origin
-  if (over_cut) return monotone(-kPi, kPi);
+  if (over_cut) return monotone(-pi, pi);
   // Without the origin the angle is monotone along every edge of the rectangle.
   const double p = std::atan2(y.lo, x.lo), q = std::atan2(y.lo, x.hi);
   const double r = std::atan2(y.hi, x.lo), s = std::atan2(y.hi, x.hi);

@@ -11,7 +11,7 @@ namespace {
 // The slope (sine) below which a crossing may be one in either direction: grazing.
 constexpr double kGrazing = 1e-6;
 // A point on the surface that moves along it to within rounding counts as moving in.
-constexpr double kAlong = 1e-12;
+constexpr double kMovingIn = 1e-12;
 
 Vector3 slab_axis_of(const LoopPatches& patches, std::uint32_t piece) {
   const auto& axis = patches.slab(piece).axis;
@@ -86,7 +86,7 @@ std::optional<SurfaceEntry> loop_entry(const LoopPatches& patches, std::uint32_t
   if (near.start) {
     if (const auto spot = spot_under(patches, piece, start, slack)) {
       const SurfacePlace place = loop_place(cursor, patches, *spot);
-      if (side * place.normal.dot(step) <= kAlong * length) return SurfaceEntry{0.0, place};
+      if (side * place.normal.dot(step) <= kMovingIn * length) return SurfaceEntry{0.0, place};
     }
   }
   const LoopRay ray(start, step, slack, slab_axis_of(patches, piece));

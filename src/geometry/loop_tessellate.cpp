@@ -7,7 +7,7 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::size_t kMostTriangles = 20'000'000;
+constexpr std::size_t kMostTessellated = 20'000'000;
 
 /// Makes the triangles piece by piece; what pieces share is made once.
 class Tessellation {
@@ -93,9 +93,9 @@ class Tessellation {
 
 base::Result<TriangleMesh> loop_tessellate(const LoopPatches& patches, int level) {
   if (level < 0) return base::fail("a surface cannot be tessellated at a negative level: ask for 0 or more");
-  if (level > 12 || (std::size_t(patches.triangles()) << (2 * level)) > kMostTriangles) {
+  if (level > 12 || (std::size_t(patches.triangles()) << (2 * level)) > kMostTessellated) {
     return base::fail(fmt::format("level {} of {} control triangles is more than {} triangles: ask for less",
-                                  level, patches.triangles(), kMostTriangles));
+                                  level, patches.triangles(), kMostTessellated));
   }
   Tessellation tessellation(patches, level == 0 ? 1 : 1u << (level - 1));
   for (std::uint32_t triangle = 0; triangle < patches.triangles(); ++triangle) {

@@ -6,8 +6,7 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::uint32_t kNone = LoopPatches::kNone;
-constexpr int kMostCrossings = 64;
+constexpr int kMostEdgeCrossings = 64;
 
 using Barycentric = std::array<double, 3>;
 
@@ -56,7 +55,7 @@ LoopSpot clamped(const LoopSpot& spot) {
 
 LoopSpot walk(const LoopPatches& patches, LoopSpot from, double du, double dv) {
   LoopSpot spot = from;
-  for (int crossing = 0; crossing < kMostCrossings; ++crossing) {
+  for (int crossing = 0; crossing < kMostEdgeCrossings; ++crossing) {
     const Exit exit = exit_of(spot, du, dv);
     if (exit.edge < 0) return clamped({spot.piece, spot.u + du, spot.v + dv});
     spot = clamped({spot.piece, spot.u + exit.share * du, spot.v + exit.share * dv});
@@ -106,7 +105,7 @@ LoopSpot walk_along(const LoopPatches& patches, LoopSpot from, int edge, double 
   std::uint32_t piece = from.piece;
   double along = edge == 0 ? from.u : 1.0 - from.v;
   // Edge 0 starts and edge 2 ends at the vertex of the control mesh, the other ends are regular.
-  for (int crossing = 0; crossing < kMostCrossings; ++crossing) {
+  for (int crossing = 0; crossing < kMostEdgeCrossings; ++crossing) {
     const bool forward = distance > 0.0;
     const double left = forward ? 1.0 - along : along;
     // Near the vertex v (or u) itself is the exact one.
@@ -128,7 +127,7 @@ LoopSpot walk_along(const LoopPatches& patches, LoopSpot from, int edge, double 
 
 std::uint32_t next_at_vertex(const LoopPatches& patches, std::uint32_t piece, bool counter_clockwise) {
   const int edge = counter_clockwise ? 2 : 0;
-  if (ends_at(patches, piece, edge)) return kNone;
+  if (ends_at(patches, piece, edge)) return LoopPatches::kNone;
   return patches.across(piece, edge) / 4;
 }
 

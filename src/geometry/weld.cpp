@@ -14,7 +14,7 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr double kCrackWidth = 0x1p-23;  // of the box's longest side
 
 std::uint64_t position_hash(const Vector3& position) {
@@ -32,13 +32,13 @@ std::uint64_t position_hash(const Vector3& position) {
 std::vector<std::uint32_t> first_at_position(const std::vector<Vector3>& positions) {
   std::vector<std::uint32_t> first(positions.size());
   const std::size_t mask = std::bit_ceil(2 * positions.size() + 1) - 1;
-  std::vector<std::uint32_t> slots(mask + 1, kNone);
+  std::vector<std::uint32_t> slots(mask + 1, kNoVertex);
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
     first[v] = v;
     if (!positions[v].allFinite()) continue;
     std::size_t slot = position_hash(positions[v]) & mask;
-    while (slots[slot] != kNone && positions[slots[slot]] != positions[v]) slot = (slot + 1) & mask;
-    if (slots[slot] == kNone) slots[slot] = v;
+    while (slots[slot] != kNoVertex && positions[slots[slot]] != positions[v]) slot = (slot + 1) & mask;
+    if (slots[slot] == kNoVertex) slots[slot] = v;
     first[v] = slots[slot];
   }
   return first;
@@ -83,7 +83,7 @@ class SparsePoints {
     for (std::uint64_t x = low[0]; x <= high[0]; ++x)
       for (std::uint64_t y = low[1]; y <= high[1]; ++y)
         for (std::uint64_t z = low[2]; z <= high[2]; ++z)
-          if (const std::uint32_t near = find_in({x, y, z}, positions_[v]); near != kNone) return near;
+          if (const std::uint32_t near = find_in({x, y, z}, positions_[v]); near != kNoVertex) return near;
     cells_[key(cell(positions_[v]))].push_back(v);
     return v;
   }
@@ -104,10 +104,10 @@ class SparsePoints {
 
   std::uint32_t find_in(const Cell& c, const Vector3& point) const {
     const auto found = cells_.find(key(c));
-    if (found == cells_.end()) return kNone;
+    if (found == cells_.end()) return kNoVertex;
     for (const std::uint32_t kept : found->second)
       if ((positions_[kept] - point).norm() <= reach_) return kept;
-    return kNone;
+    return kNoVertex;
   }
 
   const std::vector<Vector3>& positions_;
