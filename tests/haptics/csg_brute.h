@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "contact_world.h"
 #include "geometry/csg_tree.h"
+#include "haptics/contact_world.h"
 
 namespace icome::haptics {
 

@@ -5,7 +5,7 @@
 #include <queue>
 #include <unordered_map>
 
-#include "csg_brute.h"
+#include "haptics/csg_brute.h"
 
 namespace icome::haptics {
 

@@ -2,9 +2,9 @@
 // slowly and rightly, and mistakes are planted in that: no solver runs.
 #include <gtest/gtest.h>
 
-#include "csg_brute.h"
-#include "csg_world.h"
 #include "haptics/contact_judge.h"
+#include "haptics/csg_brute.h"
+#include "haptics/csg_world.h"
 
 namespace icome::haptics {
 namespace {
