@@ -13,6 +13,9 @@ struct Extent {
   int stabs;
   int presses;                             // into each wall
   std::vector<std::size_t> object_counts;  // of the scenes of primitives
+  std::size_t csg_ticks;                   // of each slide on a CSG solid
+  std::size_t csg_trees;                   // random ones of each size
+  std::size_t csg_presses;                 // and slides on each solid
   int repeats;                             // of each timed run
   int builds;                              // of each tree
 };
@@ -25,5 +28,8 @@ Section primitive_figures(const Extent& extent);
 
 /// Walls of 1 mm that are pressed 5 mm deep.
 Section wall_figures(const Extent& extent);
+
+/// CSG solids: accuracy against brute force, ticks, and presses; the renderers `exact` and `thesis`.
+std::vector<Section> csg_figures(const Extent& extent);
 
 }  // namespace icome::benchmarks

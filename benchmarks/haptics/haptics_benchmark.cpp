@@ -1,4 +1,4 @@
-// The haptic core against the figures that issue 2 asks for and against packaged peers: one run, one table.
+// The haptic core against the figures that are asked for and against packaged peers: one run, one table.
 // Ends with 1 when any surface contact point was wrong: a quick answer that is wrong is no answer.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -18,6 +18,9 @@ Extent full() {
           .stabs = 2000,
           .presses = 1000,
           .object_counts = {10'000, 100'000},
+          .csg_ticks = 50'000,
+          .csg_trees = 5,
+          .csg_presses = 10'000,
           .repeats = 5,
           .builds = 5};
 }
@@ -29,6 +32,9 @@ Extent quick() {
           .stabs = 100,
           .presses = 100,
           .object_counts = {10'000},
+          .csg_ticks = 5000,
+          .csg_trees = 1,
+          .csg_presses = 300,
           .repeats = 2,
           .builds = 1};
 }
@@ -47,6 +53,7 @@ int main(int argc, char** argv) {
   std::vector<Section> sections = icome::benchmarks::mesh_figures(extent);
   sections.push_back(icome::benchmarks::primitive_figures(extent));
   sections.push_back(icome::benchmarks::wall_figures(extent));
+  for (Section& section : icome::benchmarks::csg_figures(extent)) sections.push_back(std::move(section));
   as_json ? icome::benchmarks::print_json(sections) : icome::benchmarks::print_table(sections);
   const Faults faults = icome::benchmarks::total_faults(sections);
   return faults.pops + faults.sticks == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
