@@ -198,11 +198,13 @@ RealRoots capsule_crossings(const CsgAtom& atom, const Vector3& start, const Vec
     for (; place > 0 && roots.t[place - 1] > t; --place) roots.t[place] = roots.t[place - 1];
     roots.t[place] = t;
   };
-  for (const double t : cylinder_crossings(atom.a, start, step).all()) {
+  const RealRoots side = cylinder_crossings(atom.a, start, step);
+  for (const double t : side.all()) {
     if (std::abs(height(t)) <= atom.b) take(t);
   }
   for (const double end : {-atom.b, atom.b}) {
-    for (const double t : sphere_crossings(atom.a, start - end * Vector3::UnitZ(), step).all()) {
+    const RealRoots ball = sphere_crossings(atom.a, start - end * Vector3::UnitZ(), step);
+    for (const double t : ball.all()) {
       if (std::abs(height(t)) >= atom.b && (height(t) > 0.0) == (end > 0.0)) take(t);
     }
   }

@@ -163,7 +163,8 @@ class FacePassage {
       if (accept(0.0, start_, tree_normal(atom_, here.normal))) return 0.0;
     }
     if (atom_.kind == Kind::Custom) return trace(start, step, accept);
-    for (const double t : crossings(atom_, start, step).all()) {
+    const RealRoots hits = crossings(atom_, start, step);
+    for (const double t : hits.all()) {
       const Vector3 normal = tree_normal(atom_, retract(atom_, start + t * step).normal);
       if (leads_through(normal) && accept(t, start_ + t * step_, normal)) return t;
     }

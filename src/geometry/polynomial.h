@@ -9,7 +9,8 @@ struct RealRoots {
   std::array<double, 4> t;
   unsigned count = 0;
 
-  std::span<const double> all() const { return {t.data(), count}; }
+  std::span<const double> all() const& { return {t.data(), count}; }
+  std::span<const double> all() const&& = delete;  // of roots that are gone before a loop over them begins
   void add(double root) { t[count++] = root; }
 };
 
