@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/csg_mesh.h"
 #include "apps/csg_report.h"
 #include "apps/interrupt.h"
 #include "apps/points_file.h"
@@ -16,6 +15,7 @@
 #include "base/parallel.h"
 #include "files/csg_reader.h"
 #include "files/stl_writer.h"
+#include "geometry/csg_mesh.h"
 #include "geometry/csg_program.h"
 
 namespace icome::apps {
@@ -110,7 +110,7 @@ base::Result<void> make_mesh(CsgWork& work, const CsgOptions& options, StatusLin
     status.progress("Meshing", std::round(100.0 * part), 100.0, "%");
     return !interrupted();
   };
-  const auto made = mesh_of(work.tree, how);
+  const auto made = geometry::contour(work.tree, how);
   if (!made) return base::fail(fmt::format("{}: {}", work.figures.file, made.error().message));
   if (made->mesh.triangles.empty()) {
     return base::fail(fmt::format(
