@@ -186,7 +186,7 @@ Row thesis_tick_row(const CsgTree& tree, const Vector3& start, const Extent& ext
   rendered.solver->adopt(*rendered.scene, {});
   const BestRun run =
       time_queries(extent.repeats, tips.size(), [&](std::size_t i) { rendered.solver->step(tips[i], 0.0); });
-  Row row{.figure = "figure 5.6, renderer thesis, contact stage alone"};
+  Row row{.figure = "figure 5.6, renderer thesis"};
   row.solver = run.us;
   row.noise = run.noise;
   return row;
@@ -215,9 +215,9 @@ Row press_row(const std::string& name, const CsgTree& tree, std::size_t presses)
 
 std::vector<Section> csg_figures(const Extent& extent) {
   Section accuracy{"CSG: largest distance of the SCP from where brute force finds it", {}};
-  for (const auto& rows : {accuracy_rows("figure 5.6", {haptics::figure_5_6()}, extent.csg_ticks / 5),
-                           accuracy_rows("random trees, 2 to 200 primitives", random_trees(extent.csg_trees),
-                                         extent.csg_ticks / 20)}) {
+  for (const auto& rows :
+       {accuracy_rows("figure 5.6", {haptics::figure_5_6()}, extent.csg_ticks / 5),
+        accuracy_rows("trees of 2 to 200", random_trees(extent.csg_trees), extent.csg_ticks / 20)}) {
     accuracy.rows.insert(accuracy.rows.end(), rows.begin(), rows.end());
   }
   Section tick{"tick on CSG solids, sliding 1 mm deep at 100 mm/s", {}};

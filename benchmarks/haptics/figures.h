@@ -16,6 +16,7 @@ struct Extent {
   std::size_t csg_ticks;                   // of each slide on a CSG solid
   std::size_t csg_trees;                   // random ones of each size
   std::size_t csg_presses;                 // and slides on each solid
+  int loop_level;                          // of the mesh that a Loop surface is held against
   int repeats;                             // of each timed run
   int builds;                              // of each tree
 };
@@ -31,5 +32,11 @@ Section wall_figures(const Extent& extent);
 
 /// CSG solids: accuracy against brute force, ticks, and presses; the renderers `exact` and `thesis`.
 std::vector<Section> csg_figures(const Extent& extent);
+
+/// The limit of a Loop surface, beside the haptic mesh of the same surface.
+Section loop_figures(const Extent& extent);
+
+/// Waves that move under the tip.
+Section implicit_figures(const Extent& extent);
 
 }  // namespace icome::benchmarks

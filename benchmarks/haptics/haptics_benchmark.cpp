@@ -21,6 +21,7 @@ Extent full() {
           .csg_ticks = 50'000,
           .csg_trees = 5,
           .csg_presses = 10'000,
+          .loop_level = 5,
           .repeats = 5,
           .builds = 5};
 }
@@ -35,6 +36,7 @@ Extent quick() {
           .csg_ticks = 5000,
           .csg_trees = 1,
           .csg_presses = 300,
+          .loop_level = 2,
           .repeats = 2,
           .builds = 1};
 }
@@ -54,6 +56,8 @@ int main(int argc, char** argv) {
   sections.push_back(icome::benchmarks::primitive_figures(extent));
   sections.push_back(icome::benchmarks::wall_figures(extent));
   for (Section& section : icome::benchmarks::csg_figures(extent)) sections.push_back(std::move(section));
+  sections.push_back(icome::benchmarks::loop_figures(extent));
+  sections.push_back(icome::benchmarks::implicit_figures(extent));
   as_json ? icome::benchmarks::print_json(sections) : icome::benchmarks::print_table(sections);
   const Faults faults = icome::benchmarks::total_faults(sections);
   return faults.pops + faults.sticks == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
