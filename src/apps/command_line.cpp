@@ -23,11 +23,14 @@ struct Entries {
   std::string sides;
   std::string up = "z";
   std::string shading = "flat";
+  std::string renderer;
+  std::string subdivision;
+  std::string bounds;
 };
 
 void add_model_options(CLI::App& touch, Entries& entries) {
   TouchOptions& options = entries.touch;
-  touch.add_option("MODEL", options.models, kModelHelp)->required()->type_name("");
+  touch.add_option("MODEL", options.models, kModelHelp)->type_name("");
   touch
       .add_option("--unit", options.unit,
                   "Unit of the numbers in the files: m, dm, cm, mm, um or in (default m)")
@@ -46,6 +49,31 @@ void add_model_options(CLI::App& touch, Entries& entries) {
                   "Which sides stop the tip (default: front of closed models, both of open ones)")
       ->type_name("front|both")
       ->check(CLI::IsMember({"front", "both"}));
+}
+
+void add_exact_options(CLI::App& touch, Entries& entries) {
+  TouchOptions& options = entries.touch;
+  touch
+      .add_option("--subdivide", entries.subdivision,
+                  "Take files for control meshes of Loop surfaces: touch the limit, or as the thesis does")
+      ->type_name("limit|thesis:LEVEL");
+  touch
+      .add_option("--crease", options.crease_degrees,
+                  "Edges of a control mesh that bend by more than DEGREES stay sharp (default: none)")
+      ->type_name("DEGREES");
+  touch
+      .add_option("--implicit", options.implicit,
+                  "Touch the solid where a formula in x, y, z (m) and t (s) is negative")
+      ->type_name("FORMULA");
+  touch
+      .add_option("--bounds", entries.bounds,
+                  "Box of --implicit in m: x0,y0,z0,x1,y1,z1, or its sizes, centred: X,Y,Z or one for all")
+      ->type_name("BOX");
+  touch
+      .add_option(
+          "--renderer", entries.renderer,
+          "How CSG trees and Loop surfaces are touched: exactly, or as the thesis does (default exact)")
+      ->type_name("exact|thesis");
 }
 
 void add_feel_options(CLI::App& touch, Entries& entries) {
@@ -128,6 +156,21 @@ base::Result<TouchOptions> understood(Entries entries) {
   if (entries.sides == "both") options.sides = haptics::TouchableSides::Both;
   options.y_up = entries.up == "y";
   options.smooth_shading = entries.shading == "smooth";
+  if (!entries.renderer.empty()) {
+    const auto renderer = haptics::parse_renderer(entries.renderer);
+    if (!renderer) return base::fail("--renderer: " + renderer.error().message);
+    options.renderer = *renderer;
+  }
+  if (!entries.subdivision.empty()) {
+    const auto subdivision = parse_subdivision(entries.subdivision);
+    if (!subdivision) return tl::unexpected(subdivision.error());
+    options.subdivision = *subdivision;
+  }
+  if (!entries.bounds.empty()) {
+    const auto bounds = parse_bounds(entries.bounds);
+    if (!bounds) return tl::unexpected(bounds.error());
+    options.bounds = *bounds;
+  }
   if (const auto checked = check(options); !checked) return tl::unexpected(checked.error());
   return options;
 }
@@ -157,6 +200,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   touch.footer(kTouchExamples);
   Entries entries;
   add_model_options(touch, entries);
+  add_exact_options(touch, entries);
   add_feel_options(touch, entries);
   add_run_options(touch, entries);
   add_output_options(touch, entries);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "apps/surface_probe.h"
-#include "haptics/scp_solver.h"
 
 namespace icome::apps {
 namespace {
@@ -165,15 +164,15 @@ PressPlan press_along(const Spiral& spiral, const SurfaceProbe& probe) {
 /// The way from `start` to all targets, tried out on the scene: with a detour through the air wherever
 /// the contact is left behind.
 std::vector<Vector3> tried_out(const PressPlan& plan, const Vector3& start, const haptics::HapticScene& scene,
-                               double tip) {
+                               double tip, haptics::Renderer renderer) {
   haptics::ScpSettings settings;
   settings.tip_radius = tip;
-  haptics::ScpSolver solver(settings);
-  solver.adopt(scene, {});
+  const std::unique_ptr<haptics::ContactSolver> solver = haptics::make_solver(renderer, settings);
+  solver->adopt(scene, {});
   std::vector<Vector3> way;
   const auto go_to = [&](const Vector3& target) -> const haptics::ScpState& {
     way.push_back(target);
-    return solver.step(target, 0.0);
+    return solver->step(target, 0.0);
   };
   go_to(start);
   const double lift = tip + kLiftDepths * plan.depth;
@@ -193,7 +192,7 @@ std::vector<Vector3> tried_out(const PressPlan& plan, const Vector3& start, cons
 }  // namespace
 
 Exploration Exploration::plan(const std::vector<TouchModel>& models, const haptics::HapticScene& scene,
-                              double tip, double seconds) {
+                              double tip, double seconds, haptics::Renderer renderer) {
   const SurfaceProbe probe(models);
   const double speed = std::min(kFastest, kSizesPerSecond * probe.bounds().sizes().maxCoeff());
   const double length = speed * seconds;
@@ -202,7 +201,7 @@ Exploration Exploration::plan(const std::vector<TouchModel>& models, const hapti
   const Vector3 start = press.first_seen + (tip + kStartSeconds * speed) * press.to_eye;
   Exploration exploration;
   exploration.centre_ = probe.bounds().center();
-  exploration.follow(tried_out(press, start, scene, tip), speed, seconds);
+  exploration.follow(tried_out(press, start, scene, tip, renderer), speed, seconds);
   return exploration;
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/touch_models.h"
 #include "base/vector.h"
+#include "haptics/renderer.h"
 
 namespace icome::apps {
 
@@ -13,9 +14,9 @@ namespace icome::apps {
 class Exploration {
  public:
   /// Plans about `seconds` of way for a tip of radius `tip` (m); a longer run goes back the same way.
-  /// The models, at least one, are those of the scene.
+  /// The models, at least one, are those of the scene; `renderer` is the one that will touch them.
   static Exploration plan(const std::vector<TouchModel>& models, const haptics::HapticScene& scene,
-                          double tip, double seconds);
+                          double tip, double seconds, haptics::Renderer renderer);
 
   /// Where the hand wants to be `t` >= 0 seconds after the start, m, world frame. Real-time safe.
   base::Vector3 target(double t) const;

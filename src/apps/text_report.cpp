@@ -52,7 +52,9 @@ void add_model(Table& table, const TouchModel& model) {
     table.row("", fmt::format("{}, {}, touchable from {}", model.kind, extent, sides));
     return;
   }
-  table.row("", fmt::format("{}, {} triangles, {}", model.kind, grouped(model.triangles), extent));
+  const std::string triangles =
+      model.triangles > 0 ? fmt::format("{} triangles", grouped(model.triangles)) : "touched without a mesh";
+  table.row("", fmt::format("{}, {}, {}", model.kind, triangles, extent));
   table.row("", fmt::format("{}, touchable from {}", model.closed ? "closed" : "open", sides));
   for (const std::string& sentence : model.repairs) table.row("", sentence);
   table.row("", fmt::format("read in {}", seconds_text(model.read_seconds)));

@@ -60,14 +60,11 @@ base::Result<void> check_picture_place(const std::filesystem::path& path) {
   return base::fail(fmt::format("{}: a picture cannot be written there.", path.string()));
 }
 
-base::Result<void> load_models(const TouchOptions& options, StatusLine& status, Prepared& prepared) {
-  for (const std::string& text : options.models) {
-    status.say("Reading " + text);
-    auto model = load_model(text, options);
-    if (!model) return tl::unexpected(model.error());
-    prepared.build_seconds += model->build_seconds;
-    prepared.models.push_back(std::move(*model));
-  }
+base::Result<void> load(const TouchOptions& options, StatusLine& status, Prepared& prepared) {
+  auto models = load_models(options, [&](const std::string& what) { status.say(what); });
+  if (!models) return tl::unexpected(models.error());
+  prepared.models = std::move(*models);
+  for (const TouchModel& model : prepared.models) prepared.build_seconds += model.build_seconds;
   const Stopwatch watch;
   prepared.scene = compile_scene(prepared.models, options);
   prepared.build_seconds += watch.seconds();
@@ -80,6 +77,8 @@ haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const Tou
     haptics::JudgedObject object;
     if (model.primitive) {
       object.surface = *model.primitive;
+    } else if (model.membership) {
+      object.surface = haptics::MembershipSolid{model.membership, model.tree->bounds()};
     } else {
       object.surface = model.mesh;
     }
@@ -110,8 +109,7 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
     if (!player) return tl::unexpected(player.error());
     prepared.player = std::move(*player);
   }
-  if (const auto loaded = load_models(options, status, prepared); !loaded)
-    return tl::unexpected(loaded.error());
+  if (const auto loaded = load(options, status, prepared); !loaded) return tl::unexpected(loaded.error());
   if (options.check) prepared.judge = judge_for(prepared.models, options);
   if (options.trace) {
     auto trace = TraceFile::create(*options.trace);
@@ -126,8 +124,9 @@ base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, To
                              StatusLine& status) {
   if (prepared.player) return replay(*prepared.player, prepared.scene, options, diary, status);
   status.say("Planning where to touch");
-  const Exploration exploration = Exploration::plan(prepared.models, *prepared.scene, options.radius,
-                                                    options.seconds.value_or(kDefaultSeconds));
+  const Exploration exploration =
+      Exploration::plan(prepared.models, *prepared.scene, options.radius,
+                        options.seconds.value_or(kDefaultSeconds), renderer_of(options));
   status.clear();
   return explore(exploration, prepared.device, prepared.scene, options, diary, status);
 }

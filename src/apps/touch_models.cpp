@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/exact_models.h"
 #include "apps/stopwatch.h"
 #include "files/mesh_reader.h"
 #include "geometry/primitive.h"
@@ -105,11 +106,43 @@ base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& 
 }  // namespace
 
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options) {
-  auto model = names_primitive(text) ? load_primitive(text, options) : load_file(text, options);
+  const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
+  const bool primitive = names_primitive(text);
+  auto model = primitive         ? load_primitive(text, options)
+               : names_csg(text) ? load_csg(text, options)
+                                 : load_file(text, options);
   if (!model) return model;
   model->name = text;
+  if (primitive && thesis) model = as_csg(std::move(*model), options);
+  if (!primitive && !names_csg(text)) {
+    if (options.subdivision)
+      model = as_loop_surface(std::move(*model), options);
+    else if (thesis)
+      return base::fail(text +
+                        ": --renderer thesis touches CSG trees, and meshes with --subdivide thesis:LEVEL.");
+  }
+  if (!model) return model;
   model->sides = options.sides.value_or(model->closed ? TouchableSides::Front : TouchableSides::Both);
   return model;
+}
+
+base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
+                                                  const std::function<void(const std::string&)>& say) {
+  std::vector<TouchModel> models;
+  for (const std::string& text : options.models) {
+    say("Reading " + text);
+    auto model = load_model(text, options);
+    if (!model) return tl::unexpected(model.error());
+    models.push_back(std::move(*model));
+  }
+  if (options.implicit) {
+    say("Looking for the surface of " + *options.implicit);
+    auto model = load_implicit(options);
+    if (!model) return tl::unexpected(model.error());
+    model->sides = options.sides.value_or(TouchableSides::Front);
+    models.push_back(std::move(*model));
+  }
+  return models;
 }
 
 bool is_half_space(const TouchModel& model) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -6,6 +7,7 @@
 
 #include "apps/touch_options.h"
 #include "base/result.h"
+#include "geometry/csg_tree.h"
 #include "geometry/primitive.h"
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
@@ -21,7 +23,11 @@ struct TouchModel {
   std::shared_ptr<const geometry::TriangleTree> tree;  // never null; over `mesh`
   std::shared_ptr<const haptics::Shape> shape;         // never null
   std::optional<geometry::Primitive> primitive;        // what a primitive is; none for a file
-  std::size_t triangles = 0;                           // 0 for a primitive
+  std::optional<geometry::CsgTree> csg;                // what a .csg file holds, in the world
+  /// Is the point inside at that time (s)? Of solids that are touched without a mesh; else empty.
+  std::function<bool(const base::Vector3& point, double time)> membership;
+  bool exact = false;         // touched as what it is; `mesh` is for the eye
+  std::size_t triangles = 0;  // that are touched
   bool closed = true;
   haptics::TouchableSides sides = haptics::TouchableSides::Front;
   std::vector<std::string> repairs;  // what the reader did and found, one sentence each
@@ -34,6 +40,10 @@ struct TouchModel {
 /// when y is up and scaled by `fit`, always about the origin and never moved, so that a path in the
 /// world frame can rely on it.
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options);
+
+/// All MODELs, in the order of the command line, the surface of --implicit last. `say` hears what is read.
+base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
+                                                  const std::function<void(const std::string&)>& say);
 
 /// Is the model the unlimited plane, solid below z = 0?
 bool is_half_space(const TouchModel& model);

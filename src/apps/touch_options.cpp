@@ -25,7 +25,65 @@ bool read_number(std::string_view text, double& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+base::Result<void> check_exact(const TouchOptions& options) {
+  if (options.models.empty() && !options.implicit) return base::fail("name a MODEL to touch, or --implicit.");
+  if (options.bounds && !options.implicit) return base::fail("--bounds belongs to --implicit.");
+  if (options.crease_degrees && !options.subdivision)
+    return base::fail("--crease belongs to --subdivide: it says which edges stay sharp.");
+  if (options.subdivision && options.renderer &&
+      options.subdivision->thesis != (*options.renderer == haptics::Renderer::Thesis)) {
+    return base::fail("--renderer and --subdivide name different renderers: leave --renderer out.");
+  }
+  return {};
+}
+
 }  // namespace
+
+haptics::Renderer renderer_of(const TouchOptions& options) {
+  if (options.subdivision && options.subdivision->thesis) return haptics::Renderer::Thesis;
+  return options.renderer.value_or(haptics::Renderer::Exact);
+}
+
+base::Result<Subdivision> parse_subdivision(const std::string& text) {
+  constexpr std::string_view kThesis = "thesis:";
+  if (text == "limit") return Subdivision{};
+  double level = -1.0;
+  const bool thesis = text.substr(0, kThesis.size()) == kThesis;
+  if (thesis && read_number(std::string_view(text).substr(kThesis.size()), level) && level >= 0.0 &&
+      level <= 10.0 && level == std::floor(level)) {
+    return Subdivision{true, int(level)};
+  }
+  return base::fail(
+      fmt::format("--subdivide \"{}\": say limit, or thesis:LEVEL with a level from 0 to 10.", text));
+}
+
+base::Result<base::Bounds> parse_bounds(const std::string& text) {
+  std::vector<double> numbers;
+  std::string_view rest = text;
+  for (bool more = true; more && numbers.size() < 7;) {
+    const std::size_t comma = rest.find(',');
+    double number = 0.0;
+    if (!read_number(rest.substr(0, comma), number) || !std::isfinite(number)) numbers.resize(7);
+    numbers.push_back(number);
+    more = comma != std::string_view::npos;
+    if (more) rest.remove_prefix(comma + 1);
+  }
+  if (numbers.size() == 1) numbers.assign(3, numbers.front());
+  base::Vector3 low, high;
+  if (numbers.size() == 3) {
+    high = 0.5 * base::Vector3(numbers[0], numbers[1], numbers[2]);
+    low = -high;
+  } else if (numbers.size() == 6) {
+    low = {numbers[0], numbers[1], numbers[2]};
+    high = {numbers[3], numbers[4], numbers[5]};
+  } else {
+    return base::fail(
+        fmt::format("--bounds \"{}\": give x0,y0,z0,x1,y1,z1, or three lengths or one, in metres.", text));
+  }
+  if ((low.array() < high.array()).all()) return base::Bounds(low, high);
+  return base::fail(
+      fmt::format("--bounds \"{}\" is an empty box: its second corner must lie beyond the first.", text));
+}
 
 base::Result<void> check(const TouchOptions& options) {
   struct Range {
@@ -34,6 +92,7 @@ base::Result<void> check(const TouchOptions& options) {
     const char* unit;
   };
   for (const Range& range : {Range{"--fit", options.fit.value_or(1.0), 1e-6, 1e6, "m"},
+                             Range{"--crease", options.crease_degrees.value_or(0.0), 0.0, 180.0, "degrees"},
                              Range{"--rate", options.rate_hz, 500.0, 10000.0, "Hz"},
                              Range{"--seconds", options.seconds.value_or(1.0), 0.01, kLongestRun, "s"},
                              Range{"--radius", options.radius, 0.0, kLargestRadius, "m"},
@@ -43,6 +102,7 @@ base::Result<void> check(const TouchOptions& options) {
     const auto checked = check_range(range.option, range.value, range.least, range.most, range.unit);
     if (!checked) return checked;
   }
+  if (const auto checked = check_exact(options); !checked) return checked;
   if (options.dynamic_friction > options.static_friction) {
     return base::fail(
         fmt::format("--friction {},{}: the first, static coefficient must not be below the second, "

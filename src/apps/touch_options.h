@@ -5,16 +5,29 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/vector.h"
+#include "haptics/renderer.h"
 #include "haptics/surface_force.h"
 
 namespace icome::apps {
 
+/// --subdivide: files are control meshes of Loop surfaces.
+struct Subdivision {
+  bool thesis = false;  // rendered as thesis 5.4 does, to `level`; else the limit
+  int level = 0;
+};
+
 /// What a person asked `icome touch` for, as the command line says it. SI units.
 struct TouchOptions {
-  std::vector<std::string> models;  // files or primitives, at least one
-  std::string unit = "m";           // of the files: files::parse_unit
-  bool y_up = false;                // the files' y points up; else their axes are the world's
-  std::optional<double> fit;        // m, longest side of each model
+  std::vector<std::string> models;            // files or primitives; at least one, if there is no --implicit
+  std::optional<std::string> implicit;        // a formula
+  std::optional<base::Bounds> bounds;         // m, where it counts
+  std::optional<Subdivision> subdivision;     // none: meshes are what they are
+  std::optional<double> crease_degrees;       // edges that are sharper stay sharp
+  std::optional<haptics::Renderer> renderer;  // as it was named, if it was
+  std::string unit = "m";                     // of the files: files::parse_unit
+  bool y_up = false;                          // the files' y points up; else their axes are the world's
+  std::optional<double> fit;                  // m, longest side of each model
 
   std::string device = "simulated";           // or a profile's name
   double rate_hz = 1000.0;                    // Hz, 500 to 10,000
@@ -35,6 +48,15 @@ struct TouchOptions {
 };
 
 constexpr double kDefaultSeconds = 5.0;  // s, of exploring; a path is replayed to its end
+
+/// The renderer that the options add up to.
+haptics::Renderer renderer_of(const TouchOptions& options);
+
+/// Reads "limit" or "thesis:LEVEL".
+base::Result<Subdivision> parse_subdivision(const std::string& text);
+
+/// Reads a box from one length (a cube), three lengths (centred) or six coordinates (both corners), m.
+base::Result<base::Bounds> parse_bounds(const std::string& text);
 
 /// Says which option has a value that makes no sense, or which two contradict each other.
 base::Result<void> check(const TouchOptions& options);

@@ -29,6 +29,7 @@ constexpr auto kDiaryPeriod = std::chrono::milliseconds(10);
 haptics::ServoSettings servo_settings(const TouchOptions& options) {
   haptics::ServoSettings settings;
   settings.rate_hz = options.rate_hz;
+  settings.renderer = renderer_of(options);
   settings.scp.tip_radius = options.radius;
   settings.force_shading = options.smooth_shading;
   return settings;

@@ -1,0 +1,224 @@
+#include "apps/exact_models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "apps/interrupt.h"
+#include "apps/stopwatch.h"
+#include "files/csg_reader.h"
+#include "geometry/csg_mesh.h"
+#include "geometry/csg_solid.h"
+#include "geometry/implicit_surface.h"
+#include "geometry/loop_levels.h"
+#include "geometry/loop_surface.h"
+#include "geometry/mesh_topology.h"
+#include "haptics/mesh_shape.h"
+#include "haptics/smooth_shape.h"
+#include "haptics/thesis/thesis_shapes.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr double kCellsAcross = 160.0;              // of the meshes for pictures
+constexpr std::size_t kPictureTriangles = 400'000;  // what a subdivided surface may have for pictures
+constexpr int kFinestPicture = 5;                   // subdivisions
+
+std::string in_millimetres(double metres) { return fmt::format("{:.2g} mm", 1e3 * metres); }
+
+void take_mesh(TouchModel& model, geometry::TriangleMesh mesh) {
+  model.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+  model.tree = std::make_shared<const geometry::TriangleTree>(*model.mesh);
+}
+
+geometry::ContourOptions contour_options(const base::Bounds& bounds) {
+  geometry::ContourOptions options;
+  options.cell = bounds.sizes().maxCoeff() / kCellsAcross;
+  options.progress = [](double) { return !interrupted(); };
+  return options;
+}
+
+/// Makes the mesh what is felt: element by element only point tips know how to touch exact surfaces.
+void touch_mesh(TouchModel& model, const TouchOptions& options, const std::string& deviation) {
+  haptics::MeshShapeSettings settings;
+  settings.closed = model.closed;
+  settings.tip_radius = options.radius;
+  model.shape = std::make_shared<const haptics::MeshShape>(model.mesh, settings);
+  model.triangles = model.mesh->triangles.size();
+  model.membership = nullptr;
+  model.repairs.push_back(
+      fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, deviation));
+}
+
+base::Result<void> no_sphere_tip(const TouchOptions& options) {
+  if (options.radius <= 0.0) return {};
+  return base::fail("--renderer thesis touches with a point: leave --radius out.");
+}
+
+base::Affine3 placement(const base::Bounds& bounds, const TouchOptions& options) {
+  base::Affine3 world_from_file = base::Affine3::Identity();
+  if (options.fit) world_from_file.scale(*options.fit / bounds.sizes().maxCoeff());
+  // y up: a quarter turn about x.
+  if (options.y_up) world_from_file.rotate(Eigen::AngleAxisd(0.5 * std::numbers::pi, base::Vector3::UnitX()));
+  return world_from_file;
+}
+
+base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree tree, const TouchOptions& options) {
+  auto contoured = geometry::contour(tree, contour_options(geometry::bounds(tree)));
+  if (!contoured) return base::fail(model.name + ": " + contoured.error().message);
+  if (contoured->mesh.triangles.empty()) return base::fail(model.name + ": the solid is empty.");
+  take_mesh(model, std::move(contoured->mesh));
+  const Stopwatch watch;
+  model.membership = [tree](const base::Vector3& point, double) { return geometry::inside(tree, point); };
+  if (renderer_of(options) == haptics::Renderer::Thesis) {
+    if (const auto point = no_sphere_tip(options); !point) return point;
+    auto shape = haptics::ThesisCsgShape::create(tree);
+    if (!shape) return base::fail(model.name + ": " + shape.error().message);
+    model.shape = *shape;
+  } else if (options.radius > 0.0) {
+    touch_mesh(model, options, fmt::format(", within {}", in_millimetres(contoured->error)));
+  } else {
+    model.shape = std::make_shared<haptics::SmoothShape>(std::make_shared<const geometry::CsgSolid>(tree));
+  }
+  model.build_seconds = watch.seconds();
+  model.csg = std::move(tree);
+  return {};
+}
+
+/// The edges at which faces meet at more than `angle` rad.
+std::vector<std::array<std::uint32_t, 2>> sharp_edges(const geometry::TriangleMesh& mesh, double angle) {
+  const geometry::EdgeNeighbours neighbours = geometry::edge_neighbours(mesh);
+  const auto normal = [&](std::size_t t) {
+    return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).normalized();
+  };
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t other = neighbours[t][i];
+      if (other == geometry::kNoTriangle || other < t) continue;
+      if (normal(t).dot(normal(other)) < std::cos(angle))
+        edges.push_back({mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]});
+    }
+  }
+  return edges;
+}
+
+geometry::ControlMesh control_mesh(const geometry::TriangleMesh& mesh, const TouchOptions& options) {
+  geometry::ControlMesh control{mesh, {}, {}};
+  if (options.crease_degrees)
+    control.creases = sharp_edges(mesh, *options.crease_degrees * std::numbers::pi / 180.0);
+  return control;
+}
+
+int picture_level(std::size_t control_triangles) {
+  int level = 1;
+  while (level < kFinestPicture && (control_triangles << (2 * (level + 1))) <= kPictureTriangles) ++level;
+  return level;
+}
+
+}  // namespace
+
+bool names_csg(const std::string& text) {
+  const auto ends = [&](std::string_view ending) {
+    return text.size() >= ending.size() &&
+           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+  };
+  return ends(".csg") || ends(".csg.xz");
+}
+
+base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& options) {
+  auto loaded = files::read_csg(text);
+  if (!loaded) return tl::unexpected(loaded.error());
+  TouchModel model;
+  model.name = text;
+  model.kind = "CSG tree";
+  model.exact = true;
+  model.repairs = loaded->notes;
+  const geometry::CsgCount count = geometry::count(loaded->tree);
+  model.repairs.push_back(
+      fmt::format("{} primitives, {} nodes, {} deep", count.primitives, count.nodes, count.depth));
+  model.read_seconds = loaded->read_seconds;
+  const geometry::CsgTree::Index root = loaded->tree.root();
+  const base::Affine3 placed = placement(geometry::bounds(loaded->tree), options);
+  loaded->tree.set_transform(root, placed * loaded->tree.node(root).parent_from_node);
+  if (const auto made = finish_csg(model, std::move(loaded->tree), options); !made)
+    return tl::unexpected(made.error());
+  return model;
+}
+
+base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& options) {
+  if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
+  geometry::CsgTree tree;
+  tree.add_leaf(*primitive.primitive);
+  auto shape = haptics::ThesisCsgShape::create(tree);
+  if (!shape) return tl::unexpected(shape.error());
+  primitive.shape = *shape;
+  return primitive;
+}
+
+base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& options) {
+  const geometry::ControlMesh control = control_mesh(*model.mesh, options);
+  const Stopwatch watch;
+  auto surface = geometry::LoopSurface::create(control);
+  if (!surface) return base::fail(model.name + ": " + surface.error().message);
+  model.build_seconds = watch.seconds();
+  auto mesh = (*surface)->tessellate(picture_level(control.mesh.triangles.size()));
+  if (!mesh) return base::fail(model.name + ": " + mesh.error().message);
+  model.kind = "Loop surface of a " + model.kind;
+  model.exact = true;
+  model.repairs.push_back(
+      fmt::format("control mesh of {} triangles, {} sharp edges", model.triangles, control.creases.size()));
+  model.triangles = 0;
+  model.closed = (*surface)->closed();
+  take_mesh(model, std::move(*mesh));
+  if (options.subdivision->thesis) {
+    if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
+    auto levels = geometry::LoopLevels::create(control, {.finest = options.subdivision->level});
+    if (!levels) return base::fail(model.name + ": " + levels.error().message);
+    auto shape = haptics::ThesisLoopShape::create(*levels);
+    if (!shape) return base::fail(model.name + ": " + shape.error().message);
+    model.shape = *shape;
+    model.build_seconds = watch.seconds();
+  } else if (options.radius > 0.0) {
+    touch_mesh(model, options, "");
+  } else {
+    model.shape = std::make_shared<haptics::SmoothShape>(*surface);
+  }
+  return model;
+}
+
+base::Result<TouchModel> load_implicit(const TouchOptions& options) {
+  if (renderer_of(options) == haptics::Renderer::Thesis)
+    return base::fail("--implicit knows no renderer \"thesis\": leave --renderer out.");
+  if (!options.bounds) return base::fail("--implicit needs --bounds: the box in which the formula counts.");
+  const Stopwatch watch;
+  auto surface = geometry::ImplicitSurface::create(*options.implicit, *options.bounds);
+  if (!surface) return base::fail("--implicit: " + surface.error().message);
+  TouchModel model;
+  model.name = *options.implicit;
+  model.kind = (*surface)->changes() ? "implicit surface that changes with time" : "implicit surface";
+  model.exact = true;
+  model.build_seconds = watch.seconds();
+  auto contoured =
+      geometry::contour(geometry::sampled(**surface, 0.0), contour_options((*surface)->bounds()));
+  if (!contoured) return base::fail("--implicit: " + contoured.error().message);
+  if (contoured->mesh.triangles.empty())
+    return base::fail("--implicit: there is no solid in the box; it is where the formula is negative.");
+  take_mesh(model, std::move(contoured->mesh));
+  if (options.radius > 0.0) {
+    if ((*surface)->changes())
+      return base::fail("--radius: a surface that changes with time is touched with a point; leave it out.");
+    touch_mesh(model, options, fmt::format(", within {}", in_millimetres(contoured->error)));
+    return model;
+  }
+  model.shape = std::make_shared<haptics::SmoothShape>(*surface);
+  model.membership = [surface = *surface](const base::Vector3& point, double time) {
+    return surface->bounds().contains(point) && surface->value(point, time).value < 0.0;
+  };
+  return model;
+}
+
+}  // namespace icome::apps

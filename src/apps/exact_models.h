@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+#include "apps/touch_models.h"
+
+namespace icome::apps {
+
+// MODELs that are touched without meshing them. Each still gets a mesh, for the picture and for where the
+// simulated hand looks; and to feel with a sphere tip, where the model says so among its sentences.
+
+/// Does the MODEL name an OpenSCAD file?
+bool names_csg(const std::string& text);
+
+/// Reads a .csg file, always in its millimetres, turned and scaled as the options say.
+base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& options);
+
+/// A primitive as a CSG tree of one leaf, as the renderer of the thesis takes it.
+base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& options);
+
+/// Makes the limit of a control mesh, just read, of its file's mesh.
+base::Result<TouchModel> as_loop_surface(TouchModel control, const TouchOptions& options);
+
+/// The surface of --implicit.
+base::Result<TouchModel> load_implicit(const TouchOptions& options);
+
+}  // namespace icome::apps
