@@ -67,6 +67,8 @@ base::Affine3 placement(const base::Bounds& bounds, const TouchOptions& options)
 }
 
 base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree tree, const TouchOptions& options) {
+  if (geometry::bounds(tree).isEmpty())
+    return base::fail(model.name + ": the solid is empty: its parts do not meet.");
   auto contoured = geometry::contour(tree, contour_options(geometry::bounds(tree)));
   if (!contoured) return base::fail(model.name + ": " + contoured.error().message);
   if (contoured->mesh.triangles.empty()) return base::fail(model.name + ": the solid is empty.");

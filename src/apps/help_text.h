@@ -24,7 +24,8 @@ constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
 
 constexpr const char* kModelHelp =
-    "Files (OBJ, PLY, STL, OFF, GLB, also .xz) or primitives, sizes in metres: plane, box:0.1x0.2x0.3, "
+    "Files (meshes: OBJ, PLY, STL, OFF, GLB; solids: OpenSCAD's .csg; also .xz) or primitives, sizes in "
+    "metres: plane, box:0.1x0.2x0.3, "
     "sphere:R, "
     "cylinder:RxH, cone:RxH, cone:R1xR2xH, torus:RxR, capsule:RxH";
 
@@ -38,11 +39,19 @@ constexpr const char* kTouchExamples =
     "  icome touch bunny.obj --up y --fit 0.1 --seconds 5 --picture touch.png\n"
     "  icome touch box:0.1x0.1x0.1 --stiffness 800 --friction 0.4,0.3 --radius 0.002\n"
     "  icome touch part.stl --unit mm --path path.csv --check --json > report.json\n"
+    "  icome touch solid.csg --check --picture touch.png\n"
+    "  icome touch control.obj --subdivide limit --crease 40\n"
+    "  icome touch --implicit \"z - 0.005*sin(60*x + 3*t)*cos(60*y)\" --bounds 0.1,0.1,0.06\n"
     "  icome touch tooth.obj jaw.obj --fit 0.08 --device \"PHANToM Desktop\" --trace out.csv\n"
     "\n"
     "World: metres, z up. Models stand where their file or primitive puts them: they are scaled about the\n"
     "origin and turned, never moved. A primitive stands centred on the origin, its axis along z; the plane\n"
     "is z = 0, solid below. Several models are touched together.\n"
+    "\n"
+    "CSG trees, Loop and implicit surfaces are touched as what they are; no mesh is made of them but for\n"
+    "the picture. A .csg file is in millimetres whatever --unit says. A formula knows x, y, z, t, pi, e,\n"
+    "+ - * / ^ and sin, cos, tan, exp, log, sqrt, abs, min, max and others; the solid is where it is\n"
+    "negative. A tip with a --radius feels these surfaces as a fine mesh; the report says how fine.\n"
     "\n"
     "With --path there is no clock: one tick a row, as fast as the machine can, and the same input gives "
     "the\n"

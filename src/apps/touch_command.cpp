@@ -138,7 +138,13 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
     const std::string name =
         model.primitive ? model.name : std::filesystem::path(model.name).filename().string();
     picture.title += (picture.title.empty() ? "" : ", ") + name;
-    picture.bodies.push_back({*model.mesh});
+    if (model.csg) {
+      picture.solids.push_back({.tree = *model.csg, .name = name, .mesh = [&model] {
+                                  return base::Result<geometry::TriangleMesh>(*model.mesh);
+                                }});
+    } else {
+      picture.bodies.push_back({*model.mesh});
+    }
   }
   if (figures.triangles > 0) picture.notes.push_back(grouped(figures.triangles) + " triangles");
   picture.notes.push_back(fmt::format("tick {:.2g} us median, {:.2g} us worst in 1,000",

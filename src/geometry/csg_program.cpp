@@ -15,7 +15,7 @@ using Kind = CsgAtom::Kind;
 constexpr double kBoxMargin = 1e-9;    // boxes are this much larger than what they hold, relatively
 constexpr double kAlong = 1e-5;        // rad, between faces that count as flush
 constexpr std::size_t kGroup = 4;      // operands of a union below one box
-constexpr unsigned kMaxBranches = 64;  // ways kept in mind while something counts as either
+constexpr unsigned kMaxBranches = 64;  // places that may count as either
 
 struct Placed {
   double height;   // m, in the tree's frame
@@ -321,12 +321,13 @@ CsgProgram::Side CsgProgram::side(std::uint32_t atom, const SidesView& view) con
   return decided(view.from_behind == (near.normal.dot(view.normal) > 0.0));
 }
 
-/// Can the program end in `wanted`, where some sides count as either? Follows both ways then.
+/// Can the program end in `wanted`, where some sides count as either? Follows both ways then, each once.
 bool CsgProgram::possible(bool wanted, const SidesView& view) const {
+  std::array<std::uint32_t, kMaxBranches> forks;  // instructions at which both ways have been taken up
   std::array<std::uint32_t, kMaxBranches> open;
+  unsigned forked = 0;
   unsigned waiting = 0;
   open[waiting++] = start_;
-  unsigned branches = 0;
   while (waiting > 0) {
     std::uint32_t at = open[--waiting];
     while (at < kFalse) {
@@ -337,13 +338,15 @@ bool CsgProgram::possible(bool wanted, const SidesView& view) const {
       }
       const Side side = this->side(test.test, view);
       if (side == Side::Either) {
+        if (std::find(forks.begin(), forks.begin() + forked, at) != forks.begin() + forked) break;
         // Out of room for more ways: what is not disproved counts as possible, a wall rather than a hole.
-        if (waiting == kMaxBranches || ++branches > 16 * kMaxBranches) return true;
+        if (forked == kMaxBranches) return true;
+        forks[forked++] = at;
         open[waiting++] = test.on_false;
       }
       at = side == Side::Out ? test.on_false : test.on_true;
     }
-    if ((at == kTrue) == wanted) return true;
+    if ((wanted && at == kTrue) || (!wanted && at == kFalse)) return true;
   }
   return false;
 }
