@@ -23,7 +23,9 @@
 namespace icome::apps {
 namespace {
 
-constexpr double kCellsAcross = 160.0;              // of the meshes for pictures
+constexpr double kCellsAcross = 160.0;  // of the meshes for pictures, of a simple solid
+constexpr std::size_t kSimple = 40;     // primitives; each more makes every cell dearer
+constexpr double kFewestAcross = 40.0;
 constexpr std::size_t kPictureTriangles = 400'000;  // what a subdivided surface may have for pictures
 constexpr int kFinestPicture = 5;                   // subdivisions
 
@@ -34,9 +36,10 @@ void take_mesh(TouchModel& model, geometry::TriangleMesh mesh) {
   model.tree = std::make_shared<const geometry::TriangleTree>(*model.mesh);
 }
 
-geometry::ContourOptions contour_options(const base::Bounds& bounds) {
+geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t primitives = 1) {
   geometry::ContourOptions options;
-  options.cell = bounds.sizes().maxCoeff() / kCellsAcross;
+  const double crowd = double(std::max(primitives, kSimple)) / double(kSimple);
+  options.cell = bounds.sizes().maxCoeff() / std::max(kFewestAcross, kCellsAcross / std::sqrt(crowd));
   options.progress = [](double) { return !interrupted(); };
   return options;
 }
@@ -69,7 +72,8 @@ base::Affine3 placement(const base::Bounds& bounds, const TouchOptions& options)
 base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree tree, const TouchOptions& options) {
   if (geometry::bounds(tree).isEmpty())
     return base::fail(model.name + ": the solid is empty: its parts do not meet.");
-  auto contoured = geometry::contour(tree, contour_options(geometry::bounds(tree)));
+  auto contoured =
+      geometry::contour(tree, contour_options(geometry::bounds(tree), geometry::count(tree).primitives));
   if (!contoured) return base::fail(model.name + ": " + contoured.error().message);
   if (contoured->mesh.triangles.empty()) return base::fail(model.name + ": the solid is empty.");
   take_mesh(model, std::move(contoured->mesh));
@@ -169,7 +173,7 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
   model.build_seconds = watch.seconds();
   auto mesh = (*surface)->tessellate(picture_level(control.mesh.triangles.size()));
   if (!mesh) return base::fail(model.name + ": " + mesh.error().message);
-  model.kind = "Loop surface of a " + model.kind;
+  model.kind = "Loop surface, control mesh " + model.kind;
   model.exact = true;
   model.repairs.push_back(
       fmt::format("control mesh of {} triangles, {} sharp edges", model.triangles, control.creases.size()));

@@ -1,0 +1,115 @@
+"""icome touch on what is touched without a mesh: CSG trees, Loop surfaces, formulas."""
+import json
+import unittest
+
+from icome_program import ProgramTest, SHARED_MESHES
+
+SHARED_CSG = SHARED_MESHES.parent / "csg"
+PIERCED = """difference() {
+  intersection() { cube(size = [80, 80, 80], center = true); sphere(r = 50); }
+  cylinder(h = 200, r1 = 15, r2 = 15, center = true);
+}
+"""
+OCTAHEDRON = "".join(f"v {p}\n" for p in ("1 0 0", "-1 0 0", "0 1 0", "0 -1 0", "0 0 1", "0 0 -1")) + "".join(
+    f"f {f}\n" for f in ("1 3 5", "3 2 5", "2 4 5", "4 1 5", "3 1 6", "2 3 6", "4 2 6", "1 4 6"))
+WAVES = ("--implicit", "z - 0.005*sin(60*x + 3*t)*cos(60*y)", "--bounds", "0.1,0.1,0.06")
+
+
+class ExactTest(ProgramTest):
+    def touched(self, *arguments):
+        return json.loads(self.succeeds("touch", *arguments, "--seconds", "0.5", "--check", "--json").stdout)
+
+    def assert_sound(self, report):
+        self.assertGreater(report["touch_fraction"], 0.05)
+        self.assertEqual((report["pops"], report["sticks"]), (0, 0))
+
+    def press(self, *arguments):
+        """Presses straight down by 2 mm in the middle; the last row of the trace."""
+        path = self.write("down.csv", "t,x,y,z\n" + "".join(
+            f"{i / 1000},0.022,0,{0.08 - 0.0001 * min(i, 420)}\n" for i in range(500)))
+        return self.trace(*arguments, "--path", path)[-1]
+
+
+class CsgTest(ExactTest):
+    def test_a_solid_is_touched_without_a_mesh(self):
+        report = self.touched(self.write("pierced.csg", PIERCED))
+        self.assert_sound(report)
+        self.assertEqual(report["triangles"], 0)
+
+    def test_the_contact_lies_on_the_cut_face(self):
+        row = self.press(self.write("pierced.csg", PIERCED))
+        self.assertEqual(row["touching"], 1)
+        self.assertAlmostEqual(row["scp_z"], 0.04, delta=1e-9)  # the top of the cube, from the file's mm
+        self.assertAlmostEqual(row["scp_x"], 0.022, delta=1e-6)
+
+    def test_the_renderer_of_the_thesis_gives_the_same_face(self):
+        row = self.press(self.write("pierced.csg", PIERCED), "--renderer", "thesis")
+        self.assertAlmostEqual(row["scp_z"], 0.04, delta=1e-9)
+
+    def test_fit_scales_the_solid(self):
+        row = self.press(self.write("pierced.csg", PIERCED), "--fit", "0.08")
+        self.assertAlmostEqual(row["scp_z"], 0.04, delta=1e-9)
+
+    def test_a_tip_with_a_radius_says_what_it_feels(self):
+        file = self.write("pierced.csg", PIERCED)
+        said = self.succeeds("touch", file, "--radius", "0.002", "--seconds", "0.1").stdout
+        self.assertIn("feels it as a mesh of", said)
+
+    def test_an_empty_solid_is_refused(self):
+        file = self.write("apart.csg", "intersection() { cube(1); multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],"
+                                       "[0,0,0,1]]) { cube(1); } }")
+        self.fails("touch", file, code=1, saying="the solid is empty")
+
+    def test_shared_files_are_touched(self):
+        if not SHARED_CSG.is_dir():
+            self.skipTest(f"the shared .csg files are not at {SHARED_CSG}")
+        for name in ("example001", "example003", "difference_cube", "CSG-modules", "polyhedron-concave-test"):
+            with self.subTest(name):
+                self.assert_sound(self.touched(SHARED_CSG / "pure" / f"{name}.csg"))
+
+
+class LoopTest(ExactTest):
+    def test_the_limit_of_a_control_mesh_is_touched(self):
+        self.assert_sound(self.touched(self.write("o.obj", OCTAHEDRON), "--fit", "0.1", "--subdivide", "limit"))
+
+    def test_creases_keep_the_edges(self):
+        control = self.write("o.obj", OCTAHEDRON)
+        smooth = self.succeeds("touch", control, "--subdivide", "limit", "--seconds", "0.1").stdout
+        sharp = self.succeeds("touch", control, "--subdivide", "limit", "--crease", "60", "--seconds", "0.1").stdout
+        self.assertIn("0 sharp edges", smooth)
+        self.assertIn("12 sharp edges", sharp)
+
+    def test_the_thesis_renders_levels(self):
+        report = self.touched(self.write("o.obj", OCTAHEDRON), "--fit", "0.1", "--subdivide", "thesis:3")
+        self.assertGreater(report["touch_fraction"], 0.05)
+
+
+class ImplicitTest(ExactTest):
+    def test_waves_are_touched_while_they_move(self):
+        self.assert_sound(self.touched(*WAVES))
+
+    def test_time_moves_the_surface_under_a_still_tip(self):
+        path = self.write("still.csv", "t,x,y,z\n" + "".join(f"{i / 1000},0,0,-0.001\n" for i in range(1500)))
+        heights = [row["scp_z"] for row in self.trace(*WAVES, "--path", path)]
+        self.assertGreater(max(heights) - min(heights), 0.003)
+
+    def test_bad_formulas_name_the_column(self):
+        self.fails("touch", "--implicit", "x + * y", "--bounds", "0.1", code=1, saying="column")
+
+
+class UsageTest(ExactTest):
+    def test_options_that_do_not_go_together(self):
+        file = self.write("o.obj", OCTAHEDRON)
+        for arguments, code, word in ((("--implicit", "x"), 1, "--bounds"), ((file, "--bounds", "1"), 2, "--implicit"),
+                                ((file, "--renderer", "thesis"), 1, "--subdivide"),
+                                ((file, "--crease", "30"), 2, "--subdivide"),
+                                ((file, "--subdivide", "thesis:3", "--renderer", "exact"), 2, "--renderer"),
+                                ((file, "--subdivide", "fine"), 2, "limit"), ((), 2, "MODEL"),
+                                (("--implicit", "x", "--bounds", "1,2"), 2, "--bounds"),
+                                ((file, "--renderer", "voxels"), 2, "thesis")):
+            with self.subTest(arguments):
+                self.fails("touch", *arguments, code=code, saying=word)
+
+
+if __name__ == "__main__":
+    unittest.main()
