@@ -13,6 +13,7 @@ constexpr double kSimilar = 1e-12;      // how far a transform may be from keepi
 constexpr double kMaxTurn = 0.3;        // rad, of one walk
 constexpr int kMaxWalk = 24;            // steps
 constexpr double kArrived = 1e-15;      // a step this small, relative to the place's coordinates, is none
+constexpr double kApex = 1e-7;          // of the way to the goal: so near a cone's apex is at it
 constexpr double kCustomStride = 0.02;  // of a custom primitive's size
 
 /// The part of a vector across z.
@@ -34,6 +35,14 @@ Vector3 core(const CsgAtom& torus, const Vector3& point) {
   return torus.a * direction(out, out.norm());
 }
 
+/// Is the apex of a cone nearer to `point` than its side is? Only for points beyond the apex.
+bool beyond_apex(const CsgAtom& cone, const Vector3& point) {
+  const double radius = across(point).norm();
+  return radius * cone.b * cone.b < -(cone.a + cone.b * point.z());
+}
+
+Vector3 apex(const CsgAtom& cone) { return {0.0, 0.0, -cone.a / cone.b}; }
+
 Vector3 gradient(const CsgAtom& atom, const Vector3& point) {
   switch (atom.kind) {
     case Kind::Plane:
@@ -43,6 +52,7 @@ Vector3 gradient(const CsgAtom& atom, const Vector3& point) {
     case Kind::Cylinder:
       return direction(across(point), across(point).norm());
     case Kind::ConeSide: {
+      if (beyond_apex(atom, point)) return (point - apex(atom)).normalized();
       const Vector3 out = direction(across(point), across(point).norm());
       return (out - atom.b * Vector3::UnitZ()) / std::hypot(1.0, atom.b);
     }
@@ -297,6 +307,7 @@ double signed_distance(const CsgAtom& atom, const Vector3& point) {
     case Kind::Cylinder:
       return across(point).norm() - atom.a;
     case Kind::ConeSide:
+      if (beyond_apex(atom, point)) return (point - apex(atom)).norm();
       return (across(point).norm() - atom.a - atom.b * point.z()) / std::hypot(1.0, atom.b);
     case Kind::Torus:
       return (point - core(atom, point)).norm() - atom.b;
@@ -350,6 +361,13 @@ RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& st
 SurfacePoint walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal) {
   const SurfacePoint start = retract(atom, from);
   SurfacePoint at = start;
+  if (atom.kind == Kind::ConeSide) {
+    // To and from its apex a cone is straight, however much the normals turn.
+    const double height = std::abs(from.z() - apex(atom).z());
+    const bool at_apex = across(from).norm() <= kApex * (goal - apex(atom)).norm() &&
+                         height <= kApex * (goal - apex(atom)).norm();
+    if (at_apex || beyond_apex(atom, goal)) return retract(atom, goal);
+  }
   if (atom.similar && atom.kind != Kind::Custom) {
     at = retract(atom, goal);
     // All round the top of a torus normals are alike.
