@@ -42,17 +42,25 @@ void LoopCrossings::find(std::uint32_t piece) {
   work_ = 0;
   LoopCell cell;
   if (patches_.regular(piece)) {
-    patches_.load(piece, cell);
-    search(piece, cell);
+    BoxSplineControl control;
+    patches_.load(piece, control, cell.origin);
+    for (Vector4& point : control) point = seen(point, cell.origin);
+    cell.scale = 1.0;
+    search(piece, control, cell);
     return;
   }
   LoopFanPoints fan;
   patches_.load(piece, fan);
+  cell.origin = fan.apex;
   for (int level = 0; level < fan.levels; ++level) {
     if (misses_rest(fan, level)) return;
+    auto fine = LoopPatches::fine_points(fan, level);
+    for (Vector4& point : fine) point = seen(point, fan.apex);
     for (int part = 0; part < 3; ++part) {
-      LoopPatches::load(fan, level, part, cell);
-      search(piece, cell);
+      BoxSplineControl control;
+      for (int i = 0; i < kBoxSplinePoints; ++i) control[i] = fine[kFanParts[part][i]];
+      LoopPatches::place_part(level, part, cell);
+      search(piece, control, cell);
     }
   }
   const Vector3 away = fan.apex - ray_.start;
@@ -78,6 +86,17 @@ bool LoopCrossings::misses_rest(const LoopFanPoints& fan, int level) const {
   return !fan.normal.isZero(0.0) && (std::min(one, other) > lift || std::max(one, other) < -lift);
 }
 
+/// A point of a cell in the ray's frame.
+Vector4 LoopCrossings::seen(const Vector4& point, const Vector3& origin) const {
+  const Vector3 from_start = vector3(point) + (origin - ray_.start);
+  return {ray_.across.dot(from_start), ray_.beside.dot(from_start), ray_.along.dot(from_start), 0.0};
+}
+
+bool LoopCrossings::out_of_sight(const Vector4& low, const Vector4& high) const {
+  return low[0] > margin_ || high[0] < -margin_ || low[1] > margin_ || high[1] < -margin_ ||
+         low[2] > limit_ + margin_ || high[2] < -margin_;
+}
+
 // What a grazing ray sees of a part is a sliver: its thin direction tells more than both axes.
 LoopCrossings::View LoopCrossings::view_of(const QuarticTriangle& shape) const {
   Vector4 low = shape.points[0], high = low;
@@ -87,8 +106,7 @@ LoopCrossings::View LoopCrossings::view_of(const QuarticTriangle& shape) const {
   }
   View view;
   view.extent = (high - low).maxCoeff();
-  view.misses = low[0] > margin_ || high[0] < -margin_ || low[1] > margin_ || high[1] < -margin_ ||
-                low[2] > limit_ + margin_ || high[2] < -margin_;
+  view.misses = out_of_sight(low, high);
   if (view.misses) return view;
   const Vector4 &p = shape.points[0], &q = shape.points[4], &r = shape.points[14];
   Vector2 wide = (q - p).head<2>();
@@ -109,15 +127,16 @@ LoopCrossings::View LoopCrossings::view_of(const QuarticTriangle& shape) const {
   return view;
 }
 
-void LoopCrossings::search(std::uint32_t piece, const LoopCell& cell) {
+void LoopCrossings::search(std::uint32_t piece, const BoxSplineControl& control, const LoopCell& cell) {
+  Vector4 low = control[0], high = low;
+  for (const Vector4& point : control) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  if (out_of_sight(low, high)) return;
   std::array<Node, kMostDepth + 2> stack;
   Node& root = stack[0];
-  const Vector3 shift = cell.origin - ray_.start;
-  Matrix3 to_ray;
-  to_ray << ray_.across.transpose(), ray_.beside.transpose(), ray_.along.transpose();
-  for (int i = 0; i < QuarticTriangle::kPoints; ++i) {
-    root.shape.points[i] = vector4(to_ray * (vector3(cell.shape.points[i]) + shift));
-  }
+  root.shape = box_spline_triangle(control);
   root.corners = {Vector2(0.0, 0.0), Vector2(1.0, 0.0), Vector2(0.0, 1.0)};
   root.depth = 0;
   int count = 1;

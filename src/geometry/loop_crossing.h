@@ -46,7 +46,9 @@ class LoopCrossings {
     double thickness = 0.0;  // m, across the ray, where it is least
   };
 
-  void search(std::uint32_t piece, const LoopCell& cell);
+  Vector4 seen(const Vector4& point, const Vector3& origin) const;
+  bool out_of_sight(const Vector4& low, const Vector4& high) const;
+  void search(std::uint32_t piece, const BoxSplineControl& control, const LoopCell& cell);
   View view_of(const QuarticTriangle& shape) const;
   Verdict newton(std::uint32_t piece, const LoopCell& cell, const Node& node, double extent);
   void graze(std::uint32_t piece, const LoopCell& cell, const Node& node);

@@ -6,12 +6,13 @@
 namespace icome::geometry {
 namespace {
 
-constexpr int kMostSteps = 60;
-constexpr int kMostHalvings = 20;
+constexpr int kFootSteps = 60;
+constexpr int kFootHalvings = 20;
+constexpr double kFarFromApex = 1e-3;  // share of the way that is left
 constexpr int kMostNoisySteps = 12;
-constexpr double kDone = 1e-13;         // of the surface's size: what is left of the way along the surface
+constexpr double kFootDone = 1e-13;     // of the surface's size: what is left of the way along the surface
 constexpr double kLeastBending = 1e-3;  // Newton's matrix is kept this much of the surface's metric
-constexpr double kRounding = 4e-16;
+constexpr double kFootRounding = 4e-16;
 
 /// The squared distance's model at a place, over the cell's s and t.
 struct Model {
@@ -136,7 +137,7 @@ class ApexSearch {
     // The caller's cursor stands at the vertex.
     apex_ = cursor_.fan().apex;
     const Vector3 rest = goal_ - apex_;
-    const double done = kDone * patches_.size();
+    const double done = kFootDone * patches_.size();
     const Vector3 normal = cursor_.fan().normal;
     const FanRule rule = patches_.rule(spot.piece);
     const bool flat = (rule == FanRule::Smooth || rule == FanRule::Dart) && !normal.isZero(0.0);
@@ -216,7 +217,7 @@ bool foot_is_apex(const LoopPatches& patches, const LoopCursor& cursor, const Lo
   }
   const Vector3 rest = goal - cursor.fan().apex;
   const Vector3& normal = cursor.fan().normal;
-  return !normal.isZero(0.0) && (rest - normal * normal.dot(rest)).norm() <= kDone * patches.size();
+  return !normal.isZero(0.0) && (rest - normal * normal.dot(rest)).norm() <= kFootDone * patches.size();
 }
 
 /// One descent: where it stands and what it knows there.
@@ -226,7 +227,7 @@ class Descent {
       : patches_(patches), cursor_(cursor), goal_(goal), spot_(clamped(from)) {}
 
   LoopSpot run() {
-    for (int steps = 0; steps < kMostSteps && advance(); ++steps) continue;
+    for (int steps = 0; steps < kFootSteps && advance(); ++steps) continue;
     return spot_;
   }
 
@@ -251,10 +252,16 @@ class Descent {
       return true;
     }
     const Step step = next_step(patches_, spot_, here_);
-    if (!(step.left > kDone * patches_.size())) return false;
+    if (!(step.left > kFootDone * patches_.size())) return false;
     if (step.edge < 0 && step.du == 0.0 && step.dv == 0.0) return false;
+    if (!patches_.regular(spot_.piece) && cursor_.reach() < kFarFromApex * step.left) {
+      // Steps are no longer than the cells here: too short to lead away.
+      spot_.u = spot_.v = 0.0;
+      known_ = false;
+      return true;
+    }
     double share = 1.0;
-    for (int halvings = 0; halvings < kMostHalvings; ++halvings, share *= 0.5) {
+    for (int halvings = 0; halvings < kFootHalvings; ++halvings, share *= 0.5) {
       switch (try_step(step, share)) {
         case Outcome::Better:
           return true;
@@ -290,7 +297,8 @@ class Descent {
     // Where squares no longer tell better from worse, the rest of the way must shrink. A step that only led
     // to another piece's view of the same place is taken, too.
     const double distance = std::sqrt(2.0 * here_.half_square);
-    const double rounding = kRounding * distance * (distance + goal_.cwiseAbs().maxCoeff() + patches_.size());
+    const double rounding =
+        kFootRounding * distance * (distance + goal_.cwiseAbs().maxCoeff() + patches_.size());
     const bool noise =
         share * step.decrease < 8.0 * rounding || std::abs(next.half_square - here_.half_square) <= rounding;
     if (noise) {

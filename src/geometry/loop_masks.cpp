@@ -9,8 +9,6 @@
 namespace icome::geometry {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Loop 1987 and Hoppe et al. 1994: the vertex and its neighbours keep this sum from step to step.
 std::vector<double> smooth_limit(std::uint32_t spokes) {
   const double share = 1.0 / (spokes + 3.0 / (8.0 * loop_rules::beta(spokes)));
@@ -22,8 +20,8 @@ std::vector<double> smooth_limit(std::uint32_t spokes) {
 void set_smooth_tangents(std::uint32_t spokes, FanMasks& masks) {
   for (auto& tangent : masks.tangents) tangent.assign(spokes + 1, 0.0);
   for (std::uint32_t i = 0; i < spokes; ++i) {
-    masks.tangents[0][1 + i] = std::cos(2.0 * kPi * i / spokes);
-    masks.tangents[1][1 + i] = std::sin(2.0 * kPi * i / spokes);
+    masks.tangents[0][1 + i] = std::cos(2.0 * std::numbers::pi * i / spokes);
+    masks.tangents[1][1 + i] = std::sin(2.0 * std::numbers::pi * i / spokes);
   }
 }
 
@@ -39,7 +37,7 @@ void set_crease_tangents(std::uint32_t faces, FanMasks& masks) {
     across = {-2.0, 1.0, 1.0};
     return;
   }
-  const double angle = kPi / faces;
+  const double angle = std::numbers::pi / faces;
   const double value = 0.375 + 0.25 * std::cos(angle);
   for (std::uint32_t i = 1; i < faces; ++i) across[1 + i] = std::sin(i * angle);
   // Columns of the ends and of the vertex: (1/2 - value) e + v / 8 = -sin / 8 and
@@ -101,7 +99,7 @@ void set_dart_masks(const FanType& type, FanMasks& masks) {
   const std::uint32_t spokes = type.spokes();
   masks.tangents[1].assign(spokes + 1, 0.0);
   for (std::uint32_t i = 0; i < spokes; ++i) {
-    masks.tangents[1][1 + (type.crease + i) % spokes] = std::sin(2.0 * kPi * i / spokes);
+    masks.tangents[1][1 + (type.crease + i) % spokes] = std::sin(2.0 * std::numbers::pi * i / spokes);
   }
 }
 
@@ -156,8 +154,8 @@ Vector3 fan_normal(const FanType& type, const FanMasks& masks, std::span<const V
     }
     normal = tangents[0].cross(tangents[1]);
     if (normal.norm() < 1e-12 * tangents[0].norm() * tangents[1].norm()) normal.setZero();
-    // At a corner the sharp edges may include more than pi.
-    if (type.rule == FanRule::Corner && normal.dot(flat) < 0.0) normal = -normal;
+    // The sharp edges of three faces or more may include more than pi.
+    if (type.rule == FanRule::Corner && type.faces > 2 && normal.dot(flat) < 0.0) normal = -normal;
   }
   if (normal.isZero(0.0)) normal = flat;
   const double length = normal.norm();

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostDirections = 24;
 // Crossings nearer than this to a piece's edge, in its parameters, may be counted twice or not at all.
 constexpr double kNearEdge = 1e-9;
-constexpr std::size_t kMostCrossings = 256;  // kept of one ray at once
+constexpr std::size_t kMostCrossingsKept = 256;  // kept of one ray at once
 
 /// Counts what a ray that leaves everything behind goes through.
 class Winding {
@@ -51,7 +51,7 @@ class Winding {
     for (std::size_t i = 0; i < found; ++i) {
       if (std::abs(spots_[i].u - spot.u) + std::abs(spots_[i].v - spot.v) < kNearEdge) return;
     }
-    if (found == kMostCrossings) {
+    if (found == kMostCrossingsKept) {
       sure_ = false;
       return;
     }
@@ -61,7 +61,7 @@ class Winding {
 
   const LoopPatches& patches_;
   const Vector3 point_, step_;
-  std::array<LoopSpot, kMostCrossings> spots_;
+  std::array<LoopSpot, kMostCrossingsKept> spots_;
   bool sure_ = true;
   int winding_ = 0;
 };

@@ -12,12 +12,16 @@ constexpr std::array<std::array<double, 2>, 3> kPartStart = {{{-1.0, 0.0}, {1.0,
 
 }  // namespace
 
-void LoopPatches::load(std::uint32_t piece, LoopCell& cell) const {
+void LoopPatches::load(std::uint32_t piece, BoxSplineControl& control, Vector3& origin) const {
   const std::uint32_t* stencil = stencil_.data() + pieces_[piece].first;
-  BoxSplineControl control;
-  cell.origin = points_[stencil[0]];
+  origin = points_[stencil[0]];
   control[0].setZero();
-  for (int i = 1; i < kBoxSplinePoints; ++i) control[i] = vector4(points_[stencil[i]] - cell.origin);
+  for (int i = 1; i < kBoxSplinePoints; ++i) control[i] = vector4(points_[stencil[i]] - origin);
+}
+
+void LoopPatches::load(std::uint32_t piece, LoopCell& cell) const {
+  BoxSplineControl control;
+  load(piece, control, cell.origin);
   cell.shape = box_spline_triangle(control);
   cell.scale = 1.0;
   cell.s0 = cell.t0 = 0.0;
@@ -69,24 +73,41 @@ void LoopPatches::load(std::uint32_t piece, LoopFanPoints& fan) const {
   fan.high = fan.normal.isZero(0.0) ? fan.far : high;
 }
 
+namespace {
+
+Vector4 fine_point(const LoopFanPoints& fan, int level, int which) {
+  const auto weights = fan.table->row(level, which);
+  Vector4 sum = Vector4::Zero();
+  for (std::size_t j = 1; j < weights.size(); ++j) sum += weights[j] * fan.points[j];
+  return sum;
+}
+
+}  // namespace
+
+std::array<Vector4, kFinePoints> LoopPatches::fine_points(const LoopFanPoints& fan, int level) {
+  if (fan.rings) return fan.rings->fine(level, fan.face);
+  std::array<Vector4, kFinePoints> fine;
+  for (int i = 0; i < kFinePoints; ++i) fine[i] = fine_point(fan, level, i);
+  return fine;
+}
+
+void LoopPatches::place_part(int level, int part, LoopCell& cell) {
+  cell.scale = std::ldexp(kPartSign[part], level + 1);
+  cell.s0 = kPartStart[part][0];
+  cell.t0 = kPartStart[part][1];
+}
+
 void LoopPatches::load(const LoopFanPoints& fan, int level, int part, LoopCell& cell) {
   BoxSplineControl control;
   if (fan.rings) {
     const auto fine = fan.rings->fine(level, fan.face);
     for (int i = 0; i < kBoxSplinePoints; ++i) control[i] = fine[kFanParts[part][i]];
   } else {
-    for (int i = 0; i < kBoxSplinePoints; ++i) {
-      const auto weights = fan.table->row(level, kFanParts[part][i]);
-      Vector4 sum = Vector4::Zero();
-      for (std::size_t j = 1; j < weights.size(); ++j) sum += weights[j] * fan.points[j];
-      control[i] = sum;
-    }
+    for (int i = 0; i < kBoxSplinePoints; ++i) control[i] = fine_point(fan, level, kFanParts[part][i]);
   }
   cell.shape = box_spline_triangle(control);
   cell.origin = fan.apex;
-  cell.scale = std::ldexp(kPartSign[part], level + 1);
-  cell.s0 = kPartStart[part][0];
-  cell.t0 = kPartStart[part][1];
+  place_part(level, part, cell);
 }
 
 std::uint32_t LoopPatches::across(std::uint32_t piece, int edge) const {

@@ -68,10 +68,16 @@ class LoopPatches {
   }
   /// Real-time safe, for regular pieces.
   void load(std::uint32_t piece, LoopCell& cell) const;
+  /// The control points alone, less `origin`.
+  void load(std::uint32_t piece, BoxSplineControl& control, Vector3& origin) const;
   /// Real-time safe, for irregular pieces.
   void load(std::uint32_t piece, LoopFanPoints& fan) const;
   /// Real-time safe. `level` < fan.levels, `part` as kFanParts.
   static void load(const LoopFanPoints& fan, int level, int part, LoopCell& cell);
+  /// The control points of all three parts, less the apex. Real-time safe.
+  static std::array<Vector4, kFinePoints> fine_points(const LoopFanPoints& fan, int level);
+  /// Sets all but the shape and the origin. Real-time safe.
+  static void place_part(int level, int part, LoopCell& cell);
 
   /// The piece and edge over an edge as 4 * piece + edge, kNone where the surface ends or bends sharply.
   /// Real-time safe.
@@ -136,6 +142,8 @@ class LoopCursor {
   double t() const { return t_; }
   /// Only for irregular pieces.
   const LoopFanPoints& fan() const { return fan_; }
+  /// How far from its extraordinary vertex an irregular piece's place may be, m.
+  double reach() const { return fan_.reach(level_); }
 
  private:
   const LoopPatches& patches_;

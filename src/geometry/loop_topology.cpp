@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <tuple>
 
 namespace icome::geometry {
 namespace {
 
-constexpr std::uint32_t kNone = LoopTopology::kNone;
+constexpr std::uint32_t kNoSide = LoopTopology::kNone;
 constexpr std::uint32_t kTooMany = 1u << 29;  // triangles: four pieces each are numbered with 32 bits
 
 std::uint32_t next_corner(std::uint32_t i) { return i == 2 ? 0 : i + 1; }
@@ -72,11 +74,55 @@ base::Result<void> check_control(const ControlMesh& control) {
   return {};
 }
 
+/// Turns the triangle so that it is (a, b, other), if it has that side.
+std::optional<std::uint32_t> third_after(const TriangleMesh::Triangle& t, std::uint32_t a, std::uint32_t b) {
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    if (t[i] == a && t[next_corner(i)] == b) return t[last_corner(i)];
+  }
+  return {};
+}
+
+/// Two polygons that share two sides (a, m) and (m, b), both cut along the line from a to b, leave two
+/// triangles a, b, m back to back. Cuts both polygons the other way, from m.
+void recut_pillow(TriangleMesh& mesh, std::span<const SideOfEdge> sides) {
+  const std::uint32_t a = sides[0].low, b = sides[0].high;
+  std::array<std::array<std::uint32_t, 2>, 2> triangles{}, thirds{};  // [along a to b, along b to a][which]
+  std::array<std::size_t, 2> count{};
+  for (const SideOfEdge& side : sides) {
+    const auto& t = mesh.triangles[side.side / 3];
+    const bool back = t[side.side % 3] != a;
+    if (count[back] == 2) return;
+    thirds[back][count[back]] = *third_after(t, back ? b : a, back ? a : b);
+    triangles[back][count[back]++] = side.side / 3;
+  }
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      const std::uint32_t m = thirds[0][i], z = thirds[0][1 - i], y = thirds[1][1 - j];
+      if (thirds[1][j] != m || y == m || z == m) continue;
+      mesh.triangles[triangles[0][i]] = {y, b, m};
+      mesh.triangles[triangles[1][1 - j]] = {y, m, a};
+      mesh.triangles[triangles[1][j]] = {m, b, z};
+      mesh.triangles[triangles[0][1 - i]] = {m, z, a};
+      return;
+    }
+  }
+}
+
+void recut_pillows(TriangleMesh& mesh) {
+  const std::vector<SideOfEdge> sides = sorted_sides(mesh);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) {
+      ++end;
+    }
+    if (end - begin == 4) recut_pillow(mesh, std::span(sides).subspan(begin, 4));
+  }
+}
+
 /// Joins the sides of each edge. Sides that run the same way stay apart, and their vertices are noted.
 base::Result<void> join_sides(LoopTopology& topology, std::vector<bool>& keep) {
   const TriangleMesh& mesh = topology.mesh;
   const std::vector<SideOfEdge> sides = sorted_sides(mesh);
-  topology.across.assign(mesh.triangles.size(), {kNone, kNone, kNone});
+  topology.across.assign(mesh.triangles.size(), {kNoSide, kNoSide, kNoSide});
   topology.closed = true;
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     const SideOfEdge& first = sides[begin];
@@ -107,7 +153,7 @@ base::Result<void> join_sides(LoopTopology& topology, std::vector<bool>& keep) {
 base::Result<void> cut_creases(LoopTopology& topology, const ControlMesh& control) {
   topology.smooth = topology.across;
   if (control.creases.empty()) return {};
-  const std::vector<SideOfEdge> sides = sorted_sides(control.mesh);
+  const std::vector<SideOfEdge> sides = sorted_sides(topology.mesh);
   for (const auto& crease : control.creases) {
     const SideOfEdge wanted{std::min(crease[0], crease[1]), std::max(crease[0], crease[1]), 0};
     const auto before = [](const SideOfEdge& a, const SideOfEdge& b) {
@@ -118,7 +164,7 @@ base::Result<void> cut_creases(LoopTopology& topology, const ControlMesh& contro
       return base::fail(fmt::format("the crease from vertex {} to {} is not an edge of the control mesh",
                                     crease[0], crease[1]));
     }
-    for (auto side = begin; side != end; ++side) topology.smooth[side->side / 3][side->side % 3] = kNone;
+    for (auto side = begin; side != end; ++side) topology.smooth[side->side / 3][side->side % 3] = kNoSide;
   }
   return {};
 }
@@ -127,22 +173,22 @@ std::uint32_t turn(const LoopTopology::Sides& sides, std::uint32_t face, bool co
   const std::uint32_t triangle = face / 3, corner = face % 3;
   if (counter_clockwise) return sides[triangle][last_corner(corner)];
   const std::uint32_t side = sides[triangle][corner];
-  return side == kNone ? kNone : side / 3 * 3 + next_corner(side % 3);
+  return side == kNoSide ? kNoSide : side / 3 * 3 + next_corner(side % 3);
 }
 
 /// The faces round a corner, from the clockwise end of an open fan or from the face itself.
 std::vector<std::uint32_t> faces_around(const LoopTopology::Sides& sides, std::uint32_t face) {
   std::uint32_t first = face;
-  for (std::uint32_t next = turn(sides, first, false); next != kNone && next != face;) {
+  for (std::uint32_t next = turn(sides, first, false); next != kNoSide && next != face;) {
     first = next;
     next = turn(sides, first, false);
   }
-  if (turn(sides, first, false) != kNone) first = face;
+  if (turn(sides, first, false) != kNoSide) first = face;
   std::vector<std::uint32_t> faces;
   for (std::uint32_t at = first;;) {
     faces.push_back(at);
     at = turn(sides, at, true);
-    if (at == kNone || at == first) return faces;
+    if (at == kNoSide || at == first) return faces;
   }
 }
 
@@ -173,11 +219,11 @@ std::vector<std::uint32_t> split_fans(LoopTopology& topology, std::vector<bool>&
 base::Result<FanRule> rule_of(const LoopTopology& topology, std::uint32_t face, bool keep,
                               std::uint32_t original) {
   const auto faces = faces_around(topology.across, face);
-  const bool open = turn(topology.across, faces.front(), false) == kNone;
+  const bool open = turn(topology.across, faces.front(), false) == kNoSide;
   std::size_t sharp = open ? 2 : 0;
   for (const std::uint32_t at : faces) {
     const std::uint32_t t = at / 3, i = at % 3;
-    if (topology.across[t][i] != kNone && topology.smooth[t][i] == kNone) ++sharp;
+    if (topology.across[t][i] != kNoSide && topology.smooth[t][i] == kNoSide) ++sharp;
   }
   if (!open && faces.size() < 3) {
     return base::fail(
@@ -206,7 +252,7 @@ base::Result<void> set_rules(LoopTopology& topology, const std::vector<bool>& ke
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::uint32_t other = topology.across[t][i];
-      if (other == kNone || topology.smooth[t][i] != kNone || other < 3 * t + i) continue;
+      if (other == kNoSide || topology.smooth[t][i] != kNoSide || other < 3 * t + i) continue;
       topology.creases.push_back({triangles[t][i], triangles[t][next_corner(i)]});
     }
   }
@@ -219,6 +265,7 @@ base::Result<LoopTopology> loop_topology(const ControlMesh& control) {
   LoopTopology topology;
   if (const auto fine = check_control(control); !fine) return tl::unexpected(fine.error());
   topology.mesh = control.mesh;
+  recut_pillows(topology.mesh);
   std::vector<bool> keep(control.mesh.positions.size(), false);
   for (const std::uint32_t corner : control.corners) keep[corner] = true;
   if (const auto fine = join_sides(topology, keep); !fine) return tl::unexpected(fine.error());
@@ -241,7 +288,7 @@ LoopFan fan_at(const LoopTopology& topology, std::uint32_t triangle, std::uint32
   if (fan.type.rule == FanRule::Dart) {
     for (std::uint32_t i = 0; i < fan.type.faces; ++i) {
       const std::uint32_t at = fan.faces[i];
-      if (topology.smooth[at / 3][at % 3] == kNone) fan.type.crease = i;
+      if (topology.smooth[at / 3][at % 3] == kNoSide) fan.type.crease = i;
     }
   }
   return fan;

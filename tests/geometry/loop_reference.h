@@ -281,10 +281,11 @@ inline TriangleMesh wild_ball(int subdivisions, int flips, double jolt, std::uin
         if (other[k] != b || other[(k + 1) % 3] != a) continue;
         const Index d = other[(k + 2) % 3];
         if (d == c || edges.contains(edge(c, d)) || valence[a] < 4 || valence[b] < 4) continue;
-        const auto faces_out = [&](Index x, Index y, Index z) {  // so that nothing folds over
-          return mesh.points[x].dot(mesh.points[y].cross(mesh.points[z])) > 0.02;
+        const auto volume = [&](Index x, Index y, Index z) {
+          return mesh.points[x].dot(mesh.points[y].cross(mesh.points[z]));
         };
-        if (!faces_out(a, d, c) || !faces_out(d, b, c)) continue;
+        const double least = 0.3 * volume(a, b, c);  // so that nothing folds over
+        if (volume(a, d, c) < least || volume(d, b, c) < least) continue;
         edges.erase(edge(a, b));
         edges.insert(edge(c, d));
         --valence[a], --valence[b], ++valence[c], ++valence[d];
