@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/random.h"
+#include "damage.h"
 #include "files/csg_reader.h"
 #include "files/file_bytes.h"
 
@@ -27,36 +28,6 @@ constexpr const char* kEverything =
 constexpr std::array<std::string_view, 22> kNastyCsgWords{
     "[",  "]",    "{",     "}",        "(",    ")",       ";",  ",",     "\"",       "/*",      "*/",
     "//", "1e99", "-1e-9", "99999999", "hull", "group()", "\\", "undef", "cube(1);", "$fn = 3", "[[[["};
-
-void damage_csg_once(std::string& bytes, base::Random& random) {
-  if (bytes.empty()) return;
-  const std::size_t at = random.index(bytes.size());
-  switch (random.index(6)) {
-    case 0:
-      bytes[at] = static_cast<char>(random.bits());
-      break;
-    case 1:
-      bytes[at] = "0123456789"[random.index(10)];
-      break;
-    case 2:
-      if (random.index(4) == 0) bytes.resize(at);
-      break;
-    case 3:
-      bytes.erase(at, 1 + random.index(8));
-      break;
-    case 4:
-      bytes.insert(at, bytes.substr(random.index(bytes.size()), random.index(80)));
-      break;
-    default:
-      bytes.insert(at, kNastyCsgWords[random.index(kNastyCsgWords.size())]);
-  }
-}
-
-std::string damaged_csg(std::string bytes, base::Random& random) {
-  const std::uint64_t times = 1 + random.index(3);
-  for (std::uint64_t i = 0; i < times; ++i) damage_csg_once(bytes, random);
-  return bytes;
-}
 
 /// Asks a tree that came out of damaged bytes what a program would ask it.
 void check_tree(const geometry::CsgTree& tree) {
@@ -87,7 +58,7 @@ TEST(CsgFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
   const std::vector<std::string> texts = small_real_files();
   int refused = 0;
   for (int i = 0; i < kDamagedVariants; ++i) {
-    const std::string text = damaged_csg(texts[random.index(texts.size())], random);
+    const std::string text = damaged(texts[random.index(texts.size())], kNastyCsgWords, random);
     const auto loaded = parse_csg(text, "f");
     if (loaded) {
       check_tree(loaded->tree);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/random.h"
+#include "damage.h"
 #include "files/mesh_formats.h"
 #include "geometry/mesh_repair.h"
 #include "sample_files.h"
@@ -18,36 +19,6 @@ constexpr int kVariants = 3000;
 constexpr std::array<std::string_view, 16> kNastyWords{
     "-1",   "0", "4294967295", "4294967296", "9223372036854775807", "1e308", "nan", "-inf", "", " ", "\n",
     "\\\n", "#", "/",          "f ",         "\xff\xff\xff\xff"};
-
-void damage_once(std::string& bytes, base::Random& random) {
-  if (bytes.empty()) return;
-  const std::size_t at = random.index(bytes.size());
-  switch (random.index(6)) {
-    case 0:
-      bytes[at] = static_cast<char>(random.bits());
-      break;
-    case 1:
-      bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.index(8)));
-      break;
-    case 2:
-      bytes.resize(at);
-      break;
-    case 3:
-      bytes.erase(at, 1 + random.index(8));
-      break;
-    case 4:
-      bytes.insert(at, bytes.substr(random.index(bytes.size()), random.index(40)));
-      break;
-    default:
-      bytes.insert(at, kNastyWords[random.index(kNastyWords.size())]);
-  }
-}
-
-std::string damaged(std::string bytes, base::Random& random) {
-  const std::uint64_t times = 1 + random.index(4);
-  for (std::uint64_t i = 0; i < times; ++i) damage_once(bytes, random);
-  return bytes;
-}
 
 void check_parsed(geometry::TriangleMesh mesh) {
   for (const auto& triangle : mesh.triangles)
@@ -73,7 +44,7 @@ TEST_P(MeshFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
   base::Random random(20240229);
   int refused = 0;
   for (int i = 0; i < kVariants; ++i) {
-    const auto parsed = GetParam().parse(damaged(GetParam().bytes, random), "f");
+    const auto parsed = GetParam().parse(damaged(GetParam().bytes, kNastyWords, random), "f");
     if (parsed) {
       check_parsed(parsed->mesh);
     } else {

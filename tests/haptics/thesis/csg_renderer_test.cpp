@@ -9,6 +9,7 @@
 
 #include "geometry/csg_trees.h"
 #include "haptics/contact_world.h"
+#include "haptics/csg_world.h"
 
 namespace icome::haptics {
 namespace {
@@ -18,8 +19,6 @@ using geometry::CsgOperator;
 using geometry::CsgTree;
 using geometry::Primitive;
 using geometry::SurfacePoint;
-
-Affine3 shift(double x, double y, double z) { return Affine3(Eigen::Translation3d(x, y, z)); }
 
 CsgTree combined(CsgOperator op, const Primitive& left, const Affine3& at_left, const Primitive& right,
                  const Affine3& at_right) {
@@ -62,7 +61,7 @@ void expect_place(const std::optional<SurfacePoint>& found, const Vector3& point
 // ---- Algorithm 5.1, figure 5.8 ----
 
 TEST(ThesisIntersection, TakesTheNearerSurface) {
-  Touch touch(combined(CsgOperator::Intersection, kCube, shift(0, 0, 0), kBall, shift(1, 1, 0)));
+  Touch touch(combined(CsgOperator::Intersection, kCube, moved(0, 0, 0), kBall, moved(1, 1, 0)));
   expect_place(touch({0.9, 0.8, 0.0}), {1.0, 0.8, 0.0}, Vector3::UnitX());
   const Vector3 in = Vector3(-0.6, -0.5, 0.0).normalized();
   touch.memory = DirectMemory::free_at({0.2, 0.3, 0.0});
@@ -70,7 +69,7 @@ TEST(ThesisIntersection, TakesTheNearerSurface) {
 }
 
 TEST(ThesisIntersection, IsFreeOutsideEither) {
-  Touch touch(combined(CsgOperator::Intersection, kCube, shift(0, 0, 0), kBall, shift(1, 1, 0)));
+  Touch touch(combined(CsgOperator::Intersection, kCube, moved(0, 0, 0), kBall, moved(1, 1, 0)));
   EXPECT_FALSE(touch({-0.5, 0.0, 0.0}));
   EXPECT_FALSE(touch({1.2, 1.0, 0.0}));
   EXPECT_FALSE(touch.memory.touching);
@@ -78,7 +77,7 @@ TEST(ThesisIntersection, IsFreeOutsideEither) {
 }
 
 TEST(ThesisIntersection, StaysFrom50TimesAsFar) {
-  Touch touch(combined(CsgOperator::Intersection, kCube, shift(0, 0, 0), kBall, shift(1, 1, 0)));
+  Touch touch(combined(CsgOperator::Intersection, kCube, moved(0, 0, 0), kBall, moved(1, 1, 0)));
   const Vector3 pointer(0.9, 0.8, 0.0), on_cube(1.0, 0.8, 0.0);
   const Vector3 on_ball = Vector3(1, 1, 0) + Vector3(-0.1, -0.2, 0.0).normalized();
   const Vector3 away = (on_ball - on_cube).normalized();
@@ -95,7 +94,7 @@ TEST(ThesisIntersection, StaysFrom50TimesAsFar) {
 }
 
 TEST(ThesisIntersection, BothScpsMayBeThePreviousOne) {
-  Touch touch(combined(CsgOperator::Intersection, kCube, shift(0, 0, 0), kCube, shift(0, 0, 0)));
+  Touch touch(combined(CsgOperator::Intersection, kCube, moved(0, 0, 0), kCube, moved(0, 0, 0)));
   const Vector3 pointer(0.0, 0.3, 0.9);
   for (int i = 0; i < 3; ++i) expect_place(touch(pointer), {0.0, 0.3, 1.0}, Vector3::UnitZ());
 }
@@ -103,7 +102,7 @@ TEST(ThesisIntersection, BothScpsMayBeThePreviousOne) {
 // ---- Algorithms 5.2 and 5.3, figures 5.9 and 5.10 ----
 
 TEST(ThesisDifference, TakesTheScpNearerToThePrevious) {
-  Touch touch(combined(CsgOperator::Difference, kBall, shift(0, 0, 0), kCube, shift(1, 1, 0)));
+  Touch touch(combined(CsgOperator::Difference, kBall, moved(0, 0, 0), kCube, moved(1, 1, 0)));
   const Vector3 pointer(-0.1, 0.3, 0.0);
   // The cube's face is felt from its inside: its normal points into the hollow.
   expect_place(touch.after({0.0, 0.35, 0.0}, pointer, pointer), {0.0, 0.3, 0.0}, Vector3::UnitX());
@@ -114,7 +113,7 @@ TEST(ThesisDifference, TakesTheScpNearerToThePrevious) {
 
 TEST(ThesisDifference, FeelsTheInsideOfACubeBySegments) {
   const Primitive ball = geometry::Sphere{10.0};
-  Touch touch(combined(CsgOperator::Difference, ball, shift(0, 0, 0), kCube, shift(0, 0, 0)));
+  Touch touch(combined(CsgOperator::Difference, ball, moved(0, 0, 0), kCube, moved(0, 0, 0)));
   const auto from_hollow = [&](const Vector3& pointer) { return touch.after({0, 0, 0}, pointer, pointer); };
   expect_place(from_hollow({1.3, 0.2, -0.4}), {1.0, 0.2, -0.4}, -Vector3::UnitX());
   expect_place(from_hollow({1.3, -1.4, 0.5}), {1.0, -1.0, 0.5}, Vector3(-0.6, 0.8, 0.0));
@@ -124,8 +123,8 @@ TEST(ThesisDifference, FeelsTheInsideOfACubeBySegments) {
 // ---- Algorithm 5.4, figure 5.11: a ball half sunk into the top of a cube ----
 
 CsgTree ball_on_cube() {
-  return combined(CsgOperator::Union, kCube, shift(0, 0, 0), Primitive(geometry::Sphere{0.8}),
-                  shift(0, 1, 0));
+  return combined(CsgOperator::Union, kCube, moved(0, 0, 0), Primitive(geometry::Sphere{0.8}),
+                  moved(0, 1, 0));
 }
 
 TEST(ThesisUnion, TakesTheOperandThatHoldsThePointer) {
@@ -137,7 +136,7 @@ TEST(ThesisUnion, TakesTheOperandThatHoldsThePointer) {
 }
 
 TEST(ThesisUnion, TakesTheScpNearerToThePreviousWhereBothHoldThePointer) {
-  CsgTree tree = combined(CsgOperator::Union, kCube, shift(0, 0, 0), kCube, shift(0.9, 0, 0.5));
+  CsgTree tree = combined(CsgOperator::Union, kCube, moved(0, 0, 0), kCube, moved(0.9, 0, 0.5));
   Touch touch(tree);
   const Vector3 pointer(0.0, 0.0, -0.45);  // in both; the cubes' nearest faces are z = -1 and z = -0.5
   expect_place(touch.after({0.0, 0.0, -0.9}, pointer, pointer), {0.0, 0.0, -1.0}, -Vector3::UnitZ());
@@ -173,7 +172,7 @@ TEST(ThesisUnion, PushesTowardsThePreviousScpWhenThatWasFree) {
 
 TEST(ThesisUnion, ASharedFaceIsInNeither) {
   const Primitive plate = geometry::Box{{1.0, 1.0, 0.1}};
-  Touch touch(combined(CsgOperator::Union, plate, shift(0, 0, 0), plate, shift(1, 0, 0)));
+  Touch touch(combined(CsgOperator::Union, plate, moved(0, 0, 0), plate, moved(1, 0, 0)));
   for (const double x : {-0.5, 0.0, 0.3, 0.7, 1.0, 1.5}) {
     touch.memory = DirectMemory::free_at({x, 0.0, 0.2});
     expect_place(touch({x, 0.0, 0.07}), {x, 0.0, 0.1}, Vector3::UnitZ());
@@ -202,8 +201,8 @@ TEST(CsgRenderer, AsksAPrimitiveOfYourOwnOnlyWhereItIs) {
              cut = std::make_shared<CountingBall>();
   CsgTree tree;
   CsgTree::Index all = tree.add_leaf(geometry::CsgShape(near));
-  all = tree.add(CsgOperator::Difference, all, tree.add_leaf(geometry::CsgShape(cut), shift(0, 1.5, 0)));
-  tree.add(CsgOperator::Union, all, tree.add_leaf(geometry::CsgShape(far), shift(5, 0, 0)));
+  all = tree.add(CsgOperator::Difference, all, tree.add_leaf(geometry::CsgShape(cut), moved(0, 1.5, 0)));
+  tree.add(CsgOperator::Union, all, tree.add_leaf(geometry::CsgShape(far), moved(5, 0, 0)));
   Touch touch(tree);
   touch.memory = DirectMemory::free_at({0.0, -1.1, 0.0});
   const int asked_before = far->asked;
@@ -220,7 +219,7 @@ TEST(CsgRenderer, RendersAnyFormOfTree) {
     CsgTree tree;
     const CsgTree::Index x = tree.add_leaf(Primitive(geometry::Box{{3, 3, 3}}));
     const CsgTree::Index y = tree.add_leaf(kCube);
-    const CsgTree::Index z = tree.add_leaf(kBall, shift(1, 0, 0));
+    const CsgTree::Index z = tree.add_leaf(kBall, moved(1, 0, 0));
     tree.add(CsgOperator::Difference, x, tree.add(op, y, z));
     Touch touch(tree);
     Random random(1);
@@ -264,7 +263,7 @@ CsgTree chain(int leaves, double step) {
   CsgTree tree;
   CsgTree::Index all = tree.add_leaf(kBall);
   for (int i = 1; i < leaves; ++i) {
-    const CsgTree::Index next = tree.add_leaf(kBall, shift(i * step, 0, 0));
+    const CsgTree::Index next = tree.add_leaf(kBall, moved(i * step, 0, 0));
     all = tree.add(CsgOperator::Union, all, next);
   }
   return tree;
@@ -286,21 +285,11 @@ TEST(CsgRenderer, ADeepTreeKeepsToItsBudget) {
   EXPECT_TRUE(!answer->exhausted || answer->place.point == Vector3(-0.98, 0.0, 0.0));
 }
 
-// ---- The tree of figure 5.6 ----
+// ---- The tree of figure 5.6, figure_5_6() ----
 
 constexpr double kHalf = 0.05, kRadius = 0.065, kHole = 0.025;  // m
 
-CsgTree figure_5_6(double scale) {
-  CsgTree tree;
-  const CsgTree::Index cube = tree.add_leaf(Primitive(geometry::Box{Vector3::Constant(scale * kHalf)}));
-  const CsgTree::Index ball = tree.add_leaf(Primitive(geometry::Sphere{scale * kRadius}));
-  const CsgTree::Index both = tree.add(CsgOperator::Intersection, cube, ball);
-  const CsgTree::Index hole = tree.add_leaf(Primitive(geometry::Cylinder{scale * kHole, scale * 0.14}));
-  tree.add(CsgOperator::Difference, both, hole);
-  return tree;
-}
-
-/// The same solid by its definition.
+/// Its solid by its definition.
 struct Figure {
   static bool inside(const Vector3& p) {
     return p.cwiseAbs().maxCoeff() <= kHalf && p.norm() <= kRadius && p.head<2>().norm() > kHole;
