@@ -180,6 +180,14 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
   model.triangles = 0;
   model.closed = (*surface)->closed();
   take_mesh(model, std::move(*mesh));
+  // Against facets, however fine, a contact on the limit would be judged wrong by what they cut off.
+  if (model.closed) {
+    model.membership = [surface = *surface](const base::Vector3& point, double) {
+      return surface->inside(point);
+    };
+  } else if (options.check) {
+    return base::fail(model.name + ": --check cannot judge an open subdivision surface: leave it out.");
+  }
   if (options.subdivision->thesis) {
     if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
     auto levels = geometry::LoopLevels::create(control, {.finest = options.subdivision->level});

@@ -52,7 +52,8 @@ Vector3 gradient(const CsgAtom& atom, const Vector3& point) {
     case Kind::Cylinder:
       return direction(across(point), across(point).norm());
     case Kind::ConeSide: {
-      if (beyond_apex(atom, point)) return (point - apex(atom)).normalized();
+      // So that it points from the apex to there also in the tree's frame, which may be stretched.
+      if (beyond_apex(atom, point)) return (atom.metric * (point - apex(atom))).normalized();
       const Vector3 out = direction(across(point), across(point).norm());
       return (out - atom.b * Vector3::UnitZ()) / std::hypot(1.0, atom.b);
     }
@@ -330,6 +331,7 @@ SurfacePoint retract(const CsgAtom& atom, const Vector3& point) {
                                       : atom.custom->scp_from_outside(point);
   }
   const Vector3 normal = gradient(atom, point);
+  if (atom.kind == Kind::ConeSide && beyond_apex(atom, point)) return {apex(atom), normal};
   return {point - signed_distance(atom, point) * normal, normal};
 }
 

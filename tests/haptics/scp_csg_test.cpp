@@ -131,6 +131,29 @@ TEST(ScpOnCsg, TouchesNothingOfAnEmptySolid) {
   }
 }
 
+TEST(ScpOnCsg, RestsInAConicalPit) {
+  const CsgTree tree =
+      TreeChain(box_shape(0.048, 0.048, 0.02)).cut(cone_shape(0.0, 0.005, 0.01), moved(0, 0, 0.008)).tree();
+  expect_near(pressed(tree, {0.0005, 0.0, 0.01}, {0.0002, 0.0001, -0.005}, 1),
+              {0.0, 0.0, 0.003});  // its apex
+  const BruteSolid solid(tree);
+  const ScenePointer scene = csg_scene(tree);
+  Random random(1);
+  for (int i = 0; i < repeats(2000); ++i) {
+    const double rho = random.uniform(0.0, 0.0045), angle = random.uniform(0.0, 6.28);
+    const Vector3 tip(random.uniform(-0.003, 0.003), random.uniform(-0.003, 0.003),
+                      random.uniform(-0.009, 0.0));
+    Toucher toucher(scene);
+    toucher.step({rho * std::cos(angle), rho * std::sin(angle), 0.011});
+    const ScpState& state = toucher.step(tip);
+    ASSERT_TRUE(state.converged) << i;
+    ASSERT_GT(solid.bound(state.scp), -1e-9)
+        << i << " " << tip.transpose() << " at " << state.scp.transpose();
+    if (i % 50 != 0) continue;
+    EXPECT_LT(brute_scp_error(solid, tip, state.scp, 0.1).error, 1e-6) << i;
+  }
+}
+
 // ---- Random presses and slides
 
 struct TouchedTree {
@@ -151,7 +174,7 @@ std::vector<TouchedTree> touched_trees() {
     std::uint64_t first, count;
   };
   for (const Sizes& it :
-       {Sizes{2, 0, 7}, {3, 0, 6}, {5, 0, 5}, {10, 1, 3}, {30, 0, 2}, {100, 0, 1}, {200, 0, 1}}) {
+       {Sizes{2, 0, 8}, {3, 0, 6}, {5, 0, 5}, {10, 0, 4}, {30, 0, 2}, {100, 0, 1}, {200, 0, 1}}) {
     for (std::uint64_t seed = it.first; seed < it.first + it.count; ++seed) {
       const std::string name = "Random" + std::to_string(it.primitives) + "of" + std::to_string(seed);
       trees.push_back({{name, random_tree(seed, it.primitives)}, it.primitives < 30 ? 1000 : 400});
