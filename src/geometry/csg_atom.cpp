@@ -368,7 +368,7 @@ SurfacePoint walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal)
     const double height = std::abs(from.z() - apex(atom).z());
     const bool at_apex = across(from).norm() <= kApex * (goal - apex(atom)).norm() &&
                          height <= kApex * (goal - apex(atom)).norm();
-    if (at_apex || beyond_apex(atom, goal)) return retract(atom, goal);
+    if (at_apex || (atom.similar && beyond_apex(atom, goal))) return retract(atom, goal);
   }
   if (atom.similar && atom.kind != Kind::Custom) {
     at = retract(atom, goal);

@@ -174,7 +174,7 @@ std::vector<TouchedTree> touched_trees() {
     std::uint64_t first, count;
   };
   for (const Sizes& it :
-       {Sizes{2, 0, 8}, {3, 0, 6}, {5, 0, 5}, {10, 0, 4}, {30, 0, 2}, {100, 0, 1}, {200, 0, 1}}) {
+       {Sizes{2, 0, 7}, {3, 0, 6}, {5, 0, 5}, {10, 1, 3}, {30, 0, 2}, {100, 0, 1}, {200, 0, 1}}) {
     for (std::uint64_t seed = it.first; seed < it.first + it.count; ++seed) {
       const std::string name = "Random" + std::to_string(it.primitives) + "of" + std::to_string(seed);
       trees.push_back({{name, random_tree(seed, it.primitives)}, it.primitives < 30 ? 1000 : 400});
