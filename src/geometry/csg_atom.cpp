@@ -43,6 +43,13 @@ bool beyond_apex(const CsgAtom& cone, const Vector3& point) {
 
 Vector3 apex(const CsgAtom& cone) { return {0.0, 0.0, -cone.a / cone.b}; }
 
+/// From the apex to `point`, also in the tree's frame, which may be stretched.
+Vector3 beyond_normal(const CsgAtom& cone, const Vector3& point) {
+  const Vector3 way = cone.metric * (point - apex(cone));
+  const double length = way.norm();
+  return length > 0.0 ? Vector3(way / length) : Vector3(0.0, 0.0, cone.b < 0.0 ? 1.0 : -1.0);
+}
+
 Vector3 gradient(const CsgAtom& atom, const Vector3& point) {
   switch (atom.kind) {
     case Kind::Plane:
@@ -52,8 +59,7 @@ Vector3 gradient(const CsgAtom& atom, const Vector3& point) {
     case Kind::Cylinder:
       return direction(across(point), across(point).norm());
     case Kind::ConeSide: {
-      // So that it points from the apex to there also in the tree's frame, which may be stretched.
-      if (beyond_apex(atom, point)) return (atom.metric * (point - apex(atom))).normalized();
+      if (beyond_apex(atom, point)) return beyond_normal(atom, point);
       const Vector3 out = direction(across(point), across(point).norm());
       return (out - atom.b * Vector3::UnitZ()) / std::hypot(1.0, atom.b);
     }
@@ -384,6 +390,7 @@ SurfacePoint walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal)
     const double longest = 0.5 * kMaxTurn * tightest(atom, at.point);
     if (length > longest) step *= longest / length;
     at = retract(atom, at.point + step);
+    if (atom.kind == Kind::ConeSide && at.point == apex(atom)) return retract(atom, goal);
     if (length <= kArrived * at.point.cwiseAbs().maxCoeff()) break;
     if (at.normal.dot(start.normal) < std::cos(kMaxTurn)) break;
   }
