@@ -38,7 +38,7 @@ struct ValueCase {
 /// Every function, operator and simplification at least once; all are smooth for coordinates in (0.1, 0.9).
 const std::vector<ValueCase>& value_cases() {
   using std::pow;
-  static const std::vector<ValueCase> cases{
+  static const std::vector<ValueCase> kCases{
       {"x", [](double x, double, double, double) { return x; }},
       {"-x^2", [](double x, double, double, double) { return -(x * x); }},
       {"x^-2", [](double x, double, double, double) { return 1 / (x * x); }},
@@ -97,7 +97,7 @@ const std::vector<ValueCase>& value_cases() {
       {"x^2*x^3", [](double x, double, double, double) { return pow(x, 5); }},
       {"0*x+y*1", [](double, double y, double, double) { return y; }},
   };
-  return cases;
+  return kCases;
 }
 
 Vector3 random_place(base::Random& random) {
@@ -254,7 +254,7 @@ TEST(Formula, GivesNanWhereItIsUndefined) {
 }
 
 TEST(Formula, NamesTheColumnOfWhatIsWrong) {
-  const std::vector<std::pair<std::string, std::string>> cases{
+  const std::vector<std::pair<std::string, std::string>> kCases{
       {"x +", "column 4"},
       {"foo(x)", "column 1: \"foo\" is unknown; known are x, y, z, t, pi, e"},
       {"x + w", "column 5"},
@@ -277,7 +277,7 @@ TEST(Formula, NamesTheColumnOfWhatIsWrong) {
       {"x # y", "column 3"},
       {std::string("x\0y", 3), "column 2"},
       {"*x", "column 1: a value is missing"}};
-  for (const auto& [text, part] : cases) {
+  for (const auto& [text, part] : kCases) {
     EXPECT_NE(error_of(text).find(part), std::string::npos) << text << ": " << error_of(text);
   }
 }

@@ -25,7 +25,7 @@ struct UnaryCase {
 
 const std::vector<UnaryCase>& unary_cases() {
   using Of = const Interval&;
-  static const std::vector<UnaryCase> cases{
+  static const std::vector<UnaryCase> kCases{
       {"negate", [](Of a) { return -a; }, [](double a) { return -a; }},
       {"add", [](Of a) { return a + 0.7; }, [](double a) { return a + 0.7; }},
       {"scale", [](Of a) { return a * -3.1; }, [](double a) { return a * -3.1; }},
@@ -54,7 +54,7 @@ const std::vector<UnaryCase>& unary_cases() {
        },
        [](double a) { return std::pow(a, 0.3); }},
   };
-  return cases;
+  return kCases;
 }
 
 struct BinaryCase {
@@ -65,7 +65,7 @@ struct BinaryCase {
 
 const std::vector<BinaryCase>& binary_cases() {
   using Of = const Interval&;
-  static const std::vector<BinaryCase> cases{
+  static const std::vector<BinaryCase> kCases{
       {"add", [](Of a, Of b) { return a + b; }, [](double a, double b) { return a + b; }},
       {"subtract", [](Of a, Of b) { return a - b; }, [](double a, double b) { return a - b; }},
       {"multiply", [](Of a, Of b) { return a * b; }, [](double a, double b) { return a * b; }},
@@ -77,7 +77,7 @@ const std::vector<BinaryCase>& binary_cases() {
       {"power", [](Of a, Of b) { return power(a, b); },
        [](double a, double b) { return a < 0.0 ? std::nan("") : std::pow(a, b); }},
   };
-  return cases;
+  return kCases;
 }
 
 /// Narrow and wide ones, around zero, far from it, and those that begin or end at zero.
