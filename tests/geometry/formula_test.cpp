@@ -254,7 +254,7 @@ TEST(Formula, GivesNanWhereItIsUndefined) {
 }
 
 TEST(Formula, NamesTheColumnOfWhatIsWrong) {
-  const std::vector<std::pair<std::string, std::string>> kCases{
+  const std::vector<std::pair<std::string, std::string>> cases{
       {"x +", "column 4"},
       {"foo(x)", "column 1: \"foo\" is unknown; known are x, y, z, t, pi, e"},
       {"x + w", "column 5"},
@@ -277,7 +277,7 @@ TEST(Formula, NamesTheColumnOfWhatIsWrong) {
       {"x # y", "column 3"},
       {std::string("x\0y", 3), "column 2"},
       {"*x", "column 1: a value is missing"}};
-  for (const auto& [text, part] : kCases) {
+  for (const auto& [text, part] : cases) {
     EXPECT_NE(error_of(text).find(part), std::string::npos) << text << ": " << error_of(text);
   }
 }
