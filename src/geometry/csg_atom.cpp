@@ -12,7 +12,9 @@ using Kind = CsgAtom::Kind;
 constexpr double kSimilar = 1e-12;      // how far a transform may be from keeping angles, relatively
 constexpr double kMaxTurn = 0.3;        // rad, of one walk
 constexpr int kMaxWalk = 24;            // steps
+constexpr double kClose = 0.1;          // of the tightest bend: so near the surface a goal has one foot
 constexpr double kArrived = 1e-15;      // a step this small, relative to the place's coordinates, is none
+constexpr double kAlmost = 1e-6;         // of the longest step: the last of a walk that is slow to end
 constexpr double kApex = 1e-7;          // of the way to the goal: so near a cone's apex is at it
 constexpr double kCustomStride = 0.02;  // of a custom primitive's size
 
@@ -155,7 +157,7 @@ Vector3 downhill(const CsgAtom& atom, const SurfacePoint& at, const Vector3& goa
   bent(0, 1) += tangent.u.dot(bend_v);
   bent(1, 0) += tangent.v.dot(bend_u);
   bent(1, 1) += tangent.v.dot(bend_v);
-  const double least = 1e-3;
+  const double least = 1e-5;
   const bool minimum = bent.determinant() > least * flat.determinant() && bent.trace() > least * flat.trace();
   const base::Vector2 step = -(minimum ? bent : flat).inverse() * slope;
   return tangent.u * step.x() + tangent.v * step.y();
@@ -366,35 +368,43 @@ RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& st
   return {};
 }
 
-SurfacePoint walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal) {
+WalkEnd walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal) {
   const SurfacePoint start = retract(atom, from);
   SurfacePoint at = start;
+  bool begun_there = false;  // next to the goal
   if (atom.kind == Kind::ConeSide) {
     // To and from its apex a cone is straight, however much the normals turn.
     const double height = std::abs(from.z() - apex(atom).z());
     const bool at_apex = across(from).norm() <= kApex * (goal - apex(atom)).norm() &&
                          height <= kApex * (goal - apex(atom)).norm();
-    if (at_apex || (atom.similar && beyond_apex(atom, goal))) return retract(atom, goal);
+    if (at_apex || (atom.similar && beyond_apex(atom, goal))) return {retract(atom, goal), true};
   }
-  if (atom.similar && atom.kind != Kind::Custom) {
-    at = retract(atom, goal);
-    // All round the top of a torus normals are alike.
-    const bool near =
-        atom.kind != Kind::Torus || (at.point - start.point).norm() <= kMaxTurn * tightest(atom, start.point);
-    if (near && at.normal.dot(start.normal) >= std::cos(kMaxTurn)) return at;
-    at = start;
+  const double radius = tightest(atom, start.point);
+  // All round the top of a torus normals are alike.
+  const auto within = [&](const SurfacePoint& place, double turn) {
+    return place.normal.dot(start.normal) >= std::cos(turn) &&
+           (atom.kind != Kind::Torus || (place.point - start.point).norm() <= turn * radius);
+  };
+  if (atom.kind != Kind::Custom) {
+    const SurfacePoint there = retract(atom, goal);
+    const bool close = (there.point - goal).norm() <= kClose * radius;
+    if (atom.similar && within(there, close ? 2.0 * kMaxTurn : kMaxTurn)) return {there, true};
+    begun_there = close && within(there, 2.0 * kMaxTurn);
+    if (begun_there) at = there;
   }
-  for (int i = 0; i < kMaxWalk; ++i) {
+  bool reached = false;
+  for (int i = 0; i < kMaxWalk && !reached; ++i) {
     Vector3 step = downhill(atom, at, goal);
     const double length = step.norm();
     const double longest = 0.5 * kMaxTurn * tightest(atom, at.point);
     if (length > longest) step *= longest / length;
     at = retract(atom, at.point + step);
-    if (atom.kind == Kind::ConeSide && at.point == apex(atom)) return retract(atom, goal);
-    if (length <= kArrived * at.point.cwiseAbs().maxCoeff()) break;
-    if (at.normal.dot(start.normal) < std::cos(kMaxTurn)) break;
+    if (atom.kind == Kind::ConeSide && at.point == apex(atom)) return {retract(atom, goal), true};
+    reached = length <= kArrived * at.point.cwiseAbs().maxCoeff();
+    if (!begun_there && !within(at, kMaxTurn)) break;
+    if (i + 1 == kMaxWalk) reached = length <= kAlmost * longest;
   }
-  return at;
+  return {at, reached};
 }
 
 }  // namespace icome::geometry

@@ -51,8 +51,12 @@ SurfacePoint retract(const CsgAtom& atom, const Vector3& point);
 RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& step);
 
 /// Walks along the surface, from the place nearest to `from`, downhill in the distance (as measured in
-/// the tree's frame) to `goal`; ends at the minimum or after turning some 0.3 rad.
-SurfacePoint walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal);
+/// the tree's frame) to `goal`; ends at the minimum (`reached`) or after turning some 0.3 rad.
+struct WalkEnd {
+  SurfacePoint place;
+  bool reached;
+};
+WalkEnd walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal);
 
 /// The unit normal in the tree's frame for one in the atom's.
 inline Vector3 tree_normal(const CsgAtom& atom, const Vector3& normal) {

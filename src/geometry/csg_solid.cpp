@@ -271,8 +271,11 @@ SurfacePlace CsgSolid::foot(const SurfacePlace& from, const Vector3& goal, doubl
     }
     return compiled_->place(from.piece, goal - normal * normal.dot(goal - origin), normal);
   }
-  const SurfacePoint there = walk(atom, atom.atom_from_tree * from.point, atom.atom_from_tree * goal);
-  return compiled_->place(from.piece, atom.tree_from_atom * there.point, tree_normal(atom, there.normal));
+  const WalkEnd there = walk(atom, atom.atom_from_tree * from.point, atom.atom_from_tree * goal);
+  SurfacePlace place = compiled_->place(from.piece, atom.tree_from_atom * there.place.point,
+                                        tree_normal(atom, there.place.normal));
+  place.reached = there.reached;
+  return place;
 }
 
 bool CsgSolid::covers(const SurfacePlace& place, const Vector3& /*above*/, double /*time*/,

@@ -13,6 +13,7 @@ struct SurfacePlace {
   Vector3 normal;           // unit, out of the solid (or towards the front of a sheet)
   std::uint32_t piece = 0;  // which of the surface's pieces it lies on
   double u = 0.0, v = 0.0;  // the piece's own parameters there, where it has any
+  bool reached = true;      // of a foot: that it is one, not where the walk towards it stopped
 };
 
 /// Where a moving point goes through a surface.
@@ -61,7 +62,7 @@ class SmoothSurface {
 
   /// Slides from `from` along the smooth surface that it lies on, downhill in the distance to `goal`, to
   /// where that distance has a local minimum, or as far as is sure: the walk never jumps to another sheet
-  /// of the surface. It goes beyond the edges of faces that have a natural extension (a sphere cut by a
+  /// of the surface; `reached` says which. It goes beyond the edges of faces that have a natural extension (a sphere cut by a
   /// CSG tree), and stops at those that have none. `from.normal` need not be set, and `from` may lie a
   /// little off the surface (which may have changed with time). Real-time safe.
   virtual SurfacePlace foot(const SurfacePlace& from, const Vector3& goal, double time) const = 0;

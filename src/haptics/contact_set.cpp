@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "haptics/smooth_element.h"
 
@@ -9,14 +10,12 @@ namespace icome::haptics {
 namespace {
 
 constexpr int kMaxRests = 24;          // steps towards a place of rest
-constexpr double kOpposite = 0.1;      // cosine: walls so much against each other leave no way up
 constexpr double kCloseEnough = 0.98;  // cosine between normals (0.2 rad)
 constexpr double kLessPull = 0.2;      // share of the pull that is kept when contacts turn too much
 constexpr int kMaxTurns = 4;           // times that it may be cut so
 constexpr double kMaxGrowth = 8.0;     // of the share from one step to the next, either way
-constexpr double kNudge = 1e-3;        // share of the pull that presses on contacts without sliding far
-constexpr double kRounding = 1e-14;    // of squared distances
-constexpr int kMaxSettles = 3;
+constexpr double kNudge = 1e-3;        // share of the pull that presses on contacts, less each time
+constexpr int kMaxSettles = 4;
 constexpr double kRoom = 1.1;  // how much further than need be a way is lifted
 
 /// normal . step >= least
@@ -28,6 +27,8 @@ struct HalfSpace {
 /// The half-spaces of a contact set, and the search for the active ones among them.
 class Polyhedron {
  public:
+  static constexpr std::size_t kCapacity = 4 * ContactSet::kCapacity;
+
   Polyhedron(std::span<const Footing> footings, const Tolerance& tolerance) : slack_(0.25 * tolerance.gap) {
     for (const Footing& it : footings) planes_[count_++] = {it.normal, tolerance.gap - it.height};
   }
@@ -43,19 +44,27 @@ class Polyhedron {
         if (const auto step = on_two(pull, planes_[i], planes_[j]); step && allows(*step)) return *step;
       }
     }
-    for (std::size_t i = 0; i < count_; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        for (std::size_t k = 0; k < j; ++k) {
-          if (const auto step = on_three(planes_[i], planes_[j], planes_[k]); step && allows(*step))
-            return *step;
-        }
-      }
-    }
-    return Vector3::Zero();
+    return nearest_corner(pull);
   }
 
  private:
   static constexpr double kParallel = 1e-12;
+
+  Vector3 nearest_corner(const Vector3& pull) const {
+    Vector3 nearest = Vector3::Zero();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+          const auto step = on_three(planes_[i], planes_[j], planes_[k]);
+          if (!step || (*step - pull).squaredNorm() >= least || !allows(*step)) continue;
+          nearest = *step;
+          least = (*step - pull).squaredNorm();
+        }
+      }
+    }
+    return nearest;
+  }
 
   bool allows(const Vector3& step) const {
     return std::all_of(planes_.begin(), planes_.begin() + count_, [&](const HalfSpace& plane) {
@@ -93,8 +102,15 @@ class Polyhedron {
 
   double slack_;
   std::size_t count_ = 0;
-  std::array<HalfSpace, ContactSet::kCapacity> planes_;
+  std::array<HalfSpace, kCapacity> planes_;
 };
+
+/// The share of the pull at which the slope, which shrank by `shrunk` over the way `moved`, vanishes.
+double secant(double share, const Vector3& moved, const Vector3& shrunk) {
+  const double bend = moved.dot(shrunk);
+  const double most = kMaxGrowth * share;
+  return bend * most > moved.squaredNorm() ? std::max(moved.squaredNorm() / bend, share / kMaxGrowth) : most;
+}
 
 }  // namespace
 
@@ -123,28 +139,27 @@ ContactSet::Footings ContactSet::footings(const Vector3& position) const {
   return result;
 }
 
-ContactSet::Footings ContactSet::follow(const Vector3& position) {
-  Footings result;
-  for (std::size_t i = 0; i < size_; ++i) {
-    Element& contact = elements_[i];
-    result[i] = contact.smooth() ? follow_foot(contact, position) : footing(contact, position);
+void ContactSet::follow(const Vector3& position) {
+  for (Element& contact : all()) {
+    if (contact.smooth()) follow_foot(contact, position);
   }
-  return result;
 }
 
-ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) {
-  Element& contact = elements_.front();
+ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) const {
+  const Element& contact = elements_.front();
   const Vector3 place = settle(contact, goal, tolerance);
-  const Vector3 out = follow_foot(contact, place).normal;
+  const Vector3 out = footing(contact, place).normal;
   const Vector3 pull = goal - place;
-  const double along = (pull - out * out.dot(pull)).norm();
-  return {place, along <= tolerance.gap};
+  const double press = -out.dot(pull);
+  const double along = (pull + press * out).norm();
+  return {place, press >= 0.0 && along <= tolerance.gap};
 }
 
 /// Have smooth contacts turned so much that a straight way says little?
 bool ContactSet::turned(const Footings& before, const Footings& now) const {
   for (std::size_t i = 0; i < size_; ++i) {
-    if (elements_[i].smooth() && now[i].normal.dot(before[i].normal) < kCloseEnough) return true;
+    if (!now[i].sure || (elements_[i].smooth() && now[i].normal.dot(before[i].normal) < kCloseEnough))
+      return true;
   }
   return false;
 }
@@ -156,83 +171,142 @@ bool ContactSet::free(const Footings& now, const Tolerance& tolerance) const {
 
 // Projected gradient steps with the step lengths of Barzilai and Borwein (1988): along an edge curve that
 // is the secant method, and the curves' radii need not be known.
-ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance) {
+ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal,
+                                  const Tolerance& tolerance) const {
   if (size_ == 1) return rest_on_one(goal, tolerance);
-  const Footings before = follow(position);
+  const Footings before = footings(position);
   Footings now = before;
   Vector3 best = position;  // on the free side of all contacts
   Vector3 at = position;
-  Vector3 last = Vector3::Zero();  // step of the whole pull
-  double share = 1.0;              // of the pull
+  Vector3 last_at = position;
+  Vector3 last_slope = Vector3::Zero();
+  double share = 1.0;  // of the pull
+  double most = std::numeric_limits<double>::infinity();
   int turns = 0;
   for (int i = 0; i < kMaxRests && turns < kMaxTurns; ++i) {
+    const Vector3 slope = along(now, goal - at, tolerance);
+    if (at != last_at) share = std::min(most, secant(share, at - last_at, last_slope - slope));
     const Vector3 step = Polyhedron(std::span(now).first(size_), tolerance).project(share * (goal - at));
     if (step.norm() <= tolerance.gap && free(now, tolerance)) return {at, true};
-    const Footings there = follow(at + step);
+    const Footings there = footings(at + step);
+    last_at = at;
+    last_slope = slope;
     if (turned(before, there)) {
-      share *= kLessPull;
-      now = follow(at);
+      share = most = kLessPull * share;
       ++turns;
       continue;
     }
-    const bool nearer = (goal - at - step).squaredNorm() <= (1.0 + kRounding) * (goal - best).squaredNorm();
+    const bool nearer = (goal - at - step).norm() <= (goal - best).norm() + tolerance.gap;
     if (free(there, tolerance) && !nearer) {
-      share *= kLessPull;
-      at = best;
-      now = follow(at);
-      last.setZero();
+      share = most = kLessPull * share;
+      at = last_at = best;
+      now = footings(at);
       continue;
     }
     at += step;
     now = there;
     if (free(now, tolerance)) best = at;
-    const Vector3 whole = step / share;
-    if (!last.isZero(0.0)) {
-      const double shrunk = 1.0 - whole.dot(last) / last.squaredNorm();
-      share = shrunk * kMaxGrowth > 1.0 ? std::max(share / shrunk, share / kMaxGrowth) : share * kMaxGrowth;
-    }
-    last = whole;
   }
-  return {settled(best, goal, tolerance), false};
+  return {settled(at, best, goal, tolerance), false};
 }
 
-/// Down to the contacts from a place little above them, hardly sideways.
-Vector3 ContactSet::settled(const Vector3& place, const Vector3& goal, const Tolerance& tolerance) {
-  Vector3 best = place;
-  Vector3 at = place;
-  Footings now = follow(at);
+/// The part of a pull that the contacts do not hold, were the tip on them.
+Vector3 ContactSet::along(Footings at, const Vector3& pull, const Tolerance& tolerance) const {
+  for (Footing& it : at) it.height = tolerance.gap;
+  return Polyhedron(std::span(at).first(size_), tolerance).project(pull);
+}
+
+/// Down to the contacts from a place near them, hardly sideways, if that is nearer to the goal than `best`.
+Vector3 ContactSet::settled(Vector3 at, Vector3 best, const Vector3& goal, const Tolerance& tolerance) const {
+  Footings now = footings(at);
+  double nudge = 1.0;
   for (int i = 0; i < kMaxSettles; ++i) {
-    at += Polyhedron(std::span(now).first(size_), tolerance).project(kNudge * (goal - at));
-    now = follow(at);
-    if (free(now, tolerance)) best = at;
+    nudge *= kNudge;
+    at += Polyhedron(std::span(now).first(size_), tolerance).project(nudge * (goal - at));
+    now = footings(at);
+    if (free(now, tolerance) && (goal - at).squaredNorm() < (goal - best).squaredNorm()) best = at;
   }
-  if (best != at) follow(best);
   return best;
 }
 
+namespace {
+
+/// The conditions on what is added to the middle of a straight way.
+class Clearance {
+ public:
+  Clearance(const Vector3& position, const Vector3& step, const Tolerance& tolerance)
+      : position_(position), step_(step), tolerance_(tolerance) {}
+
+  /// Where a contact touches, neither leg may begin, or end, below the tangent plane; where it does not,
+  /// neither may dip in its middle.
+  void pass(const Element& contact) {
+    const Footing middle = look(contact, position_ + 0.5 * step_);
+    need(middle.normal, tolerance_.gap - middle.height);
+    if (contact.flat()) return;
+    bulges_ = bulges_ || tolerance_.gap - middle.height > tolerance_.gap;
+    pass_end(contact, position_, -step_, 0.25);
+    pass_end(contact, position_ + step_, step_, 0.75);
+  }
+
+  /// The same with what is to be added: sideways the surface may have risen.
+  void pass_top(const Element& contact, const Vector3& added) {
+    const Footing top = look(contact, position_ + 0.5 * step_ + added);
+    if (top.height < tolerance_.gap) need(top.normal, top.normal.dot(added) + tolerance_.gap - top.height);
+  }
+
+  /// The least that will do: zero where nothing bulges, nothing where there is no way or the end is too far
+  /// to tell.
+  std::optional<Vector3> least() const {
+    if (!sure_) return std::nullopt;
+    if (!bulges_) return Vector3::Zero();
+    const Vector3 result = Polyhedron(std::span(needs_).first(count_), tolerance_).project(Vector3::Zero());
+    return result.isZero(0.0) ? std::nullopt : std::optional(result);
+  }
+
+ private:
+  Footing look(const Element& contact, const Vector3& at) {
+    const Footing result = footing(contact, at);
+    sure_ = sure_ && result.sure;
+    return result;
+  }
+
+  void pass_end(const Element& contact, const Vector3& end, const Vector3& onwards, double quarter) {
+    const Footing there = look(contact, end);
+    if (there.height <= tolerance_.touching()) {
+      need_to_clear(there.normal, 0.5 * there.normal.dot(onwards));
+    } else {
+      const Footing middle = look(contact, position_ + quarter * step_);
+      need_to_clear(middle.normal, 2.0 * (tolerance_.gap - middle.height));
+    }
+  }
+
+  void need_to_clear(const Vector3& normal, double least) {
+    bulges_ = bulges_ || least > tolerance_.gap;
+    need(normal, least);
+  }
+
+  void need(const Vector3& normal, double least) {
+    needs_[count_++] = {tolerance_.gap - (least > 0.0 ? kRoom * least : least), normal};
+  }
+
+  const Vector3 position_, step_;
+  const Tolerance& tolerance_;
+  std::array<Footing, Polyhedron::kCapacity> needs_;
+  std::size_t count_ = 0;
+  bool bulges_ = false;
+  bool sure_ = true;
+};
+
+}  // namespace
+
 std::optional<Vector3> ContactSet::lift(const Vector3& position, const Vector3& step,
                                         const Tolerance& tolerance) const {
-  const Footings here = footings(position);
-  double most = 0.0;
-  Vector3 out = Vector3::Zero();
-  for (std::size_t i = 0; i < size_; ++i) {
-    out += here[i].normal;
-    if (elements_[i].flat()) continue;
-    // Where it touches, neither leg may begin, or end, below the tangent plane; nor may the middle dip.
-    const Footing there = footing(elements_[i], position + step);
-    const double down = here[i].height <= tolerance.touching() ? -here[i].normal.dot(step) : 0.0;
-    const double up = there.height <= tolerance.touching() ? there.normal.dot(step) : 0.0;
-    const double dip = tolerance.gap - height(elements_[i], position + 0.5 * step);
-    most = std::max({most, 0.5 * down, 0.5 * up, dip});
-  }
-  if (most <= tolerance.gap) return Vector3::Zero();
-  const double length = out.norm();
-  if (length <= 0.0) return std::nullopt;
-  out /= length;
-  double least = 1.0;
-  for (std::size_t i = 0; i < size_; ++i) least = std::min(least, out.dot(here[i].normal));
-  if (least < kOpposite) return std::nullopt;
-  return Vector3(out * (kRoom * most / least));
+  Clearance clearance(position, step, tolerance);
+  for (const Element& contact : all()) clearance.pass(contact);
+  const std::optional<Vector3> least = clearance.least();
+  if (!least || least->isZero(0.0) || size_ == 1) return least;
+  for (const Element& contact : all()) clearance.pass_top(contact, *least);
+  return clearance.least();
 }
 
 }  // namespace icome::haptics

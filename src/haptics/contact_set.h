@@ -43,12 +43,15 @@ class ContactSet {
 
   /// From `position`, where the contacts hold: the place nearest to `goal` that they all allow, as they
   /// curve (not as their tangent planes say), and whether it was found exactly; else it lies on the way
-  /// there. Smooth contacts follow.
+  /// there. Smooth contacts are followed from their last `follow`, so far and no farther.
   struct Rest {
     Vector3 place;
     bool exact;
   };
-  Rest rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance);
+  Rest rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance) const;
+
+  /// Makes the feet of `position` those from which smooth contacts are found.
+  void follow(const Vector3& position);
 
   /// What must be added to the middle of a straight way from `position` by `step`, with both ends on the
   /// contacts, so that it passes above them where they bulge. Zero where they don't; nothing between walls
@@ -58,9 +61,9 @@ class ContactSet {
  private:
   using Footings = std::array<Footing, kCapacity>;
   Footings footings(const Vector3& position) const;
-  Footings follow(const Vector3& position);
-  Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance);
-  Vector3 settled(const Vector3& place, const Vector3& goal, const Tolerance& tolerance);
+  Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance) const;
+  Vector3 along(Footings at, const Vector3& pull, const Tolerance& tolerance) const;
+  Vector3 settled(Vector3 at, Vector3 best, const Vector3& goal, const Tolerance& tolerance) const;
   bool turned(const Footings& before, const Footings& now) const;
   bool free(const Footings& now, const Tolerance& tolerance) const;
 

@@ -84,6 +84,7 @@ double height(const Element& element, const Vector3& position);
 struct Footing {
   double height;
   Vector3 normal;
+  bool sure = true;  // that `position` was near enough to follow a smooth surface there
 };
 Footing footing(const Element& element, const Vector3& position);
 

@@ -17,7 +17,9 @@ constexpr double kLeastShare = 1e-3;
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxWaysOut = 8;
 constexpr int kMaxArches = 12;
-constexpr double kSteepest = 0.1;  // rise of an arch for its length
+constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
+constexpr double kRounding = 1e-14;  // of squared distances
+constexpr double kSteepest = 0.1;    // rise of an arch for its length
 
 }  // namespace
 
@@ -209,11 +211,13 @@ void ScpSolver::converge(const Vector3& tip) {
   state_.converged = false;
   state_.iterations = 0;
   const std::uint64_t most = region_.looked_at() + std::uint64_t(settings_.max_elements);
+  int idle = 0;
   while (state_.iterations < settings_.max_iterations && region_.looked_at() < most) {
     ++state_.iterations;
     bool exact = false;
     const Vector3 step = next_step(tip, exact);
-    if (step.squaredNorm() <= 4.0 * tolerance.gap * tolerance.gap) {
+    if (step.squaredNorm() <= 4.0 * tolerance.gap * tolerance.gap || idle == kMaxIdle) {
+      idle = 0;
       if (escape(tip)) continue;
       state_.converged = true;
       return;
@@ -222,13 +226,20 @@ void ScpSolver::converge(const Vector3& tip) {
     const Vector3 from = position_;
     const bool whole = advance(step);
     if (region_.overflowed()) return;
-    // Held fast between walls, or where it should be.
-    const bool fast = position_ == from && contacts_.any_smooth() && contacts_.size() == held;
-    if (fast || (whole && exact && contacts_.size() == held)) {
+    idle = nearer(from, tip) ? 0 : idle + 1;
+    if (contacts_.size() != held) continue;
+    const bool fast = position_ == from && contacts_.any_smooth();  // between walls
+    const bool there = whole && exact && held < 2;                  // with more there may be an escape
+    if (fast || there) {
       state_.converged = true;
       return;
     }
   }
+}
+
+/// Is the SCP nearer to the tip than `from` is, by more than rounding?
+bool ScpSolver::nearer(const Vector3& from, const Vector3& tip) const {
+  return (tip - position_).squaredNorm() < (1.0 - kRounding) * (tip - from).squaredNorm();
 }
 
 /// The piece of way that the contacts allow. `exact`: if nothing is met, its end needs no second look.
@@ -266,6 +277,7 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
 Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = scene_->tolerance();
   const Vector3 pull = tip - position_;
+  contacts_.follow(position_);
   if (contacts_.size() == 1 && normal(contacts_.all().front(), position_).dot(pull) >= 0.0) {
     contacts_.clear();
     return pull;
@@ -297,7 +309,7 @@ bool ScpSolver::escape(const Vector3& tip) {
                              ? Vector3(contacts_.rest(from, tip, scene_->tolerance()).place - from)
                              : contacts_.constrained(from, pull, scene_->tolerance());
     advance(step);
-    if ((position_ - from).squaredNorm() > std::pow(scene_->tolerance().touching(), 2)) return true;
+    if ((tip - position_).norm() < pull.norm() - scene_->tolerance().touching()) return true;
     position_ = from;
   }
   contacts_ = all;
@@ -332,9 +344,9 @@ bool ScpSolver::advance(const Vector3& wanted) {
   const bool leaves = room < 0.0 || region_.clearance(position_ + wanted) < 0.0;
   const bool long_way = !falling() && (contacts_.empty() || wanted.norm() > region_.reach());
   if (leaves && (long_way || room < 0.25 * region_.reach())) surround(wanted);
-  const Vector3 step = within_region(wanted);
+  Vector3 step = within_region(wanted);
   const bool smooth = contacts_.any_smooth();
-  const SweepHit hit = smooth ? arch(step) : sweep_on(step);
+  const SweepHit hit = smooth ? arch(step) : sweep_on(step, contacts_.all());
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
     reach_ *= 0.5;
     return false;
@@ -347,23 +359,39 @@ bool ScpSolver::advance(const Vector3& wanted) {
   return whole;
 }
 
-/// Moves the SCP by `step` or to the first hit.
-SweepHit ScpSolver::sweep_on(const Vector3& step) {
-  SweepHit hit = region_.sweep(position_, step, contacts_.all(), scene_->tolerance());
+/// Moves the SCP by `step` or to the first hit, which is none of `ignored`.
+SweepHit ScpSolver::sweep_on(const Vector3& step, std::span<const Element> ignored) {
+  SweepHit hit = region_.sweep(position_, step, ignored, scene_->tolerance());
   if (!region_.overflowed()) position_ += hit.t * step;
   return hit;
 }
 
+/// The same, where only those contacts are ignored that hold the SCP at one of two places: who is merely
+/// near one could be gone through.
+SweepHit ScpSolver::sweep_past(const Vector3& step, const Vector3& one, const Vector3& other) {
+  const double touching = scene_->tolerance().touching();
+  const auto off = [&](const Element& contact) {
+    return height(contact, one) > touching && height(contact, other) > touching;
+  };
+  if (contacts_.size() == 1 || std::none_of(contacts_.all().begin(), contacts_.all().end(), off))
+    return sweep_on(step, contacts_.all());
+  ContactSet held = contacts_;
+  held.forget_if(off);
+  return sweep_on(step, held.all());
+}
+
 /// The same along contacts that may bulge: in two legs over the bulge. What is met up there need not be in
 /// the way, but bounds it: it joins the contacts, and the way to where all of them allow is tried.
-SweepHit ScpSolver::arch(Vector3 step) {
+/// `step` becomes what was tried last.
+SweepHit ScpSolver::arch(Vector3& step) {
   const Vector3 from = position_;
   const Tolerance& tolerance = scene_->tolerance();
+  double longest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxArches; ++i) {
+    if (step.norm() > longest) step = rest_within(longest, step);
     const std::optional<Vector3> top = contacts_.lift(from, step, tolerance);
     if (!top || top->norm() > kSteepest * step.norm()) {
-      goal_ = from + 0.5 * (goal_ - from);
-      step = contacts_.rest(from, goal_, tolerance).place - from;
+      longest = 0.5 * step.norm();
       continue;
     }
     if (region_.clearance(from + step) < 0.0 || region_.clearance(from + 0.5 * step + *top) < 0.0) {
@@ -371,26 +399,45 @@ SweepHit ScpSolver::arch(Vector3 step) {
       region_.start(*scene_, from, from + step, reach, settings_.tip_radius, elapsed_);
       scene_->gather(region_);
     }
-    if (top->isZero(0.0)) return sweep_on(step);
-    SweepHit hit = sweep_on(0.5 * step + *top);
-    if (!hit.met && !region_.overflowed()) hit = sweep_on(from + step - position_);
-    if (!hit.met && !region_.overflowed()) return hit;
+    const Vector3 end = from + step;
+    SweepHit hit;
+    if (top->isZero(0.0)) {
+      hit = sweep_past(step, from, end);
+      if (!hit.met || !holds(hit.contact)) return hit;
+    } else {
+      hit = sweep_past(0.5 * step + *top, from, from);
+      if (!hit.met && !region_.overflowed()) hit = sweep_past(end - position_, end, end);
+      if (!hit.met && !region_.overflowed()) return hit;
+    }
     position_ = from;
     if (region_.overflowed()) return hit;
+    if (holds(hit.contact)) {
+      longest = 0.5 * step.norm();
+      continue;
+    }
     contacts_.add(hit.contact);
     step = contacts_.rest(from, goal_, tolerance).place - from;
   }
   return {};
 }
 
+bool ScpSolver::holds(const Element& element) const {
+  return std::any_of(contacts_.all().begin(), contacts_.all().end(),
+                     [&](const Element& contact) { return same_surface(contact, element); });
+}
+
+/// A step along the contacts about `length` long, in the direction of a longer one.
+Vector3 ScpSolver::rest_within(double length, const Vector3& step) {
+  const Vector3 part = (length / step.norm()) * step;
+  return contacts_.rest(position_, position_ + part, scene_->tolerance()).place - position_;
+}
+
 /// The beginning of a step that would leave the region.
-Vector3 ScpSolver::within_region(const Vector3& step) const {
+Vector3 ScpSolver::within_region(const Vector3& step) {
   if (region_.clearance(position_ + step) >= 0.0) return step;
   const double part = std::min(1.0, region_.clearance(position_) / step.norm());
   if (contacts_.size() > 1 && contacts_.any_smooth()) {
-    ContactSet there = contacts_;
-    return there.rest(position_, position_ + 0.5 * part * (goal_ - position_), scene_->tolerance()).place -
-           position_;
+    return rest_within(0.5 * part * step.norm(), step);
   }
   if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
   if (height(contacts_.all().front(), position_ + step) > scene_->tolerance().touching()) return part * step;

@@ -37,7 +37,7 @@ Vector3 felt_normal(const Element& e, const SurfacePlace& place) {
 
 Footing footing_at(const Element& e, const SurfacePlace& place, const Vector3& in_surface) {
   const double outward = place.normal.dot(in_surface - place.point);
-  return {e.inverted ? -outward : outward, felt_normal(e, place)};
+  return {e.inverted ? -outward : outward, felt_normal(e, place), place.reached};
 }
 
 }  // namespace

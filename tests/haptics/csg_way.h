@@ -24,19 +24,24 @@ inline double brute_depth_between(const BruteSolid& solid, const Vector3& a, con
 
 enum class Way { Straight, Around, None, Unknown };
 
-/// A search for a way through the free space that is nearer to the tip than the SCP was: an SCP that is
-/// pulled there never moves away from the tip.
+/// A search for a way through the free space that is nearer to the tip than the SCP was, or little farther:
+/// an SCP that is pulled there never moves away from the tip.
 class BruteWay {
  public:
   BruteWay(const BruteSolid& solid, const Vector3& from, const Vector3& to, const Vector3& tip)
-      : solid_(solid), from_(from), to_(to), tip_(tip), farthest_((from - tip).norm()) {}
+      : solid_(solid),
+        from_(from),
+        to_(to),
+        tip_(tip),
+        farthest_((from - tip).norm() + 0.25 * (to - from).norm()) {}
 
   Way search(double cell, std::size_t most) {
     cell_ = cell;
     come_.clear();
     std::priority_queue<Open> open;
     std::size_t looked_at = 0;
-    for (const Key& key : around(key_of(from_))) reach(open, key, from_);
+    for (int i = 0; i < 729; ++i)
+      reach(open, {i / 81 - 4, i / 9 % 9 - 4, i % 9 - 4}, from_);  // out of a nook
     for (; !open.empty(); ++looked_at) {
       if (looked_at > most) return Way::Unknown;
       const Key key = open.top().key;
@@ -62,10 +67,6 @@ class BruteWay {
     bool operator<(const Open& other) const { return cost > other.cost; }
   };
 
-  Key key_of(const Vector3& point) const {
-    const Vector3 at = (point - from_) / cell_;
-    return {int(std::lround(at.x())), int(std::lround(at.y())), int(std::lround(at.z()))};
-  }
   Vector3 place(const Key& key) const { return from_ + cell_ * Vector3(key[0], key[1], key[2]); }
 
   static std::array<Key, 26> around(const Key& key) {
@@ -85,8 +86,7 @@ class BruteWay {
   void reach(std::priority_queue<Open>& open, const Key& key, const Vector3& before) {
     if (come_.count(key) != 0) return;
     const Vector3 there = place(key);
-    if ((there - tip_).norm() > farthest_ + 3.0 * cell_ || solid_.inside(there) || !free(before, there))
-      return;
+    if ((there - tip_).norm() > farthest_ || solid_.inside(there) || !free(before, there)) return;
     come_[key] = true;
     open.push({(there - to_).norm(), key});
   }
