@@ -392,7 +392,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
     const std::optional<Vector3> top = contacts_.lift(from, step, tolerance);
     if (!top || top->norm() > kSteepest * step.norm()) {
       longest = 0.5 * step.norm();
-      contacts_.follow(from);  // what was met up there may have its foot farther on
+      contacts_.follow(from);
       continue;
     }
     if (region_.clearance(from + step) < 0.0 || region_.clearance(from + 0.5 * step + *top) < 0.0) {
@@ -417,6 +417,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
       continue;
     }
     contacts_.add(hit.contact);
+    contacts_.follow(from);  // what is met up there may have its foot farther on
     step = contacts_.rest(from, goal_, tolerance).place - from;
   }
   return {};

@@ -11,7 +11,7 @@ namespace icome::haptics {
 struct ScpSettings {
   double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
   // The budget of a tick is counted, not timed, so that replays agree bit for bit.
-  int max_iterations = 64;   // pieces of way, usually 1 to 5
+  int max_iterations = 128;  // pieces of way, usually 1 to 5
   int max_elements = 8'000;  // looked at by sweeps, some 10 ns each; usually below 100
 };
 

@@ -50,7 +50,7 @@ class BruteWay {
       if ((here - to_).norm() < 4.0 * cell_ && free(here, to_)) return Way::Around;
       for (const Key& next : around(key)) reach(open, next, here);
     }
-    return Way::None;
+    return looked_at > 1 ? Way::None : Way::Unknown;  // a nook narrower than the lattice
   }
 
  private:
@@ -107,8 +107,8 @@ inline Way brute_way(const BruteSolid& whole, const Vector3& from, const Vector3
   if (brute_depth_between(nearby, from, to, 1e-4 * size) <= 1e-8 * size) return Way::Straight;
   const BruteSolid solid = whole.near(tip, (from - tip).norm() + 0.05 * size);
   Way way = Way::None;
-  for (double cell = std::max(length / 12.0, 1e-4 * size); way != Way::Around && cell > length / 200.0;
-       cell *= 0.4)
+  const double finest = std::min(length / 200.0, 5e-4 * size);
+  for (double cell = std::max(length / 12.0, 1e-4 * size); way != Way::Around && cell > finest; cell *= 0.4)
     way = BruteWay(solid, from, to, tip).search(cell, 100'000);
   return way;
 }

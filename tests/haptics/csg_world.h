@@ -275,7 +275,7 @@ inline NamedTree spikes() {
   return {"Spikes", TreeChain(box_shape(0.08, 0.08, 0.02))
                         .unite(cone_shape(0.02, 0.0, 0.04), moved(0.015, 0, 0.03))
                         .unite(cone_shape(0.02, 0.0, 0.04), moved(-0.015, 0, 0.03))
-                        .cut(cone_shape(0.012, 0.0, 0.02), moved(0, 0.02, 0.0))
+                        .cut(cone_shape(0.012, 0.0, 0.018), moved(0, 0.02, -0.001))
                         .tree()};
 }
 inline NamedTree rings() {
