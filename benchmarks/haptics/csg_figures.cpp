@@ -18,9 +18,8 @@ using haptics::ContactSolver;
 using haptics::HapticScene;
 using haptics::NamedTree;
 
-constexpr double kSize = 0.1;    // m, of the solids
-constexpr double kDepth = 1e-3;  // m, of slides
-constexpr double kSpeed = 0.1;   // m/s
+constexpr double kSize = 0.1;          // m, of the solids
+constexpr double kGrooveDepth = 1e-3;  // m, of slides
 
 /// The same tree for the renderer of either name, with a solver that serves it.
 struct Rendered {
@@ -139,17 +138,17 @@ Vector3 gradient(const BruteSolid& solid, const Vector3& at) {
   return result;
 }
 
-/// Comes down from `start` until kDepth inside and walks about at this depth.
+/// Comes down from `start` until kGrooveDepth inside and walks about at this depth.
 std::vector<Vector3> slide_in(const BruteSolid& solid, const Vector3& start, std::size_t ticks) {
   base::Random random(31);
-  const double step = kSpeed * kTick;
+  const double step = kSlow * kTick;
   std::vector<Vector3> tips{start};
   Vector3 heading = random.direction();
   while (tips.size() < ticks) {
     const Vector3 at = tips.back();
     const BruteSolid near = solid.near(at, 0.05);
     const Vector3 out = gradient(near, at);
-    const double off = near.bound(at) + kDepth;
+    const double off = near.bound(at) + kGrooveDepth;
     if (off > step || out.norm() < 1e-3) {  // not there yet
       tips.push_back(at - step * (out.norm() < 1e-3 ? Vector3::UnitZ() : out.normalized()));
       continue;

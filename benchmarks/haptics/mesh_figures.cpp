@@ -17,13 +17,10 @@
 namespace icome::benchmarks {
 namespace {
 
-constexpr BumpySphere kSphere;
-constexpr double kSlideDepth = 0.002;  // m
-constexpr double kStabDepth = 0.005;   // m
-constexpr double kSlow = 0.1;          // m/s
-constexpr double kFast = 0.5;          // m/s
-constexpr double kTipRadius = 0.001;   // m, of the sphere tip
-constexpr int kMillion = 230;          // the frequency that gives 1,058,000 triangles
+constexpr double kStabDepth = 0.005;  // m
+constexpr double kFast = 0.5;         // m/s
+constexpr double kTipRadius = 0.001;  // m, of the sphere tip
+constexpr int kMillion = 230;         // the frequency that gives 1,058,000 triangles
 
 std::string grouped(std::size_t count) {
   if (count < 1000) return fmt::format("{}", count);
@@ -37,9 +34,9 @@ struct Motion {
 };
 
 std::vector<Motion> motions(const Extent& extent) {
-  return {{"100 mm/s", slide_path(kSphere, kSlow, kSlideDepth, extent.ticks)},
-          {"500 mm/s", slide_path(kSphere, kFast, kSlideDepth, extent.ticks)},
-          {"stabs", stab_path(kSphere, kStabDepth, extent.stabs)}};
+  return {{"100 mm/s", slide_path(kBumpySphere, kSlow, kSlideDepth, extent.ticks)},
+          {"500 mm/s", slide_path(kBumpySphere, kFast, kSlideDepth, extent.ticks)},
+          {"stabs", stab_path(kBumpySphere, kStabDepth, extent.stabs)}};
 }
 
 Row touch_row(const std::string& figure, const TouchRun& run, const Faults& faults) {
@@ -168,8 +165,8 @@ class MeshFigures {
 
   void add(int frequency) {
     std::fprintf(stderr, "mesh of %d triangles\n", 20 * frequency * frequency);
-    const auto mesh = std::make_shared<const TriangleMesh>(
-        geometry::bumpy_geodesic_sphere(frequency, kSphere.radius, kSphere.bump_height, kSphere.bumps));
+    const auto mesh = std::make_shared<const TriangleMesh>(geometry::bumpy_geodesic_sphere(
+        frequency, kBumpySphere.radius, kBumpySphere.bump_height, kBumpySphere.bumps));
     const EmbreeMesh embree(*mesh);
     touch_with(kTipRadius, frequency, shape_for(mesh, kTipRadius), embree, sphere_);
     const auto shape = shape_for(mesh, 0.0);

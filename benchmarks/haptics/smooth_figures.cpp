@@ -20,10 +20,7 @@ namespace {
 using geometry::TriangleMesh;
 using haptics::Shape;
 
-constexpr BumpySphere kSphere;
-constexpr double kDepth = 0.002;       // m
-constexpr double kSpeed = 0.1;         // m/s
-constexpr double kSlowly = 0.002;      // m/s: slower than this a hand does not stroke
+constexpr double kStroke = 0.002;      // m/s: slower than this a hand does not stroke
 constexpr double kStiffness = 1000;    // N/m
 constexpr int kControlFrequency = 22;  // 9,680 faces
 
@@ -39,7 +36,7 @@ Row tick_row(const std::string& name, const TouchRun& run, const Faults& faults)
 
 /// The largest change of the force from one tick to the next in a slow slide, N, once it touches.
 double largest_force_step(const std::shared_ptr<const Shape>& shape, std::size_t ticks) {
-  const std::vector<Vector3> tips = slide_path(kSphere, kSlowly, kDepth, ticks);
+  const std::vector<Vector3> tips = slide_path(kBumpySphere, kStroke, kSlideDepth, ticks);
   const TouchRun run = touch(scene_of(shape), 0.0, tips, 1);
   double largest = 0.0;
   std::optional<Vector3> last;
@@ -70,15 +67,15 @@ Row share_row(const std::string& what, double limit, double mesh, double scale, 
 Section loop_figures(const Extent& extent) {
   std::fprintf(stderr, "Loop surface\n");
   geometry::ControlMesh control;
-  control.mesh =
-      geometry::bumpy_geodesic_sphere(kControlFrequency, kSphere.radius, kSphere.bump_height, kSphere.bumps);
+  control.mesh = geometry::bumpy_geodesic_sphere(kControlFrequency, kBumpySphere.radius,
+                                                 kBumpySphere.bump_height, kBumpySphere.bumps);
   const auto surface = *geometry::LoopSurface::create(control);
   const auto mesh = std::make_shared<const TriangleMesh>(*surface->tessellate(extent.loop_level));
   const auto limit = std::make_shared<const haptics::SmoothShape>(surface);
   const auto fine =
       std::make_shared<const haptics::MeshShape>(mesh, haptics::MeshShapeSettings{.closed = true});
   const EmbreeMesh judging(*mesh);
-  const std::vector<Vector3> tips = slide_path(kSphere, kSpeed, kDepth, extent.ticks);
+  const std::vector<Vector3> tips = slide_path(kBumpySphere, kSlow, kSlideDepth, extent.ticks);
   const TouchRun on_limit = touch(scene_of(limit), 0.0, tips, extent.repeats);
   const TouchRun on_mesh = touch(scene_of(fine), 0.0, tips, extent.repeats);
   Section section{"tick on a Loop surface of 9,680 control faces, sliding 2 mm deep at 100 mm/s", {}};
@@ -102,7 +99,7 @@ Section implicit_figures(const Extent& extent) {
       *geometry::ImplicitSurface::create("z - 0.004*sin(60*x + 6*t) - 0.003*sin(50*y - 4*t + 20*x)", box);
   std::vector<Vector3> tips;
   for (std::size_t i = 0; i < extent.ticks; ++i) {
-    const double way = kSpeed * kTick * double(i);
+    const double way = kSlow * kTick * double(i);
     tips.emplace_back(0.06 * std::sin(way / 0.06), 0.06 * std::sin(0.77 * way / 0.06),
                       i < 200 ? 0.015 - 1e-4 * double(i) : -0.005);
   }

@@ -22,6 +22,10 @@ struct BumpySphere {
   double surface(const Vector3& direction) const;
 };
 
+inline constexpr BumpySphere kBumpySphere;
+inline constexpr double kSlideDepth = 0.002;  // m
+inline constexpr double kSlow = 0.1;          // m/s
+
 /// Wanders over the sphere at `speed` (m/s), its depth below the surface `depth` (m, radial), once it has
 /// come down from the air above.
 std::vector<Vector3> slide_path(const BumpySphere& sphere, double speed, double depth, std::size_t ticks);

@@ -14,7 +14,7 @@ constexpr double kMaxTurn = 0.3;        // rad, of one walk
 constexpr int kMaxWalk = 24;            // steps
 constexpr double kClose = 0.1;          // of the tightest bend: so near the surface a goal has one foot
 constexpr double kArrived = 1e-15;      // a step this small, relative to the place's coordinates, is none
-constexpr double kAlmost = 1e-6;         // of the longest step: the last of a walk that is slow to end
+constexpr double kAlmost = 1e-6;        // of the longest step: the last of a walk that is slow to end
 constexpr double kApex = 1e-7;          // of the way to the goal: so near a cone's apex is at it
 constexpr double kCustomStride = 0.02;  // of a custom primitive's size
 

@@ -62,9 +62,9 @@ class SmoothSurface {
 
   /// Slides from `from` along the smooth surface that it lies on, downhill in the distance to `goal`, to
   /// where that distance has a local minimum, or as far as is sure: the walk never jumps to another sheet
-  /// of the surface; `reached` says which. It goes beyond the edges of faces that have a natural extension (a sphere cut by a
-  /// CSG tree), and stops at those that have none. `from.normal` need not be set, and `from` may lie a
-  /// little off the surface (which may have changed with time). Real-time safe.
+  /// of the surface; `reached` says which. It goes beyond the edges of faces that have a natural extension (a
+  /// sphere cut by a CSG tree), and stops at those that have none. `from.normal` need not be set, and `from`
+  /// may lie a little off the surface (which may have changed with time). Real-time safe.
   virtual SurfacePlace foot(const SurfacePlace& from, const Vector3& goal, double time) const = 0;
 
   /// Does the surface really run through `place`, which lies on the (extended) piece, or within `slack`
