@@ -40,6 +40,17 @@ Footing footing_at(const Element& e, const SurfacePlace& place, const Vector3& i
   return {e.inverted ? -outward : outward, felt_normal(e, place), place.reached};
 }
 
+/// A foot at the rim of a sheet or at a crease does not hold who is pulled beyond: so far over it that
+/// covers() sees that.
+Vector3 over_rim(const Element& e, const SurfacePlace& foot, const Vector3& in_surface,
+                 const Tolerance& tolerance) {
+  const Vector3 pull = in_surface - foot.point;
+  const Vector3 along = pull - foot.normal.dot(pull) * foot.normal;
+  if (!foot.reached || along.norm() <= tolerance.touching()) return Vector3::Zero();
+  if (e.surface->covers(foot, in_surface, e.time, tolerance.rim())) return Vector3::Zero();
+  return tolerance.touching() * along.normalized();
+}
+
 }  // namespace
 
 Footing smooth_footing(const Element& e, const Vector3& position) {
@@ -53,8 +64,10 @@ bool smooth_covers(const Element& e, const Vector3& position, const Tolerance& t
 }
 
 Vector3 smooth_settle(const Element& e, const Vector3& position, const Tolerance& tolerance) {
-  const SurfacePlace place = foot(e, into_surface(e, position - e.origin));
-  return e.origin + from_surface(e, place.point) + tolerance.gap * felt_normal(e, place);
+  const Vector3 local = into_surface(e, position - e.origin);
+  const SurfacePlace place = foot(e, local);
+  return e.origin + from_surface(e, place.point + over_rim(e, place, local, tolerance)) +
+         tolerance.gap * felt_normal(e, place);
 }
 
 std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vector3& step,
