@@ -115,11 +115,12 @@ inline Mesh subdivide(const Mesh& mesh) {
   return fine;
 }
 
-/// Only the faces within two rings of face `keep`, which becomes face 0: all that its descendants depend on.
-inline Mesh trimmed(const Mesh& mesh, std::size_t keep) {
+/// Only the faces within some rings of face `keep`, which becomes face 0: two are all that its descendants
+/// depend on.
+inline Mesh trimmed(const Mesh& mesh, std::size_t keep, int rings = 2) {
   std::set<Index> near(mesh.faces[keep].begin(), mesh.faces[keep].end());
   Mesh result = mesh;
-  for (int ring = 0; ring < 2; ++ring) {
+  for (int ring = 0; ring < rings; ++ring) {
     const std::set<Index> inner = near;
     result.faces = {mesh.faces[keep]};
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {

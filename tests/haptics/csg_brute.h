@@ -167,10 +167,11 @@ class BruteSolid {
 };
 
 /// The free side of a solid around a place, as heights along the pull: from places beside it straight on
-/// towards the tip until the solid is in the way.
+/// towards the tip until the solid is in the way. A solid is what has the functions of BruteSolid.
+template <typename Solid>
 class BruteTerrain {
  public:
-  BruteTerrain(const BruteSolid& solid, const Vector3& place, const Vector3& tip, double size)
+  BruteTerrain(const Solid& solid, const Vector3& place, const Vector3& tip, double size)
       : solid_(solid), place_(place), tip_(tip), pull_((tip - place).normalized()), least_(1e-7 * size) {
     u_ = pull_.unitOrthogonal();
     v_ = pull_.cross(u_);
@@ -211,7 +212,7 @@ class BruteTerrain {
     return start - farthest * pull_;
   }
 
-  const BruteSolid& solid_;
+  const Solid& solid_;
   Vector3 place_, tip_, pull_, u_, v_;
   double least_;
 };
@@ -244,9 +245,10 @@ struct ScpError {
 
 /// One step downhill from `place`, over every scale from 0.2 % to 1e-7 of `size`; nothing at a minimum. What
 /// lies beyond a ridge is not downhill, however low it is.
+template <typename Solid>
 class BruteDescent {
  public:
-  BruteDescent(const BruteSolid& solid, const Vector3& place, const Vector3& tip, double size)
+  BruteDescent(const Solid& solid, const Vector3& place, const Vector3& tip, double size)
       : terrain_(solid, place, tip, size), here_((place - tip).norm()), tell_(1e-14 * size), size_(size) {}
 
   std::optional<Vector3> step() const {
@@ -287,15 +289,16 @@ class BruteDescent {
     return true;
   }
 
-  BruteTerrain terrain_;
+  BruteTerrain<Solid> terrain_;
   double here_, tell_, size_;  // m; `tell_` is the rounding of a distance
 };
 
 /// Goes downhill from the SCP to where it should be.
-inline ScpError brute_scp_error(const BruteSolid& whole, const Vector3& tip, const Vector3& scp, double size,
-                                int max_steps = 60) {
+template <typename Solid>
+ScpError brute_scp_error(const Solid& whole, const Vector3& tip, const Vector3& scp, double size,
+                         int max_steps = 60) {
   ScpError result;
-  const BruteSolid solid = whole.near(scp, 0.1 * size);
+  const Solid solid = whole.near(scp, 0.1 * size);
   result.inside = std::max(0.0, -solid.bound(scp));
   result.rest = scp;
   if ((tip - scp).norm() <= 1e-9 * size) return result;

@@ -1,5 +1,6 @@
 #pragma once
-// Touches CSG solids along random ways and holds every surface contact point (SCP) against brute force.
+// Touches CSG solids, and others like them, along random ways and holds every surface contact point (SCP)
+// against brute force.
 #include <functional>
 #include <ostream>
 
@@ -16,9 +17,10 @@ inline std::shared_ptr<const Shape> shape_of(const CsgTree& tree) {
 }
 
 /// Free places about a solid and places in it, found by chance.
+template <typename Solid>
 class PlacePicker {
  public:
-  PlacePicker(const BruteSolid& solid, Random& random, double size)
+  PlacePicker(const Solid& solid, Random& random, double size)
       : solid_(solid), random_(random), size_(size) {}
 
   Vector3 any(double spread = 0.65) {
@@ -37,15 +39,16 @@ class PlacePicker {
     return any();
   }
 
-  const BruteSolid& solid_;
+  const Solid& solid_;
   Random& random_;
   double size_;
 };
 
 /// Presses and slides: from the air straight at some place in the solid until up to a tenth of the size
 /// behind its surface, there along a wavy way, holding still now and then, and out again at random.
-inline std::vector<Vector3> random_touch(const BruteSolid& solid, std::uint64_t seed, std::size_t ticks,
-                                         double size = 0.1, std::size_t* moves = nullptr) {
+template <typename Solid>
+std::vector<Vector3> random_touch(const Solid& solid, std::uint64_t seed, std::size_t ticks,
+                                  double size = 0.1, std::size_t* moves = nullptr) {
   Random random(seed);
   PlacePicker places(solid, random, size);
   std::vector<Vector3> path{places.free()};
@@ -114,13 +117,17 @@ struct TouchFigures {
   std::vector<Vector3> scps;
 };
 
-/// Follows one tip (in the solid's frame), tick by tick, and checks.
+/// Follows one tip (in the solid's frame), tick by tick, and checks. A solid has the functions of BruteSolid,
+/// or its own brute_way() and brute_scp_error().
+template <typename Solid>
 class CheckedTouch {
  public:
-  CheckedTouch(const CsgTree& tree, const TouchCheck& check)
+  CheckedTouch(Solid solid, std::shared_ptr<const Shape> shape, const TouchCheck& check)
       : check_(check),
-        solid_(tree),
-        toucher_(HapticScene::compile({object(1, shape_of(tree), check.pose)}), 0.0, 100'000) {}
+        solid_(std::move(solid)),
+        toucher_(HapticScene::compile({object(1, std::move(shape), check.pose)}), 0.0, 100'000) {}
+  CheckedTouch(const CsgTree& tree, const TouchCheck& check)
+      : CheckedTouch(BruteSolid(tree), shape_of(tree), check) {}
 
   const TouchFigures& run(const std::vector<Vector3>& path) {
     for (const Vector3& tip : path) tick(tip);
@@ -158,15 +165,18 @@ class CheckedTouch {
     const ScpError found = brute_scp_error(solid_, tip, scp, check_.size);
     ++figures_.compared;
     figures_.largest_error = std::max(figures_.largest_error, found.error);
+    if (found.inside > check_.max_inside * check_.size) fail(TouchFailure::Inside, found.inside);
     if (found.error > check_.max_error * check_.size) fail(TouchFailure::Wrong, found.error);
   }
 
   TouchCheck check_;
-  BruteSolid solid_;
+  Solid solid_;
   Toucher toucher_;
   TouchFigures figures_;
   Vector3 last_tip_ = Vector3::Zero();
   bool was_converged_ = true;
 };
+
+CheckedTouch(const CsgTree&, const TouchCheck&)->CheckedTouch<BruteSolid>;
 
 }  // namespace icome::haptics

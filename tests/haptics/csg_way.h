@@ -10,8 +10,8 @@
 namespace icome::haptics {
 
 /// Where the straight way from `a` to `b` is in the solid: how deep at least.
-inline double brute_depth_between(const BruteSolid& solid, const Vector3& a, const Vector3& b,
-                                  double finest) {
+template <typename Solid>
+double brute_depth_between(const Solid& solid, const Vector3& a, const Vector3& b, double finest) {
   const double length = (b - a).norm();
   double deepest = 0.0;
   for (double t = 0.0;;) {
@@ -26,9 +26,10 @@ enum class Way { Straight, Around, None, Unknown };
 
 /// A search for a way through the free space that is nearer to the tip than the SCP was, or little farther:
 /// an SCP that is pulled there never moves away from the tip.
+template <typename Solid>
 class BruteWay {
  public:
-  BruteWay(const BruteSolid& solid, const Vector3& from, const Vector3& to, const Vector3& tip)
+  BruteWay(const Solid& solid, const Vector3& from, const Vector3& to, const Vector3& tip)
       : solid_(solid),
         from_(from),
         to_(to),
@@ -91,7 +92,7 @@ class BruteWay {
     open.push({(there - to_).norm(), key});
   }
 
-  const BruteSolid& solid_;
+  const Solid& solid_;
   Vector3 from_, to_, tip_;
   double farthest_;
   double cell_ = 0.0;
@@ -100,12 +101,12 @@ class BruteWay {
 
 /// How the SCP can have come from `from` to `to` while the tip was pulled to `tip`. What is thinner than 1e-4
 /// of `size` may be passed unseen.
-inline Way brute_way(const BruteSolid& whole, const Vector3& from, const Vector3& to, const Vector3& tip,
-                     double size) {
+template <typename Solid>
+Way brute_way(const Solid& whole, const Vector3& from, const Vector3& to, const Vector3& tip, double size) {
   const double length = (to - from).norm();
-  const BruteSolid nearby = whole.near(0.5 * (from + to), 0.5 * length + 1e-3 * size);
+  const Solid nearby = whole.near(0.5 * (from + to), 0.5 * length + 1e-3 * size);
   if (brute_depth_between(nearby, from, to, 1e-4 * size) <= 1e-8 * size) return Way::Straight;
-  const BruteSolid solid = whole.near(tip, (from - tip).norm() + 0.05 * size);
+  const Solid solid = whole.near(tip, (from - tip).norm() + 0.05 * size);
   Way way = Way::None;
   const double finest = std::min(length / 200.0, 5e-4 * size);
   for (double cell = std::max(length / 12.0, 1e-4 * size); way != Way::Around && cell > finest; cell *= 0.4)
