@@ -1,0 +1,275 @@
+// The surface contact point on implicit surfaces, against closed forms and plain search.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "geometry/implicit_surface.h"
+#include "haptics/csg_touch.h"
+
+namespace icome::haptics {
+namespace {
+
+constexpr double kImplicitSize = 0.1;  // m, of the solids in the middle of the box
+constexpr double kOnSurface = 1e-9;    // m, ten times what the SCP keeps from a surface
+
+base::Bounds implicit_box() { return {Vector3::Constant(-0.06), Vector3::Constant(0.06)}; }
+
+/// A solid as a formula, and told a second time with the functions of BruteSolid.
+struct Field {
+  std::string name;
+  std::string formula;
+  std::function<double(const Vector3&)> value;  // not the formula's, but of the same sign
+  double steepest;                              // of `value`, per m
+
+  double bound(const Vector3& p) const {
+    const double beside = (p.cwiseAbs() - implicit_box().max()).maxCoeff();
+    return std::max(value(p) / steepest, beside);
+  }
+  bool inside(const Vector3& p) const { return bound(p) < 0.0; }
+  const Field& near(const Vector3&, double) const { return *this; }
+
+  friend std::ostream& operator<<(std::ostream& out, const Field& it) { return out << it.name; }
+};
+
+std::shared_ptr<const Shape> formula_shape(const std::string& formula) {
+  auto surface = geometry::ImplicitSurface::create(formula, implicit_box());
+  EXPECT_TRUE(surface.has_value()) << (surface ? "" : surface.error().message);
+  return std::make_shared<SmoothShape>(*surface);
+}
+
+/// How the SCP can have come: along the surface where the straight way dips below it by little for its
+/// length.
+Way brute_way(const Field& field, const Vector3& from, const Vector3& to, const Vector3& tip, double size) {
+  constexpr int kPieces = 24;
+  const double length = (to - from).norm(), finest = 1e-7 * size;
+  bool along = true;
+  Vector3 last = from;
+  for (int i = 1; i <= kPieces && along; ++i) {
+    Vector3 at = from + (double(i) / kPieces) * (to - from);
+    const Vector3 chord = at;
+    for (int lift = 0; lift < 40 && field.bound(at) < -1e-3 * finest; ++lift) {
+      Vector3 slope;
+      for (int k = 0; k < 3; ++k) {
+        slope[k] =
+            (field.bound(at + finest * Vector3::Unit(k)) - field.bound(at - finest * Vector3::Unit(k)));
+      }
+      at += (0.1 * finest - field.bound(at) * 2.0 * finest / slope.norm()) * slope.normalized();
+    }
+    along = field.bound(at) >= -1e-3 * finest && (at - chord).norm() <= 0.3 * length + finest &&
+            (at - last).norm() <= 4.0 * length / kPieces + finest;
+    last = at;
+  }
+  return along ? Way::Around : haptics::brute_way<Field>(field, from, to, tip, size);
+}
+
+// ---- Solids
+
+Field ball_field() {
+  return {"Ball", "x^2 + y^2 + z^2 - 0.05^2", [](const Vector3& p) { return p.norm() - 0.05; }, 1.0};
+}
+
+Field ring_field() {
+  return {"Ring", "(sqrt(x^2 + y^2) - 0.035)^2 + z^2 - 0.015^2",
+          [](const Vector3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 0.035, p.z()) - 0.015; }, 1.0};
+}
+
+Field gyroid_field() {
+  return {"Gyroid", "sin(80*x)*cos(80*y) + sin(80*y)*cos(80*z) + sin(80*z)*cos(80*x) + 0.3",
+          [](const Vector3& p) {
+            const Vector3 s = (80.0 * p).array().sin(), c = (80.0 * p).array().cos();
+            return s.x() * c.y() + s.y() * c.z() + s.z() * c.x() + 0.3;
+          },
+          80.0 * 2.0 * std::sqrt(3.0)};
+}
+
+Field blend_field() {
+  const auto drop = [](const Vector3& p, double x, double y, double width) {
+    return std::exp(-((p - Vector3(x, y, 0.0)) / width).squaredNorm());
+  };
+  return {"Blend",
+          "0.5 - exp(-((x - 0.02)^2 + y^2 + z^2)/0.02^2) - exp(-((x + 0.02)^2 + y^2 + z^2)/0.02^2)"
+          " - exp(-(x^2 + (y - 0.022)^2 + z^2)/0.012^2)",
+          [=](const Vector3& p) {
+            return 0.5 - drop(p, 0.02, 0.0, 0.02) - drop(p, -0.02, 0.0, 0.02) - drop(p, 0.0, 0.022, 0.012);
+          },
+          0.858 * (2.0 / 0.02 + 1.0 / 0.012)};
+}
+
+/// Waves over the floor of the box.
+Field wave_field(double time = 0.0) {
+  return {"Waves", "z - 0.004*sin(90*x - 8*t) - 0.003*cos(70*y + 5*t)",
+          [=](const Vector3& p) {
+            return p.z() - 0.004 * std::sin(90.0 * p.x() - 8.0 * time) -
+                   0.003 * std::cos(70.0 * p.y() + 5.0 * time);
+          },
+          std::sqrt(1.0 + 0.36 * 0.36 + 0.21 * 0.21)};
+}
+
+// ---- Random presses and slides
+
+class TouchedFields : public testing::TestWithParam<Field> {};
+
+INSTANTIATE_TEST_SUITE_P(Fields, TouchedFields,
+                         testing::Values(ball_field(), ring_field(), gyroid_field(), blend_field(),
+                                         wave_field()),
+                         [](const auto& it) { return it.param.name; });
+
+TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
+  const Field& field = GetParam();
+  TouchCheck check;
+  check.size = kImplicitSize;
+  check.sample = 40;
+  check.report = [](const TouchFailure& failure) { ADD_FAILURE() << failure; };
+  const auto path = random_touch(field, 7, std::size_t(repeats(2000)), kImplicitSize);
+  const TouchFigures figures = CheckedTouch(field, formula_shape(field.formula), check).run(path);
+  EXPECT_EQ(figures.failures, 0u);
+  EXPECT_GT(figures.touching, path.size() / 10);
+}
+
+/// Compares with a closed form for tips inside.
+template <typename Known>
+void compare_with_known(const Field& field, Known&& known) {
+  Toucher toucher(HapticScene::compile({object(1, formula_shape(field.formula))}));
+  std::size_t compared = 0;
+  for (const Vector3& tip : random_touch(field, 21, std::size_t(repeats(5000)), kImplicitSize)) {
+    const ScpState& state = toucher.step(tip);
+    ASSERT_TRUE(state.converged);
+    if (!field.inside(tip)) continue;
+    ++compared;
+    ASSERT_TRUE(state.touching);
+    const Vector3 place = known(tip);
+    ASSERT_LT((state.scp - place).norm(), 2e-9) << tip.transpose();
+    ASSERT_LT((state.normal - (place - tip).normalized()).norm(), 1e-6) << tip.transpose();
+  }
+  EXPECT_GT(compared, std::size_t(repeats(500)));
+}
+
+TEST(ScpOnImplicit, IsTheNearestPlaceOfABallAndARing) {
+  compare_with_known(ball_field(), [](const Vector3& tip) { return Vector3(0.05 * tip.normalized()); });
+  compare_with_known(ring_field(), [](const Vector3& tip) {
+    const Vector3 core = 0.035 * Vector3(tip.x(), tip.y(), 0.0).normalized();
+    return Vector3(core + 0.015 * (tip - core).normalized());
+  });
+}
+
+TEST(ScpOnImplicit, IsNotStabbedThroughAThinWavyWall) {
+  const ScenePointer scene =
+      HapticScene::compile({object(1, formula_shape("abs(z - 0.004*sin(60*x)) - 0.0001"))});
+  Random random(8);
+  int pops = 0;
+  for (int i = 0; i < repeats(1000); ++i) {
+    const double side = i % 2 ? 1.0 : -1.0;
+    const double x = random.uniform(-0.04, 0.04), speed = std::pow(10.0, random.uniform(-4.0, -1.7));
+    const Vector3 middle(x, random.uniform(-0.04, 0.04), 0.004 * std::sin(60.0 * x));
+    const Vector3 way = Vector3(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -side).normalized();
+    Toucher toucher(scene);
+    for (double t = -0.01; t < 0.01; t += speed) {  // m a tick
+      const Vector3 scp = toucher.step(middle + t * way).scp;
+      pops += side * (scp.z() - 0.004 * std::sin(60.0 * scp.x())) < 0.0001 * (1.0 - 1e-6);
+    }
+    EXPECT_TRUE(toucher.solver.state().converged) << i;
+  }
+  EXPECT_EQ(pops, 0);
+}
+
+// ---- Surfaces that change with time
+
+/// The least of what a wave's SCP must be at any time.
+void expect_on_waves(const Field& field, const ScpState& state, double time) {
+  EXPECT_TRUE(state.converged) << time;
+  EXPECT_GE(field.bound(state.scp), -1e-3 * kOnSurface) << time;
+  if (state.touching) {
+    EXPECT_LE(field.bound(state.scp), kOnSurface) << time;
+  }
+}
+
+TEST(ScpOnImplicit, RidesOnMovingWaves) {
+  const ScenePointer scene = HapticScene::compile({object(1, formula_shape(wave_field().formula))});
+  Random random(3);
+  for (int i = 0; i < repeats(40); ++i) {
+    const Vector3 tip(random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03),
+                      random.uniform(-0.02, -0.008));
+    Toucher toucher(scene);
+    toucher.step({tip.x(), tip.y(), 0.01});
+    for (int tick = 0; tick < 300; ++tick) {
+      const double time = 1e-3 * tick;
+      const Field field = wave_field(time);
+      const ScpState& state = toucher.solver.step(tip, time);
+      expect_on_waves(field, state, time);
+      ASSERT_TRUE(state.touching) << i << " " << tick;
+      if (tick % 100 == 99) {
+        EXPECT_LT(brute_scp_error(field, tip, state.scp, kImplicitSize).error, 1e-6) << i << " " << tick;
+      }
+      // How fast the surface goes up there, as a difference; along its normal it is slower.
+      const double dt = 1e-5;
+      const double lift = -(wave_field(time + dt).value(state.scp) - wave_field(time - dt).value(state.scp));
+      const Vector3 swell = lift / (2.0 * dt) * state.normal.z() * state.normal;
+      EXPECT_LT((state.surface_velocity - swell).norm(), 1e-6) << i << " " << tick;
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+TEST(ScpOnImplicit, SlidesOverMovingWavesWithoutPops) {
+  const ScenePointer scene = HapticScene::compile({object(1, formula_shape(wave_field().formula))});
+  const auto path = random_touch(wave_field(), 12, std::size_t(repeats(4000)), kImplicitSize);
+  Toucher toucher(scene);
+  Vector3 last = path.front();
+  std::size_t touching = 0;
+  for (std::size_t tick = 0; tick < path.size(); ++tick) {
+    const double time = 1e-3 * double(tick);
+    const ScpState& state = toucher.solver.step(path[tick], time);
+    const Field field = wave_field(time);
+    expect_on_waves(field, state, time);
+    touching += state.touching;
+    // In a tick the waves rise by as much as 50 um under the SCP, which they take along.
+    const Vector3 before = last + std::max(0.0, -1.1 * field.steepest * field.bound(last)) * Vector3::UnitZ();
+    EXPECT_NE(brute_way(field, before, state.scp, path[tick], kImplicitSize), Way::None) << tick;
+    last = state.scp;
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(touching, path.size() / 10);
+}
+
+TEST(ScpOnImplicit, SurfacesWhenABallGrowsOverTheTip) {
+  for (const double speed : {0.01, 1.0, 20.0}) {  // m/s
+    const std::string formula = "x^2 + y^2 + z^2 - (0.01 + " + std::to_string(speed) + "*t)^2";
+    const ScenePointer scene = HapticScene::compile({object(1, formula_shape(formula))});
+    Random random(5);
+    for (int i = 0; i < repeats(20); ++i) {
+      const Vector3 out = random.direction();
+      const Vector3 tip = random.uniform(0.0101, 0.03) * out;
+      Toucher toucher(scene);
+      for (double time = 0.0; 0.01 + speed * time < 0.05; time += std::max(1e-3, 2e-5 / speed)) {
+        const double radius = 0.01 + speed * time;
+        const ScpState& state = toucher.solver.step(tip, time);
+        ASSERT_TRUE(state.converged);
+        if (std::abs(radius - tip.norm()) < 1e-8) continue;
+        ASSERT_EQ(state.touching, radius > tip.norm()) << radius << " " << tip.norm();
+        ASSERT_LT((state.scp - (state.touching ? radius * out : tip)).norm(), 2e-9) << speed << " " << time;
+        if (state.touching) {
+          ASSERT_LT((state.surface_velocity - speed * out).norm(), 1e-6 * speed);
+        }
+      }
+    }
+  }
+}
+
+TEST(ScpOnImplicit, IsHeldByTheFloorOfTheBox) {
+  const ScenePointer scene = HapticScene::compile({object(1, formula_shape(wave_field().formula))});
+  Random random(14);
+  for (int i = 0; i < repeats(100); ++i) {
+    const Vector3 below(random.uniform(-0.055, 0.055), random.uniform(-0.055, 0.055), -0.07);
+    const Vector3 tip = below + Vector3(0.0, 0.0, random.uniform(0.011, 0.05));
+    Toucher toucher(scene);
+    toucher.step(below);
+    const ScpState& state = toucher.go(below, tip, 30);
+    ASSERT_TRUE(state.touching && state.converged) << i;
+    ASSERT_LT((state.scp - Vector3(tip.x(), tip.y(), -0.06)).norm(), kOnSurface) << i;
+    ASSERT_EQ(state.normal, Vector3(0.0, 0.0, -1.0)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace icome::haptics
