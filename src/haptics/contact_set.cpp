@@ -145,9 +145,9 @@ void ContactSet::follow(const Vector3& position) {
   }
 }
 
-ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) const {
-  const Element& contact = elements_.front();
-  const Vector3 place = settle(contact, goal, tolerance);
+ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) {
+  Element& contact = elements_.front();
+  const Vector3 place = settle_ahead(contact, goal, tolerance);
   const Vector3 out = footing(contact, place).normal;
   const Vector3 pull = goal - place;
   const double press = -out.dot(pull);
@@ -171,8 +171,7 @@ bool ContactSet::free(const Footings& now, const Tolerance& tolerance) const {
 
 // Projected gradient steps with the step lengths of Barzilai and Borwein (1988): along an edge curve that
 // is the secant method, and the curves' radii need not be known.
-ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal,
-                                  const Tolerance& tolerance) const {
+ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance) {
   if (size_ == 1) return rest_on_one(goal, tolerance);
   const Footings before = footings(position);
   Footings now = before;

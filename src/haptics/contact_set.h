@@ -48,7 +48,7 @@ class ContactSet {
     Vector3 place;
     bool exact;
   };
-  Rest rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance) const;
+  Rest rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance);
 
   /// Makes the feet of `position` those from which smooth contacts are found.
   void follow(const Vector3& position);
@@ -61,7 +61,7 @@ class ContactSet {
  private:
   using Footings = std::array<Footing, kCapacity>;
   Footings footings(const Vector3& position) const;
-  Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance) const;
+  Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance);
   Vector3 along(Footings at, const Vector3& pull, const Tolerance& tolerance) const;
   Vector3 settled(Vector3 at, Vector3 best, const Vector3& goal, const Tolerance& tolerance) const;
   bool turned(const Footings& before, const Footings& now) const;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "base/vector.h"
@@ -29,6 +30,13 @@ struct Tolerance {
 /// How far below a thickened piece the straight way of a tip (radius in m) along a rounded edge may dip
 /// before the neighbouring face is asked: boxes around pieces are looked at with this margin.
 constexpr double edge_dip(double tip) { return 0.02 * tip; }
+
+/// The foot on a smooth surface of a position of the tip, both in the surface's frame.
+struct SmoothFoot {
+  Vector3 of = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  geometry::SurfacePlace place = {Vector3::Zero(), Vector3::Zero()};
+  double time = 0.0;  // s, the surface's
+};
 
 /// One smooth piece of a surface, thickened by the radius of the tip: what can hold the surface
 /// contact point (SCP) at one side. A point tip has radius 0. A triangle with a sphere tip is a
@@ -65,9 +73,7 @@ struct Element {
   double tip = 0.0;     // m, the tip's radius
   const geometry::SmoothSurface* surface = nullptr;  // of Smooth; its shape keeps it alive
   double time = 0.0;                                 // s, of Smooth: the surface's own time
-  // Of Smooth, in the surface's frame: the place where the tip was last over it, from which feet are found.
-  Vector3 hint = Vector3::Zero();
-  double hint_u = 0.0, hint_v = 0.0;
+  SmoothFoot here, ahead;                            // of Smooth: those found last, from which others are
 
   bool flat() const { return kind <= Kind::Disc; }
   /// Is every tangent plane free of the piece?

@@ -216,7 +216,7 @@ void ScpSolver::converge(const Vector3& tip) {
     ++state_.iterations;
     bool exact = false;
     const Vector3 step = next_step(tip, exact);
-    if (step.squaredNorm() <= 4.0 * tolerance.gap * tolerance.gap || idle == kMaxIdle) {
+    if (step.norm() <= tolerance.touching() || idle == kMaxIdle) {
       idle = 0;
       if (escape(tip)) continue;
       state_.converged = true;

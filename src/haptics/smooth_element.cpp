@@ -8,6 +8,8 @@ namespace {
 
 using geometry::SurfacePlace;
 
+constexpr double kRounding = 1e-14;  // of coordinates
+
 Vector3 into_surface(const Element& e, const Vector3& vector) {
   return {e.u.dot(vector), e.v.dot(vector), e.axis.dot(vector)};
 }
@@ -16,17 +18,19 @@ Vector3 from_surface(const Element& e, const Vector3& vector) {
   return e.u * vector.x() + e.v * vector.y() + e.axis * vector.z();
 }
 
-SurfacePlace hinted(const Element& e) { return {e.hint, Vector3::Zero(), e.feature, e.hint_u, e.hint_v}; }
-
-void take_hint(Element& e, const SurfacePlace& place) {
-  e.feature = place.piece;
-  e.hint = place.point;
-  e.hint_u = place.u;
-  e.hint_v = place.v;
+/// Is it the foot asked for? The position may have moved by rounding.
+bool answers(const SmoothFoot& known, const Element& e, const Vector3& in_surface) {
+  return known.time == e.time &&
+         (known.of - in_surface).squaredNorm() <= kRounding * kRounding * in_surface.squaredNorm();
 }
 
+/// Found from the nearer one of the feet that are known.
 SurfacePlace foot(const Element& e, const Vector3& in_surface) {
-  return e.surface->foot(hinted(e), in_surface, e.time);
+  if (answers(e.here, e, in_surface)) return e.here.place;
+  if (answers(e.ahead, e, in_surface)) return e.ahead.place;
+  const double from_here = (e.here.place.point - in_surface).squaredNorm();
+  const bool nearer_ahead = (e.ahead.of - in_surface).squaredNorm() < from_here;  // not where it is unknown
+  return e.surface->foot(nearer_ahead ? e.ahead.place : e.here.place, in_surface, e.time);
 }
 
 /// The normal towards the side that is felt.
@@ -51,6 +55,13 @@ Vector3 over_rim(const Element& e, const SurfacePlace& foot, const Vector3& in_s
   return tolerance.touching() * along.normalized();
 }
 
+/// Where a tip rests that is pulled to `in_surface`, whose foot is given: a gap above that.
+Vector3 above(const Element& e, const SurfacePlace& foot, const Vector3& in_surface,
+              const Tolerance& tolerance) {
+  return e.origin + from_surface(e, foot.point + over_rim(e, foot, in_surface, tolerance)) +
+         tolerance.gap * felt_normal(e, foot);
+}
+
 }  // namespace
 
 Footing smooth_footing(const Element& e, const Vector3& position) {
@@ -65,9 +76,16 @@ bool smooth_covers(const Element& e, const Vector3& position, const Tolerance& t
 
 Vector3 smooth_settle(const Element& e, const Vector3& position, const Tolerance& tolerance) {
   const Vector3 local = into_surface(e, position - e.origin);
-  const SurfacePlace place = foot(e, local);
-  return e.origin + from_surface(e, place.point + over_rim(e, place, local, tolerance)) +
-         tolerance.gap * felt_normal(e, place);
+  return above(e, foot(e, local), local, tolerance);
+}
+
+Vector3 settle_ahead(Element& e, const Vector3& position, const Tolerance& tolerance) {
+  const Vector3 local = into_surface(e, position - e.origin);
+  SurfacePlace place = foot(e, local);
+  const Vector3 settled = above(e, place, local, tolerance);
+  place.reached = true;  // straight below, wherever the walk ended
+  e.ahead = {into_surface(e, settled - e.origin), place, e.time};
+  return settled;
 }
 
 std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vector3& step,
@@ -89,16 +107,18 @@ std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vecto
     if (rest > 1.0 || (first && rest >= *first)) continue;
     first = rest;
     e.inverted = from_behind;
-    take_hint(e, entry->place);
+    e.feature = entry->place.piece;
+    e.here = {};
+    e.here.place = entry->place;
+    e.ahead = {};
   }
   return first;
 }
 
-Footing follow_foot(Element& e, const Vector3& position) {
+void follow_foot(Element& e, const Vector3& position) {
   const Vector3 local = into_surface(e, position - e.origin);
-  const SurfacePlace place = foot(e, local);
-  take_hint(e, place);
-  return footing_at(e, place, local);
+  e.here = {local, foot(e, local), e.time};
+  e.feature = e.here.place.piece;
 }
 
 Vector3 smooth_velocity(const Element& e, const Vector3& position) {

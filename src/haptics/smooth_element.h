@@ -10,8 +10,12 @@ Vector3 smooth_settle(const Element& element, const Vector3& position, const Tol
 std::optional<double> smooth_sweep(Element& element, const Vector3& start, const Vector3& step,
                                    const Tolerance& tolerance);
 
-/// The same, and makes the foot of `position` the one from which the next feet are found. Real-time safe.
-Footing follow_foot(Element& element, const Vector3& position);
+/// What settle() of element.h asks; the element remembers where, as the tip is likely to go there.
+/// Real-time safe.
+Vector3 settle_ahead(Element& element, const Vector3& position, const Tolerance& tolerance);
+
+/// Makes the foot of `position` the one from which the next feet are found. Real-time safe.
+void follow_foot(Element& element, const Vector3& position);
 
 /// How fast the surface itself moves at `position` (m/s). Real-time safe.
 Vector3 smooth_velocity(const Element& element, const Vector3& position);
