@@ -20,7 +20,7 @@ Vector3 from_surface(const Element& e, const Vector3& vector) {
 
 /// Is it the foot asked for? The position may have moved by rounding.
 bool answers(const SmoothFoot& known, const Element& e, const Vector3& in_surface) {
-  return known.time == e.time &&
+  return known.place.reached && known.time == e.time &&
          (known.of - in_surface).squaredNorm() <= kRounding * kRounding * in_surface.squaredNorm();
 }
 
