@@ -9,6 +9,7 @@ namespace {
 using geometry::SurfacePlace;
 
 constexpr double kRounding = 1e-14;  // of coordinates
+constexpr double kGroove = 1e5;      // gaps beyond a crease in which the other side of a groove rises
 
 Vector3 into_surface(const Element& e, const Vector3& vector) {
   return {e.u.dot(vector), e.v.dot(vector), e.axis.dot(vector)};
@@ -44,15 +45,34 @@ Footing footing_at(const Element& e, const SurfacePlace& place, const Vector3& i
   return {e.inverted ? -outward : outward, felt_normal(e, place), place.reached};
 }
 
+/// What else of the surface a way meets first.
+std::optional<geometry::SurfaceEntry> met_beside(const Element& e, const SurfacePlace& foot,
+                                                 const Vector3& start, const Vector3& way,
+                                                 const Tolerance& tolerance) {
+  std::optional<geometry::SurfaceEntry> first;
+  e.surface->near(start, start + way, tolerance.gap, e.time, [&](std::uint32_t piece, const base::Bounds&) {
+    if (e.surface->same(foot.piece, piece)) return true;
+    const auto entry = e.surface->entry(piece, start, way, e.inverted, e.time, tolerance.rim());
+    if (entry && (!first || entry->t < first->t)) first = entry;
+    return true;
+  });
+  return first;
+}
+
 /// A foot at the rim of a sheet or at a crease does not hold who is pulled beyond: so far over it that
-/// covers() sees that.
+/// covers() sees that. Up the other side of a groove if the pull leads there, else not at all.
 Vector3 over_rim(const Element& e, const SurfacePlace& foot, const Vector3& in_surface,
                  const Tolerance& tolerance) {
   const Vector3 pull = in_surface - foot.point;
   const Vector3 along = pull - foot.normal.dot(pull) * foot.normal;
   if (!foot.reached || along.norm() <= tolerance.touching()) return Vector3::Zero();
   if (e.surface->covers(foot, in_surface, e.time, tolerance.rim())) return Vector3::Zero();
-  return tolerance.touching() * along.normalized();
+  const Vector3 start = foot.point + (e.inverted ? -tolerance.gap : tolerance.gap) * foot.normal;
+  const Vector3 way = kGroove * tolerance.gap * along.normalized();
+  const auto groove = met_beside(e, foot, start, way, tolerance);
+  if (!groove) return tolerance.touching() * along.normalized();
+  const Vector3& other = groove->place.normal;
+  return (pull - other.dot(pull) * other).dot(along) > 0.0 ? way : Vector3::Zero();
 }
 
 /// Where a tip rests that is pulled to `in_surface`, whose foot is given: a gap above that.
