@@ -139,6 +139,12 @@ INSTANTIATE_TEST_SUITE_P(Controls, TouchedLoops, testing::ValuesIn(touched_loops
 
 TEST_P(TouchedLoops, GivesTheConstrainedPlaceAndNoPops) { touch_at_random(GetParam().control, 7, 2000); }
 
+// Creases at random make shallow grooves too, where the tip is beyond the rims of both sides.
+TEST(ScpOnLoop, RestsInShallowGrooves) {
+  const TriangleMesh ball = geometry::loop_reference::wild_ball(1, 30, 0.15, 30);
+  touch_at_random(fitted(geometry::loop_reference::torn(ball, 0.0, 0.1, 0.05, 30)), 30, 1000);
+}
+
 TEST(ScpOnLoop, GivesTheConstrainedPlaceOnRealModels) {
   const auto folder = std::filesystem::path(ICOME_SHARED_DATA) / "meshes" / "control";
   for (const char* name : {"spot.obj", "bob_small.ply"}) {
