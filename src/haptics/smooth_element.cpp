@@ -8,8 +8,8 @@ namespace {
 
 using geometry::SurfacePlace;
 
-constexpr double kRounding = 1e-14;  // of coordinates
-constexpr double kGroove = 1e5;      // gaps beyond a crease in which the other side of a groove rises
+constexpr double kSamePlace = 1e-14;  // of coordinates
+constexpr double kGroove = 1e5;       // gaps beyond a crease in which the other side of a groove rises
 
 Vector3 into_surface(const Element& e, const Vector3& vector) {
   return {e.u.dot(vector), e.v.dot(vector), e.axis.dot(vector)};
@@ -22,7 +22,7 @@ Vector3 from_surface(const Element& e, const Vector3& vector) {
 /// Is it the foot asked for? The position may have moved by rounding.
 bool answers(const SmoothFoot& known, const Element& e, const Vector3& in_surface) {
   return known.place.reached && known.time == e.time &&
-         (known.of - in_surface).squaredNorm() <= kRounding * kRounding * in_surface.squaredNorm();
+         (known.of - in_surface).squaredNorm() <= kSamePlace * kSamePlace * in_surface.squaredNorm();
 }
 
 /// Found from the nearer one of the feet that are known.
