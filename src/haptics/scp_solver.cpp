@@ -226,7 +226,7 @@ void ScpSolver::converge(const Vector3& tip) {
     const Vector3 from = position_;
     const bool whole = advance(step);
     if (region_.overflowed()) return;
-    idle = nearer(from, tip) ? 0 : idle + 1;
+    if (!cut_) idle = nearer(from, tip) ? 0 : idle + 1;  // a part of a way may lead off at first
     if (contacts_.size() != held) continue;
     const bool fast = position_ == from && contacts_.any_smooth();  // between walls
     const bool there = whole && exact && held < 2;                  // with more there may be an escape
@@ -351,7 +351,8 @@ bool ScpSolver::advance(const Vector3& wanted) {
     reach_ *= 0.5;
     return false;
   }
-  const bool whole = !hit.met && (!smooth || contacts_.size() == held) && step == wanted;
+  cut_ = !hit.met && step != wanted;
+  const bool whole = !hit.met && !cut_ && (!smooth || contacts_.size() == held);
   contacts_.forget_if([&](const Element& contact) {
     return height(contact, position_) > tolerance.touching() || !covers(contact, position_, tolerance);
   });

@@ -68,6 +68,7 @@ class ScpSolver final : public ContactSolver {
   const HapticScene* scene_ = nullptr;
   double elapsed_ = 0.0;  // s, of the last step
   bool started_ = false;
+  bool cut_ = false;  // did the last step go only a part of the way wanted?
   bool sliding_ = false;
   bool left_solid_ = false;             // put on the surface since the last report
   Vector3 position_ = Vector3::Zero();  // m, of the SCP (centre of the tip that rests)
