@@ -121,7 +121,7 @@ TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
   check.size = kImplicitSize;
   check.sample = 40;
   check.report = [](const TouchFailure& failure) { ADD_FAILURE() << failure; };
-  const auto path = random_touch(field, 7, std::size_t(repeats(2000)), kImplicitSize);
+  const auto path = random_touch(field, 7, 2000, kImplicitSize);
   const TouchFigures figures = CheckedTouch(field, formula_shape(field.formula), check).run(path);
   EXPECT_EQ(figures.failures, 0u);
   EXPECT_GT(figures.touching, path.size() / 10);
@@ -132,7 +132,7 @@ template <typename Known>
 void compare_with_known(const Field& field, Known&& known) {
   Toucher toucher(HapticScene::compile({object(1, formula_shape(field.formula))}));
   std::size_t compared = 0;
-  for (const Vector3& tip : random_touch(field, 21, std::size_t(repeats(5000)), kImplicitSize)) {
+  for (const Vector3& tip : random_touch(field, 21, 5000, kImplicitSize)) {
     const ScpState& state = toucher.step(tip);
     ASSERT_TRUE(state.converged);
     if (!field.inside(tip)) continue;
@@ -142,7 +142,7 @@ void compare_with_known(const Field& field, Known&& known) {
     ASSERT_LT((state.scp - place).norm(), 2e-9) << tip.transpose();
     ASSERT_LT((state.normal - (place - tip).normalized()).norm(), 1e-6) << tip.transpose();
   }
-  EXPECT_GT(compared, std::size_t(repeats(500)));
+  EXPECT_GT(compared, 500);
 }
 
 TEST(ScpOnImplicit, IsTheNearestPlaceOfABallAndARing) {
@@ -213,7 +213,7 @@ TEST(ScpOnImplicit, RidesOnMovingWaves) {
 
 TEST(ScpOnImplicit, SlidesOverMovingWavesWithoutPops) {
   const ScenePointer scene = HapticScene::compile({object(1, formula_shape(wave_field().formula))});
-  const auto path = random_touch(wave_field(), 12, std::size_t(repeats(4000)), kImplicitSize);
+  const auto path = random_touch(wave_field(), 12, 4000, kImplicitSize);
   Toucher toucher(scene);
   Vector3 last = path.front();
   std::size_t touching = 0;

@@ -118,13 +118,13 @@ struct SheetGround {
 
 /// Fails on whatever is wrong along a random way.
 void touch_at_random(const ControlMesh& control, std::uint64_t seed, int ticks) {
-  const BruteLoop loop(control, std::size_t(repeats(6000)));
-  ASSERT_LT(loop.margin(), 0.01 * kLoopSize * kSanitizerShare);
+  const BruteLoop loop(control);
+  ASSERT_LT(loop.margin(), 0.01 * kLoopSize);
   TouchCheck check;
   check.size = kLoopSize;
   check.sample = 40;
   check.report = [](const TouchFailure& failure) { ADD_FAILURE() << failure; };
-  const auto count = std::size_t(repeats(ticks));
+  const auto count = std::size_t(ticks);
   const auto path = loop.closed() ? random_touch(loop, seed, count, kLoopSize)
                                   : random_touch(SheetGround{loop}, seed, count, kLoopSize);
   const TouchFigures figures = CheckedTouch(loop, limit_shape(control), check).run(path);
