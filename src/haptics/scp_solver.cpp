@@ -273,12 +273,20 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   return pull;
 }
 
+/// Does the tip pull off the contact? At an apex the normal where the SCP is says little: what counts is
+/// the side of the surface that the tip is on, if that is near enough to tell.
+bool ScpSolver::lets_go(const Element& contact, const Vector3& tip) const {
+  if (normal(contact, position_).dot(tip - position_) < 0.0) return false;
+  const Footing under_tip = footing(contact, tip);
+  return !under_tip.sure || under_tip.height >= 0.0;
+}
+
 /// The same with smooth surfaces among the contacts, which are followed as they curve.
 Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = scene_->tolerance();
   const Vector3 pull = tip - position_;
   contacts_.follow(position_);
-  if (contacts_.size() == 1 && normal(contacts_.all().front(), position_).dot(pull) >= 0.0) {
+  if (contacts_.size() == 1 && lets_go(contacts_.all().front(), tip)) {
     contacts_.clear();
     return pull;
   }

@@ -53,6 +53,7 @@ class ScpSolver final : public ContactSolver {
   SweepHit arch(Vector3& step);
   Vector3 rest_within(double length, const Vector3& step);
   bool escape(const Vector3& tip);
+  bool lets_go(const Element& contact, const Vector3& tip) const;
   void let_go(const Vector3& step);
   double slip(double along, double press);
   void surround(const Vector3& step);
