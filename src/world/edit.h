@@ -1,0 +1,141 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "world/world.h"
+
+namespace icome::world {
+
+struct Edit;
+
+/// Makes an object without children. Ids of what is made come from an IdSource.
+struct CreateObject {
+  ObjectId id;
+  std::size_t place = 0;  // among its siblings-to-be
+  PhysicalObject object;  // its parent in it, no children
+};
+/// Takes an object away that has no children and is no root of a scene; see delete_subtree.
+struct DeleteObject {
+  ObjectId id;
+};
+/// Puts a subtree under another parent, or among the roots, and says where it is there.
+struct MoveObject {
+  ObjectId id;
+  ObjectId parent;
+  std::size_t place = 0;  // among its siblings-to-be, itself not counted
+  Affine3 parent_from_object = Affine3::Identity();
+};
+struct PlaceObject {
+  ObjectId id;
+  Affine3 parent_from_object = Affine3::Identity();
+};
+struct RenameObject {
+  ObjectId id;
+  std::string name;
+};
+/// Makes the object of another shape that is there, or of none.
+struct ChooseGeometry {
+  ObjectId id;
+  GeometryId geometry;
+};
+struct ChooseMaterial {
+  ObjectId id;
+  MaterialId material;
+};
+
+struct CreateGeometry {
+  GeometryId id;
+  GeometryPointer shape;
+};
+/// Of a shape that no object has.
+struct DeleteGeometry {
+  GeometryId id;
+};
+/// Changes the shape of all objects that share it.
+struct ReplaceGeometry {
+  GeometryId id;
+  GeometryPointer shape;
+};
+/// Moves vertices of a mesh or of a control mesh, for all objects that share it.
+struct MoveVertices {
+  GeometryId id;
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vector3> positions;  // m, the shape's frame; as many
+};
+
+struct CreateMaterial {
+  MaterialId id;
+  Material material;
+};
+struct DeleteMaterial {
+  MaterialId id;
+};
+struct ChangeMaterial {
+  MaterialId id;
+  Material material;
+};
+struct CreateTexture {
+  TextureId id;
+  Texture texture;
+};
+struct DeleteTexture {
+  TextureId id;
+};
+
+struct CreateScene {
+  SceneId id;
+  std::string name;
+};
+/// Of a scene without objects.
+struct DeleteScene {
+  SceneId id;
+};
+struct RenameScene {
+  SceneId id;
+  std::string name;
+};
+/// Puts the subtree of an object into a scene.
+struct EnterScene {
+  SceneId scene;
+  ObjectId object;
+  std::size_t place = 0;  // among the scene's roots
+};
+struct LeaveScene {
+  SceneId scene;
+  ObjectId object;
+};
+
+/// Edits that belong together: all are applied, in this order, or none.
+struct EditGroup {
+  std::vector<Edit> edits;
+};
+
+/// A change of a world, the only way in which one changes: a plain value that can be applied and inverted.
+/// Undo, the journal, the network, speech and replays all carry these.
+struct Edit {
+  using What = std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
+                            ChooseMaterial, CreateGeometry, DeleteGeometry, ReplaceGeometry, MoveVertices,
+                            CreateMaterial, DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture,
+                            CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, EditGroup>;
+
+  template <typename Kind>
+  requires std::is_constructible_v<What, Kind&&> &&
+      (!std::is_same_v<std::decay_t<Kind>, Edit>)Edit(Kind&& kind)
+      : what(std::forward<Kind>(kind)) {}  // NOLINT(google-explicit-constructor)
+
+  What what;
+};
+
+/// Changes the world and gives the edit that takes it back. A refused edit changes nothing, and the error
+/// says why in terms of what people see.
+base::Result<Edit> apply(World& world, const Edit& edit);
+
+/// The edit that deletes an object with all below it, and the shapes that nothing is made of then. The
+/// object is in the world.
+Edit delete_subtree(const World& world, ObjectId root);
+
+}  // namespace icome::world

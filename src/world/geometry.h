@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "base/vector.h"
+
+namespace icome::world {
+
+using base::Affine3;
+using base::Bounds;
+using base::Vector3;
+
+/// What an object is made of, in the object's own frame (m). Immutable, so that threads, undo and copies
+/// share it; an edit puts another in its place. Derive from it to add a kind of shape (thesis 5.6.2).
+class Geometry {
+ public:
+  virtual ~Geometry() = default;
+
+  /// The kind's name in files and reports: "mesh", "primitive", "loop", "csg", "implicit" or one's own.
+  virtual std::string_view kind() const = 0;
+
+  /// Around the shape; empty for one that holds nothing.
+  virtual Bounds bounds() const = 0;
+
+  /// A number that is equal for shapes equal to the last bit and almost surely different for others.
+  virtual std::uint64_t hash() const = 0;
+
+  /// Memory held, in bytes.
+  virtual std::size_t bytes() const = 0;
+};
+
+using GeometryPointer = std::shared_ptr<const Geometry>;
+
+}  // namespace icome::world

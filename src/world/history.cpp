@@ -1,0 +1,59 @@
+#include "world/history.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+namespace icome::world {
+namespace {
+
+/// Does the older one of two inverses undo both, as in the steps of a drag?
+bool covers_both(const Edit& older, const Edit& newer) {
+  const auto* one = std::get_if<PlaceObject>(&older.what);
+  const auto* other = std::get_if<PlaceObject>(&newer.what);
+  return one && other && one->id == other->id;
+}
+
+}  // namespace
+
+base::Result<void> History::perform(World& world, const Edit& edit, const std::string& name) {
+  auto inverse = apply(world, edit);
+  if (!inverse) return tl::unexpected(inverse.error());
+  undone_.clear();
+  done_.push_back({name, {std::move(*inverse)}});
+  return {};
+}
+
+base::Result<void> History::extend(World& world, const Edit& edit) {
+  assert(can_undo() && !can_redo());
+  auto inverse = apply(world, edit);
+  if (!inverse) return tl::unexpected(inverse.error());
+  std::vector<Edit>& inverses = done_.back().inverses;
+  if (!covers_both(inverses.back(), *inverse)) inverses.push_back(std::move(*inverse));
+  return {};
+}
+
+base::Result<Edit> History::undo(World& world) {
+  return turn(world, done_, undone_, "There is nothing to undo.");
+}
+
+base::Result<Edit> History::redo(World& world) {
+  return turn(world, undone_, done_, "There is nothing to redo.");
+}
+
+base::Result<Edit> History::turn(World& world, std::vector<Action>& from, std::vector<Action>& to,
+                                 const char* nothing) {
+  if (from.empty()) return base::fail(nothing);
+  const Action& action = from.back();
+  Edit edit = EditGroup{{action.inverses.rbegin(), action.inverses.rend()}};
+  auto inverse = apply(world, edit);
+  if (!inverse) {
+    return base::fail(fmt::format("\"{}\" stays as it is, as the design has changed since: {}", action.name,
+                                  inverse.error().message));
+  }
+  to.push_back({action.name, {std::move(*inverse)}});
+  from.pop_back();
+  return edit;
+}
+
+}  // namespace icome::world

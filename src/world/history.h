@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "world/edit.h"
+
+namespace icome::world {
+
+/// What a person did and can take back: one entry for each action, whatever edits it took. Owns the
+/// inverses; knows the world only while it is called.
+class History {
+ public:
+  /// Applies what an action called `name` ("Move leg") does. What was undone can then not be redone.
+  base::Result<void> perform(World& world, const Edit& edit, const std::string& name);
+  /// The same for more of the last action, such as the next step of a drag, which must not be undone.
+  base::Result<void> extend(World& world, const Edit& edit);
+
+  bool can_undo() const { return !done_.empty(); }
+  bool can_redo() const { return !undone_.empty(); }
+  /// The names of the next actions to undo or redo; empty when there are none.
+  std::string undo_name() const { return done_.empty() ? "" : done_.back().name; }
+  std::string redo_name() const { return undone_.empty() ? "" : undone_.back().name; }
+
+  /// Gives the edit that was applied, for the journal and for colleagues. Fails, changing nothing, when
+  /// there is nothing to take back or somebody else's edits are in its way.
+  base::Result<Edit> undo(World& world);
+  base::Result<Edit> redo(World& world);
+
+ private:
+  struct Action {
+    std::string name;
+    std::vector<Edit> inverses;  // the last one first to be applied
+  };
+  static base::Result<Edit> turn(World& world, std::vector<Action>& from, std::vector<Action>& to,
+                                 const char* nothing);
+
+  std::vector<Action> done_, undone_;
+};
+
+}  // namespace icome::world

@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "geometry/loop_surface.h"
+#include "world/geometry.h"
+
+namespace icome::world {
+
+using base::Vector2;
+
+/// A triangle mesh. Texture coordinates belong to corners of triangles, as one vertex may lie in several
+/// textures (2.4.1); so do normals, which say where edges look sharp.
+struct MeshGeometry final : public Geometry {
+  explicit MeshGeometry(geometry::TriangleMesh triangles) : mesh(std::move(triangles)) {}
+
+  geometry::TriangleMesh mesh;
+  std::vector<std::array<Vector2, 3>> texture_coordinates;  // of every triangle, or none
+  std::vector<std::array<Vector3, 3>> normals;              // unit, of every triangle, or none: smooth
+
+  std::string_view kind() const override { return "mesh"; }
+  Bounds bounds() const override { return geometry::bounds(mesh); }
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override;
+};
+
+/// The control mesh of a Loop subdivision surface.
+struct LoopGeometry final : public Geometry {
+  explicit LoopGeometry(geometry::ControlMesh control_mesh) : control(std::move(control_mesh)) {}
+
+  geometry::ControlMesh control;
+
+  std::string_view kind() const override { return "loop"; }
+  /// Of the control mesh, within whose convex hull the surface lies.
+  Bounds bounds() const override { return geometry::bounds(control.mesh); }
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override;
+};
+
+/// The shape with some vertices elsewhere, and where they were. Fails for shapes without vertices, for
+/// vertices that are not there or named twice, and for positions that are not finite. Corner normals stay:
+/// who bends a shape replaces them with it.
+struct MovedVertices {
+  GeometryPointer shape;
+  std::vector<Vector3> before;  // m, in the order asked for
+};
+base::Result<MovedVertices> move_vertices(const Geometry& shape, std::span<const std::uint32_t> vertices,
+                                          std::span<const Vector3> positions);
+
+}  // namespace icome::world

@@ -1,0 +1,60 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "base/result.h"
+#include "geometry/csg_tree.h"
+#include "geometry/implicit_surface.h"
+#include "world/geometry.h"
+
+namespace icome::world {
+
+/// A box, sphere, cylinder, cone, torus, capsule or half-space by its sizes.
+struct PrimitiveGeometry final : public Geometry {
+  explicit PrimitiveGeometry(const geometry::Primitive& shape) : primitive(shape) {}
+
+  geometry::Primitive primitive;
+
+  std::string_view kind() const override { return "primitive"; }
+  Bounds bounds() const override { return geometry::bounds(primitive); }
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override { return sizeof(*this); }
+};
+
+/// A solid under union, intersection and difference.
+struct CsgGeometry final : public Geometry {
+  explicit CsgGeometry(geometry::CsgTree solid) : tree(std::move(solid)) {}
+
+  geometry::CsgTree tree;
+
+  std::string_view kind() const override { return "csg"; }
+  Bounds bounds() const override { return geometry::bounds(tree); }
+  /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override;
+};
+
+/// The solid where a formula in x, y, z and t is negative, within a box.
+class ImplicitGeometry final : public Geometry {
+ public:
+  /// Fails as geometry::ImplicitSurface::create does.
+  static base::Result<std::shared_ptr<const ImplicitGeometry>> create(const std::string& formula,
+                                                                      const Bounds& box);
+
+  const std::string& formula() const { return formula_; }
+  const std::shared_ptr<const geometry::ImplicitSurface>& surface() const { return surface_; }
+
+  std::string_view kind() const override { return "implicit"; }
+  Bounds bounds() const override { return surface_->bounds(); }
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override { return sizeof(*this) + formula_.capacity() + surface_->bytes(); }
+
+ private:
+  ImplicitGeometry(std::string formula, std::shared_ptr<const geometry::ImplicitSurface> surface)
+      : formula_(std::move(formula)), surface_(std::move(surface)) {}
+
+  std::string formula_;
+  std::shared_ptr<const geometry::ImplicitSurface> surface_;
+};
+
+}  // namespace icome::world

@@ -1,0 +1,123 @@
+#include "world/world.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "world/hasher.h"
+
+namespace icome::world {
+namespace {
+
+void add_id(Hasher& hasher, std::uint64_t value) { hasher.add(value); }
+
+void add_to(Hasher& hasher, const PhysicalObject& it) {
+  hasher.add(std::string_view(it.name));
+  add_id(hasher, it.parent.value);
+  hasher.add(it.children.size());
+  for (const ObjectId child : it.children) add_id(hasher, child.value);
+  hasher.add(it.parent_from_object.matrix());
+  add_id(hasher, it.geometry.value);
+  add_id(hasher, it.material.value);
+}
+
+void add_to(Hasher& hasher, const GeometryObject& it) { hasher.add(it.shape->hash()); }
+
+void add_to(Hasher& hasher, const Material& it) {
+  hasher.add(std::string_view(it.name));
+  for (const float value : {it.ambient, it.shininess, it.transparency}) hasher.add(double(value));
+  for (const Colour& colour : {it.diffuse, it.specular, it.emission}) {
+    for (const float part : colour) hasher.add(double(part));
+  }
+  add_id(hasher, it.texture.value);
+  for (const std::optional<double>& value : {it.touch.stiffness, it.touch.damping}) {
+    hasher.add(value.has_value());
+    hasher.add(value.value_or(0.0));
+  }
+  hasher.add(it.touch.static_friction);
+  hasher.add(it.touch.dynamic_friction);
+  hasher.add(std::string_view(it.touch.texture));
+}
+
+void add_to(Hasher& hasher, const Texture& it) {
+  hasher.add(std::string_view(it.name));
+  hasher.add(std::string_view(it.media_type));
+  hasher.add(std::string_view(*it.bytes));
+}
+
+void add_to(Hasher& hasher, const Scene& it) {
+  hasher.add(std::string_view(it.name));
+  hasher.add(it.roots.size());
+  for (const ObjectId root : it.roots) add_id(hasher, root.value);
+}
+
+/// In the order of ids: tables keep none.
+template <typename Named>
+void add_table(Hasher& hasher, const World::Table<Named>& table) {
+  std::vector<Id<Named>> ids;
+  for (const auto& [id, named] : table) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  hasher.add(ids.size());
+  for (const Id<Named> id : ids) {
+    add_id(hasher, id.value);
+    add_to(hasher, table.at(id));
+  }
+}
+
+}  // namespace
+
+std::uint64_t World::next_number(std::uint32_t author) const {
+  const auto found = last_numbers_.find(author);
+  return found == last_numbers_.end() ? 1 : found->second + 1;
+}
+
+Affine3 world_from_object(const World& world, ObjectId id) {
+  Affine3 result = Affine3::Identity();
+  for (const PhysicalObject* object = world.find(id); object; object = world.find(object->parent))
+    result = object->parent_from_object * result;
+  return result;
+}
+
+bool is_within(const World& world, ObjectId id, ObjectId ancestor) {
+  for (ObjectId at = id; at; at = world.find(at)->parent) {
+    if (at == ancestor) return true;
+  }
+  return false;
+}
+
+std::vector<ObjectId> subtree(const World& world, ObjectId root) {
+  std::vector<ObjectId> result{root};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const std::vector<ObjectId>& children = world.find(result[i])->children;
+    result.insert(result.end(), children.begin(), children.end());
+  }
+  return result;
+}
+
+Bounds bounds(const World& world, ObjectId root) {
+  Bounds result;
+  std::unordered_map<ObjectId, Affine3> world_from;
+  for (const ObjectId id : subtree(world, root)) {
+    const PhysicalObject& object = *world.find(id);
+    const Affine3 here = id == root ? world_from_object(world, root)
+                                    : world_from.at(object.parent) * object.parent_from_object;
+    world_from.emplace(id, here);
+    if (!object.geometry) continue;
+    const Bounds own = world.find(object.geometry)->shape->bounds();
+    if (!own.isEmpty()) result.extend(own.transformed(here));
+  }
+  return result;
+}
+
+std::uint64_t hash(const World& world) {
+  Hasher hasher;
+  add_table(hasher, world.objects());
+  add_table(hasher, world.geometries());
+  add_table(hasher, world.materials());
+  add_table(hasher, world.textures());
+  add_table(hasher, world.scenes());
+  hasher.add(world.roots().size());
+  for (const ObjectId root : world.roots()) add_id(hasher, root.value);
+  return hasher.value();
+}
+
+}  // namespace icome::world

@@ -1,0 +1,134 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "world/geometry.h"
+#include "world/id.h"
+
+namespace icome::world {
+
+/// A thing in the world (thesis 2.4.1, 5.6.2): where it is with respect to its parent, what it is made of
+/// and what it looks and feels like. It owns nothing that it names.
+struct PhysicalObject {
+  std::string name = {};
+  ObjectId parent = {};                 // none: a root of the world
+  std::vector<ObjectId> children = {};  // in the order that people see
+  Affine3 parent_from_object = Affine3::Identity();
+  GeometryId geometry = {};  // none: only a group
+  MaterialId material = {};  // none: the default
+};
+
+/// A shape that objects share: a clone uses the same one, a copy one of its own.
+struct GeometryObject {
+  GeometryPointer shape;    // never null
+  std::uint32_t users = 0;  // objects made of it
+};
+
+/// How the surface feels. What is not set is left to the device's own best.
+struct TouchProperties {
+  std::optional<double> stiffness = {};  // N/m
+  std::optional<double> damping = {};    // N s/m
+  double static_friction = 0.0;          // >= dynamic
+  double dynamic_friction = 0.0;
+  std::string texture = {};  // of the haptic textures, by name; empty: smooth
+
+  bool operator==(const TouchProperties&) const = default;
+};
+
+using Colour = std::array<float, 3>;  // red, green, blue in [0, 1], linear
+
+/// Looks after the VRML 2.0 model, and how it feels. Always shared, never copied with objects.
+struct Material {
+  std::string name = {};
+  float ambient = 0.2F;  // of the diffuse colour
+  Colour diffuse = {0.8F, 0.8F, 0.8F};
+  Colour specular = {};
+  Colour emission = {};
+  float shininess = 0.2F;     // in [0, 1]
+  float transparency = 0.0F;  // 1 is not seen
+  TextureId texture = {};     // none: plain
+  TouchProperties touch = {};
+  std::uint32_t users = 0;  // objects that have it; kept by the world
+
+  bool operator==(const Material&) const = default;
+};
+
+/// A picture on a surface, kept as the file that it came as.
+struct Texture {
+  std::string name;        // where it came from, for people
+  std::string media_type;  // "image/png", "image/jpeg"
+  std::shared_ptr<const std::string> bytes;
+  std::uint32_t users = 0;  // materials that show it; kept by the world
+};
+
+/// A part of the world that is seen and touched together: the subtrees of some objects. A change of an
+/// object shows in all scenes that it is in.
+struct Scene {
+  std::string name;
+  std::vector<ObjectId> roots;
+};
+
+struct Edit;
+
+/// All objects of a design with what they share. A plain value that changes by edits only (apply in
+/// edit.h); copying one copies tables but no shapes. One thread owns it.
+class World {
+ public:
+  /// Null for what is not there (any more). Valid until the next edit.
+  const PhysicalObject* find(ObjectId id) const { return look(objects_, id); }
+  const GeometryObject* find(GeometryId id) const { return look(geometries_, id); }
+  const Material* find(MaterialId id) const { return look(materials_, id); }
+  const Texture* find(TextureId id) const { return look(textures_, id); }
+  const Scene* find(SceneId id) const { return look(scenes_, id); }
+
+  /// The objects without a parent, in the order that people see.
+  const std::vector<ObjectId>& roots() const { return roots_; }
+
+  template <typename Named>
+  using Table = std::unordered_map<Id<Named>, Named>;
+  const Table<PhysicalObject>& objects() const { return objects_; }
+  const Table<GeometryObject>& geometries() const { return geometries_; }
+  const Table<Material>& materials() const { return materials_; }
+  const Table<Texture>& textures() const { return textures_; }
+  const Table<Scene>& scenes() const { return scenes_; }
+
+  /// The first number that an IdSource of this author may give.
+  std::uint64_t next_number(std::uint32_t author) const;
+
+ private:
+  friend class EditApplier;
+
+  template <typename Named>
+  static const Named* look(const Table<Named>& table, Id<Named> id) {
+    const auto found = table.find(id);
+    return found == table.end() ? nullptr : &found->second;
+  }
+
+  Table<PhysicalObject> objects_;
+  Table<GeometryObject> geometries_;
+  Table<Material> materials_;
+  Table<Texture> textures_;
+  Table<Scene> scenes_;
+  std::vector<ObjectId> roots_;
+  std::unordered_map<std::uint32_t, std::uint64_t> last_numbers_;  // by author
+};
+
+/// The place of an object, which is in the world, in the world's frame.
+Affine3 world_from_object(const World& world, ObjectId id);
+
+/// Is `id` this `ancestor` or below it?
+bool is_within(const World& world, ObjectId id, ObjectId ancestor);
+
+/// The objects of a subtree, parents before children.
+std::vector<ObjectId> subtree(const World& world, ObjectId root);
+
+/// Around the shapes of a subtree, in the world's frame. Empty where there are none.
+Bounds bounds(const World& world, ObjectId root);
+
+/// Equal for worlds that hold the same, whatever the way they came about.
+std::uint64_t hash(const World& world);
+
+}  // namespace icome::world

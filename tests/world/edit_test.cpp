@@ -1,0 +1,137 @@
+#include "world/edit.h"
+
+#include <limits>
+
+#include "sample_world.h"
+
+namespace icome::world {
+namespace {
+
+/// What a refused edit must do: nothing, and say why.
+void expect_refused(World& world, const Edit& edit, const std::string& why) {
+  const std::uint64_t before = hash(world);
+  const auto result = apply(world, edit);
+  ASSERT_FALSE(result.has_value()) << why;
+  EXPECT_NE(result.error().message.find(why), std::string::npos) << result.error().message;
+  EXPECT_EQ(hash(world), before);
+}
+
+void expect_taken_back(World& world, const Edit& edit) {
+  const std::uint64_t before = hash(world);
+  const Edit inverse = applied(world, edit);
+  const std::uint64_t after = hash(world);
+  EXPECT_NE(after, before);
+  const Edit again = applied(world, inverse);
+  EXPECT_EQ(hash(world), before);
+  applied(world, again);
+  EXPECT_EQ(hash(world), after);
+}
+
+struct House {
+  World world;
+  IdSource ids;
+  ObjectId house = add_object(world, ids, "house", box(10.0));
+  ObjectId roof = add_object(world, ids, "roof", one_triangle(), house, at(0.0, 0.0, 5.0));
+  ObjectId chimney = add_object(world, ids, "chimney", box(1.0), roof, at(1.0, 0.0, 2.0));
+  ObjectId tree = add_object(world, ids, "tree", nullptr);
+};
+
+TEST(Edits, AreTakenBack) {
+  House it;
+  const GeometryId shape = it.world.find(it.roof)->geometry;
+  const MaterialId paint = it.ids.next<MaterialId>();
+  const TextureId tiles = it.ids.next<TextureId>();
+  const SceneId street = it.ids.next<SceneId>();
+  expect_taken_back(it.world, PlaceObject{it.roof, at(1.0, 2.0, 3.0)});
+  expect_taken_back(it.world, RenameObject{it.roof, "top"});
+  expect_taken_back(it.world, MoveObject{it.chimney, it.house, 0, at(0.0, 0.0, 1.0)});
+  expect_taken_back(it.world, MoveObject{it.chimney, {}, 1, at(4.0, 0.0, 1.0)});
+  expect_taken_back(it.world, ReplaceGeometry{shape, box(3.0)});
+  expect_taken_back(it.world, ChooseGeometry{it.tree, shape});
+  expect_taken_back(it.world,
+                    CreateTexture{tiles, {"tiles.png", "image/png", std::make_shared<std::string>("x")}});
+  expect_taken_back(it.world, CreateMaterial{paint, {.name = "paint", .texture = tiles}});
+  expect_taken_back(it.world, ChooseMaterial{it.house, paint});
+  expect_taken_back(it.world, ChangeMaterial{paint, {.name = "red paint", .diffuse = {1.0F, 0.0F, 0.0F}}});
+  expect_taken_back(it.world, CreateScene{street, "street"});
+  expect_taken_back(it.world, EnterScene{street, it.house, 0});
+  expect_taken_back(it.world, RenameScene{street, "road"});
+  expect_taken_back(it.world, delete_subtree(it.world, it.house));
+}
+
+TEST(Edits, MoveVerticesOfMeshesAndControlMeshes) {
+  House it;
+  const GeometryId roof = it.world.find(it.roof)->geometry;
+  expect_taken_back(it.world, MoveVertices{roof, {2, 0}, {{0.0, 2.0, 0.0}, {0.0, 0.0, 1.0}}});
+  geometry::ControlMesh control;
+  control.mesh = dynamic_cast<const MeshGeometry&>(*one_triangle()).mesh;
+  applied(it.world, ReplaceGeometry{roof, std::make_shared<LoopGeometry>(control)});
+  expect_taken_back(it.world, MoveVertices{roof, {1}, {{3.0, 2.0, 0.0}}});
+}
+
+TEST(Edits, AreRefusedWithAReason) {
+  House it;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const GeometryId roof = it.world.find(it.roof)->geometry;
+  const GeometryId walls = it.world.find(it.house)->geometry;
+  expect_refused(it.world, DeleteObject{it.house}, "\"house\" has objects below it");
+  expect_refused(it.world, DeleteObject{ObjectId{77}}, "not there any more");
+  expect_refused(it.world, MoveObject{it.house, it.chimney, 0}, "under itself");
+  expect_refused(it.world, MoveObject{it.house, it.house, 0}, "under itself");
+  expect_refused(it.world, MoveObject{it.roof, it.tree, 1}, "not so many objects");
+  expect_refused(it.world, MoveObject{it.roof, it.house, 1}, "not so many objects");  // it leaves first
+  expect_refused(it.world, PlaceObject{it.roof, at(nan, 0.0, 0.0)}, "finite");
+  expect_refused(it.world, PlaceObject{it.roof, Affine3(Eigen::Scaling(1.0, 0.0, 1.0))}, "flatten");
+  expect_refused(it.world, DeleteGeometry{roof}, "1 objects use this shape");
+  expect_refused(it.world, ChooseGeometry{it.roof, GeometryId{77}}, "shape is not there");
+  expect_refused(it.world, CreateObject{it.roof, 0, {}}, "already");
+  expect_refused(it.world, CreateObject{ObjectId{}, 0, {}}, "needs an id");
+  expect_refused(it.world, MoveVertices{roof, {3}, {{0.0, 0.0, 0.0}}}, "no vertex 3");
+  expect_refused(it.world, MoveVertices{roof, {1, 1}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}}, "moved twice");
+  expect_refused(it.world, MoveVertices{roof, {1}, {}}, "one position");
+  expect_refused(it.world, MoveVertices{roof, {1}, {{0.0, nan, 0.0}}}, "finite");
+  expect_refused(it.world, MoveVertices{walls, {0}, {{0.0, 0.0, 0.0}}}, "no vertices to move");
+  TouchProperties slippery;
+  slippery.dynamic_friction = 0.5;
+  expect_refused(it.world, CreateMaterial{it.ids.next<MaterialId>(), {.touch = slippery}}, "Static friction");
+}
+
+TEST(Edits, OfAGroupAreAllAppliedOrNone) {
+  House it;
+  const EditGroup group{{RenameObject{it.roof, "top"}, PlaceObject{it.tree, at(1.0, 0.0, 0.0)},
+                         EditGroup{{RenameObject{it.tree, "oak"}, DeleteObject{it.house}}}}};
+  expect_refused(it.world, group, "\"house\" has objects below it");
+}
+
+TEST(Edits, OfASceneKeepItsObjectsAlive) {
+  House it;
+  const SceneId scene = it.ids.next<SceneId>();
+  applied(it.world, CreateScene{scene, "garden"});
+  applied(it.world, EnterScene{scene, it.tree, 0});
+  expect_refused(it.world, EnterScene{scene, it.tree, 0}, "already");
+  expect_refused(it.world, DeleteObject{it.tree}, "in the scene \"garden\"");
+  expect_refused(it.world, DeleteScene{scene}, "holds objects");
+  applied(it.world, delete_subtree(it.world, it.tree));
+  EXPECT_TRUE(it.world.find(scene)->roots.empty());
+}
+
+TEST(Edits, NeverMakeAnIdAnew) {
+  House it;
+  applied(it.world, delete_subtree(it.world, it.tree));
+  IdSource later(0, it.world.next_number(0));
+  EXPECT_EQ(it.world.find(later.next<ObjectId>()), nullptr);
+  EXPECT_GT(it.world.next_number(0), it.tree.value);
+}
+
+TEST(DeleteSubtree, LetsGoOfShapesThatNothingElseUses) {
+  House it;
+  const GeometryId shared = it.world.find(it.chimney)->geometry;
+  applied(it.world, ChooseGeometry{it.tree, shared});
+  applied(it.world, delete_subtree(it.world, it.house));
+  EXPECT_EQ(it.world.objects().size(), 1u);
+  EXPECT_EQ(it.world.geometries().size(), 1u);
+  EXPECT_EQ(it.world.find(shared)->users, 1u);
+}
+
+}  // namespace
+}  // namespace icome::world

@@ -1,0 +1,81 @@
+#include "world/history.h"
+
+#include "random_edits.h"
+
+namespace icome::world {
+namespace {
+
+TEST(History, UndoesAndRedoesByAction) {
+  World world;
+  IdSource ids;
+  const ObjectId leg = add_object(world, ids, "leg", box(1.0));
+  History history;
+  const std::uint64_t before = hash(world);
+  ASSERT_TRUE(history.perform(world, PlaceObject{leg, at(1.0, 0.0, 0.0)}, "Move leg"));
+  ASSERT_TRUE(history.extend(world, PlaceObject{leg, at(2.0, 0.0, 0.0)}));
+  ASSERT_TRUE(history.extend(world, PlaceObject{leg, at(3.0, 0.0, 0.0)}));
+  const std::uint64_t moved = hash(world);
+  ASSERT_TRUE(history.perform(world, RenameObject{leg, "foot"}, "Rename leg"));
+  EXPECT_EQ(history.undo_name(), "Rename leg");
+  ASSERT_TRUE(history.undo(world));
+  EXPECT_EQ(hash(world), moved);
+  ASSERT_TRUE(history.undo(world));
+  EXPECT_EQ(hash(world), before);
+  EXPECT_FALSE(history.undo(world));
+  EXPECT_EQ(history.redo_name(), "Move leg");
+  ASSERT_TRUE(history.redo(world));
+  EXPECT_EQ(hash(world), moved);
+}
+
+TEST(History, ForgetsWhatWasUndoneWhenSomethingElseIsDone) {
+  World world;
+  IdSource ids;
+  const ObjectId leg = add_object(world, ids, "leg", box(1.0));
+  History history;
+  ASSERT_TRUE(history.perform(world, RenameObject{leg, "one"}, "Rename"));
+  ASSERT_TRUE(history.undo(world));
+  ASSERT_TRUE(history.perform(world, RenameObject{leg, "two"}, "Rename"));
+  EXPECT_FALSE(history.can_redo());
+}
+
+TEST(History, LeavesWhatOthersHaveBuiltOn) {
+  World world;
+  IdSource ids;
+  History history;
+  const ObjectId table = ids.next<ObjectId>();
+  ASSERT_TRUE(history.perform(world, CreateObject{table, 0, {.name = "table"}}, "Create table"));
+  add_object(world, ids, "somebody's leg", box(1.0), table);
+  const std::uint64_t before = hash(world);
+  const auto undone = history.undo(world);
+  ASSERT_FALSE(undone);
+  EXPECT_NE(undone.error().message.find("\"Create table\" stays"), std::string::npos);
+  EXPECT_EQ(hash(world), before);
+  EXPECT_TRUE(history.can_undo());
+}
+
+TEST(History, GoesBackThroughRandomEdits) {
+  for (int seed = 0; seed < 200; ++seed) {
+    World world;
+    RandomEdits edits{std::uint64_t(seed)};
+    History history;
+    std::vector<std::uint64_t> hashes{hash(world)};
+    for (int i = 0; i < 50; ++i) {
+      const Edit edit = edits.next(world);
+      if (history.perform(world, edit, "edit")) {
+        hashes.push_back(hash(world));
+      } else {
+        ASSERT_EQ(hash(world), hashes.back()) << "a refused edit changed the world";
+      }
+    }
+    ASSERT_GT(hashes.size(), 15u);
+    for (std::size_t i = hashes.size() - 1; i-- > 0;) {
+      ASSERT_TRUE(history.undo(world)) << seed;
+      ASSERT_EQ(hash(world), hashes[i]) << seed;
+    }
+    for (std::size_t i = 1; i < hashes.size(); ++i) ASSERT_TRUE(history.redo(world)) << seed;
+    ASSERT_EQ(hash(world), hashes.back()) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace icome::world
