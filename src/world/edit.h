@@ -122,10 +122,10 @@ struct Edit {
                             CreateMaterial, DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture,
                             CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, EditGroup>;
 
-  template <typename Kind>
-  requires std::is_constructible_v<What, Kind&&> &&
-      (!std::is_same_v<std::decay_t<Kind>, Edit>)Edit(Kind&& kind)
-      : what(std::forward<Kind>(kind)) {}  // NOLINT(google-explicit-constructor)
+  template <typename Kind,
+            typename = std::enable_if_t<std::conjunction_v<
+                std::negation<std::is_same<std::decay_t<Kind>, Edit>>, std::is_constructible<What, Kind&&>>>>
+  Edit(Kind&& kind) : what(std::forward<Kind>(kind)) {}  // NOLINT(google-explicit-constructor)
 
   What what;
 };

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
+#include "base/result.h"
 #include "base/vector.h"
 
 namespace icome::world {
@@ -28,6 +30,10 @@ class Geometry {
 
   /// Memory held, in bytes.
   virtual std::size_t bytes() const = 0;
+
+  /// What the reader of this kind (GeometryFactory) makes an equal shape of. Fails, saying why, where it
+  /// could not: what is written can be read.
+  virtual base::Result<std::string> write() const = 0;
 };
 
 using GeometryPointer = std::shared_ptr<const Geometry>;

@@ -24,6 +24,7 @@ struct MeshGeometry final : public Geometry {
   Bounds bounds() const override { return geometry::bounds(mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  base::Result<std::string> write() const override;
 };
 
 /// The control mesh of a Loop subdivision surface.
@@ -37,6 +38,7 @@ struct LoopGeometry final : public Geometry {
   Bounds bounds() const override { return geometry::bounds(control.mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  base::Result<std::string> write() const override;
 };
 
 /// The shape with some vertices elsewhere, and where they were. Fails for shapes without vertices, for

@@ -19,6 +19,7 @@ struct PrimitiveGeometry final : public Geometry {
   Bounds bounds() const override { return geometry::bounds(primitive); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this); }
+  base::Result<std::string> write() const override;
 };
 
 /// A solid under union, intersection and difference.
@@ -32,6 +33,7 @@ struct CsgGeometry final : public Geometry {
   /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  base::Result<std::string> write() const override;
 };
 
 /// The solid where a formula in x, y, z and t is negative, within a box.
@@ -48,6 +50,7 @@ class ImplicitGeometry final : public Geometry {
   Bounds bounds() const override { return surface_->bounds(); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this) + formula_.capacity() + surface_->bytes(); }
+  base::Result<std::string> write() const override;
 
  private:
   ImplicitGeometry(std::string formula, std::shared_ptr<const geometry::ImplicitSurface> surface)

@@ -1,0 +1,198 @@
+#include <edit_generated.h>
+#include <flatbuffers/flatbuffers.h>
+#include <fmt/format.h>
+
+#include "world/edit_bytes.h"
+#include "world/flat_bytes.h"
+
+namespace icome::world {
+namespace {
+
+// A table and the offset that leads to it: what bytes can hold of them at most.
+constexpr std::size_t kFewestBytesOfEdit = 8;
+// Tables within each other: two of each group, the edit in the innermost and what it has. Four times as
+// many groups as there may be still get the error that says so.
+constexpr int kMostTablesDeep = 2 * 4 * kMostNestedGroups + 4;
+
+Affine3 frame_from(const flat::Frame& from) {
+  std::array<double, 12> numbers;
+  for (std::uint16_t i = 0; i < 12; ++i) numbers[i] = from.numbers()->Get(i);
+  return frame_of(numbers);
+}
+
+Colour colour_from(const flat::Colour& from) {
+  Colour colour;
+  for (std::uint16_t i = 0; i < 3; ++i) colour[i] = from.parts()->Get(i);
+  return colour;
+}
+
+std::optional<double> optional_from(const flatbuffers::Optional<double>& from) {
+  return from ? std::optional<double>(*from) : std::nullopt;
+}
+
+/// Reads edits that are verified to lie within their bytes, each kind by its own function.
+class EditReader {
+ public:
+  EditReader(FlatReader& reader, const GeometryFactory& factory) : reader_(reader), factory_(factory) {}
+
+  Edit make(const flat::Edit& from) {
+    switch (from.what_type()) {
+      case flat::What::CreateObject:
+        return make(*from.what_as_CreateObject());
+      case flat::What::DeleteObject:
+        return DeleteObject{{from.what_as_DeleteObject()->id()}};
+      case flat::What::MoveObject:
+        return make(*from.what_as_MoveObject());
+      case flat::What::PlaceObject:
+        return make(*from.what_as_PlaceObject());
+      case flat::What::RenameObject:
+        return make(*from.what_as_RenameObject());
+      case flat::What::ChooseGeometry:
+        return make(*from.what_as_ChooseGeometry());
+      case flat::What::ChooseMaterial:
+        return make(*from.what_as_ChooseMaterial());
+      case flat::What::CreateGeometry:
+        return make(*from.what_as_CreateGeometry());
+      case flat::What::DeleteGeometry:
+        return DeleteGeometry{{from.what_as_DeleteGeometry()->id()}};
+      case flat::What::ReplaceGeometry:
+        return make(*from.what_as_ReplaceGeometry());
+      case flat::What::MoveVertices:
+        return make(*from.what_as_MoveVertices());
+      case flat::What::CreateMaterial:
+        return make(*from.what_as_CreateMaterial());
+      case flat::What::DeleteMaterial:
+        return DeleteMaterial{{from.what_as_DeleteMaterial()->id()}};
+      case flat::What::ChangeMaterial:
+        return make(*from.what_as_ChangeMaterial());
+      case flat::What::CreateTexture:
+        return make(*from.what_as_CreateTexture());
+      case flat::What::DeleteTexture:
+        return DeleteTexture{{from.what_as_DeleteTexture()->id()}};
+      case flat::What::CreateScene:
+        return make(*from.what_as_CreateScene());
+      case flat::What::DeleteScene:
+        return DeleteScene{{from.what_as_DeleteScene()->id()}};
+      case flat::What::RenameScene:
+        return make(*from.what_as_RenameScene());
+      case flat::What::EnterScene:
+        return make(*from.what_as_EnterScene());
+      case flat::What::LeaveScene:
+        return make(*from.what_as_LeaveScene());
+      case flat::What::EditGroup:
+        return make(*from.what_as_EditGroup());
+      case flat::What::NONE:
+        break;
+    }
+    reader_.refuse("An edit is of a kind that is unknown here: use a newer version.");
+    return EditGroup{};
+  }
+
+ private:
+  Edit make(const flat::CreateObject& from) {
+    PhysicalObject object{.name = reader_.text(from.name()),
+                          .parent = {from.parent()},
+                          .parent_from_object = frame_from(*from.frame()),
+                          .geometry = {from.geometry()},
+                          .material = {from.material()}};
+    for (const std::uint64_t child : reader_.items<std::uint64_t>(from.children()))
+      object.children.push_back({child});
+    return CreateObject{{from.id()}, from.place(), std::move(object)};
+  }
+  Edit make(const flat::MoveObject& from) {
+    return MoveObject{{from.id()}, {from.parent()}, from.place(), frame_from(*from.frame())};
+  }
+  Edit make(const flat::PlaceObject& from) { return PlaceObject{{from.id()}, frame_from(*from.frame())}; }
+  Edit make(const flat::RenameObject& from) { return RenameObject{{from.id()}, reader_.text(from.name())}; }
+  Edit make(const flat::ChooseGeometry& from) { return ChooseGeometry{{from.id()}, {from.geometry()}}; }
+  Edit make(const flat::ChooseMaterial& from) { return ChooseMaterial{{from.id()}, {from.material()}}; }
+
+  Edit make(const flat::CreateGeometry& from) { return CreateGeometry{{from.id()}, shape(from.shape())}; }
+  Edit make(const flat::ReplaceGeometry& from) { return ReplaceGeometry{{from.id()}, shape(from.shape())}; }
+  Edit make(const flat::MoveVertices& from) {
+    auto vertices = reader_.items<std::uint32_t>(from.vertices());
+    return MoveVertices{{from.id()}, std::move(vertices), reader_.items<Vector3>(from.positions())};
+  }
+
+  Edit make(const flat::CreateMaterial& from) {
+    return CreateMaterial{{from.id()}, material(*from.material())};
+  }
+  Edit make(const flat::ChangeMaterial& from) {
+    return ChangeMaterial{{from.id()}, material(*from.material())};
+  }
+  Edit make(const flat::CreateTexture& from) {
+    Texture texture{reader_.text(from.name()), reader_.text(from.media_type()), nullptr};
+    if (from.picture()) texture.bytes = std::make_shared<const std::string>(reader_.view(*from.picture()));
+    return CreateTexture{{from.id()}, std::move(texture)};
+  }
+
+  Edit make(const flat::CreateScene& from) { return CreateScene{{from.id()}, reader_.text(from.name())}; }
+  Edit make(const flat::RenameScene& from) { return RenameScene{{from.id()}, reader_.text(from.name())}; }
+  Edit make(const flat::EnterScene& from) {
+    return EnterScene{{from.scene()}, {from.object()}, from.place()};
+  }
+  Edit make(const flat::LeaveScene& from) { return LeaveScene{{from.scene()}, {from.object()}}; }
+
+  Edit make(const flat::EditGroup& from) {
+    EditGroup group;
+    if (groups_ == kMostNestedGroups) {
+      reader_.refuse(fmt::format("An edit has more than {} groups within each other: it is damaged.",
+                                 kMostNestedGroups));
+    }
+    if (!from.edits() || !reader_.fault().empty()) return group;
+    ++groups_;
+    group.edits.reserve(from.edits()->size());
+    for (const flat::Edit* edit : *from.edits()) {
+      if (reader_.fault().empty()) group.edits.push_back(make(*edit));
+    }
+    --groups_;
+    return group;
+  }
+
+  GeometryPointer shape(const flat::Shape* from) {
+    if (!from) return nullptr;
+    const std::string kind = reader_.text(from->kind());
+    const std::string_view bytes = reader_.view(*from->bytes());
+    if (!reader_.fault().empty()) return nullptr;
+    auto shape = factory_.read(kind, bytes);
+    if (!shape) reader_.refuse(shape.error().message);
+    return shape ? std::move(*shape) : nullptr;
+  }
+
+  Material material(const flat::MaterialState& from) {
+    const flat::Look& look = *from.look();
+    return {.name = reader_.text(from.name()),
+            .ambient = look.ambient(),
+            .diffuse = colour_from(look.diffuse()),
+            .specular = colour_from(look.specular()),
+            .emission = colour_from(look.emission()),
+            .shininess = look.shininess(),
+            .transparency = look.transparency(),
+            .texture = {from.texture()},
+            .touch = {.stiffness = optional_from(from.stiffness()),
+                      .damping = optional_from(from.damping()),
+                      .static_friction = from.friction()->still(),
+                      .dynamic_friction = from.friction()->sliding(),
+                      .texture = reader_.text(from.haptic_texture())}};
+  }
+
+  FlatReader& reader_;
+  const GeometryFactory& factory_;
+  int groups_ = 0;  // that the edit being read lies within
+};
+
+}  // namespace
+
+base::Result<Edit> edit_from_bytes(std::string_view bytes, const GeometryFactory& factory) {
+  FlatReader reader(bytes);
+  if (bytes.size() > kMostReadBytes) return base::fail("There are more bytes than an edit can have.");
+  flatbuffers::Verifier verifier(reader.data(), reader.size(), kMostTablesDeep,
+                                 flatbuffers::uoffset_t(reader.size() / kFewestBytesOfEdit));
+  if (!flat::VerifyEditBuffer(verifier))
+    return base::fail("The bytes of an edit are damaged, or they are something else.");
+  Edit edit = EditReader(reader, factory).make(*flat::GetEdit(reader.data()));
+  if (!reader.fault().empty()) return base::fail(reader.fault());
+  return edit;
+}
+
+}  // namespace icome::world

@@ -1,0 +1,212 @@
+#include <edit_generated.h>
+#include <flatbuffers/flatbuffers.h>
+#include <fmt/format.h>
+
+#include "world/edit_bytes.h"
+#include "world/flat_bytes.h"
+
+namespace icome::world {
+namespace {
+
+using flatbuffers::FlatBufferBuilder;
+using flatbuffers::Offset;
+
+flat::Frame flat_frame(const Affine3& frame) {
+  const auto numbers = frame_numbers(frame);
+  return flat::Frame(flatbuffers::make_span(numbers));
+}
+
+flat::Colour flat_colour(const Colour& colour) { return flat::Colour(flatbuffers::make_span(colour)); }
+
+flatbuffers::Optional<double> flat_optional(const std::optional<double>& value) {
+  return value ? flatbuffers::Optional<double>(*value) : flatbuffers::nullopt;
+}
+
+/// Which table of the union was written, and where.
+struct WrittenEdit {
+  flat::What kind;
+  Offset<void> table;
+};
+
+template <typename Table>
+WrittenEdit as_edit(Offset<Table> table) {
+  return {flat::WhatTraits<Table>::enum_value, table.Union()};
+}
+
+/// Writes edits, each kind by its own function. The first thing that goes wrong is remembered; no edit is
+/// put together after it.
+class EditWriter {
+ public:
+  base::Result<std::string> write(const Edit& edit) {
+    const Offset<flat::Edit> root = add(edit);
+    if (!fault_.empty()) return base::fail(fault_);
+    flat::FinishEditBuffer(builder_, root);
+    return std::string(reinterpret_cast<const char*>(builder_.GetBufferPointer()), builder_.GetSize());
+  }
+
+  WrittenEdit operator()(const CreateObject& it) {
+    const PhysicalObject& object = it.object;
+    const auto name = text(object.name);
+    std::vector<std::uint64_t> ids;
+    for (const ObjectId child : object.children) ids.push_back(child.value);
+    const auto children = numbers<std::uint64_t>(ids);
+    const flat::Frame frame = flat_frame(object.parent_from_object);
+    return as_edit(flat::CreateCreateObject(builder_, it.id.value, it.place, name, object.parent.value,
+                                            children, &frame, object.geometry.value, object.material.value));
+  }
+  WrittenEdit operator()(const DeleteObject& it) {
+    return as_edit(flat::CreateDeleteObject(builder_, it.id.value));
+  }
+  WrittenEdit operator()(const MoveObject& it) {
+    const flat::Frame frame = flat_frame(it.parent_from_object);
+    return as_edit(flat::CreateMoveObject(builder_, it.id.value, it.parent.value, it.place, &frame));
+  }
+  WrittenEdit operator()(const PlaceObject& it) {
+    const flat::Frame frame = flat_frame(it.parent_from_object);
+    return as_edit(flat::CreatePlaceObject(builder_, it.id.value, &frame));
+  }
+  WrittenEdit operator()(const RenameObject& it) {
+    return as_edit(flat::CreateRenameObject(builder_, it.id.value, text(it.name)));
+  }
+  WrittenEdit operator()(const ChooseGeometry& it) {
+    return as_edit(flat::CreateChooseGeometry(builder_, it.id.value, it.geometry.value));
+  }
+  WrittenEdit operator()(const ChooseMaterial& it) {
+    return as_edit(flat::CreateChooseMaterial(builder_, it.id.value, it.material.value));
+  }
+
+  WrittenEdit operator()(const CreateGeometry& it) {
+    return as_edit(flat::CreateCreateGeometry(builder_, it.id.value, shape(it.shape)));
+  }
+  WrittenEdit operator()(const DeleteGeometry& it) {
+    return as_edit(flat::CreateDeleteGeometry(builder_, it.id.value));
+  }
+  WrittenEdit operator()(const ReplaceGeometry& it) {
+    return as_edit(flat::CreateReplaceGeometry(builder_, it.id.value, shape(it.shape)));
+  }
+  WrittenEdit operator()(const MoveVertices& it) {
+    const auto vertices = numbers<std::uint32_t>(it.vertices);
+    const auto positions = numbers<double>(it.positions);
+    return as_edit(flat::CreateMoveVertices(builder_, it.id.value, vertices, positions));
+  }
+
+  WrittenEdit operator()(const CreateMaterial& it) {
+    return as_edit(flat::CreateCreateMaterial(builder_, it.id.value, material(it.material)));
+  }
+  WrittenEdit operator()(const DeleteMaterial& it) {
+    return as_edit(flat::CreateDeleteMaterial(builder_, it.id.value));
+  }
+  WrittenEdit operator()(const ChangeMaterial& it) {
+    return as_edit(flat::CreateChangeMaterial(builder_, it.id.value, material(it.material)));
+  }
+  WrittenEdit operator()(const CreateTexture& it) {
+    const auto name = text(it.texture.name);
+    const auto media_type = text(it.texture.media_type);
+    const auto picture = it.texture.bytes ? bytes(*it.texture.bytes) : 0;
+    return as_edit(flat::CreateCreateTexture(builder_, it.id.value, name, media_type, picture));
+  }
+  WrittenEdit operator()(const DeleteTexture& it) {
+    return as_edit(flat::CreateDeleteTexture(builder_, it.id.value));
+  }
+
+  WrittenEdit operator()(const CreateScene& it) {
+    return as_edit(flat::CreateCreateScene(builder_, it.id.value, text(it.name)));
+  }
+  WrittenEdit operator()(const DeleteScene& it) {
+    return as_edit(flat::CreateDeleteScene(builder_, it.id.value));
+  }
+  WrittenEdit operator()(const RenameScene& it) {
+    return as_edit(flat::CreateRenameScene(builder_, it.id.value, text(it.name)));
+  }
+  WrittenEdit operator()(const EnterScene& it) {
+    return as_edit(flat::CreateEnterScene(builder_, it.scene.value, it.object.value, it.place));
+  }
+  WrittenEdit operator()(const LeaveScene& it) {
+    return as_edit(flat::CreateLeaveScene(builder_, it.scene.value, it.object.value));
+  }
+
+  WrittenEdit operator()(const EditGroup& it) {
+    if (groups_ == kMostNestedGroups) {
+      refuse(fmt::format("An edit of more than {} groups within each other cannot be written.",
+                         kMostNestedGroups));
+      return as_edit(Offset<flat::EditGroup>());
+    }
+    ++groups_;
+    std::vector<Offset<flat::Edit>> edits;
+    for (const Edit& edit : it.edits) {
+      const Offset<flat::Edit> added = add(edit);
+      if (!fault_.empty()) return as_edit(Offset<flat::EditGroup>());
+      edits.push_back(added);
+    }
+    --groups_;
+    return as_edit(flat::CreateEditGroup(builder_, builder_.CreateVector(edits)));
+  }
+
+ private:
+  Offset<flat::Edit> add(const Edit& edit) {
+    constexpr std::size_t kMostOfTables = 1024;  // what one edit needs beside texts, numbers and shapes
+    const WrittenEdit written = std::visit(*this, edit.what);
+    if (!has_room(kMostOfTables) || !fault_.empty()) return {};
+    return flat::CreateEdit(builder_, written.kind, written.table);
+  }
+
+  Offset<flatbuffers::String> text(const std::string& text) {
+    return text.empty() || !has_room(text.size()) ? Offset<flatbuffers::String>()
+                                                  : builder_.CreateString(text);
+  }
+
+  template <typename Number, typename Item>
+  Offset<flatbuffers::Vector<Number>> numbers(const std::vector<Item>& items) {
+    const std::size_t bytes = items.size() * sizeof(Item);
+    if (bytes == 0 || !has_room(bytes)) return 0;
+    const auto* first = reinterpret_cast<const Number*>(items.data());
+    return builder_.CreateVector(first, bytes / sizeof(Number));
+  }
+
+  Offset<flatbuffers::Vector<std::uint8_t>> bytes(const std::string& bytes) {
+    const bool fits = has_room(bytes.size());
+    // So that the numbers of a shape can be read where they are.
+    builder_.ForceVectorAlignment(fits ? bytes.size() : 0, 1, sizeof(double));
+    return builder_.CreateVector(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                                 fits ? bytes.size() : 0);
+  }
+
+  Offset<flat::Shape> shape(const GeometryPointer& shape) {
+    if (!shape) return 0;
+    const auto written = shape->write();
+    if (!written) refuse(written.error().message);
+    if (!written) return 0;
+    const auto kind = builder_.CreateString(shape->kind().data(), shape->kind().size());
+    return flat::CreateShape(builder_, kind, bytes(*written));
+  }
+
+  Offset<flat::MaterialState> material(const Material& it) {
+    const auto name = text(it.name);
+    const auto haptic_texture = text(it.touch.texture);
+    const flat::Look look(it.ambient, flat_colour(it.diffuse), flat_colour(it.specular),
+                          flat_colour(it.emission), it.shininess, it.transparency);
+    const flat::Friction friction(it.touch.static_friction, it.touch.dynamic_friction);
+    return flat::CreateMaterialState(builder_, name, &look, it.texture.value,
+                                     flat_optional(it.touch.stiffness), flat_optional(it.touch.damping),
+                                     &friction, haptic_texture);
+  }
+
+  bool has_room(std::size_t more) {
+    if (more <= kMostFlatBytes && builder_.GetSize() <= kMostFlatBytes - more) return true;
+    refuse(fmt::format("An edit of more than {} MB cannot be written: divide it.", kMostFlatBytes >> 20));
+    return false;
+  }
+  void refuse(const std::string& why) {
+    if (fault_.empty()) fault_ = why;
+  }
+
+  FlatBufferBuilder builder_;
+  int groups_ = 0;  // that the edit being written lies within
+  std::string fault_;
+};
+
+}  // namespace
+
+base::Result<std::string> to_bytes(const Edit& edit) { return EditWriter().write(edit); }
+
+}  // namespace icome::world
