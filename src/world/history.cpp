@@ -45,7 +45,10 @@ base::Result<Edit> History::turn(World& world, std::vector<Action>& from, std::v
                                  const char* nothing) {
   if (from.empty()) return base::fail(nothing);
   const Action& action = from.back();
-  Edit edit = EditGroup{{action.inverses.rbegin(), action.inverses.rend()}};
+  // A single edit is no group: groups would lie within groups after every undo and redo.
+  Edit edit = action.inverses.size() == 1
+                  ? action.inverses.front()
+                  : Edit(EditGroup{{action.inverses.rbegin(), action.inverses.rend()}});
   auto inverse = apply(world, edit);
   if (!inverse) {
     return base::fail(fmt::format("\"{}\" stays as it is, as the design has changed since: {}", action.name,

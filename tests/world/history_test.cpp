@@ -1,6 +1,7 @@
 #include "world/history.h"
 
 #include "random_edits.h"
+#include "world/edit_bytes.h"
 
 namespace icome::world {
 namespace {
@@ -51,6 +52,25 @@ TEST(History, LeavesWhatOthersHaveBuiltOn) {
   EXPECT_NE(undone.error().message.find("\"Create table\" stays"), std::string::npos);
   EXPECT_EQ(hash(world), before);
   EXPECT_TRUE(history.can_undo());
+}
+
+TEST(History, DoesNotGrowByUndoingAndRedoing) {
+  World world;
+  IdSource ids;
+  const ObjectId leg = add_object(world, ids, "leg", box(1.0));
+  History history;
+  ASSERT_TRUE(history.perform(world, RenameObject{leg, "foot"}, "Change leg"));
+  ASSERT_TRUE(history.extend(world, PlaceObject{leg, at(1.0, 0.0, 0.0)}));
+  std::size_t bytes = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto undone = history.undo(world);
+    ASSERT_TRUE(undone);
+    const auto written = to_bytes(*undone);
+    ASSERT_TRUE(written) << written.error().message;
+    if (i == 0) bytes = written->size();
+    EXPECT_EQ(written->size(), bytes);
+    ASSERT_TRUE(history.redo(world));
+  }
 }
 
 TEST(History, GoesBackThroughRandomEdits) {
