@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "world/edit.h"
 #include "world/mesh_geometry.h"
@@ -47,6 +48,7 @@ class EditApplier {
       return fail("The shape that the new object should have is not there any more.");
     if (object.material && !world_.find(object.material))
       return fail("The material that the new object should have is not there any more.");
+    if (const auto good = check(object.fixture); !good) return tl::unexpected(good.error());
     if (it.place > siblings(object.parent).size()) return bad_place();
     world_.objects_[it.id] = object;
     insert(siblings(object.parent), it.place, it.id);
@@ -107,6 +109,10 @@ class EditApplier {
   }
   Result<Edit> operator()(const ChooseMaterial& it) {
     return choose(it, &PhysicalObject::material, &ChooseMaterial::material, "material");
+  }
+  Result<Edit> operator()(const ChangeFixture& it) {
+    if (const auto good = check(it.fixture); !good) return tl::unexpected(good.error());
+    return exchange(it, &PhysicalObject::fixture, &ChangeFixture::fixture);
   }
 
   Result<Edit> operator()(const CreateGeometry& it) {
@@ -270,6 +276,23 @@ class EditApplier {
     if (users > 0) return fail(fmt::format("{} {}: it cannot be deleted.", users, what));
     return {};
   }
+
+  static Result<void> check(const FixturePointer& fixture) {
+    return fixture ? std::visit([](const auto& it) { return check(it); }, *fixture) : Result<void>();
+  }
+  static Result<void> check(const Light& light) {
+    const auto bad = [](double value) { return !std::isfinite(value) || value < 0.0; };
+    if (std::any_of(light.colour.begin(), light.colour.end(), bad) ||
+        std::any_of(light.attenuation.begin(), light.attenuation.end(), bad) || bad(light.intensity) ||
+        bad(light.ambient) || bad(light.radius) || bad(light.cut_off_angle) || bad(light.beam_width))
+      return fail("The numbers of a light must be finite and not negative.");
+    return {};
+  }
+  static Result<void> check(const Viewpoint& viewpoint) {
+    if (viewpoint.field_of_view > 0.0 && viewpoint.field_of_view < std::numbers::pi) return {};
+    return fail("A field of view must lie between 0 and 180 degrees.");
+  }
+  static Result<void> check(const Inert&) { return {}; }
 
   Result<void> check_material(const Material& material) const {
     if (material.texture && !world_.find(material.texture))

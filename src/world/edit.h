@@ -47,6 +47,11 @@ struct ChooseMaterial {
   MaterialId material;
 };
 
+struct ChangeFixture {
+  ObjectId id;
+  FixturePointer fixture;
+};
+
 struct CreateGeometry {
   GeometryId id;
   GeometryPointer shape;
@@ -117,10 +122,11 @@ struct EditGroup {
 /// A change of a world, the only way in which one changes: a plain value that can be applied and inverted.
 /// Undo, the journal, the network, speech and replays all carry these.
 struct Edit {
-  using What = std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
-                            ChooseMaterial, CreateGeometry, DeleteGeometry, ReplaceGeometry, MoveVertices,
-                            CreateMaterial, DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture,
-                            CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, EditGroup>;
+  using What =
+      std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
+                   ChooseMaterial, ChangeFixture, CreateGeometry, DeleteGeometry, ReplaceGeometry,
+                   MoveVertices, CreateMaterial, DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture,
+                   CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, EditGroup>;
 
   template <typename Kind,
             typename = std::enable_if_t<std::conjunction_v<

@@ -51,6 +51,8 @@ class EditReader {
         return make(*from.what_as_ChooseGeometry());
       case flat::What::ChooseMaterial:
         return make(*from.what_as_ChooseMaterial());
+      case flat::What::ChangeFixture:
+        return make(*from.what_as_ChangeFixture());
       case flat::What::CreateGeometry:
         return make(*from.what_as_CreateGeometry());
       case flat::What::DeleteGeometry:
@@ -94,7 +96,8 @@ class EditReader {
                           .parent = {from.parent()},
                           .parent_from_object = frame_from(*from.frame()),
                           .geometry = {from.geometry()},
-                          .material = {from.material()}};
+                          .material = {from.material()},
+                          .fixture = fixture(from.fixture())};
     for (const std::uint64_t child : reader_.items<std::uint64_t>(from.children()))
       object.children.push_back({child});
     return CreateObject{{from.id()}, from.place(), std::move(object)};
@@ -106,6 +109,8 @@ class EditReader {
   Edit make(const flat::RenameObject& from) { return RenameObject{{from.id()}, reader_.text(from.name())}; }
   Edit make(const flat::ChooseGeometry& from) { return ChooseGeometry{{from.id()}, {from.geometry()}}; }
   Edit make(const flat::ChooseMaterial& from) { return ChooseMaterial{{from.id()}, {from.material()}}; }
+
+  Edit make(const flat::ChangeFixture& from) { return ChangeFixture{{from.id()}, fixture(from.fixture())}; }
 
   Edit make(const flat::CreateGeometry& from) { return CreateGeometry{{from.id()}, shape(from.shape())}; }
   Edit make(const flat::ReplaceGeometry& from) { return ReplaceGeometry{{from.id()}, shape(from.shape())}; }
@@ -121,7 +126,10 @@ class EditReader {
     return ChangeMaterial{{from.id()}, material(*from.material())};
   }
   Edit make(const flat::CreateTexture& from) {
-    Texture texture{reader_.text(from.name()), reader_.text(from.media_type()), nullptr};
+    Texture texture{reader_.text(from.name()),
+                    reader_.text(from.media_type()),
+                    nullptr,
+                    {!from.clamp_u(), !from.clamp_v()}};
     if (from.picture()) texture.bytes = std::make_shared<const std::string>(reader_.view(*from.picture()));
     return CreateTexture{{from.id()}, std::move(texture)};
   }
@@ -157,6 +165,33 @@ class EditReader {
     auto shape = factory_.read(kind, bytes);
     if (!shape) reader_.refuse(shape.error().message);
     return shape ? std::move(*shape) : nullptr;
+  }
+
+  FixturePointer fixture(const flat::Fixture* from) {
+    if (!from) return nullptr;
+    if (from->light()) return light(*from->light()->numbers());
+    if (from->viewpoint())
+      return std::make_shared<const Fixture>(Viewpoint{from->viewpoint()->field_of_view()});
+    if (from->inert()) {
+      return std::make_shared<const Fixture>(
+          Inert{reader_.text(from->inert()->type()), reader_.text(from->inert()->source())});
+    }
+    reader_.refuse("An object of an edit is something that is unknown here: use a newer version.");
+    return nullptr;
+  }
+  FixturePointer light(const flat::LightNumbers& from) {
+    if (from.kind() > std::uint8_t(Light::Kind::Spot))
+      reader_.refuse("A light of an edit is of a kind that is unknown here: use a newer version.");
+    Light light{.kind = Light::Kind(from.kind()),
+                .on = from.on(),
+                .colour = colour_from(from.colour()),
+                .intensity = from.intensity(),
+                .ambient = from.ambient(),
+                .radius = from.radius(),
+                .cut_off_angle = from.cut_off_angle(),
+                .beam_width = from.beam_width()};
+    for (std::uint16_t i = 0; i < 3; ++i) light.attenuation[i] = from.attenuation()->Get(i);
+    return std::make_shared<const Fixture>(light);
   }
 
   Material material(const flat::MaterialState& from) {

@@ -50,9 +50,11 @@ class EditWriter {
     std::vector<std::uint64_t> ids;
     for (const ObjectId child : object.children) ids.push_back(child.value);
     const auto children = numbers<std::uint64_t>(ids);
+    const auto fixed = fixture(object.fixture);
     const flat::Frame frame = flat_frame(object.parent_from_object);
     return as_edit(flat::CreateCreateObject(builder_, it.id.value, it.place, name, object.parent.value,
-                                            children, &frame, object.geometry.value, object.material.value));
+                                            children, &frame, object.geometry.value, object.material.value,
+                                            fixed));
   }
   WrittenEdit operator()(const DeleteObject& it) {
     return as_edit(flat::CreateDeleteObject(builder_, it.id.value));
@@ -73,6 +75,9 @@ class EditWriter {
   }
   WrittenEdit operator()(const ChooseMaterial& it) {
     return as_edit(flat::CreateChooseMaterial(builder_, it.id.value, it.material.value));
+  }
+  WrittenEdit operator()(const ChangeFixture& it) {
+    return as_edit(flat::CreateChangeFixture(builder_, it.id.value, fixture(it.fixture)));
   }
 
   WrittenEdit operator()(const CreateGeometry& it) {
@@ -103,7 +108,8 @@ class EditWriter {
     const auto name = text(it.texture.name);
     const auto media_type = text(it.texture.media_type);
     const auto picture = it.texture.bytes ? bytes(*it.texture.bytes) : 0;
-    return as_edit(flat::CreateCreateTexture(builder_, it.id.value, name, media_type, picture));
+    return as_edit(flat::CreateCreateTexture(builder_, it.id.value, name, media_type, picture,
+                                             !it.texture.repeats[0], !it.texture.repeats[1]));
   }
   WrittenEdit operator()(const DeleteTexture& it) {
     return as_edit(flat::CreateDeleteTexture(builder_, it.id.value));
@@ -178,6 +184,25 @@ class EditWriter {
     if (!written) return 0;
     const auto kind = builder_.CreateString(shape->kind().data(), shape->kind().size());
     return flat::CreateShape(builder_, kind, bytes(*written));
+  }
+
+  Offset<flat::Fixture> fixture(const FixturePointer& fixture) {
+    if (!fixture) return 0;
+    Offset<flat::Light> light;
+    Offset<flat::Viewpoint> viewpoint;
+    Offset<flat::Inert> inert;
+    if (const auto* it = std::get_if<Light>(&*fixture)) {
+      const flat::LightNumbers numbers(std::uint8_t(it->kind), it->on, flat_colour(it->colour), it->intensity,
+                                       it->ambient, flatbuffers::make_span(it->attenuation), it->radius,
+                                       it->cut_off_angle, it->beam_width);
+      light = flat::CreateLight(builder_, &numbers);
+    } else if (const auto* place = std::get_if<Viewpoint>(&*fixture)) {
+      viewpoint = flat::CreateViewpoint(builder_, place->field_of_view);
+    } else if (const auto* kept = std::get_if<Inert>(&*fixture)) {
+      const auto type = text(kept->type);
+      inert = flat::CreateInert(builder_, type, text(kept->source));
+    }
+    return flat::CreateFixture(builder_, light, viewpoint, inert);
   }
 
   Offset<flat::MaterialState> material(const Material& it) {

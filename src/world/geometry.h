@@ -13,6 +13,8 @@ using base::Affine3;
 using base::Bounds;
 using base::Vector3;
 
+struct MeshGeometry;
+
 /// What an object is made of, in the object's own frame (m). Immutable, so that threads, undo and copies
 /// share it; an edit puts another in its place. Derive from it to add a kind of shape (thesis 5.6.2).
 class Geometry {
@@ -30,6 +32,12 @@ class Geometry {
 
   /// Memory held, in bytes.
   virtual std::size_t bytes() const = 0;
+
+  /// The shape's surface as triangles, for eyes, other programs' files and sizes that cannot be touched as
+  /// they are; within `tolerance` (m, > 0) of it where the kind can tell. Fails, saying why, where that
+  /// cannot be done: endless shapes, more than kMostTriangles.
+  virtual base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const = 0;
+  static constexpr std::size_t kMostTriangles = 20'000'000;
 
   /// What the reader of this kind (GeometryFactory) makes an equal shape of. Fails, saying why, where it
   /// could not: what is written can be read.

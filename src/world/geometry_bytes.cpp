@@ -231,7 +231,9 @@ Result<std::string> MeshGeometry::write() const {
   const auto triangles = written<std::uint32_t>(builder, mesh.triangles);
   const auto coordinates = written<double>(builder, texture_coordinates);
   const auto corner_normals = written<double>(builder, normals);
-  return finished(builder, flat::CreateMesh(builder, positions, triangles, coordinates, corner_normals));
+  const auto corner_colours = written<float>(builder, colours);
+  return finished(
+      builder, flat::CreateMesh(builder, positions, triangles, coordinates, corner_normals, corner_colours));
 }
 
 Result<GeometryPointer> read_mesh(std::string_view bytes) {
@@ -241,6 +243,7 @@ Result<GeometryPointer> read_mesh(std::string_view bytes) {
   MeshGeometry shape(mesh_of(reader, *from));
   shape.texture_coordinates = reader.items<std::array<Vector2, 3>>(from->texture_coordinates());
   shape.normals = reader.items<std::array<Vector3, 3>>(from->normals());
+  shape.colours = reader.items<std::array<Colour, 3>>(from->colours());
   return checked(reader, std::move(shape));
 }
 
@@ -268,7 +271,7 @@ Result<std::string> PrimitiveGeometry::write() const {
   if (std::string why = complaint(primitive); !why.empty()) return fail(std::move(why));
   FlatBufferBuilder builder(256);
   const auto text = builder.CreateString(geometry::name(primitive));
-  return finished(builder, flat::CreatePrimitive(builder, text));
+  return finished(builder, flat::CreatePrimitive(builder, text, axis == Axis::Y));
 }
 
 Result<GeometryPointer> read_primitive(std::string_view bytes) {
@@ -277,7 +280,7 @@ Result<GeometryPointer> read_primitive(std::string_view bytes) {
   if (!from) return fail(reader.fault());
   const geometry::Primitive primitive = primitive_of(reader, from->text());
   if (!reader.fault().empty()) return fail(reader.fault());
-  return GeometryPointer(std::make_shared<PrimitiveGeometry>(primitive));
+  return GeometryPointer(std::make_shared<PrimitiveGeometry>(primitive, from->along_y() ? Axis::Y : Axis::Z));
 }
 
 Result<std::string> CsgGeometry::write() const { return CsgWriter().write(tree); }

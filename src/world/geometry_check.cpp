@@ -8,12 +8,21 @@ namespace {
 
 using geometry::CsgTree;
 
-constexpr const char* kNotFinite = "A shape's vertices, normals and texture coordinates must be finite.";
+constexpr const char* kNotFinite =
+    "A shape's vertices, normals, colours and texture coordinates must be finite.";
+
+template <typename Vector>
+bool finite(const Vector& it) {
+  return it.allFinite();
+}
+bool finite(const Colour& it) {
+  return std::all_of(it.begin(), it.end(), [](float part) { return std::isfinite(part); });
+}
 
 template <typename Corners>
 bool all_finite(const std::vector<Corners>& triangles) {
   return std::all_of(triangles.begin(), triangles.end(), [](const Corners& corners) {
-    return std::all_of(corners.begin(), corners.end(), [](const auto& it) { return it.allFinite(); });
+    return std::all_of(corners.begin(), corners.end(), [](const auto& it) { return finite(it); });
   });
 }
 
@@ -43,8 +52,8 @@ std::string complaint_of_leaf(const geometry::CsgShape& shape, const CsgTree::Co
 }  // namespace
 
 std::string complaint(const geometry::TriangleMesh& mesh) {
-  const auto finite = [](const Vector3& it) { return it.allFinite(); };
-  if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), finite)) return kNotFinite;
+  const auto is_finite = [](const Vector3& it) { return it.allFinite(); };
+  if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite)) return kNotFinite;
   if (!all_below(mesh.triangles, mesh.positions.size()))
     return "A triangle names a vertex that is not there.";
   return {};
@@ -52,11 +61,13 @@ std::string complaint(const geometry::TriangleMesh& mesh) {
 
 std::string complaint(const MeshGeometry& shape) {
   const std::size_t triangles = shape.mesh.triangles.size();
-  for (const std::size_t count : {shape.texture_coordinates.size(), shape.normals.size()}) {
+  for (const std::size_t count :
+       {shape.texture_coordinates.size(), shape.normals.size(), shape.colours.size()}) {
     if (count != 0 && count != triangles)
-      return "A mesh needs texture coordinates and normals for all of its triangles or for none.";
+      return "A mesh needs texture coordinates, normals and colours for all of its triangles or for none.";
   }
-  if (!all_finite(shape.texture_coordinates) || !all_finite(shape.normals)) return kNotFinite;
+  if (!all_finite(shape.texture_coordinates) || !all_finite(shape.normals) || !all_finite(shape.colours))
+    return kNotFinite;
   return complaint(shape.mesh);
 }
 

@@ -65,12 +65,18 @@ std::uint64_t MeshGeometry::hash() const {
   for (const auto& corners : normals) {
     for (const Vector3& corner : corners) hasher.add(corner);
   }
+  hasher.add(colours.size());
+  for (const auto& corners : colours) {
+    for (const Colour& corner : corners) {
+      for (const float part : corner) hasher.add(double(part));
+    }
+  }
   return hasher.value();
 }
 
 std::size_t MeshGeometry::bytes() const {
   return sizeof(*this) + mesh_bytes(mesh) + texture_coordinates.capacity() * sizeof(texture_coordinates[0]) +
-         normals.capacity() * sizeof(normals[0]);
+         normals.capacity() * sizeof(normals[0]) + colours.capacity() * sizeof(colours[0]);
 }
 
 std::uint64_t LoopGeometry::hash() const {

@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/result.h"
 #include "geometry/loop_surface.h"
+#include "world/fixture.h"
 #include "world/geometry.h"
 
 namespace icome::world {
@@ -12,18 +14,20 @@ namespace icome::world {
 using base::Vector2;
 
 /// A triangle mesh. Texture coordinates belong to corners of triangles, as one vertex may lie in several
-/// textures (2.4.1); so do normals, which say where edges look sharp.
-struct MeshGeometry final : public Geometry {
+/// textures (2.4.1); so do normals, which say where edges look sharp, and colours.
+struct MeshGeometry final : public Geometry, public std::enable_shared_from_this<MeshGeometry> {
   explicit MeshGeometry(geometry::TriangleMesh triangles) : mesh(std::move(triangles)) {}
 
   geometry::TriangleMesh mesh;
   std::vector<std::array<Vector2, 3>> texture_coordinates;  // of every triangle, or none
   std::vector<std::array<Vector3, 3>> normals;              // unit, of every triangle, or none: smooth
+  std::vector<std::array<Colour, 3>> colours;  // of every triangle, or none: the material's diffuse one
 
   std::string_view kind() const override { return "mesh"; }
   Bounds bounds() const override { return geometry::bounds(mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 };
 
@@ -38,6 +42,7 @@ struct LoopGeometry final : public Geometry {
   Bounds bounds() const override { return geometry::bounds(control.mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 };
 

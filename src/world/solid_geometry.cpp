@@ -63,7 +63,23 @@ std::uint64_t PrimitiveGeometry::hash() const {
   Hasher hasher;
   hasher.add(kind());
   AddShape{hasher}(primitive);
+  hasher.add(axis);
   return hasher.value();
+}
+
+base::Matrix3 PrimitiveGeometry::shape_from_primitive() const {
+  if (axis == Axis::Z) return base::Matrix3::Identity();
+  base::Matrix3 turn;  // exact: its x stays, y becomes -z and z becomes y
+  turn << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
+  return turn;
+}
+
+Bounds PrimitiveGeometry::bounds() const {
+  const Bounds own = geometry::bounds(primitive);
+  if (axis == Axis::Z) return own;
+  // Corner by corner: a plane's bounds are infinite, and 0 times that would be no number.
+  const Vector3 low = own.min(), high = own.max();
+  return {Vector3(low.x(), low.z(), -high.y()), Vector3(high.x(), high.z(), -low.y())};
 }
 
 std::uint64_t CsgGeometry::hash() const {

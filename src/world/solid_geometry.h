@@ -9,16 +9,27 @@
 
 namespace icome::world {
 
-/// A box, sphere, cylinder, cone, torus, capsule or half-space by its sizes.
+/// The axis that a primitive stands along; its positive end is the top.
+enum class Axis : std::uint8_t { Z, Y };
+
+/// A box, sphere, cylinder, cone, torus, capsule or half-space by its sizes. Along z it is what
+/// geometry::Primitive says, along y that turned about x so that its z becomes y: how VRML 2.0 stands
+/// cylinders and cones.
 struct PrimitiveGeometry final : public Geometry {
-  explicit PrimitiveGeometry(const geometry::Primitive& shape) : primitive(shape) {}
+  explicit PrimitiveGeometry(const geometry::Primitive& shape, Axis stands_along = Axis::Z)
+      : primitive(shape), axis(stands_along) {}
 
   geometry::Primitive primitive;
+  Axis axis;
+
+  /// The turn from the primitive's own frame to the shape's.
+  base::Matrix3 shape_from_primitive() const;
 
   std::string_view kind() const override { return "primitive"; }
-  Bounds bounds() const override { return geometry::bounds(primitive); }
+  Bounds bounds() const override;
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this); }
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 };
 
@@ -33,6 +44,7 @@ struct CsgGeometry final : public Geometry {
   /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 };
 
@@ -50,6 +62,7 @@ class ImplicitGeometry final : public Geometry {
   Bounds bounds() const override { return surface_->bounds(); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this) + formula_.capacity() + surface_->bytes(); }
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 
  private:

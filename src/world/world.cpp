@@ -10,6 +10,23 @@ namespace {
 
 void add_id(Hasher& hasher, std::uint64_t value) { hasher.add(value); }
 
+void add_to(Hasher& hasher, const Light& it) {
+  hasher.add(it.kind);
+  hasher.add(it.on);
+  for (const float part : it.colour) hasher.add(double(part));
+  for (const float part : it.attenuation) hasher.add(double(part));
+  for (const double value :
+       {double(it.intensity), double(it.ambient), it.radius, it.cut_off_angle, it.beam_width})
+    hasher.add(value);
+}
+
+void add_to(Hasher& hasher, const Viewpoint& it) { hasher.add(it.field_of_view); }
+
+void add_to(Hasher& hasher, const Inert& it) {
+  hasher.add(std::string_view(it.type));
+  hasher.add(std::string_view(it.source));
+}
+
 void add_to(Hasher& hasher, const PhysicalObject& it) {
   hasher.add(std::string_view(it.name));
   add_id(hasher, it.parent.value);
@@ -18,6 +35,8 @@ void add_to(Hasher& hasher, const PhysicalObject& it) {
   hasher.add(it.parent_from_object.matrix());
   add_id(hasher, it.geometry.value);
   add_id(hasher, it.material.value);
+  hasher.add(it.fixture ? it.fixture->index() + 1 : 0);
+  if (it.fixture) std::visit([&](const auto& fixture) { add_to(hasher, fixture); }, *it.fixture);
 }
 
 void add_to(Hasher& hasher, const GeometryObject& it) { hasher.add(it.shape->hash()); }
@@ -42,6 +61,7 @@ void add_to(Hasher& hasher, const Texture& it) {
   hasher.add(std::string_view(it.name));
   hasher.add(std::string_view(it.media_type));
   hasher.add(std::string_view(*it.bytes));
+  for (const bool repeats : it.repeats) hasher.add(repeats);
 }
 
 void add_to(Hasher& hasher, const Scene& it) {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "world/fixture.h"
 #include "world/geometry.h"
 #include "world/id.h"
 
@@ -19,6 +20,7 @@ struct PhysicalObject {
   Affine3 parent_from_object = Affine3::Identity();
   GeometryId geometry = {};  // none: only a group
   MaterialId material = {};  // none: the default
+  FixturePointer fixture = {};
 };
 
 /// A shape that objects share: a clone uses the same one, a copy one of its own.
@@ -37,8 +39,6 @@ struct TouchProperties {
 
   bool operator==(const TouchProperties&) const = default;
 };
-
-using Colour = std::array<float, 3>;  // red, green, blue in [0, 1], linear
 
 /// Looks after the VRML 2.0 model, and how it feels. Always shared, never copied with objects.
 struct Material {
@@ -61,7 +61,8 @@ struct Texture {
   std::string name;        // where it came from, for people
   std::string media_type;  // "image/png", "image/jpeg"
   std::shared_ptr<const std::string> bytes;
-  std::uint32_t users = 0;  // materials that show it; kept by the world
+  std::array<bool, 2> repeats = {true, true};  // along u and v; else the edge goes on
+  std::uint32_t users = 0;                     // materials that show it; kept by the world
 };
 
 /// A part of the world that is seen and touched together: the subtrees of some objects. A change of an

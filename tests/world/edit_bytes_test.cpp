@@ -205,6 +205,9 @@ struct Posts final : public Geometry {
   Bounds bounds() const override { return {Vector3::Zero(), Vector3(count, 1.0, 1.0)}; }
   std::uint64_t hash() const override { return std::uint64_t(count); }
   std::size_t bytes() const override { return sizeof(*this); }
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double) const override {
+    return base::fail("Posts are only counted.");
+  }
   base::Result<std::string> write() const override { return std::string(std::size_t(count), '|'); }
 };
 

@@ -91,6 +91,10 @@ TEST(Edits, AreRefusedWithAReason) {
   expect_refused(it.world, MoveVertices{roof, {1}, {}}, "one position");
   expect_refused(it.world, MoveVertices{roof, {1}, {{0.0, nan, 0.0}}}, "finite");
   expect_refused(it.world, MoveVertices{walls, {0}, {{0.0, 0.0, 0.0}}}, "no vertices to move");
+  const auto light = std::make_shared<const Fixture>(Light{.radius = nan});
+  expect_refused(it.world, ChangeFixture{it.roof, light}, "light must be finite");
+  const auto view = std::make_shared<const Fixture>(Viewpoint{4.0});
+  expect_refused(it.world, CreateObject{it.ids.next<ObjectId>(), 0, {.fixture = view}}, "180 degrees");
   TouchProperties slippery;
   slippery.dynamic_friction = 0.5;
   expect_refused(it.world, CreateMaterial{it.ids.next<MaterialId>(), {.touch = slippery}}, "Static friction");

@@ -12,6 +12,7 @@ inline GeometryPointer textured_mesh() {
   auto shape = std::make_shared<MeshGeometry>(tetrahedron());
   shape->texture_coordinates.assign(4, {Vector2(0.0, 0.0), Vector2(1.0, -0.0), Vector2(0.25, 1.0)});
   shape->normals.assign(4, {Vector3::UnitX(), Vector3::UnitY(), -Vector3::UnitZ()});
+  shape->colours.assign(4, {Colour{0.1F, 0.2F, 0.3F}, Colour{-0.0F, 1.0F, 0.5F}, Colour{}});
   return shape;
 }
 
@@ -51,6 +52,7 @@ inline std::vector<GeometryPointer> every_shape() {
         Primitive(Cylinder{0.1, 0.2}), Primitive(Cone{0.0, 0.1, 0.2}), Primitive(Cone{0.1, 0.0, 0.2}),
         Primitive(Torus{0.3, 0.1}), Primitive(Capsule{0.1, 0.5})})
     shapes.push_back(std::make_shared<PrimitiveGeometry>(it));
+  shapes.push_back(std::make_shared<PrimitiveGeometry>(Cone{0.1, 0.0, 0.2}, Axis::Y));
   shapes.push_back(*ImplicitGeometry::create("x^2 + y^2 + z^2 - 0.05^2",
                                              Bounds(Vector3::Constant(-0.1), Vector3::Constant(0.1))));
   return shapes;
@@ -72,6 +74,18 @@ inline Material rich_material(TextureId texture) {
                     .texture = "grain"}};
 }
 
+inline FixturePointer spot_light() {
+  return std::make_shared<const Fixture>(Light{.kind = Light::Kind::Spot,
+                                               .on = false,
+                                               .colour = {0.1F, 0.2F, 0.3F},
+                                               .intensity = 0.4F,
+                                               .ambient = 0.5F,
+                                               .attenuation = {0.6F, 0.7F, 0.8F},
+                                               .radius = 9.0,
+                                               .cut_off_angle = 0.6,
+                                               .beam_width = 0.5});
+}
+
 /// Edits of all kinds that an empty world allows one after the other.
 inline std::vector<Edit> every_edit() {
   const TextureId picture{1}, sketch{2};
@@ -81,7 +95,10 @@ inline std::vector<Edit> every_edit() {
   const Affine3 turned = at(0.1, -0.0, 3.0) * Eigen::AngleAxisd(0.3, Vector3::UnitX());
   std::vector<Edit> edits{
       CreateTexture{picture,
-                    {"wood.png", "image/png", std::make_shared<std::string>(std::string("\x89PNG\0\n", 6))}},
+                    {"wood.png",
+                     "image/png",
+                     std::make_shared<std::string>(std::string("\x89PNG\0\n", 6)),
+                     {true, false}}},
       CreateTexture{sketch, {"", "", std::make_shared<std::string>()}},
       DeleteTexture{sketch},
       CreateMaterial{wood, rich_material(picture)},
@@ -96,7 +113,7 @@ inline std::vector<Edit> every_edit() {
   const std::vector<Edit> rest{
       CreateObject{
           table, 0, {.name = "table", .parent_from_object = turned, .geometry = {101}, .material = wood}},
-      CreateObject{leg, 0, {.parent = table, .geometry = {102}}},
+      CreateObject{leg, 0, {.parent = table, .geometry = {102}, .fixture = spot_light()}},
       MoveObject{leg, {}, 1, turned},
       PlaceObject{leg, turned},
       RenameObject{leg, "leg"},
@@ -104,6 +121,9 @@ inline std::vector<Edit> every_edit() {
       ChooseGeometry{leg, {}},
       ChooseMaterial{leg, paint},
       ChooseMaterial{leg, {}},
+      ChangeFixture{leg, std::make_shared<const Fixture>(Viewpoint{1.0})},
+      ChangeFixture{leg, std::make_shared<const Fixture>(Inert{"Script", "Script { url \"a\" }"})},
+      ChangeFixture{leg, nullptr},
       DeleteMaterial{paint},
       ReplaceGeometry{{102}, csg()},
       DeleteGeometry{{103}},

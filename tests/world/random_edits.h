@@ -9,7 +9,7 @@ class RandomEdits {
   explicit RandomEdits(std::uint64_t seed) : random_(seed) {}
 
   Edit next(const World& world) {
-    switch (random_.index(16)) {
+    switch (random_.index(17)) {
       case 0:
       case 1:
         return create(world);
@@ -42,6 +42,8 @@ class RandomEdits {
         return scene(world);
       case 14:
         return unused(world);
+      case 15:
+        return ChangeFixture{any(world.objects()), fixture()};
       default: {
         auto made = duplicate(world, any(world.objects()), Duplicate(random_.index(6)),
                               any_or_none(world.objects()), ids_);
@@ -82,6 +84,18 @@ class RandomEdits {
                           .geometry = any_or_none(world.geometries()),
                           .material = any_or_none(world.materials())};
     return CreateObject{ids_.next<ObjectId>(), 0, std::move(object)};
+  }
+  FixturePointer fixture() {
+    switch (random_.index(4)) {
+      case 0:
+        return nullptr;
+      case 1:
+        return std::make_shared<const Fixture>(Light{.intensity = float(random_.uniform())});
+      case 2:
+        return std::make_shared<const Fixture>(Viewpoint{random_.uniform(0.1, 3.0)});
+      default:
+        return std::make_shared<const Fixture>(Inert{"Script", "Script {}"});
+    }
   }
   Edit scene(const World& world) {
     const SceneId one = any(world.scenes());

@@ -45,6 +45,21 @@ TEST(World, HashTellsWorldsApartAndTheSameAlike) {
   EXPECT_NE(make("a", 1.0), make("a", 1.0 + 1e-15));
 }
 
+TEST(PrimitiveGeometry, StandsAlongTheAxisAskedFor) {
+  const geometry::Cone cone{0.2, 0.0, 1.0};
+  const PrimitiveGeometry along_z(cone), along_y(cone, Axis::Y);
+  EXPECT_EQ(along_z.shape_from_primitive(), base::Matrix3::Identity());
+  // Its top, +z in its own frame, is +y.
+  EXPECT_EQ(along_y.shape_from_primitive() * Vector3::UnitZ(), Vector3::UnitY());
+  EXPECT_EQ(along_y.shape_from_primitive().determinant(), 1.0);
+  EXPECT_EQ(along_y.bounds().min(), Vector3(-0.2, -0.5, -0.2));
+  EXPECT_EQ(along_y.bounds().max(), Vector3(0.2, 0.5, 0.2));
+  EXPECT_NE(along_y.hash(), along_z.hash());
+  const Bounds below = PrimitiveGeometry(geometry::Plane{}, Axis::Y).bounds();
+  EXPECT_EQ(below.max().y(), 0.0);
+  EXPECT_EQ(below.min().z(), -std::numeric_limits<double>::infinity());
+}
+
 TEST(IdSource, GivesEveryAuthorIdsOfTheirOwn) {
   IdSource one(1), other(2);
   EXPECT_NE(one.next<ObjectId>(), other.next<ObjectId>());

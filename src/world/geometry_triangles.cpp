@@ -1,0 +1,82 @@
+// What every built-in kind of shape looks like as triangles.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/csg_mesh.h"
+#include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
+
+namespace icome::world {
+namespace {
+
+using Triangles = std::shared_ptr<const MeshGeometry>;
+
+// A solid that is sampled takes time by its volume: a finer tolerance is not kept.
+constexpr double kMostCellsAcross = 256.0;
+
+/// Dual contouring is off by far less than a cell, but by most of one where a ridge pokes through a side.
+double cell_for(double tolerance, const Bounds& bounds) {
+  return std::max(tolerance, bounds.sizes().maxCoeff() / kMostCellsAcross);
+}
+
+Triangles share(geometry::TriangleMesh mesh) { return std::make_shared<MeshGeometry>(std::move(mesh)); }
+
+geometry::ContourOptions options_for(double tolerance, const Bounds& bounds) {
+  return {.cell = cell_for(tolerance, bounds), .max_triangles = Geometry::kMostTriangles};
+}
+
+/// Halving edges brings a smooth surface's facets four times nearer to it.
+int level_for(const geometry::TriangleMesh& control, double tolerance) {
+  constexpr int kFinest = 6;
+  double longest = 0.0;
+  for (std::size_t t = 0; t < control.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = std::max(longest, (control.corner(t, (i + 1) % 3) - control.corner(t, i)).norm());
+  }
+  // The sagitta of an arc whose radius is about the edge it bridges is an eighth of that edge.
+  const double off = longest / 8.0;
+  const int level = off > tolerance ? int(std::ceil(0.5 * std::log2(off / tolerance))) : 1;
+  return std::clamp(level, 1, kFinest);
+}
+
+}  // namespace
+
+base::Result<Triangles> MeshGeometry::triangles(double) const {
+  if (const auto self = weak_from_this().lock()) return self;
+  return std::make_shared<const MeshGeometry>(*this);
+}
+
+base::Result<Triangles> LoopGeometry::triangles(double tolerance) const {
+  const auto surface = geometry::LoopSurface::create(control);
+  if (!surface) return tl::unexpected(surface.error());
+  int level = level_for(control.mesh, tolerance);
+  while (level > 0 && (control.mesh.triangles.size() << (2 * level)) > kMostTriangles) --level;
+  auto mesh = (*surface)->tessellate(level);
+  if (!mesh) return tl::unexpected(mesh.error());
+  return share(std::move(*mesh));
+}
+
+base::Result<Triangles> PrimitiveGeometry::triangles(double tolerance) const {
+  if (std::holds_alternative<geometry::Plane>(primitive))
+    return base::fail("A plane has no end: it cannot be made triangles.");
+  geometry::TriangleMesh mesh = geometry::tessellate(primitive, tolerance);
+  const base::Matrix3 turn = shape_from_primitive();
+  for (Vector3& position : mesh.positions) position = turn * position;
+  return share(std::move(mesh));
+}
+
+base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
+  const Bounds box = bounds();
+  if (box.isEmpty()) return share({});
+  auto contoured = geometry::contour(tree, options_for(tolerance, box));
+  if (!contoured) return tl::unexpected(contoured.error());
+  return share(std::move(contoured->mesh));
+}
+
+base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
+  auto contoured = geometry::contour(geometry::sampled(*surface_, 0.0), options_for(tolerance, bounds()));
+  if (!contoured) return tl::unexpected(contoured.error());
+  return share(std::move(contoured->mesh));
+}
+
+}  // namespace icome::world
