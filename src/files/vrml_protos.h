@@ -1,0 +1,115 @@
+#pragma once
+
+namespace icome::files {
+
+/// What VRML 2.0 has no nodes for, as PROTOs: docs/file-formats.md tells about each field. Every geometry
+/// PROTO shows an IndexedFaceSet, so that any viewer draws its triangles; ICOME reads the other fields.
+/// Written at the head of a file that uses them, each only if it is used.
+struct VrmlProto {
+  const char* name;
+  const char* text;
+};
+
+inline constexpr VrmlProto kMaterialProto = {"IcomeMaterial", R"(PROTO IcomeMaterial [
+  field SFString name ""
+  exposedField SFFloat ambientIntensity 0.2
+  exposedField SFColor diffuseColor 0.8 0.8 0.8
+  exposedField SFColor emissiveColor 0 0 0
+  exposedField SFFloat shininess 0.2
+  exposedField SFColor specularColor 0 0 0
+  exposedField SFFloat transparency 0
+  field SFFloat stiffness -1
+  field SFFloat damping -1
+  field SFFloat staticFriction 0
+  field SFFloat dynamicFriction 0
+  field SFString hapticTexture ""
+] {
+  Material {
+    ambientIntensity IS ambientIntensity
+    diffuseColor IS diffuseColor
+    emissiveColor IS emissiveColor
+    shininess IS shininess
+    specularColor IS specularColor
+    transparency IS transparency
+  }
+}
+)"};
+
+inline constexpr VrmlProto kCsgProto = {"IcomeCsg", R"(PROTO IcomeCsg [
+  field SFString tree ""
+  field SFNode coord NULL
+  field MFInt32 coordIndex []
+  field SFFloat creaseAngle 0
+  field SFBool solid TRUE
+] {
+  IndexedFaceSet {
+    coord IS coord
+    coordIndex IS coordIndex
+    creaseAngle IS creaseAngle
+    solid IS solid
+  }
+}
+)"};
+
+inline constexpr VrmlProto kLoopProto = {"IcomeLoopSurface", R"(PROTO IcomeLoopSurface [
+  field MFVec3f controlPoint []
+  field MFInt32 controlIndex []
+  field MFInt32 crease []
+  field MFInt32 corner []
+  field SFNode coord NULL
+  field MFInt32 coordIndex []
+  field SFFloat creaseAngle 0
+  field SFBool solid TRUE
+] {
+  IndexedFaceSet {
+    coord IS coord
+    coordIndex IS coordIndex
+    creaseAngle IS creaseAngle
+    solid IS solid
+  }
+}
+)"};
+
+inline constexpr VrmlProto kImplicitProto = {"IcomeImplicit", R"(PROTO IcomeImplicit [
+  field SFString formula ""
+  field SFString box ""
+  field SFNode coord NULL
+  field MFInt32 coordIndex []
+  field SFFloat creaseAngle 0
+  field SFBool solid TRUE
+] {
+  IndexedFaceSet {
+    coord IS coord
+    coordIndex IS coordIndex
+    creaseAngle IS creaseAngle
+    solid IS solid
+  }
+}
+)"};
+
+inline constexpr VrmlProto kPrimitiveProto = {"IcomePrimitive", R"(PROTO IcomePrimitive [
+  field SFString shape ""
+  field SFString axis "z"
+  field SFNode coord NULL
+  field MFInt32 coordIndex []
+  field SFFloat creaseAngle 0
+  field SFBool solid TRUE
+] {
+  IndexedFaceSet {
+    coord IS coord
+    coordIndex IS coordIndex
+    creaseAngle IS creaseAngle
+    solid IS solid
+  }
+}
+)"};
+
+inline constexpr VrmlProto kSceneProto = {"IcomeScene", R"(PROTO IcomeScene [
+  field SFString name ""
+  field MFString objects []
+] {
+  Group {}
+}
+)"};
+
+}  // namespace icome::files
