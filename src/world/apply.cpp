@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "world/edit.h"
 #include "world/mesh_geometry.h"
+#include "world/row.h"
 
 namespace icome::world {
 namespace {
@@ -34,7 +34,8 @@ std::string called(const PhysicalObject& object, ObjectId id) {
 /// Applies edits to a world; each function gives the inverse.
 class EditApplier {
  public:
-  explicit EditApplier(World& world) : world_(world) {}
+  /// `alone`: nobody else looks at the world and at shapes that only it has.
+  EditApplier(World& world, bool alone) : world_(world), alone_(alone) {}
 
   Result<Edit> operator()(const CreateObject& it) {
     if (const auto fresh = check_new(it.id, world_.objects_, "object"); !fresh)
@@ -50,7 +51,9 @@ class EditApplier {
       return fail("The material that the new object should have is not there any more.");
     if (const auto good = check(object.fixture); !good) return tl::unexpected(good.error());
     if (it.place > siblings(object.parent).size()) return bad_place();
-    world_.objects_[it.id] = object;
+    PhysicalObject& kept = world_.objects_[it.id] = object;
+    kept.place_hint = std::uint32_t(it.place);
+    kept.scenes = 0;
     insert(siblings(object.parent), it.place, it.id);
     use(object.geometry, 1);
     use(object.material, 1);
@@ -63,13 +66,11 @@ class EditApplier {
     if (!object) return gone("object");
     if (!object->children.empty())
       return fail(fmt::format("{} has objects below it: delete those too.", called(*object, it.id)));
-    for (const auto& [id, scene] : world_.scenes_) {
-      if (place_of(scene.roots, it.id) < scene.roots.size())
-        return fail(
-            fmt::format("{} is in the scene \"{}\": take it out first.", called(*object, it.id), scene.name));
-    }
-    const CreateObject back{it.id, place_of(siblings(object->parent), it.id), *object};
+    if (object->scenes > 0)
+      return fail(fmt::format("{} is in the scene \"{}\": take it out first.", called(*object, it.id),
+                              scene_with(it.id).name));
     std::vector<ObjectId>& row = siblings(object->parent);
+    const CreateObject back{it.id, place_near(row, it.id, object->place_hint), *object};
     row.erase(row.begin() + std::ptrdiff_t(back.place));
     use(object->geometry, -1);
     use(object->material, -1);
@@ -87,11 +88,13 @@ class EditApplier {
     if (it.parent && is_within(world_, it.parent, it.id))
       return fail(fmt::format("{} cannot be put under itself.", called(object, it.id)));
     std::vector<ObjectId>& from = siblings(object.parent);
-    const MoveObject back{it.id, object.parent, place_of(from, it.id), object.parent_from_object};
+    const MoveObject back{it.id, object.parent, place_near(from, it.id, object.place_hint),
+                          object.parent_from_object};
     const std::size_t room = siblings(it.parent).size() - (it.parent == object.parent ? 1 : 0);
     if (it.place > room) return bad_place();
     from.erase(from.begin() + std::ptrdiff_t(back.place));
     insert(siblings(it.parent), it.place, it.id);
+    object.place_hint = std::uint32_t(it.place);
     object.parent = it.parent;
     object.parent_from_object = it.parent_from_object;
     return Edit(back);
@@ -141,9 +144,15 @@ class EditApplier {
   Result<Edit> operator()(const MoveVertices& it) {
     const auto found = world_.geometries_.find(it.id);
     if (found == world_.geometries_.end()) return gone("shape");
-    auto moved = move_vertices(*found->second.shape, it.vertices, it.positions);
+    GeometryPointer& shape = found->second.shape;
+    if (alone_ && shape.use_count() == 1) {
+      auto before = move_vertices_of(const_cast<Geometry&>(*shape), it.vertices, it.positions);
+      if (!before) return tl::unexpected(before.error());
+      return Edit(MoveVertices{it.id, it.vertices, std::move(*before)});
+    }
+    auto moved = move_vertices(*shape, it.vertices, it.positions);
     if (!moved) return tl::unexpected(moved.error());
-    found->second.shape = std::move(moved->shape);
+    shape = std::move(moved->shape);
     return Edit(MoveVertices{it.id, it.vertices, std::move(moved->before)});
   }
 
@@ -223,13 +232,14 @@ class EditApplier {
   Result<Edit> operator()(const EnterScene& it) {
     const auto found = world_.scenes_.find(it.scene);
     if (found == world_.scenes_.end()) return gone("scene");
-    const PhysicalObject* object = world_.find(it.object);
-    if (!object) return gone("object");
+    const auto object = world_.objects_.find(it.object);
+    if (object == world_.objects_.end()) return gone("object");
     std::vector<ObjectId>& roots = found->second.roots;
-    if (place_of(roots, it.object) < roots.size())
-      return fail(
-          fmt::format("{} is in the scene \"{}\" already.", called(*object, it.object), found->second.name));
+    if (object->second.scenes > 0 && place_of(roots, it.object) < roots.size())
+      return fail(fmt::format("{} is in the scene \"{}\" already.", called(object->second, it.object),
+                              found->second.name));
     if (it.place > roots.size()) return bad_place();
+    ++object->second.scenes;
     insert(roots, it.place, it.object);
     return Edit(LeaveScene{it.scene, it.object});
   }
@@ -240,15 +250,24 @@ class EditApplier {
     const std::size_t place = place_of(roots, it.object);
     if (place == roots.size()) return fail("The object is not in that scene.");
     roots.erase(roots.begin() + std::ptrdiff_t(place));
+    --world_.objects_[it.object].scenes;
     return Edit(EnterScene{it.scene, it.object, place});
+  }
+
+  Result<Edit> operator()(const SpendNumbers& it) {
+    if ((it.author >> (64 - IdSource::kNumberBits)) != 0 || it.last > IdSource::kLastNumber)
+      return fail("There are no such numbers to spend: the edit is damaged.");
+    if (it.last > 0) remember((std::uint64_t{it.author} << IdSource::kNumberBits) | it.last);
+    return Edit(EditGroup{});
   }
 
   Result<Edit> operator()(const EditGroup& it) {
     EditGroup back;
     for (const Edit& edit : it.edits) {
-      auto inverse = apply(world_, edit);
+      auto inverse = std::visit(*this, edit.what);
       if (!inverse) {
-        for (auto done = back.edits.rbegin(); done != back.edits.rend(); ++done) (void)apply(world_, *done);
+        for (auto done = back.edits.rbegin(); done != back.edits.rend(); ++done)
+          (void)std::visit(*this, done->what);
         return inverse;
       }
       back.edits.push_back(std::move(*inverse));
@@ -268,6 +287,10 @@ class EditApplier {
   template <typename Named>
   static Result<void> check_new(Id<Named> id, const World::Table<Named>& table, const char* what) {
     if (!id) return fail(fmt::format("A new {} needs an id.", what));
+    const std::uint64_t number = id.value & IdSource::kNumberMask;
+    if (number == 0 || number > IdSource::kLastNumber)
+      return fail(fmt::format("A new {} cannot have the id {:#x}: numbers run from 1 to {}.", what, id.value,
+                              IdSource::kLastNumber));
     if (table.count(id) != 0) return fail(fmt::format("There is a {} with this id already.", what));
     return {};
   }
@@ -297,6 +320,12 @@ class EditApplier {
   Result<void> check_material(const Material& material) const {
     if (material.texture && !world_.find(material.texture))
       return fail("The material's texture is not there any more.");
+    const auto finite = [](const Colour& it) {
+      return std::all_of(it.begin(), it.end(), [](float part) { return std::isfinite(part); });
+    };
+    if (!finite({material.ambient, material.shininess, material.transparency}) || !finite(material.diffuse) ||
+        !finite(material.specular) || !finite(material.emission))
+      return fail("The colours, shininess and transparency of a material must be finite.");
     const TouchProperties& touch = material.touch;
     const auto bad = [](double value) { return !std::isfinite(value) || value < 0.0; };
     if (bad(touch.stiffness.value_or(0.0)) || bad(touch.damping.value_or(0.0)) ||
@@ -310,13 +339,12 @@ class EditApplier {
   std::vector<ObjectId>& siblings(ObjectId parent) {
     return parent ? world_.objects_[parent].children : world_.roots_;
   }
-  static std::size_t place_of(const std::vector<ObjectId>& row, ObjectId id) {
-    return std::size_t(std::find(row.begin(), row.end(), id) - row.begin());
+  const Scene& scene_with(ObjectId id) const {
+    const auto holds = [id](const auto& scene) {
+      return place_of(scene.second.roots, id) < scene.second.roots.size();
+    };
+    return std::find_if(world_.scenes_.begin(), world_.scenes_.end(), holds)->second;
   }
-  static void insert(std::vector<ObjectId>& row, std::size_t place, ObjectId id) {
-    row.insert(row.begin() + std::ptrdiff_t(place), id);
-  }
-
   void use(GeometryId id, int more) {
     if (id) world_.geometries_[id].users += std::uint32_t(more);
   }
@@ -352,27 +380,17 @@ class EditApplier {
   }
 
   World& world_;
+  bool alone_;
 };
 
-base::Result<Edit> apply(World& world, const Edit& edit) { return std::visit(EditApplier(world), edit.what); }
+base::Result<Edit> apply(World& world, const Edit& edit) {
+  return std::visit(EditApplier(world, false), edit.what);
+}
 
-Edit delete_subtree(const World& world, ObjectId root) {
-  EditGroup group;
-  std::map<GeometryId, std::uint32_t> let_go;
-  std::vector<ObjectId> objects = subtree(world, root);
-  std::reverse(objects.begin(), objects.end());
-  for (const ObjectId id : objects) {
-    for (const auto& [scene, it] : world.scenes()) {
-      if (std::find(it.roots.begin(), it.roots.end(), id) != it.roots.end())
-        group.edits.push_back(LeaveScene{scene, id});
-    }
-    group.edits.push_back(DeleteObject{id});
-    if (const GeometryId geometry = world.find(id)->geometry) ++let_go[geometry];
-  }
-  for (const auto& [geometry, users] : let_go) {
-    if (world.find(geometry)->users == users) group.edits.push_back(DeleteGeometry{geometry});
-  }
-  return group;
+base::Result<void> replay(World& world, const Edit& edit) {
+  const auto inverse = std::visit(EditApplier(world, true), edit.what);
+  if (!inverse) return tl::unexpected(inverse.error());
+  return {};
 }
 
 }  // namespace icome::world

@@ -114,6 +114,13 @@ struct LeaveScene {
   ObjectId object;
 };
 
+/// Keeps an author's numbers up to `last` from being given again, as what had them is gone. Nothing takes
+/// that back.
+struct SpendNumbers {
+  std::uint32_t author = 0;
+  std::uint64_t last = 0;
+};
+
 /// Edits that belong together: all are applied, in this order, or none.
 struct EditGroup {
   std::vector<Edit> edits;
@@ -126,7 +133,7 @@ struct Edit {
       std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
                    ChooseMaterial, ChangeFixture, CreateGeometry, DeleteGeometry, ReplaceGeometry,
                    MoveVertices, CreateMaterial, DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture,
-                   CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, EditGroup>;
+                   CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, SpendNumbers, EditGroup>;
 
   template <typename Kind,
             typename = std::enable_if_t<std::conjunction_v<
@@ -139,6 +146,10 @@ struct Edit {
 /// Changes the world and gives the edit that takes it back. A refused edit changes nothing, and the error
 /// says why in terms of what people see.
 base::Result<Edit> apply(World& world, const Edit& edit);
+
+/// The same for one edit of many that make a world which nobody looks at yet: shapes that are the world's
+/// alone may change where they are, and there is no way back.
+base::Result<void> replay(World& world, const Edit& edit);
 
 /// The edit that deletes an object with all below it, and the shapes that nothing is made of then. The
 /// object is in the world.

@@ -83,6 +83,8 @@ class EditReader {
         return make(*from.what_as_LeaveScene());
       case flat::What::EditGroup:
         return make(*from.what_as_EditGroup());
+      case flat::What::SpendNumbers:
+        return make(*from.what_as_SpendNumbers());
       case flat::What::NONE:
         break;
     }
@@ -140,6 +142,8 @@ class EditReader {
     return EnterScene{{from.scene()}, {from.object()}, from.place()};
   }
   Edit make(const flat::LeaveScene& from) { return LeaveScene{{from.scene()}, {from.object()}}; }
+
+  Edit make(const flat::SpendNumbers& from) { return SpendNumbers{from.author(), from.last()}; }
 
   Edit make(const flat::EditGroup& from) {
     EditGroup group;

@@ -131,6 +131,10 @@ class EditWriter {
     return as_edit(flat::CreateLeaveScene(builder_, it.scene.value, it.object.value));
   }
 
+  WrittenEdit operator()(const SpendNumbers& it) {
+    return as_edit(flat::CreateSpendNumbers(builder_, it.author, it.last));
+  }
+
   WrittenEdit operator()(const EditGroup& it) {
     if (groups_ == kMostNestedGroups) {
       refuse(fmt::format("An edit of more than {} groups within each other cannot be written.",

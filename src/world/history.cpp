@@ -16,32 +16,32 @@ bool covers_both(const Edit& older, const Edit& newer) {
 
 }  // namespace
 
-base::Result<void> History::perform(World& world, const Edit& edit, const std::string& name) {
-  auto inverse = apply(world, edit);
+base::Result<void> History::perform(const EditSink& sink, const Edit& edit, const std::string& name) {
+  auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   undone_.clear();
   done_.push_back({name, {std::move(*inverse)}});
   return {};
 }
 
-base::Result<void> History::extend(World& world, const Edit& edit) {
+base::Result<void> History::extend(const EditSink& sink, const Edit& edit) {
   assert(can_undo() && !can_redo());
-  auto inverse = apply(world, edit);
+  auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   std::vector<Edit>& inverses = done_.back().inverses;
   if (!covers_both(inverses.back(), *inverse)) inverses.push_back(std::move(*inverse));
   return {};
 }
 
-base::Result<Edit> History::undo(World& world) {
-  return turn(world, done_, undone_, "There is nothing to undo.");
+base::Result<Edit> History::undo(const EditSink& sink) {
+  return turn(sink, done_, undone_, "There is nothing to undo.");
 }
 
-base::Result<Edit> History::redo(World& world) {
-  return turn(world, undone_, done_, "There is nothing to redo.");
+base::Result<Edit> History::redo(const EditSink& sink) {
+  return turn(sink, undone_, done_, "There is nothing to redo.");
 }
 
-base::Result<Edit> History::turn(World& world, std::vector<Action>& from, std::vector<Action>& to,
+base::Result<Edit> History::turn(const EditSink& sink, std::vector<Action>& from, std::vector<Action>& to,
                                  const char* nothing) {
   if (from.empty()) return base::fail(nothing);
   const Action& action = from.back();
@@ -49,7 +49,7 @@ base::Result<Edit> History::turn(World& world, std::vector<Action>& from, std::v
   Edit edit = action.inverses.size() == 1
                   ? action.inverses.front()
                   : Edit(EditGroup{{action.inverses.rbegin(), action.inverses.rend()}});
-  auto inverse = apply(world, edit);
+  auto inverse = sink(edit);
   if (!inverse) {
     return base::fail(fmt::format("\"{}\" stays as it is, as the design has changed since: {}", action.name,
                                   inverse.error().message));

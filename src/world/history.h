@@ -2,18 +2,18 @@
 #include <string>
 #include <vector>
 
-#include "world/edit.h"
+#include "world/edit_sink.h"
 
 namespace icome::world {
 
 /// What a person did and can take back: one entry for each action, whatever edits it took. Owns the
-/// inverses; knows the world only while it is called.
+/// inverses; knows the world, or whatever performs its edits, only while it is called.
 class History {
  public:
-  /// Applies what an action called `name` ("Move leg") does. What was undone can then not be redone.
-  base::Result<void> perform(World& world, const Edit& edit, const std::string& name);
+  /// Performs what an action called `name` ("Move leg") does. What was undone can then not be redone.
+  base::Result<void> perform(const EditSink& sink, const Edit& edit, const std::string& name);
   /// The same for more of the last action, such as the next step of a drag, which must not be undone.
-  base::Result<void> extend(World& world, const Edit& edit);
+  base::Result<void> extend(const EditSink& sink, const Edit& edit);
 
   bool can_undo() const { return !done_.empty(); }
   bool can_redo() const { return !undone_.empty(); }
@@ -21,17 +21,17 @@ class History {
   std::string undo_name() const { return done_.empty() ? "" : done_.back().name; }
   std::string redo_name() const { return undone_.empty() ? "" : undone_.back().name; }
 
-  /// Gives the edit that was applied, for the journal and for colleagues. Fails, changing nothing, when
+  /// Gives the edit that was performed. Fails, changing nothing, when
   /// there is nothing to take back or somebody else's edits are in its way.
-  base::Result<Edit> undo(World& world);
-  base::Result<Edit> redo(World& world);
+  base::Result<Edit> undo(const EditSink& sink);
+  base::Result<Edit> redo(const EditSink& sink);
 
  private:
   struct Action {
     std::string name;
     std::vector<Edit> inverses;  // the last one first to be applied
   };
-  static base::Result<Edit> turn(World& world, std::vector<Action>& from, std::vector<Action>& to,
+  static base::Result<Edit> turn(const EditSink& sink, std::vector<Action>& from, std::vector<Action>& to,
                                  const char* nothing);
 
   std::vector<Action> done_, undone_;

@@ -29,18 +29,21 @@ using TextureId = Id<Texture>;
 using SceneId = Id<Scene>;
 
 /// Gives ids away for one author (one per person who works on a design, also offline): authors need not
-/// ask each other. One counter serves all kinds.
+/// ask each other. One counter serves all kinds. What it gives when all numbers are spent, no world takes.
 class IdSource {
  public:
   static constexpr int kNumberBits = 40;
   static constexpr std::uint64_t kNumberMask = (std::uint64_t{1} << kNumberBits) - 1;
+  /// There is always a next number, which is no good when all of an author's are spent.
+  static constexpr std::uint64_t kLastNumber = kNumberMask - 1;
 
   /// `first` is the first number to give; World::next_number knows it for a design that exists.
   explicit IdSource(std::uint32_t author = 0, std::uint64_t first = 1) : author_(author), next_(first) {}
 
   template <typename AnyId>
   AnyId next() {
-    return AnyId{(std::uint64_t{author_} << kNumberBits) | next_++};
+    const std::uint64_t number = next_ <= kLastNumber ? next_++ : kNumberMask;
+    return AnyId{(std::uint64_t{author_} << kNumberBits) | number};
   }
 
  private:

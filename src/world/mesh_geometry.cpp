@@ -38,17 +38,8 @@ base::Result<void> check_moves(std::size_t count, std::span<const std::uint32_t>
   return {};
 }
 
-template <typename Shape>
-base::Result<MovedVertices> moved(std::shared_ptr<Shape> copy, geometry::TriangleMesh& mesh,
-                                  std::span<const std::uint32_t> vertices,
-                                  std::span<const Vector3> positions) {
-  if (const auto good = check_moves(mesh.positions.size(), vertices, positions); !good)
-    return tl::unexpected(good.error());
-  MovedVertices result;
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    result.before.push_back(std::exchange(mesh.positions[vertices[i]], positions[i]));
-  result.shape = std::move(copy);
-  return result;
+tl::unexpected<base::Error> no_vertices(const Geometry& shape) {
+  return base::fail(fmt::format("A shape of the kind \"{}\" has no vertices to move.", shape.kind()));
 }
 
 }  // namespace
@@ -98,17 +89,29 @@ std::size_t LoopGeometry::bytes() const {
          control.corners.capacity() * sizeof(control.corners[0]);
 }
 
+base::Result<std::vector<Vector3>> move_vertices_of(Geometry& shape, std::span<const std::uint32_t> vertices,
+                                                    std::span<const Vector3> positions) {
+  auto* const loop = dynamic_cast<LoopGeometry*>(&shape);
+  auto* const mesh = dynamic_cast<MeshGeometry*>(&shape);
+  if (!loop && !mesh) return no_vertices(shape);
+  std::vector<Vector3>& all = loop ? loop->control.mesh.positions : mesh->mesh.positions;
+  if (const auto good = check_moves(all.size(), vertices, positions); !good)
+    return tl::unexpected(good.error());
+  std::vector<Vector3> before;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    before.push_back(std::exchange(all[vertices[i]], positions[i]));
+  return before;
+}
+
 base::Result<MovedVertices> move_vertices(const Geometry& shape, std::span<const std::uint32_t> vertices,
                                           std::span<const Vector3> positions) {
-  if (const auto* it = dynamic_cast<const MeshGeometry*>(&shape)) {
-    auto copy = std::make_shared<MeshGeometry>(*it);
-    return moved(copy, copy->mesh, vertices, positions);
-  }
-  if (const auto* it = dynamic_cast<const LoopGeometry*>(&shape)) {
-    auto copy = std::make_shared<LoopGeometry>(*it);
-    return moved(copy, copy->control.mesh, vertices, positions);
-  }
-  return base::fail(fmt::format("A shape of the kind \"{}\" has no vertices to move.", shape.kind()));
+  std::shared_ptr<Geometry> copy;
+  if (const auto* it = dynamic_cast<const MeshGeometry*>(&shape)) copy = std::make_shared<MeshGeometry>(*it);
+  if (const auto* it = dynamic_cast<const LoopGeometry*>(&shape)) copy = std::make_shared<LoopGeometry>(*it);
+  if (!copy) return no_vertices(shape);
+  auto before = move_vertices_of(*copy, vertices, positions);
+  if (!before) return tl::unexpected(before.error());
+  return MovedVertices{std::move(copy), std::move(*before)};
 }
 
 }  // namespace icome::world

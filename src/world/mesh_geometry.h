@@ -56,4 +56,8 @@ struct MovedVertices {
 base::Result<MovedVertices> move_vertices(const Geometry& shape, std::span<const std::uint32_t> vertices,
                                           std::span<const Vector3> positions);
 
+/// The same where the shape is, which nobody else may be looking at: gives where the vertices were.
+base::Result<std::vector<Vector3>> move_vertices_of(Geometry& shape, std::span<const std::uint32_t> vertices,
+                                                    std::span<const Vector3> positions);
+
 }  // namespace icome::world

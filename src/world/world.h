@@ -21,6 +21,10 @@ struct PhysicalObject {
   GeometryId geometry = {};  // none: only a group
   MaterialId material = {};  // none: the default
   FixturePointer fixture = {};
+
+  // Kept by the world, for speed.
+  std::uint32_t place_hint = 0;  // about where it is among its siblings
+  std::uint32_t scenes = 0;      // that it is a root of
 };
 
 /// A shape that objects share: a clone uses the same one, a copy one of its own.
@@ -98,6 +102,8 @@ class World {
 
   /// The first number that an IdSource of this author may give.
   std::uint64_t next_number(std::uint32_t author) const;
+  /// The highest number that was ever given, by author.
+  const std::unordered_map<std::uint32_t, std::uint64_t>& last_numbers() const { return last_numbers_; }
 
  private:
   friend class EditApplier;
@@ -114,7 +120,7 @@ class World {
   Table<Texture> textures_;
   Table<Scene> scenes_;
   std::vector<ObjectId> roots_;
-  std::unordered_map<std::uint32_t, std::uint64_t> last_numbers_;  // by author
+  std::unordered_map<std::uint32_t, std::uint64_t> last_numbers_;
 };
 
 /// The place of an object, which is in the world, in the world's frame.

@@ -86,6 +86,11 @@ TEST(Edits, AreRefusedWithAReason) {
   expect_refused(it.world, ChooseGeometry{it.roof, GeometryId{77}}, "shape is not there");
   expect_refused(it.world, CreateObject{it.roof, 0, {}}, "already");
   expect_refused(it.world, CreateObject{ObjectId{}, 0, {}}, "needs an id");
+  constexpr std::uint64_t author = std::uint64_t{5} << IdSource::kNumberBits;
+  expect_refused(it.world, CreateObject{ObjectId{author}, 0, {}}, "numbers run from 1");
+  expect_refused(it.world, CreateScene{SceneId{author | IdSource::kNumberMask}, ""}, "numbers run from 1");
+  expect_refused(it.world, SpendNumbers{1U << 24U, 1}, "no such numbers");
+  expect_refused(it.world, SpendNumbers{1, IdSource::kNumberMask}, "no such numbers");
   expect_refused(it.world, MoveVertices{roof, {3}, {{0.0, 0.0, 0.0}}}, "no vertex 3");
   expect_refused(it.world, MoveVertices{roof, {1, 1}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}}, "moved twice");
   expect_refused(it.world, MoveVertices{roof, {1}, {}}, "one position");
@@ -98,6 +103,8 @@ TEST(Edits, AreRefusedWithAReason) {
   TouchProperties slippery;
   slippery.dynamic_friction = 0.5;
   expect_refused(it.world, CreateMaterial{it.ids.next<MaterialId>(), {.touch = slippery}}, "Static friction");
+  expect_refused(it.world, CreateMaterial{it.ids.next<MaterialId>(), {.diffuse = {0.0F, float(nan), 0.0F}}},
+                 "must be finite");
 }
 
 TEST(Edits, OfAGroupAreAllAppliedOrNone) {
@@ -125,6 +132,81 @@ TEST(Edits, NeverMakeAnIdAnew) {
   IdSource later(0, it.world.next_number(0));
   EXPECT_EQ(it.world.find(later.next<ObjectId>()), nullptr);
   EXPECT_GT(it.world.next_number(0), it.tree.value);
+}
+
+TEST(Edits, SpendNumbersForGood) {
+  World world;
+  const Edit back = applied(world, SpendNumbers{3, 70});
+  EXPECT_EQ(world.next_number(3), 71u);
+  applied(world, SpendNumbers{3, 20});
+  applied(world, back);
+  EXPECT_EQ(world.next_number(3), 71u);
+  EXPECT_EQ(world.next_number(4), 1u);
+}
+
+TEST(Edits, OfAnAuthorWithoutNumbersAreRefused) {
+  World world;
+  applied(world, SpendNumbers{3, IdSource::kLastNumber - 1});
+  IdSource ids(3, world.next_number(3));
+  add_object(world, ids, "last", nullptr);
+  for (int i = 0; i < 3; ++i)
+    expect_refused(world, CreateObject{ids.next<ObjectId>(), 0, {}}, "numbers run from 1");
+}
+
+TEST(Edits, KeepManySiblingsInOrder) {
+  World world;
+  IdSource ids;
+  base::Random random(4);
+  const ObjectId parent = add_object(world, ids, "parent", nullptr);
+  std::vector<ObjectId> row;
+  const auto at_place = [&](std::size_t place) { return row.begin() + std::ptrdiff_t(place); };
+  for (int i = 0; i < 5000; ++i) {
+    const std::size_t place = random.index(row.size() + 1);
+    if (row.size() < 50 || random.index(3) > 0) {
+      const ObjectId id = ids.next<ObjectId>();
+      applied(world, CreateObject{id, place, {.parent = parent}});
+      row.insert(at_place(place), id);
+      continue;
+    }
+    const std::size_t old = random.index(row.size());
+    const ObjectId id = row[old];
+    row.erase(at_place(old));
+    if (place < row.size()) row.insert(at_place(place), id);
+    applied(world, place < row.size() ? Edit(MoveObject{id, parent, place}) : Edit(DeleteObject{id}));
+  }
+  EXPECT_EQ(world.find(parent)->children, row);
+}
+
+/// A mesh of one triangle that is the world's alone, as what a factory made is.
+GeometryId add_triangle(World& world, IdSource& ids) {
+  const GeometryId id = ids.next<GeometryId>();
+  applied(world, CreateGeometry{id, one_triangle()});
+  return id;
+}
+
+TEST(Replay, ChangesShapesInPlaceThatAreTheWorldsAlone) {
+  World world;
+  IdSource ids;
+  const GeometryId id = add_triangle(world, ids);
+  const Geometry* shape = world.find(id)->shape.get();
+  const MoveVertices move{id, {1}, {{2.0, 0.0, 0.0}}};
+  ASSERT_TRUE(replay(world, move));
+  EXPECT_EQ(world.find(id)->shape.get(), shape);
+  const World copy = world;
+  const std::uint64_t before = hash(copy);
+  ASSERT_TRUE(replay(world, MoveVertices{id, {1}, {{3.0, 0.0, 0.0}}}));
+  EXPECT_EQ(hash(copy), before);
+  EXPECT_NE(hash(world), before);
+  EXPECT_FALSE(replay(world, MoveVertices{id, {3}, {{3.0, 0.0, 0.0}}}));
+}
+
+TEST(Replay, TakesARefusedGroupBack) {
+  World world;
+  IdSource ids;
+  const GeometryId id = add_triangle(world, ids);
+  const std::uint64_t before = hash(world);
+  EXPECT_FALSE(replay(world, EditGroup{{MoveVertices{id, {1}, {{2.0, 0.0, 0.0}}}, DeleteGeometry{{99}}}}));
+  EXPECT_EQ(hash(world), before);
 }
 
 TEST(DeleteSubtree, LetsGoOfShapesThatNothingElseUses) {

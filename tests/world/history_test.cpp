@@ -54,6 +54,24 @@ TEST(History, LeavesWhatOthersHaveBuiltOn) {
   EXPECT_TRUE(history.can_undo());
 }
 
+TEST(History, PerformsThroughASink) {
+  World world;
+  IdSource ids;
+  const ObjectId leg = add_object(world, ids, "leg", box(1.0));
+  std::vector<Edit> performed;
+  const EditSink sink([&](const Edit& edit) {
+    performed.push_back(edit);
+    return apply(world, edit);
+  });
+  History history;
+  ASSERT_TRUE(history.perform(sink, RenameObject{leg, "foot"}, "Rename"));
+  ASSERT_TRUE(history.extend(sink, PlaceObject{leg, at(1.0, 0.0, 0.0)}));
+  ASSERT_TRUE(history.undo(sink));
+  ASSERT_TRUE(history.redo(sink));
+  EXPECT_EQ(performed.size(), 4u);
+  EXPECT_EQ(world.find(leg)->name, "foot");
+}
+
 TEST(History, DoesNotGrowByUndoingAndRedoing) {
   World world;
   IdSource ids;

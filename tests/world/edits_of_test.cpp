@@ -1,0 +1,77 @@
+#include "world/edits_of.h"
+
+#include "every_edit.h"
+#include "random_edits.h"
+#include "world/edit_bytes.h"
+
+namespace icome::world {
+namespace {
+
+World rebuilt(const World& world) {
+  World result;
+  for (const Edit& edit : edits_of(world)) applied(result, edit);
+  return result;
+}
+
+std::vector<std::string> bytes_of(const World& world) {
+  std::vector<std::string> result;
+  for (const Edit& edit : edits_of(world)) result.push_back(*to_bytes(edit));
+  return result;
+}
+
+void expect_equal(const World& one, const World& other) {
+  EXPECT_EQ(hash(one), hash(other));
+  EXPECT_EQ(one.last_numbers(), other.last_numbers());
+  for (const auto& [id, geometry] : one.geometries()) EXPECT_EQ(other.find(id)->users, geometry.users);
+  for (const auto& [id, material] : one.materials()) EXPECT_EQ(other.find(id)->users, material.users);
+  for (const auto& [id, texture] : one.textures()) EXPECT_EQ(other.find(id)->users, texture.users);
+}
+
+TEST(EditsOf, MakeAnEqualWorld) {
+  EXPECT_TRUE(edits_of(World()).empty());
+  World world;
+  for (const Edit& edit : every_edit()) {
+    applied(world, edit);
+    expect_equal(rebuilt(world), world);
+  }
+}
+
+TEST(EditsOf, AreTheSameForTheSameWorld) {
+  for (int seed = 0; seed < 50; ++seed) {
+    World world;
+    RandomEdits edits{std::uint64_t(seed)};
+    for (int i = 0; i < 60; ++i) (void)apply(world, edits.next(world));
+    const World again = rebuilt(world);
+    expect_equal(again, world);
+    EXPECT_EQ(bytes_of(again), bytes_of(world));
+  }
+}
+
+TEST(EditsOf, NeverLetANumberBeGivenTwice) {
+  World world;
+  IdSource ids(7);
+  const ObjectId gone = add_object(world, ids, "gone", box(1.0));
+  applied(world, delete_subtree(world, gone));
+  EXPECT_EQ(rebuilt(world).next_number(7), world.next_number(7));
+}
+
+TEST(EditsOf, ComeInGroupsOfBoundedSize) {
+  World world;
+  IdSource ids;
+  for (int i = 0; i < 1000; ++i) add_object(world, ids, "object", nullptr);
+  for (int i = 0; i < 10; ++i) {
+    const auto picture = std::make_shared<std::string>(std::string(700000, 'x'));
+    applied(world, CreateTexture{ids.next<TextureId>(), {"picture", "image/png", picture}});
+  }
+  std::size_t edits = 0;
+  for (const std::string& bytes : bytes_of(world)) EXPECT_LT(bytes.size(), 1500000u);
+  for (const Edit& edit : edits_of(world)) {
+    const std::size_t count = std::get<EditGroup>(edit.what).edits.size();
+    EXPECT_LE(count, 256u);
+    edits += count;
+  }
+  EXPECT_EQ(edits, 1011u);
+}
+
+}  // namespace
+}  // namespace icome::world
