@@ -1,0 +1,13 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace icome::files {
+
+// Numbers as the shortest decimal text that reads back to the same bits: 0.9, not 0.89999998.
+
+void append_number(std::string& text, double number);
+void append_number(std::string& text, float number);
+void append_number(std::string& text, std::uint32_t number);
+
+}  // namespace icome::files
