@@ -1,0 +1,99 @@
+#include "files/url_policy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "files/file_bytes.h"
+
+namespace icome::files {
+namespace {
+
+/// As much of a url as a sentence can bear: it may be a whole picture.
+std::string url_text(std::string_view url) {
+  constexpr std::size_t kShown = 80;
+  std::string text(url.substr(0, kShown));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return "'" + text + (url.size() > kShown ? "...'" : "'");
+}
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+int hexadecimal(char c) {
+  if (is_digit(c)) return c - '0';
+  const char lower = static_cast<char>(c | 0x20);
+  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+/// The length of `http` in `http:...`, of `C` in `C:\`; 0: there is none.
+std::size_t scheme_length(std::string_view url) {
+  std::size_t length = 0;
+  while (length < url.size() && (is_letter(url[length]) || is_digit(url[length]) ||
+                                 std::string_view("+-.").find(url[length]) != std::string_view::npos))
+    ++length;
+  return length < url.size() && url[length] == ':' && length > 0 && is_letter(url[0]) ? length : 0;
+}
+
+std::string percent_decoded(std::string_view url) {
+  std::string decoded;
+  for (std::size_t i = 0; i < url.size(); ++i) {
+    const int high = url[i] == '%' && i + 2 < url.size() ? hexadecimal(url[i + 1]) : -1;
+    const int low = high >= 0 ? hexadecimal(url[i + 2]) : -1;
+    decoded += low >= 0 ? static_cast<char>(high * 16 + low) : url[i];
+    if (low >= 0) i += 2;
+  }
+  return decoded;
+}
+
+/// The names that a url may mean: as it stands, without the escapes of urls, and as programs on Windows
+/// write it.
+std::vector<std::string> meanings(std::string_view url) {
+  std::vector<std::string> names = {std::string(url), percent_decoded(url)};
+  names.push_back(names.back());
+  std::replace(names.back().begin(), names.back().end(), '\\', '/');
+  return names;
+}
+
+/// Why a name does not count from the file that it stands in; null: it does.
+const char* objection(const std::string& name) {
+  if (name.empty()) return "it is empty";
+  if (name.find('\0') != std::string::npos) return "it holds a zero byte";
+  if (scheme_length(name) > 0) return "only files that came with the design are, by relative urls";
+  if (name.front() == '/') return "it names a place on this machine; only relative urls are followed";
+  return nullptr;
+}
+
+}  // namespace
+
+base::Result<std::filesystem::path> find_beside(const std::filesystem::path& base_file,
+                                                std::string_view url) {
+  std::string_view name = url;
+  if (name.size() > 5 && name.substr(0, 5) == "file:") name.remove_prefix(5);
+  // EXTERNPROTO urls name a PROTO after the file.
+  name = name.substr(0, name.find('#'));
+  const std::vector<std::string> names = meanings(name);
+  for (const std::string& meaning : names)
+    if (const char* why = objection(meaning))
+      return base::fail(fmt::format("{} is not fetched: {}", url_text(url), why));
+  const std::filesystem::path folder = base_file.has_parent_path() ? base_file.parent_path() : ".";
+  for (const std::string& meaning : names) {
+    std::error_code error;
+    const std::filesystem::path found = std::filesystem::canonical(folder / meaning, error);
+    if (!error && std::filesystem::is_regular_file(found, error)) return found;
+  }
+  return base::fail(fmt::format("{} is not fetched: there is no such file", url_text(url)));
+}
+
+base::Result<std::string> fetch_beside(const std::filesystem::path& base_file, std::string_view url,
+                                       std::uint64_t limit) {
+  const auto found = find_beside(base_file, url);
+  if (!found) return base::fail(found.error().message);
+  auto bytes = read_bytes(*found, limit);
+  if (!bytes) return base::fail(fmt::format("{} is not fetched: {}", url_text(url), bytes.error().message));
+  return bytes;
+}
+
+}  // namespace icome::files

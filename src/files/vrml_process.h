@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "files/design.h"
+
+namespace icome::files {
+
+/// What the process that parses VRML told. Nothing in it can be trusted: a file may have got the better of
+/// the parser.
+struct VrmlAnswer {
+  std::string bytes;                         // a Scene of vrml_answer.fbs, not verified
+  std::vector<std::filesystem::path> files;  // that were read: `path` and what it inlines, links resolved
+};
+
+/// Has the VRML 2.0 file `bytes`, which lies at `path`, parsed by a process of its own (icome-vrml-worker,
+/// beside the running program or where the environment variable ICOME_VRML_WORKER says), since no parser
+/// is proof against files made to break it: it has limits on memory and time, can open nothing, and gets
+/// the files that are inlined from here, by the rules of url_policy.h and only if they are VRML. Fails,
+/// naming the file, when that process needs too much, crashes, talks nonsense or is not there; a file that
+/// it refuses is an answer (Scene.error). The caller's process is left as it was: no process, descriptor or
+/// signal handler stays. Blocks; call from one thread or several.
+base::Result<VrmlAnswer> ask_vrml_worker(std::string_view bytes, const std::filesystem::path& path,
+                                         const DesignReadOptions& options = {});
+
+}  // namespace icome::files

@@ -1,0 +1,108 @@
+#include "files/url_policy.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+namespace icome::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+class UrlPolicy : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_ / "design/parts");
+    write("design/main.wrl", "main");
+    write("design/parts/a b.png", "picture");
+    write("shared.png", "shared");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  base::Result<std::string> fetch(std::string_view url, std::uint64_t limit = 100) const {
+    return fetch_beside(folder_ / "design/main.wrl", url, limit);
+  }
+
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      (std::string("url_policy_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(UrlPolicy, FollowsRelativeUrlsHoweverTheyAreWritten) {
+  for (const char* url : {"parts/a b.png", "parts/a%20b.png", "parts\\a b.png", "parts%5Ca%20b.png",
+                          "./parts/../parts/a b.png", "file:parts/a b.png", "parts/a b.png#Name"}) {
+    const auto bytes = fetch(url);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    EXPECT_EQ(*bytes, "picture") << url;
+  }
+  EXPECT_EQ(fetch("../shared.png").value(), "shared");
+}
+
+TEST_F(UrlPolicy, TakesANameLiterallyBeforeItTakesItAsAUrl) {
+  write("design/100%25.png", "literal");
+  write("design/100%.png", "decoded");
+  EXPECT_EQ(fetch("100%25.png").value(), "literal");
+  EXPECT_EQ(fetch("100%.png").value(), "decoded");
+}
+
+TEST_F(UrlPolicy, RefusesWhatDoesNotCountFromTheFile) {
+  const std::string inside = (folder_ / "shared.png").string();
+  for (const std::string& url : {std::string("http://example.org/a.png"),
+                                 std::string("FTP:a.png"),
+                                 std::string("urn:inet:a"),
+                                 std::string("data:image/png;base64,AAAA"),
+                                 std::string("javascript:a()"),
+                                 std::string("C:\\a.png"),
+                                 std::string("\\\\host\\a.png"),
+                                 std::string("//host/a.png"),
+                                 std::string("/etc/passwd"),
+                                 inside,
+                                 "file://" + inside,
+                                 "file:" + inside,
+                                 "file:///" + inside,
+                                 std::string("%2Fetc/passwd"),
+                                 std::string("%5C%5Chost/a"),
+                                 std::string("htt%70:a"),
+                                 std::string("file:http:a"),
+                                 std::string(),
+                                 std::string("file:"),
+                                 std::string("#Name"),
+                                 std::string("a%00.png"),
+                                 std::string("a\0.png", 6)}) {
+    const auto bytes = fetch(url);
+    ASSERT_FALSE(bytes) << url;
+    EXPECT_NE(bytes.error().message.find("is not fetched: "), std::string::npos) << bytes.error().message;
+    EXPECT_EQ(bytes.error().message.find("no such file"), std::string::npos) << bytes.error().message;
+  }
+}
+
+TEST_F(UrlPolicy, RefusesWhatIsNoRegularFile) {
+  ASSERT_EQ(::mkfifo((folder_ / "design/pipe").c_str(), 0600), 0);
+  for (const char* url :
+       {"parts", ".", "..", "pipe", "missing.png", "parts/a b.png/x", "../../../../../dev/zero"})
+    EXPECT_FALSE(fetch(url)) << url;
+  EXPECT_FALSE(fetch(std::string(100'000, 'x')));
+  EXPECT_FALSE(fetch("parts/a b.png", 6)) << "larger than the limit";
+}
+
+TEST_F(UrlPolicy, ResolvesLinks) {
+  fs::create_symlink("../shared.png", folder_ / "design/link.png");
+  fs::create_symlink("loop.png", folder_ / "design/loop.png");
+  EXPECT_EQ(find_beside(folder_ / "design/main.wrl", "link.png").value(),
+            fs::canonical(folder_ / "shared.png"));
+  EXPECT_FALSE(fetch("loop.png"));
+}
+
+TEST_F(UrlPolicy, ErrorsAreOneShortLine) {
+  const auto bytes = fetch("data:\n" + std::string(1'000'000, 'A'));
+  ASSERT_FALSE(bytes);
+  EXPECT_LT(bytes.error().message.size(), 300U);
+  EXPECT_EQ(bytes.error().message.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace icome::files
