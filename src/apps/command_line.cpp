@@ -18,6 +18,8 @@ constexpr int kBadUsage = 2;
 struct Entries {
   CsgOptions csg;
   std::string form = "tree";
+  InfoOptions info;
+  ConvertOptions convert;
   TouchOptions touch;
   std::string friction;
   std::string sides;
@@ -137,6 +139,29 @@ void add_csg_options(CLI::App& csg, Entries& entries) {
   csg.add_flag("--json", options.json, "Print the report as JSON (fields below)");
 }
 
+void add_design_unit(CLI::App& command, std::string& unit) {
+  command
+      .add_option("--unit", unit,
+                  "Unit of the numbers in OBJ, PLY, STL and OFF files: m, dm, cm, mm, um or in (default m)")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember({"m", "dm", "cm", "mm", "um", "in"}));
+}
+
+void add_info_options(CLI::App& info, InfoOptions& options) {
+  info.add_option("FILE", options.file, kDesignFileHelp)->required()->type_name("");
+  add_design_unit(info, options.unit);
+  info.add_option("--objects", options.most_objects, "Show at most N lines of the tree; 0: all (default 30)")
+      ->type_name("N");
+  info.add_flag("--json", options.json, "Print the report as JSON (fields below)");
+}
+
+void add_convert_options(CLI::App& convert, ConvertOptions& options) {
+  convert.add_option("IN", options.in, kDesignFileHelp)->required()->type_name("");
+  convert.add_option("OUT", options.out, kDesignOutHelp)->required()->type_name("");
+  add_design_unit(convert, options.unit);
+  convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
+}
+
 base::Result<CsgOptions> understood_csg(const Entries& entries) {
   CsgOptions options = entries.csg;
   if (entries.form == "normal") options.form = geometry::CsgForm::Normal;
@@ -207,6 +232,12 @@ CommandLine parse_command_line(int argc, char** argv) {
   CLI::App& csg = *app.add_subcommand("csg", kCsgSummary);
   csg.footer(kCsgExamples);
   add_csg_options(csg, entries);
+  CLI::App& info = *app.add_subcommand("info", kInfoSummary);
+  info.footer(kInfoExamples);
+  add_info_options(info, entries.info);
+  CLI::App& convert = *app.add_subcommand("convert", kConvertSummary);
+  convert.footer(kConvertExamples);
+  add_convert_options(convert, entries.convert);
   const CLI::App* const named = named_subcommand(app, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr)
@@ -229,6 +260,10 @@ CommandLine parse_command_line(int argc, char** argv) {
     auto options = understood_csg(entries);
     if (!options) return bad_usage(options.error().message, help);
     command_line.csg = std::move(*options);
+  } else if (info.parsed()) {
+    command_line.info = std::move(entries.info);
+  } else if (convert.parsed()) {
+    command_line.convert = std::move(entries.convert);
   } else {
     fmt::print("{}", app.help());
   }

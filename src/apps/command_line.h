@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "apps/csg_options.h"
+#include "apps/design_options.h"
 #include "apps/touch_options.h"
 
 namespace icome::apps {
@@ -11,6 +12,8 @@ struct CommandLine {
   // The subcommand that is to run.
   std::optional<TouchOptions> touch;
   std::optional<CsgOptions> csg;
+  std::optional<InfoOptions> info;
+  std::optional<ConvertOptions> convert;
   int exit_code = 0;  // what to return when none is: help and version were printed, or an error
 };
 

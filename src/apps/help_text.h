@@ -17,8 +17,11 @@ constexpr const char* kProgramExamples =
     "                                              replay tip positions, keep what every tick did\n"
     "  icome csg cup.csg --form normal --mesh cup.stl\n"
     "                                              a solid from OpenSCAD: its normal form, and a mesh of it\n"
+    "  icome info house.glb                        what is in a design: its objects, shapes and materials\n"
+    "  icome convert part.ply part.obj             the same design in another format\n"
     "\n"
-    "icome touch --help tells all about touching, icome csg --help about solids.";
+    "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
+    "icome convert --help about designs.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
@@ -114,6 +117,52 @@ constexpr const char* kCsgExamples =
     "  notes (what was left out or put right), with --mesh also mesh {file, triangles, cell, error} (m), "
     "with\n"
     "  --inside also inside. It goes to standard output, all messages to standard error.\n"
+    "\n"
+    "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
+
+constexpr const char* kDesignFileHelp =
+    "A design: OBJ, PLY, STL, OFF, GLB or OpenSCAD's .csg, all also packed as .xz";
+
+constexpr const char* kDesignOutHelp = "The file to write: its ending says the format: PLY, STL or OFF";
+
+constexpr const char* kInfoSummary =
+    "Look into a design: its objects and what they share, materials, size, and what could not be read";
+
+constexpr const char* kInfoExamples =
+    "Examples:\n"
+    "  icome info house.glb                        a table, the tree of objects, and warnings\n"
+    "  icome info part.stl --unit mm               the same; the file's numbers are millimetres\n"
+    "  icome info house.glb --json | jq .bounds    for a script\n"
+    "\n"
+    "Lengths are metres in the world's frame. A clone is an object whose shape another object has already:\n"
+    "change one, and all change. Exact shapes (primitives, CSG solids, Loop and implicit surfaces) count as\n"
+    "the triangles that other programs are shown of them, which lie within 1/500 of the shape's size.\n"
+    "\n"
+    "JSON: objects, clones, triangles (of all objects; a clone's count again), materials, textures, bounds\n"
+    "  {min, max} in metres (null where there is nothing; planes, which have no end, do not count), "
+    "warnings\n"
+    "  (sentences: what was skipped or put right, with file and line), file, format, shapes (how many of\n"
+    "  each kind), scenes, lights, viewpoints, inert (scripts and the like, kept but not run), depth "
+    "(objects\n"
+    "  on the longest way down), bytes (of memory, for shapes and pictures), read_seconds.\n"
+    "\n"
+    "Exit code: 0 done, 1 it could not be read, 2 wrong usage, 130 it was interrupted.";
+
+constexpr const char* kConvertSummary =
+    "Write a design in another format, and tell what that format cannot hold";
+
+constexpr const char* kConvertExamples =
+    "Examples:\n"
+    "  icome convert scan.ply.xz scan.obj\n"
+    "  icome convert part.stl part.ply --unit mm   from millimetres: what is written is always in metres\n"
+    "  icome convert cup.csg cup.off               a solid as triangles\n"
+    "\n"
+    "Nothing is turned: VRML and glTF have y up, other formats have what they have. The new file takes its\n"
+    "place when it is complete; until then, and when something goes wrong, what was there stays. IN and OUT\n"
+    "may be the same file.\n"
+    "\n"
+    "JSON: in, out, objects, bytes (of the file), warnings (what was skipped in reading and lost in "
+    "writing).\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

@@ -5,7 +5,9 @@
 #include <new>
 
 #include "apps/command_line.h"
+#include "apps/convert_command.h"
 #include "apps/csg_command.h"
+#include "apps/info_command.h"
 #include "apps/touch_command.h"
 
 int main(int argc, char** argv) {
@@ -13,6 +15,8 @@ int main(int argc, char** argv) {
     const icome::apps::CommandLine command_line = icome::apps::parse_command_line(argc, argv);
     if (command_line.touch) return icome::apps::run_touch(*command_line.touch);
     if (command_line.csg) return icome::apps::run_csg(*command_line.csg);
+    if (command_line.info) return icome::apps::run_info(*command_line.info);
+    if (command_line.convert) return icome::apps::run_convert(*command_line.convert);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,

@@ -1,5 +1,8 @@
 #pragma once
-// The parsers behind read_mesh(): bytes in, triangles out, in the file's own unit and axes.
+// The parsers behind read_mesh() and read_design(): bytes in, triangles out, in the file's own unit and axes.
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +15,16 @@ namespace icome::files {
 /// What a file's bytes say, not yet repaired: indices are in range, coordinates may be anything.
 struct ParsedMesh {
   geometry::TriangleMesh mesh;
-  std::string format;              ///< for people, such as "binary STL"
-  std::vector<std::string> notes;  ///< what was left out
+  std::string format;                              ///< for people, such as "binary STL"
+  std::vector<std::string> notes;                  ///< what was left out
+  std::vector<std::array<float, 3>> colours = {};  ///< of the vertices, in [0, 1], or none
 };
+
+/// Coordinates further out than this are a mistake, and their products lose all meaning, m.
+inline constexpr double kFarthest = 1e15;
+
+/// Reads a file of any type below, also packed as `.xz`, by the ending of its name.
+base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit);
 
 // Each takes the whole file and the name to use in errors. Memory taken is bounded by the bytes that
 // are there, never by a count that they declare. Errors: one sentence, with the line in text formats.

@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "files/file_bytes.h"
+#include "files/file_ending.h"
 #include "files/mesh_formats.h"
 #include "files/text_scanner.h"
 
@@ -19,9 +20,6 @@ namespace {
 
 using geometry::TriangleMesh;
 using geometry::Vector3;
-
-/// Coordinates further out than this are a mistake, and their products lose all meaning, m.
-constexpr double kFarthest = 1e15;
 
 struct Unit {
   std::string_view name;
@@ -41,41 +39,16 @@ constexpr std::array<FileType, 5> kFileTypes{{{".obj", parse_obj},
                                               {".off", parse_off},
                                               {".glb", parse_glb}}};
 
-struct NamedType {
-  Parser parse = nullptr;  ///< null when the extension is not known
-  bool packed = false;
-};
-
-NamedType type_of(std::filesystem::path path) {
-  NamedType type;
-  type.packed = same_word(path.extension().string(), ".xz");
-  if (type.packed) path = path.stem();
-  for (const FileType& known : kFileTypes)
-    if (same_word(path.extension().string(), known.extension)) type.parse = known.parse;
-  return type;
+Parser parser_of(const std::string& type) {
+  const auto* const found = std::find_if(kFileTypes.begin(), kFileTypes.end(),
+                                         [&](const FileType& it) { return it.extension == type; });
+  return found == kFileTypes.end() ? nullptr : found->parse;
 }
 
 /// The file's vector in metres and the world's axes. Turning y up to z up is a rotation about x.
 Vector3 to_world(const Vector3& v, const ReadOptions& options) {
   const Vector3 turned = options.up == UpAxis::Y ? Vector3(v.x(), -v.z(), v.y()) : v;
   return turned * options.unit;
-}
-
-base::Result<ParsedMesh> parse_file(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::string name = path.string();
-  const NamedType type = type_of(path);
-  base::Result<std::string> bytes = read_bytes(path, options.size_limit);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (type.parse == nullptr)
-    return base::fail(name +
-                      ": is not of a known type; .obj, .ply, .stl, .off and .glb are, also with .xz after");
-  if (bytes->empty()) return base::fail(name + ": the file is empty");
-  if (type.packed) bytes = unpack_xz(*bytes, options.size_limit, name);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (bytes->empty()) return base::fail(name + ": the file is empty once unpacked");
-  base::Result<ParsedMesh> parsed = type.parse(*bytes, name);
-  if (parsed && type.packed) parsed->format += ", xz";
-  return parsed;
 }
 
 /// Puts the positions into the world and checks that they are of this world.
@@ -102,7 +75,7 @@ bool usable_length(double length) { return std::isfinite(length) && length > 0.0
 base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
   const std::int64_t started = base::steady_nanoseconds();
-  base::Result<ParsedMesh> parsed = parse_file(path, options);
+  base::Result<ParsedMesh> parsed = parse_mesh_file(path, options.size_limit);
   if (!parsed) return tl::unexpected(parsed.error());
   LoadedMesh loaded;
   loaded.mesh = std::move(parsed->mesh);
@@ -125,6 +98,24 @@ base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const R
 }
 
 }  // namespace
+
+base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit) {
+  const std::string name = path.string();
+  const FileEnding ending = ending_of(path);
+  const Parser parse = parser_of(ending.type);
+  base::Result<std::string> bytes = read_bytes(path, size_limit);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (parse == nullptr)
+    return base::fail(name +
+                      ": is not of a known type; .obj, .ply, .stl, .off and .glb are, also with .xz after");
+  if (bytes->empty()) return base::fail(name + ": the file is empty");
+  if (ending.packed) bytes = unpack_xz(*bytes, size_limit, name);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (bytes->empty()) return base::fail(name + ": the file is empty once unpacked");
+  base::Result<ParsedMesh> parsed = parse(*bytes, name);
+  if (parsed && ending.packed) parsed->format += ", xz";
+  return parsed;
+}
 
 std::vector<std::string> LoadedMesh::sentences() const {
   std::vector<std::string> lines = notes;

@@ -96,6 +96,38 @@ std::optional<std::size_t> corner_column(const PlyElement& faces) {
   return column ? column : faces.column("vertex_index");
 }
 
+/// The columns of the vertices' colours; none unless there are all three.
+std::optional<std::array<std::size_t, 3>> colour_columns(const PlyElement& vertices) {
+  const auto red = vertices.column("red");
+  const auto green = vertices.column("green");
+  const auto blue = vertices.column("blue");
+  if (!red || !green || !blue) return {};
+  for (const std::size_t column : {*red, *green, *blue}) {
+    if (vertices.properties[column].length_type) return {};
+  }
+  return {{*red, *green, *blue}};
+}
+
+/// What stands for full light in a column of this type.
+double brightest(PlyType type) {
+  switch (type) {
+    case PlyType::Int8:
+      return 127.0;
+    case PlyType::UInt8:
+      return 255.0;
+    case PlyType::Int16:
+      return 32767.0;
+    case PlyType::UInt16:
+      return 65535.0;
+    case PlyType::Int32:
+      return 2147483647.0;
+    case PlyType::UInt32:
+      return 4294967295.0;
+    default:
+      return 1.0;
+  }
+}
+
 /// What the header lacks for a mesh, as the end of a sentence; empty when it lacks nothing.
 std::string missing_from(const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
@@ -123,6 +155,9 @@ class PlyBody {
       if (element.name == "vertex") vertices_ = std::min<std::uint64_t>(element.rows, 0xffffffff);
   }
 
+  /// Of the vertices; none where the file has none.
+  std::vector<std::array<float, 3>> take_colours() { return std::move(colours_); }
+
   void run(FaceCollector& faces) {
     for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex")
@@ -139,10 +174,18 @@ class PlyBody {
     const std::array<std::size_t, 3> columns{*element.column("x"), *element.column("y"),
                                              *element.column("z")};
     faces.reserve_positions(std::min<std::size_t>(element.rows, rows_.rows_left(element)));
+    const auto colours = colour_columns(element);
     std::vector<double> row(element.properties.size());
     for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i) {
       for (std::size_t p = 0; p < row.size(); ++p) row[p] = read(element.properties[p]);
       faces.add_position({row[columns[0]], row[columns[1]], row[columns[2]]});
+      if (!colours) continue;
+      std::array<float, 3>& colour = colours_.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t column = (*colours)[c];
+        const double part = row[column] / brightest(element.properties[column].type);
+        colour[c] = part > 0.0 ? float(std::min(part, 1.0)) : 0.0F;
+      }
     }
   }
 
@@ -194,16 +237,20 @@ class PlyBody {
   Rows& rows_;
   std::uint64_t vertices_ = 0;
   std::vector<std::uint32_t> corners_;
+  std::vector<std::array<float, 3>> colours_;
 };
 
 template <typename Rows>
 base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const char* format,
                                     const std::string& name) {
   FaceCollector faces;
-  PlyBody<Rows>(header, rows).run(faces);
+  PlyBody<Rows> body(header, rows);
+  body.run(faces);
   if (rows.failed()) return tl::unexpected(rows.error());
   if (faces.positions() == 0) return base::fail(name + ": has no vertices");
-  return ParsedMesh{faces.take(), format, faces.notes()};
+  auto colours = body.take_colours();
+  if (colours.size() != faces.positions()) colours.clear();
+  return ParsedMesh{faces.take(), format, faces.notes(), std::move(colours)};
 }
 
 }  // namespace

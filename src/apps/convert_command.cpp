@@ -1,0 +1,58 @@
+#include "apps/convert_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/design_work.h"
+#include "apps/interrupt.h"
+#include "apps/touch_report.h"
+
+namespace icome::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string convert_json(const ConvertOptions& options, std::size_t objects,
+                         const std::vector<std::string>& warnings) {
+  Json report;
+  report["in"] = options.in.string();
+  report["out"] = options.out.string();
+  report["objects"] = objects;
+  report["bytes"] = std::filesystem::file_size(options.out);
+  report["warnings"] = warnings;
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string convert_text(const ConvertOptions& options, std::size_t objects,
+                         const std::vector<std::string>& warnings) {
+  std::string text = fmt::format("{}: {} object{}, {} bytes\n", options.out.string(), grouped(objects),
+                                 objects == 1 ? "" : "s", grouped(std::filesystem::file_size(options.out)));
+  for (const std::string& warning : warnings) text += "  " + warning + "\n";
+  return text;
+}
+
+}  // namespace
+
+int run_convert(const ConvertOptions& options) {
+  catch_interrupts();
+  StatusLine status;
+  // That a format cannot be written is better told before a long read.
+  if (const auto able = files::check_can_write(options.out); !able)
+    return end_without_result(able.error(), status);
+  const auto design = read_for_person(options.in, options.unit, status);
+  if (!design) return end_without_result(design.error(), status);
+  status.say("Writing " + options.out.string());
+  const auto losses = files::write_design(options.out, design->world);
+  if (!losses) return end_without_result(losses.error(), status);
+  status.clear();
+  std::vector<std::string> warnings;
+  for (const files::Remark& remark : design->remarks)
+    warnings.push_back(sentence(remark, options.in.string()));
+  for (const files::Remark& remark : *losses) warnings.push_back(sentence(remark, options.out.string()));
+  const std::size_t objects = design->world.objects().size();
+  return print_answer(options.json ? convert_json(options, objects, warnings)
+                                   : convert_text(options, objects, warnings));
+}
+
+}  // namespace icome::apps

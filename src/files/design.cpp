@@ -1,0 +1,141 @@
+#include "files/design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <utility>
+
+#include "files/file_ending.h"
+#include "files/flat_writers.h"
+#include "files/mesh_design.h"
+#include "files/stl_writer.h"
+
+namespace icome::files {
+namespace {
+
+using world::World;
+using Remarks = std::vector<Remark>;
+using DesignReader = base::Result<LoadedDesign> (*)(const std::filesystem::path&, const DesignReadOptions&);
+using DesignWriter = base::Result<Remarks> (*)(const std::filesystem::path&, const World&);
+
+template <typename Write>
+base::Result<Remarks> write_flat(const std::filesystem::path& path, const World& world, bool with_colours,
+                                 const Write& write) {
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  Remarks remarks;
+  const auto objects = shown_objects(world, remarks);
+  if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
+  if (!with_colours && !world.materials().empty())
+    remarks.push_back({{}, 0, "This format knows no materials: they are left out."});
+  if (const base::Result<void> done = write(flatten(world, *objects, with_colours), *file); !done)
+    return tl::unexpected(done.error());
+  if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
+  return remarks;
+}
+
+base::Result<Remarks> write_ply_design(const std::filesystem::path& path, const World& world) {
+  auto remarks = write_flat(path, world, true, [](const FlatWorld& flat, NewFile& file) {
+    write_ply(flat, file);
+    return base::Result<void>();
+  });
+  if (remarks && !world.materials().empty())
+    remarks->push_back({{}, 0, "Of materials only the diffuse colours are written."});
+  return remarks;
+}
+
+base::Result<Remarks> write_off_design(const std::filesystem::path& path, const World& world) {
+  return write_flat(path, world, false, [](const FlatWorld& flat, NewFile& file) {
+    write_off(flat, file);
+    return base::Result<void>();
+  });
+}
+
+base::Result<Remarks> write_stl_design(const std::filesystem::path& path, const World& world) {
+  return write_flat(path, world, false,
+                    [](const FlatWorld& flat, NewFile& file) { return write_stl(flat.mesh, 1.0, file); });
+}
+
+struct Format {
+  const char* ending;
+  DesignReader read;   // null: cannot be read
+  bool may_be_packed;  // as .xz
+  DesignWriter write;  // null: cannot be written
+};
+constexpr std::array<Format, 5> kFormats{{{".obj", read_mesh_design, true, nullptr},
+                                          {".ply", read_mesh_design, true, write_ply_design},
+                                          {".stl", read_mesh_design, true, write_stl_design},
+                                          {".off", read_mesh_design, true, write_off_design},
+                                          {".csg", read_csg_design, true, nullptr}}};
+
+const Format* format_of(const FileEnding& ending) {
+  const auto* const found = std::find_if(kFormats.begin(), kFormats.end(),
+                                         [&](const Format& it) { return it.ending == ending.type; });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+/// ".obj, .ply and .stl", of the formats that `can`.
+template <typename Can>
+std::string list_of_endings(const Can& can) {
+  std::vector<std::string> endings;
+  for (const Format& format : kFormats) {
+    if (can(format)) endings.emplace_back(format.ending);
+  }
+  std::string list;
+  for (std::size_t i = 0; i < endings.size(); ++i) {
+    if (i > 0) list += i + 1 < endings.size() ? ", " : " and ";
+    list += endings[i];
+  }
+  return list;
+}
+
+/// Whether there is such a file matters more than what its name says.
+tl::unexpected<base::Error> cannot_read(const std::filesystem::path& path, const std::string& why) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    return base::fail(path.string() + ": cannot be read: there is no such file");
+  return base::fail(fmt::format("{}: {}", path.string(), why));
+}
+
+}  // namespace
+
+std::string sentence(const Remark& remark, const std::string& file) {
+  const std::string& name = remark.file.empty() ? file : remark.file;
+  return remark.line > 0 ? fmt::format("{}:{}: {}", name, remark.line, remark.text)
+                         : fmt::format("{}: {}", name, remark.text);
+}
+
+base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
+                                       const DesignReadOptions& options) try {
+  const FileEnding ending = ending_of(path);
+  const Format* const format = format_of(ending);
+  if (format == nullptr || format->read == nullptr) {
+    return cannot_read(path, fmt::format("is not of a known type; {} can be read",
+                                         list_of_endings([](const Format& it) { return it.read; })));
+  }
+  if (ending.packed && !format->may_be_packed)
+    return cannot_read(path, fmt::format("{} files cannot be read packed: unpack it first", format->ending));
+  if (options.progress && !options.progress(0.0)) return base::fail("interrupted");
+  return format->read(path, options);
+} catch (const std::bad_alloc&) {
+  return base::fail(path.string() + ": there is not enough memory to read it");
+}
+
+base::Result<void> check_can_write(const std::filesystem::path& path) {
+  const FileEnding ending = ending_of(path);
+  const Format* const format = format_of(ending);
+  if (format != nullptr && format->write != nullptr && !ending.packed) return {};
+  return base::fail(fmt::format("{}: designs cannot be written so; {} can be written", path.string(),
+                                list_of_endings([](const Format& it) { return it.write; })));
+}
+
+base::Result<Remarks> write_design(const std::filesystem::path& path, const World& world) try {
+  if (const auto able = check_can_write(path); !able) return tl::unexpected(able.error());
+  return format_of(ending_of(path))->write(path, world);
+} catch (const std::bad_alloc&) {
+  return base::fail(path.string() + ": there is not enough memory to write it");
+}
+
+}  // namespace icome::files

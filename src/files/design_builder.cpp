@@ -1,0 +1,53 @@
+#include "files/design_builder.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace icome::files {
+
+void DesignBuilder::put(const world::Edit& edit) {
+  if (!refusal_.empty()) return;
+  if (const auto applied = world::replay(design_.world, edit); !applied) refusal_ = applied.error().message;
+}
+
+world::GeometryId DesignBuilder::add(world::GeometryPointer shape) {
+  const auto id = ids_.next<world::GeometryId>();
+  put(world::CreateGeometry{id, std::move(shape)});
+  return id;
+}
+
+world::MaterialId DesignBuilder::add(world::Material material) {
+  const auto id = ids_.next<world::MaterialId>();
+  put(world::CreateMaterial{id, std::move(material)});
+  return id;
+}
+
+world::TextureId DesignBuilder::add(world::Texture texture) {
+  const auto id = ids_.next<world::TextureId>();
+  put(world::CreateTexture{id, std::move(texture)});
+  return id;
+}
+
+world::ObjectId DesignBuilder::add(world::PhysicalObject object) {
+  const auto id = ids_.next<world::ObjectId>();
+  const world::PhysicalObject* const parent = world().find(object.parent);
+  const std::size_t place = parent ? parent->children.size() : world().roots().size();
+  put(world::CreateObject{id, place, std::move(object)});
+  return id;
+}
+
+world::SceneId DesignBuilder::add_scene(const std::string& name, const std::vector<world::ObjectId>& roots) {
+  const auto id = ids_.next<world::SceneId>();
+  put(world::CreateScene{id, name});
+  for (std::size_t place = 0; place < roots.size(); ++place) put(world::EnterScene{id, roots[place], place});
+  return id;
+}
+
+base::Result<LoadedDesign> DesignBuilder::take(std::string format, const std::string& name) {
+  if (!refusal_.empty()) return base::fail(fmt::format("{}: {}", name, refusal_));
+  design_.format = std::move(format);
+  return std::exchange(design_, {});
+}
+
+}  // namespace icome::files

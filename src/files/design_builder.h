@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+
+#include "files/design.h"
+#include "world/edit.h"
+
+namespace icome::files {
+
+/// Puts a world together as a file is read. What the world refuses is remembered and told at the end, so
+/// that readers ask once.
+class DesignBuilder {
+ public:
+  world::GeometryId add(world::GeometryPointer shape);
+  world::MaterialId add(world::Material material);
+  world::TextureId add(world::Texture texture);
+  /// Behind the last child of its parent, or behind the last root.
+  world::ObjectId add(world::PhysicalObject object);
+  world::SceneId add_scene(const std::string& name, const std::vector<world::ObjectId>& roots);
+
+  const world::World& world() const { return design_.world; }
+  void remark(std::string text, int line = 0) { design_.remarks.push_back({{}, line, std::move(text)}); }
+
+  /// The design, unless the world refused a part of it; `name` is for that error. Leaves the builder empty.
+  base::Result<LoadedDesign> take(std::string format, const std::string& name);
+
+ private:
+  void put(const world::Edit& edit);
+
+  LoadedDesign design_;
+  world::IdSource ids_;
+  std::string refusal_;
+};
+
+}  // namespace icome::files

@@ -1,0 +1,55 @@
+#include "files/mesh_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "files/csg_reader.h"
+#include "files/design_builder.h"
+#include "files/file_ending.h"
+#include "files/mesh_cleaning.h"
+#include "files/mesh_formats.h"
+#include "geometry/weld.h"
+#include "world/solid_geometry.h"
+
+namespace icome::files {
+
+base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
+                                            const DesignReadOptions& options) {
+  auto parsed = parse_mesh_file(path, options.size_limit);
+  if (!parsed) return tl::unexpected(parsed.error());
+  DesignBuilder builder;
+  for (const std::string& note : parsed->notes) builder.remark(as_sentence(note));
+  world::MeshGeometry shape(std::move(parsed->mesh));
+  if (!parsed->colours.empty()) {
+    for (const auto& [a, b, c] : shape.mesh.triangles)
+      shape.colours.push_back({parsed->colours[a], parsed->colours[b], parsed->colours[c]});
+  }
+  if (const auto scaled = scale(shape.mesh, options.unit, path.string()); !scaled)
+    return tl::unexpected(scaled.error());
+  if (const std::string lost = drop_not_finite(shape); !lost.empty()) builder.remark(lost);
+  // STL repeats every corner; what meets there is one vertex.
+  if (ending_of(path).type == ".stl") {
+    geometry::weld_equal(shape.mesh);
+    drop_unused(shape.mesh);
+  }
+  const auto geometry = builder.add(std::make_shared<const world::MeshGeometry>(std::move(shape)));
+  builder.add(world::PhysicalObject{.name = bare_name(path), .geometry = geometry});
+  return builder.take(parsed->format, path.string());
+}
+
+base::Result<LoadedDesign> read_csg_design(const std::filesystem::path& path,
+                                           const DesignReadOptions& options) {
+  CsgReadOptions limits;
+  limits.size_limit = std::min(limits.size_limit, options.size_limit);
+  auto loaded = read_csg(path, limits);
+  if (!loaded) return tl::unexpected(loaded.error());
+  DesignBuilder builder;
+  for (const std::string& note : loaded->notes) builder.remark(as_sentence(note));
+  const auto geometry = builder.add(std::make_shared<const world::CsgGeometry>(std::move(loaded->tree)));
+  builder.add(world::PhysicalObject{.name = bare_name(path), .geometry = geometry});
+  return builder.take(ending_of(path).packed ? "OpenSCAD CSG, xz" : "OpenSCAD CSG", path.string());
+}
+
+}  // namespace icome::files

@@ -1,0 +1,175 @@
+#include "files/shown_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace icome::files {
+namespace {
+
+using world::Colour;
+using world::MeshGeometry;
+using world::ObjectId;
+using world::PhysicalObject;
+using world::World;
+
+std::string object_name(const PhysicalObject& object) {
+  return object.name.empty() ? "An object without a name" : fmt::format("\"{}\"", object.name);
+}
+
+bool has_colours(const World& world, const std::vector<ShownObject>& objects) {
+  return std::any_of(objects.begin(), objects.end(), [&](const ShownObject& it) {
+    return !it.mesh->colours.empty() || world.find(it.object)->material;
+  });
+}
+
+/// Adds the meshes of objects to one.
+class Flattening {
+ public:
+  Flattening(const World& world, bool with_colours) : world_(world), with_colours_(with_colours) {}
+
+  void add(const ShownObject& it) {
+    const auto first = std::uint32_t(flat_.mesh.positions.size());
+    for (const auto& position : it.mesh->mesh.positions)
+      flat_.mesh.positions.push_back(it.world_from_object * position);
+    const bool mirrored = it.world_from_object.linear().determinant() < 0.0;
+    const std::size_t first_triangle = flat_.mesh.triangles.size();
+    for (geometry::TriangleMesh::Triangle triangle : it.mesh->mesh.triangles) {
+      for (std::uint32_t& corner : triangle) corner += first;
+      flat_.mesh.triangles.push_back(triangle);
+    }
+    if (with_colours_) add_colours(it, first, first_triangle);
+    if (!mirrored) return;
+    for (std::size_t t = first_triangle; t < flat_.mesh.triangles.size(); ++t)
+      std::swap(flat_.mesh.triangles[t][1], flat_.mesh.triangles[t][2]);
+  }
+
+  FlatWorld take() { return std::move(flat_); }
+
+ private:
+  void add_colours(const ShownObject& it, std::uint32_t first, std::size_t first_triangle) {
+    const world::Material* const material = world_.find(world_.find(it.object)->material);
+    flat_.colours.resize(flat_.mesh.positions.size(), (material ? *material : world::Material{}).diffuse);
+    if (it.mesh->colours.empty()) return;
+    // The first colour of a vertex stays with it; each other one gets a vertex of its own.
+    std::vector<bool> coloured(flat_.mesh.positions.size() - first, false);
+    std::map<std::pair<std::uint32_t, Colour>, std::uint32_t> others;
+    for (std::size_t t = 0; t < it.mesh->colours.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        std::uint32_t& corner = flat_.mesh.triangles[first_triangle + t][i];
+        const Colour& colour = it.mesh->colours[t][i];
+        if (!coloured[corner - first]) {
+          coloured[corner - first] = true;
+          flat_.colours[corner] = colour;
+        } else if (flat_.colours[corner] != colour) {
+          const auto [other, is_new] = others.try_emplace({corner, colour}, flat_.mesh.positions.size());
+          if (is_new) {
+            flat_.mesh.positions.push_back(base::Vector3(flat_.mesh.positions[corner]));
+            flat_.colours.push_back(colour);
+          }
+          corner = other->second;
+        }
+      }
+    }
+  }
+
+  const World& world_;
+  bool with_colours_;
+  FlatWorld flat_;
+};
+
+void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
+  std::size_t fixtures = 0;
+  std::size_t clones = 0;
+  std::size_t exact = 0;
+  bool nested = false;
+  for (const auto& [id, object] : world.objects()) {
+    fixtures += object.fixture ? 1 : 0;
+    nested = nested || object.parent;
+  }
+  for (const auto& [id, geometry] : world.geometries()) {
+    clones += geometry.users > 1 ? geometry.users - 1 : 0;
+    exact += geometry.users > 0 && geometry.shape->kind() != "mesh" ? 1 : 0;
+  }
+  const auto tell = [&](std::string text) { remarks.push_back({{}, 0, std::move(text)}); };
+  if (nested) tell("This format knows no hierarchy: all objects are written where they stand in the world.");
+  if (clones > 0)
+    tell(fmt::format("This format shares no shapes: {} written out as copies.",
+                     clones == 1 ? "1 clone is" : fmt::format("{} clones are", clones)));
+  if (exact > 0)
+    tell(fmt::format("{} written as triangles.",
+                     exact == 1 ? "1 exact shape is" : fmt::format("{} exact shapes are", exact)));
+  if (fixtures > 0) tell("This format knows no lights, viewpoints or scripts: they are left out.");
+  if (!world.scenes().empty()) tell("This format knows no scenes: they are left out.");
+}
+
+}  // namespace
+
+double shown_tolerance(const world::Geometry& shape) {
+  constexpr double kPart = 1.0 / 500.0;
+  const base::Bounds box = shape.bounds();
+  const double longest = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  return std::isfinite(longest) && longest > 0.0 ? kPart * longest : 1.0;
+}
+
+std::shared_ptr<const MeshGeometry> ShownShapes::triangles(world::GeometryId id) {
+  const auto [found, is_new] = shown_.try_emplace(id);
+  if (!is_new) return found->second;
+  const world::Geometry& shape = *world_.find(id)->shape;
+  auto made = shape.triangles(shown_tolerance(shape));
+  if (made) {
+    found->second = std::move(*made);
+  } else {
+    refusals_[id] = made.error().message;
+  }
+  return found->second;
+}
+
+base::Result<std::vector<ShownObject>> shown_objects(const World& world, std::vector<Remark>& remarks) {
+  struct Visit {
+    ObjectId object;
+    base::Affine3 world_from_parent;
+  };
+  ShownShapes shapes(world);
+  std::vector<ShownObject> shown;
+  std::size_t triangles = 0;
+  std::vector<Visit> open;
+  const auto enter = [&](const std::vector<ObjectId>& row, const base::Affine3& world_from_parent) {
+    for (auto id = row.rbegin(); id != row.rend(); ++id) open.push_back({*id, world_from_parent});
+  };
+  enter(world.roots(), base::Affine3::Identity());
+  while (!open.empty()) {
+    const Visit visit = open.back();
+    open.pop_back();
+    const PhysicalObject& object = *world.find(visit.object);
+    const base::Affine3 here = visit.world_from_parent * object.parent_from_object;
+    enter(object.children, here);
+    if (!object.geometry) continue;
+    if (auto mesh = shapes.triangles(object.geometry)) {
+      triangles += mesh->mesh.triangles.size();
+      if (triangles > kMostShownTriangles) {
+        return base::fail(
+            fmt::format("The design has more than {} triangles when clones are written out: choose a format "
+                        "that shares shapes, such as .wrl or .glb.",
+                        kMostShownTriangles));
+      }
+      shown.push_back({visit.object, std::move(mesh), here});
+    } else {
+      remarks.push_back(
+          {{}, 0, fmt::format("{} is left out: {}", object_name(object), shapes.why(object.geometry))});
+    }
+  }
+  remark_on_losses(world, remarks);
+  return shown;
+}
+
+FlatWorld flatten(const World& world, const std::vector<ShownObject>& objects, bool with_colours) {
+  Flattening flattening(world, with_colours && has_colours(world, objects));
+  for (const ShownObject& object : objects) flattening.add(object);
+  return flattening.take();
+}
+
+}  // namespace icome::files

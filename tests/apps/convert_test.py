@@ -1,0 +1,72 @@
+"""`icome convert` writes designs in other formats, whole or not at all, and tells what was lost."""
+import json
+import os
+import unittest
+
+from icome_program import ProgramTest
+
+CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0.3\n1 0 0.3\n1 1 0.3\n0 1 0.3\n"
+        "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+ENDINGS = (".ply", ".stl", ".off")
+
+
+class ConvertTest(ProgramTest):
+    def info(self, file):
+        return json.loads(self.succeeds("info", file, "--json").stdout)
+
+    def test_every_format_gives_back_what_it_was_given(self):
+        source = self.write("cube.off", CUBE)
+        for ending in ENDINGS:
+            out = self.folder / f"out{ending}"
+            self.succeeds("convert", source, out)
+            report = self.info(out)
+            self.assertEqual(report["triangles"], 12, ending)
+            for got, want in zip(report["bounds"]["max"], [1, 1, 0.3]):
+                self.assertAlmostEqual(got, want, delta=1e-6)
+
+    def test_a_second_way_round_changes_nothing(self):
+        source = self.write("cube.off", CUBE)
+        first, second = self.folder / "a.off", self.folder / "b.off"
+        self.succeeds("convert", source, first)
+        self.succeeds("convert", first, second)
+        self.assertEqual(first.read_text(), second.read_text())
+
+    def test_a_file_can_take_its_own_place(self):
+        file = self.write("cube.off", CUBE)
+        self.succeeds("convert", file, file)
+        self.assertEqual(self.info(file)["triangles"], 12)
+        self.assertEqual([it.name for it in self.folder.iterdir()], ["cube.off"])
+
+    def test_losses_are_told(self):
+        solid = self.write("solid.csg", "cube(size = [10, 20, 30], center = false);\n")
+        done = json.loads(self.succeeds("convert", solid, self.folder / "solid.ply", "--json").stdout)
+        self.assertEqual(list(done), ["in", "out", "objects", "bytes", "warnings"])
+        self.assertEqual(done["objects"], 1)
+        self.assertTrue(any("triangles" in warning for warning in done["warnings"]), done)
+
+    def test_failures_leave_what_was_there(self):
+        old = self.write("old.ply", "of another day\n")
+        self.fails("convert", self.write("bad.off", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n"), old, code=1, saying="bad.off")
+        self.fails("convert", self.folder / "none.obj", old, code=1, saying="none.obj")
+        self.assertEqual(old.read_text(), "of another day\n")
+        self.assertEqual(sorted(it.name for it in self.folder.iterdir()), ["bad.off", "old.ply"])
+
+    def test_places_that_cannot_be_written_are_named(self):
+        source = self.write("cube.off", CUBE)
+        self.fails("convert", source, self.folder / "no" / "a.ply", code=1, saying="a.ply")
+        self.fails("convert", source, self.folder / "a.docx", code=1, saying=".ply")
+        link = self.folder / "full.ply"
+        link.symlink_to("/dev/full")
+        self.fails("convert", source, link, code=1, saying="full.ply")
+        self.fails("convert", source, code=2, saying="OUT")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_a_folder_without_permission(self):
+        source = self.write("cube.off", CUBE)
+        self.folder.chmod(0o500)
+        self.addCleanup(self.folder.chmod, 0o700)
+        self.fails("convert", source, self.folder / "a.ply", code=1, saying="a.ply")
+
+
+if __name__ == "__main__":
+    unittest.main()
