@@ -1,5 +1,6 @@
 #include "files/new_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,6 +16,15 @@ tl::unexpected<base::Error> cannot_write(const std::filesystem::path& path, cons
   return base::fail(fmt::format("{}: cannot be written ({}).", path.string(), why));
 }
 
+/// Brings the file's name to the disk. Not every file system can, and the file is whole in any case.
+void sync_folder_of(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)::fsync(descriptor);
+  ::close(descriptor);
+}
+
 }  // namespace
 
 base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
@@ -24,7 +34,7 @@ base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
     return cannot_write(path, "not an ordinary file");
   std::filesystem::path beside = path;
   beside += fmt::format(".part-{}", ::getpid());
-  std::FILE* file = std::fopen(beside.c_str(), "wbx");
+  std::FILE* file = std::fopen(beside.c_str(), "wbxe");
   if (file == nullptr) return cannot_write(path, std::strerror(errno));
   return NewFile(path, std::move(beside), file);
 }
@@ -43,6 +53,8 @@ void NewFile::write(std::string_view bytes) {
     write_error_ = errno;
 }
 
+int NewFile::descriptor() const { return ::fileno(file_.get()); }
+
 base::Result<void> NewFile::finish() {
   if (write_error_ == 0 && (std::fflush(file_.get()) != 0 || ::fsync(::fileno(file_.get())) != 0))
     write_error_ = errno;
@@ -50,6 +62,7 @@ base::Result<void> NewFile::finish() {
   std::error_code error;
   std::filesystem::rename(beside_, path_, error);
   if (error) return cannot_write(path_, error.message().c_str());
+  sync_folder_of(path_);
   file_.reset();
   return {};
 }

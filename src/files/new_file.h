@@ -24,6 +24,8 @@ class NewFile {
   /// Gives the file its name. Call once.
   base::Result<void> finish();
   const std::filesystem::path& path() const { return path_; }
+  /// Of the file that is being written, for who goes on with it: copy it before finish(), which closes it.
+  int descriptor() const;
 
  private:
   struct Close {

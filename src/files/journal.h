@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "world/edit_bytes.h"
+#include "world/world.h"
+
+namespace icome::files {
+
+// A journal (.icome, ICOME's own format of a design): the world as it once was and every edit since, in a
+// form that is only ever added to, so that a crash at any moment loses nothing that was there before.
+// journal_format.h tells the bytes, journaled_world.h works with one.
+
+/// What a journal gave and what could not be had of it.
+struct JournalReport {
+  std::uint64_t bytes = 0;           // of the file
+  std::uint64_t snapshot_bytes = 0;  // that make the world as it once was
+  std::uint64_t edit_bytes = 0;      // of the edits since
+  std::uint64_t edits = 0;           // done again since the snapshot
+  std::uint64_t lost_bytes = 0;      // from the first damage to the end of the file
+  std::uint64_t lost_edits = 0;      // whole ones behind the damage, left out as what they build on is lost
+  /// A copy of the lost bytes; empty where nothing was lost or the file was only read.
+  std::filesystem::path set_aside = {};
+  /// Sentences on what is wrong and what was done about it, with the file's name; none for a whole journal.
+  std::vector<std::string> damage = {};
+};
+
+struct ReadJournal {
+  world::World world;
+  JournalReport report;
+};
+
+/// Reads a journal and changes nothing on disk; the world is that before the first damage. Whatever the
+/// bytes are, memory stays in proportion to their number. Fails for what is no journal, for one that a newer
+/// version wrote, and where the disk fails. One that another program works with can be read.
+base::Result<ReadJournal> read_journal(const std::filesystem::path& path,
+                                       const world::GeometryFactory& factory);
+
+/// Writes a world as a fresh journal in place of what was there, which stays if not all can be written: a
+/// shape may be of a kind that cannot. Fails while somebody works with the journal.
+base::Result<void> write_journal(const std::filesystem::path& path, const world::World& world);
+
+}  // namespace icome::files

@@ -1,0 +1,29 @@
+#pragma once
+#include "files/journal.h"
+#include "files/journal_reader.h"
+
+namespace icome::files {
+
+/// Why no more of a journal could be had.
+enum class JournalFault {
+  None,
+  Header,      // only its first bytes are damaged
+  CutOff,      // it ends within its last edit, as when the program or the machine stopped
+  Unfinished,  // it ends within the snapshot
+  Damaged,     // bytes changed
+  Refused,     // the world does not allow an edit of it
+  Unknown,     // an edit or a shape that this program cannot read
+};
+
+struct ReplayedJournal {
+  world::World world = {};
+  JournalReport report = {};
+  JournalFault fault = JournalFault::None;
+  std::uint64_t end = 0;      // of what was replayed, bytes
+  std::uint64_t records = 0;  // that were replayed
+};
+
+/// Makes the world of a journal.
+base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory);
+
+}  // namespace icome::files

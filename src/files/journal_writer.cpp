@@ -1,0 +1,39 @@
+#include "files/journal_writer.h"
+
+#include "files/journal.h"
+#include "files/open_file.h"
+#include "world/edits_of.h"
+
+namespace icome::files {
+
+base::Result<JournalSnapshot> write_snapshot(const world::World& world, NewFile& file) {
+  JournalSnapshot snapshot;
+  std::string bytes = journal_header();
+  const auto write = [&] {
+    file.write(bytes);
+    snapshot.bytes += bytes.size();
+    bytes.clear();
+  };
+  for (const world::Edit& edit : world::edits_of(world)) {
+    const auto written = world::to_bytes(edit);
+    if (!written) return base::fail(file.path().string() + ": " + written.error().message);
+    add_journal_record(JournalKind::Snapshot, snapshot.records++, *written, bytes);
+    write();
+  }
+  add_journal_record(JournalKind::SnapshotEnd, snapshot.records++, {}, bytes);
+  write();
+  return snapshot;
+}
+
+base::Result<void> write_journal(const std::filesystem::path& path, const world::World& world) {
+  const auto old = OpenFile::open(path, OpenFile::Use::Read);
+  const auto free = old ? old->lock() : base::Result<bool>(true);
+  if (!free) return tl::unexpected(free.error());
+  if (!*free) return base::fail(path.string() + ": somebody works with it: close it there first.");
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  if (const auto written = write_snapshot(world, *file); !written) return tl::unexpected(written.error());
+  return file->finish();
+}
+
+}  // namespace icome::files

@@ -1,0 +1,209 @@
+#include "files/journaled_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "files/journal_replay.h"
+#include "files/journal_writer.h"
+
+namespace icome::files {
+namespace {
+
+tl::unexpected<base::Error> in_use(const std::filesystem::path& path) {
+  return base::fail(path.string() + ": somebody works with it already: close it there first.");
+}
+
+/// Opens and locks the file that the path leads to. Between the two, who had it before may have put another
+/// in its place.
+base::Result<OpenFile> open_alone(const std::filesystem::path& path, OpenFile::Use use) {
+  constexpr int kTries = 10;
+  for (int i = 0; i < kTries; ++i) {
+    auto file = OpenFile::open(path, use);
+    if (!file) return file;
+    const auto locked = file->lock();
+    if (!locked) return tl::unexpected(locked.error());
+    if (!*locked) return in_use(path);
+    if (file->is_at_its_path()) return file;
+  }
+  return in_use(path);
+}
+
+/// Makes an empty file a journal of an empty world.
+base::Result<void> begin_journal(const OpenFile& file) {
+  std::string bytes = journal_header();
+  add_journal_record(JournalKind::SnapshotEnd, 0, {}, bytes);
+  if (const auto written = file.write(0, bytes); !written) return written;
+  return file.sync();
+}
+
+/// Compaction writes a whole file beside the journal, which is left there when the program is killed. Whoever
+/// has the journal's lock may take such a file away.
+void remove_left_behind(const std::filesystem::path& path) {
+  const std::string prefix = path.filename().string() + ".part-";
+  std::error_code error;
+  std::vector<std::filesystem::path> left;
+  for (std::filesystem::directory_iterator it(path.parent_path(), error), end; !error && it != end;
+       it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    const bool numbered = name.size() > prefix.size() &&
+                          name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+    if (name.starts_with(prefix) && numbered) left.push_back(it->path());
+  }
+  for (const std::filesystem::path& it : left) std::filesystem::remove(it, error);
+}
+
+/// A name for what is lost that nothing has yet.
+std::filesystem::path free_name_beside(const std::filesystem::path& path) {
+  std::filesystem::path name = path;
+  name += ".lost";
+  for (int i = 2; std::filesystem::exists(name); ++i) {
+    name = path;
+    name += fmt::format(".lost-{}", i);
+  }
+  return name;
+}
+
+}  // namespace
+
+base::Result<JournaledWorld> JournaledWorld::open(const std::filesystem::path& path,
+                                                  const world::GeometryFactory& factory,
+                                                  const JournalOptions& options) {
+  // Where a link leads to, as compacting renames over it; and whatever the working folder becomes.
+  std::error_code error;
+  const std::filesystem::path whole =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  auto file = open_alone(error ? path : whole,
+                         options.create ? OpenFile::Use::ChangeOrCreate : OpenFile::Use::Change);
+  if (!file) return tl::unexpected(file.error());
+  const auto size = file->size();
+  if (!size) return tl::unexpected(size.error());
+  if (*size == 0 && options.create) {
+    if (const auto begun = begin_journal(*file); !begun) return tl::unexpected(begun.error());
+  }
+  JournaledWorld result(std::move(*file), options);
+  if (const auto started = result.start(factory); !started) return tl::unexpected(started.error());
+  return result;
+}
+
+base::Result<void> JournaledWorld::start(const world::GeometryFactory& factory) {
+  auto replayed = replay_journal(file_, factory);
+  if (!replayed) return tl::unexpected(replayed.error());
+  report_ = std::move(replayed->report);
+  if (replayed->fault == JournalFault::Unknown) {
+    return base::fail(report_.damage.back() +
+                      " Nothing was changed: a newer version or one that knows the shape can open it.");
+  }
+  world_ = std::move(replayed->world);
+  end_ = replayed->end;
+  records_ = replayed->records;
+  snapshot_ = report_.snapshot_bytes + kJournalHeaderBytes;
+  edits_ = report_.edit_bytes;
+  remove_left_behind(path());
+  if (report_.lost_bytes > 0) {
+    if (const auto kept = set_aside(replayed->end); !kept) return kept;
+  }
+  if (replayed->fault == JournalFault::CutOff) {
+    if (const auto cut = file_.cut_to(end_); !cut) return cut;
+    return file_.sync();
+  }
+  if (replayed->fault != JournalFault::None) return compact();
+  compact_if_due();
+  return {};
+}
+
+base::Result<void> JournaledWorld::set_aside(std::uint64_t from) {
+  constexpr std::uint64_t kPiece = 1U << 20U;
+  const std::filesystem::path name = free_name_beside(path());
+  const auto failed = [&](const base::Error& error) {
+    return base::fail(report_.damage.back() +
+                      " Nothing was changed, as they cannot be kept: " + error.message);
+  };
+  auto copy = NewFile::create(name);
+  if (!copy) return failed(copy.error());
+  std::string piece;
+  for (std::uint64_t at = from; at < report_.bytes; at += piece.size()) {
+    piece.resize(std::min(kPiece, report_.bytes - at));
+    if (const auto read = file_.read(at, piece.data(), piece.size()); !read) return failed(read.error());
+    copy->write(piece);
+  }
+  if (const auto finished = copy->finish(); !finished) return failed(finished.error());
+  report_.set_aside = name;
+  report_.damage.push_back(fmt::format("{}: the lost bytes are in {}.", path().string(), name.string()));
+  return {};
+}
+
+base::Result<world::Edit> JournaledWorld::perform(const world::Edit& edit) {
+  if (broken_) return tl::unexpected(*broken_);
+  const auto bytes = world::to_bytes(edit);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto inverse = world::apply(world_, edit);
+  if (!inverse) return inverse;
+  if (const auto written = append(*bytes); !written) {
+    [[maybe_unused]] const auto back = world::apply(world_, *inverse);
+    assert(back);
+    return tl::unexpected(written.error());
+  }
+  compact_if_due();
+  return inverse;
+}
+
+world::EditSink JournaledWorld::sink() {
+  return world::EditSink([this](const world::Edit& edit) { return perform(edit); });
+}
+
+base::Result<void> JournaledWorld::append(std::string_view content) {
+  record_.clear();
+  add_journal_record(JournalKind::Edit, records_, content, record_);
+  if (const auto written = file_.write(end_, record_); !written) {
+    // A part of it may be there, behind which nothing could be found again.
+    if (const auto cut = file_.cut_to(end_); !cut) broken_ = cut.error();
+    return base::fail(written.error().message +
+                      " The edit was not done: make room, or save the design elsewhere.");
+  }
+  end_ += record_.size();
+  edits_ += record_.size();
+  ++records_;
+  return {};
+}
+
+base::Result<void> JournaledWorld::sync() {
+  if (broken_) return tl::unexpected(*broken_);
+  const auto synced = file_.sync();
+  if (!synced)
+    broken_ = base::Error{synced.error().message + " Save the design elsewhere, or compact it to try again."};
+  return broken_ ? base::Result<void>(tl::unexpected(*broken_)) : synced;
+}
+
+base::Result<void> JournaledWorld::compact() {
+  auto fresh = NewFile::create(path());
+  if (!fresh) return tl::unexpected(fresh.error());
+  auto file = OpenFile::copy_of(fresh->descriptor(), path());
+  if (!file) return tl::unexpected(file.error());
+  if (const auto same = file_.copy_permissions_to(*file); !same) return same;
+  // Before it has the journal's name, so that nobody comes between.
+  const auto locked = file->lock();
+  if (!locked) return tl::unexpected(locked.error());
+  const auto snapshot = write_snapshot(world_, *fresh);
+  if (!snapshot) return tl::unexpected(snapshot.error());
+  if (const auto finished = fresh->finish(); !finished) return finished;
+  file_ = std::move(*file);
+  end_ = snapshot_ = snapshot->bytes;
+  records_ = snapshot->records;
+  edits_ = retry_ = 0;
+  broken_.reset();
+  compact_problem_.reset();
+  return {};
+}
+
+void JournaledWorld::compact_if_due() {
+  const double due = std::max(double(options_.compact_from), options_.compact_factor * double(snapshot_));
+  if (double(edits_) <= due || edits_ < retry_) return;
+  const auto done = compact();
+  if (done) return;
+  compact_problem_ = done.error();
+  retry_ = 2 * edits_;
+}
+
+}  // namespace icome::files
