@@ -1,12 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "base/result.h"
+#include "files/design.h"
 #include "world/edit_bytes.h"
-#include "world/world.h"
 
 namespace icome::files {
 
@@ -24,8 +22,7 @@ struct JournalReport {
   std::uint64_t lost_edits = 0;      // whole ones behind the damage, left out as what they build on is lost
   /// A copy of the lost bytes; empty where nothing was lost or the file was only read.
   std::filesystem::path set_aside = {};
-  /// Sentences on what is wrong and what was done about it, with the file's name; none for a whole journal.
-  std::vector<std::string> damage = {};
+  std::vector<Remark> damage = {};  // what is wrong and what was done about it; none for a whole journal
 };
 
 struct ReadJournal {

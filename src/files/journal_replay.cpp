@@ -8,8 +8,8 @@ namespace {
 /// Replays records until the end or the first that cannot be.
 class JournalReplay {
  public:
-  JournalReplay(JournalReader& reader, const world::GeometryFactory& factory, std::string name)
-      : reader_(reader), factory_(factory), name_(std::move(name)) {}
+  JournalReplay(JournalReader& reader, const world::GeometryFactory& factory)
+      : reader_(reader), factory_(factory) {}
 
   base::Result<ReplayedJournal> run() {
     if (!reader_.header_is_good()) result_.fault = JournalFault::Header;
@@ -76,10 +76,8 @@ class JournalReplay {
 
   void tell() {
     const JournalReport& report = result_.report;
-    const auto add = [&](const std::string& sentence) {
-      result_.report.damage.push_back(name_ + ": " + sentence);
-    };
-    if (!reader_.header_is_good()) add("its first bytes are damaged; what follows them is not lost.");
+    const auto add = [&](std::string text) { result_.report.damage.push_back({{}, 0, std::move(text)}); };
+    if (!reader_.header_is_good()) add("Its first bytes are damaged; what follows them is not lost.");
     const std::string kept = has_snapshot_ ? fmt::format("{} edits before that are kept", report.edits)
                                            : std::string("only a part of the design before that is kept");
     switch (result_.fault) {
@@ -88,18 +86,18 @@ class JournalReplay {
         break;
       case JournalFault::CutOff:
         add(
-            fmt::format("the last edit was cut off while it was written, so its {} bytes from byte {} on are "
+            fmt::format("The last edit was cut off while it was written, so its {} bytes from byte {} on are "
                         "lost; {}.",
                         report.lost_bytes, result_.end, kept));
         break;
       case JournalFault::Unfinished:
-        add("it ends before the whole design was written; only a part of it is kept.");
+        add("It ends before the whole design was written; only a part of it is kept.");
         break;
       case JournalFault::Damaged:
       case JournalFault::Refused:
       case JournalFault::Unknown:
         add(
-            fmt::format("it is damaged from byte {} on ({}); {}, the {} bytes behind are lost, among them {} "
+            fmt::format("It is damaged from byte {} on ({}); {}, the {} bytes behind are lost, among them {} "
                         "whole edits.",
                         result_.end, without_full_stop(why_), kept, report.lost_bytes, report.lost_edits));
     }
@@ -112,7 +110,6 @@ class JournalReplay {
 
   JournalReader& reader_;
   const world::GeometryFactory& factory_;
-  std::string name_;
   ReplayedJournal result_;
   bool has_snapshot_ = false;
   std::string why_;
@@ -123,7 +120,7 @@ class JournalReplay {
 base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory) {
   auto reader = JournalReader::create(file);
   if (!reader) return tl::unexpected(reader.error());
-  return JournalReplay(*reader, factory, file.path().string()).run();
+  return JournalReplay(*reader, factory).run();
 }
 
 }  // namespace icome::files

@@ -92,7 +92,7 @@ base::Result<void> JournaledWorld::start(const world::GeometryFactory& factory) 
   if (!replayed) return tl::unexpected(replayed.error());
   report_ = std::move(replayed->report);
   if (replayed->fault == JournalFault::Unknown) {
-    return base::fail(report_.damage.back() +
+    return base::fail(sentence(report_.damage.back(), path().string()) +
                       " Nothing was changed: a newer version or one that knows the shape can open it.");
   }
   world_ = std::move(replayed->world);
@@ -117,7 +117,7 @@ base::Result<void> JournaledWorld::set_aside(std::uint64_t from) {
   constexpr std::uint64_t kPiece = 1U << 20U;
   const std::filesystem::path name = free_name_beside(path());
   const auto failed = [&](const base::Error& error) {
-    return base::fail(report_.damage.back() +
+    return base::fail(sentence(report_.damage.back(), path().string()) +
                       " Nothing was changed, as they cannot be kept: " + error.message);
   };
   auto copy = NewFile::create(name);
@@ -130,7 +130,7 @@ base::Result<void> JournaledWorld::set_aside(std::uint64_t from) {
   }
   if (const auto finished = copy->finish(); !finished) return failed(finished.error());
   report_.set_aside = name;
-  report_.damage.push_back(fmt::format("{}: the lost bytes are in {}.", path().string(), name.string()));
+  report_.damage.push_back({{}, 0, fmt::format("The lost bytes are in {}.", name.string())});
   return {};
 }
 

@@ -190,7 +190,7 @@ TEST(Journal, WithAnEditThatTheWorldRefusesEndsBeforeIt) {
   EXPECT_EQ(back.report.edits, 3u);
   EXPECT_EQ(back.report.lost_edits, 2u);
   ASSERT_EQ(back.report.damage.size(), 1u);
-  EXPECT_NE(back.report.damage[0].find("not there any more"), std::string::npos) << back.report.damage[0];
+  EXPECT_NE(back.report.damage[0].text.find("not there any more"), std::string::npos);
   EXPECT_EQ(hash(back.world), sample_journal().hashes[3]);
 }
 
