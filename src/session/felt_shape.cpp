@@ -1,0 +1,193 @@
+#include "session/felt_shape.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "geometry/csg_solid.h"
+#include "geometry/mesh_repair.h"
+#include "haptics/mesh_shape.h"
+#include "haptics/primitive_shape.h"
+#include "haptics/smooth_shape.h"
+#include "session/stretched.h"
+#include "world/geometry_check.h"
+#include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
+
+namespace icome::session {
+namespace {
+
+using base::Matrix3;
+using base::Vector3;
+using Felt = std::shared_ptr<FeltShape>;
+
+constexpr double kToleranceOfSize = 1.0 / 2000.0;
+constexpr double kCellOfSize = 1.0 / 160.0;  // of solids that are sampled: facets are far nearer than a cell
+constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
+
+/// Makes what is felt of the kinds of shapes, one after the other.
+class FeltShapeMaker {
+ public:
+  FeltShapeMaker(const Matrix3& felt_from_geometry, const FeltSettings& settings)
+      : map_(felt_from_geometry), settings_(settings) {}
+
+  Felt make(const world::Geometry& shape) const {
+    if (map_.determinant() == 0.0) return untouchable("is too flat or too far away to be touched");
+    Felt felt;
+    if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape)) {
+      felt = of_mesh(mesh->mesh);
+    } else if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
+      felt = of_primitive(*primitive);
+    } else if (const auto* loop = dynamic_cast<const world::LoopGeometry*>(&shape)) {
+      felt = of_loop(*loop);
+    } else if (const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape)) {
+      felt = of_csg(*csg);
+    } else if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&shape)) {
+      felt = of_implicit(*implicit);
+    } else {
+      felt = of_triangles(shape, fmt::format("of the kind \"{}\"", shape.kind()));
+    }
+    felt->felt_from_geometry = map_;
+    return felt;
+  }
+
+ private:
+  static Felt untouchable(std::string why) {
+    auto felt = std::make_shared<FeltShape>();
+    felt->remark = std::move(why);
+    return felt;
+  }
+
+  bool sphere_tip() const { return settings_.tip_radius > 0.0; }
+
+  Felt of_mesh(geometry::TriangleMesh mesh) const {
+    if (mesh.triangles.empty()) return untouchable("is empty: there is nothing to touch");
+    if (!world::complaint(mesh).empty()) return untouchable("is damaged and cannot be touched");
+    stretch(mesh, map_);
+    const base::Bounds box = geometry::bounds(mesh);
+    if (!(box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() < kLargestCoordinate))
+      return untouchable("is too large to be touched");
+    const geometry::RepairReport report = geometry::repair(mesh);
+    if (mesh.triangles.empty()) return untouchable("has no triangle with an area: there is nothing to touch");
+    auto felt = std::make_shared<FeltShape>();
+    felt->closed = report.surface.closed;
+    felt->mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+    haptics::MeshShapeSettings settings;
+    settings.closed = felt->closed;
+    settings.interpolate_normals = settings_.interpolate_normals;
+    settings.tip_radius = settings_.tip_radius;
+    felt->shape = std::make_shared<haptics::MeshShape>(felt->mesh, settings);
+    return felt;
+  }
+
+  /// Of what cannot be touched as what it is.
+  Felt of_triangles(const world::Geometry& shape, const std::string& because,
+                    double tolerance_of_size = kToleranceOfSize) const {
+    const base::Bounds box = shape.bounds();
+    if (box.isEmpty()) return untouchable("is empty: there is nothing to touch");
+    const auto triangles = shape.triangles(tolerance_of_size * box.sizes().maxCoeff());
+    if (!triangles) return untouchable("cannot be touched: " + triangles.error().message);
+    Felt felt = of_mesh((*triangles)->mesh);
+    felt->exact = false;
+    if (felt->shape)
+      felt->remark =
+          fmt::format("is felt as {} triangles, as it is {}", felt->mesh->triangles.size(), because);
+    return felt;
+  }
+
+  Felt of_primitive(const world::PrimitiveGeometry& shape) const {
+    if (const std::string complaint = world::complaint(shape.primitive); !complaint.empty())
+      return untouchable("cannot be touched: " + complaint);
+    const Matrix3 map = map_ * shape.shape_from_primitive();
+    if (const auto primitive = stretched(shape.primitive, map)) {
+      auto felt = std::make_shared<FeltShape>();
+      felt->primitive = *primitive;
+      felt->shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
+      return felt;
+    }
+    if (sphere_tip()) return of_triangles(shape, "stretched and the tip has a radius");
+    geometry::CsgTree tree;
+    tree.add_leaf(shape.primitive, base::Affine3(map));
+    return of_tree(std::move(tree));
+  }
+
+  Felt of_csg(const world::CsgGeometry& shape) const {
+    if (shape.bounds().isEmpty()) return untouchable("is empty: there is nothing to touch");
+    if (sphere_tip()) return of_triangles(shape, "a CSG tree and the tip has a radius", kCellOfSize);
+    return of_tree(stretched(shape.tree, map_));
+  }
+
+  static Felt of_tree(geometry::CsgTree tree) {
+    auto felt = std::make_shared<FeltShape>();
+    felt->shape = std::make_shared<haptics::SmoothShape>(std::make_shared<const geometry::CsgSolid>(tree));
+    felt->solid = std::make_shared<const geometry::CsgTree>(std::move(tree));
+    felt->inside = [solid = felt->solid](const Vector3& point, double) {
+      return geometry::inside(*solid, point);
+    };
+    return felt;
+  }
+
+  Felt of_loop(const world::LoopGeometry& shape) const {
+    if (shape.control.mesh.triangles.empty()) return untouchable("is empty: there is nothing to touch");
+    if (!world::complaint(shape).empty()) return untouchable("is damaged and cannot be touched");
+    if (sphere_tip()) return of_triangles(shape, "a Loop surface and the tip has a radius");
+    const auto surface = geometry::LoopSurface::create(stretched(shape.control, map_));
+    if (!surface) return untouchable("cannot be touched: " + surface.error().message);
+    auto felt = std::make_shared<FeltShape>();
+    felt->closed = (*surface)->closed();
+    felt->shape = std::make_shared<haptics::SmoothShape>(*surface);
+    if (felt->closed)
+      felt->inside = [it = *surface](const Vector3& point, double) { return it->inside(point); };
+    return felt;
+  }
+
+  Felt of_implicit(const world::ImplicitGeometry& shape) const {
+    if (sphere_tip()) return of_triangles(shape, "an implicit surface and the tip has a radius", kCellOfSize);
+    if (map_ != Matrix3::Identity()) return of_triangles(shape, "a stretched implicit surface", kCellOfSize);
+    auto felt = std::make_shared<FeltShape>();
+    felt->shape = std::make_shared<haptics::SmoothShape>(shape.surface());
+    felt->inside = [it = shape.surface()](const Vector3& point, double time) {
+      return it->bounds().contains(point) && it->value(point, time).value < 0.0;
+    };
+    return felt;
+  }
+
+  Matrix3 map_;
+  const FeltSettings& settings_;
+};
+
+/// The pose of the half-space that a half-space becomes.
+base::Pose turned_to(const base::Affine3& world_from_primitive) {
+  const Vector3 normal =
+      (world_from_primitive.linear().inverse().transpose() * Vector3::UnitZ()).normalized();
+  base::Pose pose = base::Pose::Identity();
+  pose.linear() = base::Quaternion::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
+  pose.translation() = world_from_primitive.translation();
+  return pose;
+}
+
+}  // namespace
+
+FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_from_geometry) {
+  // Places within places may multiply to what no number holds.
+  if (!world_from_geometry.matrix().allFinite()) return {base::Pose::Identity(), Matrix3::Zero()};
+  const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape);
+  if (!primitive) {
+    const RigidPart part = rigid_part(world_from_geometry);
+    return {part.world_from_felt, part.felt_from_shape};
+  }
+  // Taken apart in the primitive's own frame, so that an upright one that is stretched upwards stays one.
+  const Matrix3 turn = primitive->shape_from_primitive();
+  const base::Affine3 world_from_primitive = world_from_geometry * base::Affine3(turn);
+  if (std::holds_alternative<geometry::Plane>(primitive->primitive))
+    return {turned_to(world_from_primitive), turn.transpose()};
+  const RigidPart part = rigid_part(world_from_primitive);
+  return {part.world_from_felt, part.felt_from_shape * turn.transpose()};
+}
+
+FeltShapePointer make_felt_shape(const world::Geometry& shape, const Matrix3& felt_from_geometry,
+                                 const FeltSettings& settings) {
+  return FeltShapeMaker(felt_from_geometry, settings).make(shape);
+}
+
+}  // namespace icome::session

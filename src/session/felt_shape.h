@@ -1,0 +1,52 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "geometry/csg_tree.h"
+#include "haptics/shape.h"
+#include "session/rigid_part.h"
+#include "world/geometry.h"
+
+namespace icome::session {
+
+/// What a tip must be told of before shapes are made for it.
+struct FeltSettings {
+  double tip_radius = 0.0;           // m; 0 is a point, which alone touches smooth surfaces as what they are
+  bool interpolate_normals = false;  // of meshes, for force shading
+};
+
+/// A shape of the world as it is touched, stretched as its object is. Immutable; clones share it.
+struct FeltShape {
+  std::shared_ptr<const haptics::Shape> shape = nullptr;  // null: it cannot be touched
+  bool closed = true;                                     // it encloses a solid
+  bool exact = true;   // touched as what it is, also if that is a mesh; else as triangles of it
+  std::string remark;  // a clause about what cannot be touched or is not quite itself; empty: nothing
+
+  // What it is, for those who judge or draw what was felt; at most one of the first three. In the felt frame.
+  std::shared_ptr<const geometry::TriangleMesh> mesh = nullptr;
+  std::optional<geometry::Primitive> primitive = {};
+  std::shared_ptr<const geometry::CsgTree> solid = nullptr;
+  std::function<bool(const base::Vector3& point, double time)> inside = {};  // of a closed smooth surface
+  base::Matrix3 felt_from_geometry = base::Matrix3::Identity();              // the shape's own frame to that
+};
+using FeltShapePointer = std::shared_ptr<const FeltShape>;
+
+/// Where a shape is felt whose own frame lies in the world like that. What is not rigid about the place is
+/// in the shape, but for a half-space, whose image is one wherever it goes.
+struct FeltPlace {
+  base::Pose world_from_felt = base::Pose::Identity();
+  base::Matrix3 felt_from_geometry = base::Matrix3::Identity();
+};
+FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_from_geometry);
+
+/// The shape as it is felt. Exact where that is possible: a mesh's vertices go along with the place, so do
+/// control meshes and CSG trees; a primitive stays one where its stretched self is, and else becomes a CSG
+/// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and smooth surfaces under
+/// a tip with a radius are felt as triangles: 1/2000 of their size off at most, or sampled at 160 places
+/// along their longest side.
+FeltShapePointer make_felt_shape(const world::Geometry& shape, const base::Matrix3& felt_from_geometry,
+                                 const FeltSettings& settings);
+
+}  // namespace icome::session

@@ -1,0 +1,372 @@
+#include "session/haptic_representation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace icome::session {
+
+using base::Affine3;
+using haptics::TouchableSides;
+using world::PhysicalObject;
+using world::World;
+
+namespace {
+
+std::string called(const PhysicalObject& object, world::ObjectId id) {
+  return object.name.empty() ? fmt::format("Object {}", id.value & world::IdSource::kNumberMask)
+                             : fmt::format("\"{}\"", object.name);
+}
+
+std::string remark_on(const std::string& object, const FeltShape& felt, std::size_t others) {
+  const std::string more = others > 0 ? fmt::format(" (and {} more)", others) : "";
+  return fmt::format("{}{} {}{}", object, more, felt.remark, felt.remark.back() == '.' ? "" : ".");
+}
+
+}  // namespace
+
+/// Brings objects up to date: finds out which shapes they need, has the missing ones made side by side, and
+/// hands them out.
+class HapticRepresentation::Update {
+ public:
+  Update(HapticRepresentation& owner, const World& world, const std::vector<Due>& due)
+      : owner_(owner), world_(world) {
+    needs_.reserve(due.size());
+    for (const Due& it : due) look_at(it);
+    make_missing();
+    for (std::size_t i = 0; i < due.size(); ++i) renew(due[i], needs_[i]);
+  }
+
+ private:
+  struct Need {
+    const PhysicalObject* object = nullptr;  // in the world
+    FeltPlace place = {};
+    std::optional<ShapeKey> key = {};  // none: no shape
+  };
+  struct Job {
+    ShapeKey key;
+    const world::Geometry* shape;
+    base::Matrix3 felt_from_geometry;
+    FeltShapePointer made = nullptr;
+  };
+
+  static ShapeKey key_of(world::GeometryId geometry, const base::Matrix3& stretch) {
+    ShapeKey key{geometry, {}};
+    std::copy(stretch.data(), stretch.data() + key.stretch.size(), key.stretch.begin());
+    return key;
+  }
+
+  void look_at(const Due& it) {
+    Need need{world_.find(it.id)};
+    if (const world::GeometryObject* geometry = world_.find(need.object->geometry)) {
+      need.place = felt_place(*geometry->shape, it.world_from_object);
+      need.key = key_of(need.object->geometry, need.place.felt_from_geometry);
+      const auto [found, fresh] = owner_.shapes_.try_emplace(*need.key);
+      if (fresh) jobs_.push_back({*need.key, geometry->shape.get(), need.place.felt_from_geometry});
+    }
+    needs_.push_back(need);
+  }
+
+  void make_missing() {
+    base::parallel_for(jobs_.size(), 1, [this](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Job& job = jobs_[i];
+        job.made = make_felt_shape(*job.shape, job.felt_from_geometry, owner_.settings_.felt);
+      }
+    });
+    for (Job& job : jobs_) owner_.shapes_[job.key] = std::move(job.made);
+    owner_.work_.shapes += jobs_.size();
+  }
+
+  void renew(const Due& it, const Need& need) {
+    Member& member = owner_.members_[it.id];
+    release_shape(owner_, member);
+    member.seen = owner_.surveys_;
+    member.world_from_object = it.world_from_object;
+    member.geometry = need.object->geometry;
+    member.material = need.object->material;
+    member.felt = need.key ? owner_.shapes_.at(*need.key) : nullptr;
+    renew_slot(it.id, member, need.place.world_from_felt);
+  }
+
+  void renew_slot(world::ObjectId id, Member& member, const base::Pose& world_from_felt) {
+    const bool touchable = member.felt && member.felt->shape;
+    if (!touchable) {
+      release_slot(owner_, member);
+      return;
+    }
+    if (!member.slot) take_slot(id, member);
+    haptics::HapticObject& object = owner_.slots_[*member.slot].object;
+    const haptics::Surface surface = owner_.surface_of(world_, member);
+    if (object.shape != member.felt->shape || differ(object.surface, surface)) {
+      object.shape = member.felt->shape;
+      object.surface = surface;
+      owner_.stale_ = true;
+    }
+    if (object.world_from_object.matrix() == world_from_felt.matrix()) return;
+    object.world_from_object = world_from_felt;
+    owner_.moves_.push_back({object.id, world_from_felt, {}});
+  }
+
+  static bool differ(const haptics::Surface& a, const haptics::Surface& b) {
+    return a.stiffness != b.stiffness || a.damping != b.damping || a.static_friction != b.static_friction ||
+           a.dynamic_friction != b.dynamic_friction || a.sides != b.sides || a.texture != b.texture;
+  }
+
+  void take_slot(world::ObjectId id, Member& member) {
+    if (owner_.free_slots_.empty()) {
+      member.slot = std::uint32_t(owner_.slots_.size());
+      owner_.slots_.emplace_back();
+      owner_.slots_.back().object.id.index = *member.slot;
+    } else {
+      member.slot = owner_.free_slots_.back();
+      owner_.free_slots_.pop_back();
+    }
+    Slot& slot = owner_.slots_[*member.slot];
+    ++slot.object.id.generation;  // who still names the last one finds nothing
+    slot.world_id = id;
+    owner_.stale_ = true;
+  }
+
+ public:
+  /// Before the member has another shape, or none.
+  static void release_shape(HapticRepresentation& owner, const Member& member) {
+    if (member.felt) owner.released_.push_back(key_of(member.geometry, member.felt->felt_from_geometry));
+  }
+
+  static void release_slot(HapticRepresentation& owner, Member& member) {
+    if (!member.slot) return;
+    Slot& slot = owner.slots_[*member.slot];
+    slot.world_id = {};
+    slot.object.shape = nullptr;
+    slot.object.surface = {};
+    owner.free_slots_.push_back(*member.slot);
+    member.slot.reset();
+    owner.stale_ = true;
+  }
+
+ private:
+  HapticRepresentation& owner_;
+  const World& world_;
+  std::vector<Need> needs_;
+  std::vector<Job> jobs_;
+};
+
+HapticRepresentation::HapticRepresentation(HapticRepresentationSettings settings)
+    : settings_(std::move(settings)), scene_(haptics::HapticScene::compile({})) {}
+
+void HapticRepresentation::show(const World& world, world::SceneId scene) {
+  shown_ = scene;
+  survey(world);
+  released_.clear();  // other scenes may come back
+  publish();
+}
+
+/// Finds out anew what is in the scene.
+void HapticRepresentation::survey(const World& world) {
+  ++surveys_;
+  std::vector<Due> due;
+  const world::Scene* scene = world.find(shown_);
+  const std::vector<world::ObjectId> nothing;
+  for (const world::ObjectId root : scene ? scene->roots : shown_ ? nothing : world.roots())
+    collect(world, root, due);
+  // A root of a scene may lie below another.
+  std::sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id < b.id; });
+  due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
+            due.end());
+  Update(*this, world, due);
+  std::vector<world::ObjectId> gone;
+  for (const auto& [id, member] : members_) {
+    if (member.seen != surveys_) gone.push_back(id);
+  }
+  for (const world::ObjectId id : gone) forget(id);
+}
+
+/// Multiplied from the top down, as `collect` does: the same bits.
+Affine3 HapticRepresentation::place(const World& world, world::ObjectId id) const {
+  std::vector<const PhysicalObject*> line;
+  for (const PhysicalObject* it = world.find(id); it; it = world.find(it->parent)) line.push_back(it);
+  Affine3 result = settings_.world_from_design;
+  for (auto it = line.rbegin(); it != line.rend(); ++it) result = result * (*it)->parent_from_object;
+  return result;
+}
+
+/// The objects of a subtree and where they are.
+void HapticRepresentation::collect(const World& world, world::ObjectId root, std::vector<Due>& due) {
+  const std::size_t first = due.size();
+  due.push_back({root, place(world, root)});
+  for (std::size_t i = first; i < due.size(); ++i) {
+    const Due above = due[i];
+    for (const world::ObjectId child : world.find(above.id)->children)
+      due.push_back({child, above.world_from_object * world.find(child)->parent_from_object});
+  }
+}
+
+bool HapticRepresentation::in_scene(const World& world, world::ObjectId id) const {
+  if (!shown_) return world.find(id) != nullptr;
+  const world::Scene* scene = world.find(shown_);
+  if (!scene) return false;
+  for (const PhysicalObject* object = world.find(id); object; id = object->parent, object = world.find(id)) {
+    if (std::find(scene->roots.begin(), scene->roots.end(), id) != scene->roots.end()) return true;
+  }
+  return false;
+}
+
+void HapticRepresentation::follow(const World& world, const world::Changes& changes) {
+  for (const world::GeometryId geometry : changes.geometries) forget_shapes(geometry);
+  const bool other_roots = shown_ && std::binary_search(changes.scenes.begin(), changes.scenes.end(), shown_);
+  if (other_roots) survey(world);
+  std::vector<Due> due;
+  for (const world::ObjectId id : changes.objects) note_object(world, id, due);
+  const auto changed = [](const auto& ids, auto id) {
+    return std::binary_search(ids.begin(), ids.end(), id);
+  };
+  if (!changes.geometries.empty() || !changes.materials.empty()) {
+    for (const auto& [id, member] : members_) {
+      if (changed(changes.geometries, member.geometry) || changed(changes.materials, member.material))
+        due.push_back({id, member.world_from_object});
+    }
+  }
+  // In the order of ids, as tables keep none: the same edits give the same scene. The objects noted first
+  // know best where they are.
+  std::stable_sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id < b.id; });
+  due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
+            due.end());
+  Update(*this, world, due);
+  forget_unused();
+  publish();
+}
+
+/// Notes an object that an edit named, and those below it where it took them along.
+void HapticRepresentation::note_object(const World& world, world::ObjectId id, std::vector<Due>& due) {
+  if (!world.find(id)) {
+    forget(id);  // what was below it is named too
+    return;
+  }
+  const auto found = members_.find(id);
+  const bool stays = in_scene(world, id);
+  const Affine3 here = place(world, id);
+  if (stays && found != members_.end() && found->second.world_from_object.matrix() == here.matrix()) {
+    due.push_back({id, here});
+    return;
+  }
+  std::vector<Due> below;
+  collect(world, id, below);
+  for (const Due& it : below) {
+    // Below what has left, there may be a root of the scene.
+    if (stays || in_scene(world, it.id))
+      due.push_back(it);
+    else
+      forget(it.id);
+  }
+}
+
+void HapticRepresentation::forget(world::ObjectId id) {
+  const auto found = members_.find(id);
+  if (found == members_.end()) return;
+  Update::release_shape(*this, found->second);
+  Update::release_slot(*this, found->second);
+  members_.erase(found);
+}
+
+void HapticRepresentation::forget_shapes(world::GeometryId geometry) {
+  auto it = shapes_.lower_bound({geometry, {}});
+  // Entries of a stretch may be below zero.
+  while (it != shapes_.begin() && std::prev(it)->first.geometry == geometry) --it;
+  while (it != shapes_.end() && it->first.geometry == geometry) it = shapes_.erase(it);
+}
+
+/// An object that is stretched by hand leaves a shape behind with every step.
+void HapticRepresentation::forget_unused() {
+  for (const ShapeKey& key : released_) {
+    const auto found = shapes_.find(key);
+    if (found != shapes_.end() && found->second.use_count() == 1) shapes_.erase(found);
+  }
+  released_.clear();
+}
+
+std::shared_ptr<const haptics::HapticTexture> HapticRepresentation::texture(const std::string& name) {
+  const auto [found, fresh] = textures_.try_emplace(name);
+  if (fresh && !name.empty() && settings_.texture) found->second = settings_.texture(name);
+  return found->second;
+}
+
+haptics::Surface HapticRepresentation::surface_of(const World& world, const Member& member) {
+  haptics::Surface surface;
+  surface.sides = member.felt->closed ? TouchableSides::Front : TouchableSides::Both;
+  if (const world::Material* material = world.find(member.material)) {
+    const world::TouchProperties& touch = material->touch;
+    surface.stiffness = touch.stiffness.value_or(0.0);
+    surface.damping = touch.damping.value_or(haptics::kAutomaticDamping);
+    surface.static_friction = touch.static_friction;
+    surface.dynamic_friction = touch.dynamic_friction;
+    surface.texture = texture(touch.texture);
+  }
+  return surface;
+}
+
+void HapticRepresentation::publish() {
+  if (stale_) {
+    std::vector<haptics::HapticObject> objects;
+    objects.reserve(slots_.size() - free_slots_.size());
+    for (const Slot& slot : slots_) {
+      if (slot.world_id) objects.push_back(slot.object);
+    }
+    scene_ = haptics::HapticScene::compile(std::move(objects));
+    ++work_.compiled;
+  } else if (!moves_.empty()) {
+    scene_ = scene_->moved(moves_);
+    ++work_.moved;
+  }
+  stale_ = false;
+  moves_.clear();
+}
+
+std::optional<base::ObjectId> HapticRepresentation::haptic_id(world::ObjectId object) const {
+  const auto found = members_.find(object);
+  if (found == members_.end() || !found->second.slot) return std::nullopt;
+  return slots_[*found->second.slot].object.id;
+}
+
+std::optional<world::ObjectId> HapticRepresentation::object(base::ObjectId haptic_id) const {
+  if (haptic_id.index >= slots_.size()) return std::nullopt;
+  const Slot& slot = slots_[haptic_id.index];
+  if (!slot.world_id || slot.object.id != haptic_id) return std::nullopt;
+  return slot.world_id;
+}
+
+FeltShapePointer HapticRepresentation::felt(world::ObjectId object) const {
+  const auto found = members_.find(object);
+  return found == members_.end() ? nullptr : found->second.felt;
+}
+
+std::vector<std::string> HapticRepresentation::remarks(const World& world) const {
+  std::vector<world::ObjectId> ids;
+  for (const auto& [id, member] : members_) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  std::map<const FeltShape*, std::size_t> users;
+  for (const auto& [id, member] : members_) ++users[member.felt.get()];
+  std::set<const FeltShape*> told;
+  std::set<world::MaterialId> materials;
+  std::vector<std::string> sentences;
+  for (const world::ObjectId id : ids) {
+    const Member& member = members_.at(id);
+    const FeltShape* felt = member.felt.get();
+    if (!felt) continue;
+    if (!felt->remark.empty() && told.insert(felt).second)
+      sentences.push_back(remark_on(called(*world.find(id), id), *felt, users[felt] - 1));
+    const world::Material* material = world.find(member.material);
+    if (!material || !materials.insert(member.material).second) continue;
+    const std::string& name = material->touch.texture;
+    if (!name.empty() && !textures_.at(name))
+      sentences.push_back(
+          fmt::format("\"{}\" is felt smooth: no haptic texture is called \"{}\".", material->name, name));
+  }
+  return sentences;
+}
+
+}  // namespace icome::session

@@ -1,0 +1,114 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "haptics/haptic_scene.h"
+#include "session/felt_shape.h"
+#include "session/haptic_textures.h"
+#include "world/changes.h"
+
+namespace icome::session {
+
+struct HapticRepresentationSettings {
+  FeltSettings felt = {};
+  base::Affine3 world_from_design = base::Affine3::Identity();  // where the world of the edits lies
+  /// The haptic texture of a name; null for one that is not known.
+  std::function<std::shared_ptr<const haptics::HapticTexture>(std::string_view name)> texture =
+      standard_texture;
+};
+
+/// What of a world can be touched: one HapticObject for each object with a shape, of the whole world or of
+/// one of its scenes (thesis 5.6.1: the haptic thread's own representation). Shapes are made once for all
+/// objects that share one and are stretched alike, and kept for as long as they are used, also by scenes that
+/// are not shown; an edit makes only those anew that it changed. One thread owns it; the compiled scene is
+/// immutable and may be given to the servo.
+class HapticRepresentation {
+ public:
+  explicit HapticRepresentation(HapticRepresentationSettings settings = {});
+
+  /// Represents this scene from now on, or the whole world. What was made for it before is used again.
+  void show(const world::World& world, world::SceneId scene = {});
+
+  /// Follows an edit (or several) that the world has been through since the last call.
+  void follow(const world::World& world, const world::Changes& changes);
+
+  /// What the servo touches; never null.
+  const std::shared_ptr<const haptics::HapticScene>& scene() const { return scene_; }
+
+  /// Names go both ways. What cannot be touched, or is gone, has none.
+  std::optional<base::ObjectId> haptic_id(world::ObjectId object) const;
+  std::optional<world::ObjectId> object(base::ObjectId haptic_id) const;
+
+  /// How the object is felt; null when it has no shape or is not in the scene.
+  FeltShapePointer felt(world::ObjectId object) const;
+
+  /// What cannot be touched or is not quite itself, one sentence each.
+  std::vector<std::string> remarks(const world::World& world) const;
+
+  /// What has been done since the beginning.
+  struct Work {
+    std::size_t shapes = 0;    // made
+    std::size_t compiled = 0;  // scenes compiled anew
+    std::size_t moved = 0;     // scenes made of the last by moving objects
+  };
+  const Work& work() const { return work_; }
+
+ private:
+  struct Member {
+    std::uint64_t seen = 0;  // the last survey that found it in the scene
+    base::Affine3 world_from_object = base::Affine3::Identity();
+    world::GeometryId geometry = {};
+    world::MaterialId material = {};
+    FeltShapePointer felt = nullptr;
+    std::optional<std::uint32_t> slot = {};  // none: it cannot be touched
+  };
+  struct Slot {
+    haptics::HapticObject object;
+    world::ObjectId world_id = {};  // none: free
+  };
+  struct ShapeKey {
+    world::GeometryId geometry;
+    std::array<double, 9> stretch;
+    auto operator<=>(const ShapeKey&) const = default;
+  };
+  /// An object to bring up to date, and where it is.
+  struct Due {
+    world::ObjectId id;
+    base::Affine3 world_from_object;
+  };
+  class Update;
+
+  void survey(const world::World& world);
+  base::Affine3 place(const world::World& world, world::ObjectId id) const;
+  void collect(const world::World& world, world::ObjectId root, std::vector<Due>& due);
+  bool in_scene(const world::World& world, world::ObjectId id) const;
+  void note_object(const world::World& world, world::ObjectId id, std::vector<Due>& due);
+  void forget(world::ObjectId id);
+  void forget_shapes(world::GeometryId geometry);
+  void forget_unused();
+  std::shared_ptr<const haptics::HapticTexture> texture(const std::string& name);
+  haptics::Surface surface_of(const world::World& world, const Member& member);
+  void publish();
+
+  HapticRepresentationSettings settings_;
+  world::SceneId shown_ = {};  // none: the whole world
+  std::unordered_map<world::ObjectId, Member> members_;
+  std::map<ShapeKey, FeltShapePointer> shapes_;
+  std::vector<ShapeKey> released_;  // may have lost their last user
+  std::map<std::string, std::shared_ptr<const haptics::HapticTexture>> textures_;  // null: not known
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_slots_;
+  std::vector<haptics::HapticScene::Move> moves_;  // since the last published scene
+  bool stale_ = false;                             // moving objects is not enough
+  std::uint64_t surveys_ = 0;
+  std::shared_ptr<const haptics::HapticScene> scene_;
+  Work work_;
+};
+
+}  // namespace icome::session

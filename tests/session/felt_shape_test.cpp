@@ -1,0 +1,223 @@
+#include "session/felt_shape.h"
+
+#include "base/random.h"
+#include "session/stretched.h"
+#include "world/sample_world.h"
+
+namespace icome::session {
+namespace {
+
+using base::Affine3;
+using base::Matrix3;
+using base::Vector3;
+using world::GeometryPointer;
+
+Affine3 turned(double angle, const Vector3& axis) { return Affine3(Eigen::AngleAxisd(angle, axis)); }
+
+GeometryPointer primitive(const geometry::Primitive& it, world::Axis axis = world::Axis::Z) {
+  return std::make_shared<world::PrimitiveGeometry>(it, axis);
+}
+
+Affine3 random_place(base::Random& random) {
+  Affine3 place = Affine3::Identity();
+  for (double& entry : place.linear().reshaped()) entry = random.uniform(-2.0, 2.0);
+  place.translation() = 5.0 * random.direction();
+  return place;
+}
+
+TEST(RigidPart, IsThePlaceWhereThatIsRigid) {
+  const Affine3 place = world::at(1.0, 2.0, 3.0) * turned(0.7, Vector3(1.0, 2.0, 3.0).normalized());
+  const RigidPart part = rigid_part(place);
+  EXPECT_TRUE(part.rigid());
+  EXPECT_EQ(part.world_from_felt.matrix(), place.matrix());
+}
+
+TEST(RigidPart, AndTheRestMakeThePlace) {
+  base::Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const Affine3 place = random_place(random);
+    const RigidPart part = rigid_part(place);
+    const Matrix3 turn = part.world_from_felt.linear();
+    EXPECT_NEAR(turn.determinant(), 1.0, 1e-12);
+    EXPECT_TRUE((turn * turn.transpose()).isIdentity(1e-12));
+    EXPECT_TRUE((turn * part.felt_from_shape).isApprox(place.linear(), 1e-11));
+    EXPECT_EQ(part.world_from_felt.translation(), place.translation());
+  }
+}
+
+TEST(RigidPart, LeavesTheSameRestHoweverAPlaceIsTurned) {
+  base::Random random(2);
+  const Matrix3 stretch = Vector3(0.5, 2.0, 3.0).asDiagonal();
+  for (int i = 0; i < 1000; ++i) {
+    const Affine3 place =
+        world::at(1.0, 0.0, 0.0) * turned(random.uniform(0.1, 3.0), random.direction()) * Affine3(stretch);
+    EXPECT_EQ(rigid_part(place).felt_from_shape, stretch);
+  }
+}
+
+TEST(FeltShape, StaysAPrimitiveWhereItsImageIsOne) {
+  const auto image = [](const geometry::Primitive& it, const Vector3& along) {
+    const auto felt = make_felt_shape(*primitive(it), along.asDiagonal(), {});
+    return felt->primitive ? geometry::name(*felt->primitive) : std::string("none");
+  };
+  EXPECT_EQ(image(geometry::Sphere{0.5}, {2.0, 2.0, 2.0}), "sphere:1");
+  EXPECT_EQ(image(geometry::Sphere{0.5}, {-2.0, 2.0, 2.0}), "sphere:1");
+  EXPECT_EQ(image(geometry::Sphere{0.5}, {2.0, 2.0, 1.0}), "none");
+  EXPECT_EQ(image(geometry::Box{{1.0, 1.0, 1.0}}, {0.5, 1.0, -2.0}), "box:1x2x4");
+  EXPECT_EQ(image(geometry::Cylinder{0.5, 1.0}, {2.0, 2.0, 3.0}), "cylinder:1x3");
+  EXPECT_EQ(image(geometry::Cylinder{0.5, 1.0}, {2.0, 1.0, 3.0}), "none");
+  EXPECT_EQ(image(geometry::Cone{0.5, 0.25, 1.0}, {2.0, 2.0, -3.0}), "cone:0.5x1x3");
+  EXPECT_EQ(image(geometry::Torus{0.5, 0.25}, {2.0, 2.0, 2.0}), "torus:1x0.5");
+  EXPECT_EQ(image(geometry::Capsule{0.5, 1.0}, {2.0, 2.0, 2.0}), "capsule:1x2");
+}
+
+TEST(FeltShape, OfAnUprightCylinderThatGrowsUpwardsIsACylinder) {
+  const GeometryPointer shape = primitive(geometry::Cylinder{0.5, 1.0}, world::Axis::Y);
+  const FeltPlace place = felt_place(*shape, Affine3(Eigen::Scaling(1.0, 3.0, 1.0)));
+  const auto felt = make_felt_shape(*shape, place.felt_from_geometry, {});
+  ASSERT_TRUE(felt->primitive);
+  EXPECT_EQ(geometry::name(*felt->primitive), "cylinder:0.5x3");
+  // The felt z points up, along the shape's y.
+  EXPECT_TRUE(Vector3(place.world_from_felt.linear() * Vector3::UnitZ()).isApprox(Vector3::UnitY(), 1e-12));
+}
+
+/// The surface that is felt lies where the shape's own surface is: asked for by what is inside.
+void expect_same_inside(const world::Geometry& shape, const std::function<bool(const Vector3&)>& inside,
+                        const Affine3& place, std::uint64_t seed) {
+  const FeltPlace there = felt_place(shape, place);
+  const auto felt = make_felt_shape(shape, there.felt_from_geometry, {});
+  ASSERT_TRUE(felt->shape) << felt->remark;
+  base::Random random(seed);
+  int within = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3 point = random.uniform(0.0, 1.5) * random.direction();  // in the shape's own frame
+    // So far from the surface that rounding does not tell.
+    const bool expected = inside(point);
+    if (expected != inside(0.999 * point) || expected != inside(1.001 * point)) continue;
+    const Vector3 at = there.world_from_felt.inverse() * (place * point);
+    EXPECT_EQ(felt->shape->way_out(at, 0.0).has_value(), expected) << point.transpose();
+    within += expected;
+  }
+  EXPECT_GT(within, 20);
+}
+
+TEST(FeltShape, IsWhereTheStretchedShapeIs) {
+  base::Random random(3);
+  geometry::CsgTree tree;
+  const auto cut = tree.add_leaf(geometry::Primitive(geometry::Cylinder{0.3, 3.0}));
+  const auto block = tree.add_leaf(geometry::Primitive(geometry::Box{Vector3(0.8, 0.6, 0.7)}));
+  tree.add(geometry::CsgOperator::Difference, block, cut);
+  for (int i = 0; i < 20; ++i) {
+    const Affine3 place = random_place(random);  // half of them mirror
+    for (const geometry::Primitive& it :
+         {geometry::Primitive(geometry::Box{Vector3(0.5, 0.6, 0.7)}),
+          geometry::Primitive(geometry::Sphere{0.8}), geometry::Primitive(geometry::Cone{0.9, 0.2, 1.2}),
+          geometry::Primitive(geometry::Cylinder{0.7, 1.0}), geometry::Primitive(geometry::Torus{0.7, 0.3}),
+          geometry::Primitive(geometry::Capsule{0.5, 0.6})}) {
+      expect_same_inside(
+          *primitive(it), [&](const Vector3& p) { return geometry::inside(it, p); }, place, std::uint64_t(i));
+    }
+    expect_same_inside(
+        world::CsgGeometry(tree), [&](const Vector3& p) { return geometry::inside(tree, p); }, place,
+        std::uint64_t(i));
+    const geometry::Primitive box = geometry::Box{Vector3(0.5, 0.6, 0.7)};
+    expect_same_inside(
+        world::MeshGeometry(geometry::tessellate(box, 0.1)),
+        [&](const Vector3& p) { return geometry::inside(box, p); }, place, std::uint64_t(i));
+  }
+}
+
+TEST(FeltShape, OfAHalfSpaceIsAHalfSpaceWhereverItGoes) {
+  base::Random random(4);
+  const GeometryPointer shape = primitive(geometry::Plane{}, world::Axis::Y);  // solid below y = 0
+  for (int i = 0; i < 100; ++i) {
+    const Affine3 place = random_place(random);
+    const FeltPlace there = felt_place(*shape, place);
+    const auto felt = make_felt_shape(*shape, there.felt_from_geometry, {});
+    ASSERT_TRUE(felt->primitive) << felt->remark;
+    for (int k = 0; k < 20; ++k) {
+      const Vector3 point = random.uniform(0.0, 3.0) * random.direction();
+      if (std::abs(point.y()) < 1e-6) continue;
+      const Vector3 at = there.world_from_felt.inverse() * (place * point);
+      EXPECT_EQ(geometry::inside(*felt->primitive, at), point.y() < 0.0);
+    }
+  }
+}
+
+TEST(FeltShape, OfALoopSurfaceIsTheLimitOfTheStretchedControlMesh) {
+  const world::LoopGeometry shape(geometry::ControlMesh{
+      {{{1.0, 0.0, 0.0},
+        {-1.0, 0.0, 0.0},
+        {0.0, 1.0, 0.0},
+        {0.0, -1.0, 0.0},
+        {0.0, 0.0, 1.0},
+        {0.0, 0.0, -1.0}},
+       {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}},
+      {},
+      {}});
+  const auto surface = *geometry::LoopSurface::create(shape.control);
+  base::Random random(5);
+  for (int i = 0; i < 10; ++i)
+    expect_same_inside(
+        shape, [&](const Vector3& p) { return surface->inside(p); }, random_place(random), 6);
+}
+
+TEST(FeltShape, OfAnImplicitSurfaceIsExactUntilItIsStretched) {
+  const auto shape = *world::ImplicitGeometry::create("x^2 + y^2 + z^2 - 1",
+                                                      base::Bounds(Vector3(-2, -2, -2), Vector3(2, 2, 2)));
+  const auto turned_only = felt_place(*shape, world::at(1, 2, 3) * turned(1.0, Vector3::UnitX()));
+  EXPECT_TRUE(make_felt_shape(*shape, turned_only.felt_from_geometry, {})->exact);
+  const Affine3 flat(Eigen::Scaling(1.0, 1.0, 0.5));
+  const auto felt = make_felt_shape(*shape, felt_place(*shape, flat).felt_from_geometry, {});
+  EXPECT_FALSE(felt->exact);
+  EXPECT_NE(felt->remark.find("stretched implicit surface"), std::string::npos);
+  ASSERT_TRUE(felt->mesh);
+  EXPECT_TRUE(felt->closed);
+  for (const Vector3& position : felt->mesh->positions)
+    EXPECT_NEAR((flat.inverse() * position).norm(), 1.0, 4.0 / 2000.0);
+}
+
+TEST(FeltShape, SaysWhatCannotBeTouched) {
+  const Matrix3 one = Matrix3::Identity();
+  const auto expect = [](const FeltShapePointer& felt, const std::string& why) {
+    EXPECT_FALSE(felt->shape);
+    EXPECT_NE(felt->remark.find(why), std::string::npos) << felt->remark;
+  };
+  expect(make_felt_shape(world::MeshGeometry({}), one, {}), "is empty");
+  expect(make_felt_shape(world::CsgGeometry({}), one, {}), "is empty");
+  expect(make_felt_shape(world::LoopGeometry({}), one, {}), "is empty");
+  geometry::TriangleMesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
+  expect(make_felt_shape(world::MeshGeometry(line), one, {}), "no triangle with an area");
+  line.triangles = {{0, 1, 7}};
+  expect(make_felt_shape(world::MeshGeometry(line), one, {}), "damaged");
+  const GeometryPointer box = world::box(1.0);
+  Affine3 endless = Affine3::Identity();
+  endless.linear() *= std::numeric_limits<double>::infinity();
+  expect(make_felt_shape(*box, felt_place(*box, endless).felt_from_geometry, {}), "too far away");
+  // An edge of which three triangles have a part is no surface to subdivide.
+  const geometry::TriangleMesh fin{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
+                                   {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
+  expect(make_felt_shape(world::LoopGeometry({fin, {}, {}}), one, {}), "cannot be touched");
+}
+
+TEST(FeltShape, OfSmoothSurfacesUnderASphereTipIsAMesh) {
+  geometry::CsgTree tree;
+  tree.add_leaf(geometry::Primitive(geometry::Sphere{1.0}));
+  const FeltSettings settings{.tip_radius = 0.01};
+  const auto solid = make_felt_shape(world::CsgGeometry(tree), Matrix3::Identity(), settings);
+  EXPECT_TRUE(solid->mesh);
+  EXPECT_NE(solid->remark.find("the tip has a radius"), std::string::npos);
+  const auto ellipsoid =
+      make_felt_shape(*primitive(geometry::Sphere{1.0}), Vector3(1.0, 2.0, 3.0).asDiagonal(), settings);
+  EXPECT_TRUE(ellipsoid->mesh);
+  EXPECT_TRUE(make_felt_shape(*primitive(geometry::Sphere{1.0}), Matrix3::Identity(), settings)->primitive);
+}
+
+TEST(FeltShape, OfAnOpenMeshIsTouchedFromBothSides) {
+  const auto felt = make_felt_shape(*world::one_triangle(), Matrix3::Identity(), {});
+  EXPECT_FALSE(felt->closed);
+  EXPECT_EQ(felt->remark, "");
+}
+
+}  // namespace
+}  // namespace icome::session
