@@ -1,0 +1,16 @@
+// The world against the figures that are asked for: edits, their journal beside SQLite and beside saving the
+// whole design, opening, memory, and edits of a large mesh. One run, one table.
+#include <CLI/CLI.hpp>
+
+#include "world_figures.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the world and its journal. Takes a minute.");
+  bool is_quick = false;
+  app.add_flag("--quick", is_quick, "A small world: does it work at all?");
+  CLI11_PARSE(app, argc, argv);
+  using namespace icome::benchmarks;
+  const WorldExtent quick{.objects = 2000, .edits = 500, .synced = 20, .group = 10, .grid = 30, .repeats = 2};
+  const WorldExtent extent = is_quick ? quick : WorldExtent{};
+  print_table({edit_figures(extent), journal_figures(extent), file_figures(extent), mesh_figures(extent)});
+}
