@@ -32,8 +32,8 @@ constexpr int kFinestPicture = 5;                   // subdivisions
 std::string in_millimetres(double metres) { return fmt::format("{:.2g} mm", 1e3 * metres); }
 
 void take_mesh(TouchModel& model, geometry::TriangleMesh mesh) {
-  model.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
-  model.tree = std::make_shared<const geometry::TriangleTree>(*model.mesh);
+  model.body().mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+  model.body().tree = std::make_shared<const geometry::TriangleTree>(*model.body().mesh);
 }
 
 geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t primitives = 1) {
@@ -47,11 +47,11 @@ geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t
 /// Makes the mesh what is felt: element by element only point tips know how to touch exact surfaces.
 void touch_mesh(TouchModel& model, const TouchOptions& options, const std::string& deviation) {
   haptics::MeshShapeSettings settings;
-  settings.closed = model.closed;
+  settings.closed = model.body().closed;
   settings.tip_radius = options.radius;
-  model.shape = std::make_shared<const haptics::MeshShape>(model.mesh, settings);
-  model.triangles = model.mesh->triangles.size();
-  model.membership = nullptr;
+  model.body().shape = std::make_shared<const haptics::MeshShape>(model.body().mesh, settings);
+  model.triangles = model.body().mesh->triangles.size();
+  model.body().membership = nullptr;
   model.repairs.push_back(
       fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, deviation));
 }
@@ -78,19 +78,22 @@ base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree tree, const T
   if (contoured->mesh.triangles.empty()) return base::fail(model.name + ": the solid is empty.");
   take_mesh(model, std::move(contoured->mesh));
   const Stopwatch watch;
-  model.membership = [tree](const base::Vector3& point, double) { return geometry::inside(tree, point); };
+  model.body().membership = [tree](const base::Vector3& point, double) {
+    return geometry::inside(tree, point);
+  };
   if (renderer_of(options) == haptics::Renderer::Thesis) {
     if (const auto point = no_sphere_tip(options); !point) return point;
     auto shape = haptics::ThesisCsgShape::create(tree);
     if (!shape) return base::fail(model.name + ": " + shape.error().message);
-    model.shape = *shape;
+    model.body().shape = *shape;
   } else if (options.radius > 0.0) {
     touch_mesh(model, options, fmt::format(", within {}", in_millimetres(contoured->error)));
   } else {
-    model.shape = std::make_shared<haptics::SmoothShape>(std::make_shared<const geometry::CsgSolid>(tree));
+    model.body().shape =
+        std::make_shared<haptics::SmoothShape>(std::make_shared<const geometry::CsgSolid>(tree));
   }
   model.build_seconds = watch.seconds();
-  model.csg = std::move(tree);
+  model.body().csg = std::make_shared<const geometry::CsgTree>(std::move(tree));
   return {};
 }
 
@@ -141,7 +144,7 @@ base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& o
   TouchModel model;
   model.name = text;
   model.kind = "CSG tree";
-  model.exact = true;
+  model.body().exact = true;
   model.repairs = loaded->notes;
   const geometry::CsgCount count = geometry::count(loaded->tree);
   model.repairs.push_back(
@@ -158,15 +161,15 @@ base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& o
 base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& options) {
   if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
   geometry::CsgTree tree;
-  tree.add_leaf(*primitive.primitive);
+  tree.add_leaf(*primitive.body().primitive);
   auto shape = haptics::ThesisCsgShape::create(tree);
   if (!shape) return tl::unexpected(shape.error());
-  primitive.shape = *shape;
+  primitive.body().shape = *shape;
   return primitive;
 }
 
 base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& options) {
-  const geometry::ControlMesh control = control_mesh(*model.mesh, options);
+  const geometry::ControlMesh control = control_mesh(*model.body().mesh, options);
   const Stopwatch watch;
   auto surface = geometry::LoopSurface::create(control);
   if (!surface) return base::fail(model.name + ": " + surface.error().message);
@@ -174,15 +177,15 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
   auto mesh = (*surface)->tessellate(picture_level(control.mesh.triangles.size()));
   if (!mesh) return base::fail(model.name + ": " + mesh.error().message);
   model.kind = "Loop surface, control mesh " + model.kind;
-  model.exact = true;
+  model.body().exact = true;
   model.repairs.push_back(
       fmt::format("control mesh of {} triangles, {} sharp edges", model.triangles, control.creases.size()));
   model.triangles = 0;
-  model.closed = (*surface)->closed();
+  model.body().closed = (*surface)->closed();
   take_mesh(model, std::move(*mesh));
   // Against facets, however fine, a contact on the limit would be judged wrong by what they cut off.
-  if (model.closed) {
-    model.membership = [surface = *surface](const base::Vector3& point, double) {
+  if (model.body().closed) {
+    model.body().membership = [surface = *surface](const base::Vector3& point, double) {
       return surface->inside(point);
     };
   } else if (options.check) {
@@ -194,12 +197,12 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
     if (!levels) return base::fail(model.name + ": " + levels.error().message);
     auto shape = haptics::ThesisLoopShape::create(*levels);
     if (!shape) return base::fail(model.name + ": " + shape.error().message);
-    model.shape = *shape;
+    model.body().shape = *shape;
     model.build_seconds = watch.seconds();
   } else if (options.radius > 0.0) {
     touch_mesh(model, options, "");
   } else {
-    model.shape = std::make_shared<haptics::SmoothShape>(*surface);
+    model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
   }
   return model;
 }
@@ -214,7 +217,7 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
   TouchModel model;
   model.name = *options.implicit;
   model.kind = (*surface)->changes() ? "implicit surface that changes with time" : "implicit surface";
-  model.exact = true;
+  model.body().exact = true;
   model.build_seconds = watch.seconds();
   auto contoured =
       geometry::contour(geometry::sampled(**surface, 0.0), contour_options((*surface)->bounds()));
@@ -228,8 +231,8 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
     touch_mesh(model, options, fmt::format(", within {}", in_millimetres(contoured->error)));
     return model;
   }
-  model.shape = std::make_shared<haptics::SmoothShape>(*surface);
-  model.membership = [surface = *surface](const base::Vector3& point, double time) {
+  model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
+  model.body().membership = [surface = *surface](const base::Vector3& point, double time) {
     return surface->bounds().contains(point) && surface->value(point, time).value < 0.0;
   };
   return model;

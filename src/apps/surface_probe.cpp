@@ -1,7 +1,11 @@
 #include "apps/surface_probe.h"
 
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
+
+#include "geometry/hilbert.h"
 
 namespace icome::apps {
 namespace {
@@ -18,57 +22,95 @@ Vector3 area_vector(const geometry::TriangleMesh& mesh, std::size_t triangle) {
   return (mesh.corner(triangle, 1) - first).cross(mesh.corner(triangle, 2) - first);
 }
 
-ProbedPoint probed(const TouchModel& model, const MeshHit& hit, const Vector3& from) {
-  Vector3 normal = area_vector(*model.mesh, hit.triangle).normalized();
-  if (!model.closed && normal.dot(from - hit.point) < 0.0) normal = -normal;
-  return {hit.point, normal};
-}
+/// What the triangles of a mesh add up to, in its own frame.
+struct AreaSum {
+  Vector3 vector = Vector3::Zero();
+  double area = 0.0;
+
+  AreaSum() = default;
+  explicit AreaSum(const geometry::TriangleMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Vector3 part = area_vector(mesh, i);
+      vector += part;
+      area += part.norm();
+    }
+  }
+};
 
 }  // namespace
 
-SurfaceProbe::SurfaceProbe(const std::vector<TouchModel>& models) : models_(models) {
-  for (const TouchModel& model : models_) bounds_.extend(model.tree->bounds());
+SurfaceProbe::SurfaceProbe(const std::vector<TouchModel>& models) {
+  std::vector<const TouchBody*> bodies;
+  std::vector<Eigen::Vector3f> places;
+  for (const TouchModel& model : models) {
+    for (const TouchBody& body : model.bodies) {
+      const base::Bounds box = apps::bounds(body);
+      if (box.isEmpty()) continue;
+      bodies.push_back(&body);
+      places.emplace_back(box.center().cast<float>());
+      bounds_.extend(box);
+    }
+  }
+  std::vector<geometry::FloatBox> boxes;
+  for (const std::uint32_t index : geometry::hilbert_order(places)) {
+    bodies_.push_back(bodies[index]);
+    boxes.push_back(geometry::float_box(apps::bounds(*bodies[index])));
+  }
+  boxes_ = geometry::BoxTree(boxes);
   find_front();
 }
 
 void SurfaceProbe::find_front() {
-  Vector3 sum = Vector3::Zero();
-  double area = 0.0;
-  for (const TouchModel& model : models_) {
-    if (is_half_space(model)) {
-      front_ = Vector3::UnitZ();
+  AreaSum sum;
+  std::map<const geometry::TriangleMesh*, AreaSum> of_mesh;  // clones share meshes
+  for (const TouchBody* body : bodies_) {
+    if (is_half_space(*body)) {
+      front_ = body->world_from_body.linear() * Vector3::UnitZ();
       return;
     }
-    for (std::size_t i = 0; i < model.mesh->triangles.size(); ++i) {
-      const Vector3 part = area_vector(*model.mesh, i);
-      sum += part;
-      area += part.norm();
-    }
+    const auto [found, fresh] = of_mesh.try_emplace(body->mesh.get());
+    if (fresh) found->second = AreaSum(*body->mesh);
+    sum.vector += body->world_from_body.linear() * found->second.vector;
+    sum.area += found->second.area;
   }
-  if (sum.norm() > kSheet * area) front_ = sum.normalized();
+  if (sum.vector.norm() > kSheet * sum.area) front_ = sum.vector.normalized();
+}
+
+ProbedPoint SurfaceProbe::probed(const TouchBody& body, const MeshHit& hit, const Vector3& from) const {
+  const Vector3 point = body.world_from_body * hit.point;
+  Vector3 normal = body.world_from_body.linear() * area_vector(*body.mesh, hit.triangle).normalized();
+  if (!body.closed && normal.dot(from - point) < 0.0) normal = -normal;
+  return {point, normal};
 }
 
 ProbedPoint SurfaceProbe::look(const Vector3& from, const Vector3& to, const Vector3& near) const {
   std::optional<ProbedPoint> best;
   double first = std::numeric_limits<double>::infinity();
-  for (const TouchModel& model : models_) {
-    const std::optional<MeshHit> hit = model.tree->first_hit(from, to);
-    if (!hit || hit->parameter >= first) continue;
-    first = hit->parameter;
-    best = probed(model, *hit, from);
-  }
+  boxes_.near(geometry::SegmentQuery(from, to, 0.0), [&](std::uint32_t slot) {
+    const TouchBody& body = *bodies_[slot];
+    const base::Pose body_from_world = body.world_from_body.inverse();
+    const std::optional<MeshHit> hit = body.tree->first_hit(body_from_world * from, body_from_world * to);
+    if (hit && hit->parameter < first) {
+      first = hit->parameter;
+      best = probed(body, *hit, from);
+    }
+    return true;
+  });
   return best ? *best : nearest(near, from);
 }
 
 ProbedPoint SurfaceProbe::nearest(const Vector3& point, const Vector3& from) const {
   ProbedPoint best{point, Vector3::UnitZ()};
   double limit = std::numeric_limits<double>::infinity();
-  for (const TouchModel& model : models_) {
-    const std::optional<MeshHit> hit = model.tree->nearest(point, limit);
-    if (!hit || hit->parameter >= limit) continue;
-    limit = hit->parameter;
-    best = probed(model, *hit, from);
-  }
+  boxes_.nearest(point, limit, [&](std::uint32_t slot) {
+    const TouchBody& body = *bodies_[slot];
+    const std::optional<MeshHit> hit = body.tree->nearest(body.world_from_body.inverse() * point, limit);
+    if (hit && hit->parameter < limit) {
+      limit = hit->parameter;
+      best = probed(body, *hit, from);
+    }
+    return limit * limit;
+  });
   return best;
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/touch_models.h"
 #include "base/vector.h"
+#include "geometry/box_tree.h"
 
 namespace icome::apps {
 
@@ -31,8 +32,10 @@ class SurfaceProbe {
 
  private:
   void find_front();
+  ProbedPoint probed(const TouchBody& body, const geometry::MeshHit& hit, const base::Vector3& from) const;
 
-  const std::vector<TouchModel>& models_;
+  std::vector<const TouchBody*> bodies_;  // in spatial order
+  geometry::BoxTree boxes_;               // around them
   base::Bounds bounds_;
   base::Vector3 front_ = base::Vector3::Zero();
 };

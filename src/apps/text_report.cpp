@@ -41,21 +41,29 @@ std::string counted(std::uint64_t count, std::string_view thing) {
   return fmt::format("{} {}{}", grouped(count), thing, count == 1 ? "" : "s");
 }
 
-void add_model(Table& table, const TouchModel& model) {
+std::string extent_of(const TouchModel& model) {
+  if (is_half_space(model.body())) return "unlimited";
+  const base::Vector3 size = bounds(model).sizes();
+  return fmt::format("{} x {} x {}", length_text(size.x()), length_text(size.y()), length_text(size.z()));
+}
+
+const char* sides_of(const TouchBody& body, const TouchOptions& options) {
+  return surface_of(body, options).sides == haptics::TouchableSides::Both ? "both sides" : "the front";
+}
+
+void add_model(Table& table, const TouchModel& model, const TouchOptions& options) {
   table.row("model", model.name);
-  const base::Vector3 size = model.tree->bounds().sizes();
-  const std::string extent = is_half_space(model) ? std::string("unlimited")
-                                                  : fmt::format("{} x {} x {}", length_text(size.x()),
-                                                                length_text(size.y()), length_text(size.z()));
-  const char* const sides = model.sides == haptics::TouchableSides::Both ? "both sides" : "the front";
-  if (model.primitive) {
-    table.row("", fmt::format("{}, {}, touchable from {}", model.kind, extent, sides));
+  const TouchBody& body = model.body();
+  if (body.primitive) {
+    table.row(
+        "", fmt::format("{}, {}, touchable from {}", model.kind, extent_of(model), sides_of(body, options)));
     return;
   }
   const std::string triangles =
       model.triangles > 0 ? fmt::format("{} triangles", grouped(model.triangles)) : "touched without a mesh";
-  table.row("", fmt::format("{}, {}, {}", model.kind, triangles, extent));
-  table.row("", fmt::format("{}, touchable from {}", model.closed ? "closed" : "open", sides));
+  table.row("", fmt::format("{}, {}, {}", model.kind, triangles, extent_of(model)));
+  table.row("",
+            fmt::format("{}, touchable from {}", body.closed ? "closed" : "open", sides_of(body, options)));
   for (const std::string& sentence : model.repairs) table.row("", sentence);
   table.row("", fmt::format("read in {}", seconds_text(model.read_seconds)));
 }
@@ -116,7 +124,7 @@ std::string length_text(double metres) {
 std::string text_report(const TouchFigures& figures, const std::vector<TouchModel>& models,
                         const RunOutcome& outcome, const TouchOptions& options) {
   Table table;
-  for (const TouchModel& model : models) add_model(table, model);
+  for (const TouchModel& model : models) add_model(table, model, options);
   add_run(table, figures, outcome, options);
   table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
   table.row("force", fmt::format("at most {:.3g} N", figures.max_force));

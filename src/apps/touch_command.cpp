@@ -71,24 +71,32 @@ base::Result<void> load(const TouchOptions& options, StatusLine& status, Prepare
   return {};
 }
 
+haptics::JudgedObject judged(const TouchBody& body, const haptics::Surface& surface) {
+  haptics::JudgedObject object;
+  object.world_from_object = body.world_from_body;
+  if (body.primitive) {
+    object.surface = *body.primitive;
+  } else if (body.membership) {
+    object.surface = haptics::MembershipSolid{body.membership, body.tree->bounds()};
+  } else {
+    object.surface = body.mesh;
+  }
+  object.closed = body.closed;
+  object.two_sided = surface.sides == haptics::TouchableSides::Both;
+  return object;
+}
+
 haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const TouchOptions& options) {
   std::vector<haptics::JudgedObject> objects;
-  for (const TouchModel& model : models) {
-    haptics::JudgedObject object;
-    if (model.primitive) {
-      object.surface = *model.primitive;
-    } else if (model.membership) {
-      object.surface = haptics::MembershipSolid{model.membership, model.tree->bounds()};
-    } else {
-      object.surface = model.mesh;
-    }
-    object.closed = model.closed;
-    object.two_sided = model.sides == haptics::TouchableSides::Both;
-    objects.push_back(std::move(object));
-  }
   haptics::JudgeSettings settings;
   settings.tip_radius = options.radius;
-  settings.static_friction = options.static_friction;
+  for (const TouchModel& model : models) {
+    for (const TouchBody& body : model.bodies) {
+      const haptics::Surface surface = surface_of(body, options);
+      settings.static_friction = std::max(settings.static_friction, surface.static_friction);
+      objects.push_back(judged(body, surface));
+    }
+  }
   return {objects, settings};
 }
 
@@ -131,20 +139,27 @@ base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, To
   return explore(exploration, prepared.device, prepared.scene, options, diary, status);
 }
 
+void add_to(render::TouchPicture& picture, const TouchBody& body, const std::string& name) {
+  if (body.csg) {
+    render::TouchSolid solid{.tree = *body.csg, .name = name, .world_from_tree = body.world_from_body};
+    if (body.colour) solid.colour = *body.colour;
+    solid.mesh = [&body] { return base::Result<geometry::TriangleMesh>(*body.mesh); };
+    picture.solids.push_back(std::move(solid));
+    return;
+  }
+  render::StudioBody drawn{*body.mesh, body.world_from_body};
+  if (body.colour) drawn.colour = *body.colour;
+  picture.bodies.push_back(drawn);
+}
+
 base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
                         const TouchOptions& options) {
   render::TouchPicture picture;
   for (const TouchModel& model : prepared.models) {
     const std::string name =
-        model.primitive ? model.name : std::filesystem::path(model.name).filename().string();
+        model.body().primitive ? model.name : std::filesystem::path(model.name).filename().string();
     picture.title += (picture.title.empty() ? "" : ", ") + name;
-    if (model.csg) {
-      picture.solids.push_back({.tree = *model.csg, .name = name, .mesh = [&model] {
-                                  return base::Result<geometry::TriangleMesh>(*model.mesh);
-                                }});
-    } else {
-      picture.bodies.push_back({*model.mesh});
-    }
+    for (const TouchBody& body : model.bodies) add_to(picture, body, name);
   }
   if (figures.triangles > 0) picture.notes.push_back(grouped(figures.triangles) + " triangles");
   picture.notes.push_back(fmt::format("tick {:.2g} us median, {:.2g} us worst in 1,000",
@@ -159,8 +174,8 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
 void tell_odd_size(const TouchModel& model) {
   constexpr double kSmallest = 0.001;  // m
   constexpr double kLargest = 10.0;    // m
-  const double size = model.tree->bounds().sizes().maxCoeff();
-  if (model.primitive || (size >= kSmallest && size <= kLargest)) return;
+  const double size = bounds(model).sizes().maxCoeff();
+  if (model.body().primitive || (size >= kSmallest && size <= kLargest)) return;
   tell(fmt::format("{} is {} large: --unit or --fit give it another size.", model.name, length_text(size)));
 }
 

@@ -64,13 +64,13 @@ base::Result<TouchModel> load_primitive(const std::string& text, const TouchOpti
     *primitive = std::visit(Scaled(*options.fit / longest), *primitive);
   }
   model.kind = "primitive";
-  model.primitive = *primitive;
+  model.body().primitive = *primitive;
   const double size = unlimited ? 1.0 : geometry::bounds(*primitive).sizes().maxCoeff();
-  model.mesh = std::make_shared<const geometry::TriangleMesh>(
+  model.body().mesh = std::make_shared<const geometry::TriangleMesh>(
       geometry::tessellate(*primitive, kPictureTolerance * size));
-  model.tree = std::make_shared<const geometry::TriangleTree>(*model.mesh);
+  model.body().tree = std::make_shared<const geometry::TriangleTree>(*model.body().mesh);
   const Stopwatch watch;
-  model.shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
+  model.body().shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
   model.build_seconds = watch.seconds();
   return model;
 }
@@ -88,18 +88,19 @@ base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& 
   model.kind = loaded->format;
   model.repairs = loaded->sentences();
   model.triangles = loaded->mesh.triangles.size();
-  model.closed = loaded->repair.surface.closed;
+  model.body().closed = loaded->repair.surface.closed;
   model.read_seconds = loaded->read_seconds + loaded->repair_seconds;
-  model.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
+  model.body().mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
   const Stopwatch watch;
   haptics::MeshShapeSettings settings;
-  settings.closed = model.closed;
+  settings.closed = model.body().closed;
   settings.interpolate_normals = options.smooth_shading;
   settings.tip_radius = options.radius;
-  const auto shape = std::make_shared<const haptics::MeshShape>(model.mesh, settings);
+  const auto shape = std::make_shared<const haptics::MeshShape>(model.body().mesh, settings);
   model.build_seconds = watch.seconds();
-  model.tree = std::shared_ptr<const geometry::TriangleTree>(shape, &shape->tree());  // lives in the shape
-  model.shape = shape;
+  model.body().tree =
+      std::shared_ptr<const geometry::TriangleTree>(shape, &shape->tree());  // lives in the shape
+  model.body().shape = shape;
   return model;
 }
 
@@ -121,8 +122,6 @@ base::Result<TouchModel> load_model(const std::string& text, const TouchOptions&
       return base::fail(text +
                         ": --renderer thesis touches CSG trees, and meshes with --subdivide thesis:LEVEL.");
   }
-  if (!model) return model;
-  model->sides = options.sides.value_or(model->closed ? TouchableSides::Front : TouchableSides::Both);
   return model;
 }
 
@@ -139,29 +138,51 @@ base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
     say("Looking for the surface of " + *options.implicit);
     auto model = load_implicit(options);
     if (!model) return tl::unexpected(model.error());
-    model->sides = options.sides.value_or(TouchableSides::Front);
     models.push_back(std::move(*model));
   }
   return models;
 }
 
-bool is_half_space(const TouchModel& model) {
-  return model.primitive && std::holds_alternative<geometry::Plane>(*model.primitive);
+base::Bounds bounds(const TouchBody& body) {
+  const base::Bounds own = body.tree->bounds();
+  if (own.isEmpty() || body.world_from_body.matrix().isIdentity(0.0)) return own;
+  return own.transformed(body.world_from_body);
+}
+
+base::Bounds bounds(const TouchModel& model) {
+  base::Bounds result;
+  for (const TouchBody& body : model.bodies) result.extend(bounds(body));
+  return result;
+}
+
+bool is_half_space(const TouchBody& body) {
+  return body.primitive && std::holds_alternative<geometry::Plane>(*body.primitive);
+}
+
+haptics::Surface surface_of(const TouchBody& body, const TouchOptions& options) {
+  haptics::Surface surface = body.surface;
+  surface.stiffness = options.stiffness.value_or(surface.stiffness);
+  if (options.friction) {
+    surface.static_friction = options.friction->at_rest;
+    surface.dynamic_friction = options.friction->sliding;
+  }
+  surface.sides = options.sides.value_or(body.closed ? TouchableSides::Front : TouchableSides::Both);
+  return surface;
 }
 
 std::shared_ptr<const haptics::HapticScene> compile_scene(const std::vector<TouchModel>& models,
                                                           const TouchOptions& options) {
   std::vector<haptics::HapticObject> objects;
-  objects.reserve(models.size());
-  for (const TouchModel& model : models) {
-    haptics::HapticObject object;
-    object.id = {static_cast<std::uint32_t>(objects.size()), 1};
-    object.shape = model.shape;
-    object.surface.stiffness = options.stiffness;
-    object.surface.static_friction = options.static_friction;
-    object.surface.dynamic_friction = options.dynamic_friction;
-    object.surface.sides = model.sides;
-    objects.push_back(std::move(object));
+  for (std::uint32_t index = 0; index < models.size(); ++index) {
+    std::uint32_t number = 0;
+    for (const TouchBody& body : models[index].bodies) {
+      haptics::HapticObject object;
+      object.id = {index, ++number};
+      object.shape = body.shape;
+      object.world_from_object = body.world_from_body;
+      object.surface = surface_of(body, options);
+      objects.push_back(std::move(object));
+    }
   }
   return haptics::HapticScene::compile(std::move(objects));
 }

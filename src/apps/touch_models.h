@@ -12,27 +12,38 @@
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
 #include "haptics/haptic_scene.h"
+#include "render/colour.h"
 
 namespace icome::apps {
 
-/// One MODEL of the command line, ready to be touched.
-struct TouchModel {
-  std::string name;                                    // as the person wrote it
-  std::string kind;                                    // "binary PLY", "primitive" and so on
-  std::shared_ptr<const geometry::TriangleMesh> mesh;  // never null; of a primitive, its tessellation
+/// A body that is touched: a MODEL is one, or a design of many. What bodies share, clones share.
+struct TouchBody {
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  // never null; for the eye, where `exact`
   std::shared_ptr<const geometry::TriangleTree> tree;  // never null; over `mesh`
   std::shared_ptr<const haptics::Shape> shape;         // never null
-  std::optional<geometry::Primitive> primitive;        // what a primitive is; none for a file
-  std::optional<geometry::CsgTree> csg;                // what a .csg file holds, in the world
+  base::Pose world_from_body = base::Pose::Identity();
+  std::optional<geometry::Primitive> primitive = {};       // what a primitive is
+  std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
   /// Is the point inside at that time (s)? Of solids that are touched without a mesh; else empty.
-  std::function<bool(const base::Vector3& point, double time)> membership;
-  bool exact = false;         // touched as what it is; `mesh` is for the eye
-  std::size_t triangles = 0;  // that are touched
+  std::function<bool(const base::Vector3& point, double time)> membership = {};
+  bool exact = false;  // touched as what it is, without a mesh; primitives are, too
   bool closed = true;
-  haptics::TouchableSides sides = haptics::TouchableSides::Front;
-  std::vector<std::string> repairs;  // what the reader did and found, one sentence each
-  double read_seconds = 0.0;         // s, reading and repairing
-  double build_seconds = 0.0;        // s, building what the servo touches
+  haptics::Surface surface = {};              // what the model itself says; the options come before it
+  std::optional<render::Colour> colour = {};  // none: the picture's own
+};
+
+/// One MODEL of the command line, ready to be touched.
+struct TouchModel {
+  std::string name;                                           // as the person wrote it
+  std::string kind;                                           // "binary PLY", "primitive" and so on
+  std::vector<TouchBody> bodies = std::vector<TouchBody>(1);  // never empty; of all but designs, one
+  std::size_t triangles = 0;                                  // that are touched
+  std::vector<std::string> repairs = {};  // what the reader did and found, one sentence each
+  double read_seconds = 0.0;              // s, reading and repairing
+  double build_seconds = 0.0;             // s, building what the servo touches
+
+  TouchBody& body() { return bodies.front(); }
+  const TouchBody& body() const { return bodies.front(); }
 };
 
 /// Reads one MODEL: what has a primitive's keyword before a colon, or is "plane", is a primitive,
@@ -45,10 +56,17 @@ base::Result<TouchModel> load_model(const std::string& text, const TouchOptions&
 base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
                                                   const std::function<void(const std::string&)>& say);
 
-/// Is the model the unlimited plane, solid below z = 0?
-bool is_half_space(const TouchModel& model);
+/// Around what the eye sees of it, world frame.
+base::Bounds bounds(const TouchBody& body);
+base::Bounds bounds(const TouchModel& model);
 
-/// The scene of all models; object i is model i.
+/// Is the body the unlimited plane, solid below the z = 0 of its own frame?
+bool is_half_space(const TouchBody& body);
+
+/// How the body feels: as its model says where the options say nothing else.
+haptics::Surface surface_of(const TouchBody& body, const TouchOptions& options);
+
+/// The scene of all models. Bodies of model i have the index i in their ids, and differ in the generation.
 std::shared_ptr<const haptics::HapticScene> compile_scene(const std::vector<TouchModel>& models,
                                                           const TouchOptions& options);
 

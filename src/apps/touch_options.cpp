@@ -91,23 +91,24 @@ base::Result<void> check(const TouchOptions& options) {
     double value, least, most;
     const char* unit;
   };
+  const Friction friction = options.friction.value_or(Friction{});
   for (const Range& range : {Range{"--fit", options.fit.value_or(1.0), 1e-6, 1e6, "m"},
                              Range{"--crease", options.crease_degrees.value_or(0.0), 0.0, 180.0, "degrees"},
                              Range{"--rate", options.rate_hz, 500.0, 10000.0, "Hz"},
                              Range{"--seconds", options.seconds.value_or(1.0), 0.01, kLongestRun, "s"},
                              Range{"--radius", options.radius, 0.0, kLargestRadius, "m"},
-                             Range{"--stiffness", options.stiffness, 0.0, 1e6, "N/m"},
-                             Range{"--friction", options.static_friction, 0.0, 10.0, "(no unit)"},
-                             Range{"--friction", options.dynamic_friction, 0.0, 10.0, "(no unit)"}}) {
+                             Range{"--stiffness", options.stiffness.value_or(0.0), 0.0, 1e6, "N/m"},
+                             Range{"--friction", friction.at_rest, 0.0, 10.0, "(no unit)"},
+                             Range{"--friction", friction.sliding, 0.0, 10.0, "(no unit)"}}) {
     const auto checked = check_range(range.option, range.value, range.least, range.most, range.unit);
     if (!checked) return checked;
   }
   if (const auto checked = check_exact(options); !checked) return checked;
-  if (options.dynamic_friction > options.static_friction) {
+  if (friction.sliding > friction.at_rest) {
     return base::fail(
         fmt::format("--friction {},{}: the first, static coefficient must not be below the second, "
                     "dynamic one.",
-                    options.static_friction, options.dynamic_friction));
+                    friction.at_rest, friction.sliding));
   }
   if (options.trace && options.trace == options.path) {
     return base::fail("--path and --trace name the same file: the trace would replace the path.");
@@ -123,7 +124,11 @@ base::Result<void> parse_friction(const std::string& text, TouchOptions& options
   const std::size_t comma = whole.find(',');
   const std::string_view first = whole.substr(0, comma);
   const std::string_view second = comma == std::string_view::npos ? first : whole.substr(comma + 1);
-  if (read_number(first, options.static_friction) && read_number(second, options.dynamic_friction)) return {};
+  Friction friction;
+  if (read_number(first, friction.at_rest) && read_number(second, friction.sliding)) {
+    options.friction = friction;
+    return {};
+  }
   return base::fail(
       fmt::format("--friction \"{}\" is not two numbers: give static,dynamic such as 0.4,0.3.", text));
 }

@@ -17,6 +17,12 @@ struct Subdivision {
   int level = 0;
 };
 
+/// Coulomb coefficients: at_rest >= sliding >= 0.
+struct Friction {
+  double at_rest = 0.0;
+  double sliding = 0.0;
+};
+
 /// What a person asked `icome touch` for, as the command line says it. SI units.
 struct TouchOptions {
   std::vector<std::string> models;            // files or primitives; at least one, if there is no --implicit
@@ -35,11 +41,10 @@ struct TouchOptions {
   std::optional<std::filesystem::path> path;  // tip positions to replay
   double radius = 0.0;                        // m, of the tip; 0 is a point
 
-  std::optional<haptics::TouchableSides> sides;  // none: front of closed models, both of open ones
-  double stiffness = 0.0;                        // N/m; 0: the device's nominal stiffness
-  double static_friction = 0.0;                  // Coulomb coefficients, static >= dynamic
-  double dynamic_friction = 0.0;
-  bool smooth_shading = false;  // feel normals interpolated over the facets
+  std::optional<haptics::TouchableSides> sides;  // none: front of closed bodies, both of open ones
+  std::optional<double> stiffness;   // N/m; 0: the device's nominal stiffness; none: the models' own
+  std::optional<Friction> friction;  // none: the models' own
+  bool smooth_shading = false;       // feel normals interpolated over the facets
 
   bool check = false;
   bool json = false;
