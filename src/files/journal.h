@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "files/design.h"
@@ -25,6 +26,9 @@ struct JournalReport {
   std::vector<Remark> damage = {};  // what is wrong and what was done about it; none for a whole journal
 };
 
+/// Called now and then with the part that is done, in [0, 1]; false stops.
+using JournalProgress = std::function<bool(double part)>;
+
 struct ReadJournal {
   world::World world;
   JournalReport report;
@@ -32,9 +36,11 @@ struct ReadJournal {
 
 /// Reads a journal and changes nothing on disk; the world is that before the first damage. Whatever the
 /// bytes are, memory stays in proportion to their number. Fails for what is no journal, for one that a newer
-/// version wrote, and where the disk fails. One that another program works with can be read.
+/// version wrote, where the disk fails, and when it is stopped. One that another program works with can be
+/// read.
 base::Result<ReadJournal> read_journal(const std::filesystem::path& path,
-                                       const world::GeometryFactory& factory);
+                                       const world::GeometryFactory& factory,
+                                       const JournalProgress& progress = {});
 
 /// Writes a world as a fresh journal in place of what was there, which stays if not all can be written: a
 /// shape may be of a kind that cannot. Fails while somebody works with the journal.

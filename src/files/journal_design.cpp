@@ -14,7 +14,7 @@ base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path
     return base::fail(
         fmt::format("{}: is larger than the limit of {} MB.", path.string(), options.size_limit >> 20U));
   }
-  auto journal = read_journal(path, world::GeometryFactory());
+  auto journal = read_journal(path, world::GeometryFactory(), options.progress);
   if (!journal) return tl::unexpected(journal.error());
   return LoadedDesign{std::move(journal->world), "ICOME journal", std::move(journal->report.damage)};
 }

@@ -8,8 +8,8 @@ namespace {
 /// Replays records until the end or the first that cannot be.
 class JournalReplay {
  public:
-  JournalReplay(JournalReader& reader, const world::GeometryFactory& factory)
-      : reader_(reader), factory_(factory) {}
+  JournalReplay(JournalReader& reader, const world::GeometryFactory& factory, const JournalProgress& progress)
+      : reader_(reader), factory_(factory), progress_(progress) {}
 
   base::Result<ReplayedJournal> run() {
     if (!reader_.header_is_good()) result_.fault = JournalFault::Header;
@@ -19,6 +19,7 @@ class JournalReplay {
       const auto record = reader_.next();
       if (!record) return tl::unexpected(record.error());
       more = *record && take(**record);
+      if (!go_on()) return base::fail("interrupted");
     }
     const auto judged = judge_end();
     if (!judged) return tl::unexpected(judged.error());
@@ -26,6 +27,13 @@ class JournalReplay {
   }
 
  private:
+  bool go_on() {
+    constexpr std::uint64_t kPiece = 1U << 20U;  // bytes between two calls
+    if (!progress_ || reader_.position() < told_ + kPiece) return true;
+    told_ = reader_.position();
+    return progress_(double(told_) / double(reader_.size()));
+  }
+
   /// Gives false for what cannot be replayed.
   bool take(const JournalReader::Record& record) {
     const bool in_snapshot = record.kind != JournalKind::Edit;
@@ -110,6 +118,8 @@ class JournalReplay {
 
   JournalReader& reader_;
   const world::GeometryFactory& factory_;
+  const JournalProgress& progress_;
+  std::uint64_t told_ = 0;  // how far progress was told, bytes
   ReplayedJournal result_;
   bool has_snapshot_ = false;
   std::string why_;
@@ -117,10 +127,11 @@ class JournalReplay {
 
 }  // namespace
 
-base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory) {
+base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory,
+                                             const JournalProgress& progress) {
   auto reader = JournalReader::create(file);
   if (!reader) return tl::unexpected(reader.error());
-  return JournalReplay(*reader, factory).run();
+  return JournalReplay(*reader, factory, progress).run();
 }
 
 }  // namespace icome::files

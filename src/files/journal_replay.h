@@ -24,6 +24,7 @@ struct ReplayedJournal {
 };
 
 /// Makes the world of a journal.
-base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory);
+base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory,
+                                             const JournalProgress& progress = {});
 
 }  // namespace icome::files

@@ -35,7 +35,9 @@ base::Result<void> begin_journal(const OpenFile& file) {
   std::string bytes = journal_header();
   add_journal_record(JournalKind::SnapshotEnd, 0, {}, bytes);
   if (const auto written = file.write(0, bytes); !written) return written;
-  return file.sync();
+  const auto synced = file.sync();
+  sync_folder_of(file.path());
+  return synced;
 }
 
 /// Compaction writes a whole file beside the journal, which is left there when the program is killed. Whoever

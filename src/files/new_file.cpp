@@ -1,6 +1,5 @@
 #include "files/new_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,20 +8,13 @@
 #include <system_error>
 #include <utility>
 
+#include "files/open_file.h"
+
 namespace icome::files {
 namespace {
 
 tl::unexpected<base::Error> cannot_write(const std::filesystem::path& path, const char* why) {
   return base::fail(fmt::format("{}: cannot be written ({}).", path.string(), why));
-}
-
-/// Brings the file's name to the disk. Not every file system can, and the file is whole in any case.
-void sync_folder_of(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)::fsync(descriptor);
-  ::close(descriptor);
 }
 
 }  // namespace

@@ -54,4 +54,8 @@ class OpenFile {
   int descriptor_ = -1;  // below zero once moved from
 };
 
+/// Brings the name of a file that is new to the disk. Not every file system can, and the file is whole in any
+/// case.
+void sync_folder_of(const std::filesystem::path& path);
+
 }  // namespace icome::files

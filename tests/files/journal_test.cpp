@@ -129,6 +129,27 @@ TEST(Journal, WithAnyByteDamagedGivesAllEditsBeforeThat) {
   }
 }
 
+TEST(Journal, TellsHowFarItIsAndCanBeStopped) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "design.icome";
+  World world;
+  for (std::uint64_t id = 1; id < 9; ++id) {
+    const auto picture = std::make_shared<std::string>(std::string(1000000, 'x'));
+    world::applied(world, world::CreateTexture{{id}, {"picture", "image/png", picture}});
+  }
+  ASSERT_TRUE(write_journal(path, world));
+  std::vector<double> parts;
+  const auto note = [&](double part) {
+    parts.push_back(part);
+    return parts.size() < 10;
+  };
+  ASSERT_TRUE(read_journal(path, factory(), note));
+  EXPECT_GT(parts.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+  EXPECT_LE(parts.back(), 1.0);
+  EXPECT_FALSE(read_journal(path, factory(), [](double) { return false; }));
+}
+
 TEST(Journal, TellsWhatIsNone) {
   const ScratchFolder folder;
   expect_no_journal(folder.write("empty.icome", ""), "is empty");
