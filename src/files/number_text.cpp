@@ -1,6 +1,8 @@
 #include "files/number_text.h"
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
 namespace icome::files {
 namespace {
@@ -18,5 +20,10 @@ void append_shortest(std::string& text, Number number) {
 void append_number(std::string& text, double number) { append_shortest(text, number); }
 void append_number(std::string& text, float number) { append_shortest(text, number); }
 void append_number(std::string& text, std::uint32_t number) { append_shortest(text, number); }
+
+float to_single(double number) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return float(std::clamp(number, -kMost, kMost));
+}
 
 }  // namespace icome::files

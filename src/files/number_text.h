@@ -10,4 +10,7 @@ void append_number(std::string& text, double number);
 void append_number(std::string& text, float number);
 void append_number(std::string& text, std::uint32_t number);
 
+/// In single precision; what is beyond it becomes the largest number there is.
+float to_single(double number);
+
 }  // namespace icome::files

@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "base/vector.h"
+
+namespace icome::files {
+
+/// An axis and an angle (rad) as VRML 2.0 keeps them.
+struct VrmlTurn {
+  Eigen::Vector3f axis = Eigen::Vector3f::UnitZ();
+  float angle = 0.0F;
+
+  bool operator==(const VrmlTurn&) const = default;
+};
+
+/// The fields of a Transform node: what is in it is stretched along the axes of `scale_orientation`, then
+/// turned, then moved (VRML 2.0, 6.52).
+struct VrmlFrame {
+  Eigen::Vector3f translation = Eigen::Vector3f::Zero();
+  VrmlTurn rotation = {};
+  Eigen::Vector3f scale = Eigen::Vector3f::Ones();
+  VrmlTurn scale_orientation = {};
+
+  bool operator==(const VrmlFrame&) const = default;
+};
+
+/// The fields that say where an object is, within single precision of its largest axis; for any affine
+/// transform that does not flatten. Those of what they say are the same again, to the last bit.
+VrmlFrame vrml_frame(const base::Affine3& parent_from_object);
+
+/// What the fields say, by the decimals that they are written as.
+base::Affine3 affine(const VrmlFrame& frame);
+
+}  // namespace icome::files

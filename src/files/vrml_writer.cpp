@@ -1,0 +1,297 @@
+#include "files/vrml_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "files/vrml_frame.h"
+#include "files/vrml_looks.h"
+#include "files/vrml_names.h"
+#include "files/vrml_protos.h"
+#include "files/vrml_shapes.h"
+#include "files/vrml_text.h"
+
+namespace icome::files {
+namespace {
+
+using base::Result;
+using world::GeometryId;
+using world::Light;
+using world::MaterialId;
+using world::ObjectId;
+using world::PhysicalObject;
+using world::World;
+
+template <typename Named>
+std::vector<world::Id<Named>> in_order(const World::Table<Named>& table) {
+  std::vector<world::Id<Named>> ids;
+  for (const auto& [id, named] : table) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// Parents before children, in the order that people see.
+std::vector<ObjectId> all_objects(const World& world) {
+  std::vector<ObjectId> order;
+  std::vector<ObjectId> waiting(world.roots().rbegin(), world.roots().rend());
+  while (!waiting.empty()) {
+    order.push_back(waiting.back());
+    waiting.pop_back();
+    const std::vector<ObjectId>& children = world.find(order.back())->children;
+    waiting.insert(waiting.end(), children.rbegin(), children.rend());
+  }
+  return order;
+}
+
+}  // namespace
+
+/// Writes one world into one file.
+class VrmlWriter {
+ public:
+  VrmlWriter(const std::filesystem::path& path, const World& world, NewFile& file)
+      : world_(world),
+        text_(file),
+        looks_(path, world, names_, text_, remarks_),
+        shapes_(text_, remarks_),
+        objects_(all_objects(world)) {}
+
+  Result<std::vector<Remark>> write() {
+    give_names();
+    text_.add("#VRML V2.0 utf8\n");
+    write_protos();
+    if (const auto written = write_objects(); !written) return tl::unexpected(written.error());
+    write_scenes();
+    text_.finish();
+    tell_what_is_left();
+    return std::move(remarks_);
+  }
+
+ private:
+  struct Open {
+    ObjectId id;
+    std::size_t next_child = 0;
+    bool has_children = false;  // is there a field of them?
+  };
+
+  void give_names();
+  void name_shapes();
+  void write_protos();
+  Result<void> write_objects();
+  Result<Open> open(ObjectId id);
+  void close(const Open& object);
+  void write_frame(const base::Affine3& frame);
+  Result<void> write_shape(const PhysicalObject& object);
+  void write_fixture(const PhysicalObject& object);
+  void write_light(const Light& light);
+  void write_scenes();
+  void tell_what_is_left();
+
+  std::string name_of(ObjectId id) const {
+    const auto found = object_names_.find(id);
+    return found == object_names_.end() ? "" : found->second;
+  }
+  /// Is its real name told beside its DEF name?
+  bool has_title(ObjectId id) const { return name_of(id) != world_.find(id)->name; }
+
+  const World& world_;
+  std::vector<Remark> remarks_;
+  VrmlNames names_;
+  VrmlText text_;
+  VrmlLooks looks_;
+  VrmlShapes shapes_;
+  std::vector<ObjectId> objects_;
+  std::unordered_map<ObjectId, std::string> object_names_;      // DEF names, of those that have one
+  std::unordered_map<GeometryId, std::string> geometry_names_;  // of those that are used again
+  std::unordered_set<GeometryId> written_;
+};
+
+void VrmlWriter::give_names() {
+  std::unordered_set<ObjectId> need_one;
+  for (const auto& [id, scene] : world_.scenes()) need_one.insert(scene.roots.begin(), scene.roots.end());
+  // Those that can be called what they are called come first.
+  for (const ObjectId id : objects_) {
+    const std::string& name = world_.find(id)->name;
+    if (names_.take(name)) object_names_[id] = name;
+  }
+  for (const ObjectId id : objects_) {
+    const std::string& name = world_.find(id)->name;
+    if (object_names_.contains(id) || (name.empty() && !need_one.contains(id))) continue;
+    object_names_[id] = names_.take_like(name.empty() ? "object" : name);
+  }
+  std::vector<MaterialId> materials;
+  std::unordered_set<MaterialId> seen;
+  for (const ObjectId id : objects_) {
+    const MaterialId material = world_.find(id)->material;
+    if (material && seen.insert(material).second) materials.push_back(material);
+  }
+  looks_.name(materials);
+  name_shapes();
+}
+
+void VrmlWriter::name_shapes() {
+  for (const ObjectId id : objects_) {
+    const GeometryId geometry = world_.find(id)->geometry;
+    if (!geometry || world_.find(geometry)->users < 2 || geometry_names_.contains(geometry)) continue;
+    const std::string& owner = world_.find(id)->name;
+    geometry_names_[geometry] = names_.take_like(owner.empty() ? "shape" : owner + "_shape");
+  }
+}
+
+void VrmlWriter::write_protos() {
+  std::set<const VrmlProto*> used;
+  for (const auto& [id, geometry] : world_.geometries()) {
+    if (geometry.users > 0) used.insert(VrmlShapes::proto_of(*geometry.shape));
+  }
+  if (looks_.need_proto()) used.insert(&kMaterialProto);
+  if (!world_.scenes().empty()) used.insert(&kSceneProto);
+  for (const VrmlProto* proto :
+       {&kMaterialProto, &kPrimitiveProto, &kCsgProto, &kLoopProto, &kImplicitProto, &kSceneProto}) {
+    if (used.contains(proto)) text_.add(proto->text);
+  }
+}
+
+Result<void> VrmlWriter::write_objects() {
+  std::vector<Open> open_objects;
+  for (const ObjectId root : world_.roots()) {
+    auto opened = open(root);
+    if (!opened) return tl::unexpected(opened.error());
+    open_objects.push_back(*opened);
+    while (!open_objects.empty()) {
+      Open& object = open_objects.back();
+      const std::vector<ObjectId>& children = world_.find(object.id)->children;
+      if (object.next_child == children.size()) {
+        close(object);
+        open_objects.pop_back();
+        continue;
+      }
+      auto child = open(children[object.next_child++]);
+      if (!child) return tl::unexpected(child.error());
+      open_objects.push_back(*child);
+    }
+  }
+  return {};
+}
+
+Result<VrmlWriter::Open> VrmlWriter::open(ObjectId id) {
+  const PhysicalObject& object = *world_.find(id);
+  const std::string name = name_of(id);
+  text_.open(name.empty() ? "Transform" : fmt::format("DEF {} Transform", name));
+  write_frame(object.parent_from_object);
+  const bool has_shape = object.geometry || object.material;
+  const Open result{id, 0, has_title(id) || has_shape || object.fixture || !object.children.empty()};
+  if (!result.has_children) return result;
+  text_.open_list("children");
+  if (has_title(id)) {
+    text_.open("WorldInfo");
+    text_.text_field("title", object.name);
+    text_.close();
+  }
+  if (has_shape) {
+    if (const auto written = write_shape(object); !written) return tl::unexpected(written.error());
+  }
+  if (object.fixture) write_fixture(object);
+  return result;
+}
+
+void VrmlWriter::close(const Open& object) {
+  if (object.has_children) text_.close_list();
+  text_.close();
+}
+
+void VrmlWriter::write_frame(const base::Affine3& frame) {
+  const VrmlFrame fields = vrml_frame(frame);
+  const auto turn = [&](const char* name, const VrmlTurn& it) {
+    if (it.angle == 0.0F) return;
+    text_.field(name, std::array{it.axis.x(), it.axis.y(), it.axis.z(), it.angle});
+  };
+  if (!fields.translation.isZero(0.0F)) text_.field("translation", std::span(fields.translation.data(), 3));
+  turn("rotation", fields.rotation);
+  if (fields.scale != Eigen::Vector3f::Ones()) text_.field("scale", std::span(fields.scale.data(), 3));
+  turn("scaleOrientation", fields.scale_orientation);
+}
+
+Result<void> VrmlWriter::write_shape(const PhysicalObject& object) {
+  text_.open("Shape");
+  if (const auto written = looks_.write(object.material); !written) return written;
+  if (object.geometry) {
+    const auto name = geometry_names_.find(object.geometry);
+    const bool again = name != geometry_names_.end() && !written_.insert(object.geometry).second;
+    if (again)
+      text_.add("geometry USE " + name->second);
+    else
+      shapes_.write(*world_.find(object.geometry)->shape, name == geometry_names_.end() ? "" : name->second,
+                    object.name.empty() ? "an object without a name" : fmt::format("\"{}\"", object.name));
+  }
+  text_.close();
+  return {};
+}
+
+void VrmlWriter::write_fixture(const PhysicalObject& object) {
+  if (const auto* light = std::get_if<Light>(&*object.fixture)) return write_light(*light);
+  if (const auto* view = std::get_if<world::Viewpoint>(&*object.fixture)) {
+    const world::Viewpoint usual;
+    text_.open("Viewpoint");
+    text_.field("position", base::Vector3(base::Vector3::Zero()));
+    if (!(*view == usual)) text_.field("fieldOfView", view->field_of_view);
+    if (!object.name.empty()) text_.text_field("description", object.name);
+    return text_.close();
+  }
+  text_.add(std::get<world::Inert>(*object.fixture).source);
+}
+
+void VrmlWriter::write_light(const Light& light) {
+  const Light usual;
+  const bool directional = light.kind == Light::Kind::Directional;
+  const bool spot = light.kind == Light::Kind::Spot;
+  text_.open(directional ? "DirectionalLight" : spot ? "SpotLight" : "PointLight");
+  if (!light.on) text_.field("on", false);
+  if (light.colour != usual.colour) text_.field("color", light.colour);
+  if (light.intensity != usual.intensity) text_.field("intensity", light.intensity);
+  if (light.ambient != usual.ambient) text_.field("ambientIntensity", light.ambient);
+  if (!directional) {
+    if (light.attenuation != usual.attenuation) text_.field("attenuation", light.attenuation);
+    if (light.radius != usual.radius) text_.field("radius", light.radius);
+  }
+  if (spot) {
+    if (light.cut_off_angle != usual.cut_off_angle) text_.field("cutOffAngle", light.cut_off_angle);
+    if (light.beam_width != usual.beam_width) text_.field("beamWidth", light.beam_width);
+  }
+  text_.close();
+}
+
+void VrmlWriter::write_scenes() {
+  for (const world::SceneId id : in_order(world_.scenes())) {
+    const world::Scene& scene = *world_.find(id);
+    text_.open(kSceneProto.name);
+    text_.text_field("name", scene.name);
+    text_.open_list("objects");
+    for (const ObjectId root : scene.roots) text_.text_row(name_of(root));
+    text_.close_list();
+    text_.close();
+  }
+}
+
+void VrmlWriter::tell_what_is_left() {
+  const auto unused = [&](const auto& table, const char* what) {
+    const auto count =
+        std::count_if(table.begin(), table.end(), [](const auto& it) { return it.second.users == 0; });
+    if (count > 0) remarks_.push_back({"", 0, fmt::format("{} {} left out.", count, what)});
+  };
+  unused(world_.geometries(), "shapes that no object has are");
+  unused(world_.materials(), "materials that no object has are");
+  unused(world_.textures(), "textures that no material shows are");
+  if (text_.clipped())
+    remarks_.push_back({"", 0, "Numbers beyond 3.4e38, the largest that VRML 2.0 can hold, became that."});
+}
+
+Result<std::vector<Remark>> write_vrml(const std::filesystem::path& path, const World& world) {
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  auto remarks = VrmlWriter(path, world, *file).write();
+  if (!remarks) return remarks;
+  if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
+  return remarks;
+}
+
+}  // namespace icome::files

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "base/result.h"
+#include "files/design.h"
+#include "world/world.h"
+
+namespace icome::files {
+
+/// Writes a design as VRML 2.0 (docs/file-formats.md tells how); what was there is replaced when all is
+/// written, and stays if not. Pictures are put into a folder beside it, where no other file is changed.
+/// Fails when the file cannot be written or could not be read again; tells what it could not hold.
+base::Result<std::vector<Remark>> write_vrml(const std::filesystem::path& path, const world::World& world);
+
+}  // namespace icome::files
