@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "files/design.h"
+
+namespace icome::files {
+
+/// What becomes of a node of a VRML file.
+enum class VrmlFate {
+  Taken,        // it means something here
+  Group,        // its children are taken, what it would do with them is not
+  Finest,       // of its levels of detail the first is taken
+  LeftOut,      // it is known, and does nothing here
+  Unknown,      // to VRML 2.0
+  Route,        // of events
+  Kept,         // a script that is kept and does not run
+  BoundScript,  // that names what is around it, and cannot be kept alone
+  ProtoScript,  // that belongs to a PROTO
+};
+
+/// Of a type of VRML 2.0 or any other; scripts are not told apart.
+VrmlFate fate_of(std::string_view type);
+
+/// Counts what is left out of a text by type, and remembers the first few lines of each.
+class VrmlTallies {
+ public:
+  /// The types must outlive this.
+  void add(std::string_view type, VrmlFate fate, int line);
+  /// One for each type, in the order of their first lines; `of` names the file.
+  std::vector<Remark> remarks(const std::string& of) const;
+
+ private:
+  struct Tally {
+    std::size_t count = 0;
+    std::vector<int> lines = {};  // of the first ones
+  };
+  using Key = std::pair<VrmlFate, std::string_view>;
+  static std::string sentence(const Key& key, const Tally& tally);
+
+  std::map<Key, Tally> tallies_;
+};
+
+}  // namespace icome::files
