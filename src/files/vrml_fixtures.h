@@ -1,0 +1,23 @@
+#pragma once
+#include "base/vector.h"
+#include "world/fixture.h"
+
+namespace icome::files {
+
+namespace flat {
+struct Eye;
+struct Lamp;
+}  // namespace flat
+
+/// A fixture and where it is: VRML places lamps and eyes by numbers, the world by the object they are on,
+/// whose -z they face.
+struct PlacedFixture {
+  world::FixturePointer fixture;
+  base::Affine3 parent_from_fixture = base::Affine3::Identity();  // rigid
+};
+
+/// Numbers that make no sense are replaced by those that VRML has by default.
+PlacedFixture fixture_of(const flat::Lamp& lamp);
+PlacedFixture fixture_of(const flat::Eye& eye);
+
+}  // namespace icome::files

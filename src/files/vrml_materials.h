@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+
+#include "files/findings.h"
+#include "files/vrml_face_set.h"
+#include "world/flat_bytes.h"
+#include "world/world.h"
+
+namespace icome::files {
+
+namespace flat {
+struct Look;
+}
+
+/// The material of a look, without its texture. A look without a Material is unlit in VRML, which shows no
+/// form: here it is white and lit. What is out of range is put right, which `findings` tells.
+world::Material material_of(const flat::Look& look, world::FlatReader& reader, Findings& findings);
+
+/// What texture coordinates go through; plain where the numbers make no sense.
+TextureMatrix texture_matrix_of(const flat::Look& look, world::FlatReader& reader, Findings& findings);
+
+}  // namespace icome::files

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vector.h"
+#include "files/vrml_fixtures.h"
+#include "world/flat_bytes.h"
+
+namespace icome::files {
+
+namespace flat {
+struct Scene;
+}
+
+/// A node of an answer with what is decided about it.
+struct VrmlNode {
+  static constexpr std::int32_t kNone = -1;
+
+  std::int32_t parent = kNone;  // before this one
+  std::int32_t piece = kNone;   // of the scene, and there
+  std::int32_t look = kNone;    // the same
+  std::string name = {};
+  std::string def = {};
+  base::Affine3 parent_from_node = base::Affine3::Identity();
+  PlacedFixture fixture = {};
+  std::size_t children = 0;
+  bool reused = false;
+  bool is_object = true;              // not a scene
+  bool is_flat = false;               // its transform flattens it or makes no sense, or one above it
+  bool is_merged = false;             // into its parent
+  std::int32_t shape_from = kNone;    // the node whose shape and look it has
+  std::int32_t fixture_from = kNone;  // the node whose fixture it has
+};
+
+/// The nodes in their order. What makes no sense is refused with the reader, which is asked at the end.
+std::vector<VrmlNode> nodes_of(const flat::Scene& scene, world::FlatReader& reader);
+
+}  // namespace icome::files

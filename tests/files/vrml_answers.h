@@ -1,0 +1,108 @@
+#pragma once
+#include <flatbuffers/flatbuffers.h>
+#include <vrml_answer_generated.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace icome::files {
+
+// Answers of the process that parses VRML, made by hand. Fields are those of vrml_answer.fbs.
+
+struct AnswerPiece {
+  flat::PieceKind kind = flat::PieceKind::Box;
+  std::string name = {};
+  std::vector<double> sizes = {};
+  std::vector<float> positions = {};
+  std::vector<std::int32_t> polygons = {};
+  std::vector<float> texture_coordinates = {};
+  std::vector<std::int32_t> texture_polygons = {};
+  std::vector<float> normals = {};
+  std::vector<std::int32_t> normal_polygons = {};
+  bool normal_per_vertex = true;
+  std::vector<float> colours = {};
+  std::vector<std::int32_t> colour_polygons = {};
+  bool colour_per_vertex = true;
+  bool ccw = true;
+  float crease_angle = 0.0F;
+  std::vector<std::int32_t> creases = {};
+  std::vector<std::int32_t> corners = {};
+  std::string text = {};
+  std::vector<double> box = {};
+  bool along_y = false;
+};
+
+struct AnswerPicture {
+  std::vector<std::string> urls = {};
+  std::string base = {};
+  std::uint32_t width = 0, height = 0, channels = 0;
+  std::vector<std::uint8_t> pixels = {};
+  bool repeat_s = true, repeat_t = true;
+};
+
+struct AnswerLook {
+  std::string name = {};
+  bool lit = true;
+  std::array<float, 3> diffuse = {0.8F, 0.8F, 0.8F};
+  std::array<float, 3> emission = {};
+  float transparency = 0.0F;
+  int picture = -1;
+  std::vector<double> texture_transform = {};
+  std::optional<double> stiffness = {};
+  double static_friction = 0.0, dynamic_friction = 0.0;
+};
+
+struct AnswerLamp {
+  flat::LampKind kind = flat::LampKind::Directional;
+  std::array<double, 3> location = {0, 0, 0};
+  std::array<double, 3> direction = {0, 0, -1};
+  float intensity = 1.0F;
+};
+
+struct AnswerEye {
+  std::array<double, 3> position = {0, 0, 10};
+  std::array<double, 3> axis = {0, 0, 1};
+  double angle = 0.0;
+  double field_of_view = 0.785398;
+};
+
+struct AnswerNode {
+  int parent = -1;
+  std::string name = {};
+  std::vector<double> matrix = {};
+  int piece = -1, look = -1;
+  std::optional<AnswerLamp> lamp = {};
+  std::optional<AnswerEye> eye = {};
+  bool reused = false;
+  std::optional<std::string> scene = {};
+  std::vector<std::string> members = {};
+  std::string def = {};  // as name, where empty
+};
+
+struct AnswerNote {
+  std::string file = {};
+  int line = 0;
+  std::string text = {};
+};
+
+struct Answer {
+  std::vector<AnswerNode> nodes = {};
+  std::vector<AnswerPiece> pieces = {};
+  std::vector<AnswerLook> looks = {};
+  std::vector<AnswerPicture> pictures = {};
+  std::vector<AnswerNote> notes = {};
+  std::string error = {};
+};
+
+/// The answer as bytes.
+std::string bytes_of(const Answer& answer);
+
+/// Moves by (x, y, z) and nothing else.
+inline std::vector<double> moved(double x, double y, double z) {
+  return {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z};
+}
+
+}  // namespace icome::files
