@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "files/vrml_frame.h"
 #include "files/vrml_looks.h"
 #include "files/vrml_names.h"
+#include "files/vrml_place.h"
 #include "files/vrml_protos.h"
 #include "files/vrml_shapes.h"
 #include "files/vrml_text.h"
@@ -200,7 +200,7 @@ void VrmlWriter::close(const Open& object) {
 }
 
 void VrmlWriter::write_frame(const base::Affine3& frame) {
-  const VrmlFrame fields = vrml_frame(frame);
+  const VrmlPlace fields = vrml_place(frame);
   const auto turn = [&](const char* name, const VrmlTurn& it) {
     if (it.angle == 0.0F) return;
     text_.field(name, std::array{it.axis.x(), it.axis.y(), it.axis.z(), it.angle});

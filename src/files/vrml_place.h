@@ -15,20 +15,20 @@ struct VrmlTurn {
 
 /// The fields of a Transform node: what is in it is stretched along the axes of `scale_orientation`, then
 /// turned, then moved (VRML 2.0, 6.52).
-struct VrmlFrame {
+struct VrmlPlace {
   Eigen::Vector3f translation = Eigen::Vector3f::Zero();
   VrmlTurn rotation = {};
   Eigen::Vector3f scale = Eigen::Vector3f::Ones();
   VrmlTurn scale_orientation = {};
 
-  bool operator==(const VrmlFrame&) const = default;
+  bool operator==(const VrmlPlace&) const = default;
 };
 
 /// The fields that say where an object is, within single precision of its largest axis; for any affine
 /// transform that does not flatten. Those of what they say are the same again, to the last bit.
-VrmlFrame vrml_frame(const base::Affine3& parent_from_object);
+VrmlPlace vrml_place(const base::Affine3& parent_from_object);
 
 /// What the fields say, by the decimals that they are written as.
-base::Affine3 affine(const VrmlFrame& frame);
+base::Affine3 affine(const VrmlPlace& frame);
 
 }  // namespace icome::files

@@ -1,4 +1,4 @@
-#include "files/vrml_frame.h"
+#include "files/vrml_place.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -151,8 +151,8 @@ Stretch stretch_of(const Matrix3& matrix) {
   return result;
 }
 
-VrmlFrame rounded(const Affine3& parent_from_object) {
-  VrmlFrame frame;
+VrmlPlace rounded(const Affine3& parent_from_object) {
+  VrmlPlace frame;
   const Matrix3 matrix = parent_from_object.linear();
   const double size = matrix.cwiseAbs().maxCoeff();
   const Stretch stretch = stretch_of(matrix / size);
@@ -171,19 +171,19 @@ VrmlFrame rounded(const Affine3& parent_from_object) {
 
 }  // namespace
 
-VrmlFrame vrml_frame(const Affine3& parent_from_object) {
+VrmlPlace vrml_place(const Affine3& parent_from_object) {
   // Rounded axes are not quite of unit length, and rounded again they may be others: go on until they stay.
   constexpr int kMostRounds = 16;
-  VrmlFrame frame = rounded(parent_from_object);
+  VrmlPlace frame = rounded(parent_from_object);
   for (int i = 0; i < kMostRounds; ++i) {
-    const VrmlFrame again = rounded(affine(frame));
+    const VrmlPlace again = rounded(affine(frame));
     if (again == frame) break;
     frame = again;
   }
   return frame;
 }
 
-Affine3 affine(const VrmlFrame& frame) {
+Affine3 affine(const VrmlPlace& frame) {
   const Matrix3 orientation = matrix_of(frame.scale_orientation);
   Affine3 result = Affine3::Identity();
   result.linear() =

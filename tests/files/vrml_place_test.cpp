@@ -1,4 +1,4 @@
-#include "files/vrml_frame.h"
+#include "files/vrml_place.h"
 
 #include <gtest/gtest.h>
 
@@ -24,39 +24,39 @@ Matrix3 turned(double angle, const Vector3& axis) {
 
 /// How far the fields are off, as a part of the largest axis.
 double off_by(const Affine3& frame) {
-  const Affine3 again = affine(vrml_frame(frame));
+  const Affine3 again = affine(vrml_place(frame));
   return (again.linear() - frame.linear()).cwiseAbs().maxCoeff() / frame.linear().cwiseAbs().maxCoeff();
 }
 
-TEST(VrmlFrame, SaysWhatPeopleWouldSay) {
+TEST(VrmlPlace, SaysWhatPeopleWouldSay) {
   Affine3 frame(Eigen::Translation3d(0.1, -0.0, 3.0));
   frame.rotate(Eigen::AngleAxisd(0.3, -Vector3::UnitX())).scale(Vector3(2.0, 0.5, 1.0));
-  const VrmlFrame fields = vrml_frame(frame);
+  const VrmlPlace fields = vrml_place(frame);
   EXPECT_EQ(fields.translation, Eigen::Vector3f(0.1F, 0.0F, 3.0F));
   EXPECT_EQ(fields.rotation, (VrmlTurn{Eigen::Vector3f::UnitX(), -0.3F}));
   EXPECT_EQ(fields.scale, Eigen::Vector3f(2.0F, 0.5F, 1.0F));
   EXPECT_EQ(fields.scale_orientation, VrmlTurn());
-  EXPECT_EQ(vrml_frame(Affine3::Identity()), VrmlFrame());
+  EXPECT_EQ(vrml_place(Affine3::Identity()), VrmlPlace());
 }
 
-TEST(VrmlFrame, HalfATurnIsOneWhicheverWay) {
+TEST(VrmlPlace, HalfATurnIsOneWhicheverWay) {
   for (const double angle : {std::numbers::pi, -std::numbers::pi, 3.1415927, 3.1415925}) {
-    EXPECT_EQ(vrml_frame(made_of(turned(angle, Vector3::UnitY()))).rotation,
+    EXPECT_EQ(vrml_place(made_of(turned(angle, Vector3::UnitY()))).rotation,
               (VrmlTurn{Eigen::Vector3f::UnitY(), std::numbers::pi_v<float>}));
   }
 }
 
-TEST(VrmlFrame, MirrorsByNegativeScales) {
-  const VrmlFrame one = vrml_frame(made_of(Vector3(1.0, -2.0, 3.0).asDiagonal()));
+TEST(VrmlPlace, MirrorsByNegativeScales) {
+  const VrmlPlace one = vrml_place(made_of(Vector3(1.0, -2.0, 3.0).asDiagonal()));
   EXPECT_EQ(one.scale, Eigen::Vector3f(1.0F, -2.0F, 3.0F));
   EXPECT_EQ(one.rotation, VrmlTurn());
-  const VrmlFrame all = vrml_frame(made_of(Vector3::Constant(-0.5).asDiagonal()));
+  const VrmlPlace all = vrml_place(made_of(Vector3::Constant(-0.5).asDiagonal()));
   EXPECT_EQ(all.scale, Eigen::Vector3f::Constant(-0.5F));
   EXPECT_EQ(all.rotation, VrmlTurn());
 }
 
-TEST(VrmlFrame, ScalesBeyondSinglePrecisionDoNotFlatten) {
-  const VrmlFrame fields = vrml_frame(made_of(Vector3(1e-60, 1e60, 1.0).asDiagonal()));
+TEST(VrmlPlace, ScalesBeyondSinglePrecisionDoNotFlatten) {
+  const VrmlPlace fields = vrml_place(made_of(Vector3(1e-60, 1e60, 1.0).asDiagonal()));
   EXPECT_GT(fields.scale.x(), 0.0F);
   EXPECT_TRUE(fields.scale.allFinite());
 }
@@ -106,13 +106,13 @@ class AnyAxes {
   base::Random random_;
 };
 
-TEST(VrmlFrame, AnyTransformComesBackWithinSinglePrecisionAndThenStays) {
+TEST(VrmlPlace, AnyTransformComesBackWithinSinglePrecisionAndThenStays) {
   AnyAxes axes(1);
   for (int i = 0; i < 20'000; ++i) {
     const Affine3 frame = made_of(axes.next());
     EXPECT_LT(off_by(frame), 1e-6) << frame.linear();
-    const VrmlFrame fields = vrml_frame(frame);
-    EXPECT_EQ(vrml_frame(affine(fields)), fields) << frame.linear();
+    const VrmlPlace fields = vrml_place(frame);
+    EXPECT_EQ(vrml_place(affine(fields)), fields) << frame.linear();
   }
 }
 
