@@ -42,7 +42,7 @@ std::string counted(std::uint64_t count, std::string_view thing) {
 }
 
 std::string extent_of(const TouchModel& model) {
-  if (is_half_space(model.body())) return "unlimited";
+  if (model.kind == kPrimitive && is_half_space(model.body())) return "unlimited";
   const base::Vector3 size = bounds(model).sizes();
   return fmt::format("{} x {} x {}", length_text(size.x()), length_text(size.y()), length_text(size.z()));
 }
@@ -54,7 +54,7 @@ const char* sides_of(const TouchBody& body, const TouchOptions& options) {
 void add_model(Table& table, const TouchModel& model, const TouchOptions& options) {
   table.row("model", model.name);
   const TouchBody& body = model.body();
-  if (body.primitive) {
+  if (model.kind == kPrimitive) {
     table.row(
         "", fmt::format("{}, {}, touchable from {}", model.kind, extent_of(model), sides_of(body, options)));
     return;
@@ -62,8 +62,10 @@ void add_model(Table& table, const TouchModel& model, const TouchOptions& option
   const std::string triangles =
       model.triangles > 0 ? fmt::format("{} triangles", grouped(model.triangles)) : "touched without a mesh";
   table.row("", fmt::format("{}, {}, {}", model.kind, triangles, extent_of(model)));
-  table.row("",
-            fmt::format("{}, touchable from {}", body.closed ? "closed" : "open", sides_of(body, options)));
+  if (model.bodies.size() == 1) {
+    table.row("",
+              fmt::format("{}, touchable from {}", body.closed ? "closed" : "open", sides_of(body, options)));
+  }
   for (const std::string& sentence : model.repairs) table.row("", sentence);
   table.row("", fmt::format("read in {}", seconds_text(model.read_seconds)));
 }

@@ -157,7 +157,7 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
   render::TouchPicture picture;
   for (const TouchModel& model : prepared.models) {
     const std::string name =
-        model.body().primitive ? model.name : std::filesystem::path(model.name).filename().string();
+        model.kind == kPrimitive ? model.name : std::filesystem::path(model.name).filename().string();
     picture.title += (picture.title.empty() ? "" : ", ") + name;
     for (const TouchBody& body : model.bodies) add_to(picture, body, name);
   }
@@ -175,7 +175,7 @@ void tell_odd_size(const TouchModel& model) {
   constexpr double kSmallest = 0.001;  // m
   constexpr double kLargest = 10.0;    // m
   const double size = bounds(model).sizes().maxCoeff();
-  if (model.body().primitive || (size >= kSmallest && size <= kLargest)) return;
+  if (model.kind == kPrimitive || (size >= kSmallest && size <= kLargest)) return;
   tell(fmt::format("{} is {} large: --unit or --fit give it another size.", model.name, length_text(size)));
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/design_models.h"
 #include "apps/exact_models.h"
 #include "apps/stopwatch.h"
 #include "files/mesh_reader.h"
@@ -63,7 +64,7 @@ base::Result<TouchModel> load_primitive(const std::string& text, const TouchOpti
     const double longest = geometry::bounds(*primitive).sizes().maxCoeff();
     *primitive = std::visit(Scaled(*options.fit / longest), *primitive);
   }
-  model.kind = "primitive";
+  model.kind = kPrimitive;
   model.body().primitive = *primitive;
   const double size = unlimited ? 1.0 : geometry::bounds(*primitive).sizes().maxCoeff();
   model.body().mesh = std::make_shared<const geometry::TriangleMesh>(
@@ -107,6 +108,7 @@ base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& 
 }  // namespace
 
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options) {
+  if (names_design(text)) return load_design(text, options);
   const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
   const bool primitive = names_primitive(text);
   auto model = primitive         ? load_primitive(text, options)

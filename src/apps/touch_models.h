@@ -32,6 +32,8 @@ struct TouchBody {
   std::optional<render::Colour> colour = {};  // none: the picture's own
 };
 
+inline constexpr const char* kPrimitive = "primitive";
+
 /// One MODEL of the command line, ready to be touched.
 struct TouchModel {
   std::string name;                                           // as the person wrote it
@@ -47,9 +49,9 @@ struct TouchModel {
 };
 
 /// Reads one MODEL: what has a primitive's keyword before a colon, or is "plane", is a primitive,
-/// everything else a file. Models stand in the world as they are: files are scaled by the unit, turned
-/// when y is up and scaled by `fit`, always about the origin and never moved, so that a path in the
-/// world frame can rely on it.
+/// everything else a file, of a mesh, a CSG solid or a design. Models stand in the world as they are: files
+/// are scaled by the unit, turned when y is up and scaled by `fit`, always about the origin and never moved,
+/// so that a path in the world frame can rely on it.
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options);
 
 /// All MODELs, in the order of the command line, the surface of --implicit last. `say` hears what is read.

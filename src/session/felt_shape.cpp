@@ -22,7 +22,7 @@ using base::Vector3;
 using Felt = std::shared_ptr<FeltShape>;
 
 constexpr double kToleranceOfSize = 1.0 / 2000.0;
-constexpr double kCellOfSize = 1.0 / 160.0;  // of solids that are sampled: facets are far nearer than a cell
+constexpr double kCellOfSize = 1.0 / 100.0;  // of solids that are sampled: facets are far nearer than a cell
 constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
 
 /// Makes what is felt of the kinds of shapes, one after the other.

@@ -44,7 +44,7 @@ FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_fr
 /// The shape as it is felt. Exact where that is possible: a mesh's vertices go along with the place, so do
 /// control meshes and CSG trees; a primitive stays one where its stretched self is, and else becomes a CSG
 /// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and smooth surfaces under
-/// a tip with a radius are felt as triangles: 1/2000 of their size off at most, or sampled at 160 places
+/// a tip with a radius are felt as triangles: 1/2000 of their size off at most, or sampled at 100 places
 /// along their longest side.
 FeltShapePointer make_felt_shape(const world::Geometry& shape, const base::Matrix3& felt_from_geometry,
                                  const FeltSettings& settings);

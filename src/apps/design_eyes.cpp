@@ -1,0 +1,93 @@
+#include "apps/design_eyes.h"
+
+#include <utility>
+
+#include "haptics/mesh_shape.h"
+#include "session/stretched.h"
+#include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
+
+namespace icome::apps {
+namespace {
+
+using base::Affine3;
+using base::Bounds;
+using base::Vector3;
+using geometry::TriangleMesh;
+
+constexpr double kSmoothOff = 0.0005;       // of the size: what pictures of smooth surfaces may be off
+constexpr double kSampledCell = 1.0 / 100;  // of the size, of solids that are sampled
+
+double tolerance_for(const world::Geometry& shape, const Bounds& box) {
+  const bool sampled = shape.kind() == "csg" || shape.kind() == "implicit";
+  return (sampled ? kSampledCell : kSmoothOff) * box.sizes().maxCoeff();
+}
+
+DesignEyes::Eye eye_of(TriangleMesh mesh) {
+  DesignEyes::Eye eye;
+  eye.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+  eye.tree = std::make_shared<const geometry::TriangleTree>(*eye.mesh);
+  return eye;
+}
+
+DesignEyes::Eye make_eye(const world::Geometry& shape, const session::FeltShape& felt) {
+  if (const auto mesh_shape = std::dynamic_pointer_cast<const haptics::MeshShape>(felt.shape)) {
+    const auto tree = std::shared_ptr<const geometry::TriangleTree>(mesh_shape, &mesh_shape->tree());
+    return {felt.mesh, tree};
+  }
+  if (felt.primitive) {
+    const Bounds box = geometry::bounds(*felt.primitive);
+    const double size = box.sizes().allFinite() ? box.sizes().maxCoeff() : 1.0;
+    return eye_of(geometry::tessellate(*felt.primitive, kSmoothOff * size));
+  }
+  const auto triangles = shape.triangles(tolerance_for(shape, shape.bounds()));
+  if (!triangles) {
+    DesignEyes::Eye eye = eye_of({});
+    eye.problem = triangles.error().message;
+    return eye;
+  }
+  TriangleMesh mesh = (*triangles)->mesh;
+  session::stretch(mesh, felt.felt_from_geometry);
+  return eye_of(std::move(mesh));
+}
+
+/// Around a placed shape, as tight as the shape can tell.
+Bounds placed_bounds(const world::Geometry& shape, const Affine3& placing) {
+  Bounds box;
+  if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
+    if (std::holds_alternative<geometry::Plane>(primitive->primitive)) return box;
+    return geometry::shape_bounds(primitive->primitive, placing * Affine3(primitive->shape_from_primitive()));
+  }
+  if (const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape)) {
+    geometry::CsgTree tree = csg->tree;
+    if (tree.empty()) return box;
+    tree.set_transform(tree.root(), placing * tree.node(tree.root()).parent_from_node);
+    return geometry::bounds(tree);
+  }
+  const Bounds own = shape.bounds();
+  if (own.isEmpty() || !own.sizes().allFinite()) return box;
+  const auto triangles = shape.triangles(tolerance_for(shape, own));
+  if (!triangles) return own.transformed(placing);
+  for (const Vector3& position : (*triangles)->mesh.positions) box.extend(placing * position);
+  return box;
+}
+
+}  // namespace
+
+const DesignEyes::Eye& DesignEyes::eye(const world::Geometry& shape, const session::FeltShapePointer& felt) {
+  const auto [found, fresh] = eyes_.try_emplace(felt);
+  if (fresh) found->second = make_eye(shape, *felt);
+  return found->second;
+}
+
+double longest_side(const world::World& world) {
+  Bounds box;
+  for (const auto& [id, object] : world.objects()) {
+    if (!object.geometry) continue;
+    const Bounds own = placed_bounds(*world.find(object.geometry)->shape, world_from_object(world, id));
+    if (!own.isEmpty() && own.sizes().allFinite()) box.extend(own);
+  }
+  return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,152 @@
+#include "apps/design_models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/design_eyes.h"
+#include "apps/interrupt.h"
+#include "apps/stopwatch.h"
+#include "files/design.h"
+#include "files/file_ending.h"
+#include "files/mesh_reader.h"
+#include "session/haptic_representation.h"
+
+namespace icome::apps {
+namespace {
+
+using base::Affine3;
+using world::World;
+
+constexpr std::size_t kMostSentences = 20;  // of a design's; info tells them all
+
+base::Result<void> check_design_options(const std::string& text, const TouchOptions& options) {
+  if (renderer_of(options) == haptics::Renderer::Thesis)
+    return base::fail(text +
+                      ": --renderer thesis touches CSG trees, and meshes with --subdivide thesis:LEVEL.");
+  if (options.subdivision)
+    return base::fail(text + ": --subdivide is for meshes; a design says itself which surfaces are smooth.");
+  return {};
+}
+
+base::Result<files::LoadedDesign> read_file(const std::string& text, const TouchOptions& options) {
+  const auto unit = files::parse_unit(options.unit);
+  if (!unit) return tl::unexpected(unit.error());
+  files::DesignReadOptions how;
+  how.unit = *unit;
+  how.progress = [](double) { return !interrupted(); };
+  return files::read_design(text, how);
+}
+
+/// Turned and scaled about the origin, never moved, as all MODELs are.
+base::Result<Affine3> placing(const World& world, const std::string& text, const TouchOptions& options) {
+  Affine3 world_from_design = Affine3::Identity();
+  if (options.y_up) {
+    world_from_design.linear() << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;  // a quarter turn about x
+  }
+  if (options.fit) {
+    // The sides change places under a quarter turn, and no more.
+    const double longest = longest_side(world);
+    if (!(longest > 0.0)) return base::fail(text + ": --fit needs something of a size, there is nothing.");
+    world_from_design.linear() *= *options.fit / longest;
+  }
+  return world_from_design;
+}
+
+/// Makes the bodies of what a representation holds.
+class BodyMaker {
+ public:
+  BodyMaker(const World& world, const session::HapticRepresentation& felt) : world_(world), felt_(felt) {}
+
+  TouchBody body(const haptics::HapticObject& object) {
+    const world::PhysicalObject& of = *world_.find(*felt_.object(object.id));
+    const world::Geometry& geometry = *world_.find(of.geometry)->shape;
+    const session::FeltShapePointer felt = felt_.felt(*felt_.object(object.id));
+    const DesignEyes::Eye& eye = eyes_.eye(geometry, felt);
+    TouchBody body{eye.mesh, eye.tree, object.shape, object.world_from_object};
+    body.primitive = felt->primitive;
+    if (geometry.kind() == "csg") body.csg = felt->solid;
+    body.membership = felt->inside;
+    body.exact = !felt->mesh;
+    body.closed = felt->closed;
+    body.surface = object.surface;
+    if (const world::Material* material = world_.find(of.material)) body.colour = colour_of(*material);
+    return body;
+  }
+
+ private:
+  static render::Colour colour_of(const world::Material& material) {
+    const auto channel = [&](std::size_t i) {
+      return render::srgb_from_linear(std::clamp(double(material.diffuse[i]), 0.0, 1.0));
+    };
+    return {channel(0), channel(1), channel(2)};
+  }
+
+  const World& world_;
+  const session::HapticRepresentation& felt_;
+  DesignEyes eyes_;
+};
+
+/// Tells the first sentences and how many there are.
+void tell_sentences(TouchModel& model, const std::vector<std::string>& sentences) {
+  const std::size_t count = std::min(sentences.size(), kMostSentences);
+  model.repairs.insert(model.repairs.end(), sentences.begin(), sentences.begin() + std::ptrdiff_t(count));
+  if (count < sentences.size())
+    model.repairs.push_back(fmt::format("and {} more such sentences", sentences.size() - count));
+}
+
+std::vector<std::string> sentences_of(const files::LoadedDesign& design, const std::string& file) {
+  std::vector<std::string> sentences;
+  for (const files::Remark& remark : design.remarks) sentences.push_back(sentence(remark, file));
+  return sentences;
+}
+
+}  // namespace
+
+bool names_design(const std::string& text) {
+  const std::string type = files::ending_of(text).type;
+  return type == ".wrl" || type == ".vrml" || type == ".gltf" || type == ".icome";
+}
+
+base::Result<TouchModel> load_design(const std::string& text, const TouchOptions& options) {
+  if (const auto able = check_design_options(text, options); !able) return tl::unexpected(able.error());
+  const Stopwatch reading;
+  const auto design = read_file(text, options);
+  if (!design) return tl::unexpected(design.error());
+  TouchModel model;
+  model.name = text;
+  model.read_seconds = reading.seconds();
+  const auto placed = placing(design->world, text, options);
+  if (!placed) return tl::unexpected(placed.error());
+
+  session::HapticRepresentationSettings settings;
+  settings.felt = {options.radius, options.smooth_shading};
+  settings.world_from_design = *placed;
+  const Stopwatch building;
+  session::HapticRepresentation felt(settings);
+  felt.show(design->world);
+  model.build_seconds = building.seconds();
+
+  const std::vector<std::string> remarks = felt.remarks(design->world);
+  const auto& objects = felt.scene()->objects();
+  if (objects.empty())
+    return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text,
+                                  remarks.empty() ? "" : ": ", remarks.empty() ? "." : remarks.front()));
+  model.bodies.clear();
+  BodyMaker maker(design->world, felt);
+  for (const haptics::HapticObject& object : objects) {
+    model.bodies.push_back(maker.body(object));
+    const TouchBody& body = model.bodies.back();
+    if (!body.exact) model.triangles += body.mesh->triangles.size();
+    if (options.check && body.exact && !body.primitive && !body.membership)
+      return base::fail(text + ": --check cannot judge an open subdivision surface: leave it out.");
+  }
+  const std::size_t count = model.bodies.size();
+  model.kind = fmt::format("{}, {} {}", design->format, count, count == 1 ? "body" : "bodies");
+  tell_sentences(model, sentences_of(*design, text));
+  tell_sentences(model, remarks);
+  return model;
+}
+
+}  // namespace icome::apps
