@@ -1,0 +1,114 @@
+#include "files/vrml_worker/node_parts.h"
+
+#include <Inventor/VRMLnodes/SoVRMLDirectionalLight.h>
+#include <Inventor/VRMLnodes/SoVRMLPointLight.h>
+#include <Inventor/VRMLnodes/SoVRMLSpotLight.h>
+#include <Inventor/VRMLnodes/SoVRMLTransform.h>
+#include <Inventor/VRMLnodes/SoVRMLViewpoint.h>
+
+#include <cmath>
+
+#include "base/vector.h"
+#include "files/vrml_worker/field_values.h"
+
+namespace icome::files {
+namespace {
+
+struct AxisAngle {
+  std::array<double, 3> axis = {0.0, 0.0, 1.0};
+  double angle = 0.0;
+};
+
+/// Coin keeps a rotation as a quaternion in single precision. The numbers of the file are the roundest that
+/// give this one; where there are none, the file had too many digits to be kept.
+AxisAngle axis_angle(const SoSFRotation& field) {
+  SbVec3f axis;
+  float angle = 0.0F;
+  field.getValue(axis, angle);
+  const auto round_to = [](float number, double unit) { return std::round(number * unit) / unit; };
+  for (double unit = 10.0; unit < 1e8; unit *= 10.0) {
+    const AxisAngle round = {{round_to(axis[0], unit), round_to(axis[1], unit), round_to(axis[2], unit)},
+                             round_to(angle, unit)};
+    const SbVec3f direction(static_cast<float>(round.axis[0]), static_cast<float>(round.axis[1]),
+                            static_cast<float>(round.axis[2]));
+    if (direction.length() > 0.0F &&
+        SbRotation(direction, static_cast<float>(round.angle)) == field.getValue())
+      return round;
+  }
+  return {as_written(axis), as_written(angle)};
+}
+
+base::Vector3 vector(const SbVec3f& v) { return base::Vector3(as_written(v).data()); }
+
+base::Matrix3 rotation(const SoSFRotation& field) {
+  const AxisAngle turn = axis_angle(field);
+  const base::Vector3 axis(turn.axis.data());
+  if (turn.angle == 0.0 || axis.isZero(0.0)) return base::Matrix3::Identity();
+  return Eigen::AngleAxisd(turn.angle, axis.stableNormalized()).toRotationMatrix();
+}
+
+void fill_lamp(const SoVRMLLight& light, LampParts& lamp) {
+  lamp.on = light.on.getValue();
+  lamp.colour = as_array(light.color.getValue());
+  lamp.intensity = light.intensity.getValue();
+  lamp.ambient = light.ambientIntensity.getValue();
+}
+
+}  // namespace
+
+std::array<double, 12> matrix_of(const SoVRMLTransform& transform) {
+  const base::Vector3 scale = vector(transform.scale.getValue());
+  base::Matrix3 linear = rotation(transform.rotation);
+  if (scale.isOnes(0.0)) {
+    // Whatever its orientation.
+  } else if (scale.x() == scale.y() && scale.y() == scale.z()) {
+    linear *= scale.x();
+  } else {
+    const base::Matrix3 along = rotation(transform.scaleOrientation);
+    linear = linear * along * scale.asDiagonal() * along.transpose();
+  }
+  base::Vector3 moved = vector(transform.translation.getValue());
+  const base::Vector3 centre = vector(transform.center.getValue());
+  if (!linear.isIdentity(0.0)) moved += centre - linear * centre;
+  std::array<double, 12> rows{};
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(rows.data());
+  matrix << linear, moved;
+  if (!matrix.allFinite()) matrix.setIdentity();
+  return rows;
+}
+
+bool fill_lamp_or_eye(const SoNode& node, NodeParts& parts) {
+  if (node.isOfType(SoVRMLViewpoint::getClassTypeId())) {
+    const auto& view = static_cast<const SoVRMLViewpoint&>(node);
+    const AxisAngle turn = axis_angle(view.orientation);
+    parts.eye = EyeParts{as_written(view.fieldOfView.getValue()), as_written(view.position.getValue()),
+                         turn.axis, turn.angle};
+    // What viewers show in their menus.
+    if (view.description.getValue().getLength() > 0) parts.name = view.description.getValue().getString();
+    return true;
+  }
+  if (!node.isOfType(SoVRMLLight::getClassTypeId())) return false;
+  LampParts& lamp = parts.lamp.emplace();
+  fill_lamp(static_cast<const SoVRMLLight&>(node), lamp);
+  if (node.isOfType(SoVRMLDirectionalLight::getClassTypeId())) {
+    lamp.direction = as_written(static_cast<const SoVRMLDirectionalLight&>(node).direction.getValue());
+  } else if (node.isOfType(SoVRMLPointLight::getClassTypeId())) {
+    const auto& light = static_cast<const SoVRMLPointLight&>(node);
+    lamp.kind = LampParts::Kind::Point;
+    lamp.location = as_written(light.location.getValue());
+    lamp.attenuation = as_written(light.attenuation.getValue());
+    lamp.radius = as_written(light.radius.getValue());
+  } else {
+    const auto& light = static_cast<const SoVRMLSpotLight&>(node);
+    lamp.kind = LampParts::Kind::Spot;
+    lamp.location = as_written(light.location.getValue());
+    lamp.direction = as_written(light.direction.getValue());
+    lamp.attenuation = as_written(light.attenuation.getValue());
+    lamp.radius = as_written(light.radius.getValue());
+    lamp.cut_off_angle = as_written(light.cutOffAngle.getValue());
+    lamp.beam_width = as_written(light.beamWidth.getValue());
+  }
+  return true;
+}
+
+}  // namespace icome::files

@@ -1,0 +1,18 @@
+#pragma once
+#include <array>
+
+#include "files/vrml_worker/answer.h"
+
+class SoNode;
+class SoVRMLTransform;
+
+namespace icome::files {
+
+/// T C R SR S -SR -C of a Transform, in double: a 3 x 4 matrix, row after row. Where a number is not finite
+/// the Transform does nothing.
+std::array<double, 12> matrix_of(const SoVRMLTransform& transform);
+
+/// False: the node is neither a light nor a Viewpoint.
+bool fill_lamp_or_eye(const SoNode& node, NodeParts& parts);
+
+}  // namespace icome::files

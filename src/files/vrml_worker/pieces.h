@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <unordered_map>
+
+#include "files/vrml_worker/answer.h"
+#include "files/vrml_worker/scene_files.h"
+#include "files/vrml_worker/wrapping.h"
+
+class SoVRMLElevationGrid;
+class SoVRMLExtrusion;
+class SoVRMLIndexedFaceSet;
+class SoVRMLText;
+
+namespace icome::files {
+
+struct FaceFields;
+struct MadeFaces;
+
+/// Puts geometry nodes into the answer, each once.
+class Pieces {
+ public:
+  Pieces(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
+      : files_(files), answer_(answer), wrapping_(wrapping) {}
+
+  /// The number of the piece that a geometry node makes. None, with a note where one helps: it makes none.
+  std::optional<int> number_of(const Unwrapped& geometry);
+
+ private:
+  std::optional<int> add(const Unwrapped& it, PieceParts& parts);
+  std::optional<int> add_solid(const Unwrapped& it, PieceParts& parts);
+  std::optional<int> add_faces(const Unwrapped& it, const FaceFields& fields, PieceParts& parts);
+  std::optional<int> add_made(const Unwrapped& it, const MadeFaces& faces, PieceParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, PieceParts& parts);
+  void note(const Unwrapped& it, const std::string& text);
+
+  const SceneFiles& files_;
+  Answer& answer_;
+  Wrapping& wrapping_;
+  std::unordered_map<const void*, std::optional<int>> known_ = {};  // by node
+};
+
+}  // namespace icome::files

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/function_ref.h"
+
+namespace icome::files {
+
+/// Something a person should know about a file, before it is known which.
+struct TextNote {
+  int line = 0;
+  std::string text;
+};
+
+/// The text of a VRML file made ready for Coin, which gives up a whole file for one field or node that it
+/// does not know: such are taken out, and so are uses of names that nothing has and all ROUTEs, since
+/// nothing moves here. Names that Coin would change become `IcomeName_7`. Lines stay where they were.
+struct ReadyText {
+  std::string text;  // begins with the header of VRML 2.0
+  /// For each EXTERNPROTO in order: a PROTO that can stand in for it and shows nothing.
+  std::vector<std::string> stand_ins;
+  std::vector<TextNote> notes;
+  std::string error;    // why nobody should read this; empty: Coin may
+  int added_lines = 0;  // before the first line of the file
+};
+
+inline constexpr std::string_view kChangedName = "IcomeName_";
+
+/// `has_field(node, field)` tells whether a node of VRML 2.0 has this field. `names` gets, at the number in
+/// a changed name, what it was. Whatever does not follow the grammar is left to Coin from there on.
+ReadyText make_ready(std::string_view file,
+                     base::FunctionRef<bool(const std::string& node, const std::string& field)> has_field,
+                     std::vector<std::string>& names);
+
+}  // namespace icome::files
