@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "files/vrml_protos.h"
-
 namespace icome::files {
 namespace {
 
@@ -54,12 +52,7 @@ void VrmlLooks::name(const std::vector<MaterialId>& materials) {
 }
 
 bool VrmlLooks::needs_proto(MaterialId id, const Material& material) const {
-  // One that says nothing at all would not be told from none.
-  static const Material kDefault;
-  Material rest = material;
-  rest.users = 0;
-  return material.name != found(material_names_, id) || !(material.touch == kDefault.touch) ||
-         rest == kDefault;
+  return material.name != found(material_names_, id) || !(material.touch == world::TouchProperties());
 }
 
 bool VrmlLooks::need_proto() const {
@@ -69,8 +62,8 @@ bool VrmlLooks::need_proto() const {
 }
 
 base::Result<void> VrmlLooks::write(MaterialId id) {
-  const std::string name = found(material_names_, id);
-  if (id && !name.empty() && !written_materials_.insert(id).second) {
+  const std::string name = id ? found(material_names_, id) : kNoMaterial;
+  if (!name.empty() && !written_materials_.insert(id).second) {
     text_.add("appearance USE " + name);
     return {};
   }

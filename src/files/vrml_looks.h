@@ -8,6 +8,7 @@
 #include "files/design.h"
 #include "files/picture_folder.h"
 #include "files/vrml_names.h"
+#include "files/vrml_protos.h"
 #include "files/vrml_text.h"
 #include "world/world.h"
 
@@ -18,7 +19,9 @@ class VrmlLooks {
  public:
   VrmlLooks(const std::filesystem::path& design, const world::World& world, VrmlNames& names, VrmlText& text,
             std::vector<Remark>& remarks)
-      : world_(world), names_(names), text_(text), remarks_(remarks), pictures_(design) {}
+      : world_(world), names_(names), text_(text), remarks_(remarks), pictures_(design) {
+    names_.take(kNoMaterial);
+  }
 
   /// Gives the DEF names, in this order; asked for all before the first is written.
   void name(const std::vector<world::MaterialId>& materials);

@@ -10,6 +10,9 @@ struct VrmlProto {
   const char* text;
 };
 
+/// DEF name of the Appearance of objects that have no material: it looks as they do, and is none again.
+inline constexpr const char* kNoMaterial = "IcomeDefault";
+
 inline constexpr VrmlProto kMaterialProto = {"IcomeMaterial", R"(PROTO IcomeMaterial [
   field SFString name ""
   exposedField SFFloat ambientIntensity 0.2

@@ -61,7 +61,7 @@ TEST(VrmlWriter, WritesAnObjectAsPeopleWould) {
   translation 0 0.9 0
   children [
     Shape {
-      appearance Appearance {
+      appearance DEF IcomeDefault Appearance {
         material Material { }
       }
       geometry Box {
@@ -71,9 +71,7 @@ TEST(VrmlWriter, WritesAnObjectAsPeopleWould) {
     DEF ball Transform {
       children [
         Shape {
-          appearance Appearance {
-            material Material { }
-          }
+          appearance USE IcomeDefault
           geometry Sphere {
             radius 0.1
           }
