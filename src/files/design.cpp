@@ -9,9 +9,12 @@
 
 #include "files/file_ending.h"
 #include "files/flat_writers.h"
+#include "files/gltf_reader.h"
+#include "files/gltf_writer.h"
 #include "files/journal_design.h"
 #include "files/mesh_design.h"
 #include "files/stl_writer.h"
+#include "files/vrml_writer.h"
 
 namespace icome::files {
 namespace {
@@ -65,12 +68,16 @@ struct Format {
   bool may_be_packed;  // as .xz
   DesignWriter write;  // null: cannot be written
 };
-constexpr std::array<Format, 6> kFormats{{{".obj", read_mesh_design, true, nullptr},
-                                          {".ply", read_mesh_design, true, write_ply_design},
-                                          {".stl", read_mesh_design, true, write_stl_design},
-                                          {".off", read_mesh_design, true, write_off_design},
-                                          {".csg", read_csg_design, true, nullptr},
-                                          {".icome", read_journal_design, false, write_journal_design}}};
+constexpr std::array<Format, 10> kFormats{{{".wrl", nullptr, false, write_vrml},
+                                           {".vrml", nullptr, false, write_vrml},
+                                           {".glb", read_gltf, true, write_gltf},
+                                           {".gltf", read_gltf, true, write_gltf},
+                                           {".obj", read_mesh_design, true, nullptr},
+                                           {".ply", read_mesh_design, true, write_ply_design},
+                                           {".stl", read_mesh_design, true, write_stl_design},
+                                           {".off", read_mesh_design, true, write_off_design},
+                                           {".csg", read_csg_design, true, nullptr},
+                                           {".icome", read_journal_design, false, write_journal_design}}};
 
 const Format* format_of(const FileEnding& ending) {
   const auto* const found = std::find_if(kFormats.begin(), kFormats.end(),

@@ -109,10 +109,12 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
 }  // namespace
 
 double shown_tolerance(const world::Geometry& shape) {
-  constexpr double kPart = 1.0 / 500.0;
+  // Contoured solids take a cell of this size, and lie nearer than that.
+  const bool contoured = shape.kind() == "csg" || shape.kind() == "implicit";
+  const double part = contoured ? 1.0 / 100.0 : 1.0 / 500.0;
   const base::Bounds box = shape.bounds();
   const double longest = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
-  return std::isfinite(longest) && longest > 0.0 ? kPart * longest : 1.0;
+  return std::isfinite(longest) && longest > 0.0 ? part * longest : 1.0;
 }
 
 std::shared_ptr<const MeshGeometry> ShownShapes::triangles(world::GeometryId id) {

@@ -1,0 +1,195 @@
+#include "files/gltf_mesh.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "files/gltf_accessor.h"
+#include "files/gltf_model.h"
+#include "files/mesh_cleaning.h"
+#include "files/single.h"
+#include "geometry/weld.h"
+
+namespace icome::files {
+namespace {
+
+using base::Vector2;
+using base::Vector3;
+using Triangle = geometry::TriangleMesh::Triangle;
+
+/// The accessor of an attribute, which has a value for every vertex.
+std::optional<GltfAccessor> attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                      const std::string& name, std::size_t least, std::size_t most) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return {};
+  return GltfAccessor(model, found->second, least, most);
+}
+
+/// The vertices of the primitive's elements, one after the other.
+std::vector<std::uint32_t> corners_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                      std::size_t vertices) {
+  std::vector<std::uint32_t> corners;
+  if (primitive.indices < 0) {
+    corners.resize(vertices);
+    for (std::uint32_t v = 0; v < vertices; ++v) corners[v] = v;
+    return corners;
+  }
+  const GltfAccessor indices(model, primitive.indices, 1, 1);
+  if (indices.is_float()) throw GltfError("its indices are not whole numbers");
+  corners.reserve(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const std::uint32_t vertex = indices.whole(i);
+    if (vertex >= vertices)
+      throw GltfError(
+          fmt::format("face refers to vertex {}; the {} vertices are numbered from 0", vertex, vertices));
+    corners.push_back(vertex);
+  }
+  return corners;
+}
+
+std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, int mode) {
+  std::vector<Triangle> triangles;
+  const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+  triangles.reserve(list ? corners.size() / 3 : corners.size());
+  for (std::size_t i = 0; i + 2 < corners.size(); i += list ? 3 : 1) {
+    Triangle triangle{corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i], corners[i + 1], corners[i + 2]};
+    // In a strip every second triangle runs the other way round; repeated vertices lead from part to part.
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1) std::swap(triangle[1], triangle[2]);
+    const bool joint = triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
+    if (list || !joint) triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+/// Makes a shape of those vertices of a primitive that its triangles use: many primitives may share one
+/// large table of vertices.
+class PrimitiveReading {
+ public:
+  PrimitiveReading(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                   const GltfSurface& surface)
+      : surface_(surface),
+        positions_(model, position_accessor(primitive), 3, 3),
+        normals_(surface.smooth ? std::nullopt : attribute(model, primitive, "NORMAL", 3, 3)),
+        colours_(attribute(model, primitive, "COLOR_0", 3, 4)),
+        indexed_(primitive.indices >= 0) {
+    if (surface.texture_set >= 0)
+      coordinates_ = attribute(model, primitive, fmt::format("TEXCOORD_{}", surface.texture_set), 2, 2);
+    for (const auto* it : {&normals_, &colours_, &coordinates_}) {
+      if (*it && (*it)->size() < positions_.size())
+        throw GltfError("a mesh has fewer normals, colours or texture coordinates than vertices");
+    }
+    if (positions_.size() > std::numeric_limits<std::uint32_t>::max())
+      throw GltfError("a mesh has more vertices than can be numbered");
+    triangles_ = triangles_of(corners_of(model, primitive, positions_.size()), primitive.mode);
+  }
+
+  world::MeshGeometry run() {
+    world::MeshGeometry shape(mesh());
+    const std::size_t count = triangles_.size();
+    if (coordinates_) shape.texture_coordinates.resize(count);
+    if (normals_) shape.normals.resize(count);
+    if (colours_) shape.colours.resize(count);
+    for (std::size_t t = 0; t < count; ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = triangles_[t][i];
+        if (coordinates_) shape.texture_coordinates[t][i] = coordinate(vertex);
+        if (normals_) shape.normals[t][i] = normal(vertex);
+        if (colours_) shape.colours[t][i] = colour(vertex);
+      }
+    }
+    if (!normals_ && !surface_.smooth) add_flat_normals(shape);
+    if (coordinates_ || normals_ || colours_ || !indexed_) {
+      geometry::weld_equal(shape.mesh);
+      drop_unused(shape.mesh);
+    }
+    return shape;
+  }
+
+ private:
+  static int position_accessor(const tinygltf::Primitive& primitive) {
+    return primitive.attributes.at("POSITION");
+  }
+
+  geometry::TriangleMesh mesh() const {
+    geometry::TriangleMesh mesh;
+    std::unordered_map<std::uint32_t, std::uint32_t> few;
+    std::vector<std::uint32_t> many;
+    constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
+    const bool use_most = positions_.size() / 8 < triangles_.size();
+    if (use_most) many.assign(positions_.size(), kNew);
+    mesh.triangles = triangles_;
+    for (Triangle& triangle : mesh.triangles) {
+      for (std::uint32_t& corner : triangle) {
+        std::uint32_t& place = use_most ? many[corner] : few.try_emplace(corner, kNew).first->second;
+        if (place == kNew) {
+          place = std::uint32_t(mesh.positions.size());
+          mesh.positions.push_back(position(corner));
+        }
+        corner = place;
+      }
+    }
+    return mesh;
+  }
+
+  /// As written: 0.1 where the file holds the float nearest to it.
+  double exact(const GltfAccessor& accessor, std::uint32_t vertex, std::size_t component) const {
+    const double number = accessor.number(vertex, component);
+    return accessor.is_float() ? from_single(float(number)) : number;
+  }
+  Vector3 position(std::uint32_t v) const {
+    return {exact(positions_, v, 0), exact(positions_, v, 1), exact(positions_, v, 2)};
+  }
+  /// glTF counts down from a picture's top.
+  Vector2 coordinate(std::uint32_t v) const {
+    const auto& [a, b, c, d, e, f] = surface_.texture_frame;
+    const double s = exact(*coordinates_, v, 0);
+    const double t = exact(*coordinates_, v, 1);
+    return {a * s + b * t + c, 1.0 - (d * s + e * t + f)};
+  }
+  Vector3 normal(std::uint32_t v) const {
+    const Vector3 given(normals_->number(v, 0), normals_->number(v, 1), normals_->number(v, 2));
+    return given.stableNormalized();
+  }
+  world::Colour colour(std::uint32_t v) const {
+    world::Colour colour;
+    for (std::size_t i = 0; i < 3; ++i) colour[i] = float(colours_->number(v, i)) * surface_.colour[i];
+    return colour;
+  }
+
+  static void add_flat_normals(world::MeshGeometry& shape) {
+    shape.normals.reserve(shape.mesh.triangles.size());
+    for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t) {
+      const Vector3& a = shape.mesh.corner(t, 0);
+      const Vector3 across = (shape.mesh.corner(t, 1) - a).cross(shape.mesh.corner(t, 2) - a);
+      const Vector3 normal = across.stableNormalized();
+      shape.normals.push_back({normal, normal, normal});
+    }
+  }
+
+  const GltfSurface& surface_;
+  GltfAccessor positions_;
+  std::optional<GltfAccessor> normals_, colours_, coordinates_;
+  bool indexed_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace
+
+bool has_triangles(const tinygltf::Primitive& primitive) {
+  return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN &&
+         primitive.attributes.count("POSITION") > 0;
+}
+
+std::shared_ptr<const world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
+                                                     const tinygltf::Primitive& primitive,
+                                                     const GltfSurface& surface, std::string& lost) {
+  world::MeshGeometry shape = PrimitiveReading(model, primitive, surface).run();
+  lost = drop_not_finite(shape);
+  return std::make_shared<const world::MeshGeometry>(std::move(shape));
+}
+
+}  // namespace icome::files

@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+
+#include "world/mesh_geometry.h"
+
+namespace tinygltf {
+class Model;
+struct Primitive;
+}  // namespace tinygltf
+
+namespace icome::files {
+
+/// What a material says about the mesh that it is on.
+struct GltfSurface {
+  int texture_set = -1;                         // of coordinates; -1: no texture
+  std::array<double, 6> texture_frame = {};     // rows of the transform of its coordinates, baked
+  world::Colour colour = {1.0F, 1.0F, 1.0F};    // that corner colours are multiplied with
+  bool smooth = false;                          // its normals are those of a mesh without any
+
+  bool operator==(const GltfSurface&) const = default;
+};
+
+/// The triangles of a primitive, whose mode is triangles, a strip or a fan. Vertices that only differ in
+/// what belongs to corners become one. Throws GltfError. `lost`: a sentence, if anything was left out.
+std::shared_ptr<const world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
+                                                     const tinygltf::Primitive& primitive,
+                                                     const GltfSurface& surface, std::string& lost);
+
+/// Are its elements triangles?
+bool has_triangles(const tinygltf::Primitive& primitive);
+
+}  // namespace icome::files

@@ -1,0 +1,442 @@
+#include "files/gltf_reader.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "base/clock.h"
+#include "files/file_bytes.h"
+#include "files/file_ending.h"
+#include "files/gltf_looks.h"
+#include "files/gltf_model.h"
+#include "files/gltf_value.h"
+#include "files/mesh_formats.h"
+
+namespace icome::files {
+namespace {
+
+using base::Affine3;
+using tinygltf::Value;
+using world::GeometryId;
+using world::ObjectId;
+using world::PhysicalObject;
+
+constexpr const char* kLights = "KHR_lights_punctual";
+
+/// What readers may not do without understanding it; looks (KHR_materials_...) only become plainer.
+bool is_understood(const std::string& extension) {
+  constexpr std::array<std::string_view, 4> kUnderstood{kLights, "KHR_texture_transform",
+                                                        "KHR_mesh_quantization", "ICOME"};
+  return extension.starts_with("KHR_materials_") ||
+         std::find(kUnderstood.begin(), kUnderstood.end(), extension) != kUnderstood.end();
+}
+
+std::array<double, 3> three_of(const std::vector<double>& numbers, double otherwise) {
+  if (numbers.empty()) return {otherwise, otherwise, otherwise};
+  if (numbers.size() != 3) throw GltfError("a node's scale or translation has the wrong length");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// A matrix, or scale, then rotation, then translation.
+Affine3 parent_from(const tinygltf::Node& node) {
+  Affine3 frame = Affine3::Identity();
+  if (!node.matrix.empty()) {
+    if (node.matrix.size() != 16) throw GltfError("a node's matrix has the wrong length");
+    for (int i = 0; i < 12; ++i) frame.matrix()(i % 3, i / 3) = node.matrix[std::size_t(i / 3 * 4 + i % 3)];
+    return frame;
+  }
+  const auto [x, y, z] = three_of(node.translation, 0.0);
+  frame.translate(base::Vector3(x, y, z));
+  if (!node.rotation.empty()) {
+    if (node.rotation.size() != 4) throw GltfError("a node's rotation has the wrong length");
+    const base::Quaternion turn(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    frame.rotate(turn.normalized());
+  }
+  const auto [sx, sy, sz] = three_of(node.scale, 1.0);
+  frame.scale(base::Vector3(sx, sy, sz));
+  return frame;
+}
+
+bool can_be_placed(const Affine3& frame) {
+  const double volume = frame.linear().determinant();
+  return frame.matrix().allFinite() && std::isfinite(volume) && volume != 0.0;
+}
+
+/// Reads one file into a design.
+class GltfReading {
+ public:
+  GltfReading(const tinygltf::Model& model, DesignBuilder& builder, const DesignReadOptions& options)
+      : model_(model),
+        builder_(builder),
+        options_(options),
+        looks_(model, builder),
+        objects_(model.nodes.size()),
+        started_(base::steady_nanoseconds()) {}
+
+  void run() {
+    for (const std::string& extension : model_.extensionsRequired) {
+      if (!is_understood(extension)) throw GltfError("it needs " + extension + ", which is not supported");
+    }
+    // Shapes that no object has are kept too.
+    for (std::size_t i = 0; i < root_shapes().ArrayLen(); ++i) exact_shape(int(i));
+    for (const tinygltf::Mesh& mesh : model_.meshes) {
+      for (const tinygltf::Primitive& primitive : mesh.primitives) shape_of(mesh, primitive);
+    }
+    std::vector<std::vector<ObjectId>> scenes;
+    for (const auto& [name, nodes] : scene_roots()) scenes.push_back(add_tree(nodes));
+    if (scenes.size() > 1) {
+      for (std::size_t i = 0; i < scenes.size(); ++i) builder_.add_scene(model_.scenes[i].name, scenes[i]);
+    }
+    add_own_scenes();
+    remark_on_losses();
+  }
+
+ private:
+  struct Visit {
+    int node;
+    ObjectId parent;
+  };
+  using NamedNodes = std::pair<std::string, std::vector<int>>;
+
+  const Value& root_extras() const { return icome_extras(model_.extras); }
+  const Value& root_shapes() const { return member(root_extras(), "shapes"); }
+
+  /// Of each scene; of a file without any, the nodes that no other has below it.
+  std::vector<NamedNodes> scene_roots() const {
+    std::vector<NamedNodes> roots;
+    for (const tinygltf::Scene& scene : model_.scenes) roots.emplace_back(scene.name, scene.nodes);
+    if (!roots.empty()) return roots;
+    std::vector<bool> is_child(model_.nodes.size(), false);
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        if (child >= 0 && std::size_t(child) < is_child.size()) is_child[std::size_t(child)] = true;
+      }
+    }
+    NamedNodes all;
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) all.second.push_back(int(i));
+    }
+    return {all};
+  }
+
+  /// Adds nodes with all that is below them; those that are there already are shown by several scenes.
+  std::vector<ObjectId> add_tree(const std::vector<int>& roots) {
+    std::vector<Visit> open;
+    const auto enter = [&](const std::vector<int>& nodes, ObjectId parent) {
+      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open.push_back({*node, parent});
+    };
+    enter(roots, {});
+    while (!open.empty()) {
+      const Visit visit = open.back();
+      open.pop_back();
+      if (visit.node < 0 || std::size_t(visit.node) >= objects_.size())
+        throw GltfError("its nodes do not form a tree");
+      NodeObject& known = objects_[std::size_t(visit.node)];
+      // A node belongs to one parent, but several scenes may show a root: this also ends every circle.
+      if (known.seen && (visit.parent || (known.id && !is_root(known.id))))
+        throw GltfError("its nodes do not form a tree");
+      if (known.seen) continue;
+      known.seen = true;
+      known.id = add_node(model_.nodes[std::size_t(visit.node)], visit.parent);
+      if (known.id) enter(model_.nodes[std::size_t(visit.node)].children, known.id);
+    }
+    std::vector<ObjectId> ids;
+    for (const int node : roots) {
+      const ObjectId id = objects_[std::size_t(node)].id;
+      if (id && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    }
+    return ids;
+  }
+
+  bool is_root(ObjectId id) const {
+    const PhysicalObject* const object = builder_.world().find(id);
+    return object && !object->parent;
+  }
+
+  /// None where the node flattens all that is in it.
+  ObjectId add_node(const tinygltf::Node& node, ObjectId parent) {
+    ask_whether_to_go_on();
+    PhysicalObject object{.name = node.name, .parent = parent, .parent_from_object = parent_from(node)};
+    if (!can_be_placed(object.parent_from_object)) {
+      ++flat_nodes_;
+      return {};
+    }
+    std::vector<world::FixturePointer> fixtures = fixtures_of(node);
+    if (!fixtures.empty()) object.fixture = fixtures.front();
+    const std::vector<PhysicalObject> parts = parts_of(node);
+    if (parts.size() == 1) {
+      object.geometry = parts[0].geometry;
+      object.material = parts[0].material;
+    }
+    const std::string name = node.name;
+    const ObjectId id = builder_.add(std::move(object));
+    for (std::size_t i = 0; parts.size() > 1 && i < parts.size(); ++i) {
+      PhysicalObject part = parts[i];
+      part.parent = id;
+      builder_.add(std::move(part));
+    }
+    for (std::size_t i = 1; i < fixtures.size(); ++i)
+      builder_.add(PhysicalObject{.name = name, .parent = id, .fixture = fixtures[i]});
+    return id;
+  }
+
+  /// The shapes of a node, as objects without a place.
+  std::vector<PhysicalObject> parts_of(const tinygltf::Node& node) {
+    std::vector<PhysicalObject> parts;
+    const Value& extras = icome_extras(node.extras);
+    if (node.mesh < 0) {
+      const auto shape = index_in(extras, "shape", root_shapes().ArrayLen());
+      const GeometryId geometry = shape ? exact_shape(*shape) : GeometryId{};
+      const int material = index_in(extras, "material", model_.materials.size()).value_or(-1);
+      if (geometry || material >= 0)
+        parts.push_back({.geometry = geometry, .material = looks_.material(material)});
+      return parts;
+    }
+    if (std::size_t(node.mesh) >= model_.meshes.size())
+      throw GltfError("a node refers to a mesh that is not there");
+    const tinygltf::Mesh& mesh = model_.meshes[std::size_t(node.mesh)];
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      const GeometryId geometry = shape_of(mesh, primitive);
+      if (geometry)
+        parts.push_back(
+            {.name = mesh.name, .geometry = geometry, .material = looks_.material(primitive.material)});
+    }
+    return parts;
+  }
+
+  /// What two primitives must have in common to be one shape.
+  std::string key_of(const tinygltf::Primitive& primitive, const GltfSurface& surface) const {
+    std::string key = fmt::format("{} {} {}", primitive.mode, primitive.indices, surface.smooth);
+    for (const auto& [name, accessor] : primitive.attributes) {
+      const bool coordinates = name.starts_with("TEXCOORD_");
+      if (name == "POSITION" || name == "NORMAL") key += fmt::format(" {}{}", name, accessor);
+      if (coordinates && name == fmt::format("TEXCOORD_{}", surface.texture_set)) {
+        key += fmt::format(" {}{}", name, accessor);
+        for (const double number : surface.texture_frame) key += fmt::format(",{}", number);
+      }
+      if (name == "COLOR_0") {
+        key += fmt::format(" {}{}", name, accessor);
+        for (const float part : surface.colour) key += fmt::format(",{}", part);
+      }
+    }
+    return key;
+  }
+
+  /// None for what is no triangles.
+  GeometryId shape_of(const tinygltf::Mesh& mesh, const tinygltf::Primitive& primitive) {
+    const Value& extras = icome_extras(mesh.extras);
+    if (const auto exact = index_in(extras, "shape", root_shapes().ArrayLen())) {
+      if (const GeometryId geometry = exact_shape(*exact)) return geometry;
+    }
+    if (!has_triangles(primitive)) {
+      ++other_primitives_;
+      return {};
+    }
+    GltfSurface surface = looks_.surface(primitive.material);
+    looks_.material(primitive.material);
+    const Value& smooth = member(extras, "smooth");
+    surface.smooth = smooth.IsBool() && smooth.Get<bool>();
+    const auto [found, is_new] = shapes_.try_emplace(key_of(primitive, surface));
+    if (!is_new) return found->second;
+    ask_whether_to_go_on();
+    std::string lost;
+    const auto shape = gltf_mesh(model_, primitive, surface, lost);
+    if (!lost.empty()) builder_.remark(mesh.name.empty() ? lost : fmt::format("\"{}\": {}", mesh.name, lost));
+    return found->second = keep(shape);
+  }
+
+  /// Of the root's extras; none where it cannot be made, which is told once.
+  GeometryId exact_shape(int index) {
+    const auto [found, is_new] = exact_.try_emplace(index);
+    if (!is_new) return found->second;
+    ask_whether_to_go_on();
+    const auto shape = shape_from_text(shape_text_of(root_shapes().Get(index)));
+    if (shape) {
+      found->second = keep(*shape);
+    } else {
+      builder_.remark(fmt::format("An exact shape cannot be read, its triangles are taken instead: {}.",
+                                  shape.error().message));
+    }
+    return found->second;
+  }
+
+  GeometryId keep(const world::GeometryPointer& shape) {
+    bytes_ += shape->bytes();
+    if (bytes_ > options_.memory_limit) throw GltfError("its shapes need more memory than there is");
+    return builder_.add(shape);
+  }
+
+  std::vector<world::FixturePointer> fixtures_of(const tinygltf::Node& node) {
+    const auto share = [](auto fixture) { return std::make_shared<const world::Fixture>(std::move(fixture)); };
+    std::vector<world::FixturePointer> fixtures;
+    const Value& extras = icome_extras(node.extras);
+    if (const Value& inert = member(extras, "inert"); inert.IsObject())
+      fixtures.push_back(share(world::Inert{text_in(inert, "type"), text_in(inert, "source")}));
+    const auto own_light = light_of(member(extras, "light"));
+    if (own_light) {
+      fixtures.push_back(share(*own_light));
+    } else if (const auto it = node.extensions.find(kLights); it != node.extensions.end()) {
+      const auto light = index_in(it->second, "light", model_.lights.size());
+      if (!light) throw GltfError("a node refers to a light that is not there");
+      fixtures.push_back(share(light_from(model_.lights[std::size_t(*light)])));
+    }
+    if (node.camera >= 0) {
+      if (std::size_t(node.camera) >= model_.cameras.size())
+        throw GltfError("a node refers to a camera that is not there");
+      fixtures.push_back(share(viewpoint_from(model_.cameras[std::size_t(node.camera)])));
+    }
+    return fixtures;
+  }
+
+  world::Light light_from(const tinygltf::Light& it) {
+    world::Light light;
+    if (it.type == "point") light.kind = world::Light::Kind::Point;
+    if (it.type == "spot") light.kind = world::Light::Kind::Spot;
+    for (std::size_t i = 0; i < 3 && it.color.size() == 3; ++i) light.colour[i] = part_of_one(it.color[i]);
+    light.intensity = part_of_one(it.intensity);
+    light.attenuation = {0.0F, 0.0F, 1.0F};
+    constexpr double kEndless = 1e9;  // m
+    light.radius = it.range > 0.0 ? std::min(it.range, kEndless) : kEndless;
+    light.cut_off_angle = std::clamp(it.spot.outerConeAngle, 0.0, 0.5 * std::numbers::pi);
+    light.beam_width = std::clamp(it.spot.innerConeAngle, 0.0, light.cut_off_angle);
+    return light;
+  }
+
+  world::Viewpoint viewpoint_from(const tinygltf::Camera& it) {
+    world::Viewpoint viewpoint;
+    const double angle = it.perspective.yfov;
+    if (it.type == "perspective" && angle > 0.0 && angle < std::numbers::pi) {
+      viewpoint.field_of_view = angle;
+    } else {
+      ++other_cameras_;
+    }
+    return viewpoint;
+  }
+
+  void add_own_scenes() {
+    const Value& scenes = member(root_extras(), "scenes");
+    for (int i = 0; std::size_t(i) < scenes.ArrayLen(); ++i) {
+      const Value& nodes = member(scenes.Get(i), "nodes");
+      std::vector<ObjectId> roots;
+      for (int n = 0; std::size_t(n) < nodes.ArrayLen(); ++n) {
+        const int node = nodes.Get(n).IsInt() ? nodes.Get(n).GetNumberAsInt() : -1;
+        if (node < 0 || std::size_t(node) >= objects_.size()) continue;
+        const ObjectId id = objects_[std::size_t(node)].id;
+        if (id && std::find(roots.begin(), roots.end(), id) == roots.end()) roots.push_back(id);
+      }
+      builder_.add_scene(text_in(scenes.Get(i), "name"), roots);
+    }
+  }
+
+  void remark_on_losses() {
+    const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
+      if (count == 0) return;
+      builder_.remark(count == 1 ? fmt::format("1 {} {}", one, what) : fmt::format("{} {} {}", count, several, what));
+    };
+    std::size_t morphs = 0;
+    for (const tinygltf::Mesh& mesh : model_.meshes) {
+      for (const tinygltf::Primitive& primitive : mesh.primitives) morphs += primitive.targets.empty() ? 0 : 1;
+    }
+    const auto unseen =
+        std::size_t(std::count_if(objects_.begin(), objects_.end(), [](const NodeObject& it) { return !it.seen; }));
+    tell(other_primitives_, "primitive of points or lines is", "primitives of points or lines are", "left out.");
+    tell(flat_nodes_, "node is", "nodes are", "left out: a scale of nothing flattens what is below.");
+    tell(unseen - std::min(unseen, below_flat()), "node is", "nodes are", "left out: no scene shows it.");
+    tell(model_.animations.size(), "animation is", "animations are", "left out.");
+    tell(model_.skins.size(), "skin is", "skins are", "left out: what it moves stands as it was modelled.");
+    tell(morphs, "morphing shape is", "morphing shapes are", "kept as modelled.");
+    tell(other_cameras_, "camera is", "cameras are", "not in perspective, kept as a viewpoint.");
+    for (const std::string& extension : model_.extensionsUsed) {
+      if (!is_understood(extension)) builder_.remark("It uses " + extension.substr(0, 80) + ", which is left out.");
+    }
+  }
+
+  /// Nodes below such that were left out.
+  std::size_t below_flat() const {
+    std::size_t count = 0;
+    std::vector<bool> counted(objects_.size(), false);
+    std::vector<int> open;
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (objects_[i].seen && !objects_[i].id) open.push_back(int(i));
+    }
+    while (!open.empty()) {
+      const int node = open.back();
+      open.pop_back();
+      for (const int child : model_.nodes[std::size_t(node)].children) {
+        if (child < 0 || std::size_t(child) >= counted.size() || counted[std::size_t(child)]) continue;
+        counted[std::size_t(child)] = true;
+        count += objects_[std::size_t(child)].seen ? 0 : 1;
+        open.push_back(child);
+      }
+    }
+    return count;
+  }
+
+  /// Throws when a person has had enough, or the file takes longer than allowed.
+  void ask_whether_to_go_on() {
+    ++steps_;
+    const double seconds = 1e-9 * double(base::steady_nanoseconds() - started_);
+    if (seconds > options_.seconds_limit)
+      throw GltfError(fmt::format("it takes longer than {:.0f} s", options_.seconds_limit));
+    const double all = double(model_.nodes.size() + model_.meshes.size() + root_shapes().ArrayLen() + 1);
+    if (options_.progress && !options_.progress(std::min(double(steps_) / all, 1.0)))
+      throw GltfError("interrupted");
+  }
+
+  const tinygltf::Model& model_;
+  DesignBuilder& builder_;
+  const DesignReadOptions& options_;
+  GltfLooks looks_;
+  struct NodeObject {
+    bool seen = false;
+    ObjectId id = {};
+  };
+  std::vector<NodeObject> objects_;
+  std::unordered_map<std::string, GeometryId> shapes_;
+  std::unordered_map<int, GeometryId> exact_;
+  std::uint64_t bytes_ = 0;
+  std::size_t steps_ = 0;
+  std::size_t other_primitives_ = 0;
+  std::size_t flat_nodes_ = 0;
+  std::size_t other_cameras_ = 0;
+  std::int64_t started_;
+};
+
+}  // namespace
+
+base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::filesystem::path& path,
+                                           const DesignReadOptions& options) {
+  const std::string name = path.string();
+  const bool is_glb = ending_of(path).type == ".glb";
+  if (is_glb && !bytes.starts_with("glTF"))
+    return base::fail(name + ": does not begin with 'glTF', so it is not a GLB file");
+  try {
+    const GltfModel loaded = load_gltf(bytes, path, options);
+    DesignBuilder builder;
+    GltfReading(*loaded.model, builder, options).run();
+    for (const std::string& sentence : loaded.not_fetched) builder.remark("Picture " + sentence + ".");
+    return builder.take(loaded.format, name);
+  } catch (const GltfError& problem) {
+    return base::fail(fmt::format("{}: is not a {} file that can be read: {}", name, is_glb ? "GLB" : "glTF",
+                                  problem.what()));
+  }
+}
+
+base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options) {
+  auto bytes = read_bytes(path, options.size_limit);
+  const bool packed = ending_of(path).packed;
+  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, path.string());
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (bytes->empty()) return base::fail(path.string() + ": the file is empty");
+  auto design = read_gltf_bytes(*bytes, path, options);
+  if (design && packed) design->format += ", xz";
+  return design;
+}
+
+}  // namespace icome::files

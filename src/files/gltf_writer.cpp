@@ -1,0 +1,417 @@
+#include "files/gltf_writer.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <ostream>
+#include <streambuf>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "files/file_ending.h"
+#include "files/gltf_value.h"
+#include "files/gltf_vertices.h"
+#include "files/new_file.h"
+#include "files/shown_world.h"
+#include "files/utf8.h"
+
+namespace icome::files {
+namespace {
+
+using tinygltf::Value;
+using world::GeometryId;
+using world::MaterialId;
+using world::ObjectId;
+using world::PhysicalObject;
+using world::TextureId;
+using world::World;
+
+constexpr const char* kLights = "KHR_lights_punctual";
+constexpr std::size_t kMostBytes = 0xf0000000U;  // GLB counts with 32 bits; the JSON needs some of them
+
+template <typename Named>
+std::vector<world::Id<Named>> ids_in_order(const World::Table<Named>& table) {
+  std::vector<world::Id<Named>> ids;
+  for (const auto& [id, named] : table) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::vector<double> numbers_of(const world::Colour& colour) { return {colour[0], colour[1], colour[2]}; }
+
+/// The roughness of a microfacet surface that looks most like VRML 2.0's highlights.
+double roughness_of(float shininess) { return std::pow(2.0 / (128.0 * shininess + 2.0), 0.25); }
+
+/// Does the frame turn, stretch along its own axes and move, and no more, as glTF wants it?
+bool has_shear(const base::Affine3& frame) {
+  const base::Matrix3 products = frame.linear().transpose() * frame.linear();
+  constexpr double kRounding = 1e-6;  // of cosines
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (std::abs(products(i, j)) > kRounding * std::sqrt(products(i, i) * products(j, j))) return true;
+  }
+  return false;
+}
+
+/// Puts a world into the library's model of a glTF file.
+class GltfMaking {
+ public:
+  explicit GltfMaking(const World& world) : world_(world), shown_(world) {}
+
+  base::Result<tinygltf::Model> run() {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "ICOME";
+    model_.buffers.resize(1);
+    for (const TextureId id : ids_in_order(world_.textures())) add_texture(id);
+    for (const MaterialId id : ids_in_order(world_.materials())) add_material(id);
+    add_nodes();
+    for (const GeometryId id : ids_in_order(world_.geometries())) {
+      if (world_.find(id)->users == 0) mesh_of(id, {});
+    }
+    add_root_extras();
+    if (!failure_.empty()) return base::fail(failure_);
+    if (model_.buffers[0].data.empty()) model_.buffers.clear();
+    if (sheared_ > 0)
+      remark(fmt::format("{} sheared: some programs cannot show that.",
+                         sheared_ == 1 ? "1 object is" : fmt::format("{} objects are", sheared_)));
+    return std::move(model_);
+  }
+
+  std::vector<Remark> remarks() { return std::move(remarks_); }
+
+ private:
+  void remark(std::string text) { remarks_.push_back({{}, 0, std::move(text)}); }
+
+  /// A part of the buffer, which begins where any number may.
+  int add_view(const void* data, std::size_t bytes, int target) {
+    std::vector<unsigned char>& buffer = model_.buffers[0].data;
+    buffer.resize((buffer.size() + 3) / 4 * 4);
+    if (bytes > kMostBytes - std::min(buffer.size(), kMostBytes)) {
+      failure_ = "The design is larger than a glTF file may be (4 GB).";
+      return 0;
+    }
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = bytes;
+    view.target = target;
+    const auto* const first = static_cast<const unsigned char*>(data);
+    buffer.insert(buffer.end(), first, first + bytes);
+    model_.bufferViews.push_back(std::move(view));
+    return int(model_.bufferViews.size()) - 1;
+  }
+
+  template <std::size_t Size>
+  int add_accessor(const std::vector<std::array<float, Size>>& rows, bool with_bounds = false) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_view(rows.data(), rows.size() * sizeof(rows[0]), TINYGLTF_TARGET_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.type = Size == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC2;
+    accessor.count = rows.size();
+    if (with_bounds) {
+      accessor.minValues.assign(Size, std::numeric_limits<double>::max());
+      accessor.maxValues.assign(Size, std::numeric_limits<double>::lowest());
+      for (const auto& row : rows) {
+        for (std::size_t i = 0; i < Size; ++i) {
+          accessor.minValues[i] = std::min(accessor.minValues[i], double(row[i]));
+          accessor.maxValues[i] = std::max(accessor.maxValues[i], double(row[i]));
+        }
+      }
+      const auto finite = [](double it) { return std::isfinite(it); };
+      if (!std::all_of(accessor.maxValues.begin(), accessor.maxValues.end(), finite) ||
+          !std::all_of(accessor.minValues.begin(), accessor.minValues.end(), finite))
+        failure_ = "The design is too large for a glTF file's single precision.";
+    }
+    model_.accessors.push_back(std::move(accessor));
+    return int(model_.accessors.size()) - 1;
+  }
+
+  int add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertices) {
+    tinygltf::Accessor accessor;
+    accessor.type = TINYGLTF_TYPE_SCALAR;
+    accessor.count = corners.size();
+    if (vertices < 0xffff) {
+      const std::vector<std::uint16_t> narrow(corners.begin(), corners.end());
+      accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+      accessor.bufferView =
+          add_view(narrow.data(), narrow.size() * sizeof(narrow[0]), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    } else {
+      accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+      accessor.bufferView =
+          add_view(corners.data(), corners.size() * sizeof(corners[0]), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    }
+    model_.accessors.push_back(std::move(accessor));
+    return int(model_.accessors.size()) - 1;
+  }
+
+  void add_texture(TextureId id) {
+    const world::Texture& it = *world_.find(id);
+    tinygltf::Image image;
+    image.name = as_utf8(it.name);
+    image.mimeType = it.media_type;
+    image.bufferView = add_view(it.bytes->data(), it.bytes->size(), 0);
+    if (it.media_type != "image/png" && it.media_type != "image/jpeg")
+      remark(fmt::format("The picture \"{}\" is neither PNG nor JPEG: other programs may not show it.", it.name));
+    tinygltf::Sampler sampler;
+    sampler.wrapS = it.repeats[0] ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    sampler.wrapT = it.repeats[1] ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    tinygltf::Texture texture;
+    texture.source = int(model_.images.size());
+    texture.sampler = int(model_.samplers.size());
+    textures_[id] = int(model_.textures.size());
+    model_.images.push_back(std::move(image));
+    model_.samplers.push_back(std::move(sampler));
+    model_.textures.push_back(std::move(texture));
+  }
+
+  void add_material(MaterialId id) {
+    const world::Material& it = *world_.find(id);
+    tinygltf::Material material;
+    material.name = as_utf8(it.name);
+    material.doubleSided = true;  // what is seen from behind is seen
+    material.emissiveFactor = numbers_of(it.emission);
+    auto& pbr = material.pbrMetallicRoughness;
+    pbr.metallicFactor = 0.0;
+    pbr.roughnessFactor = roughness_of(it.shininess);
+    // A texture's own colours show, as in VRML 2.0.
+    const bool white = bool(it.texture);
+    pbr.baseColorFactor = white ? std::vector<double>{1.0, 1.0, 1.0} : numbers_of(it.diffuse);
+    pbr.baseColorFactor.push_back(1.0 - double(it.transparency));
+    if (it.transparency > 0.0F) material.alphaMode = "BLEND";
+    if (it.texture) pbr.baseColorTexture.index = textures_.at(it.texture);
+    material.extras = extras_with(value_of(it, white));
+    materials_[id] = int(model_.materials.size());
+    model_.materials.push_back(std::move(material));
+  }
+
+  /// A mesh's own colours are multiplied with those of its material: a white one is made for it.
+  int white_variant(MaterialId id) {
+    const int base = materials_.at(id);
+    const std::vector<double>& colour = model_.materials[std::size_t(base)].pbrMetallicRoughness.baseColorFactor;
+    if (colour[0] == 1.0 && colour[1] == 1.0 && colour[2] == 1.0) return base;
+    const auto [found, is_new] = white_variants_.try_emplace(id, int(model_.materials.size()));
+    if (!is_new) return found->second;
+    tinygltf::Material variant = model_.materials[std::size_t(base)];
+    auto& factor = variant.pbrMetallicRoughness.baseColorFactor;
+    std::fill(factor.begin(), factor.begin() + 3, 1.0);
+    Value::Object extras;
+    extras["variantOf"] = Value(base);
+    variant.extras = extras_with(Value(std::move(extras)));
+    model_.materials.push_back(std::move(variant));
+    return found->second;
+  }
+
+  /// Its place in the root's extras; -1 for shapes that are all triangles.
+  int exact_shape(GeometryId id) {
+    const auto [found, is_new] = exact_.try_emplace(id, -1);
+    if (!is_new) return found->second;
+    auto text = shape_text(*world_.find(id)->shape);
+    if (!text) {
+      remark("A shape is written as triangles only: " + text.error().message);
+    } else if (*text) {
+      found->second = int(shapes_.size());
+      for (auto& [name, words] : **text) words = as_utf8(words);
+      shapes_.push_back(value_of(**text));
+    }
+    return found->second;
+  }
+
+  /// The accessors of a shape, which meshes of several materials share.
+  const tinygltf::Primitive* primitive_of(GeometryId id) {
+    const auto [found, is_new] = primitives_.try_emplace(id);
+    if (!is_new) return found->second.attributes.empty() ? nullptr : &found->second;
+    const auto mesh = shown_.triangles(id);
+    if (!mesh || mesh->mesh.triangles.empty()) return nullptr;
+    const GltfVertices vertices = gltf_vertices(*mesh, world_.find(id)->shape->kind() != "mesh");
+    tinygltf::Primitive& primitive = found->second;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = add_accessor(vertices.positions, true);
+    if (!vertices.normals.empty()) primitive.attributes["NORMAL"] = add_accessor(vertices.normals);
+    if (!vertices.coordinates.empty()) primitive.attributes["TEXCOORD_0"] = add_accessor(vertices.coordinates);
+    if (!vertices.colours.empty()) primitive.attributes["COLOR_0"] = add_accessor(vertices.colours);
+    primitive.indices = add_indices(vertices.corners, vertices.positions.size());
+    if (vertices.smooth) smooth_.insert(id);
+    return &primitive;
+  }
+
+  /// The mesh of a shape in a material; -1: there is nothing to show.
+  int mesh_of(GeometryId geometry, MaterialId material) {
+    const auto [found, is_new] = meshes_.try_emplace({geometry, material}, -1);
+    if (!is_new) return found->second;
+    const int exact = exact_shape(geometry);
+    const tinygltf::Primitive* const shared = primitive_of(geometry);
+    if (shared == nullptr) return -1;
+    tinygltf::Primitive primitive = *shared;
+    if (material)
+      primitive.material =
+          primitive.attributes.count("COLOR_0") > 0 ? white_variant(material) : materials_.at(material);
+    tinygltf::Mesh mesh;
+    mesh.primitives.push_back(std::move(primitive));
+    Value::Object extras;
+    if (exact >= 0) extras["shape"] = Value(exact);
+    if (smooth_.count(geometry) > 0) extras["smooth"] = Value(true);
+    if (!extras.empty()) mesh.extras = extras_with(Value(std::move(extras)));
+    found->second = int(model_.meshes.size());
+    model_.meshes.push_back(std::move(mesh));
+    return found->second;
+  }
+
+  void add_nodes() {
+    struct Visit {
+      ObjectId id;
+      int parent;
+    };
+    std::vector<Visit> open;
+    const auto enter = [&](const std::vector<ObjectId>& row, int parent) {
+      for (auto id = row.rbegin(); id != row.rend(); ++id) open.push_back({*id, parent});
+    };
+    tinygltf::Scene scene;
+    enter(world_.roots(), -1);
+    model_.nodes.reserve(world_.objects().size());
+    while (!open.empty()) {
+      const Visit visit = open.back();
+      open.pop_back();
+      const int index = int(model_.nodes.size());
+      (visit.parent < 0 ? scene.nodes : model_.nodes[std::size_t(visit.parent)].children).push_back(index);
+      nodes_[visit.id] = index;
+      const PhysicalObject& object = *world_.find(visit.id);
+      model_.nodes.push_back(node_of(object));
+      enter(object.children, index);
+    }
+    model_.scenes.push_back(std::move(scene));
+    model_.defaultScene = 0;
+  }
+
+  tinygltf::Node node_of(const PhysicalObject& object) {
+    tinygltf::Node node;
+    node.name = as_utf8(object.name);
+    const base::Affine3& frame = object.parent_from_object;
+    if (!frame.matrix().isIdentity(0.0)) {
+      node.matrix.assign(frame.matrix().data(), frame.matrix().data() + 16);
+      sheared_ += has_shear(frame) ? 1 : 0;
+    }
+    Value::Object extras;
+    if (object.geometry) node.mesh = mesh_of(object.geometry, object.material);
+    if (node.mesh < 0) {
+      const int exact = object.geometry ? exact_shape(object.geometry) : -1;
+      if (exact >= 0) extras["shape"] = Value(exact);
+      if (object.geometry && exact < 0) remark("A shape without triangles is left out.");
+      if (object.material) extras["material"] = Value(materials_.at(object.material));
+    }
+    if (object.fixture)
+      std::visit([&](const auto& fixture) { add_fixture(fixture, node, extras); }, *object.fixture);
+    if (!extras.empty()) node.extras = extras_with(Value(std::move(extras)));
+    return node;
+  }
+
+  void add_fixture(const world::Light& it, tinygltf::Node& node, Value::Object& extras) {
+    extras["light"] = value_of(it);
+    if (!it.on) return;
+    constexpr std::array<const char*, 3> kTypes{"directional", "point", "spot"};
+    tinygltf::Light light;
+    light.type = kTypes.at(std::size_t(it.kind));
+    light.color = numbers_of(it.colour);
+    light.intensity = it.intensity;
+    if (it.kind != world::Light::Kind::Directional) light.range = it.radius;
+    constexpr double kWidest = 1.5707963;  // glTF wants at most a right angle, and less within
+    light.spot.outerConeAngle = std::clamp(it.cut_off_angle, 1e-3, kWidest);
+    light.spot.innerConeAngle = std::clamp(it.beam_width, 0.0, 0.999 * light.spot.outerConeAngle);
+    Value::Object extension;
+    extension["light"] = Value(int(model_.lights.size()));
+    node.extensions[kLights] = Value(std::move(extension));
+    model_.lights.push_back(std::move(light));
+  }
+
+  void add_fixture(const world::Viewpoint& it, tinygltf::Node& node, Value::Object&) {
+    tinygltf::Camera camera;
+    camera.type = "perspective";
+    camera.perspective.yfov = it.field_of_view;
+    camera.perspective.znear = 0.01;
+    node.camera = int(model_.cameras.size());
+    model_.cameras.push_back(std::move(camera));
+  }
+
+  static void add_fixture(const world::Inert& it, tinygltf::Node&, Value::Object& extras) {
+    Value::Object inert;
+    inert["type"] = Value(as_utf8(it.type));
+    inert["source"] = Value(as_utf8(it.source));
+    extras["inert"] = Value(std::move(inert));
+  }
+
+  void add_root_extras() {
+    Value::Object icome;
+    if (!shapes_.empty()) icome["shapes"] = Value(std::move(shapes_));
+    Value::Array scenes;
+    for (const world::SceneId id : ids_in_order(world_.scenes())) {
+      const world::Scene& it = *world_.find(id);
+      Value::Array nodes;
+      for (const ObjectId root : it.roots) nodes.emplace_back(nodes_.at(root));
+      Value::Object scene;
+      scene["name"] = Value(as_utf8(it.name));
+      scene["nodes"] = Value(std::move(nodes));
+      scenes.emplace_back(std::move(scene));
+    }
+    if (!scenes.empty()) icome["scenes"] = Value(std::move(scenes));
+    if (!icome.empty()) model_.extras = extras_with(Value(std::move(icome)));
+  }
+
+  const World& world_;
+  ShownShapes shown_;
+  tinygltf::Model model_;
+  std::unordered_map<TextureId, int> textures_;
+  std::unordered_map<MaterialId, int> materials_, white_variants_;
+  std::unordered_map<GeometryId, int> exact_;
+  std::unordered_map<GeometryId, tinygltf::Primitive> primitives_;
+  std::unordered_set<GeometryId> smooth_;
+  std::map<std::pair<GeometryId, MaterialId>, int> meshes_;
+  std::unordered_map<ObjectId, int> nodes_;
+  Value::Array shapes_;
+  std::vector<Remark> remarks_;
+  std::size_t sheared_ = 0;
+  std::string failure_;
+};
+
+/// What is written into the stream goes into the file.
+class FileBuffer final : public std::streambuf {
+ public:
+  explicit FileBuffer(NewFile& file) : file_(file) {}
+
+ protected:
+  std::streamsize xsputn(const char* data, std::streamsize count) override {
+    file_.write({data, std::size_t(count)});
+    return count;
+  }
+  int_type overflow(int_type letter) override {
+    const char one = traits_type::to_char_type(letter);
+    file_.write({&one, 1});
+    return letter;
+  }
+
+ private:
+  NewFile& file_;
+};
+
+}  // namespace
+
+base::Result<std::vector<Remark>> write_gltf(const std::filesystem::path& path, const World& world) {
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  GltfMaking making(world);
+  const auto model = making.run();
+  if (!model) return base::fail(fmt::format("{}: {}", path.string(), model.error().message));
+  FileBuffer buffer(*file);
+  std::ostream stream(&buffer);
+  tinygltf::TinyGLTF library;
+  const bool binary = ending_of(path).type == ".glb";
+  if (!library.WriteGltfSceneToStream(&*model, stream, !binary, binary))
+    return base::fail(path.string() + ": cannot be written as glTF.");
+  if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
+  return making.remarks();
+}
+
+}  // namespace icome::files

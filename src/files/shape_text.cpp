@@ -1,0 +1,171 @@
+#include "files/shape_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "files/csg_text.h"
+#include "files/number_text.h"
+#include "files/text_scanner.h"
+#include "geometry/primitive.h"
+#include "world/geometry_check.h"
+
+namespace icome::files {
+namespace {
+
+using base::Vector3;
+using world::GeometryPointer;
+
+template <typename Number>
+void append(std::string& text, Number number) {
+  if (!text.empty()) text += ' ';
+  append_number(text, number);
+}
+
+std::string text_of(const std::vector<Vector3>& points) {
+  std::string text;
+  for (const Vector3& point : points) {
+    for (const double coordinate : point) append(text, coordinate);
+  }
+  return text;
+}
+
+template <std::size_t Size>
+std::string text_of(const std::vector<std::array<std::uint32_t, Size>>& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    for (const std::uint32_t index : row) append(text, index);
+  }
+  return text;
+}
+
+std::string text_of(const std::vector<std::uint32_t>& indices) {
+  std::string text;
+  for (const std::uint32_t index : indices) append(text, index);
+  return text;
+}
+
+/// The numbers of a text, as many as fit into rows.
+base::Result<std::vector<double>> numbers_of(const ShapeText& text, const char* key, std::size_t row) {
+  std::vector<double> numbers;
+  const auto found = text.find(key);
+  if (found == text.end()) return numbers;
+  TextScanner scanner(found->second, key, TextScanner::Lines::AreSpace, '\0');
+  while (!scanner.at_end()) numbers.push_back(scanner.number("a number"));
+  if (scanner.failed()) return tl::unexpected(scanner.error());
+  if (numbers.size() % row != 0) return base::fail(fmt::format("{}: ends within a row of {}", key, row));
+  return numbers;
+}
+
+template <std::size_t Size>
+base::Result<std::vector<std::array<std::uint32_t, Size>>> rows_of(const ShapeText& text, const char* key) {
+  const auto numbers = numbers_of(text, key, Size);
+  if (!numbers) return tl::unexpected(numbers.error());
+  std::vector<std::array<std::uint32_t, Size>> rows(numbers->size() / Size);
+  for (std::size_t i = 0; i < numbers->size(); ++i) {
+    const double number = (*numbers)[i];
+    if (!(number >= 0.0 && number <= double(std::numeric_limits<std::uint32_t>::max())))
+      return base::fail(fmt::format("{}: {} is not an index", key, number));
+    rows[i / Size][i % Size] = std::uint32_t(number);
+  }
+  return rows;
+}
+
+base::Result<std::vector<Vector3>> points_of(const ShapeText& text, const char* key) {
+  const auto numbers = numbers_of(text, key, 3);
+  if (!numbers) return tl::unexpected(numbers.error());
+  std::vector<Vector3> points;
+  for (std::size_t i = 0; i < numbers->size(); i += 3)
+    points.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
+  return points;
+}
+
+std::string word_of(const ShapeText& text, const char* key) {
+  const auto found = text.find(key);
+  return found == text.end() ? "" : found->second;
+}
+
+base::Result<GeometryPointer> primitive_of(const ShapeText& text) {
+  const auto primitive = geometry::parse_primitive(word_of(text, "shape"));
+  if (!primitive) return tl::unexpected(primitive.error());
+  const world::Axis axis = word_of(text, "axis") == "y" ? world::Axis::Y : world::Axis::Z;
+  return std::make_shared<const world::PrimitiveGeometry>(*primitive, axis);
+}
+
+base::Result<GeometryPointer> csg_of(const ShapeText& text) {
+  auto tree = csg_from_text(word_of(text, "tree"));
+  if (!tree) return tl::unexpected(tree.error());
+  return std::make_shared<const world::CsgGeometry>(std::move(*tree));
+}
+
+base::Result<GeometryPointer> implicit_of(const ShapeText& text) {
+  const auto corners = points_of(text, "box");
+  if (!corners) return tl::unexpected(corners.error());
+  if (corners->size() != 2) return base::fail("box: needs two corners");
+  auto shape =
+      world::ImplicitGeometry::create(word_of(text, "formula"), base::Bounds((*corners)[0], (*corners)[1]));
+  if (!shape) return tl::unexpected(shape.error());
+  return GeometryPointer(std::move(*shape));
+}
+
+base::Result<GeometryPointer> loop_of(const ShapeText& text) {
+  auto points = points_of(text, "points");
+  if (!points) return tl::unexpected(points.error());
+  auto triangles = rows_of<3>(text, "triangles");
+  if (!triangles) return tl::unexpected(triangles.error());
+  auto creases = rows_of<2>(text, "creases");
+  if (!creases) return tl::unexpected(creases.error());
+  const auto corners = rows_of<1>(text, "corners");
+  if (!corners) return tl::unexpected(corners.error());
+  geometry::ControlMesh control;
+  control.mesh.positions = std::move(*points);
+  control.mesh.triangles = std::move(*triangles);
+  control.creases = std::move(*creases);
+  for (const auto& [corner] : *corners) control.corners.push_back(corner);
+  auto shape = std::make_shared<world::LoopGeometry>(std::move(control));
+  if (const std::string wrong = world::complaint(*shape); !wrong.empty()) return base::fail(wrong);
+  return GeometryPointer(std::move(shape));
+}
+
+}  // namespace
+
+base::Result<std::optional<ShapeText>> shape_text(const world::Geometry& shape) {
+  const std::string kind(shape.kind());
+  if (kind == "mesh") return std::optional<ShapeText>();
+  if (const auto* it = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
+    return ShapeText{{"kind", kind},
+                     {"shape", geometry::name(it->primitive)},
+                     {"axis", it->axis == world::Axis::Y ? "y" : "z"}};
+  }
+  if (const auto* it = dynamic_cast<const world::CsgGeometry*>(&shape)) {
+    auto tree = csg_text(it->tree);
+    if (!tree) return tl::unexpected(tree.error());
+    return ShapeText{{"kind", kind}, {"tree", std::move(*tree)}};
+  }
+  if (const auto* it = dynamic_cast<const world::ImplicitGeometry*>(&shape)) {
+    const base::Bounds box = it->bounds();
+    return ShapeText{{"kind", kind}, {"formula", it->formula()}, {"box", text_of({box.min(), box.max()})}};
+  }
+  if (const auto* it = dynamic_cast<const world::LoopGeometry*>(&shape)) {
+    return ShapeText{{"kind", kind},
+                     {"points", text_of(it->control.mesh.positions)},
+                     {"triangles", text_of(it->control.mesh.triangles)},
+                     {"creases", text_of(it->control.creases)},
+                     {"corners", text_of(it->control.corners)}};
+  }
+  return base::fail(fmt::format("Shapes of the kind \"{}\" have no text.", kind));
+}
+
+base::Result<GeometryPointer> shape_from_text(const ShapeText& text) {
+  const std::string kind = word_of(text, "kind");
+  if (kind == "primitive") return primitive_of(text);
+  if (kind == "csg") return csg_of(text);
+  if (kind == "implicit") return implicit_of(text);
+  if (kind == "loop") return loop_of(text);
+  return base::fail(fmt::format("{} is not a kind of shape", quoted(kind)));
+}
+
+}  // namespace icome::files
