@@ -46,7 +46,8 @@ void count_tables(const World& world, DesignFigures& figures) {
 /// Walks down the tree, measuring what is shown.
 class Measuring {
  public:
-  Measuring(const World& world, DesignFigures& figures) : world_(world), figures_(figures), shapes_(world) {}
+  Measuring(const World& world, DesignFigures& figures)
+      : world_(world), figures_(figures), shapes_(world, files::shown_triangles) {}
 
   base::Result<void> run(const std::function<bool(std::size_t, std::size_t)>& go_on) {
     std::size_t done = 0;

@@ -121,9 +121,12 @@ constexpr const char* kCsgExamples =
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 
 constexpr const char* kDesignFileHelp =
-    "A design: OBJ, PLY, STL, OFF, GLB or OpenSCAD's .csg, all also packed as .xz";
+    "A design: glTF (.glb, .gltf), OBJ, PLY, STL, OFF or OpenSCAD's .csg, all also packed as .xz, or ICOME's "
+    "own .icome";
 
-constexpr const char* kDesignOutHelp = "The file to write: its ending says the format: PLY, STL or OFF";
+constexpr const char* kDesignOutHelp =
+    "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), PLY, STL, OFF or "
+    "ICOME's own .icome";
 
 constexpr const char* kInfoSummary =
     "Look into a design: its objects and what they share, materials, size, and what could not be read";
@@ -136,7 +139,7 @@ constexpr const char* kInfoExamples =
     "\n"
     "Lengths are metres in the world's frame. A clone is an object whose shape another object has already:\n"
     "change one, and all change. Exact shapes (primitives, CSG solids, Loop and implicit surfaces) count as\n"
-    "the triangles that other programs are shown of them, which lie within 1/500 of the shape's size.\n"
+    "the triangles that other programs are shown of them in VRML and glTF files: a few thousand each.\n"
     "\n"
     "JSON: objects, clones, triangles (of all objects; a clone's count again), materials, textures, bounds\n"
     "  {min, max} in metres (null where there is nothing; planes, which have no end, do not count), "

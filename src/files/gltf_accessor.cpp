@@ -12,7 +12,7 @@
 namespace icome::files {
 namespace {
 
-constexpr std::array<char, 64> kZeros{};  // an element of an accessor without data
+constexpr std::array<char, 64> kZeros{};       // an element of an accessor without data
 constexpr std::size_t kMostZeros = 4'000'000;  // such elements: nothing in the file pays for them
 
 std::size_t component_bytes(int type) {

@@ -42,7 +42,7 @@ class GltfAccessor {
   int type_ = 0;
   bool normalised_ = false;
   Numbers dense_;
-  Numbers replaced_;                     // in the order of `where_`
+  Numbers replaced_;                       // in the order of `where_`
   std::vector<std::uint32_t> where_ = {};  // elements that are replaced, ascending
 };
 

@@ -33,7 +33,8 @@ Colour specular_of(const Colour& base, double metallic) {
   constexpr double kDielectric = 0.04;
   const double metal = std::clamp(metallic, 0.0, 1.0);
   Colour specular{};
-  for (std::size_t i = 0; i < 3; ++i) specular[i] = part_of_one(kDielectric + (base[i] - kDielectric) * metal);
+  for (std::size_t i = 0; i < 3; ++i)
+    specular[i] = part_of_one(kDielectric + (base[i] - kDielectric) * metal);
   return specular;
 }
 
@@ -62,12 +63,14 @@ GltfLooks::GltfLooks(const tinygltf::Model& model, DesignBuilder& builder)
   for (std::size_t i = 0; i < model.materials.size(); ++i) read(int(i));
   for (std::size_t i = 0; i < model.textures.size(); ++i) texture(int(i));
   if (maps_left_out_)
-    builder_.remark("Maps of normals, roughness, occlusion and emission are left out: only colours are kept.");
+    builder_.remark(
+        "Maps of normals, roughness, occlusion and emission are left out: only colours are kept.");
 }
 
 world::MaterialId GltfLooks::material(int index) const {
   if (index < 0) return {};
-  if (std::size_t(index) >= materials_.size()) throw GltfError("a mesh refers to a material that is not there");
+  if (std::size_t(index) >= materials_.size())
+    throw GltfError("a mesh refers to a material that is not there");
   return materials_[std::size_t(index)];
 }
 
@@ -82,8 +85,9 @@ void GltfLooks::read(int index) {
   world::Material material;
   material.name = it.name;
   material.diffuse = colour_of(pbr.baseColorFactor);
-  material.transparency =
-      it.alphaMode == "BLEND" && pbr.baseColorFactor.size() == 4 ? part_of_one(1.0 - pbr.baseColorFactor[3]) : 0;
+  material.transparency = it.alphaMode == "BLEND" && pbr.baseColorFactor.size() == 4
+                              ? part_of_one(1.0 - pbr.baseColorFactor[3])
+                              : 0;
   material.emission = colour_of(it.emissiveFactor);
   material.specular = specular_of(material.diffuse, pbr.metallicFactor);
   material.shininess = shininess_of(pbr.roughnessFactor);
@@ -118,7 +122,8 @@ world::TextureId GltfLooks::texture(int index) {
   known.read = true;
   const tinygltf::Texture& it = model_.textures[std::size_t(index)];
   if (it.source < 0 || std::size_t(it.source) >= model_.images.size()) {
-    builder_.remark(fmt::format("Texture {} is left out: its picture is of a kind that is not known.", index));
+    builder_.remark(
+        fmt::format("Texture {} is left out: its picture is of a kind that is not known.", index));
     return {};
   }
   const tinygltf::Image& image = model_.images[std::size_t(it.source)];

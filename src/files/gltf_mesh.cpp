@@ -75,9 +75,8 @@ class PrimitiveReading {
         positions_(model, position_accessor(primitive), 3, 3),
         normals_(surface.smooth ? std::nullopt : attribute(model, primitive, "NORMAL", 3, 3)),
         colours_(attribute(model, primitive, "COLOR_0", 3, 4)),
+        coordinates_(attribute(model, primitive, fmt::format("TEXCOORD_{}", surface.texture_set), 2, 2)),
         indexed_(primitive.indices >= 0) {
-    if (surface.texture_set >= 0)
-      coordinates_ = attribute(model, primitive, fmt::format("TEXCOORD_{}", surface.texture_set), 2, 2);
     for (const auto* it : {&normals_, &colours_, &coordinates_}) {
       if (*it && (*it)->size() < positions_.size())
         throw GltfError("a mesh has fewer normals, colours or texture coordinates than vertices");

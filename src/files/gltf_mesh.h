@@ -14,10 +14,10 @@ namespace icome::files {
 
 /// What a material says about the mesh that it is on.
 struct GltfSurface {
-  int texture_set = -1;                         // of coordinates; -1: no texture
-  std::array<double, 6> texture_frame = {};     // rows of the transform of its coordinates, baked
-  world::Colour colour = {1.0F, 1.0F, 1.0F};    // that corner colours are multiplied with
-  bool smooth = false;                          // its normals are those of a mesh without any
+  int texture_set = 0;                                       // of coordinates
+  std::array<double, 6> texture_frame = {1, 0, 0, 0, 1, 0};  // rows of the transform of these, baked
+  world::Colour colour = {1.0F, 1.0F, 1.0F};                 // that corner colours are multiplied with
+  bool smooth = false;                                       // its normals are those of a mesh without any
 
   bool operator==(const GltfSurface&) const = default;
 };

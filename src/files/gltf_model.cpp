@@ -102,9 +102,10 @@ GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
   bool good = false;
   try {
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-    good = binary ? library.LoadBinaryFromMemory(model.get(), &error, &warning, data, unsigned(bytes.size()), "")
-                  : library.LoadASCIIFromString(model.get(), &error, &warning, bytes.data(),
-                                                unsigned(bytes.size()), "");
+    good = binary
+               ? library.LoadBinaryFromMemory(model.get(), &error, &warning, data, unsigned(bytes.size()), "")
+               : library.LoadASCIIFromString(model.get(), &error, &warning, bytes.data(),
+                                             unsigned(bytes.size()), "");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {

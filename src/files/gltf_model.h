@@ -24,7 +24,7 @@ struct GltfError : std::runtime_error {
 /// been taken at its word yet but that buffers have the bytes that they say.
 struct GltfModel {
   std::shared_ptr<const tinygltf::Model> model;
-  std::string format;                     // "binary glTF 2.0", "glTF 2.0"
+  std::string format;                    // "binary glTF 2.0", "glTF 2.0"
   std::vector<std::string> not_fetched;  // sentences on pictures
 };
 

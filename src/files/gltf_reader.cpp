@@ -273,7 +273,9 @@ class GltfReading {
   }
 
   std::vector<world::FixturePointer> fixtures_of(const tinygltf::Node& node) {
-    const auto share = [](auto fixture) { return std::make_shared<const world::Fixture>(std::move(fixture)); };
+    const auto share = [](auto fixture) {
+      return std::make_shared<const world::Fixture>(std::move(fixture));
+    };
     std::vector<world::FixturePointer> fixtures;
     const Value& extras = icome_extras(node.extras);
     if (const Value& inert = member(extras, "inert"); inert.IsObject())
@@ -337,15 +339,18 @@ class GltfReading {
   void remark_on_losses() {
     const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
       if (count == 0) return;
-      builder_.remark(count == 1 ? fmt::format("1 {} {}", one, what) : fmt::format("{} {} {}", count, several, what));
+      builder_.remark(count == 1 ? fmt::format("1 {} {}", one, what)
+                                 : fmt::format("{} {} {}", count, several, what));
     };
     std::size_t morphs = 0;
     for (const tinygltf::Mesh& mesh : model_.meshes) {
-      for (const tinygltf::Primitive& primitive : mesh.primitives) morphs += primitive.targets.empty() ? 0 : 1;
+      for (const tinygltf::Primitive& primitive : mesh.primitives)
+        morphs += primitive.targets.empty() ? 0 : 1;
     }
-    const auto unseen =
-        std::size_t(std::count_if(objects_.begin(), objects_.end(), [](const NodeObject& it) { return !it.seen; }));
-    tell(other_primitives_, "primitive of points or lines is", "primitives of points or lines are", "left out.");
+    const auto unseen = std::size_t(
+        std::count_if(objects_.begin(), objects_.end(), [](const NodeObject& it) { return !it.seen; }));
+    tell(other_primitives_, "primitive of points or lines is", "primitives of points or lines are",
+         "left out.");
     tell(flat_nodes_, "node is", "nodes are", "left out: a scale of nothing flattens what is below.");
     tell(unseen - std::min(unseen, below_flat()), "node is", "nodes are", "left out: no scene shows it.");
     tell(model_.animations.size(), "animation is", "animations are", "left out.");
@@ -353,7 +358,8 @@ class GltfReading {
     tell(morphs, "morphing shape is", "morphing shapes are", "kept as modelled.");
     tell(other_cameras_, "camera is", "cameras are", "not in perspective, kept as a viewpoint.");
     for (const std::string& extension : model_.extensionsUsed) {
-      if (!is_understood(extension)) builder_.remark("It uses " + extension.substr(0, 80) + ", which is left out.");
+      if (!is_understood(extension))
+        builder_.remark("It uses " + extension.substr(0, 80) + ", which is left out.");
     }
   }
 

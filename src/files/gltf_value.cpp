@@ -39,7 +39,8 @@ double magnitude_in(const Value& object, const std::string& name, double otherwi
 }
 
 bool all_magnitudes(const std::array<float, 3>& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](float it) { return std::isfinite(it) && it >= 0.0F; });
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [](float it) { return std::isfinite(it) && it >= 0.0F; });
 }
 
 Colour colour_of_three(const std::array<float, 3>& three) {
@@ -125,7 +126,8 @@ std::optional<world::Light> light_of(const Value& value) {
   world::Light light;
   light.kind = world::Light::Kind(kind - kLightKinds.begin());
   if (member(value, "on").IsBool()) light.on = member(value, "on").Get<bool>();
-  if (const auto colour = three_in(value, "colour"); colour && all_magnitudes(*colour)) light.colour = *colour;
+  if (const auto colour = three_in(value, "colour"); colour && all_magnitudes(*colour))
+    light.colour = *colour;
   if (const auto three = three_in(value, "attenuation"); three && all_magnitudes(*three))
     light.attenuation = *three;
   light.intensity = float(magnitude_in(value, "intensity", 1.0));

@@ -82,9 +82,9 @@ class Splitting {
       coordinates = floats_of<2>(base::Vector2(given.x(), 1.0 - given.y()));
     }
     if (!shape_.colours.empty()) colour = shape_.colours[t][i];
-    const Corner corner{shape_.mesh.triangles[t][i],
-                        {normal[0], normal[1], normal[2], coordinates[0], coordinates[1], colour[0], colour[1],
-                         colour[2]}};
+    const Corner corner{
+        shape_.mesh.triangles[t][i],
+        {normal[0], normal[1], normal[2], coordinates[0], coordinates[1], colour[0], colour[1], colour[2]}};
     const auto [found, is_new] = known_.try_emplace(corner, std::uint32_t(result_.positions.size()));
     if (is_new) {
       result_.positions.push_back(floats_of<3>(shape_.mesh.positions[corner.position]));
@@ -121,7 +121,8 @@ void add_smooth_normals(const geometry::TriangleMesh& mesh, GltfVertices& result
   result.smooth = true;
   for (const Vector3& normal : geometry::vertex_normals(mesh)) {
     // A vertex of no triangle has no normal, but must have one.
-    result.normals.push_back(normal.isZero(0.0) ? std::array<float, 3>{0.0F, 0.0F, 1.0F} : floats_of<3>(normal));
+    result.normals.push_back(normal.isZero(0.0) ? std::array<float, 3>{0.0F, 0.0F, 1.0F}
+                                                : floats_of<3>(normal));
   }
 }
 

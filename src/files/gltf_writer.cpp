@@ -61,7 +61,7 @@ bool has_shear(const base::Affine3& frame) {
 /// Puts a world into the library's model of a glTF file.
 class GltfMaking {
  public:
-  explicit GltfMaking(const World& world) : world_(world), shown_(world) {}
+  explicit GltfMaking(const World& world) : world_(world), shown_(world, shown_triangles) {}
 
   base::Result<tinygltf::Model> run() {
     model_.asset.version = "2.0";
@@ -156,7 +156,8 @@ class GltfMaking {
     image.mimeType = it.media_type;
     image.bufferView = add_view(it.bytes->data(), it.bytes->size(), 0);
     if (it.media_type != "image/png" && it.media_type != "image/jpeg")
-      remark(fmt::format("The picture \"{}\" is neither PNG nor JPEG: other programs may not show it.", it.name));
+      remark(fmt::format("The picture \"{}\" is neither PNG nor JPEG: other programs may not show it.",
+                         it.name));
     tinygltf::Sampler sampler;
     sampler.wrapS = it.repeats[0] ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     sampler.wrapT = it.repeats[1] ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
@@ -192,7 +193,8 @@ class GltfMaking {
   /// A mesh's own colours are multiplied with those of its material: a white one is made for it.
   int white_variant(MaterialId id) {
     const int base = materials_.at(id);
-    const std::vector<double>& colour = model_.materials[std::size_t(base)].pbrMetallicRoughness.baseColorFactor;
+    const std::vector<double>& colour =
+        model_.materials[std::size_t(base)].pbrMetallicRoughness.baseColorFactor;
     if (colour[0] == 1.0 && colour[1] == 1.0 && colour[2] == 1.0) return base;
     const auto [found, is_new] = white_variants_.try_emplace(id, int(model_.materials.size()));
     if (!is_new) return found->second;
@@ -232,7 +234,8 @@ class GltfMaking {
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = add_accessor(vertices.positions, true);
     if (!vertices.normals.empty()) primitive.attributes["NORMAL"] = add_accessor(vertices.normals);
-    if (!vertices.coordinates.empty()) primitive.attributes["TEXCOORD_0"] = add_accessor(vertices.coordinates);
+    if (!vertices.coordinates.empty())
+      primitive.attributes["TEXCOORD_0"] = add_accessor(vertices.coordinates);
     if (!vertices.colours.empty()) primitive.attributes["COLOR_0"] = add_accessor(vertices.colours);
     primitive.indices = add_indices(vertices.corners, vertices.positions.size());
     if (vertices.smooth) smooth_.insert(id);
@@ -283,6 +286,7 @@ class GltfMaking {
       model_.nodes.push_back(node_of(object));
       enter(object.children, index);
     }
+    if (scene.nodes.empty()) return;  // the library would write a scene without anything as null
     model_.scenes.push_back(std::move(scene));
     model_.defaultScene = 0;
   }
@@ -306,6 +310,8 @@ class GltfMaking {
     if (object.fixture)
       std::visit([&](const auto& fixture) { add_fixture(fixture, node, extras); }, *object.fixture);
     if (!extras.empty()) node.extras = extras_with(Value(std::move(extras)));
+    // The library would write a node without anything as null.
+    if (node.name.empty() && node.matrix.empty()) node.translation = {0.0, 0.0, 0.0};
     return node;
   }
 

@@ -9,8 +9,8 @@ namespace icome::files {
 
 /// What a look at the JSON of a glTF file tells before anything is made of it.
 struct JsonShape {
-  std::size_t values = 0;            // numbers, texts, lists and objects
-  std::size_t own_buffers = 0;       // buffers without a uri: the binary part of the file
+  std::size_t values = 0;             // numbers, texts, lists and objects
+  std::size_t own_buffers = 0;        // buffers without a uri: the binary part of the file
   std::uint64_t memory_estimate = 0;  // bytes, of the model that is made of it
 };
 

@@ -146,7 +146,7 @@ base::Result<std::optional<ShapeText>> shape_text(const world::Geometry& shape) 
     return ShapeText{{"kind", kind}, {"tree", std::move(*tree)}};
   }
   if (const auto* it = dynamic_cast<const world::ImplicitGeometry*>(&shape)) {
-    const base::Bounds box = it->bounds();
+    const base::Bounds& box = it->surface()->box();
     return ShapeText{{"kind", kind}, {"formula", it->formula()}, {"box", text_of({box.min(), box.max()})}};
   }
   if (const auto* it = dynamic_cast<const world::LoopGeometry*>(&shape)) {

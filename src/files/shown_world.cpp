@@ -15,6 +15,13 @@ using world::MeshGeometry;
 using world::ObjectId;
 using world::PhysicalObject;
 using world::World;
+using Triangles = base::Result<std::shared_ptr<const MeshGeometry>>;
+
+/// The longest side of the box around it. Endless shapes, which have no triangles, say so themselves.
+double size_of(const world::Geometry& shape) {
+  const double longest = shape.bounds().sizes().maxCoeff();
+  return std::isfinite(longest) && longest > 0.0 ? longest : 1.0;
+}
 
 std::string object_name(const PhysicalObject& object) {
   return object.name.empty() ? "An object without a name" : fmt::format("\"{}\"", object.name);
@@ -108,20 +115,29 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
 
 }  // namespace
 
-double shown_tolerance(const world::Geometry& shape) {
+Triangles shown_triangles(const world::Geometry& shape) {
+  constexpr double kFinest = 1.0 / 64.0, kCoarser = 1.6;  // of the shape's size
+  constexpr std::size_t kEnough = 8000;
+  constexpr int kMostTries = 5;
+  if (shape.bounds().isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
+  double tolerance = kFinest * size_of(shape);
+  for (int i = 1;; ++i, tolerance *= kCoarser) {
+    auto made = shape.triangles(tolerance);
+    if (!made || (*made)->mesh.triangles.size() <= kEnough || i == kMostTries) return made;
+  }
+}
+
+Triangles fine_triangles(const world::Geometry& shape) {
+  if (shape.bounds().isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
   // Contoured solids take a cell of this size, and lie nearer than that.
   const bool contoured = shape.kind() == "csg" || shape.kind() == "implicit";
-  const double part = contoured ? 1.0 / 100.0 : 1.0 / 500.0;
-  const base::Bounds box = shape.bounds();
-  const double longest = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
-  return std::isfinite(longest) && longest > 0.0 ? part * longest : 1.0;
+  return shape.triangles((contoured ? 1.0 / 100.0 : 1.0 / 500.0) * size_of(shape));
 }
 
 std::shared_ptr<const MeshGeometry> ShownShapes::triangles(world::GeometryId id) {
   const auto [found, is_new] = shown_.try_emplace(id);
   if (!is_new) return found->second;
-  const world::Geometry& shape = *world_.find(id)->shape;
-  auto made = shape.triangles(shown_tolerance(shape));
+  auto made = make_(*world_.find(id)->shape);
   if (made) {
     found->second = std::move(*made);
   } else {
@@ -135,7 +151,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, std::ve
     ObjectId object;
     base::Affine3 world_from_parent;
   };
-  ShownShapes shapes(world);
+  ShownShapes shapes(world, fine_triangles);
   std::vector<ShownObject> shown;
   std::size_t triangles = 0;
   std::vector<Visit> open;

@@ -8,13 +8,19 @@
 
 namespace icome::files {
 
-/// How far the triangles that files show of an exact shape may lie off it: a small part of its size, m.
-double shown_tolerance(const world::Geometry& shape);
+/// Triangles that show an exact shape to programs which do not know what it is: a few thousand, beside
+/// what says what it is. Of a mesh, its own. Fails where the shape has no triangles.
+base::Result<std::shared_ptr<const world::MeshGeometry>> shown_triangles(const world::Geometry& shape);
 
-/// The triangles that files show of shapes: made once for each shape, whatever the number of its objects.
+/// Triangles that stand for an exact shape where nothing else does: within a 500th of its size, within a
+/// 100th where it is contoured.
+base::Result<std::shared_ptr<const world::MeshGeometry>> fine_triangles(const world::Geometry& shape);
+
+/// The triangles of a world's shapes: made once for each, whatever the number of its objects.
 class ShownShapes {
  public:
-  explicit ShownShapes(const world::World& world) : world_(world) {}
+  using Maker = base::Result<std::shared_ptr<const world::MeshGeometry>> (*)(const world::Geometry&);
+  ShownShapes(const world::World& world, Maker maker) : world_(world), make_(maker) {}
 
   /// Null where nothing can be shown; why() says why then.
   std::shared_ptr<const world::MeshGeometry> triangles(world::GeometryId id);
@@ -22,6 +28,7 @@ class ShownShapes {
 
  private:
   const world::World& world_;
+  Maker make_;
   std::unordered_map<world::GeometryId, std::shared_ptr<const world::MeshGeometry>> shown_;
   std::unordered_map<world::GeometryId, std::string> refusals_;
 };

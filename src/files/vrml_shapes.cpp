@@ -6,6 +6,7 @@
 
 #include "files/csg_text.h"
 #include "files/number_text.h"
+#include "files/shown_world.h"
 #include "files/vrml_faces.h"
 #include "world/geometry_check.h"
 #include "world/mesh_geometry.h"
@@ -41,22 +42,6 @@ bool has_own_primitive(const geometry::CsgTree& tree) {
       return true;
   }
   return false;
-}
-
-/// Triangles that show the shape to programs which do not know what it is: a few thousand.
-base::Result<Triangles> triangles_to_show(const Geometry& shape) {
-  constexpr double kFinest = 1.0 / 64.0, kCoarser = 1.6;  // of the shape's size
-  constexpr std::size_t kEnough = 8000;
-  constexpr int kMostTries = 5;
-  const Bounds box = shape.bounds();
-  if (box.isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
-  const double size = box.sizes().maxCoeff();
-  // Endless shapes, which have no triangles, say so themselves.
-  double tolerance = size > 0.0 && std::isfinite(size) ? kFinest * size : 1.0;
-  for (int i = 1;; ++i, tolerance *= kCoarser) {
-    auto made = shape.triangles(tolerance);
-    if (!made || (*made)->mesh.triangles.size() <= kEnough || i == kMostTries) return made;
-  }
 }
 
 }  // namespace
@@ -146,7 +131,7 @@ class VrmlShapes::ByKind {
   }
 
   void write_triangles(const Geometry& shape, const std::string& why) {
-    const auto triangles = triangles_to_show(shape);
+    const auto triangles = shown_triangles(shape);
     const std::string wrong = triangles ? world::complaint(**triangles) : triangles.error().message;
     if (!wrong.empty()) return leave_out(wrong);
     remark("is written as triangles", why);
@@ -159,7 +144,7 @@ class VrmlShapes::ByKind {
   /// The fields for other programs, and the end of the node.
   void show(const Geometry& shape, VrmlEdges edges) {
     static const geometry::TriangleMesh kNothing;
-    const auto triangles = triangles_to_show(shape);
+    const auto triangles = shown_triangles(shape);
     const std::string wrong = triangles ? world::complaint((*triangles)->mesh) : triangles.error().message;
     if (!wrong.empty()) remark("is not seen by other programs", wrong);
     write_coordinates(wrong.empty() ? (*triangles)->mesh : kNothing, text_);

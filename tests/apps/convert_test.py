@@ -7,7 +7,7 @@ from icome_program import ProgramTest
 
 CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0.3\n1 0 0.3\n1 1 0.3\n0 1 0.3\n"
         "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
-ENDINGS = (".ply", ".stl", ".off")
+ENDINGS = (".glb", ".gltf", ".ply", ".stl", ".off", ".icome")
 
 
 class ConvertTest(ProgramTest):
@@ -36,6 +36,13 @@ class ConvertTest(ProgramTest):
         self.succeeds("convert", file, file)
         self.assertEqual(self.info(file)["triangles"], 12)
         self.assertEqual([it.name for it in self.folder.iterdir()], ["cube.off"])
+
+    def test_formats_of_designs_keep_exact_shapes(self):
+        solid = self.write("solid.csg", "cube(size = [10, 20, 30], center = false);\n")
+        for ending in (".glb", ".gltf", ".icome"):
+            out = self.folder / f"out{ending}"
+            self.succeeds("convert", solid, out)
+            self.assertEqual(self.info(out)["shapes"], {"csg": 1})
 
     def test_losses_are_told(self):
         solid = self.write("solid.csg", "cube(size = [10, 20, 30], center = false);\n")

@@ -1,0 +1,143 @@
+// Designs through glTF files and back.
+#include <gtest/gtest.h>
+
+#include "files/design.h"
+#include "files/gltf_reader.h"
+#include "files/same_design.h"
+#include "files/sample_files.h"
+#include "world/every_edit.h"
+#include "world/random_edits.h"
+
+namespace icome::files {
+namespace {
+
+using namespace world;
+
+World through(const World& world, const std::string& name) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / name;
+  const auto written = write_design(path, world);
+  if (!written) throw std::runtime_error(written.error().message);
+  auto read = read_design(path);
+  if (!read) throw std::runtime_error(read.error().message);
+  return std::move(read->world);
+}
+
+constexpr Likeness kAsGltf{.tolerance = 1e-5};
+
+TEST(Gltf, RandomWorldsComeBack) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomEdits edits(seed);
+    World world;
+    for (int i = 0; i < 120; ++i) (void)apply(world, edits.next(world));
+    EXPECT_EQ(difference(world, through(world, "a.glb"), kAsGltf), "") << seed;
+    if (seed < 5) {
+      EXPECT_EQ(difference(world, through(world, "a.gltf"), kAsGltf), "") << seed;
+    }
+  }
+}
+
+TEST(Gltf, EveryKindOfThingComesBack) {
+  World world;
+  for (const Edit& edit : every_edit()) applied(world, edit);
+  EXPECT_EQ(difference(world, through(world, "a.glb"), kAsGltf), "");
+}
+
+TEST(Gltf, ExactShapesComeBackToTheLastBit) {
+  World world;
+  IdSource ids;
+  geometry::CsgTree tree;
+  const auto block = tree.add_leaf(geometry::Primitive(geometry::Box{{0.1, 0.2, 0.3}}));
+  const auto hole = tree.add_leaf(geometry::Primitive(geometry::Cylinder{0.05, 1.0}), at(0.1, 0.0, 0.0));
+  tree.add(geometry::CsgOperator::Difference, block, hole);
+  geometry::ControlMesh control;
+  control.mesh.positions = {{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  control.mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  control.creases = {{{0, 1}}};
+  control.corners = {2};
+  const std::vector<GeometryPointer> shapes = {
+      std::make_shared<CsgGeometry>(tree), std::make_shared<LoopGeometry>(control),
+      std::make_shared<PrimitiveGeometry>(geometry::Torus{0.3, 0.1}, Axis::Y),
+      std::make_shared<PrimitiveGeometry>(geometry::Plane{}),
+      *ImplicitGeometry::create("x^2 + y^2 + z^2 - 0.04", Bounds(Vector3(-1, -1, -1), Vector3(1, 1, 1)))};
+  for (const GeometryPointer& shape : shapes)
+    add_object(world, ids, "of " + std::string(shape->kind()), shape);
+  const World back = through(world, "a.glb");
+  ASSERT_EQ(back.roots().size(), shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    EXPECT_EQ(back.find(back.find(back.roots()[i])->geometry)->shape->hash(), shapes[i]->hash()) << i;
+}
+
+/// A square of two triangles that differ in all that belongs to corners.
+std::shared_ptr<MeshGeometry> square() {
+  geometry::TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return std::make_shared<MeshGeometry>(mesh);
+}
+
+TEST(Gltf, WhatBelongsToCornersComesBack) {
+  const auto plain = square();
+  const auto dressed = square();
+  const Vector3 up(0, 0, 1);
+  const Vector3 tilted = Vector3(0, 0.6, 0.8);
+  dressed->normals = {{up, up, up}, {tilted, tilted, up}};
+  using base::Vector2;
+  dressed->texture_coordinates = {{Vector2(0, 0), Vector2(1, 0), Vector2(1, 1)},
+                                  {Vector2(0.5, 0), Vector2(0.25, 0), Vector2(0, 2)}};
+  dressed->colours = {{Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 1}},
+                      {Colour{1, 1, 0}, Colour{0, 1, 1}, Colour{1, 0, 1}}};
+  const auto flat = square();
+  flat->normals = {{up, up, up}, {up, up, up}};
+  for (const auto& shape : {plain, dressed, flat}) {
+    World world;
+    IdSource ids;
+    add_object(world, ids, "square", shape);
+    EXPECT_EQ(difference(world, through(world, "a.glb"), kAsGltf), "");
+  }
+}
+
+TEST(Gltf, MaterialsOfColouredMeshesStayOne) {
+  World world;
+  IdSource ids;
+  const auto coloured = square();
+  const Colour red{1, 0, 0};
+  coloured->colours = {{red, red, red}, {red, red, red}};
+  const auto material = ids.next<MaterialId>();
+  applied(world, CreateMaterial{material, Material{.name = "oak", .diffuse = {0.25F, 0.5F, 0.75F}}});
+  for (const GeometryPointer& shape : {GeometryPointer(coloured), GeometryPointer(square())}) {
+    const ObjectId id = add_object(world, ids, "square", shape);
+    applied(world, ChooseMaterial{id, material});
+  }
+  const World back = through(world, "a.glb");
+  EXPECT_EQ(back.materials().size(), 1U);
+  EXPECT_EQ(difference(world, back, kAsGltf), "");
+}
+
+TEST(Gltf, ClonesInOtherMaterialsShareTheirShape) {
+  World world;
+  IdSource ids;
+  const ObjectId one = add_object(world, ids, "one", square());
+  const ObjectId two = duplicated(world, ids, one, Duplicate::CloneObject);
+  for (const ObjectId id : {one, two}) {
+    const auto material = ids.next<MaterialId>();
+    applied(world, CreateMaterial{material, Material{.name = id == one ? "oak" : "ash"}});
+    applied(world, ChooseMaterial{id, material});
+  }
+  const World back = through(world, "a.glb");
+  EXPECT_EQ(back.geometries().size(), 1U);
+  EXPECT_EQ(back.materials().size(), 2U);
+}
+
+TEST(Gltf, NumbersThatSinglesHoldComeBackAsTheyWereWritten) {
+  World world;
+  IdSource ids;
+  const auto shape = square();
+  shape->mesh.positions[1] = {0.1, 0.2, 0.3};
+  add_object(world, ids, "square", shape);
+  const World back = through(world, "a.glb");
+  EXPECT_EQ(back.find(back.find(back.roots()[0])->geometry)->shape->hash(), shape->hash());
+}
+
+}  // namespace
+}  // namespace icome::files
