@@ -1,6 +1,7 @@
 #include "files/new_file.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,18 +18,38 @@ tl::unexpected<base::Error> cannot_write(const std::filesystem::path& path, cons
   return base::fail(fmt::format("{}: cannot be written ({}).", path.string(), why));
 }
 
+/// Opens a file of its own; null, with errno, when there can be none. A name may be taken by another thread,
+/// or by what a program that was killed left.
+std::FILE* open_beside(const std::filesystem::path& path, std::filesystem::path& beside) {
+  constexpr int kMostTries = 100;
+  for (int i = 0;; ++i) {
+    beside = path;
+    beside += fmt::format(".part-{}", ::getpid());
+    if (i > 0) beside += fmt::format("{:03}", i);
+    std::FILE* const file = std::fopen(beside.c_str(), "wbxe");
+    if (file != nullptr || errno != EEXIST || i == kMostTries) return file;
+  }
+}
+
 }  // namespace
 
 base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
-  // Renaming over a device such as /dev/null would replace it.
+  // Renaming over a device such as /dev/null would replace it, and so it would a link.
   std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+  const bool there = std::filesystem::exists(path, error);
+  if (there && !std::filesystem::is_regular_file(path, error))
     return cannot_write(path, "not an ordinary file");
-  std::filesystem::path beside = path;
-  beside += fmt::format(".part-{}", ::getpid());
-  std::FILE* file = std::fopen(beside.c_str(), "wbxe");
+  std::filesystem::path real = there ? std::filesystem::canonical(path, error) : path;
+  if (error) return cannot_write(path, error.message().c_str());
+  std::filesystem::path beside;
+  std::FILE* const file = open_beside(real, beside);
   if (file == nullptr) return cannot_write(path, std::strerror(errno));
-  return NewFile(path, std::move(beside), file);
+  // Who could read and change what was there can do so again.
+  struct stat before = {};
+  if (there && ::stat(real.c_str(), &before) == 0) {
+    [[maybe_unused]] const int ignored = ::fchmod(::fileno(file), before.st_mode & 07777U);
+  }
+  return NewFile(std::move(real), std::move(beside), file);
 }
 
 NewFile::NewFile(std::filesystem::path path, std::filesystem::path beside, std::FILE* file)

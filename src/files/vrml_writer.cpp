@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "files/vrml_looks.h"
 #include "files/vrml_names.h"
 #include "files/vrml_place.h"
 #include "files/vrml_protos.h"
+#include "files/vrml_scanner.h"
 #include "files/vrml_shapes.h"
 #include "files/vrml_text.h"
 
@@ -31,6 +33,19 @@ std::vector<world::Id<Named>> in_order(const World::Table<Named>& table) {
   return ids;
 }
 
+/// The DEF name of a script that can be written as it stands; nothing for what ICOME would not read again.
+std::optional<std::string> script_name(const world::Inert& inert) {
+  const auto found = scan_vrml("#VRML V2.0 utf8\n" + inert.source, "a script");
+  if (!found || found->scripts.size() != 1 || found->scripts[0].source != inert.source) return std::nullopt;
+  return found->scripts[0].name;
+}
+
+/// Is the object nothing but its fixture?
+bool is_bare(const PhysicalObject& object) {
+  return !object.parent && object.children.empty() && !object.geometry && !object.material &&
+         object.parent_from_object.matrix() == base::Affine3::Identity().matrix();
+}
+
 /// Parents before children, in the order that people see.
 std::vector<ObjectId> all_objects(const World& world) {
   std::vector<ObjectId> order;
@@ -42,6 +57,16 @@ std::vector<ObjectId> all_objects(const World& world) {
     waiting.insert(waiting.end(), children.rbegin(), children.rend());
   }
   return order;
+}
+
+// Each object takes a brace and a bracket, what is in the last one a few more.
+constexpr std::size_t kMostGenerations = kMostNestedVrml / 2 - 5;
+
+tl::unexpected<base::Error> too_deep() {
+  return base::fail(
+      fmt::format("Objects lie more than {} deep within each other, which no program could read "
+                  "as VRML: put some higher up, or save the design as .icome.",
+                  kMostGenerations));
 }
 
 }  // namespace
@@ -57,6 +82,7 @@ class VrmlWriter {
         objects_(all_objects(world)) {}
 
   Result<std::vector<Remark>> write() {
+    look_at_scripts();
     give_names();
     text_.add("#VRML V2.0 utf8\n");
     write_protos();
@@ -74,6 +100,7 @@ class VrmlWriter {
     bool has_children = false;  // is there a field of them?
   };
 
+  void look_at_scripts();
   void give_names();
   void name_shapes();
   void write_protos();
@@ -82,7 +109,7 @@ class VrmlWriter {
   void close(const Open& object);
   void write_frame(const base::Affine3& frame);
   Result<void> write_shape(const PhysicalObject& object);
-  void write_fixture(const PhysicalObject& object);
+  void write_fixture(ObjectId id, const PhysicalObject& object);
   void write_light(const Light& light);
   void write_scenes();
   void tell_what_is_left();
@@ -101,22 +128,45 @@ class VrmlWriter {
   VrmlLooks looks_;
   VrmlShapes shapes_;
   std::vector<ObjectId> objects_;
+  std::unordered_set<ObjectId> in_scenes_;
   std::unordered_map<ObjectId, std::string> object_names_;      // DEF names, of those that have one
   std::unordered_map<GeometryId, std::string> geometry_names_;  // of those that are used again
   std::unordered_set<GeometryId> written_;
+  std::unordered_set<ObjectId> with_script_;  // whose inert node can be written
+  std::unordered_set<ObjectId> scripts_;      // those that are nothing else
+  std::size_t inert_left_out_ = 0, inert_moved_ = 0;
 };
 
+void VrmlWriter::look_at_scripts() {
+  for (const auto& [id, scene] : world_.scenes()) in_scenes_.insert(scene.roots.begin(), scene.roots.end());
+  for (const ObjectId id : objects_) {
+    const PhysicalObject& object = *world_.find(id);
+    const auto* inert = object.fixture ? std::get_if<world::Inert>(&*object.fixture) : nullptr;
+    if (!inert) continue;
+    const auto name = script_name(*inert);
+    if (!name) {
+      ++inert_left_out_;
+      continue;
+    }
+    with_script_.insert(id);
+    names_.take(*name);
+    if (is_bare(object) && object.name == *name && !in_scenes_.contains(id))
+      scripts_.insert(id);
+    else
+      ++inert_moved_;
+  }
+}
+
 void VrmlWriter::give_names() {
-  std::unordered_set<ObjectId> need_one;
-  for (const auto& [id, scene] : world_.scenes()) need_one.insert(scene.roots.begin(), scene.roots.end());
   // Those that can be called what they are called come first.
   for (const ObjectId id : objects_) {
     const std::string& name = world_.find(id)->name;
-    if (names_.take(name)) object_names_[id] = name;
+    if (!scripts_.contains(id) && names_.take(name)) object_names_[id] = name;
   }
   for (const ObjectId id : objects_) {
     const std::string& name = world_.find(id)->name;
-    if (object_names_.contains(id) || (name.empty() && !need_one.contains(id))) continue;
+    if (object_names_.contains(id) || scripts_.contains(id) || (name.empty() && !in_scenes_.contains(id)))
+      continue;
     object_names_[id] = names_.take_like(name.empty() ? "object" : name);
   }
   std::vector<MaterialId> materials;
@@ -154,6 +204,10 @@ void VrmlWriter::write_protos() {
 Result<void> VrmlWriter::write_objects() {
   std::vector<Open> open_objects;
   for (const ObjectId root : world_.roots()) {
+    if (scripts_.contains(root)) {
+      text_.add(std::get<world::Inert>(*world_.find(root)->fixture).source);
+      continue;
+    }
     auto opened = open(root);
     if (!opened) return tl::unexpected(opened.error());
     open_objects.push_back(*opened);
@@ -165,6 +219,7 @@ Result<void> VrmlWriter::write_objects() {
         open_objects.pop_back();
         continue;
       }
+      if (open_objects.size() == kMostGenerations) return too_deep();
       auto child = open(children[object.next_child++]);
       if (!child) return tl::unexpected(child.error());
       open_objects.push_back(*child);
@@ -179,7 +234,9 @@ Result<VrmlWriter::Open> VrmlWriter::open(ObjectId id) {
   text_.open(name.empty() ? "Transform" : fmt::format("DEF {} Transform", name));
   write_frame(object.parent_from_object);
   const bool has_shape = object.geometry || object.material;
-  const Open result{id, 0, has_title(id) || has_shape || object.fixture || !object.children.empty()};
+  const bool has_fixture =
+      object.fixture && (!std::holds_alternative<world::Inert>(*object.fixture) || with_script_.contains(id));
+  const Open result{id, 0, has_title(id) || has_shape || has_fixture || !object.children.empty()};
   if (!result.has_children) return result;
   text_.open_list("children");
   if (has_title(id)) {
@@ -190,7 +247,7 @@ Result<VrmlWriter::Open> VrmlWriter::open(ObjectId id) {
   if (has_shape) {
     if (const auto written = write_shape(object); !written) return tl::unexpected(written.error());
   }
-  if (object.fixture) write_fixture(object);
+  if (object.fixture) write_fixture(id, object);
   return result;
 }
 
@@ -227,7 +284,7 @@ Result<void> VrmlWriter::write_shape(const PhysicalObject& object) {
   return {};
 }
 
-void VrmlWriter::write_fixture(const PhysicalObject& object) {
+void VrmlWriter::write_fixture(ObjectId id, const PhysicalObject& object) {
   if (const auto* light = std::get_if<Light>(&*object.fixture)) return write_light(*light);
   if (const auto* view = std::get_if<world::Viewpoint>(&*object.fixture)) {
     const world::Viewpoint usual;
@@ -237,7 +294,7 @@ void VrmlWriter::write_fixture(const PhysicalObject& object) {
     if (!object.name.empty()) text_.text_field("description", object.name);
     return text_.close();
   }
-  text_.add(std::get<world::Inert>(*object.fixture).source);
+  if (with_script_.contains(id)) text_.add(std::get<world::Inert>(*object.fixture).source);
 }
 
 void VrmlWriter::write_light(const Light& light) {
@@ -278,6 +335,14 @@ void VrmlWriter::tell_what_is_left() {
         std::count_if(table.begin(), table.end(), [](const auto& it) { return it.second.users == 0; });
     if (count > 0) remarks_.push_back({"", 0, fmt::format("{} {} left out.", count, what)});
   };
+  if (inert_left_out_ > 0)
+    remarks_.push_back(
+        {"", 0, fmt::format("{} nodes that are no whole VRML scripts are left out.", inert_left_out_)});
+  if (inert_moved_ > 0)
+    remarks_.push_back({"", 0,
+                        fmt::format("{} scripts will be objects of their own, not parts of the objects that "
+                                    "they are in now.",
+                                    inert_moved_)});
   unused(world_.geometries(), "shapes that no object has are");
   unused(world_.materials(), "materials that no object has are");
   unused(world_.textures(), "textures that no material shows are");
@@ -289,7 +354,7 @@ Result<std::vector<Remark>> write_vrml(const std::filesystem::path& path, const 
   auto file = NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   auto remarks = VrmlWriter(path, world, *file).write();
-  if (!remarks) return remarks;
+  if (!remarks) return base::fail(fmt::format("{}: {}", path.string(), remarks.error().message));
   if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
   return remarks;
 }

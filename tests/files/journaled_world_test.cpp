@@ -279,14 +279,17 @@ TEST(JournaledWorld, StaysAsItIsWhereItCannotBeCompacted) {
   for (std::uint64_t i = 1; i < 20; ++i)
     performed(journal, world::CreateTexture{{i}, {"picture", "image/png", picture}});
   ASSERT_FALSE(journal.compact_problem());
-  // Renaming over a folder is as impossible as writing without room, and edits can still be written.
-  const std::string beside = path.string() + ".part-" + std::to_string(::getpid());
-  std::filesystem::create_directory(beside);
+  // Writing where all names are those of folders is as impossible as without room, and edits can still be
+  // written.
+  std::vector<std::string> beside{path.string() + ".part-" + std::to_string(::getpid())};
+  for (int i = 1; i <= 100; ++i)
+    beside.push_back(beside[0] + (i < 10 ? "00" : i < 100 ? "0" : "") + std::to_string(i));
+  for (const std::string& name : beside) std::filesystem::create_directory(name);
   EXPECT_FALSE(journal.compact());
   for (int i = 0; i < 200; ++i) performed(journal, world::CreateScene{{std::uint64_t(100 + i)}, ""});
   ASSERT_TRUE(journal.compact_problem());
   EXPECT_EQ(hash(read(path).world), hash(journal.world()));
-  std::filesystem::remove(beside);
+  for (const std::string& name : beside) std::filesystem::remove(name);
   EXPECT_TRUE(journal.compact());
   EXPECT_FALSE(journal.compact_problem());
   EXPECT_EQ(hash(read(path).world), hash(journal.world()));

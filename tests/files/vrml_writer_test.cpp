@@ -257,6 +257,36 @@ TEST(VrmlWriter, LightsViewpointsAndScenes) {
       "IcomeScene {\n  name \"the room\"\n  objects [\n    \"object\"\n    \"lamp\"\n  ]\n}\n"));
 }
 
+TEST(VrmlWriter, ScriptsStandAsTheyStoodAndKeepTheirNames) {
+  Design design;
+  const auto script = [&](const std::string& name, const std::string& source, ObjectId parent = {}) {
+    const ObjectId id = design.add(name, nullptr, parent);
+    applied(design.world, ChangeFixture{id, std::make_shared<const Fixture>(Inert{"Script", source})});
+    return id;
+  };
+  const std::string source = "DEF logic Script {\n  url \"javascript: a = { '}' }\"\n}";
+  design.add("logic", nullptr);
+  script("logic", source);
+  EXPECT_EQ(body(design.world),
+            "DEF logic_2 Transform {\n  children [\n    WorldInfo {\n      title \"logic\"\n"
+            "    }\n  ]\n}\n" +
+                source + "\n");
+  const ObjectId door = script("door", "Script { }");
+  script("", "Script {", door);
+  script("", "DEF a Script { } DEF b Script { }");
+  script("", "Script { field SFNode x USE door }");
+  script("", "Sound { }");
+  const ScratchFolder folder;
+  const Written all = written(design.world, folder);
+  EXPECT_TRUE(
+      contains(all.text, "DEF door Transform {\n  children [\n    Script { }\n    Transform { }\n  ]\n}\n"));
+  EXPECT_TRUE(all.text.ends_with("]\n}\nTransform { }\nTransform { }\nTransform { }\n"));
+  EXPECT_EQ(all.remarks,
+            (std::vector<std::string>{
+                "4 nodes that are no whole VRML scripts are left out.",
+                "1 scripts will be objects of their own, not parts of the objects that they are in now."}));
+}
+
 TEST(VrmlWriter, TellsWhatIsLeftOut) {
   Design design;
   applied(design.world, CreateGeometry{design.ids.next<GeometryId>(), box(1.0)});
@@ -285,6 +315,11 @@ TEST(VrmlWriter, DeepAndRandomWorldsAreWrittenTheSameEachTime) {
   for (int i = 0; i < 900; ++i) parent = chain.add("link", nullptr, parent);
   EXPECT_EQ(count(body(chain.world), "Transform {"), 900U);
   const ScratchFolder folder;
+  for (int i = 0; i < 200; ++i) parent = chain.add("link", nullptr, parent);
+  const auto refused = write_vrml(folder.path() / "design.wrl", chain.world);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(
+      contains(refused.error().message, "design.wrl: Objects lie more than 995 deep within each other"));
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RandomEdits edits(seed);
     World world;
