@@ -116,11 +116,13 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
 }  // namespace
 
 Triangles shown_triangles(const world::Geometry& shape) {
-  constexpr double kFinest = 1.0 / 64.0, kCoarser = 1.6;  // of the shape's size
+  // As parts of the shape's size. Solids that have to be sampled take their time, by its third power.
+  const double finest = shape.kind() == "csg" || shape.kind() == "implicit" ? 1.0 / 28.0 : 1.0 / 500.0;
+  constexpr double kCoarser = 2.0;
   constexpr std::size_t kEnough = 8000;
   constexpr int kMostTries = 5;
   if (shape.bounds().isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
-  double tolerance = kFinest * size_of(shape);
+  double tolerance = finest * size_of(shape);
   for (int i = 1;; ++i, tolerance *= kCoarser) {
     auto made = shape.triangles(tolerance);
     if (!made || (*made)->mesh.triangles.size() <= kEnough || i == kMostTries) return made;
