@@ -5,9 +5,12 @@
 #include <Inventor/VRMLnodes/SoVRMLCone.h>
 #include <Inventor/VRMLnodes/SoVRMLCoordinate.h>
 #include <Inventor/VRMLnodes/SoVRMLCylinder.h>
+#include <Inventor/VRMLnodes/SoVRMLElevationGrid.h>
+#include <Inventor/VRMLnodes/SoVRMLExtrusion.h>
 #include <Inventor/VRMLnodes/SoVRMLIndexedFaceSet.h>
 #include <Inventor/VRMLnodes/SoVRMLNormal.h>
 #include <Inventor/VRMLnodes/SoVRMLSphere.h>
+#include <Inventor/VRMLnodes/SoVRMLText.h>
 #include <Inventor/VRMLnodes/SoVRMLTextureCoordinate.h>
 #include <Inventor/fields/SoMFInt32.h>
 #include <Inventor/misc/SoProtoInstance.h>
@@ -17,30 +20,11 @@
 
 #include "files/vrml_worker/face_fields.h"
 #include "files/vrml_worker/field_values.h"
+#include "files/vrml_worker/geometry_fields.h"
 #include "files/vrml_worker/made_faces.h"
 
 namespace icome::files {
 namespace {
-
-template <typename Node>
-const Node* geometry_as(const Unwrapped& it) {
-  return it.node && it.node->isOfType(Node::getClassTypeId()) ? static_cast<const Node*>(it.node) : nullptr;
-}
-
-/// The numbers of a field as they lie; Coin keeps vectors and colours as plain floats.
-template <typename Field>
-std::span<const float> floats(const Field& field) {
-  using Value = std::remove_cvref_t<decltype(*field.getValues(0))>;
-  static_assert(sizeof(Value) % sizeof(float) == 0);
-  const auto count = static_cast<std::size_t>(field.getNum());
-  if (count == 0) return {};
-  return {reinterpret_cast<const float*>(field.getValues(0)), count * (sizeof(Value) / sizeof(float))};
-}
-
-std::span<const int> indices(const SoMFInt32& field) {
-  if (field.getNum() == 0) return {};
-  return {field.getValues(0), static_cast<std::size_t>(field.getNum())};
-}
 
 /// "VRMLText" is Text to the world.
 std::string type_name(const SoNode& node) {
@@ -71,12 +55,24 @@ void Pieces::note(const Unwrapped& it, const std::string& text) {
                type_name(*it.node) + (name.empty() ? "" : " '" + name + "'") + ": " + text + ".");
 }
 
+std::optional<int> Pieces::leave_out(const Unwrapped& it, const std::string& why) {
+  note(it, "it is left out: " + why);
+  return std::nullopt;
+}
+
 std::optional<int> Pieces::add(const Unwrapped& it, PieceParts& parts) {
+  if (it.instance)
+    if (const auto own = add_own(it, parts)) return own;
   if (const auto* faces = geometry_as<SoVRMLIndexedFaceSet>(it)) return add(it, *faces, parts);
+  if (const auto* grid = geometry_as<SoVRMLElevationGrid>(it)) return add(it, *grid, parts);
+  if (const auto* extrusion = geometry_as<SoVRMLExtrusion>(it)) return add(it, *extrusion, parts);
+  if (const auto* text = geometry_as<SoVRMLText>(it)) return add(it, *text, parts);
   return add_solid(it, parts);
 }
 
+/// Round shapes without some of their parts are faces.
 std::optional<int> Pieces::add_solid(const Unwrapped& it, PieceParts& parts) {
+  RoundParts round;
   if (const auto* box = geometry_as<SoVRMLBox>(it)) {
     const auto size = as_written(box->size.getValue());
     parts.kind = PartKind::Box;
@@ -87,34 +83,60 @@ std::optional<int> Pieces::add_solid(const Unwrapped& it, PieceParts& parts) {
   } else if (const auto* cone = geometry_as<SoVRMLCone>(it)) {
     parts.kind = PartKind::Cone;
     parts.sizes = {as_written(cone->bottomRadius.getValue()), as_written(cone->height.getValue())};
+    round = {parts.sizes[0], 0.0,
+             parts.sizes[1], bool(cone->side.getValue()),
+             true,           bool(cone->bottom.getValue())};
   } else if (const auto* cylinder = geometry_as<SoVRMLCylinder>(it)) {
     parts.kind = PartKind::Cylinder;
     parts.sizes = {as_written(cylinder->radius.getValue()), as_written(cylinder->height.getValue())};
+    round = {parts.sizes[0],
+             parts.sizes[0],
+             parts.sizes[1],
+             bool(cylinder->side.getValue()),
+             bool(cylinder->top.getValue()),
+             bool(cylinder->bottom.getValue())};
   } else {
+    // Lines, points and what is no geometry at all: the reader lists these from the text.
     return std::nullopt;
   }
-  if (are_sizes(parts.sizes)) return answer_.add(parts);
-  note(it, "it is left out, since it has no size");
-  return std::nullopt;
+  if (!are_sizes(parts.sizes)) return leave_out(it, "it has no size");
+  if (round.side && round.top && round.bottom) return answer_.add(parts);
+  parts.kind = PartKind::Faces;
+  parts.sizes.clear();
+  parts.crease_angle = kRoundCrease;
+  parts.solid = false;
+  return add_made(it, make_round(round), parts);
+}
+
+std::optional<int> Pieces::add_made(const Unwrapped& it, const MadeFaces& made, PieceParts& parts) {
+  FaceFields fields;
+  fields.positions = made.positions;
+  fields.polygons = made.polygons;
+  fields.texture_coordinates = made.texture_coordinates;
+  fields.texture_polygons = made.texture_polygons;
+  return add_faces(it, fields, parts);
+}
+
+void Pieces::fill_attributes(const Unwrapped& it, const SoSFNode& texture, const SoSFNode& normal,
+                             const SoSFNode& colour, FaceFields& fields) {
+  if (const auto* node = geometry_as<SoVRMLTextureCoordinate>(wrapping_.unwrap(texture, *it.file)))
+    fields.texture_coordinates = floats(node->point);
+  if (const auto* node = geometry_as<SoVRMLNormal>(wrapping_.unwrap(normal, *it.file)))
+    fields.normals = floats(node->vector);
+  if (const auto* node = geometry_as<SoVRMLColor>(wrapping_.unwrap(colour, *it.file)))
+    fields.colours = floats(node->color);
 }
 
 std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, PieceParts& parts) {
   FaceFields fields;
-  const Unwrapped coordinates = wrapping_.unwrap(node.coord, *it.file);
-  if (const auto* points = geometry_as<SoVRMLCoordinate>(coordinates))
+  if (const auto* points = geometry_as<SoVRMLCoordinate>(wrapping_.unwrap(node.coord, *it.file)))
     fields.positions = floats(points->point);
+  fill_attributes(it, node.texCoord, node.normal, node.color, fields);
   fields.polygons = indices(node.coordIndex);
-  const Unwrapped texture = wrapping_.unwrap(node.texCoord, *it.file);
-  if (const auto* points = geometry_as<SoVRMLTextureCoordinate>(texture))
-    fields.texture_coordinates = floats(points->point);
   fields.texture_polygons = indices(node.texCoordIndex);
-  const Unwrapped normals = wrapping_.unwrap(node.normal, *it.file);
-  if (const auto* vectors = geometry_as<SoVRMLNormal>(normals)) fields.normals = floats(vectors->vector);
   fields.normal_polygons = indices(node.normalIndex);
-  fields.normal_per_vertex = node.normalPerVertex.getValue();
-  const Unwrapped colours = wrapping_.unwrap(node.color, *it.file);
-  if (const auto* values = geometry_as<SoVRMLColor>(colours)) fields.colours = floats(values->color);
   fields.colour_polygons = indices(node.colorIndex);
+  fields.normal_per_vertex = node.normalPerVertex.getValue();
   fields.colour_per_vertex = node.colorPerVertex.getValue();
   parts.ccw = node.ccw.getValue();
   parts.solid = node.solid.getValue();

@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "files/vrml_header.h"
+#include "files/vrml_scanner.h"
 #include "files/vrml_worker/tokens.h"
 
 namespace icome::files {
 namespace {
 
 /// Coin reads by recursion, with up to 2 KB of stack for a level.
-constexpr int kDepthLimit = 5000;
+constexpr int kDepthLimit = kMostNestedVrml;
 constexpr std::size_t kTextNoteLimit = 1000;
 constexpr const char* kHeaderLine = "#VRML V2.0 utf8\n";
 
@@ -52,9 +53,14 @@ struct Change {
 /// Follows the grammar of VRML 2.0 (ISO/IEC 14772-1, annex A) through a text, remembering what to change.
 class TextReader {
  public:
-  TextReader(std::string_view text, base::FunctionRef<bool(const std::string&, const std::string&)> has_field,
+  TextReader(std::string_view text, bool tells_strange_nodes,
+             base::FunctionRef<bool(const std::string&, const std::string&)> has_field,
              std::vector<std::string>& names)
-      : text_(text), tokens_(text), has_field_(has_field), names_(names) {}
+      : text_(text),
+        tells_strange_nodes_(tells_strange_nodes),
+        tokens_(text),
+        has_field_(has_field),
+        names_(names) {}
 
   void read(ReadyText& ready) {
     try {
@@ -149,6 +155,7 @@ class TextReader {
   void change_name(const Token& name);
 
   std::string_view text_;
+  bool tells_strange_nodes_;
   Tokens tokens_;
   base::FunctionRef<bool(const std::string&, const std::string&)> has_field_;
   std::vector<std::string>& names_;
@@ -275,7 +282,8 @@ TextReader::Outcome TextReader::node(Token first) {
   const bool known = proto || is_vrml_node(type);
   expect(Kind::Open);
   if (!known) {
-    note(first.begin, quoted(first) + " is left out: neither VRML 2.0 nor this file has such a node.");
+    if (tells_strange_nodes_)
+      note(first.begin, quoted(first) + " is left out: neither VRML 2.0 nor this file has such a node.");
     if (!tokens_.skip_to_partner()) throw Unclear{};
     return Outcome::Dropped;
   }
@@ -356,7 +364,7 @@ void TextReader::change_name(const Token& token) {
 
 }  // namespace
 
-ReadyText make_ready(std::string_view file,
+ReadyText make_ready(std::string_view file, bool tells_strange_nodes,
                      base::FunctionRef<bool(const std::string&, const std::string&)> has_field,
                      std::vector<std::string>& names) {
   ReadyText ready;
@@ -371,7 +379,7 @@ ReadyText make_ready(std::string_view file,
     ready.error = header.error().message;
     return ready;
   }
-  TextReader(file, has_field, names).read(ready);
+  TextReader(file, tells_strange_nodes, has_field, names).read(ready);
   return ready;
 }
 

@@ -30,7 +30,8 @@ inline constexpr std::string_view kChangedName = "IcomeName_";
 
 /// `has_field(node, field)` tells whether a node of VRML 2.0 has this field. `names` gets, at the number in
 /// a changed name, what it was. Whatever does not follow the grammar is left to Coin from there on.
-ReadyText make_ready(std::string_view file,
+/// `tells_strange_nodes`: notes nodes that nobody knows, too.
+ReadyText make_ready(std::string_view file, bool tells_strange_nodes,
                      base::FunctionRef<bool(const std::string& node, const std::string& field)> has_field,
                      std::vector<std::string>& names);
 

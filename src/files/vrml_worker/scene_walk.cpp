@@ -96,8 +96,6 @@ bool SceneWalk::visit_group(const Unwrapped& it, NodeParts& parts, const Place& 
   } else if (const auto* levels = as<SoVRMLLOD>(it.node)) {
     children = &levels->level;
     last = std::min(children->getNum(), 1);
-    if (children->getNum() > 1)
-      answer_.note(place.file->told, 0, "Of an LOD only the first level is kept, which is the finest.");
   } else if (const auto* choices = as<SoVRMLSwitch>(it.node)) {
     children = &choices->choice;
     first = std::clamp(choices->whichChoice.getValue(), -1, children->getNum());
