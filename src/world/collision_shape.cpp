@@ -1,0 +1,296 @@
+#include "world/collision_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "geometry/mesh_repair.h"
+#include "world/geometry_check.h"
+#include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
+#include "world/triangle_meeting.h"
+
+namespace icome::world {
+namespace {
+
+using geometry::Corners;
+using geometry::TriangleMesh;
+
+constexpr double kFacetsOff = 1e-3;          // of the size
+constexpr double kSampledCell = 1.0 / 100;   // of the size, of solids that are sampled
+constexpr double kRounding = 1e-10;          // of the largest coordinate
+constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
+
+double largest_coordinate(const Bounds& box) {
+  return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+}
+
+bool finite(const Bounds& box) { return box.min().allFinite() && box.max().allFinite(); }
+
+/// By how much a map stretches all directions alike; nothing if it does not.
+std::optional<double> even_stretch(const base::Matrix3& linear) {
+  const base::Matrix3 metric = linear.transpose() * linear;
+  const double square = metric.trace() / 3.0;
+  if ((metric - square * base::Matrix3::Identity()).cwiseAbs().maxCoeff() > 1e-12 * square)
+    return std::nullopt;
+  return std::sqrt(square);
+}
+
+TriangleMesh box_mesh(const Bounds& box) {
+  TriangleMesh mesh = geometry::tessellate(geometry::Box{0.5 * box.sizes()}, 1.0);
+  for (Vector3& position : mesh.positions) position += box.center();
+  return mesh;
+}
+
+/// How a length, by which a surface is higher than what it may meet, is to be understood.
+Meeting by_gap(double gap, double rounding) {
+  return gap > rounding ? Meeting::Apart : gap < -rounding ? Meeting::Overlapping : Meeting::Touching;
+}
+
+}  // namespace
+
+CollisionShape::CollisionShape(GeometryPointer shape) : shape_(std::move(shape)), bounds_(shape_->bounds()) {
+  if (const auto* primitive = dynamic_cast<const PrimitiveGeometry*>(shape_.get())) {
+    shape_from_primitive_ = primitive->shape_from_primitive();
+    if (std::holds_alternative<geometry::Plane>(primitive->primitive)) {
+      kind_ = Kind::HalfSpace;
+      return;
+    }
+    if (const auto* sphere = std::get_if<geometry::Sphere>(&primitive->primitive)) {
+      kind_ = Kind::Sphere;
+      radius_ = sphere->radius;
+    }
+  }
+  if (bounds_.isEmpty() || !finite(bounds_) || largest_coordinate(bounds_) > kLargestCoordinate) {
+    kind_ = Kind::Nothing;
+    bounds_.setEmpty();
+  }
+}
+
+TriangleMesh CollisionShape::triangles() const {
+  const bool sampled = shape_->kind() == "csg" || shape_->kind() == "implicit";
+  const auto made = shape_->triangles((sampled ? kSampledCell : kFacetsOff) * bounds_.sizes().maxCoeff());
+  if (!made || !complaint((*made)->mesh).empty()) return box_mesh(bounds_);
+  return (*made)->mesh;
+}
+
+const CollisionShape::Solid& CollisionShape::solid() {
+  if (!solid_) solid_ = std::make_shared<const Solid>(triangles());
+  return *solid_;
+}
+
+CollisionShape::Solid::Solid(TriangleMesh mesh) {
+  const geometry::RepairReport report = geometry::repair(mesh);
+  closed = report.surface.closed;
+  tree.emplace(mesh);
+  find_probes(mesh);
+}
+
+void CollisionShape::Solid::find_probes(const TriangleMesh& mesh) {
+  const geometry::Patches patches = find_patches(mesh, edge_neighbours(mesh));
+  struct Largest {
+    double area = -1.0;
+    std::size_t triangle = 0;
+  };
+  std::vector<Largest> largest(patches.count());
+  const auto cross = [&](std::size_t t) {
+    return Vector3((mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)));
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Largest& of_patch = largest[patches.patch_of_triangle[t]];
+    const double area = cross(t).squaredNorm();
+    if (area > of_patch.area) of_patch = {area, t};
+  }
+  const double size = tree->bounds().diagonal().norm();
+  for (const Largest& it : largest) {
+    const std::size_t t = it.triangle;
+    const Vector3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+    probes.push_back(middle);
+    if (!closed) continue;
+    // Half way to the wall behind.
+    const Vector3 inwards = -cross(t).normalized();
+    const auto wall = tree->first_hit(middle + 1e-9 * size * inwards, middle + 2.0 * size * inwards);
+    if (wall) probes.back() = 0.5 * (middle + wall->point);
+  }
+}
+
+/// The question for two placed shapes, neither of which is nothing.
+class CollisionShape::Pair {
+ public:
+  Pair(const Placed& one, const Placed& other) : one_(one), other_(other) {
+    for (const Placed& it : {one, other}) {
+      if (!it.shape.unlimited())
+        extent_ = std::max(extent_, largest_coordinate(it.shape.bounds_.transformed(it.world_from_shape)));
+      extent_ = std::max(extent_, it.world_from_shape.translation().cwiseAbs().maxCoeff());
+    }
+    rounding_ = kRounding * extent_;
+  }
+
+  Meeting meeting() const {
+    const std::optional<Ball> one = ball(one_), other = ball(other_);
+    if (one_.shape.unlimited()) return with_half_space(one_, other_, other);
+    if (other_.shape.unlimited()) return with_half_space(other_, one_, one);
+    if (one && other)
+      return by_gap((one->centre - other->centre).norm() - one->radius - other->radius, rounding_);
+    if (one) return of_ball(*one, other_);
+    if (other) return of_ball(*other, one_);
+    return of_triangles();
+  }
+
+ private:
+  struct Ball {
+    Vector3 centre;
+    double radius;
+  };
+  struct HalfSpace {
+    Vector3 foot, normal;
+  };
+
+  static std::optional<Ball> ball(const Placed& it) {
+    if (it.shape.kind_ != Kind::Sphere) return std::nullopt;
+    const std::optional<double> stretch = even_stretch(it.world_from_shape.linear());
+    if (!stretch) return std::nullopt;
+    return Ball{it.world_from_shape.translation(), *stretch * it.shape.radius_};
+  }
+
+  static HalfSpace half_space(const Placed& it) {
+    const base::Matrix3 linear = it.world_from_shape.linear() * it.shape.shape_from_primitive_;
+    return {it.world_from_shape.translation(),
+            (linear.inverse().transpose() * Vector3::UnitZ()).normalized()};
+  }
+
+  Meeting with_half_space(const Placed& space, const Placed& other, const std::optional<Ball>& ball) const {
+    const HalfSpace plane = half_space(space);
+    const auto height = [&](const Vector3& point) { return plane.normal.dot(point - plane.foot); };
+    if (other.shape.unlimited()) {
+      const HalfSpace facing = half_space(other);
+      // Only those that face away from each other can be apart.
+      const bool parallel = (plane.normal + facing.normal).cwiseAbs().maxCoeff() < 1e-12;
+      return parallel ? by_gap(height(facing.foot), rounding_) : Meeting::Overlapping;
+    }
+    if (ball) return by_gap(height(ball->centre) - ball->radius, rounding_);
+    const Bounds box = other.shape.bounds_.transformed(other.world_from_shape);
+    if (height(box.center()) - 0.5 * box.sizes().dot(plane.normal.cwiseAbs()) > rounding_)
+      return Meeting::Apart;
+    const geometry::TriangleTree& tree = *other.shape.solid().tree;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
+      for (const Vector3& corner : tree.corners(slot))
+        lowest = std::min(lowest, height(other.world_from_shape * corner));
+    }
+    return by_gap(lowest, rounding_);
+  }
+
+  static Corners placed(const Affine3& frame, const Corners& corners) {
+    return {frame * corners[0], frame * corners[1], frame * corners[2]};
+  }
+
+  /// The map stretches no length by more.
+  static double most_stretch(const Affine3& map) { return map.linear().norm(); }
+
+  Meeting of_ball(const Ball& ball, const Placed& other) const {
+    const Solid& solid = other.shape.solid();
+    const Affine3 shape_from_world = other.world_from_shape.inverse();
+    const Vector3 middle = shape_from_world * ball.centre;
+    if (solid.closed && solid.tree->encloses(middle)) return Meeting::Overlapping;
+    double gap = std::numeric_limits<double>::infinity();
+    const double reach = (ball.radius + rounding_) * most_stretch(shape_from_world);
+    solid.tree->near(middle, middle, reach, [&](std::uint32_t slot) {
+      const Corners corners = placed(other.world_from_shape, solid.tree->corners(slot));
+      gap = std::min(gap, (geometry::nearest_point(corners, ball.centre) - ball.centre).norm() - ball.radius);
+      return gap >= -rounding_;
+    });
+    return by_gap(gap, rounding_);
+  }
+
+  /// The triangles of the one that has fewer are looked for in the other.
+  Meeting of_triangles() const {
+    const bool other_has_fewer = other_.shape.solid().tree->size() < one_.shape.solid().tree->size();
+    return other_has_fewer ? Pair(other_, one_).surfaces_and_insides() : surfaces_and_insides();
+  }
+
+  Meeting surfaces_and_insides() const {
+    const Meeting surfaces = of_surfaces();
+    if (surfaces == Meeting::Overlapping || holds_part(one_, other_) || holds_part(other_, one_))
+      return Meeting::Overlapping;
+    return surfaces;
+  }
+
+  /// Every triangle of one, that is near the other's box, against the other's around it.
+  Meeting of_surfaces() const {
+    const Solid& one = one_.shape.solid();
+    const Solid& other = other_.shape.solid();
+    const Affine3 one_from_world = one_.world_from_shape.inverse();
+    const Affine3 other_from_world = other_.world_from_shape.inverse();
+    Bounds common = one_.shape.bounds_.transformed(one_.world_from_shape)
+                        .intersection(other_.shape.bounds_.transformed(other_.world_from_shape));
+    common = Bounds(common.min() - Vector3::Constant(rounding_), common.max() + Vector3::Constant(rounding_));
+    if (common.isEmpty()) return Meeting::Apart;
+    const bool solids = one.closed && other.closed;
+    Meeting result = Meeting::Apart;
+    const Vector3 middle = one_from_world * Vector3(common.center());
+    const double reach = 0.5 * common.diagonal().norm() * most_stretch(one_from_world);
+    one.tree->near(middle, middle, reach, [&](std::uint32_t slot) {
+      const Corners corners = placed(one_.world_from_shape, one.tree->corners(slot));
+      Bounds box(corners[0]);
+      box.extend(corners[1]).extend(corners[2]);
+      if (!box.intersects(common)) return true;
+      result = std::max(result, against(corners, other_from_world, other, solids));
+      return result != Meeting::Overlapping;
+    });
+    return result;
+  }
+
+  Meeting against(const Corners& corners, const Affine3& other_from_world, const Solid& other,
+                  bool solids) const {
+    const bool mirrored = (one_.world_from_shape.linear().determinant() > 0.0) !=
+                          (other_.world_from_shape.linear().determinant() > 0.0);
+    const Corners there = placed(other_from_world, corners);
+    const double slack = rounding_ * most_stretch(other_from_world);
+    const Vector3 middle = (there[0] + there[1] + there[2]) / 3.0;
+    double reach = 0.0;
+    for (const Vector3& corner : there) reach = std::max(reach, (corner - middle).norm());
+    Meeting result = Meeting::Apart;
+    other.tree->near(middle, middle, reach + slack, [&](std::uint32_t slot) {
+      Corners facing = placed(other_.world_from_shape, other.tree->corners(slot));
+      if (mirrored) std::swap(facing[1], facing[2]);  // so that both have their fronts on the same side
+      const TriangleMeeting found = world::meeting(corners, facing, rounding_);
+      if (found == TriangleMeeting::Crossing || (found == TriangleMeeting::Flush && solids))
+        result = Meeting::Overlapping;
+      else if (found != TriangleMeeting::Apart)
+        result = std::max(result, Meeting::Touching);
+      return result != Meeting::Overlapping;
+    });
+    return result;
+  }
+
+  /// Does a connected part of `part` lie in `whole`? Looked at when no surfaces cross: then one place of it
+  /// tells.
+  bool holds_part(const Placed& whole, const Placed& part) const {
+    const Solid& solid = whole.shape.solid();
+    if (!solid.closed) return false;
+    const Affine3 whole_from_world = whole.world_from_shape.inverse();
+    const double slack = rounding_ * most_stretch(whole_from_world);
+    for (const Vector3& probe : part.shape.solid().probes) {
+      const Vector3 there = whole_from_world * (part.world_from_shape * probe);
+      if (solid.tree->bounds().contains(there) && solid.tree->encloses(there) &&
+          !solid.tree->nearest(there, slack))
+        return true;
+    }
+    return false;
+  }
+
+  const Placed& one_;
+  const Placed& other_;
+  double extent_ = 0.0;
+  double rounding_ = 0.0;
+};
+
+Meeting meeting(const CollisionShape::Placed& one, const CollisionShape::Placed& other) {
+  using Kind = CollisionShape::Kind;
+  if (one.shape.kind_ == Kind::Nothing || other.shape.kind_ == Kind::Nothing) return Meeting::Apart;
+  return CollisionShape::Pair(one, other).meeting();
+}
+
+}  // namespace icome::world

@@ -1,0 +1,67 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "geometry/triangle_tree.h"
+#include "world/geometry.h"
+
+namespace icome::world {
+
+/// How two shapes lie to each other.
+enum class Meeting : std::uint8_t {
+  Apart,
+  Touching,     // they share places of their surfaces, but nothing of what is inside
+  Overlapping,  // one goes through the other, or lies inside it
+};
+
+/// A shape made ready for the question whether it meets others. Spheres (that are not stretched) and
+/// half-spaces are asked as what they are, meshes and boxes by their triangles, all other shapes by triangles
+/// of theirs, 1/1000 of their size off at most (or sampled at 100 places along their longest side). A shape
+/// of which there are no triangles counts as its box, or, without an end, as nothing.
+class CollisionShape {
+ public:
+  /// The shape is shared. Triangles are made when they are first asked for.
+  explicit CollisionShape(GeometryPointer shape);
+
+  /// Own frame; infinite for a half-space, empty for what can meet nothing.
+  const Bounds& bounds() const { return bounds_; }
+  bool unlimited() const { return kind_ == Kind::HalfSpace; }
+
+  struct Placed {
+    CollisionShape& shape;
+    const Affine3& world_from_shape;
+  };
+  /// Solids count as what is inside them, also a mesh that is closed; other meshes as their surface. Lengths
+  /// up to 1e-10 of the largest coordinate count as none, as in contact: a box that stands on another
+  /// touches it, whatever rounding made of where it stands.
+  friend Meeting meeting(const Placed& one, const Placed& other);
+
+ private:
+  enum class Kind : std::uint8_t { Nothing, HalfSpace, Sphere, Triangles };
+  class Pair;
+
+  /// Triangles with what it takes to look into them.
+  struct Solid {
+    explicit Solid(geometry::TriangleMesh mesh);
+    void find_probes(const geometry::TriangleMesh& mesh);
+
+    bool closed = false;
+    std::optional<geometry::TriangleTree> tree;
+    std::vector<Vector3> probes;  // a place in each connected part: inside where it is closed
+  };
+
+  const Solid& solid();
+  geometry::TriangleMesh triangles() const;
+
+  GeometryPointer shape_;
+  Kind kind_ = Kind::Triangles;
+  Bounds bounds_;
+  base::Matrix3 shape_from_primitive_ = base::Matrix3::Identity();
+  double radius_ = 0.0;                 // of a sphere, m
+  std::shared_ptr<const Solid> solid_;  // null until it is asked for
+};
+
+Meeting meeting(const CollisionShape::Placed& one, const CollisionShape::Placed& other);
+
+}  // namespace icome::world
