@@ -16,6 +16,7 @@
 #include "files/vrml_materials.h"
 #include "files/vrml_nodes.h"
 #include "files/vrml_pieces.h"
+#include "files/vrml_protos.h"
 
 namespace icome::files {
 namespace {
@@ -172,7 +173,11 @@ class VrmlBuilder {
     object.name = node.name;
     object.parent = parent;
     object.parent_from_object = node.parent_from_node;
-    if (node.shape_from >= 0) add_shape(nodes_[std::size_t(node.shape_from)], node.name, object);
+    if (node.shape_from >= 0) {
+      add_shape(nodes_[std::size_t(node.shape_from)], node.name, object);
+    } else if (node.look_from >= 0) {
+      object.material = material(std::size_t(nodes_[std::size_t(node.look_from)].look));
+    }
     if (node.fixture_from >= 0) {
       const PlacedFixture& placed = nodes_[std::size_t(node.fixture_from)].fixture;
       object.fixture = placed.fixture;
@@ -205,6 +210,7 @@ class VrmlBuilder {
     const flat::Look& look = *scene_.looks()->Get(std::uint32_t(index));
     plan.material = MaterialId{};
     if (!look.lit() && look.picture() < 0) return *plan.material;
+    if (reader_.text(look.name()) == kNoMaterial) return *plan.material;
     world::Material made = material_of(look, reader_, findings_);
     if (look.picture() >= 0) made.texture = texture(std::uint32_t(look.picture()));
     plan.material = design_.add(std::move(made));

@@ -44,7 +44,7 @@ void VrmlLooks::name(const std::vector<MaterialId>& materials) {
   for (const MaterialId id : materials) {
     const Material& material = *world_.find(id);
     if (material.users > 1 && !material_names_.contains(id))
-      material_names_[id] = names_.take_like(material.name.empty() ? "material" : material.name);
+      material_names_[id] = names_.take_like(material.name);
     if (!material.texture || world_.find(material.texture)->users < 2) continue;
     std::string& name = texture_names_[material.texture];
     if (name.empty()) name = names_.take_like("texture");
@@ -52,7 +52,8 @@ void VrmlLooks::name(const std::vector<MaterialId>& materials) {
 }
 
 bool VrmlLooks::needs_proto(MaterialId id, const Material& material) const {
-  return material.name != found(material_names_, id) || !(material.touch == world::TouchProperties());
+  const bool named = material.name.empty() || material.name == found(material_names_, id);
+  return !named || !(material.touch == world::TouchProperties());
 }
 
 bool VrmlLooks::need_proto() const {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/vrml_names.h"
+
 namespace icome::files {
 namespace {
 
@@ -48,7 +50,7 @@ class MaterialNumbers {
 world::Material material_of(const flat::Look& look, world::FlatReader& reader, Findings& findings) {
   world::Material material;
   MaterialNumbers numbers;
-  material.name = reader.text(look.name());
+  material.name = said_by(reader.text(look.name()));
   if (look.lit()) {
     material.ambient = numbers.part(look.ambient());
     material.diffuse = numbers.colour(look.diffuse(), material.diffuse);

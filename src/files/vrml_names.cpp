@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "files/vrml_protos.h"
+
 namespace icome::files {
 namespace {
 
@@ -22,18 +24,27 @@ bool is_vrml_name(std::string_view name) {
          std::find(std::begin(kReserved), std::end(kReserved), name) == std::end(kReserved);
 }
 
-bool VrmlNames::take(const std::string& name) { return is_vrml_name(name) && taken_.insert(name).second; }
+std::string said_by(const std::string& def) { return def.starts_with(kNoName) ? std::string() : def; }
+
+bool VrmlNames::take(const std::string& name) {
+  return is_vrml_name(name) && !said_by(name).empty() && taken_.insert(name).second;
+}
 
 std::string VrmlNames::take_like(std::string_view wanted) {
+  if (wanted.empty()) return take_free(kNoName);
   constexpr std::size_t kLongest = 64;
   std::string name(wanted.substr(0, kLongest));
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !may_be_in_name(c); }, '_');
-  if (!is_vrml_name(name)) name = fmt::format("_{}", name);
-  if (take(name)) return name;
+  if (!is_vrml_name(name) || said_by(name).empty()) name = fmt::format("_{}", name);
+  return take_free(name);
+}
+
+std::string VrmlNames::take_free(const std::string& name) {
+  if (taken_.insert(name).second) return name;
   for (int& last = last_.try_emplace(name, 1).first->second;;) {
     std::string numbered = fmt::format("{}_{}", name, ++last);
-    if (take(numbered)) return numbered;
+    if (taken_.insert(numbered).second) return numbered;
   }
 }
 

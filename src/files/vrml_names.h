@@ -10,15 +10,21 @@ namespace icome::files {
 /// which others rename.
 bool is_vrml_name(std::string_view name);
 
+/// What a DEF name says: nothing for one that stands for none (vrml_protos.h).
+std::string said_by(const std::string& def);
+
 /// Gives DEF names away, each once.
 class VrmlNames {
  public:
-  /// Takes the name; false when it cannot be one or is taken.
+  /// Takes the name; false when it cannot be one, would mean none or is taken.
   bool take(const std::string& name);
-  /// A free name like the one wanted: "left_door" for "left door", "left_door_2" where that is taken.
+  /// A free name like the one wanted: "left_door" for "left door", "left_door_2" where that is taken, and one
+  /// that stands for none (vrml_protos.h) for "".
   std::string take_like(std::string_view wanted);
 
  private:
+  std::string take_free(const std::string& name);
+
   std::unordered_set<std::string> taken_;
   std::unordered_map<std::string, int> last_;  // number that was tried behind a name
 };

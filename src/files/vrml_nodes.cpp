@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/vrml_names.h"
 #include "files/vrml_scanner.h"
 
 namespace icome::files {
@@ -49,7 +50,7 @@ class NodeReader {
     node.is_object = !from.scene();
     node.piece = index(from.piece(), scene_.pieces());
     node.look = index(from.look(), scene_.looks());
-    node.name = reader_.text(from.name());
+    node.name = said_by(reader_.text(from.name()));
     node.def = reader_.text(from.def());
     node.reused = from.reused();
     read_place(from, node);
@@ -103,6 +104,7 @@ class NodeReader {
         if (node.is_merged) parent.fixture_from = self;
       } else if (node.look != VrmlNode::kNone) {
         node.is_merged = true;  // a Shape of nothing
+        if (parent.look_from == VrmlNode::kNone) parent.look_from = self;
       }
     }
   }

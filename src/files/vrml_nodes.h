@@ -31,6 +31,7 @@ struct VrmlNode {
   bool is_flat = false;               // its transform flattens it or makes no sense, or one above it
   bool is_merged = false;             // into its parent
   std::int32_t shape_from = kNone;    // the node whose shape and look it has
+  std::int32_t look_from = kNone;     // the node whose look it has, where that shows no shape
   std::int32_t fixture_from = kNone;  // the node whose fixture it has
 };
 

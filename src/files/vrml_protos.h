@@ -10,6 +10,9 @@ struct VrmlProto {
   const char* text;
 };
 
+/// DEF names that begin so stand for none: of things without a name that the file has to refer to.
+inline constexpr const char* kNoName = "IcomeUnnamed";
+
 /// DEF name of the Appearance of objects that have no material: it looks as they do, and is none again.
 inline constexpr const char* kNoMaterial = "IcomeDefault";
 

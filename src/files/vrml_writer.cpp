@@ -119,7 +119,10 @@ class VrmlWriter {
     return found == object_names_.end() ? "" : found->second;
   }
   /// Is its real name told beside its DEF name?
-  bool has_title(ObjectId id) const { return name_of(id) != world_.find(id)->name; }
+  bool has_title(ObjectId id) const {
+    const std::string& name = world_.find(id)->name;
+    return !name.empty() && name != name_of(id);
+  }
 
   const World& world_;
   std::vector<Remark> remarks_;
@@ -167,7 +170,7 @@ void VrmlWriter::give_names() {
     const std::string& name = world_.find(id)->name;
     if (object_names_.contains(id) || scripts_.contains(id) || (name.empty() && !in_scenes_.contains(id)))
       continue;
-    object_names_[id] = names_.take_like(name.empty() ? "object" : name);
+    object_names_[id] = names_.take_like(name);
   }
   std::vector<MaterialId> materials;
   std::unordered_set<MaterialId> seen;
@@ -321,7 +324,8 @@ void VrmlWriter::write_scenes() {
   for (const world::SceneId id : in_order(world_.scenes())) {
     const world::Scene& scene = *world_.find(id);
     text_.open(kSceneProto.name);
-    text_.text_field("name", scene.name);
+    text_.text_field("name", scene.name.empty() ? "scene" : scene.name);
+    if (scene.name.empty()) remarks_.push_back({"", 0, "A scene without a name is called \"scene\"."});
     text_.open_list("objects");
     for (const ObjectId root : scene.roots) text_.text_row(name_of(root));
     text_.close_list();

@@ -90,7 +90,8 @@ TEST(VrmlWriter, AnEmptyWorldIsAFileToo) {
 
 TEST(VrmlWriter, NamesAreTitlesWhereTheyCannotBeDefNames) {
   Design design;
-  for (const char* name : {"left door", "door", "door", "2nd", "w\xc3\xb6od", "USE", "a+b", "say \"\\\""})
+  for (const char* name :
+       {"left door", "door", "door", "2nd", "w\xc3\xb6od", "USE", "a+b", "IcomeUnnamed", "say \"\\\""})
     design.add(name, nullptr);
   design.add("", nullptr);
   const std::string text = body(design.world);
@@ -102,6 +103,7 @@ TEST(VrmlWriter, NamesAreTitlesWhereTheyCannotBeDefNames) {
   EXPECT_TRUE(contains(text, "title \"w\xc3\xb6od\""));
   EXPECT_TRUE(contains(text, "DEF _USE Transform"));
   EXPECT_TRUE(contains(text, "DEF a_b Transform"));
+  EXPECT_TRUE(contains(text, "DEF _IcomeUnnamed Transform"));
   EXPECT_TRUE(contains(text, R"(title "say \"\\\"")"));
   EXPECT_TRUE(contains(text, "\nTransform { }\n"));
 }
@@ -252,9 +254,9 @@ TEST(VrmlWriter, LightsViewpointsAndScenes) {
   EXPECT_TRUE(contains(text,
                        "    Viewpoint {\n      position 0 0 0\n      fieldOfView 1.2\n"
                        "      description \"from the door\"\n"));
-  EXPECT_TRUE(contains(text, "DEF object Transform {\n  children [\n    WorldInfo {\n      title \"\"\n"));
+  EXPECT_TRUE(contains(text, "DEF IcomeUnnamed Transform {\n  children [\n    Shape {"));
   EXPECT_TRUE(text.ends_with(
-      "IcomeScene {\n  name \"the room\"\n  objects [\n    \"object\"\n    \"lamp\"\n  ]\n}\n"));
+      "IcomeScene {\n  name \"the room\"\n  objects [\n    \"IcomeUnnamed\"\n    \"lamp\"\n  ]\n}\n"));
 }
 
 TEST(VrmlWriter, ScriptsStandAsTheyStoodAndKeepTheirNames) {

@@ -138,12 +138,13 @@ void SceneWalk::visit_inline(const SoVRMLInline& it, NodeParts& parts, const Pla
 
 void SceneWalk::visit_shape(const SoVRMLShape& it, NodeParts& parts, const Place& place) {
   const Unwrapped geometry = wrapping_.unwrap(it.geometry, *place.file);
-  if (!geometry.node) return;
-  const auto piece = pieces_.number_of(geometry);
-  if (!piece) return;
-  parts.piece = *piece;
+  if (geometry.node) {
+    const auto piece = pieces_.number_of(geometry);
+    if (!piece) return;
+    parts.piece = *piece;
+  }
   parts.look = looks_.number_of(wrapping_.unwrap(it.appearance, *place.file));
-  answer_.add(parts);
+  if (parts.piece >= 0 || parts.look >= 0) answer_.add(parts);
 }
 
 /// IcomeScene is not an object but a list of objects.
