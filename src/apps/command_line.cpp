@@ -82,10 +82,11 @@ void add_feel_options(CLI::App& touch, Entries& entries) {
   TouchOptions& options = entries.touch;
   touch
       .add_option("--stiffness", options.stiffness,
-                  "Of the surface, N/m (default: the device's nominal stiffness)")
+                  "Of the surface, N/m (default: the material's, or the device's nominal stiffness)")
       ->type_name("N_PER_M");
   touch
-      .add_option("--friction", entries.friction, "Static and dynamic Coulomb coefficients, such as 0.4,0.3")
+      .add_option("--friction", entries.friction,
+                  "Static and dynamic Coulomb coefficients, such as 0.4,0.3 (default: the material's)")
       ->type_name("S,D");
   touch
       .add_option("--shading", entries.shading,

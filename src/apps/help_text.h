@@ -27,8 +27,8 @@ constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
 
 constexpr const char* kModelHelp =
-    "Files (meshes: OBJ, PLY, STL, OFF, GLB; solids: OpenSCAD's .csg; also .xz) or primitives, sizes in "
-    "metres: plane, box:0.1x0.2x0.3, "
+    "Files (meshes: OBJ, PLY, STL, OFF, GLB; solids: OpenSCAD's .csg; also .xz), designs of many objects "
+    "(VRML 2.0: .wrl, .vrml; .gltf; ICOME's .icome) or primitives, sizes in metres: plane, box:0.1x0.2x0.3, "
     "sphere:R, "
     "cylinder:RxH, cone:RxH, cone:R1xR2xH, torus:RxR, capsule:RxH";
 
@@ -43,6 +43,7 @@ constexpr const char* kTouchExamples =
     "  icome touch box:0.1x0.1x0.1 --stiffness 800 --friction 0.4,0.3 --radius 0.002\n"
     "  icome touch part.stl --unit mm --path path.csv --check --json > report.json\n"
     "  icome touch solid.csg --check --picture touch.png\n"
+    "  icome touch room.wrl --up y --fit 0.3 --picture touch.png\n"
     "  icome touch control.obj --subdivide limit --crease 40\n"
     "  icome touch --implicit \"z - 0.005*sin(60*x + 3*t)*cos(60*y)\" --bounds 0.1,0.1,0.06\n"
     "  icome touch tooth.obj jaw.obj --fit 0.08 --device \"PHANToM Desktop\" --trace out.csv\n"
@@ -55,6 +56,10 @@ constexpr const char* kTouchExamples =
     "the picture. A .csg file is in millimetres whatever --unit says. A formula knows x, y, z, t, pi, e,\n"
     "+ - * / ^ and sin, cos, tan, exp, log, sqrt, abs, min, max and others; the solid is where it is\n"
     "negative. A tip with a --radius feels these surfaces as a fine mesh; the report says how fine.\n"
+    "\n"
+    "Of a design every object is touched as what it is, where it stands: scaled and mirrored ones too, and\n"
+    "with the stiffness, friction and haptic texture of its material, unless --stiffness or --friction say\n"
+    "otherwise. What cannot be touched, or is felt as triangles, is told in the report.\n"
     "\n"
     "With --path there is no clock: one tick a row, as fast as the machine can, and the same input gives "
     "the\n"

@@ -1,4 +1,7 @@
 """icome touch on designs: many bodies in one MODEL, each felt as what it is."""
+import base64
+import json
+import struct
 import unittest
 
 from icome_program import ProgramTest, line, point
@@ -18,6 +21,70 @@ class DesignTest(ProgramTest):
     def assert_point(self, row, expected, delta=1e-7):
         for got, want in zip(point(row, "scp"), expected):
             self.assertAlmostEqual(got, want, delta=delta)
+
+
+def cube_gltf(nodes):
+    """A glTF design: one cube with edges of 0.1 m around the origin, shared by all nodes."""
+    corners = [(x, y, z) for x in (-0.05, 0.05) for y in (-0.05, 0.05) for z in (-0.05, 0.05)]
+    sides = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    indices = [i for a, b, c, d in sides for i in (a, b, c, a, c, d)]
+    points = b"".join(struct.pack("<3f", *corner) for corner in corners)
+    data = points + struct.pack(f"<{len(indices)}H", *indices)
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}],
+        "nodes": [{"mesh": 0, **node} for node in nodes],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(points)},
+                        {"buffer": 0, "byteOffset": len(points), "byteLength": len(data) - len(points)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3",
+                       "min": [-0.05] * 3, "max": [0.05] * 3},
+                      {"bufferView": 1, "componentType": 5123, "count": len(indices), "type": "SCALAR"}]})
+
+
+class GltfTest(DesignTest):
+    def setUp(self):
+        super().setUp()
+        self.design = self.write("cubes.gltf", cube_gltf([
+            {}, {"translation": [0.5, 0, 0], "scale": [1, 2, -3]},
+            # By 45 degrees about x.
+            {"translation": [1, 0, 0], "rotation": [0.3826834323650898, 0, 0, 0.9238795325112867],
+             "scale": [1, 2, 1]}]))
+
+    def test_scaled_mirrored_and_turned_clones_are_felt_from_outside(self):
+        self.assert_point(self.contact(self.design, (0.01, 0.1, 0.02), (0.01, 0.04, 0.02)), (0.01, 0.05, 0.02), 1e-6)
+        self.assert_point(self.contact(self.design, (0.51, 0.03, 0.3), (0.51, 0.03, 0.14)), (0.51, 0.03, 0.15), 1e-6)
+        row = self.contact(self.design, (1, 0.025, 0.3), (1, 0.025, 0.09))
+        # The face that looked up before the turn: 0.05 from the middle, along a normal of (0, -1, 1).
+        self.assertAlmostEqual(row["scp_z"] - row["scp_y"], 0.05 * 2 ** 0.5, delta=1e-6)
+
+    def test_it_is_turned_and_fitted_like_other_files(self):
+        row = self.contact(self.design, (0.01, -0.02, 0.1), (0.01, -0.02, 0.04), "--up", "y")
+        self.assert_point(row, (0.01, -0.02, 0.05), 1e-6)
+        row = self.contact(self.design, (0.001, 0.01, 0.002), (0.001, 0.004, 0.002), "--fit", "0.11")
+        self.assert_point(row, (0.001, 0.005, 0.002), 1e-6)  # from x = -0.05 to 1.05: everything is a tenth
+
+    def test_it_is_explored_and_drawn(self):
+        picture = self.folder / "touch.png"
+        report = self.report(self.design, "--seconds", "1", "--check", "--picture", picture)
+        self.assertEqual((report["pops"], report["sticks"]), (0, 0))
+        self.assertGreater(report["touch_fraction"], 0.05)
+        self.assertEqual(report["triangles"], 36)
+        self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
+
+    def test_objects_are_numbered_by_model(self):
+        path = self.path_file(line((0.51, 0.03, 0.3), (0.51, 0.03, 0.14), 300))
+        self.assertEqual(self.trace("sphere:0.01", self.design, "--path", path)[-1]["object"], 1)
+
+    def test_a_tip_with_a_radius_rests_above(self):
+        row = self.contact(self.design, (0.01, 0.1, 0.02), (0.01, 0.04, 0.02), "--radius", "0.003")
+        self.assert_point(row, (0.01, 0.053, 0.02), 1e-6)
+
+    def test_what_does_not_fit_designs_is_said(self):
+        self.fails("touch", self.design, "--renderer", "thesis", code=1, saying="--renderer thesis touches")
+        self.fails("touch", self.design, "--subdivide", "limit", code=1, saying="--subdivide is for meshes")
+        self.fails("touch", self.folder / "none.gltf", code=1, saying="none.gltf")
 
 
 class JournalTest(DesignTest):
