@@ -14,6 +14,7 @@
 #include "files/journal_design.h"
 #include "files/mesh_design.h"
 #include "files/stl_writer.h"
+#include "files/vrml_reader.h"
 #include "files/vrml_writer.h"
 
 namespace icome::files {
@@ -68,8 +69,9 @@ struct Format {
   bool may_be_packed;  // as .xz
   DesignWriter write;  // null: cannot be written
 };
-constexpr std::array<Format, 10> kFormats{{{".wrl", nullptr, false, write_vrml},
-                                           {".vrml", nullptr, false, write_vrml},
+constexpr std::array<Format, 11> kFormats{{{".wrl", read_vrml, false, write_vrml},
+                                           {".vrml", read_vrml, false, write_vrml},
+                                           {".wrz", read_vrml, false, nullptr},
                                            {".glb", read_gltf, true, write_gltf},
                                            {".gltf", read_gltf, true, write_gltf},
                                            {".obj", read_mesh_design, true, nullptr},

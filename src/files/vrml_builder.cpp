@@ -63,6 +63,7 @@ class VrmlBuilder {
     add_notes();
     nodes_ = nodes_of(scene_, reader_);
     read_looks();
+    if (!reader_.fault().empty()) return give_up();
     find_variants();
     if (!add_objects()) return give_up();
     add_scenes();
@@ -212,6 +213,7 @@ class VrmlBuilder {
     if (!look.lit() && look.picture() < 0) return *plan.material;
     if (reader_.text(look.name()) == kNoMaterial) return *plan.material;
     world::Material made = material_of(look, reader_, findings_);
+    if (made.name == kNoMaterial) return *plan.material;
     if (look.picture() >= 0) made.texture = texture(std::uint32_t(look.picture()));
     plan.material = design_.add(std::move(made));
     return *plan.material;

@@ -7,13 +7,11 @@
 #include <unordered_set>
 #include <utility>
 
+#include "files/vrml_header.h"
 #include "files/vrml_tallies.h"
 
 namespace icome::files {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::string_view kVrmlHeader = "#VRML V2.0 utf8";
 
 enum class Character : unsigned char { Word, Blank, Comment, Quote, Open, Close };
 
@@ -32,22 +30,6 @@ constexpr std::array<Character, 256> kCharacters = characters();
 Character character(char c) { return kCharacters[static_cast<unsigned char>(c)]; }
 
 bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
-
-/// Why a text is not VRML 2.0; empty when it is.
-std::string wrong_header(std::string_view text) {
-  if (text.starts_with(kVrmlHeader)) {
-    const std::string_view rest = text.substr(kVrmlHeader.size());
-    if (rest.empty() || character(rest[0]) == Character::Blank) return {};
-  }
-  if (text.starts_with("#VRML V1.0"))
-    return "is VRML 1.0, which is not read: turn it into VRML 2.0 with another program first";
-  if (text.starts_with("#X3D"))
-    return "is X3D in the classic encoding, which is not read: turn it into VRML 2.0 with another program "
-           "first";
-  if (text.starts_with("#VRML V2.0"))
-    return "does not name its encoding: its first line must be \"#VRML V2.0 utf8\"";
-  return "is not VRML 2.0: its first line must be \"#VRML V2.0 utf8\"";
-}
 
 /// Goes through the tokens of a text once.
 class VrmlScan {
@@ -200,8 +182,9 @@ class VrmlScan {
 }  // namespace
 
 base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& name, const std::string& of) {
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  if (const std::string why = wrong_header(text); !why.empty()) return base::fail(name + ": " + why);
+  const bool is_part = !of.empty();
+  const auto header = find_vrml_header(text);
+  if (!header && !is_part) return base::fail(fmt::format("{}: {}", name, header.error().message));
   VrmlScan scan(text);
   if (!scan.run())
     return base::fail(fmt::format("{}:{}: braces and brackets lie more than {} deep within each other", name,

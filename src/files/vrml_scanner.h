@@ -25,9 +25,10 @@ struct VrmlLeftOut {
 inline constexpr int kMostNestedVrml = 2000;
 
 /// Looks through the text of a VRML 2.0 file for what is left out or changes its meaning: nodes that do
-/// nothing here, nodes that nobody knows, scripts and routes, in PROTOs too. Whether the rest is good VRML
-/// is for the parser to say. Fails when the text is not VRML 2.0 or nested deeper than kMostNestedVrml;
-/// `name` names the file in the error, and `of` in the remarks (empty: the file that was asked for).
+/// nothing here, scripts and routes, in PROTOs too. Whether the rest is good VRML, and known, is for the
+/// parser to say. Fails when the text is not VRML 2.0 or nested deeper than kMostNestedVrml;
+/// `name` names the file in the error, and `of` in the remarks: empty for the file that was asked for, else
+/// it is a part of that, which needs no header.
 base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& name,
                                     const std::string& of = {});
 

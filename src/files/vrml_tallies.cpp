@@ -4,72 +4,40 @@
 
 #include <algorithm>
 
-#include "files/text_scanner.h"
-
 namespace icome::files {
 namespace {
 
 constexpr std::size_t kMostLinesNamed = 8;
-constexpr std::size_t kMostTypesNamed = 200;
-constexpr std::string_view kOtherType = "?";  // stands for all types beyond; none is called that
 
 const std::map<std::string_view, VrmlFate>& fates() {
   using enum VrmlFate;
   static const std::map<std::string_view, VrmlFate> table = {
       {"Anchor", Group},
-      {"Appearance", Taken},
       {"AudioClip", LeftOut},
       {"Background", LeftOut},
       {"Billboard", Group},
-      {"Box", Taken},
       {"Collision", Group},
-      {"Color", Taken},
       {"ColorInterpolator", LeftOut},
-      {"Cone", Taken},
-      {"Coordinate", Taken},
       {"CoordinateInterpolator", LeftOut},
-      {"Cylinder", Taken},
       {"CylinderSensor", LeftOut},
-      {"DirectionalLight", Taken},
-      {"ElevationGrid", Taken},
-      {"Extrusion", Taken},
       {"Fog", LeftOut},
-      {"FontStyle", Taken},
-      {"Group", Taken},
-      {"ImageTexture", Taken},
-      {"IndexedFaceSet", Taken},
       {"IndexedLineSet", LeftOut},
-      {"Inline", Taken},
       {"LOD", Finest},
-      {"Material", Taken},
       {"MovieTexture", LeftOut},
       {"NavigationInfo", LeftOut},
-      {"Normal", Taken},
       {"NormalInterpolator", LeftOut},
       {"OrientationInterpolator", LeftOut},
-      {"PixelTexture", Taken},
       {"PlaneSensor", LeftOut},
-      {"PointLight", Taken},
       {"PointSet", LeftOut},
       {"PositionInterpolator", LeftOut},
       {"ProximitySensor", LeftOut},
       {"ScalarInterpolator", LeftOut},
-      {"Script", Kept},
-      {"Shape", Taken},
       {"Sound", LeftOut},
-      {"Sphere", Taken},
       {"SphereSensor", LeftOut},
-      {"SpotLight", Taken},
-      {"Switch", Taken},
-      {"Text", Taken},
-      {"TextureCoordinate", Taken},
-      {"TextureTransform", Taken},
+      {"Text", LeftOut},
       {"TimeSensor", LeftOut},
       {"TouchSensor", LeftOut},
-      {"Transform", Taken},
-      {"Viewpoint", Taken},
       {"VisibilitySensor", LeftOut},
-      {"WorldInfo", Taken},
   };
   return table;
 }
@@ -97,14 +65,12 @@ std::string at_lines(const std::vector<int>& lines, std::size_t count) {
 
 VrmlFate fate_of(std::string_view type) {
   const auto found = fates().find(type);
-  return found == fates().end() ? VrmlFate::Unknown : found->second;
+  return found == fates().end() ? VrmlFate::Taken : found->second;
 }
 
 void VrmlTallies::add(std::string_view type, VrmlFate fate, int line) {
   if (fate == VrmlFate::Taken) return;
-  Key key{fate, type};
-  if (tallies_.size() >= kMostTypesNamed && tallies_.count(key) == 0) key = {VrmlFate::Unknown, kOtherType};
-  Tally& tally = tallies_[key];
+  Tally& tally = tallies_[{fate, type}];
   ++tally.count;
   if (tally.lines.size() < kMostLinesNamed) tally.lines.push_back(line);
 }
@@ -131,12 +97,6 @@ std::string VrmlTallies::sentence(const Key& key, const Tally& tally) {
       return fmt::format("{} taken at the finest level{}.", how_many_are(type, count), lines);
     case VrmlFate::LeftOut:
       return fmt::format("{} left out{}.", how_many_are(type, count), lines);
-    case VrmlFate::Unknown:
-      if (type == kOtherType)
-        return fmt::format("{} left out, as VRML 2.0 has none such and no PROTO before made it{}.",
-                           how_many_are("node", count), lines);
-      return fmt::format("VRML 2.0 has no node {}, and no PROTO before made it: {} left out{}.", quoted(type),
-                         count == 1 ? "it is" : fmt::format("{} are", count), lines);
     case VrmlFate::Route:
       return count == 1
                  ? "A ROUTE is left out."

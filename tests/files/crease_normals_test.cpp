@@ -11,35 +11,35 @@ namespace icome::files {
 namespace {
 
 using base::Vector3;
-constexpr double kPi = std::numbers::pi;
 
-void add_polygon(PolygonMesh& mesh, std::initializer_list<std::uint32_t> corners) {
+void append_polygon(PolygonMesh& mesh, std::initializer_list<std::uint32_t> corners) {
   mesh.corners.insert(mesh.corners.end(), corners);
   mesh.begins.push_back(std::uint32_t(mesh.corners.size()));
 }
 
-PolygonMesh unit_box() {
+PolygonMesh polygon_box() {
   PolygonMesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
-  add_polygon(mesh, {0, 2, 3, 1});
-  add_polygon(mesh, {4, 5, 7, 6});
-  add_polygon(mesh, {0, 1, 5, 4});
-  add_polygon(mesh, {2, 6, 7, 3});
-  add_polygon(mesh, {0, 4, 6, 2});
-  add_polygon(mesh, {1, 3, 7, 5});
+  append_polygon(mesh, {0, 2, 3, 1});
+  append_polygon(mesh, {4, 5, 7, 6});
+  append_polygon(mesh, {0, 1, 5, 4});
+  append_polygon(mesh, {2, 6, 7, 3});
+  append_polygon(mesh, {0, 4, 6, 2});
+  append_polygon(mesh, {1, 3, 7, 5});
   return mesh;
 }
 
 /// A prism about z over a regular polygon of radius and height 1: sides first, then the lower and upper cap.
-PolygonMesh prism(std::uint32_t sides) {
+PolygonMesh polygon_prism(std::uint32_t sides) {
   PolygonMesh mesh;
   for (const double z : {0.0, 1.0}) {
     for (std::uint32_t i = 0; i < sides; ++i)
-      mesh.positions.emplace_back(std::cos(2 * kPi * i / sides), std::sin(2 * kPi * i / sides), z);
+      mesh.positions.emplace_back(std::cos(2 * std::numbers::pi * i / sides),
+                                  std::sin(2 * std::numbers::pi * i / sides), z);
   }
   for (std::uint32_t i = 0; i < sides; ++i) {
     const std::uint32_t next = (i + 1) % sides;
-    add_polygon(mesh, {i, next, sides + next, sides + i});
+    append_polygon(mesh, {i, next, sides + next, sides + i});
   }
   for (std::uint32_t i = 0; i < sides; ++i) mesh.corners.push_back(sides - 1 - i);
   mesh.begins.push_back(std::uint32_t(mesh.corners.size()));
@@ -51,15 +51,15 @@ PolygonMesh prism(std::uint32_t sides) {
 TEST(PolygonNormals, ArePerpendicularAndZeroWithoutArea) {
   PolygonMesh mesh;
   mesh.positions = {{0, 0, 0}, {1e-20, 0, 0}, {0, 1e-20, 0}, {2e-20, 0, 0}};
-  add_polygon(mesh, {0, 1, 2});
-  add_polygon(mesh, {0, 1, 3});
+  append_polygon(mesh, {0, 1, 2});
+  append_polygon(mesh, {0, 1, 3});
   const auto normals = polygon_normals(mesh);
   EXPECT_EQ(normals[0], Vector3(0, 0, 1));
   EXPECT_EQ(normals[1], Vector3(0, 0, 0));
 }
 
 TEST(CreaseNormals, OfABoxAreItsFacesBelowARightAngle) {
-  const PolygonMesh box = unit_box();
+  const PolygonMesh box = polygon_box();
   const auto faces = polygon_normals(box);
   for (const double angle : {0.0, 0.5, 1.57}) {
     const auto normals = crease_normals(box, angle);
@@ -69,25 +69,25 @@ TEST(CreaseNormals, OfABoxAreItsFacesBelowARightAngle) {
 }
 
 TEST(CreaseNormals, OfABoxAreNoneWhereAllIsSmooth) {
-  EXPECT_TRUE(crease_normals(unit_box(), kPi).empty());
-  EXPECT_TRUE(crease_normals(unit_box(), 100.0).empty());
-  EXPECT_TRUE(crease_normals(unit_box(), 1.58).empty());
+  EXPECT_TRUE(crease_normals(polygon_box(), std::numbers::pi).empty());
+  EXPECT_TRUE(crease_normals(polygon_box(), 100.0).empty());
+  EXPECT_TRUE(crease_normals(polygon_box(), 1.58).empty());
   // A right angle in single precision.
-  EXPECT_TRUE(crease_normals(unit_box(), 1.570796).empty());
+  EXPECT_TRUE(crease_normals(polygon_box(), 1.570796).empty());
 }
 
 TEST(CreaseNormals, OfAPlaneAreNone) {
   PolygonMesh plane;
   plane.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  add_polygon(plane, {0, 1, 2});
-  add_polygon(plane, {0, 2, 3});
+  append_polygon(plane, {0, 1, 2});
+  append_polygon(plane, {0, 2, 3});
   EXPECT_TRUE(crease_normals(plane, 0.0).empty());
   EXPECT_TRUE(crease_normals(plane, 1e-3).empty());
 }
 
 TEST(CreaseNormals, OfAPrismAreRadialAndStraight) {
   constexpr std::uint32_t kSides = 12;  // 30 degrees between them
-  const PolygonMesh mesh = prism(kSides);
+  const PolygonMesh mesh = polygon_prism(kSides);
   const auto normals = crease_normals(mesh, 0.6);
   ASSERT_EQ(normals.size(), mesh.corners.size());
   for (std::uint32_t i = 0; i < mesh.corners.size(); ++i) {
@@ -99,7 +99,7 @@ TEST(CreaseNormals, OfAPrismAreRadialAndStraight) {
 }
 
 TEST(CreaseNormals, OfAPrismAreItsFacesBelowItsAngle) {
-  const PolygonMesh mesh = prism(12);
+  const PolygonMesh mesh = polygon_prism(12);
   const auto faces = polygon_normals(mesh);
   const auto normals = crease_normals(mesh, 0.5);
   ASSERT_EQ(normals.size(), mesh.corners.size());
@@ -110,10 +110,10 @@ TEST(CreaseNormals, AreTheMeanByAnglesOfWhatIsNear) {
   // Around the origin: a quarter in z = 0, then three faces each turned away a little further.
   PolygonMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0.3}, {0, -1, -0.9}};
-  add_polygon(mesh, {0, 1, 2});
-  add_polygon(mesh, {0, 2, 3});
-  add_polygon(mesh, {0, 3, 4});
-  add_polygon(mesh, {0, 4, 1});
+  append_polygon(mesh, {0, 1, 2});
+  append_polygon(mesh, {0, 2, 3});
+  append_polygon(mesh, {0, 3, 4});
+  append_polygon(mesh, {0, 4, 1});
   const auto faces = polygon_normals(mesh);
   const double angle = 0.7;
   const auto normals = crease_normals(mesh, angle);
@@ -131,7 +131,7 @@ TEST(CreaseNormals, AreTheMeanByAnglesOfWhatIsNear) {
 }
 
 TEST(CreaseNormals, AreTheSameAtAnyScale) {
-  PolygonMesh mesh = prism(7);
+  PolygonMesh mesh = polygon_prism(7);
   const auto normals = crease_normals(mesh, 1.0);
   for (const double scale : {0x1p-100, 0x1p100}) {
     PolygonMesh other = mesh;
@@ -162,7 +162,7 @@ TEST(CreaseNormals, StayQuickAroundOneVertex) {
   constexpr std::uint32_t kCount = 200'000;
   mesh.positions.emplace_back(0, 0, 0);
   for (std::uint32_t i = 0; i < kCount; ++i) mesh.positions.emplace_back(std::cos(i), std::sin(i), i % 2);
-  for (std::uint32_t i = 2; i < kCount; ++i) add_polygon(mesh, {0, i, i - 1});
+  for (std::uint32_t i = 2; i < kCount; ++i) append_polygon(mesh, {0, i, i - 1});
   EXPECT_EQ(crease_normals(mesh, 0.5).size(), mesh.corners.size());
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace icome::files {
+
+/// Do the bytes begin as gzip data does?
+bool is_gzip(std::string_view bytes);
+
+/// Unpacks gzip data (all its members) piece by piece, so that a small file which unpacks to more than
+/// `limit` bytes is refused before they are taken. `name` is for the errors.
+base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t limit, const std::string& name);
+
+}  // namespace icome::files

@@ -1,0 +1,82 @@
+#include "files/vrml_reader.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/clock.h"
+#include "files/file_bytes.h"
+#include "files/gzip_bytes.h"
+#include "files/url_policy.h"
+#include "files/vrml_builder.h"
+#include "files/vrml_process.h"
+#include "files/vrml_scanner.h"
+
+namespace icome::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kReadPart = 0.1;    // of the whole work, done when the file is read
+constexpr double kParsedPart = 0.6;  // and parsed
+
+base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, bool& packed) {
+  auto bytes = read_bytes(path, limit);
+  packed = bytes && is_gzip(*bytes);
+  return packed ? unpack_gzip(*bytes, limit, path.string()) : std::move(bytes);
+}
+
+bool goes_on(const DesignReadOptions& options, double part) {
+  return !options.progress || options.progress(part);
+}
+
+/// Remarks on the files that are inlined, which were good enough for the parser.
+void add_remarks_of_others(const std::vector<fs::path>& files, const DesignReadOptions& options,
+                           std::vector<Remark>& remarks) {
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    bool packed = false;
+    const auto text = read_text(files[i], options.size_limit, packed);
+    if (!text) continue;
+    const auto left_out = scan_vrml(*text, files[i].string(), files[i].string());
+    if (left_out) remarks.insert(remarks.end(), left_out->remarks.begin(), left_out->remarks.end());
+  }
+}
+
+/// Fetches what lies beside a file that was read, and only such: the answer cannot name others.
+FetchPicture beside(const fs::path& path, const std::vector<fs::path>& files) {
+  return [path, files](const std::string& base, const std::string& url,
+                       std::uint64_t limit) -> base::Result<std::string> {
+    if (base.empty()) return fetch_beside(path, url, limit);
+    const auto known = std::find(files.begin(), files.end(), fs::path(base));
+    if (known == files.end()) return base::fail("it is asked for by a file that was not read");
+    return fetch_beside(*known, url, limit);
+  };
+}
+
+}  // namespace
+
+base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptions& options) {
+  bool packed = false;
+  auto text = read_text(path, options.size_limit, packed);
+  if (!text) return tl::unexpected(text.error());
+  auto left_out = scan_vrml(*text, path.string());
+  if (!left_out) return tl::unexpected(left_out.error());
+  if (!goes_on(options, kReadPart)) return base::fail("interrupted");
+  const auto answer = ask_vrml_worker(*text, path, options);
+  if (!answer) return tl::unexpected(answer.error());
+  text->clear();
+  text->shrink_to_fit();
+
+  std::vector<Remark> remarks = std::move(left_out->remarks);
+  add_remarks_of_others(answer->files, options, remarks);
+  const VrmlSources sources = {path.string(), beside(path, answer->files), options.size_limit,
+                               std::move(left_out->scripts)};
+  Patience patience(options.seconds_limit, options.progress, kParsedPart);
+  auto design = build_vrml(answer->bytes, sources, patience);
+  if (!design) return design;
+  if (packed) design->format += ", gzip";
+  design->remarks.insert(design->remarks.begin(), remarks.begin(), remarks.end());
+  return design;
+}
+
+}  // namespace icome::files

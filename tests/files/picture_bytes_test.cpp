@@ -1,0 +1,57 @@
+#include "files/picture_bytes.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <vector>
+
+namespace icome::files {
+namespace {
+
+/// The PNG's pixels as red, green, blue and opacity, row after row from the top.
+std::vector<unsigned> unpacked(const std::string& png) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_memory(&image, png.data(), png.size()), 0);
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
+  EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0);
+  return {pixels.begin(), pixels.end()};
+}
+
+std::vector<unsigned> there_and_back(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+                                     const std::string& pixels) {
+  const auto png = png_of({width, height, channels, pixels});
+  EXPECT_TRUE(png.has_value());
+  EXPECT_EQ(picture_type(*png), "image/png");
+  return unpacked(*png);
+}
+using Pixels = std::vector<unsigned>;
+
+TEST(PictureBytes, BecomePngFilesRowsFromTheTop) {
+  EXPECT_EQ(there_and_back(1, 2, 1, "\x10\x20"), (Pixels{32, 32, 32, 255, 16, 16, 16, 255}));
+  EXPECT_EQ(there_and_back(1, 2, 2, std::string("\x10\xff\x20\x00", 4)).at(7), 255U);
+  EXPECT_EQ(there_and_back(2, 1, 3, "\x01\x02\x03\x04\x05\x06"), (Pixels{1, 2, 3, 255, 4, 5, 6, 255}));
+  EXPECT_EQ(there_and_back(1, 1, 4, "\x01\x02\x03\xff"), (Pixels{1, 2, 3, 255}));
+}
+
+TEST(PictureBytes, AreRefusedWhereTheyMakeNoSense) {
+  EXPECT_FALSE(png_of({0, 1, 1, ""}).has_value());
+  EXPECT_FALSE(png_of({1, 1, 0, ""}).has_value());
+  EXPECT_FALSE(png_of({1, 1, 5, "12345"}).has_value());
+  EXPECT_FALSE(png_of({2, 2, 1, "123"}).has_value());
+  EXPECT_FALSE(png_of({0x10000, 0x10000, 4, ""}).has_value());
+  EXPECT_FALSE(png_of({0xffffffff, 0xffffffff, 4, "abcd"}).has_value());
+}
+
+TEST(PictureBytes, AreKnownByTheirHead) {
+  EXPECT_EQ(picture_type("\x89PNG\r\n\x1a\nx"), "image/png");
+  EXPECT_EQ(picture_type("\xff\xd8\xff\xe0"), "image/jpeg");
+  EXPECT_EQ(picture_type("GIF87a"), "image/gif");
+  EXPECT_EQ(picture_type("GIF89"), "");
+  EXPECT_EQ(picture_type("root:x:0:0"), "");
+  EXPECT_EQ(picture_type(""), "");
+}
+
+}  // namespace
+}  // namespace icome::files
