@@ -13,6 +13,7 @@
 #include "files/gltf_writer.h"
 #include "files/journal_design.h"
 #include "files/mesh_design.h"
+#include "files/obj_design.h"
 #include "files/stl_writer.h"
 #include "files/vrml_reader.h"
 #include "files/vrml_writer.h"
@@ -74,7 +75,7 @@ constexpr std::array<Format, 11> kFormats{{{".wrl", read_vrml, false, write_vrml
                                            {".wrz", read_vrml, false, nullptr},
                                            {".glb", read_gltf, true, write_gltf},
                                            {".gltf", read_gltf, true, write_gltf},
-                                           {".obj", read_mesh_design, true, nullptr},
+                                           {".obj", read_obj_design, true, write_obj_design},
                                            {".ply", read_mesh_design, true, write_ply_design},
                                            {".stl", read_mesh_design, true, write_stl_design},
                                            {".off", read_mesh_design, true, write_off_design},

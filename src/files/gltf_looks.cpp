@@ -130,7 +130,7 @@ world::TextureId GltfLooks::texture(int index) {
   const std::string bytes = image.bufferView >= 0 ? std::string(view_bytes(model_, image.bufferView))
                                                   : std::string(image.image.begin(), image.image.end());
   world::Texture texture;
-  texture.media_type = picture_type(bytes);
+  texture.media_type = picture_media_type(bytes);
   // What the file itself holds cannot be somebody else's.
   if (texture.media_type.empty() && image.bufferView >= 0 && !bytes.empty())
     texture.media_type = image.mimeType.substr(0, 64);

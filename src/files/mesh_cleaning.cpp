@@ -39,11 +39,11 @@ void keep_rows(Rows& rows, const std::vector<bool>& kept) {
 
 }  // namespace
 
-base::Result<void> scale(geometry::TriangleMesh& mesh, double unit, const std::string& name) {
+base::Result<void> scale(std::vector<geometry::Vector3>& positions, double unit, const std::string& name) {
   if (!(std::isfinite(unit) && unit > 0.0))
     return base::fail("The unit must be a positive number of metres.");
   double farthest = 0.0;
-  for (geometry::Vector3& position : mesh.positions) {
+  for (geometry::Vector3& position : positions) {
     position *= unit;
     if (position.allFinite()) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "world/mesh_geometry.h"
@@ -9,7 +10,7 @@ namespace icome::files {
 // What meshes out of files need before they may be part of a world.
 
 /// Makes file units metres. Fails, naming the file, for coordinates that are too far out to mean anything.
-base::Result<void> scale(geometry::TriangleMesh& mesh, double unit, const std::string& name);
+base::Result<void> scale(std::vector<geometry::Vector3>& positions, double unit, const std::string& name);
 
 /// Takes triangles away that have a number that is not finite. Says so in a sentence; empty: there were
 /// none.

@@ -26,7 +26,7 @@ base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
     for (const auto& [a, b, c] : shape.mesh.triangles)
       shape.colours.push_back({parsed->colours[a], parsed->colours[b], parsed->colours[c]});
   }
-  if (const auto scaled = scale(shape.mesh, options.unit, path.string()); !scaled)
+  if (const auto scaled = scale(shape.mesh.positions, options.unit, path.string()); !scaled)
     return tl::unexpected(scaled.error());
   if (const std::string lost = drop_not_finite(shape); !lost.empty()) builder.remark(lost);
   // STL repeats every corner; what meets there is one vertex.

@@ -18,7 +18,7 @@ constexpr std::array<Beginning, 6> kBeginnings{{{"\x89PNG\r\n\x1a\n", "image/png
 
 }  // namespace
 
-std::string picture_type(std::string_view bytes) {
+std::string picture_media_type(std::string_view bytes) {
   if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
   for (const Beginning& known : kBeginnings) {
     if (bytes.starts_with(known.bytes)) return known.type;

@@ -70,6 +70,18 @@ std::string_view TextScanner::word() {
   return {word_begin_, static_cast<std::size_t>(at_ - word_begin_)};
 }
 
+std::string_view TextScanner::rest() {
+  word_begin_ = at_;
+  if (!more_on_line()) return {};
+  word_begin_ = at_;
+  const char* last = at_;  // behind the last letter
+  for (; at_ < end_ && !is_line_end(*at_); ++at_) {
+    if (comment_ != '\0' && *at_ == comment_ && is_blank(at_[-1])) break;
+    if (!is_blank(*at_)) last = at_ + 1;
+  }
+  return {word_begin_, static_cast<std::size_t>(last - word_begin_)};
+}
+
 double TextScanner::number(const char* what) {
   const std::string_view text = word();
   const char* begin = text.data();
@@ -103,10 +115,11 @@ void TextScanner::fail_word(std::string_view word, const char* what) {
     fail(fmt::format("the line ends where {} is expected", what));
 }
 
+int TextScanner::line() const { return 1 + int(std::count(text_.data(), word_begin_, '\n')); }
+
 void TextScanner::fail(const std::string& message) {
   if (failed()) return;
-  const auto line = 1 + std::count(text_.data(), word_begin_, '\n');
-  error_.message = fmt::format("{}:{}: {}", name_, line, message);
+  error_.message = fmt::format("{}:{}: {}", name_, line(), message);
   at_ = end_;
 }
 

@@ -1,0 +1,283 @@
+// Designs as OBJ files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "files/mtl_library.h"
+#include "files/new_file.h"
+#include "files/number_text.h"
+#include "files/obj_design.h"
+#include "files/picture_folder.h"
+#include "files/shown_world.h"
+
+namespace icome::files {
+namespace {
+
+using base::Vector3;
+using world::MaterialId;
+using world::World;
+
+/// Names are told apart by what readers of OBJ see of them.
+class ObjNames {
+ public:
+  /// A name that no other has, of letters that can stand in a line.
+  std::string unique(const std::string& wanted, const char* otherwise, bool with_spaces) {
+    std::string name = wanted.empty() ? otherwise : wanted;
+    for (char& letter : name) {
+      const auto code = static_cast<unsigned char>(letter);
+      if (code < ' ' || code == 0x7f || letter == '#' || letter == '\\' || (letter == ' ' && !with_spaces))
+        letter = '_';
+    }
+    if (name.front() == ' ') name.front() = '_';
+    if (name.back() == ' ') name.back() = '_';
+    std::string result = name;
+    for (std::size_t& i = counts_[name]; !taken_.insert(result).second;)
+      result = fmt::format("{}_{}", name, ++i + 1);
+    return result;
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::unordered_map<std::string, std::size_t> counts_;  // of names that were wanted
+};
+
+/// Counts different rows of numbers, which many corners share.
+template <std::size_t Size>
+class ObjRows {
+ public:
+  using Row = std::array<double, Size>;
+
+  /// The row's number from 0, and whether it is new.
+  std::pair<std::uint32_t, bool> add(const Row& row) {
+    const auto [found, is_new] = known_.try_emplace(row, std::uint32_t(known_.size()));
+    return {found->second, is_new};
+  }
+  std::size_t size() const { return known_.size(); }
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Row& row) const {
+      std::uint64_t state = Size;
+      for (const double number : row)
+        state = (state ^ (std::bit_cast<std::uint64_t>(number) >> 3)) * 0x9e3779b97f4a7c15ULL;
+      return state ^ (state >> 32);
+    }
+  };
+  std::unordered_map<Row, std::uint32_t, Hash> known_;
+};
+
+/// Writes objects into an open file.
+class ObjWriting {
+ public:
+  explicit ObjWriting(NewFile& file) : file_(file) {}
+
+  void begin(const std::string& library) {
+    text_ = "# made by ICOME; metres\n";
+    if (!library.empty()) text_ += "mtllib " + library + "\n";
+  }
+
+  void add(const ShownObject& it, const std::string& name, const std::string& material) {
+    text_ += "o " + name + "\n";
+    if (!material.empty()) {
+      text_ += "usemtl " + material + "\n";
+    } else if (any_material_) {
+      text_ += "usemtl\n";  // none again
+    }
+    any_material_ = any_material_ || !material.empty();
+    const std::vector<std::uint32_t> vertices = add_vertices(it);
+    const std::vector<std::uint32_t> coordinates = add_coordinates(*it.mesh);
+    const std::vector<std::uint32_t> normals = add_normals(it);
+    const bool mirrored = it.world_from_object.linear().determinant() < 0.0;
+    for (std::size_t t = 0; t < it.mesh->mesh.triangles.size(); ++t) {
+      text_ += 'f';
+      for (const std::size_t i : {0, mirrored ? 2 : 1, mirrored ? 1 : 2}) {
+        const std::size_t corner = 3 * t + i;
+        text_ += ' ';
+        append_number(text_, vertices[corner]);
+        if (!coordinates.empty() || !normals.empty()) text_ += '/';
+        if (!coordinates.empty()) append_number(text_, coordinates[corner]);
+        if (!normals.empty()) {
+          text_ += '/';
+          append_number(text_, normals[corner]);
+        }
+      }
+      text_ += '\n';
+      flush_if_long();
+    }
+  }
+
+  void finish() { file_.write(text_); }
+
+ private:
+  template <std::size_t Size>
+  void append_row(const char* keyword, const std::array<double, Size>& row) {
+    text_ += keyword;
+    for (const double number : row) {
+      text_ += ' ';
+      append_number(text_, number);
+    }
+  }
+
+  void append_vertex(const Vector3& position, const world::Colour* colour) {
+    append_row("v", std::array{position.x(), position.y(), position.z()});
+    for (std::size_t i = 0; colour != nullptr && i < 3; ++i) {
+      text_ += ' ';
+      append_number(text_, (*colour)[i]);
+    }
+    text_ += '\n';
+    flush_if_long();
+  }
+
+  /// The numbers of all corners' vertices, from 1 of the file. A vertex of several colours is several.
+  std::vector<std::uint32_t> add_vertices(const ShownObject& it) {
+    const world::MeshGeometry& shape = *it.mesh;
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(3 * shape.mesh.triangles.size());
+    if (shape.colours.empty()) {
+      for (const Vector3& position : shape.mesh.positions)
+        append_vertex(it.world_from_object * position, nullptr);
+      for (const auto& triangle : shape.mesh.triangles) {
+        for (const std::uint32_t corner : triangle) numbers.push_back(positions_ + corner + 1);
+      }
+      positions_ += std::uint32_t(shape.mesh.positions.size());
+      return numbers;
+    }
+    ObjRows<4> rows;
+    for (std::size_t t = 0; t < shape.colours.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = shape.mesh.triangles[t][i];
+        const world::Colour& colour = shape.colours[t][i];
+        const auto [row, is_new] = rows.add({double(vertex), colour[0], colour[1], colour[2]});
+        if (is_new) append_vertex(it.world_from_object * shape.mesh.positions[vertex], &colour);
+        numbers.push_back(positions_ + row + 1);
+      }
+    }
+    positions_ += std::uint32_t(rows.size());
+    return numbers;
+  }
+
+  std::vector<std::uint32_t> add_coordinates(const world::MeshGeometry& shape) {
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(3 * shape.texture_coordinates.size());
+    ObjRows<2> rows;
+    for (const auto& corners : shape.texture_coordinates) {
+      for (const base::Vector2& it : corners) {
+        const std::array row{it.x(), it.y()};
+        const auto [number, is_new] = rows.add(row);
+        numbers.push_back(coordinates_ + number + 1);
+        if (!is_new) continue;
+        append_row("vt", row);
+        text_ += '\n';
+        flush_if_long();
+      }
+    }
+    coordinates_ += std::uint32_t(rows.size());
+    return numbers;
+  }
+
+  /// In single precision, which is plenty for directions.
+  std::vector<std::uint32_t> add_normals(const ShownObject& it) {
+    std::vector<std::uint32_t> numbers;
+    if (it.mesh->normals.empty()) return numbers;
+    numbers.reserve(3 * it.mesh->normals.size());
+    const base::Matrix3 turn = it.world_from_object.linear().inverse().transpose();
+    ObjRows<3> rows;
+    for (const auto& corners : it.mesh->normals) {
+      for (const Vector3& normal : corners) {
+        const Eigen::Vector3f turned =
+            (turn * normal).stableNormalized().cast<float>() + Eigen::Vector3f::Zero();
+        const auto [number, is_new] = rows.add({turned.x(), turned.y(), turned.z()});
+        numbers.push_back(normals_ + number + 1);
+        if (!is_new) continue;
+        text_ += "vn";
+        for (const float part : turned) {
+          text_ += ' ';
+          append_number(text_, part);
+        }
+        text_ += '\n';
+        flush_if_long();
+      }
+    }
+    normals_ += std::uint32_t(rows.size());
+    return numbers;
+  }
+
+  void flush_if_long() {
+    constexpr std::size_t kLong = 1U << 20U;
+    if (text_.size() < kLong) return;
+    file_.write(text_);
+    text_.clear();
+  }
+
+  NewFile& file_;
+  std::string text_;
+  std::uint32_t positions_ = 0, coordinates_ = 0, normals_ = 0;  // that stand in the file
+  bool any_material_ = false;
+};
+
+using NamedMaterials = std::unordered_map<MaterialId, std::string>;
+
+/// Writes the materials of objects into a library beside; names them.
+base::Result<NamedMaterials> write_library(const std::filesystem::path& path, const World& world,
+                                           const std::filesystem::path& design) {
+  std::vector<MaterialId> ids;
+  for (const auto& [id, material] : world.materials()) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  NamedMaterials named;
+  if (ids.empty()) return named;
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  PictureFolder pictures(design);
+  ObjNames names;
+  file->write("# made by ICOME\n");
+  for (const MaterialId id : ids) {
+    const world::Material& material = *world.find(id);
+    const world::Texture* const texture = world.find(material.texture);
+    std::string url;
+    if (texture) {
+      auto written = pictures.add(*texture);
+      if (!written) return tl::unexpected(written.error());
+      url = std::move(*written);
+    }
+    named[id] = names.unique(material.name, "material", false);
+    file->write(mtl_text(material, named[id], url, texture ? texture->repeats : std::array{true, true}));
+  }
+  if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
+  return named;
+}
+
+bool has_touch(const World& world) {
+  return std::any_of(world.materials().begin(), world.materials().end(),
+                     [](const auto& it) { return !(it.second.touch == world::TouchProperties{}); });
+}
+
+}  // namespace
+
+base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& path, const World& world) {
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  std::vector<Remark> remarks;
+  const auto objects = shown_objects(world, remarks);
+  if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
+  if (has_touch(world)) remarks.push_back({{}, 0, "OBJ cannot say how a material feels: that is left out."});
+  const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+  const auto materials = write_library(library, world, path);
+  if (!materials) return tl::unexpected(materials.error());
+  ObjWriting writing(*file);
+  writing.begin(materials->empty() ? "" : library.filename().string());
+  ObjNames names;
+  for (const ShownObject& it : *objects) {
+    const world::PhysicalObject& object = *world.find(it.object);
+    writing.add(it, names.unique(object.name, "object", true),
+                object.material ? materials->at(object.material) : "");
+  }
+  writing.finish();
+  if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
+  return remarks;
+}
+
+}  // namespace icome::files

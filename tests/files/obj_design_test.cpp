@@ -1,0 +1,162 @@
+// OBJ files with their materials, as designs, and back.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "files/damage.h"
+#include "files/design.h"
+#include "files/mtl_library.h"
+#include "files/same_design.h"
+#include "files/sample_files.h"
+#include "world/sample_world.h"
+
+namespace icome::files {
+namespace {
+
+using namespace world;
+
+constexpr std::string_view kPicture = "\x89PNG\r\n\x1a\nand so on";
+constexpr std::string_view kMtl =
+    "# library\nnewmtl red oak\nKa 0.1 0.1 0.1\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 64\nd 0.75\nmap_Kd -clamp on "
+    "wood.png\n"
+    "newmtl blue\nKd 0 0 1\nTr 0.5\nbump bumps.png\n";
+constexpr std::string_view kObj =
+    "mtllib things.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+    "o top\nusemtl red oak\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl blue\nf -4 -3 -2\n"
+    "o leg\nusemtl blue\nf 1 2 3\nl 1 2\nusemtl lost\nf 1/9 2/9 3/9\n";
+
+LoadedDesign read_sample(const ScratchFolder& folder) {
+  folder.write("things.mtl", kMtl);
+  folder.write("wood.png", kPicture);
+  auto design = read_design(folder.write("things.obj", kObj));
+  if (!design) throw std::runtime_error(design.error().message);
+  return std::move(*design);
+}
+
+const PhysicalObject& child(const World& world, std::size_t root, std::size_t place) {
+  return *world.find(world.find(world.roots().at(root))->children.at(place));
+}
+
+TEST(ObjDesign, ObjectsInSeveralMaterialsAreSeveral) {
+  const ScratchFolder folder;
+  const LoadedDesign design = read_sample(folder);
+  ASSERT_EQ(design.world.roots().size(), 2U);
+  EXPECT_EQ(design.world.find(design.world.roots()[0])->name, "top");
+  EXPECT_EQ(child(design.world, 0, 0).name, "red oak");
+  EXPECT_EQ(child(design.world, 0, 1).material, child(design.world, 1, 0).material);
+  const auto& quad =
+      dynamic_cast<const MeshGeometry&>(*design.world.find(child(design.world, 0, 0).geometry)->shape);
+  EXPECT_EQ(quad.mesh.triangles.size(), 2U);
+  EXPECT_EQ(quad.normals.size(), 2U);
+  ASSERT_EQ(quad.texture_coordinates.size(), 2U);
+  for (std::size_t t = 0; t < 2; ++t) {
+    for (int i = 0; i < 3; ++i)
+      EXPECT_EQ(quad.texture_coordinates[t][std::size_t(i)], quad.mesh.corner(t, i).head<2>());
+  }
+}
+
+TEST(ObjDesign, MaterialsArePutIntoTheWordsOfVrml) {
+  const ScratchFolder folder;
+  const LoadedDesign design = read_sample(folder);
+  const Material& oak = *design.world.find(child(design.world, 0, 0).material);
+  EXPECT_EQ(oak.name, "red oak");
+  EXPECT_FLOAT_EQ(oak.ambient, 0.2F);
+  EXPECT_FLOAT_EQ(oak.shininess, 0.5F);
+  EXPECT_FLOAT_EQ(oak.transparency, 0.25F);
+  const Texture& wood = *design.world.find(oak.texture);
+  EXPECT_EQ(*wood.bytes, kPicture);
+  EXPECT_EQ(wood.media_type, "image/png");
+  EXPECT_FALSE(wood.repeats[0]);
+  EXPECT_FLOAT_EQ(design.world.find(child(design.world, 1, 0).material)->transparency, 0.5F);
+}
+
+TEST(ObjDesign, WhatIsLeftOutIsTold) {
+  const ScratchFolder folder;
+  std::string all;
+  for (const Remark& remark : read_sample(folder).remarks) all += sentence(remark, "f") + "\n";
+  for (const char* part : {"no material \"lost\"", "Maps other than", "not there", "Points, lines"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << " in " << all;
+}
+
+TEST(ObjDesign, FilesThatAreNotBesideAreNotTaken) {
+  const ScratchFolder folder;
+  folder.write("notes.txt", "secret");
+  folder.write("a.mtl", "newmtl m\nmap_Kd notes.txt\n");
+  const auto design = read_design(folder.write(
+      "a.obj", "mtllib /etc/passwd\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"));
+  ASSERT_TRUE(design) << design.error().message;
+  EXPECT_TRUE(design->world.textures().empty());
+  ASSERT_EQ(design->remarks.size(), 2U);
+  EXPECT_EQ(design->remarks[0].line, 1);
+}
+
+World through_obj(const World& world) {
+  const ScratchFolder folder;
+  const auto written = write_design(folder.path() / "a.obj", world);
+  if (!written) throw std::runtime_error(written.error().message);
+  auto read = read_design(folder.path() / "a.obj");
+  if (!read) throw std::runtime_error(read.error().message);
+  return std::move(read->world);
+}
+
+TEST(ObjDesign, FlatWorldsComeBack) {
+  World world;
+  IdSource ids;
+  const auto texture = ids.next<TextureId>();
+  applied(world, CreateTexture{texture, {"wood.png", "image/png", std::make_shared<std::string>(kPicture)}});
+  const auto oak = ids.next<MaterialId>();
+  applied(world, CreateMaterial{oak, Material{.name = "oak",
+                                              .ambient = 0.5F,
+                                              .diffuse = {0.25F, 0.5F, 0.75F},
+                                              .specular = {1.0F, 0.5F, 0.25F},
+                                              .shininess = 0.25F,
+                                              .transparency = 0.5F,
+                                              .texture = texture}});
+  auto mesh = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
+  const base::Vector3 up(0.0, 0.0, 1.0);
+  mesh->normals = {{up, up, up}};
+  mesh->texture_coordinates = {{base::Vector2(0.1, 0.2), base::Vector2(1.5, 0.25), base::Vector2(-1, 0)}};
+  auto coloured = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
+  coloured->colours = {{Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 0.5F}}};
+  for (const char* name : {"top of the table", "leg"})
+    applied(world, ChooseMaterial{add_object(world, ids, name, mesh), oak});
+  add_object(world, ids, "plain", one_triangle());
+  add_object(world, ids, "coloured", coloured);
+  World unshared = through_obj(world);
+  EXPECT_EQ(unshared.geometries().size(), 4U);
+  EXPECT_EQ(difference(world, unshared, {.shapes = true, .texture_names = false}), "");
+}
+
+TEST(ObjDesign, ObjectsOfOneNameStayApartAndMirrorsKeepTheirOutside) {
+  World world;
+  IdSource ids;
+  const Affine3 mirror(Eigen::Scaling(-1.0, 1.0, 2.0));
+  for (int i = 0; i < 2; ++i) add_object(world, ids, "leg", box(1.0), {}, mirror);
+  const World back = through_obj(world);
+  ASSERT_EQ(back.roots().size(), 2U);
+  EXPECT_EQ(back.find(back.roots()[1])->name, "leg_2");
+  const auto& leg =
+      dynamic_cast<const MeshGeometry&>(*back.find(back.find(back.roots()[0])->geometry)->shape);
+  EXPECT_NEAR(geometry::signed_volume(leg.mesh), 2.0, 1e-12);
+}
+
+TEST(ObjDesign, DamagedFilesAreReadOrRefused) {
+  constexpr std::string_view kWords[] = {
+      "usemtl",       "mtllib ", "g",      "o ",          "vt ",    "vn",  "/",     "//",
+      "f -1 -1 -1\n", "\\\n",    "newmtl", "map_Kd -s 1", "-clamp", "nan", "1e999", "#"};
+  base::Random random(7);
+  for (int i = 0; i < 400; ++i) {
+    const ScratchFolder folder;
+    folder.write("wood.png", kPicture);
+    folder.write("things.mtl", damaged(std::string(kMtl), kWords, random));
+    const auto design = read_design(folder.write("things.obj", damaged(std::string(kObj), kWords, random)));
+    if (!design) {
+      EXPECT_FALSE(design.error().message.empty());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace icome::files
