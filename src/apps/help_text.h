@@ -130,8 +130,8 @@ constexpr const char* kDesignFileHelp =
     "own .icome";
 
 constexpr const char* kDesignOutHelp =
-    "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), PLY, STL, OFF or "
-    "ICOME's own .icome";
+    "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), OBJ, PLY, STL, "
+    "OFF or ICOME's own .icome";
 
 constexpr const char* kInfoSummary =
     "Look into a design: its objects and what they share, materials, size, and what could not be read";
