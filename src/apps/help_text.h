@@ -126,8 +126,8 @@ constexpr const char* kCsgExamples =
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 
 constexpr const char* kDesignFileHelp =
-    "A design: glTF (.glb, .gltf), OBJ, PLY, STL, OFF or OpenSCAD's .csg, all also packed as .xz, or ICOME's "
-    "own .icome";
+    "A design: VRML 2.0 (.wrl, .wrz), glTF (.glb, .gltf), OBJ, PLY, STL, OFF, OpenSCAD's .csg (from glTF on "
+    "also packed as .xz) or ICOME's own .icome";
 
 constexpr const char* kDesignOutHelp =
     "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), OBJ, PLY, STL, "
@@ -138,9 +138,9 @@ constexpr const char* kInfoSummary =
 
 constexpr const char* kInfoExamples =
     "Examples:\n"
-    "  icome info house.glb                        a table, the tree of objects, and warnings\n"
+    "  icome info table.wrl                        a table, the tree of objects, and warnings\n"
     "  icome info part.stl --unit mm               the same; the file's numbers are millimetres\n"
-    "  icome info house.glb --json | jq .bounds    for a script\n"
+    "  icome info table.wrl --json | jq .bounds    for a script\n"
     "\n"
     "Lengths are metres in the world's frame. A clone is an object whose shape another object has already:\n"
     "change one, and all change. Exact shapes (primitives, CSG solids, Loop and implicit surfaces) count as\n"
@@ -161,6 +161,7 @@ constexpr const char* kConvertSummary =
 
 constexpr const char* kConvertExamples =
     "Examples:\n"
+    "  icome convert table.wrl table.glb           hierarchy, clones, materials and exact shapes are kept\n"
     "  icome convert scan.ply.xz scan.obj\n"
     "  icome convert part.stl part.ply --unit mm   from millimetres: what is written is always in metres\n"
     "  icome convert cup.csg cup.off               a solid as triangles\n"

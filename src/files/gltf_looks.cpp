@@ -9,7 +9,7 @@
 #include "files/gltf_accessor.h"
 #include "files/gltf_model.h"
 #include "files/gltf_value.h"
-#include "files/picture_type.h"
+#include "files/picture_bytes.h"
 
 namespace icome::files {
 namespace {
@@ -130,7 +130,7 @@ world::TextureId GltfLooks::texture(int index) {
   const std::string bytes = image.bufferView >= 0 ? std::string(view_bytes(model_, image.bufferView))
                                                   : std::string(image.image.begin(), image.image.end());
   world::Texture texture;
-  texture.media_type = picture_media_type(bytes);
+  texture.media_type = std::string(picture_type(bytes));
   // What the file itself holds cannot be somebody else's.
   if (texture.media_type.empty() && image.bufferView >= 0 && !bytes.empty())
     texture.media_type = image.mimeType.substr(0, 64);

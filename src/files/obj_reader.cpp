@@ -15,7 +15,7 @@
 #include "files/mtl_library.h"
 #include "files/obj_design.h"
 #include "files/obj_document.h"
-#include "files/picture_type.h"
+#include "files/picture_bytes.h"
 #include "files/url_policy.h"
 #include "geometry/polygon_triangulation.h"
 
@@ -197,7 +197,7 @@ class ObjLooks {
     const auto [known, is_new] = textures_.try_emplace({it.picture, it.repeats});
     if (!is_new) return known->second;
     auto bytes = fetch_beside(library, it.picture, left_);
-    const std::string type = bytes ? picture_media_type(*bytes) : "";
+    const std::string type = bytes ? std::string(picture_type(*bytes)) : "";
     if (type.empty()) {
       builder_.remark(fmt::format(
           "A picture is left out: {}.",
