@@ -211,7 +211,6 @@ class VrmlBuilder {
     const flat::Look& look = *scene_.looks()->Get(std::uint32_t(index));
     plan.material = MaterialId{};
     if (!look.lit() && look.picture() < 0) return *plan.material;
-    if (reader_.text(look.name()) == kNoMaterial) return *plan.material;
     world::Material made = material_of(look, reader_, findings_);
     if (made.name == kNoMaterial) return *plan.material;
     if (look.picture() >= 0) made.texture = texture(std::uint32_t(look.picture()));

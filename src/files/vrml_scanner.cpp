@@ -34,8 +34,10 @@ bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '
 /// Goes through the tokens of a text once.
 class VrmlScan {
  public:
-  explicit VrmlScan(std::string_view text)
-      : text_(text), line_end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
+  VrmlScan(std::string_view text, bool tells_unknown)
+      : text_(text),
+        tells_unknown_(tells_unknown),
+        line_end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
 
   /// False when it is nested too deeply.
   bool run() {
@@ -132,7 +134,9 @@ class VrmlScan {
   Frame node() {
     const std::string_view type = words_[0];
     if (type == "Script") return Frame::Script;
-    if (protos_.count(type) == 0) tallies_.add(type, fate_of(type), line());
+    const VrmlFate fate = fate_of(type);
+    if (protos_.count(type) == 0 && (tells_unknown_ || fate != VrmlFate::Unknown))
+      tallies_.add(type, fate, line());
     return Frame::Plain;
   }
 
@@ -162,6 +166,7 @@ class VrmlScan {
   void forget_words() { words_ = {}; }
 
   std::string_view text_;
+  bool tells_unknown_;
   char line_end_;
   const char* at_ = nullptr;
   std::array<std::string_view, 3> words_;  // that lie side by side before here, the last one first
@@ -185,7 +190,7 @@ base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& na
   const bool is_part = !of.empty();
   const auto header = find_vrml_header(text);
   if (!header && !is_part) return base::fail(fmt::format("{}: {}", name, header.error().message));
-  VrmlScan scan(text);
+  VrmlScan scan(text, !is_part);
   if (!scan.run())
     return base::fail(fmt::format("{}:{}: braces and brackets lie more than {} deep within each other", name,
                                   scan.line(), kMostNestedVrml));

@@ -25,10 +25,11 @@ struct VrmlLeftOut {
 inline constexpr int kMostNestedVrml = 2000;
 
 /// Looks through the text of a VRML 2.0 file for what is left out or changes its meaning: nodes that do
-/// nothing here, scripts and routes, in PROTOs too. Whether the rest is good VRML, and known, is for the
-/// parser to say. Fails when the text is not VRML 2.0 or nested deeper than kMostNestedVrml;
+/// nothing here, nodes that nobody knows, scripts and routes, in PROTOs too. Whether the rest is good VRML
+/// is for the parser to say. Fails when the text is not VRML 2.0 or nested deeper than kMostNestedVrml;
 /// `name` names the file in the error, and `of` in the remarks: empty for the file that was asked for, else
-/// it is a part of that, which needs no header.
+/// it is a part of that, which needs no header
+/// and of which the parser tells what nobody knows.
 base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& name,
                                     const std::string& of = {});
 

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 
+#include "files/text_scanner.h"
+#include "files/vrml_header.h"
+
 namespace icome::files {
 namespace {
 
 constexpr std::size_t kMostLinesNamed = 8;
+constexpr std::size_t kMostTypesNamed = 200;
+constexpr std::string_view kOtherType = "?";  // stands for all types beyond; none is called that
 
 const std::map<std::string_view, VrmlFate>& fates() {
   using enum VrmlFate;
@@ -34,7 +39,6 @@ const std::map<std::string_view, VrmlFate>& fates() {
       {"ScalarInterpolator", LeftOut},
       {"Sound", LeftOut},
       {"SphereSensor", LeftOut},
-      {"Text", LeftOut},
       {"TimeSensor", LeftOut},
       {"TouchSensor", LeftOut},
       {"VisibilitySensor", LeftOut},
@@ -65,12 +69,15 @@ std::string at_lines(const std::vector<int>& lines, std::size_t count) {
 
 VrmlFate fate_of(std::string_view type) {
   const auto found = fates().find(type);
-  return found == fates().end() ? VrmlFate::Taken : found->second;
+  if (found != fates().end()) return found->second;
+  return is_vrml_node(type) ? VrmlFate::Taken : VrmlFate::Unknown;
 }
 
 void VrmlTallies::add(std::string_view type, VrmlFate fate, int line) {
   if (fate == VrmlFate::Taken) return;
-  Tally& tally = tallies_[{fate, type}];
+  Key key{fate, type};
+  if (tallies_.size() >= kMostTypesNamed && tallies_.count(key) == 0) key = {VrmlFate::Unknown, kOtherType};
+  Tally& tally = tallies_[key];
   ++tally.count;
   if (tally.lines.size() < kMostLinesNamed) tally.lines.push_back(line);
 }
@@ -97,6 +104,10 @@ std::string VrmlTallies::sentence(const Key& key, const Tally& tally) {
       return fmt::format("{} taken at the finest level{}.", how_many_are(type, count), lines);
     case VrmlFate::LeftOut:
       return fmt::format("{} left out{}.", how_many_are(type, count), lines);
+    case VrmlFate::Unknown:
+      if (type == kOtherType) return fmt::format("{} more nodes are left out{}.", count, lines);
+      return fmt::format("{} {} left out{}: neither VRML 2.0 nor this file has such a node.", quoted(type),
+                         count == 1 ? "is" : fmt::format("is {} times", count), lines);
     case VrmlFate::Route:
       return count == 1
                  ? "A ROUTE is left out."

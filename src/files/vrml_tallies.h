@@ -16,14 +16,14 @@ enum class VrmlFate {
   Group,        // its children are taken, what it would do with them is not
   Finest,       // of its levels of detail the first is taken
   LeftOut,      // it is known, and does nothing here
+  Unknown,      // to VRML 2.0
   Route,        // of events
   Kept,         // a script that is kept and does not run
   BoundScript,  // that names what is around it, and cannot be kept alone
   ProtoScript,  // that belongs to a PROTO
 };
 
-/// Of a type of VRML 2.0; scripts are not told apart. Taken for all others: the parser tells of those that
-/// are not known.
+/// Of a type of VRML 2.0 or any other; scripts are not told apart.
 VrmlFate fate_of(std::string_view type);
 
 /// Counts what is left out of a text by type, and remembers the first few lines of each.

@@ -85,11 +85,17 @@ TEST(VrmlScanner, LooksPastCommentsStringsAndFields) {
             Sentences{});
 }
 
-TEST(VrmlScanner, PassesOverPrototypes) {
-  EXPECT_EQ(sentences_of("PROTO Wheel [ field SFNode tyre Sphere {} eventIn SFBool Fog ] { Group {} }\n"
-                         "EXTERNPROTO Lamp [ field SFBool on ] [ \"lamp.wrl\" ]\n"
-                         "Wheel {} Lamp {} Sound {}"),
-            Sentences{"4:A Sound is left out."});
+TEST(VrmlScanner, KnowsPrototypesButNotOthers) {
+  EXPECT_EQ(
+      sentences_of("PROTO Wheel [ field SFNode tyre Sphere {} eventIn SFBool Fog ] { Group {} }\n"
+                   "EXTERNPROTO Lamp [ field SFBool on ] [ \"lamp.wrl\" ]\n"
+                   "Wheel {} Lamp {} Gear {}\nGear { } Screw {}"),
+      (Sentences{
+          "4:'Gear' is 2 times left out, at lines 4 and 5: neither VRML 2.0 nor this file has such a node.",
+          "5:'Screw' is left out: neither VRML 2.0 nor this file has such a node."}));
+  const auto part = scan_vrml("Gear {}", "part.wrl", "part.wrl");
+  ASSERT_TRUE(part.has_value());
+  EXPECT_TRUE(part->remarks.empty());
 }
 
 TEST(VrmlScanner, LooksIntoPrototypes) {
@@ -142,6 +148,15 @@ TEST(VrmlScanner, RefusesWhatIsNestedTooDeeply) {
   EXPECT_EQ(refusal(nested(kMostNestedVrml + 1)),
             fmt::format("test.wrl:3: braces and brackets lie more than {} deep within each other",
                         kMostNestedVrml));
+}
+
+TEST(VrmlScanner, StaysShortOnHostileText) {
+  std::string types;
+  for (int i = 0; i < 5000; ++i) types += fmt::format("N{} {{}}\n", i);
+  const VrmlLeftOut out = scanned(types + std::string(100'000, 'y') + " {}");
+  EXPECT_EQ(out.remarks.size(), 201U);
+  for (const Remark& remark : out.remarks) EXPECT_LT(remark.text.size(), 200U);
+  EXPECT_TRUE(out.remarks.back().text.starts_with("4801 more nodes are left out"));
 }
 
 TEST(VrmlScanner, EndsOnBrokenText) {
