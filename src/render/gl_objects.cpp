@@ -103,6 +103,8 @@ base::Result<GlObject> compile_program(std::string_view vertex, std::string_view
   glAttachShader(program.name(), fragment_shader->name());
   glBindAttribLocation(program.name(), 0, "position");
   glBindAttribLocation(program.name(), 1, "normal");
+  glBindAttribLocation(program.name(), 2, "picture_place");
+  glBindAttribLocation(program.name(), 3, "corner_colour");
   glLinkProgram(program.name());
   GLint good = GL_FALSE;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &good);

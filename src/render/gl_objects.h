@@ -29,8 +29,9 @@ class GlObject {
 };
 
 /// Compiles and links a variant of a shader pair (GLSL 3.30 without the #version line); `defines` are
-/// lines such as "#define FLOOR\n" put before both. Vertex inputs: 0 is `position`, 1 is `normal`, or what
-/// OpenGL 2 has built in where the profile is "compatibility". Fails with the driver's message.
+/// lines such as "#define FLOOR\n" put before both. Vertex inputs: 0 is `position`, 1 `normal`,
+/// 2 `picture_place` and 3 `corner_colour`, or what OpenGL 2 has built in where the profile is
+/// "compatibility". Fails with the driver's message.
 base::Result<GlObject> compile_program(std::string_view vertex, std::string_view fragment,
                                        std::string_view defines, std::string_view profile = "core");
 

@@ -5,8 +5,9 @@
 namespace icome::render {
 namespace {
 
-template <typename T>
-void upload(GLenum target, const GlObject& buffer, const std::vector<T>& data) {
+template <typename Range>
+void upload(GLenum target, const GlObject& buffer, const Range& data) {
+  using T = typename Range::value_type;
   glBindBuffer(target, buffer.name());
   glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STATIC_DRAW);
 }
@@ -17,9 +18,23 @@ void vertex_input(GLuint index, std::size_t offset) {
                         reinterpret_cast<const void*>(offset));
 }
 
+/// A further input of its own, if there is any data for it.
+template <typename T>
+GlObject added_input(GLuint index, std::span<const T> data) {
+  if (data.empty()) return {};
+  GlObject buffer(GlObject::Kind::Buffer);
+  upload(GL_ARRAY_BUFFER, buffer, data);
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, T::RowsAtCompileTime, GL_FLOAT, GL_FALSE, sizeof(T), nullptr);
+  return buffer;
+}
+
 }  // namespace
 
-MeshView::MeshView(const ShadingMesh& mesh)
+MeshView::MeshView(const ShadingMesh& mesh) : MeshView(mesh, {}, {}) {}
+
+MeshView::MeshView(const ShadingMesh& mesh, std::span<const Eigen::Vector2f> picture_places,
+                   std::span<const Eigen::Vector3f> colours)
     : arrays_(GlObject::Kind::VertexArray),
       vertices_(GlObject::Kind::Buffer),
       indices_(GlObject::Kind::Buffer),
@@ -32,6 +47,8 @@ MeshView::MeshView(const ShadingMesh& mesh)
   upload(GL_ELEMENT_ARRAY_BUFFER, indices_, mesh.indices);
   vertex_input(0, offsetof(ShadingMesh::Vertex, position));
   vertex_input(1, offsetof(ShadingMesh::Vertex, normal));
+  places_ = added_input(2, picture_places);
+  colours_ = added_input(3, colours);
   glBindVertexArray(0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <span>
 
 #include "render/camera.h"
 #include "render/gl_objects.h"
@@ -11,6 +12,9 @@ namespace icome::render {
 class MeshView {
  public:
   explicit MeshView(const ShadingMesh& mesh);
+  /// With more for each vertex, or nothing: where it lies in a picture (input 2) and its colour (input 3).
+  MeshView(const ShadingMesh& mesh, std::span<const Eigen::Vector2f> picture_places,
+           std::span<const Eigen::Vector3f> colours);
 
   /// From the buffers' frame to the mesh's own (metres): a scale and a shift.
   const Matrix4& mesh_from_buffer() const { return mesh_from_buffer_; }
@@ -20,6 +24,7 @@ class MeshView {
 
  private:
   GlObject arrays_, vertices_, indices_;
+  GlObject places_, colours_;  // none where vertices have none
   std::size_t index_count_;
   Matrix4 mesh_from_buffer_;
 };

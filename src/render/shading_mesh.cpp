@@ -140,6 +140,22 @@ ShadingMesh make_shading_mesh(const TriangleMesh& mesh, double crease_angle) {
   return out;
 }
 
+std::vector<std::array<Eigen::Vector3f, 3>> crease_normals(const TriangleMesh& mesh, double crease_angle) {
+  std::vector<std::array<Eigen::Vector3f, 3>> normals(mesh.triangles.size());
+  for (auto& corners : normals) corners.fill(Eigen::Vector3f::Zero());
+  const CornersByVertex grouped = group_corners(mesh);
+  const double crease_cosine = std::cos(crease_angle);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Corner* corners = grouped.corners.data() + grouped.first[v];
+    const std::size_t count = grouped.first[v + 1] - grouped.first[v];
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::uint32_t slot = corners[c].slot;
+      normals[slot / 3][slot % 3] = smoothed(corners, count, c, crease_cosine).cast<float>();
+    }
+  }
+  return normals;
+}
+
 ShadingMesh clustered(const ShadingMesh& mesh, double cell) {
   const auto key = [&](const Eigen::Vector3f& p) {
     const Eigen::Vector3i at = ((p.cast<double>().array() + 1.0) / cell).floor().cast<int>();

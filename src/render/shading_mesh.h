@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct ShadingMesh {
 /// angle there (Thuermer and Wuethrich 1998). Triangles without area or with non-finite corners or
 /// indices out of range are left out.
 ShadingMesh make_shading_mesh(const geometry::TriangleMesh& mesh, double crease_angle);
+
+/// The normals that make_shading_mesh would give to each corner of each triangle; zero for those that it
+/// leaves out.
+std::vector<std::array<Eigen::Vector3f, 3>> crease_normals(const geometry::TriangleMesh& mesh,
+                                                           double crease_angle);
 
 /// A coarser mesh for shadows and far views: vertices that share a cell of a grid with that edge (in the
 /// buffers' frame, where the mesh spans about -1 ... 1; >= 1/512) become one at their mean, and triangles

@@ -1,0 +1,299 @@
+#include "render/render_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "render/picture_decoder.h"
+
+namespace icome::render {
+namespace {
+
+using base::Affine3;
+using base::Bounds;
+using base::Vector3;
+using world::ObjectId;
+using world::World;
+
+/// Leaves have hard edges, with some pixels between; what has more between is glass or smoke.
+RenderPicture::Opacity opacity_of(const Image& image) {
+  std::size_t clear = 0, between = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    const int alpha = image.rgba[i];
+    if (alpha < 250) ++(alpha > 5 ? between : clear);
+  }
+  if (clear + between == 0) return RenderPicture::Opacity::Opaque;
+  return 4 * between > image.rgba.size() / 4 ? RenderPicture::Opacity::Blended
+                                             : RenderPicture::Opacity::CutOut;
+}
+
+Eigen::Vector3f rgb(const world::Colour& colour) { return Eigen::Vector3f(colour.data()); }
+
+Bounds placed_bounds(const Bounds& box, const Affine3& world_from_object) {
+  if (box.isEmpty()) return {};
+  return box.transformed(world_from_object);
+}
+
+std::string shape_name(const World& world, world::GeometryId id) {
+  for (const auto& [key, object] : world.objects()) {
+    if (object.geometry == id && !object.name.empty()) return fmt::format("The shape of {}", object.name);
+  }
+  return "A shape";
+}
+
+/// The work of a version: how much there is, and where.
+void tally(RenderScene::Block& block) {
+  block.bounds.setEmpty();
+  block.objects = block.triangles = 0;
+  for (const RenderItem& item : block.items) {
+    if (!item.shape) continue;
+    if (!item.bounds.isEmpty()) block.bounds.extend(item.bounds);
+    ++block.objects;
+    block.triangles += item.shape->triangle_count();
+  }
+}
+
+}  // namespace
+
+RenderScenePointer ScenePublisher::publish(const World& world) {
+  *this = ScenePublisher(scene_, stage_from_world_);
+  make_shapes(world);
+  show_scene(world);
+  return version(world);
+}
+
+void ScenePublisher::show_scene(const World& world) {
+  const world::Scene* scene = scene_ ? world.find(scene_) : nullptr;
+  if (scene_ && !scene) return;
+  for (const ObjectId root : scene ? scene->roots : world.roots()) show(world, root);
+}
+
+RenderScenePointer ScenePublisher::update(const World& world, const world::Changes& changes) {
+  forget(world, changes);
+  if (std::find(changes.scenes.begin(), changes.scenes.end(), scene_) != changes.scenes.end()) {
+    for (const auto& [id, slot] : std::unordered_map(slots_)) hide(id);
+    for (const ObjectId id : std::unordered_set(fixed_)) hide(id);
+    show_scene(world);
+  }
+  for (const ObjectId id : changes.objects) {
+    if (!world.find(id)) {
+      hide(id);
+    } else if (is_shown(world, id)) {
+      show(world, id);
+    } else {
+      for (const ObjectId below : world::subtree(world, id)) hide(below);
+    }
+  }
+  return version(world);
+}
+
+/// Drops what was made of things that have changed, and shows anew the objects that use them.
+void ScenePublisher::forget(const World& world, const world::Changes& changes) {
+  std::unordered_set<world::GeometryId> shapes(changes.geometries.begin(), changes.geometries.end());
+  std::unordered_set<world::MaterialId> materials(changes.materials.begin(), changes.materials.end());
+  for (const auto texture : changes.textures) {
+    pictures_.erase(texture);
+    for (const auto& [id, material] : world.materials()) {
+      if (material.texture == texture) materials.insert(id);
+    }
+  }
+  for (const auto id : shapes) shapes_.erase(id);
+  for (const auto id : materials) materials_.erase(id);
+  if (shapes.empty() && materials.empty()) return;
+  // A shape that could not be drawn has no slots: its objects are looked for among all.
+  for (const auto& [id, object] : world.objects()) {
+    if (!shapes.contains(object.geometry) && !(slots_.contains(id) && materials.contains(object.material)))
+      continue;
+    if (is_shown(world, id)) show_object(world, id, stage_from_object(world, id));
+  }
+}
+
+/// Shapes do not depend on each other, and some take long to be made triangles.
+void ScenePublisher::make_shapes(const World& world) {
+  std::vector<world::GeometryId> ids;
+  for (const auto& [id, geometry] : world.geometries()) {
+    if (geometry.users > 0) ids.push_back(id);
+  }
+  std::sort(ids.begin(), ids.end());
+  std::vector<base::Result<RenderShapePointer>> made(ids.size());
+  base::parallel_for(ids.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) made[i] = make_render_shape(*world.find(ids[i])->shape);
+  });
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    Made& it = shapes_[ids[i]];
+    if (made[i]) {
+      it.shape = std::move(*made[i]);
+    } else {
+      it.remark = fmt::format("{} is not drawn: {}", shape_name(world, ids[i]), made[i].error().message);
+    }
+  }
+}
+
+const ScenePublisher::Made& ScenePublisher::shape(const World& world, world::GeometryId id) {
+  const auto [found, is_new] = shapes_.try_emplace(id);
+  const world::GeometryObject* geometry = world.find(id);
+  if (!is_new || !geometry) return found->second;
+  auto made = make_render_shape(*geometry->shape);
+  if (made) {
+    found->second.shape = std::move(*made);
+  } else {
+    found->second.remark = fmt::format("{} is not drawn: {}", shape_name(world, id), made.error().message);
+  }
+  return found->second;
+}
+
+const ScenePublisher::MadePicture& ScenePublisher::picture(const World& world, world::TextureId id) {
+  const auto [found, is_new] = pictures_.try_emplace(id);
+  const world::Texture* texture = world.find(id);
+  if (!is_new || !texture) return found->second;
+  auto image = decode_picture(texture->bytes ? std::string_view(*texture->bytes) : std::string_view());
+  if (!image) {
+    found->second.remark = fmt::format("{} is not shown: {}.",
+                                       texture->name.empty() ? "A texture" : "The texture " + texture->name,
+                                       image.error().message);
+    return found->second;
+  }
+  const RenderPicture::Opacity opacity = opacity_of(*image);
+  found->second.picture =
+      std::make_shared<const RenderPicture>(RenderPicture{std::move(*image), opacity, texture->repeats});
+  return found->second;
+}
+
+const std::shared_ptr<const RenderMaterial>& ScenePublisher::material(const World& world,
+                                                                      world::MaterialId id) {
+  const world::Material* own = world.find(id);
+  if (!own) return plain_;
+  auto& made = materials_[id];
+  if (made) return made;
+  RenderMaterial it;
+  it.diffuse = rgb(own->diffuse);
+  it.specular = rgb(own->specular);
+  it.emission = rgb(own->emission);
+  it.ambient = own->ambient;
+  it.shininess = own->shininess;
+  it.alpha = 1.0F - std::clamp(own->transparency, 0.0F, 1.0F);
+  if (own->texture) it.picture = picture(world, own->texture).picture;
+  return made = std::make_shared<const RenderMaterial>(std::move(it));
+}
+
+Affine3 ScenePublisher::stage_from_object(const World& world, ObjectId id) const {
+  return stage_from_world_ * world::world_from_object(world, id);
+}
+
+/// Is it in the scene that is drawn?
+bool ScenePublisher::is_shown(const World& world, ObjectId id) const {
+  if (!scene_) return true;
+  const world::Scene* scene = world.find(scene_);
+  return scene != nullptr && std::any_of(scene->roots.begin(), scene->roots.end(),
+                                         [&](ObjectId root) { return world::is_within(world, id, root); });
+}
+
+/// A loop and no recursion: designs may be deep.
+void ScenePublisher::show(const World& world, ObjectId root) {
+  struct Open {
+    ObjectId id;
+    Affine3 world_from_object;
+  };
+  std::vector<Open> open{{root, stage_from_object(world, root)}};
+  while (!open.empty()) {
+    const Open here = open.back();
+    open.pop_back();
+    show_object(world, here.id, here.world_from_object);
+    for (const ObjectId child : world.find(here.id)->children)
+      open.push_back({child, here.world_from_object * world.find(child)->parent_from_object});
+  }
+}
+
+void ScenePublisher::show_object(const World& world, ObjectId id, const Affine3& world_from_object) {
+  const world::PhysicalObject& object = *world.find(id);
+  const bool is_fixed = object.fixture && !std::holds_alternative<world::Inert>(*object.fixture);
+  if (fixed_.erase(id) > 0 || is_fixed) fixtures_touched_ = true;
+  if (is_fixed) fixed_.insert(id);
+  const RenderShapePointer own = object.geometry ? shape(world, object.geometry).shape : nullptr;
+  if (!own || own->mesh.indices.empty()) {
+    clear_slot(id);
+    return;
+  }
+  const auto [place, is_new] = slots_.try_emplace(id, 0);
+  if (is_new) {
+    if (free_.empty()) {
+      const std::size_t first = blocks_.size() * RenderScene::kBlockItems;
+      for (std::size_t i = RenderScene::kBlockItems; i-- > 0;) free_.push_back(first + i);
+      blocks_.push_back(std::make_shared<const RenderScene::Block>(
+          RenderScene::Block{std::vector<RenderItem>(RenderScene::kBlockItems), {}, 0, 0}));
+    }
+    place->second = free_.back();
+    free_.pop_back();
+  }
+  slot_for_writing(place->second) = {id, own, material(world, object.material), world_from_object,
+                                     placed_bounds(own->bounds, world_from_object)};
+}
+
+void ScenePublisher::hide(ObjectId id) {
+  if (fixed_.erase(id) > 0) fixtures_touched_ = true;
+  clear_slot(id);
+}
+
+void ScenePublisher::clear_slot(ObjectId id) {
+  const auto found = slots_.find(id);
+  if (found == slots_.end()) return;
+  slot_for_writing(found->second) = {};
+  free_.push_back(found->second);
+  slots_.erase(found);
+}
+
+RenderItem& ScenePublisher::slot_for_writing(std::size_t slot) {
+  const std::size_t block = slot / RenderScene::kBlockItems;
+  auto& own = written_[block];
+  if (!own) own = std::make_shared<RenderScene::Block>(*blocks_[block]);
+  return own->items[slot % RenderScene::kBlockItems];
+}
+
+void ScenePublisher::collect_fixtures(const World& world) {
+  lights_.clear();
+  viewpoints_.clear();
+  std::vector<ObjectId> open(world.roots().rbegin(), world.roots().rend());
+  while (!open.empty()) {
+    const ObjectId id = open.back();
+    open.pop_back();
+    const world::PhysicalObject& object = *world.find(id);
+    open.insert(open.end(), object.children.rbegin(), object.children.rend());
+    if (!fixed_.contains(id) || !object.fixture) continue;
+    const Affine3 place = stage_from_object(world, id);
+    if (const auto* light = std::get_if<world::Light>(object.fixture.get()))
+      lights_.push_back({*light, place});
+    if (const auto* view = std::get_if<world::Viewpoint>(object.fixture.get()))
+      viewpoints_.push_back({object.name, place, view->field_of_view});
+  }
+}
+
+RenderScenePointer ScenePublisher::version(const World& world) {
+  for (auto& [block, own] : written_) {
+    tally(*own);
+    blocks_[block] = std::move(own);
+  }
+  written_.clear();
+  if (fixtures_touched_) collect_fixtures(world);
+  fixtures_touched_ = false;
+  auto scene = std::make_shared<RenderScene>();
+  scene->blocks_ = blocks_;
+  scene->lights_ = lights_;
+  scene->viewpoints_ = viewpoints_;
+  for (const auto& block : blocks_) {
+    if (!block->bounds.isEmpty()) scene->bounds_.extend(block->bounds);
+    scene->object_count_ += block->objects;
+    scene->triangle_count_ += block->triangles;
+  }
+  for (const auto& [id, made] : shapes_) {
+    if (!made.remark.empty()) scene->remarks_.push_back(made.remark);
+  }
+  for (const auto& [id, made] : pictures_) {
+    if (!made.remark.empty()) scene->remarks_.push_back(made.remark);
+  }
+  std::sort(scene->remarks_.begin(), scene->remarks_.end());
+  return scene;
+}
+
+}  // namespace icome::render

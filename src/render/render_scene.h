@@ -1,0 +1,165 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "render/image.h"
+#include "render/render_shape.h"
+#include "world/changes.h"
+#include "world/world.h"
+
+namespace icome::render {
+
+/// A texture's pixels. Immutable once made.
+struct RenderPicture {
+  /// Cut out: pixels are seen or not, as leaves are. Blended: some are seen through.
+  enum class Opacity { Opaque, CutOut, Blended };
+
+  Image image;
+  Opacity opacity = Opacity::Opaque;
+  std::array<bool, 2> repeats = {true, true};  ///< along u and v
+};
+
+/// How a surface looks; linear colours, as world::Material. Immutable once made.
+struct RenderMaterial {
+  Eigen::Vector3f diffuse{0.8F, 0.8F, 0.8F};
+  Eigen::Vector3f specular{0.0F, 0.0F, 0.0F};
+  Eigen::Vector3f emission{0.0F, 0.0F, 0.0F};
+  float ambient = 0.2F;                               ///< of the diffuse colour
+  float shininess = 0.2F;                             ///< 0 ... 1
+  float alpha = 1.0F;                                 ///< 1 is opaque
+  std::shared_ptr<const RenderPicture> picture = {};  ///< null: plain
+};
+
+/// One object as it is drawn.
+struct RenderItem {
+  world::ObjectId object = {};
+  RenderShapePointer shape = {};  ///< null: nothing is drawn in this place
+  std::shared_ptr<const RenderMaterial> material = {};
+  base::Affine3 world_from_object = base::Affine3::Identity();
+  base::Bounds bounds = {};  ///< m, world frame
+
+  bool is_mirrored() const { return world_from_object.linear().determinant() < 0.0; }
+};
+
+struct RenderLight {
+  world::Light light;
+  base::Affine3 world_from_light;  ///< it shines along -z
+};
+
+struct RenderViewpoint {
+  std::string name;
+  base::Affine3 world_from_viewpoint;  ///< it looks along -z, +y up
+  double field_of_view;                ///< rad, of the shorter side of the picture
+};
+
+/// What is drawn of a world: one published version. Immutable; a later version shares all that no edit
+/// touched, so that publishing costs by the edit and not by the design, and whoever draws keeps his own for
+/// as long as he likes without anybody waiting.
+class RenderScene {
+ public:
+  static constexpr std::size_t kBlockItems = 64;
+
+  /// Some objects, shared between versions.
+  struct Block {
+    std::vector<RenderItem> items;
+    base::Bounds bounds;  ///< m, world frame
+    std::size_t objects = 0;
+    std::size_t triangles = 0;
+  };
+
+  const std::vector<std::shared_ptr<const Block>>& blocks() const { return blocks_; }
+  const std::vector<RenderLight>& lights() const { return lights_; }
+  const std::vector<RenderViewpoint>& viewpoints() const { return viewpoints_; }  ///< in the tree's order
+  const base::Bounds& bounds() const { return bounds_; }  ///< m, world frame; empty for nothing
+  std::size_t object_count() const { return object_count_; }
+  std::size_t triangle_count() const { return triangle_count_; }  ///< clones counted each
+  /// Sentences on what is not drawn as it should be.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+  /// Calls `visit` with every item that has something to draw.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    for (const auto& block : blocks_) {
+      for (const RenderItem& item : block->items) {
+        if (item.shape) visit(item);
+      }
+    }
+  }
+
+ private:
+  friend class ScenePublisher;
+
+  std::vector<std::shared_ptr<const Block>> blocks_;
+  std::vector<RenderLight> lights_;
+  std::vector<RenderViewpoint> viewpoints_;
+  base::Bounds bounds_;
+  std::size_t object_count_ = 0;
+  std::size_t triangle_count_ = 0;
+  std::vector<std::string> remarks_;
+};
+
+using RenderScenePointer = std::shared_ptr<const RenderScene>;
+
+/// Makes versions of a world for drawing, on the thread that owns the world. Owns what it has made of shapes,
+/// materials and pictures.
+class ScenePublisher {
+ public:
+  /// Of one scene of the world or, without one, of all objects. What is drawn has y up; a world that does not
+  /// is turned by `stage_from_world`, and all that is said of the world's frame is of the stage's then.
+  explicit ScenePublisher(world::SceneId scene = {},
+                          const base::Pose& stage_from_world = base::Pose::Identity())
+      : scene_(scene), stage_from_world_(stage_from_world) {}
+
+  /// Makes all anew. Pictures that cannot be read and shapes that cannot be drawn become remarks.
+  RenderScenePointer publish(const world::World& world);
+  /// Makes anew what has changed since the last version.
+  RenderScenePointer update(const world::World& world, const world::Changes& changes);
+
+ private:
+  struct Made {
+    RenderShapePointer shape;  // null: cannot be drawn
+    std::string remark;
+  };
+  struct MadePicture {
+    std::shared_ptr<const RenderPicture> picture;  // null: cannot be read
+    std::string remark;
+  };
+
+  void make_shapes(const world::World& world);
+  const Made& shape(const world::World& world, world::GeometryId id);
+  const std::shared_ptr<const RenderMaterial>& material(const world::World& world, world::MaterialId id);
+  const MadePicture& picture(const world::World& world, world::TextureId id);
+  void forget(const world::World& world, const world::Changes& changes);
+  void show_scene(const world::World& world);
+  base::Affine3 stage_from_object(const world::World& world, world::ObjectId id) const;
+  bool is_shown(const world::World& world, world::ObjectId id) const;
+  void show(const world::World& world, world::ObjectId root);
+  void show_object(const world::World& world, world::ObjectId id, const base::Affine3& world_from_object);
+  void hide(world::ObjectId id);
+  void clear_slot(world::ObjectId id);
+  RenderItem& slot_for_writing(std::size_t slot);
+  void collect_fixtures(const world::World& world);
+  RenderScenePointer version(const world::World& world);
+
+  world::SceneId scene_;
+  base::Pose stage_from_world_;
+  std::unordered_map<world::GeometryId, Made> shapes_;
+  std::unordered_map<world::MaterialId, std::shared_ptr<const RenderMaterial>> materials_;
+  std::unordered_map<world::TextureId, MadePicture> pictures_;
+  std::shared_ptr<const RenderMaterial> plain_ = std::make_shared<const RenderMaterial>();
+  std::unordered_map<world::ObjectId, std::size_t> slots_;  // where shown objects stand in the blocks
+  std::vector<std::size_t> free_;                           // slots
+  std::vector<std::shared_ptr<const RenderScene::Block>> blocks_;
+  std::unordered_map<std::size_t, std::shared_ptr<RenderScene::Block>> written_;  // since the last version
+  std::unordered_set<world::ObjectId> fixed_;  // shown objects that are a light or a viewpoint
+  std::vector<RenderLight> lights_;
+  std::vector<RenderViewpoint> viewpoints_;
+  bool fixtures_touched_ = false;
+};
+
+}  // namespace icome::render

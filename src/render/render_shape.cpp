@@ -1,0 +1,160 @@
+#include "render/render_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "world/mesh_geometry.h"
+
+namespace icome::render {
+namespace {
+
+using base::Bounds;
+using base::Vector3;
+using world::MeshGeometry;
+
+constexpr double kMeshCrease = 0.9;                // rad
+constexpr double kScanCrease = 2.2;                // rad
+constexpr double kSolidCrease = 0.6;               // rad, of fine triangles made of an exact shape
+constexpr std::size_t kScanFrom = 20'000;          // triangles
+constexpr std::uint32_t kNoVertex = 0xffffffff;    // ends a list of vertices
+constexpr std::size_t kMostVerticesCompared = 64;  // at the tip of a fine cone each triangle has its own
+
+/// How far triangles may be off the surface, as a share of its size: solids are sampled through their
+/// volume, so finer takes much longer there.
+double fineness(const world::Geometry& shape) {
+  const bool sampled = shape.kind() == "csg" || shape.kind() == "implicit";
+  return sampled ? 1.0 / 160.0 : 1.0 / 1500.0;
+}
+
+/// All that a corner of a triangle brings along.
+struct CornerLook {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  Eigen::Vector2f place = Eigen::Vector2f::Zero();
+  Eigen::Vector3f colour = Eigen::Vector3f::Zero();
+
+  bool operator==(const CornerLook&) const = default;
+};
+
+/// Puts corners that look the same into one vertex each.
+class ShapeWelder {
+ public:
+  ShapeWelder(const MeshGeometry& surface, RenderShape& out, double crease)
+      : surface_(surface), out_(out), newest_(surface.mesh.positions.size(), kNoVertex) {
+    normals_ = crease_normals(surface.mesh, crease);
+    out_.mesh.vertices.reserve(surface.mesh.positions.size());
+    out_.mesh.indices.reserve(3 * surface.mesh.triangles.size());
+  }
+
+  void add_triangles() {
+    for (std::size_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
+      // Those without area or with corners that make no sense have no normal.
+      if (normals_[t][0].isZero()) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        out_.mesh.indices.push_back(vertex_of(surface_.mesh.triangles[t][k], look(t, k)));
+    }
+  }
+
+ private:
+  CornerLook look(std::size_t t, std::size_t k) const {
+    CornerLook it;
+    it.normal = normals_[t][k];
+    if (!surface_.normals.empty()) {
+      const Eigen::Vector3f own = surface_.normals[t][k].cast<float>();
+      if (own.allFinite() && own.squaredNorm() > 0.01F) it.normal = own;
+    }
+    if (!surface_.texture_coordinates.empty()) it.place = surface_.texture_coordinates[t][k].cast<float>();
+    if (!surface_.colours.empty()) it.colour = Eigen::Vector3f(surface_.colours[t][k].data());
+    return it;
+  }
+
+  CornerLook look(std::uint32_t vertex) const {
+    CornerLook it;
+    it.normal = out_.mesh.vertices[vertex].normal;
+    if (!out_.picture_places.empty()) it.place = out_.picture_places[vertex];
+    if (!out_.colours.empty()) it.colour = out_.colours[vertex];
+    return it;
+  }
+
+  std::uint32_t vertex_of(std::uint32_t position, const CornerLook& wanted) {
+    std::size_t compared = 0;
+    for (std::uint32_t v = newest_[position]; v != kNoVertex && compared < kMostVerticesCompared;
+         v = older_[v]) {
+      if (look(v) == wanted) return v;
+      ++compared;
+    }
+    const Vector3& at = surface_.mesh.positions[position];
+    const auto made = std::uint32_t(out_.mesh.vertices.size());
+    out_.mesh.vertices.push_back({((at - out_.mesh.centre) / out_.mesh.radius).cast<float>(), wanted.normal});
+    if (!surface_.texture_coordinates.empty()) out_.picture_places.push_back(wanted.place);
+    if (!surface_.colours.empty()) out_.colours.push_back(wanted.colour);
+    older_.push_back(newest_[position]);
+    return newest_[position] = made;
+  }
+
+  const MeshGeometry& surface_;
+  RenderShape& out_;
+  std::vector<std::array<Eigen::Vector3f, 3>> normals_;
+  std::vector<std::uint32_t> newest_;  // vertex of each position
+  std::vector<std::uint32_t> older_;   // of the same position as each vertex
+};
+
+/// Corners that triangles use: a file may have others, far away.
+Bounds used_bounds(const geometry::TriangleMesh& mesh) {
+  Bounds box;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      if (v < mesh.positions.size() && mesh.positions[v].allFinite()) box.extend(mesh.positions[v]);
+    }
+  }
+  return box;
+}
+
+/// Directions evenly over half a ball; opposite ones come with them.
+constexpr int kExtremeDirections = 32;
+
+std::vector<Vector3> outermost(const ShadingMesh& mesh) {
+  constexpr float kGolden = 2.39996323F;  // rad
+  std::vector<Vector3> extremes;
+  for (int i = 0; i < kExtremeDirections && !mesh.vertices.empty(); ++i) {
+    const float z = (float(i) + 0.5F) / kExtremeDirections;
+    const float rho = std::sqrt(1.0F - z * z);
+    const Eigen::Vector3f way(rho * std::cos(kGolden * float(i)), rho * std::sin(kGolden * float(i)), z);
+    const auto [low, high] = std::minmax_element(
+        mesh.vertices.begin(), mesh.vertices.end(),
+        [&](const auto& a, const auto& b) { return way.dot(a.position) < way.dot(b.position); });
+    for (const auto& it : {low, high})
+      extremes.push_back(mesh.centre + mesh.radius * it->position.cast<double>());
+  }
+  return extremes;
+}
+
+RenderShapePointer make_from_surface(const MeshGeometry& surface, double crease) {
+  auto shape = std::make_shared<RenderShape>();
+  shape->bounds = used_bounds(surface.mesh);
+  if (shape->bounds.isEmpty()) return shape;
+  shape->mesh.centre = 0.5 * shape->bounds.min() + 0.5 * shape->bounds.max();
+  const double half = 0.5 * shape->bounds.sizes().stableNorm();
+  if (half > 0.0 && std::isfinite(half)) shape->mesh.radius = half;
+  ShapeWelder(surface, *shape, crease).add_triangles();
+  if (shape->mesh.indices.empty()) shape->bounds.setEmpty();
+  shape->extremes = outermost(shape->mesh);
+  return shape;
+}
+
+}  // namespace
+
+base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape) {
+  if (const auto* mesh = dynamic_cast<const MeshGeometry*>(&shape))
+    return make_from_surface(*mesh, mesh->mesh.triangles.size() > kScanFrom ? kScanCrease : kMeshCrease);
+  const Bounds box = shape.bounds();
+  const double size = box.isEmpty() ? 0.0 : box.sizes().stableNorm();
+  if (box.isEmpty()) return std::make_shared<const RenderShape>();
+  const double tolerance = std::isfinite(size) && size > 0.0 ? size * fineness(shape) : 1.0;
+  const auto surface = shape.triangles(tolerance);
+  if (!surface) return tl::unexpected(surface.error());
+  return make_from_surface(**surface, kSolidCrease);
+}
+
+}  // namespace icome::render

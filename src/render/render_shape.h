@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "base/result.h"
+#include "render/shading_mesh.h"
+#include "world/geometry.h"
+
+namespace icome::render {
+
+/// A shape's surface as a graphics card takes it, made once for all objects of the shape. Immutable once
+/// made: edits and drawing share it across threads. Owns its arrays.
+struct RenderShape {
+  ShadingMesh mesh;
+  std::vector<Eigen::Vector2f> picture_places;  ///< of every vertex or none; (0, 0) is the lower left
+  std::vector<Eigen::Vector3f> colours;         ///< of every vertex or none; linear
+  base::Bounds bounds;                          ///< m, the shape's frame, of what is drawn; empty for nothing
+  std::vector<base::Vector3> extremes;          ///< m, outermost vertices all round, to frame a view by
+
+  std::size_t triangle_count() const { return mesh.indices.size() / 3; }
+};
+
+using RenderShapePointer = std::shared_ptr<const RenderShape>;
+
+/// Makes it, fine enough for a picture that the shape fills. Where the shape has no normals of its own,
+/// bends of more than 0.9 rad are edges (2.2 rad in meshes of more than 20,000 triangles: the rims of scans
+/// are full of sharp bends that are no edges). Fails, saying why, for shapes that cannot be made triangles.
+base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape);
+
+}  // namespace icome::render

@@ -1,0 +1,70 @@
+#include "render/scene_buffers.h"
+
+#include <epoxy/gl.h>
+
+#include <cstring>
+
+namespace icome::render {
+namespace {
+
+constexpr std::size_t kCoarseCasterFrom = 150'000;  // triangles
+constexpr double kCasterCell = 1.0 / 96.0;          // of half the shape's size
+
+/// Bottom row first, as OpenGL counts.
+std::vector<std::uint8_t> upside_down(const Image& image) {
+  std::vector<std::uint8_t> rows(image.rgba.size());
+  const std::size_t row = 4 * std::size_t(image.width);
+  for (std::size_t y = 0; y < std::size_t(image.height); ++y)
+    std::memcpy(rows.data() + y * row, image.rgba.data() + (std::size_t(image.height) - 1 - y) * row, row);
+  return rows;
+}
+
+GlObject upload_picture(const RenderPicture& picture) {
+  GlObject texture(GlObject::Kind::Texture);
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, picture.image.width, picture.image.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, upside_down(picture.image).data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, picture.repeats[0] ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, picture.repeats[1] ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+}  // namespace
+
+SceneBuffers::ShapeEntry& SceneBuffers::entry(const RenderShapePointer& shape) {
+  ShapeEntry& found = shapes_[shape.get()];
+  // Another may have come to lie where one that is gone was.
+  if (found.shape.lock() != shape) found = {shape, nullptr, nullptr};
+  return found;
+}
+
+const MeshView& SceneBuffers::view(const RenderShapePointer& shape) {
+  ShapeEntry& found = entry(shape);
+  if (!found.view)
+    found.view = std::make_unique<MeshView>(shape->mesh, shape->picture_places, shape->colours);
+  return *found.view;
+}
+
+const MeshView& SceneBuffers::caster(const RenderShapePointer& shape) {
+  if (shape->triangle_count() < kCoarseCasterFrom || !shape->picture_places.empty()) return view(shape);
+  ShapeEntry& found = entry(shape);
+  if (!found.caster) found.caster = std::make_unique<MeshView>(clustered(shape->mesh, kCasterCell));
+  return *found.caster;
+}
+
+unsigned SceneBuffers::picture(const std::shared_ptr<const RenderPicture>& picture) {
+  PictureEntry& found = pictures_[picture.get()];
+  if (found.picture.lock() != picture) found = {picture, upload_picture(*picture)};
+  return found.texture.name();
+}
+
+void SceneBuffers::drop_unused() {
+  std::erase_if(shapes_, [](const auto& it) { return it.second.shape.expired(); });
+  std::erase_if(pictures_, [](const auto& it) { return it.second.picture.expired(); });
+}
+
+}  // namespace icome::render

@@ -1,0 +1,57 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/scene_lighting.h"
+#include "render/scene_programs.h"
+
+namespace icome::render {
+
+/// What shadow maps cover.
+struct ShadowRegion {
+  base::Vector3 centre;  ///< m, world frame
+  double radius = 1.0;   ///< m, > 0
+};
+
+/// Which of the pictures that are averaged.
+struct PassNumber {
+  int index = 0;
+  int count = 1;
+};
+
+/// The lights of one pass in the camera's frame, as shaders take them, with the lenses of its shadow maps.
+class ScenePassLights {
+ public:
+  ScenePassLights(const SceneLights& lights, const Camera& camera, const std::optional<ShadowRegion>& shadows,
+                  int shadow_side, PassNumber pass);
+
+  const LightKinds& kinds() const { return kinds_; }
+  const std::vector<Camera>& lenses() const { return lenses_; }  ///< one a shadow map
+
+  /// Tells the program, which is in use; the shadow maps are the texture of unit 0.
+  void set(const SceneProgram& program) const;
+
+ private:
+  void add_suns(const SceneLights& lights, PassNumber pass);
+  void add_lamps(const SceneLights& lights);
+  void add_sky(double strength, bool sampled, PassNumber pass);
+  void add_shadows(const ShadowRegion& region, int shadow_side);
+
+  Camera camera_;
+  LightKinds kinds_;
+  std::vector<base::Vector3> shadow_directions_;  // to the light, world frame
+  std::vector<Camera> lenses_;
+  std::vector<Eigen::Vector3f> to_sun_, sun_light_, sun_ambient_;
+  std::vector<float> sun_gloss_;
+  std::vector<Eigen::Vector3f> lamp_at_, lamp_light_, lamp_ambient_, lamp_along_;
+  std::vector<Eigen::Vector4f> lamp_fading_;
+  std::vector<Eigen::Vector2f> lamp_cone_;
+  std::vector<Eigen::Vector3f> to_sky_, sky_light_;
+  std::vector<Eigen::Matrix4f> shadow_from_camera_;
+  Eigen::Vector3f sky_up_, sky_above_, sky_below_;
+  float shadow_offset_ = 0.0F, shadow_blur_ = 0.0F, texel_ = 0.0F, seed_ = 0.0F;
+};
+
+}  // namespace icome::render

@@ -1,0 +1,135 @@
+#include "render/scene_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace icome::render {
+namespace {
+
+using base::Bounds;
+using base::Matrix3;
+using base::Vector3;
+
+constexpr float kLeastAlpha = 1.0F / 512.0F;  // less is not seen
+
+/// The sides of what a camera sees, to tell what is outside.
+class ViewSides {
+ public:
+  /// `behind_eye` also takes what is before the nearest plane, as light does.
+  ViewSides(const Matrix4& clip_from_world, bool also_nearer) {
+    std::size_t n = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {1.0, -1.0}) {
+        if (also_nearer && axis == 2 && sign > 0.0) continue;
+        sides_[n++] = clip_from_world.row(3) + sign * clip_from_world.row(axis);
+      }
+    }
+    count_ = n;
+  }
+
+  bool may_see(const Bounds& box) const {
+    if (box.isEmpty()) return false;
+    const Vector3 centre = 0.5 * (box.min() + box.max());
+    const Vector3 half = 0.5 * (box.max() - box.min());
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vector3 normal = sides_[i].head<3>().transpose();
+      // Written so that what is not a number counts as seen.
+      if (normal.dot(centre) + normal.cwiseAbs().dot(half) + sides_[i][3] < 0.0) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::array<Eigen::RowVector4d, 6> sides_;
+  std::size_t count_ = 0;
+};
+
+/// Normals are turned by the cofactors: as the inverse transposed, but also where a shape is flat.
+Matrix3 cofactors(const Matrix3& m) {
+  Matrix3 c;
+  c.col(0) = m.col(1).cross(m.col(2));
+  c.col(1) = m.col(2).cross(m.col(0));
+  c.col(2) = m.col(0).cross(m.col(1));
+  return c;
+}
+
+template <typename Visit>
+void visit_seen(const RenderScene& scene, const ViewSides& sides, Visit&& visit) {
+  for (const auto& block : scene.blocks()) {
+    if (!sides.may_see(block->bounds)) continue;
+    for (const RenderItem& item : block->items) {
+      if (item.shape && item.material->alpha > kLeastAlpha && sides.may_see(item.bounds)) visit(item);
+    }
+  }
+}
+
+}  // namespace
+
+SurfaceKind surface_kind(const RenderItem& item) {
+  const RenderPicture* picture = item.material->picture.get();
+  const bool textured = picture != nullptr && !item.shape->picture_places.empty();
+  return {textured, !item.shape->colours.empty(),
+          textured && picture->opacity == RenderPicture::Opacity::CutOut};
+}
+
+bool is_blended(const RenderItem& item) {
+  if (item.material->alpha < 1.0F - kLeastAlpha) return true;
+  return surface_kind(item).textured && item.material->picture->opacity == RenderPicture::Opacity::Blended;
+}
+
+PlannedItem plan_item(const RenderItem& item, const Camera& camera) {
+  const ShadingMesh& mesh = item.shape->mesh;
+  Matrix4 object_from_buffer = Matrix4::Identity();
+  object_from_buffer.topLeftCorner<3, 3>() *= mesh.radius;
+  object_from_buffer.topRightCorner<3, 1>() = mesh.centre;
+  PlannedItem planned;
+  planned.item = &item;
+  planned.camera_from_buffer =
+      camera.camera_from_world.matrix() * item.world_from_object.matrix() * object_from_buffer;
+  planned.clip_from_buffer = camera.clip_from_camera * planned.camera_from_buffer;
+  planned.mirrored = item.is_mirrored();
+  const Matrix3 turn = planned.camera_from_buffer.topLeftCorner<3, 3>();
+  const double size = turn.cwiseAbs().maxCoeff();
+  planned.direction_from_buffer = cofactors(turn / (size > 0.0 ? size : 1.0));
+  if (planned.mirrored) planned.direction_from_buffer *= -1.0;
+  const Vector3 middle = 0.5 * (item.bounds.min() + item.bounds.max());
+  planned.distance = (camera.camera_from_world * middle).norm();
+  return planned;
+}
+
+ScenePlan plan_scene(const RenderScene& scene, const Camera& camera) {
+  ScenePlan plan;
+  visit_seen(scene, ViewSides(camera.clip_from_world(), false), [&](const RenderItem& item) {
+    plan.visible.extend(item.bounds);
+    (is_blended(item) ? plan.blended : plan.opaque).push_back(plan_item(item, camera));
+  });
+  std::sort(plan.opaque.begin(), plan.opaque.end(), [](const PlannedItem& a, const PlannedItem& b) {
+    const SurfaceKind one = surface_kind(*a.item), other = surface_kind(*b.item);
+    return one != other ? one < other : a.distance < b.distance;
+  });
+  std::sort(plan.blended.begin(), plan.blended.end(),
+            [](const PlannedItem& a, const PlannedItem& b) { return a.distance > b.distance; });
+  return plan;
+}
+
+std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens) {
+  std::vector<PlannedItem> casters;
+  visit_seen(scene, ViewSides(lens.clip_from_world(), true), [&](const RenderItem& item) {
+    if (!is_blended(item)) casters.push_back(plan_item(item, lens));
+  });
+  return casters;
+}
+
+Camera windowed(const Camera& camera, const PictureWindow& window) {
+  Matrix4 enlarge = Matrix4::Identity();
+  enlarge(0, 0) = 1.0 / window.width;
+  enlarge(1, 1) = 1.0 / window.height;
+  enlarge(0, 3) = (1.0 - 2.0 * window.left) / window.width - 1.0;
+  enlarge(1, 3) = (1.0 - 2.0 * window.bottom) / window.height - 1.0;
+  Camera part = camera;
+  part.clip_from_camera = enlarge * camera.clip_from_camera;
+  return part;
+}
+
+}  // namespace icome::render

@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/render_scene.h"
+
+namespace icome::render {
+
+/// One object that may appear in a picture. Refers to the scene.
+struct PlannedItem {
+  const RenderItem* item = nullptr;
+  Matrix4 clip_from_buffer = Matrix4::Identity();
+  Matrix4 camera_from_buffer = Matrix4::Identity();
+  base::Matrix3 direction_from_buffer = base::Matrix3::Identity();  ///< turns normals; not of unit length
+  double distance = 0.0;                                            ///< m, from the eye to its middle
+  bool mirrored = false;                                            ///< fronts are clockwise
+};
+
+/// What a camera may see of a scene, in the order of drawing.
+struct ScenePlan {
+  std::vector<PlannedItem> opaque;   ///< what is drawn alike side by side, near before far
+  std::vector<PlannedItem> blended;  ///< seen through, far before near
+  base::Bounds visible;              ///< m, world frame, of all that may be seen; empty for nothing
+};
+
+ScenePlan plan_scene(const RenderScene& scene, const Camera& camera);
+
+/// All that may be between a light and what its lens (light_camera) covers.
+std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens);
+
+/// The matrices of one object, as a camera sees it.
+PlannedItem plan_item(const RenderItem& item, const Camera& camera);
+
+/// Which variant of the shaders draws it: equal for objects that the same one draws.
+struct SurfaceKind {
+  bool textured = false;
+  bool coloured = false;
+  bool cut_out = false;
+
+  auto operator<=>(const SurfaceKind&) const = default;
+};
+SurfaceKind surface_kind(const RenderItem& item);
+
+/// Is something seen through it?
+bool is_blended(const RenderItem& item);
+
+/// The part of a picture's rectangle; a picture can be drawn in tiles.
+struct PictureWindow {
+  double left = 0.0, bottom = 0.0, width = 1.0, height = 1.0;  ///< shares of the picture
+};
+
+/// The camera that sees just that part.
+Camera windowed(const Camera& camera, const PictureWindow& window);
+
+}  // namespace icome::render

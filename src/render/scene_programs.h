@@ -1,0 +1,50 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "base/result.h"
+#include "render/gl_objects.h"
+#include "render/scene_plan.h"
+
+namespace icome::render {
+
+/// A variant of the scene's shaders with where its uniforms of every object are; -1 for those it has not.
+struct SceneProgram {
+  GlObject program;
+  int clip_from_buffer = -1, camera_from_buffer = -1, direction_from_buffer = -1;
+  int diffuse = -1, specular = -1, emission = -1, ambient = -1;
+  int set_up_for = -1;  ///< the pass whose lights it knows
+};
+
+/// What a pass is lit by, as far as shaders differ by it.
+struct LightKinds {
+  int suns = 0;
+  int lamps = 0;
+  bool spots = false;
+  int maps = 0;  ///< shadow maps
+  int skies = 0;
+  int taps = 1;  ///< looks at the shadow map a pixel, 1 or 4
+
+  auto operator<=>(const LightKinds&) const = default;
+};
+
+/// Compiles variants of the scene's shaders when they are first asked for, and keeps them. Lives in one
+/// context.
+class ScenePrograms {
+ public:
+  base::Result<SceneProgram*> surface(const SurfaceKind& kind, const LightKinds& lights);
+  base::Result<SceneProgram*> ground(const LightKinds& lights);
+  base::Result<SceneProgram*> flat(bool cut_out);  ///< depth or one colour
+  base::Result<SceneProgram*> line();
+  base::Result<SceneProgram*> sum();
+  base::Result<SceneProgram*> resolve();
+  base::Result<SceneProgram*> outline();
+
+ private:
+  base::Result<SceneProgram*> variant(const char* vertex, const std::string& fragment,
+                                      const std::string& defines);
+
+  std::map<std::string, SceneProgram> made_;  // by their source
+};
+
+}  // namespace icome::render

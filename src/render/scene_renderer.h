@@ -1,0 +1,85 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "render/camera.h"
+#include "render/colour.h"
+#include "render/render_scene.h"
+#include "render/scene_lighting.h"
+#include "render/scene_plan.h"
+
+namespace icome::render {
+
+/// What is drawn over a scene for a moment: markers of the hand, guides, measures. World frame. What lies
+/// behind something is drawn faintly, so that a marker is never lost.
+struct SceneOverlay {
+  struct Ball {
+    base::Vector3 centre;
+    double radius;  ///< m, > 0
+    Colour colour;
+  };
+  struct Arrow {
+    base::Vector3 from, to;
+    double radius;  ///< m, of its shaft, > 0
+    Colour colour;
+  };
+  struct Line {
+    std::vector<base::Vector3> points;
+    Colour colour;
+    double width = 2.0;  ///< pixels
+  };
+
+  std::vector<Ball> balls = {};
+  std::vector<Arrow> arrows = {};
+  std::vector<Line> lines = {};
+};
+
+/// How a scene is drawn.
+struct SceneLook {
+  Colour above{0.80, 0.84, 0.88};  ///< background at the top; alpha 0 leaves it clear
+  Colour below{0.96, 0.96, 0.95};  ///< background at the bottom
+  LightChoice lights = LightChoice::Automatic;
+  bool shadows = true;
+  bool ground = true;      ///< shadows also fall on a plane below all that is drawn (not seen from below)
+  int shadow_side = 1024;  ///< texels, 64 ... 4096
+  /// 1 draws at once, as a view that is turned does. More, up to 256, are averaged: smooth edges, soft
+  /// shadows, light from all of the sky; for views at rest and pictures.
+  int passes = 1;
+  std::vector<world::ObjectId> selected = {};  ///< have a line around
+  Colour selection{1.0, 0.55, 0.10};
+  int selection_width = 2;  ///< pixels, 1 ... 8
+  SceneOverlay overlay = {};
+};
+
+/// Where a picture goes.
+struct SceneTarget {
+  unsigned frame =
+      0;           ///< OpenGL's name of the framebuffer, drawn from its corner (0, 0); 0 is a window's own
+  int width = 1;   ///< pixels
+  int height = 1;  ///< pixels
+  PictureWindow window = {};  ///< which part of the camera's picture that is
+};
+
+/// Draws scenes in the OpenGL context (3.3, core or compatible) that is current where it is made, used and
+/// destroyed; knows no window. Keeps shapes, pictures and shaders on the graphics card from one picture to
+/// the next. It never waits for a world: what it is given is immutable. Owns all it has in the context.
+class SceneRenderer {
+ public:
+  SceneRenderer();
+  SceneRenderer(SceneRenderer&&) noexcept;
+  SceneRenderer& operator=(SceneRenderer&&) noexcept;
+  ~SceneRenderer();
+
+  /// Fails with the driver's words when it refuses the size or a shader. Leaves the target bound, and depth
+  /// test, blending, culling and scissor off.
+  base::Result<void> draw(const RenderScene& scene, const Camera& camera, const SceneLook& look,
+                          const SceneTarget& target);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace icome::render

@@ -1,0 +1,335 @@
+#pragma once
+
+namespace icome::render {
+
+// What scene_programs makes variants of. Directions and positions are the camera's, colours linear. Variants
+// instead of uniform conditions, because software renderers run both sides of those.
+
+constexpr char kSceneVertexShader[] = R"(
+in vec3 position;
+uniform mat4 clip_from_buffer;
+#ifdef LIT
+in vec3 normal;
+uniform mat4 camera_from_buffer;
+uniform mat3 direction_from_buffer;
+out vec3 seen_position;
+out vec3 seen_normal;
+#endif
+#ifdef TEXTURED
+in vec2 picture_place;
+out vec2 place;
+#endif
+#ifdef COLOURED
+in vec3 corner_colour;
+out vec3 own_colour;
+#endif
+void main() {
+#ifdef LIT
+  seen_position = (camera_from_buffer * vec4(position, 1.0)).xyz;
+  seen_normal = direction_from_buffer * normal;
+#endif
+#ifdef TEXTURED
+  place = picture_place;
+#endif
+#ifdef COLOURED
+  own_colour = corner_colour;
+#endif
+  gl_Position = clip_from_buffer * vec4(position, 1.0);
+}
+)";
+
+// A point of shadow maps that lie side by side in one texture: MAPS in all, the first of them the shadowed
+// lamp's, SKIES others from all over the sky. Averaged over passes with some noise these melt into a soft
+// light. With a single pass (TAPS > 1) the shadow's edge is blurred by several looks, and the sky has none.
+constexpr char kSceneLightShader[] = R"(
+#if MAPS > 0
+uniform sampler2DShadow shadow_map;
+uniform mat4 shadow_from_camera[MAPS];
+uniform float shadow_offset;
+uniform float shadow_blur;
+uniform float texel;
+float lit(int which, vec3 p) {
+  vec3 at = (shadow_from_camera[which] * vec4(p, 1.0)).xyz * 0.5 + 0.5;
+  at.x = (clamp(at.x, 0.0, 1.0) + float(which)) / float(MAPS);
+  at.z = clamp(at.z, 0.0, 1.0) - 0.0006;
+#if TAPS > 1
+  vec2 reach = texel * vec2(1.0 / float(MAPS), 1.0);
+  return 0.25 * (texture(shadow_map, at + vec3(reach * vec2(-0.6, -1.3), 0.0)) +
+                 texture(shadow_map, at + vec3(reach * vec2(1.3, -0.6), 0.0)) +
+                 texture(shadow_map, at + vec3(reach * vec2(0.6, 1.3), 0.0)) +
+                 texture(shadow_map, at + vec3(reach * vec2(-1.3, 0.6), 0.0)));
+#else
+  return texture(shadow_map, at);
+#endif
+}
+#endif
+
+uniform float noise_seed;
+vec3 noise(vec2 pixel) {
+  vec3 seed = fract(vec3(pixel.xyx) * vec3(0.1031, 0.1030, 0.0973) + 0.137 * noise_seed);
+  seed += dot(seed, seed.yxz + 33.33);
+  return fract((seed.xxy + seed.yzz) * seed.zyx) - 0.5;
+}
+
+uniform vec3 sky_up;
+uniform vec3 sky_above;
+uniform vec3 sky_below;
+#if SKIES > 0
+uniform vec3 to_sky[SKIES];
+uniform vec3 sky_light[SKIES];
+#endif
+)";
+
+constexpr char kSceneFragmentShader[] = R"(
+in vec3 seen_position;
+in vec3 seen_normal;
+#ifdef TEXTURED
+in vec2 place;
+uniform sampler2D picture;
+#endif
+#ifdef COLOURED
+in vec3 own_colour;
+#endif
+uniform vec4 diffuse;
+uniform vec4 specular;
+uniform vec3 emission;
+uniform float ambient;
+#if SUNS > 0
+uniform vec3 to_sun[SUNS];
+uniform vec3 sun_light[SUNS];
+uniform vec3 sun_ambient[SUNS];
+uniform float sun_gloss[SUNS];
+#endif
+#if LAMPS > 0
+uniform vec3 lamp_at[LAMPS];
+uniform vec3 lamp_light[LAMPS];
+uniform vec3 lamp_ambient[LAMPS];
+uniform vec4 lamp_fading[LAMPS];
+#ifdef SPOTS
+uniform vec3 lamp_along[LAMPS];
+uniform vec2 lamp_cone[LAMPS];
+#endif
+#endif
+out vec4 result;
+
+vec3 n;
+vec3 view;
+vec4 own;
+
+// What reaches the eye of a light from that direction.
+vec3 answer(vec3 to_light, vec3 light, float gloss) {
+  float facing = max(dot(n, to_light), 0.0);
+  float shine = pow(max(dot(n, normalize(view + to_light)), 0.0), specular.a);
+  float sheen = gloss * pow(max(dot(n, normalize(view + to_light)), 0.0), 40.0);
+  return light * (facing * (own.rgb * own.a + sheen) + (facing > 0.0 ? shine : 0.0) * specular.rgb);
+}
+
+void main() {
+  own = diffuse;
+#ifdef COLOURED
+  own.rgb = own_colour;
+#endif
+#ifdef TEXTURED
+  own *= texture(picture, place);
+#endif
+#ifdef CUT_OUT
+  if (own.a < 0.5 * diffuse.a) discard;
+  own.a = diffuse.a;
+#endif
+  n = normalize(gl_FrontFacing ? seen_normal : -seen_normal);
+  view = normalize(-seen_position);
+  vec3 radiance = emission * own.a;
+#if SKIES > 0
+  vec3 spread = noise(gl_FragCoord.xy);
+  // Within the surface's plane, so that the shift alone never puts a point into its own shadow.
+  vec3 lifted = seen_position + shadow_offset * n;
+  vec3 shifted = lifted + shadow_blur * (spread - dot(spread, n) * n);
+  radiance += 0.035 * own.rgb * own.a;
+  for (int i = 0; i < SKIES; ++i) {
+    float facing = dot(n, to_sky[i]);
+    if (facing > 0.0) radiance += sky_light[i] * facing * lit(i + 1, shifted) * own.rgb * own.a;
+  }
+#else
+  radiance += mix(sky_below, sky_above, 0.5 + 0.333 * dot(n, sky_up)) * own.rgb * own.a;
+#endif
+#if SUNS > 0
+  for (int i = 0; i < SUNS; ++i) {
+#if MAPS > 0
+    float seen = 1.0;
+#if SKIES > 0
+    if (i == 0 && dot(n, to_sun[0]) > 0.0) seen = lit(0, mix(lifted, shifted, 0.3));
+#else
+    if (i == 0 && dot(n, to_sun[0]) > 0.0) seen = lit(0, seen_position + shadow_offset * n);
+#endif
+    radiance += seen * answer(to_sun[i], sun_light[i], sun_gloss[i]);
+#else
+    radiance += answer(to_sun[i], sun_light[i], sun_gloss[i]);
+#endif
+    radiance += sun_ambient[i] * ambient * own.rgb * own.a;
+  }
+#endif
+#if LAMPS > 0
+  for (int i = 0; i < LAMPS; ++i) {
+    vec3 way = lamp_at[i] - seen_position;
+    float distance = length(way);
+    way /= max(distance, 1e-30);
+    vec4 fading = lamp_fading[i];
+    float fade = step(distance, fading.w) / max(fading.x + distance * (fading.y + distance * fading.z), 1e-6);
+    fade = min(fade, 1.0);
+#ifdef SPOTS
+    // The angle where it ends, and how fast it grows to full light within the beam.
+    float angle = acos(clamp(dot(-way, lamp_along[i]), -1.0, 1.0));
+    fade *= clamp((lamp_cone[i].x - angle) * lamp_cone[i].y, 0.0, 1.0);
+#endif
+    radiance += fade * answer(way, lamp_light[i], 0.0);
+    radiance += fade * lamp_ambient[i] * ambient * own.rgb * own.a;
+  }
+#endif
+  result = vec4(radiance, own.a);
+}
+)";
+
+// How much light the ground misses, as black over what is behind, and lines every metre or so.
+constexpr char kGroundFragmentShader[] = R"(
+in vec3 seen_position;
+in vec3 seen_normal;
+uniform vec3 ground_middle;
+uniform float ground_reach;
+uniform vec3 to_sun[1];
+uniform vec3 sun_light[1];
+out vec4 result;
+void main() {
+  float away = length(seen_position - ground_middle) / ground_reach;
+  float fade = 1.0 - smoothstep(0.3, 1.0, away);
+  vec3 n = normalize(seen_normal);
+  float missing = 0.0;
+#if MAPS > 0
+  vec3 spread = noise(gl_FragCoord.xy);
+  vec3 p = seen_position + shadow_blur * (spread - dot(spread, n) * n);
+  missing = sun_light[0].g * max(dot(n, to_sun[0]), 0.0) * (1.0 - lit(0, p));
+#if SKIES > 0
+  vec3 q = seen_position + 2.0 * shadow_blur * (spread - dot(spread, n) * n);
+  for (int i = 0; i < SKIES; ++i) {
+    // Light from near the horizon throws shadows too long for a picture.
+    float height = smoothstep(0.15, 0.7, dot(n, to_sky[i]));
+    if (height > 0.0) missing += height * sky_light[i].g * (1.0 - lit(i + 1, q));
+  }
+#endif
+#endif
+  result = vec4(0.0, 0.0, 0.0, 0.62 * fade * clamp(missing, 0.0, 1.0));
+}
+)";
+
+/// Depth only, for shadow maps, and flat colours, for masks.
+constexpr char kFlatFragmentShader[] = R"(
+#ifdef TEXTURED
+in vec2 place;
+uniform sampler2D picture;
+#endif
+uniform vec4 diffuse;
+out vec4 result;
+void main() {
+#ifdef TEXTURED
+  if (texture(picture, place).a < 0.5) discard;
+#endif
+  result = diffuse;
+}
+)";
+
+constexpr char kWholeVertexShader[] = R"(
+out vec2 at;
+void main() {
+  at = vec2(float(gl_VertexID & 1) * 2.0, float(gl_VertexID & 2));
+  gl_Position = vec4(2.0 * at - 1.0, 0.0, 1.0);
+}
+)";
+
+/// Adds a pass to the sum.
+constexpr char kSumFragmentShader[] = R"(
+uniform sampler2D source;
+out vec4 result;
+void main() { result = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
+)";
+
+// From light to what screens take, over a background that goes from above to below. Light beyond what a
+// screen can show is bent towards white instead of cut off, so that bright surfaces keep their shape.
+constexpr char kResolveFragmentShader[] = R"(
+in vec2 at;
+uniform sampler2D source;
+uniform float share;
+uniform vec4 above;
+uniform vec4 below;
+uniform vec4 window;
+out vec4 result;
+
+vec3 shoulder(vec3 light) {
+  const float kBend = 0.75;
+  vec3 over = max(light - kBend, 0.0) / (1.0 - kBend);
+  return min(light, kBend) + (1.0 - kBend) * over / (1.0 + over) ;
+}
+
+vec3 screen(vec3 light) {
+  vec3 low = 12.92 * light;
+  vec3 high = 1.055 * pow(max(light, 1e-6), vec3(1.0 / 2.4)) - 0.055;
+  return mix(low, high, step(0.0031308, light));
+}
+
+void main() {
+  vec4 seen = share * texelFetch(source, ivec2(gl_FragCoord.xy), 0);
+  seen.a = clamp(seen.a, 0.0, 1.0);
+  float height = window.y + window.w * at.y;
+  vec4 behind = mix(below, above, height);
+  vec3 own = seen.a > 0.0 ? shoulder(seen.rgb / seen.a) * seen.a : shoulder(seen.rgb);
+  vec3 light = own + (1.0 - seen.a) * behind.rgb * behind.a;
+  float alpha = seen.a + (1.0 - seen.a) * behind.a;
+  vec3 noise = fract(vec3(gl_FragCoord.xyx) * vec3(0.1031, 0.1030, 0.0973));
+  noise += dot(noise, noise.yzx + 33.33);
+  float dither = (fract((noise.x + noise.y) * noise.z) - 0.5) / 255.0;
+  result = vec4(screen(alpha > 0.0 ? light / alpha : vec3(0.0)) + dither, alpha);
+}
+)";
+
+/// A line round what the mask holds.
+constexpr char kOutlineFragmentShader[] = R"(
+uniform sampler2D source;
+uniform vec4 colour;
+uniform int reach;
+out vec4 result;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  ivec2 most = textureSize(source, 0) - 1;
+  float inside = texelFetch(source, here, 0).r;
+  float near = 0.0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      if (x * x + y * y > reach * reach + 1) continue;
+      near += texelFetch(source, clamp(here + ivec2(x, y), ivec2(0), most), 0).r;
+    }
+  }
+  result = colour * (1.0 - inside) * min(1.0, 0.5 * near);
+}
+)";
+
+constexpr char kLineVertexShader[] = R"(
+in vec3 position;
+in vec3 normal;
+uniform mat4 clip_from_buffer;
+uniform vec2 half_width;
+// Two corners on each side of a stretch: `normal` is its other end, the sign of the width in the vertex's number.
+void main() {
+  vec4 here = clip_from_buffer * vec4(position, 1.0);
+  vec4 there = clip_from_buffer * vec4(normal, 1.0);
+  float nearest = 1e-6 * max(abs(here.w), abs(there.w));
+  if (here.w < nearest) here = mix(here, there, (nearest - here.w) / (there.w - here.w));
+  if (there.w < nearest) there = mix(there, here, (nearest - there.w) / (here.w - there.w));
+  vec2 along = (there.xy / there.w - here.xy / here.w) / half_width;
+  float size = length(along);
+  along = size > 0.0 ? along / size : vec2(1.0, 0.0);
+  float side = (gl_VertexID & 1) == 0 ? 1.0 : -1.0;
+  if ((gl_VertexID & 2) != 0) side = -side;
+  gl_Position = here;
+  gl_Position.xy += side * vec2(-along.y, along.x) * half_width * here.w;
+}
+)";
+
+}  // namespace icome::render
