@@ -20,6 +20,9 @@ struct Entries {
   std::string form = "tree";
   InfoOptions info;
   ConvertOptions convert;
+  ShotOptions shot;
+  std::string shot_size;
+  std::string shot_background;
   TouchOptions touch;
   std::string friction;
   std::string sides;
@@ -163,6 +166,44 @@ void add_convert_options(CLI::App& convert, ConvertOptions& options) {
   convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
 }
 
+void add_shot_options(CLI::App& shot, Entries& entries) {
+  ShotOptions& options = entries.shot;
+  shot.add_option("FILE", options.file, kDesignFileHelp)->required()->type_name("");
+  shot.add_option("OUT.png", options.out, "The picture to write")->required()->type_name("");
+  shot.add_option("--size", entries.shot_size, "Of the picture in pixels (default 1280x960)")
+      ->type_name("WxH");
+  shot.add_option("--view", options.view,
+                  "front, back, left, right, top, bottom, iso or the name of a viewpoint of the design "
+                  "(default: its first, else iso)")
+      ->type_name("NAME");
+  shot.add_option("--scene", options.scene, "Draw this scene of the design only")->type_name("NAME");
+  shot.add_option("--up", options.up, "Axis that points up (default y; z in .csg and .stl files)")
+      ->type_name("y|z")
+      ->check(CLI::IsMember({"y", "z"}));
+  shot.add_flag("--studio", options.studio,
+                "Leave the design's own lights off and light it as a studio does");
+  shot.add_option("--background", entries.shot_background,
+                  "#rrggbb, white, black, or none for a clear one (default: a soft gradient)")
+      ->type_name("COLOR");
+  add_design_unit(shot, options.unit);
+  shot.add_flag("--json", options.json, "Print what was drawn as JSON (fields below)");
+}
+
+base::Result<ShotOptions> understood_shot(const Entries& entries) {
+  ShotOptions options = entries.shot;
+  if (!entries.shot_size.empty()) {
+    if (const auto parsed = parse_size(entries.shot_size, options); !parsed)
+      return tl::unexpected(parsed.error());
+  }
+  if (!entries.shot_background.empty()) {
+    if (const auto parsed = parse_background(entries.shot_background, options); !parsed)
+      return tl::unexpected(parsed.error());
+  }
+  if (options.out == options.file)
+    return base::fail("the picture would replace the design; give another name.");
+  return options;
+}
+
 base::Result<CsgOptions> understood_csg(const Entries& entries) {
   CsgOptions options = entries.csg;
   if (entries.form == "normal") options.form = geometry::CsgForm::Normal;
@@ -239,6 +280,9 @@ CommandLine parse_command_line(int argc, char** argv) {
   CLI::App& convert = *app.add_subcommand("convert", kConvertSummary);
   convert.footer(kConvertExamples);
   add_convert_options(convert, entries.convert);
+  CLI::App& shot = *app.add_subcommand("shot", kShotSummary);
+  shot.footer(kShotExamples);
+  add_shot_options(shot, entries);
   const CLI::App* const named = named_subcommand(app, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr)
@@ -265,6 +309,10 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.info = std::move(entries.info);
   } else if (convert.parsed()) {
     command_line.convert = std::move(entries.convert);
+  } else if (shot.parsed()) {
+    auto options = understood_shot(entries);
+    if (!options) return bad_usage(options.error().message, help);
+    command_line.shot = std::move(*options);
   } else {
     fmt::print("{}", app.help());
   }

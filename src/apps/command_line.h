@@ -3,6 +3,7 @@
 
 #include "apps/csg_options.h"
 #include "apps/design_options.h"
+#include "apps/shot_options.h"
 #include "apps/touch_options.h"
 
 namespace icome::apps {
@@ -14,6 +15,7 @@ struct CommandLine {
   std::optional<CsgOptions> csg;
   std::optional<InfoOptions> info;
   std::optional<ConvertOptions> convert;
+  std::optional<ShotOptions> shot;
   int exit_code = 0;  // what to return when none is: help and version were printed, or an error
 };
 

@@ -19,9 +19,10 @@ constexpr const char* kProgramExamples =
     "                                              a solid from OpenSCAD: its normal form, and a mesh of it\n"
     "  icome info house.glb                        what is in a design: its objects, shapes and materials\n"
     "  icome convert part.ply part.obj             the same design in another format\n"
+    "  icome shot house.wrl house.png --view iso   a picture of a design\n"
     "\n"
     "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
-    "icome convert --help about designs.";
+    "icome convert --help about designs, icome shot --help about pictures.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
@@ -172,6 +173,30 @@ constexpr const char* kConvertExamples =
     "\n"
     "JSON: in, out, objects, bytes (of the file), warnings (what was skipped in reading and lost in "
     "writing).\n"
+    "\n"
+    "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
+
+constexpr const char* kShotSummary = "Draw a design into a picture, without a window";
+
+constexpr const char* kShotExamples =
+    "Examples:\n"
+    "  icome shot house.wrl house.png              from the design's first viewpoint, or three-quarter view\n"
+    "  icome shot house.wrl top.png --view top --size 3000x2000\n"
+    "  icome shot house.wrl door.png --view \"Front door\"\n"
+    "  icome shot part.stl part.png --unit mm --background white\n"
+    "  icome shot part.ply cut-out.png --background none --json\n"
+    "\n"
+    "Directions (front, back, left, right, top, bottom, iso) show all of the design as large as it can be.\n"
+    "front looks along -z, top straight down; y is up unless the format or --up says z. The lights are the\n"
+    "design's own, with a weak one at the eye; a design without any is lit as in a studio. Exact shapes are\n"
+    "drawn as fine triangles. No display, no window and no graphics card is needed.\n"
+    "\n"
+    "JSON: file, width, height, view, objects and triangles (of all that is drawn, clones counted each),\n"
+    "  read_seconds, draw_seconds (making triangles, drawing, writing), seconds (both), warnings "
+    "(sentences:\n"
+    "  what is not shown; icome info tells what could not be read). It goes to standard output, all "
+    "messages\n"
+    "  to standard error.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

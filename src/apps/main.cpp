@@ -8,6 +8,7 @@
 #include "apps/convert_command.h"
 #include "apps/csg_command.h"
 #include "apps/info_command.h"
+#include "apps/shot_command.h"
 #include "apps/touch_command.h"
 
 int main(int argc, char** argv) {
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
     if (command_line.csg) return icome::apps::run_csg(*command_line.csg);
     if (command_line.info) return icome::apps::run_info(*command_line.info);
     if (command_line.convert) return icome::apps::run_convert(*command_line.convert);
+    if (command_line.shot) return icome::apps::run_shot(*command_line.shot);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,
