@@ -122,9 +122,14 @@ class EditApplier {
     if (const auto fresh = check_new(it.id, world_.geometries_, "shape"); !fresh)
       return tl::unexpected(fresh.error());
     if (!it.shape) return fail("A shape must be something.");
-    world_.geometries_[it.id] = {it.shape, 0};
-    remember(it.id.value);
-    return Edit(DeleteGeometry{it.id});
+    return add(it.id, it.shape);
+  }
+  Result<Edit> operator()(const CopyGeometry& it) {
+    if (const auto fresh = check_new(it.id, world_.geometries_, "shape"); !fresh)
+      return tl::unexpected(fresh.error());
+    const GeometryObject* model = world_.find(it.model);
+    if (!model) return fail("The shape to copy is not there any more.");
+    return add(it.id, model->shape);
   }
   Result<Edit> operator()(const DeleteGeometry& it) {
     const GeometryObject* geometry = world_.find(it.id);
@@ -353,6 +358,12 @@ class EditApplier {
   }
   void use(TextureId id, int more) {
     if (id) world_.textures_[id].users += std::uint32_t(more);
+  }
+
+  Result<Edit> add(GeometryId id, GeometryPointer shape) {
+    world_.geometries_[id] = {std::move(shape), 0};
+    remember(id.value);
+    return Edit(DeleteGeometry{id});
   }
 
   template <typename Kind, typename Value>

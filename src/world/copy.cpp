@@ -33,12 +33,12 @@ class Duplicator {
   EditGroup take() { return std::move(group_); }
 
  private:
-  /// The duplicate's own shape, made when it is first asked for. The bytes are shared until one changes.
+  /// The duplicate's own shape, made when it is first asked for.
   GeometryId copied(GeometryId model) {
     const auto [found, fresh] = copies_.try_emplace(model);
     if (fresh) {
       found->second = ids_.next<GeometryId>();
-      group_.edits.push_back(CreateGeometry{found->second, world_.find(model)->shape});
+      group_.edits.push_back(CopyGeometry{found->second, model});
     }
     return found->second;
   }

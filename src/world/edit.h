@@ -56,6 +56,11 @@ struct CreateGeometry {
   GeometryId id;
   GeometryPointer shape;
 };
+/// Makes a shape that equals another, but goes its own way: one can change without the other.
+struct CopyGeometry {
+  GeometryId id;
+  GeometryId model;
+};
 /// Of a shape that no object has.
 struct DeleteGeometry {
   GeometryId id;
@@ -129,11 +134,11 @@ struct EditGroup {
 /// A change of a world, the only way in which one changes: a plain value that can be applied and inverted.
 /// Undo, the journal, the network, speech and replays all carry these.
 struct Edit {
-  using What =
-      std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
-                   ChooseMaterial, ChangeFixture, CreateGeometry, DeleteGeometry, ReplaceGeometry,
-                   MoveVertices, CreateMaterial, DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture,
-                   CreateScene, DeleteScene, RenameScene, EnterScene, LeaveScene, SpendNumbers, EditGroup>;
+  using What = std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
+                            ChooseMaterial, ChangeFixture, CreateGeometry, CopyGeometry, DeleteGeometry,
+                            ReplaceGeometry, MoveVertices, CreateMaterial, DeleteMaterial, ChangeMaterial,
+                            CreateTexture, DeleteTexture, CreateScene, DeleteScene, RenameScene, EnterScene,
+                            LeaveScene, SpendNumbers, EditGroup>;
 
   template <typename Kind,
             typename = std::enable_if_t<std::conjunction_v<

@@ -85,6 +85,8 @@ class EditReader {
         return make(*from.what_as_EditGroup());
       case flat::What::SpendNumbers:
         return make(*from.what_as_SpendNumbers());
+      case flat::What::CopyGeometry:
+        return make(*from.what_as_CopyGeometry());
       case flat::What::NONE:
         break;
     }
@@ -115,6 +117,7 @@ class EditReader {
   Edit make(const flat::ChangeFixture& from) { return ChangeFixture{{from.id()}, fixture(from.fixture())}; }
 
   Edit make(const flat::CreateGeometry& from) { return CreateGeometry{{from.id()}, shape(from.shape())}; }
+  Edit make(const flat::CopyGeometry& from) { return CopyGeometry{{from.id()}, {from.model()}}; }
   Edit make(const flat::ReplaceGeometry& from) { return ReplaceGeometry{{from.id()}, shape(from.shape())}; }
   Edit make(const flat::MoveVertices& from) {
     auto vertices = reader_.items<std::uint32_t>(from.vertices());

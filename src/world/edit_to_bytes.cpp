@@ -83,6 +83,9 @@ class EditWriter {
   WrittenEdit operator()(const CreateGeometry& it) {
     return as_edit(flat::CreateCreateGeometry(builder_, it.id.value, shape(it.shape)));
   }
+  WrittenEdit operator()(const CopyGeometry& it) {
+    return as_edit(flat::CreateCopyGeometry(builder_, it.id.value, it.model.value));
+  }
   WrittenEdit operator()(const DeleteGeometry& it) {
     return as_edit(flat::CreateDeleteGeometry(builder_, it.id.value));
   }

@@ -1,6 +1,7 @@
 #include "world/edits_of.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 namespace icome::world {
@@ -44,6 +45,19 @@ void each(const std::unordered_map<Key, Value>& table, Take&& take) {
   for (const Key& key : keys) take(key, table.at(key));
 }
 
+/// Copies that nobody has changed yet are made as copies again: one shape in memory and on disk.
+void add_shapes(Grouper& edits, const World& world) {
+  std::unordered_map<const Geometry*, GeometryId> first;
+  each(world.geometries(), [&](GeometryId id, const GeometryObject& geometry) {
+    const auto [found, fresh] = first.try_emplace(geometry.shape.get(), id);
+    if (fresh) {
+      edits.add(CreateGeometry{id, geometry.shape}, geometry.shape->bytes());
+    } else {
+      edits.add(CopyGeometry{id, found->second});
+    }
+  });
+}
+
 void add_objects(Grouper& edits, const World& world) {
   std::vector<ObjectId> parents{ObjectId{}};
   for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -72,9 +86,7 @@ std::vector<Edit> edits_of(const World& world) {
   each(world.materials(), [&](MaterialId id, const Material& material) {
     edits.add(CreateMaterial{id, material}, material.name.size());
   });
-  each(world.geometries(), [&](GeometryId id, const GeometryObject& geometry) {
-    edits.add(CreateGeometry{id, geometry.shape}, geometry.shape->bytes());
-  });
+  add_shapes(edits, world);
   add_objects(edits, world);
   each(world.scenes(), [&](SceneId id, const Scene& scene) {
     edits.add(CreateScene{id, scene.name}, scene.name.size());

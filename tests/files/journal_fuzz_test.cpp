@@ -8,9 +8,9 @@ namespace icome::files {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int kVariants = 500;
+constexpr int kDamagedJournals = 500;
 #else
-constexpr int kVariants = 3000;
+constexpr int kDamagedJournals = 3000;
 #endif
 
 constexpr std::array<std::string_view, 6> kNastyBytes{"\x8aRE", "\x8aREE",       "\xff\xff\xff\xff",
@@ -32,7 +32,7 @@ TEST(JournalFuzz, BytesThatAreDamagedGiveTheEditsBeforeThat) {
   const SampleJournal& sample = sample_journal();
   const ScratchFolder folder;
   base::Random random(11);
-  for (int i = 0; i < kVariants; ++i) {
+  for (int i = 0; i < kDamagedJournals; ++i) {
     const std::string bytes = damaged(sample.bytes, kNastyBytes, random);
     const auto path = write_fresh(folder, "damaged.icome", bytes);
     const auto back = read_journal(path, factory());
@@ -61,7 +61,7 @@ TEST(JournalFuzz, EditsThatAreHostileBehindGoodChecksumsAreReadOrRefused) {
   const std::vector<std::string> contents = contents_of(sample_journal().bytes);
   const ScratchFolder folder;
   base::Random random(12);
-  for (int i = 0; i < kVariants; ++i) {
+  for (int i = 0; i < kDamagedJournals; ++i) {
     std::string bytes = journal_header();
     std::uint64_t number = 0;
     const std::size_t victim = random.index(contents.size());

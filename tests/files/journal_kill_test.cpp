@@ -52,9 +52,9 @@ std::uint64_t steps_done(const world::World& world) {
   }
 }
 
-/// Lets a child work for a while, kills it, and gives the last edit that it heard was done; nothing if none.
-std::optional<std::uint64_t> work_and_kill(const std::filesystem::path& path,
-                                           std::chrono::microseconds time) {
+/// Lets a child work until it has done some edits, and a while longer, kills it, and gives the last edit that
+/// it heard was done; nothing if none.
+std::optional<std::uint64_t> work_and_kill(const std::filesystem::path& path, base::Random& random) {
   int ends[2];
   if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = ::fork();
@@ -63,11 +63,17 @@ std::optional<std::uint64_t> work_and_kill(const std::filesystem::path& path,
     work(path, ends[1]);
   }
   ::close(ends[1]);
-  std::this_thread::sleep_for(time);
-  ::kill(child, SIGKILL);
   std::optional<std::uint64_t> last;
   std::uint64_t done = 0;
-  while (::read(ends[0], &done, sizeof done) == ssize_t(sizeof done)) last = done;
+  const auto hear = [&] {
+    const bool heard = ::read(ends[0], &done, sizeof done) == ssize_t(sizeof done);
+    if (heard) last = done;
+    return heard;
+  };
+  for (std::uint64_t wait = random.index(120); wait > 0 && hear();) --wait;
+  std::this_thread::sleep_for(std::chrono::microseconds(random.index(1500)));
+  ::kill(child, SIGKILL);
+  while (hear()) continue;
   ::close(ends[0]);
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -84,8 +90,7 @@ TEST(JournalKill, LosesNoEditThatWasDone) {
   std::set<std::filesystem::path> left_behind;
   int one_more = 0;
   for (int i = 0; i < kKills; ++i) {
-    const auto time = std::chrono::microseconds(std::int64_t(random.uniform(300.0, 3500.0)));
-    const auto told = work_and_kill(path, time);
+    const auto told = work_and_kill(path, random);
     for (const auto& file : std::filesystem::directory_iterator(folder.path()))
       if (file.path() != path) left_behind.insert(file.path());
     if (!std::filesystem::exists(path) || std::filesystem::file_size(path) == 0) continue;

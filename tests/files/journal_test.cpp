@@ -182,9 +182,9 @@ TEST(Journal, ThatClaimsToBeEnormousTakesNoMemory) {
   for (const std::uint32_t length : {0xffffffffU, 0x7fffffffU, 0x3ffffff8U}) {
     std::string bytes = sample_journal().bytes.substr(0, sample_journal().ends[2]), record;
     add_journal_record(JournalKind::Edit, 4, std::string(1000, 'x'), record);
-    for (int i = 0; i < 4; ++i) record[std::size_t(4 + i)] = char(length >> (8 * i));
+    for (std::size_t i = 0; i < 4; ++i) record[4 + i] = char(length >> (8 * i));
     const std::uint32_t sum = lzma_crc32(reinterpret_cast<const std::uint8_t*>(record.data()), 20, 0);
-    for (int i = 0; i < 4; ++i) record[std::size_t(20 + i)] = char(sum >> (8 * i));
+    for (std::size_t i = 0; i < 4; ++i) record[20 + i] = char(sum >> (8 * i));
     for (int i = 0; i < 3; ++i) bytes += record;
     const ReadJournal back = read(folder.write("enormous.icome", bytes));
     EXPECT_EQ(back.report.edits, 2u);

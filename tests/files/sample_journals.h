@@ -12,8 +12,8 @@
 namespace icome::files {
 
 inline const world::GeometryFactory& factory() {
-  static const world::GeometryFactory all;
-  return all;
+  static const world::GeometryFactory kAll;
+  return kAll;
 }
 
 inline std::string content_of(const std::filesystem::path& path) {
@@ -89,8 +89,8 @@ struct SampleJournal {
 };
 
 inline const SampleJournal& sample_journal() {
-  static const SampleJournal sample;
-  return sample;
+  static const SampleJournal kSample;
+  return kSample;
 }
 
 }  // namespace icome::files

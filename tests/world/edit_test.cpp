@@ -69,6 +69,19 @@ TEST(Edits, MoveVerticesOfMeshesAndControlMeshes) {
   expect_taken_back(it.world, MoveVertices{roof, {1}, {{3.0, 2.0, 0.0}}});
 }
 
+TEST(Edits, CopyShapesThatGoTheirOwnWay) {
+  House it;
+  const GeometryId roof = it.world.find(it.roof)->geometry, copy = it.ids.next<GeometryId>();
+  expect_taken_back(it.world, CopyGeometry{copy, roof});
+  EXPECT_EQ(it.world.find(copy)->shape, it.world.find(roof)->shape);
+  const std::uint64_t before = it.world.find(roof)->shape->hash();
+  ASSERT_TRUE(replay(it.world, MoveVertices{copy, {0}, {{5.0, 0.0, 0.0}}}));
+  EXPECT_EQ(it.world.find(roof)->shape->hash(), before);
+  EXPECT_NE(it.world.find(copy)->shape->hash(), before);
+  expect_refused(it.world, CopyGeometry{copy, roof}, "already");
+  expect_refused(it.world, CopyGeometry{it.ids.next<GeometryId>(), GeometryId{77}}, "shape to copy");
+}
+
 TEST(Edits, AreRefusedWithAReason) {
   House it;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -86,9 +99,9 @@ TEST(Edits, AreRefusedWithAReason) {
   expect_refused(it.world, ChooseGeometry{it.roof, GeometryId{77}}, "shape is not there");
   expect_refused(it.world, CreateObject{it.roof, 0, {}}, "already");
   expect_refused(it.world, CreateObject{ObjectId{}, 0, {}}, "needs an id");
-  constexpr std::uint64_t author = std::uint64_t{5} << IdSource::kNumberBits;
-  expect_refused(it.world, CreateObject{ObjectId{author}, 0, {}}, "numbers run from 1");
-  expect_refused(it.world, CreateScene{SceneId{author | IdSource::kNumberMask}, ""}, "numbers run from 1");
+  constexpr std::uint64_t kAuthor = std::uint64_t{5} << IdSource::kNumberBits;
+  expect_refused(it.world, CreateObject{ObjectId{kAuthor}, 0, {}}, "numbers run from 1");
+  expect_refused(it.world, CreateScene{SceneId{kAuthor | IdSource::kNumberMask}, ""}, "numbers run from 1");
   expect_refused(it.world, SpendNumbers{1U << 24U, 1}, "no such numbers");
   expect_refused(it.world, SpendNumbers{1, IdSource::kNumberMask}, "no such numbers");
   expect_refused(it.world, MoveVertices{roof, {3}, {{0.0, 0.0, 0.0}}}, "no vertex 3");

@@ -55,6 +55,17 @@ TEST(EditsOf, NeverLetANumberBeGivenTwice) {
   EXPECT_EQ(rebuilt(world).next_number(7), world.next_number(7));
 }
 
+TEST(EditsOf, WriteUnchangedCopiesOnce) {
+  World world;
+  IdSource ids;
+  const ObjectId table = add_object(world, ids, "table", sharp_loop());
+  for (int i = 0; i < 5; ++i) duplicated(world, ids, table, Duplicate::CopyObject);
+  const World again = rebuilt(world);
+  expect_equal(again, world);
+  for (const auto& [id, geometry] : again.geometries())
+    EXPECT_EQ(geometry.shape, again.find(again.find(again.roots()[0])->geometry)->shape);
+}
+
 TEST(EditsOf, ComeInGroupsOfBoundedSize) {
   World world;
   IdSource ids;
