@@ -183,7 +183,6 @@ base::Result<void> JournaledWorld::compact() {
   if (!fresh) return tl::unexpected(fresh.error());
   auto file = OpenFile::copy_of(fresh->descriptor(), path());
   if (!file) return tl::unexpected(file.error());
-  if (const auto same = file_.copy_permissions_to(*file); !same) return same;
   // Before it has the journal's name, so that nobody comes between.
   const auto locked = file->lock();
   if (!locked) return tl::unexpected(locked.error());

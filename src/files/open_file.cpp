@@ -115,13 +115,6 @@ base::Result<void> OpenFile::sync() const {
   return {};
 }
 
-base::Result<void> OpenFile::copy_permissions_to(const OpenFile& other) const {
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0 || ::fchmod(other.descriptor_, status.st_mode & 07777U) != 0)
-    return other.failed("cannot be given its permissions");
-  return {};
-}
-
 void sync_folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -43,8 +43,6 @@ class OpenFile {
   base::Result<void> cut_to(std::uint64_t size) const;
   /// Brings what was written to the disk, where it survives that the power goes.
   base::Result<void> sync() const;
-  /// Gives another file the permissions of this one.
-  base::Result<void> copy_permissions_to(const OpenFile& other) const;
 
  private:
   OpenFile(std::filesystem::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}

@@ -30,7 +30,7 @@ std::vector<std::string> contents_of(std::string_view bytes) {
 
 TEST(JournalFuzz, BytesThatAreDamagedGiveTheEditsBeforeThat) {
   const SampleJournal& sample = sample_journal();
-  const ScratchFolder folder;
+  const ScratchFolder folder(memory_folder());
   base::Random random(11);
   for (int i = 0; i < kDamagedJournals; ++i) {
     const std::string bytes = damaged(sample.bytes, kNastyBytes, random);
@@ -59,7 +59,7 @@ TEST(JournalFuzz, BytesThatAreDamagedGiveTheEditsBeforeThat) {
 
 TEST(JournalFuzz, EditsThatAreHostileBehindGoodChecksumsAreReadOrRefused) {
   const std::vector<std::string> contents = contents_of(sample_journal().bytes);
-  const ScratchFolder folder;
+  const ScratchFolder folder(memory_folder());
   base::Random random(12);
   for (int i = 0; i < kDamagedJournals; ++i) {
     std::string bytes = journal_header();

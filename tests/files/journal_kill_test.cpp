@@ -82,7 +82,7 @@ std::optional<std::uint64_t> work_and_kill(const std::filesystem::path& path, ba
 }
 
 TEST(JournalKill, LosesNoEditThatWasDone) {
-  const ScratchFolder folder;
+  const ScratchFolder folder(memory_folder());
   const auto path = folder.path() / "design.icome";
   base::Random random(13);
   world::World expected;

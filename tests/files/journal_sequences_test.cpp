@@ -13,7 +13,7 @@ constexpr std::uint64_t kSequences = 10000;
 constexpr int kEdits = 40;
 
 TEST(JournalSequences, EndWhereTheyEndedHoweverTheyAreRepeated) {
-  const ScratchFolder folder;
+  const ScratchFolder folder(memory_folder());
   const auto empty = folder.path() / "empty.icome", path = folder.path() / "design.icome";
   ASSERT_TRUE(write_journal(empty, world::World()));
   const std::string empty_journal = content_of(empty);

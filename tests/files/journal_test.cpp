@@ -75,7 +75,7 @@ TEST(Journal, ReplaysToTheSameWorld) {
 
 TEST(Journal, CutOffAnywhereGivesAllWholeEditsBeforeThat) {
   const SampleJournal& sample = sample_journal();
-  const ScratchFolder folder;
+  const ScratchFolder folder(memory_folder());
   for (std::size_t length = 0; length < sample.bytes.size(); ++length) {
     const auto path = write_fresh(folder, "cut.icome", sample.bytes.substr(0, length));
     const auto back = read_journal(path, factory());
@@ -100,7 +100,7 @@ TEST(Journal, CutOffAnywhereGivesAllWholeEditsBeforeThat) {
 
 TEST(Journal, WithAnyByteDamagedGivesAllEditsBeforeThat) {
   const SampleJournal& sample = sample_journal();
-  const ScratchFolder folder;
+  const ScratchFolder folder(memory_folder());
   for (const char flip : {'\x01', '\xff'}) {
     for (std::size_t at = 0; at < sample.bytes.size(); ++at) {
       std::string bytes = sample.bytes;

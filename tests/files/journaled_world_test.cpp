@@ -103,7 +103,7 @@ TEST(JournaledWorld, CutsOffATornEditAndKeepsItsBytes) {
   const SampleJournal& sample = sample_journal();
   base::Random random(5);
   for (std::size_t length = sample.ends[0]; length < sample.bytes.size(); length += 1 + random.index(15)) {
-    const ScratchFolder folder;
+    const ScratchFolder folder(memory_folder());
     const auto path = folder.write("torn.icome", sample.bytes.substr(0, length));
     const auto end = std::upper_bound(sample.ends.begin(), sample.ends.end(), length) - 1;
     const auto edits = std::size_t(end - sample.ends.begin());
@@ -129,7 +129,7 @@ TEST(JournaledWorld, MendsDamageAndKeepsWhatIsLost) {
   const SampleJournal& sample = sample_journal();
   base::Random random(6);
   for (std::size_t at = random.index(7); at < sample.bytes.size(); at += 1 + random.index(13)) {
-    const ScratchFolder folder;
+    const ScratchFolder folder(memory_folder());
     std::string bytes = sample.bytes;
     bytes[at] = char(bytes[at] ^ 0x10);
     const auto path = folder.write("damaged.icome", bytes);

@@ -14,8 +14,8 @@ namespace icome::files {
 /// A folder of its own for one test, removed with the object.
 class ScratchFolder {
  public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "icome_files_XXXXXX").string();
+  explicit ScratchFolder(const std::filesystem::path& within = std::filesystem::temp_directory_path()) {
+    std::string pattern = (within / "icome_files_XXXXXX").string();
     path_ = mkdtemp(pattern.data());
   }
   ScratchFolder(const ScratchFolder&) = delete;

@@ -28,6 +28,12 @@ inline std::filesystem::path write_fresh(const ScratchFolder& folder, const std:
   return folder.write(name, bytes);
 }
 
+/// Where waiting for the disk takes no time, so that much can be tried.
+inline std::filesystem::path memory_folder() {
+  const std::filesystem::path memory = "/dev/shm";
+  return ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+}
+
 inline JournaledWorld opened(const std::filesystem::path& path, const JournalOptions& options = {}) {
   auto journal = JournaledWorld::open(path, factory(), options);
   if (!journal) throw std::runtime_error(journal.error().message);
