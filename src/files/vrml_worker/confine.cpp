@@ -1,6 +1,7 @@
 #include "files/vrml_worker/confine.h"
 
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -17,6 +18,8 @@ namespace {
 constexpr rlim_t kStackBytes = 120ULL << 20U;
 /// How far from the end of the stack a fault still means that the stack was used up.
 constexpr std::size_t kStackMargin = 1U << 20U;
+/// Where so much is not to be had, a fault is one of too little memory.
+constexpr std::size_t kLittleMemory = 32U << 20U;
 
 std::uintptr_t stack_end = 0;
 char signal_stack[1U << 16U];
@@ -34,18 +37,22 @@ void limit(__rlimit_resource resource, rlim_t most) {
 #ifndef __SANITIZE_ADDRESS__
 void on_fault(int number, siginfo_t* info, void*) {
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
-  if (address >= stack_end - kStackMargin && address < stack_end + kStackMargin) ::_exit(kVrmlTooDeep);
+  if (number == SIGSEGV && address >= stack_end - kStackMargin && address < stack_end + kStackMargin)
+    ::_exit(kVrmlTooDeep);
+  // Parts of Coin do not ask whether they got the memory that they wanted.
+  if (::mmap(nullptr, kLittleMemory, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED)
+    out_of_memory();
   ::signal(number, SIG_DFL);
   ::raise(number);
 }
 
-void tell_stack_overflow() {
+void tell_faults_apart() {
   const stack_t other{signal_stack, 0, sizeof signal_stack};
   ::sigaltstack(&other, nullptr);
   struct sigaction action {};
   action.sa_sigaction = on_fault;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
-  ::sigaction(SIGSEGV, &action, nullptr);
+  for (const int number : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(number, &action, nullptr);
 }
 #endif
 
@@ -61,7 +68,7 @@ void confine(const VrmlLimits& limits) {
   // The address sanitizer takes terabytes of addresses, and tells of faults itself.
   limit(RLIMIT_AS, limits.memory);
   stack_end = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) - kStackBytes;
-  tell_stack_overflow();
+  tell_faults_apart();
 #endif
   // The reader's own clock comes first, unless the reader hangs.
   limit(RLIMIT_CPU, static_cast<rlim_t>(std::clamp(std::ceil(limits.seconds), 0.0, 1e9)) + 1);

@@ -1,7 +1,8 @@
 #include "files/vrml_worker/field_values.h"
 
 #include <Inventor/SbColor.h>
-#include <Inventor/fields/SoMFString.h>
+#include <Inventor/SbVec3f.h>
+#include <Inventor/fields/SoField.h>
 #include <Inventor/nodes/SoNode.h>
 
 #include <charconv>
@@ -21,12 +22,6 @@ std::array<double, 3> as_written(const SbVec3f& vector) {
 }
 
 std::array<float, 3> as_array(const SbColor& colour) { return {colour[0], colour[1], colour[2]}; }
-
-std::vector<std::string> as_strings(const SoMFString& field) {
-  std::vector<std::string> strings;
-  for (int i = 0; i < field.getNum(); ++i) strings.emplace_back(field[i].getString());
-  return strings;
-}
 
 const SoField* find_field(const SoNode& node, const char* name, const char* type) {
   const SoField* field = node.getField(name);

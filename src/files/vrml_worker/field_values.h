@@ -1,12 +1,9 @@
 #pragma once
 #include <array>
-#include <string>
-#include <vector>
 
 class SbColor;
 class SbVec3f;
 class SoField;
-class SoMFString;
 class SoNode;
 
 namespace icome::files {
@@ -16,7 +13,6 @@ double as_written(float number);
 std::array<double, 3> as_written(const SbVec3f& vector);
 
 std::array<float, 3> as_array(const SbColor& colour);
-std::vector<std::string> as_strings(const SoMFString& field);
 
 /// The field of this name and type ("SFString"); null: the node has none.
 const SoField* find_field(const SoNode& node, const char* name, const char* type);

@@ -101,7 +101,7 @@ int Looks::picture_number(const Unwrapped& it) {
   picture.repeat_s = texture->repeatS.getValue();
   picture.repeat_t = texture->repeatT.getValue();
   if (const auto* image = node_as<SoVRMLImageTexture>(it)) {
-    picture.urls = as_strings(image->url);
+    picture.urls = files_.strings(image->url);
     picture.base = wrapping_.home(image->url, *it.file).path;
     if (picture.urls.empty()) return -1;
   } else if (const auto* pixels = node_as<SoVRMLPixelTexture>(it)) {

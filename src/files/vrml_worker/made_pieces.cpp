@@ -20,7 +20,7 @@ namespace {
 
 /// Few numbers of an Extrusion make many vertices.
 constexpr std::int64_t kMadeVertexLimit = 5'000'000;
-constexpr std::size_t kLetterLimit = 100'000;
+constexpr std::size_t kLetterLimit = 10'000;
 
 base::Matrix3 turn(const SbRotation& rotation) {
   const float* const q = rotation.getValue();
@@ -123,7 +123,7 @@ std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLElevationGrid& n
 std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLText& node, PieceParts& parts) {
   std::size_t letters = 0;
   bool has_others = false;
-  for (const std::string& line : as_strings(node.string)) {
+  for (const std::string& line : files_.strings(node.string)) {
     letters += line.size();
     has_others = has_others || !is_ascii(line);
   }

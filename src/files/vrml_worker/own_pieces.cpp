@@ -15,9 +15,9 @@
 namespace icome::files {
 namespace {
 
-std::string text_in(const SoNode& instance, const char* name) {
+std::string text_in(const SceneFiles& files, const SoNode& instance, const char* name) {
   const SoField* field = find_field(instance, name, "SFString");
-  return field ? static_cast<const SoSFString*>(field)->getValue().getString() : "";
+  return field ? files.original(static_cast<const SoSFString*>(field)->getValue().getString()) : "";
 }
 
 std::span<const int> indices_in(const SoNode& instance, const char* name) {
@@ -26,8 +26,7 @@ std::span<const int> indices_in(const SoNode& instance, const char* name) {
 }
 
 /// Six numbers with spaces between them; else nothing.
-std::vector<double> box_in(const SoNode& instance) {
-  const std::string text = text_in(instance, "box");
+std::vector<double> six_numbers(const std::string& text) {
   std::vector<double> numbers;
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -50,16 +49,16 @@ std::optional<int> Pieces::add_own(const Unwrapped& it, PieceParts& parts) {
   const std::string_view proto = it.instance->getProtoName().getString();
   if (proto == kCsgProto.name) {
     parts.kind = PartKind::Csg;
-    parts.text = text_in(instance, "tree");
+    parts.text = text_in(files_, instance, "tree");
   } else if (proto == kImplicitProto.name) {
     parts.kind = PartKind::Implicit;
-    parts.text = text_in(instance, "formula");
-    parts.box = box_in(instance);
+    parts.text = text_in(files_, instance, "formula");
+    parts.box = six_numbers(text_in(files_, instance, "box"));
     if (parts.box.empty()) parts.text.clear();
   } else if (proto == kPrimitiveProto.name) {
     parts.kind = PartKind::Primitive;
-    parts.text = text_in(instance, "shape");
-    parts.along_y = text_in(instance, "axis") == "y";
+    parts.text = text_in(files_, instance, "shape");
+    parts.along_y = text_in(files_, instance, "axis") == "y";
   } else if (proto == kLoopProto.name) {
     const SoField* points = find_field(instance, "controlPoint", "MFVec3f");
     if (!points) return std::nullopt;

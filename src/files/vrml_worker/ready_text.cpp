@@ -9,6 +9,7 @@
 
 #include "files/vrml_header.h"
 #include "files/vrml_scanner.h"
+#include "files/vrml_worker/answer.h"
 #include "files/vrml_worker/tokens.h"
 
 namespace icome::files {
@@ -16,6 +17,10 @@ namespace {
 
 /// Coin reads by recursion, with up to 2 KB of stack for a level.
 constexpr int kDepthLimit = kMostNestedVrml;
+constexpr std::size_t kLongName = 200;
+constexpr std::size_t kLongString = 4000;
+/// Of what is no name of a node: types, fields and PROTOs.
+constexpr std::size_t kWordLimit = 1000;
 constexpr std::size_t kTextNoteLimit = 1000;
 constexpr const char* kHeaderLine = "#VRML V2.0 utf8\n";
 
@@ -39,7 +44,7 @@ bool is_plain_name(std::string_view name) {
   const auto is_plain = [&](char c) {
     return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '+';
   };
-  return is_letter(name[0]) && std::all_of(name.begin(), name.end(), is_plain) &&
+  return name.size() <= kLongName && is_letter(name[0]) && std::all_of(name.begin(), name.end(), is_plain) &&
          !name.starts_with(kChangedName);
 }
 
@@ -67,8 +72,8 @@ class TextReader {
       statements(Kind::End);
     } catch (const Unclear&) {
       // Coin tells what is wrong there.
-    } catch (const TooDeep&) {
-      ready.error = "nests nodes more than " + std::to_string(kDepthLimit) + " deep";
+    } catch (const Refusal& refusal) {
+      ready.error = refusal.why;
     }
     ready.stand_ins = std::move(stand_ins_);
     ready.notes = std::move(notes_);
@@ -96,14 +101,14 @@ class TextReader {
     std::unordered_map<std::string, SharedFields> protos;
   };
   struct Unclear {};
-  struct TooDeep {};
   enum class Outcome { Kept, Dropped };
 
   /// One level further in, while it lives.
   class Level {
    public:
     explicit Level(int& depth) : depth_(depth) {
-      if (++depth_ > kDepthLimit) throw TooDeep{};
+      if (++depth_ > kDepthLimit)
+        throw Refusal{"nests nodes more than " + std::to_string(kDepthLimit) + " deep"};
     }
     Level(const Level&) = delete;
     Level& operator=(const Level&) = delete;
@@ -117,6 +122,8 @@ class TextReader {
   Token expect(Kind kind) {
     const Token token = tokens_.next();
     if (token.kind != kind) throw Unclear{};
+    if (kind == Kind::Word && token.end - token.begin > kWordLimit)
+      throw Refusal{"has a word of more than " + std::to_string(kWordLimit) + " letters"};
     return token;
   }
   Token expect_name() {
@@ -153,6 +160,7 @@ class TextReader {
   void skip_value();
   SharedFields find_proto(const std::string& name) const;
   void change_name(const Token& name);
+  void change_string(const Token& string);
 
   std::string_view text_;
   bool tells_strange_nodes_;
@@ -233,7 +241,10 @@ TextReader::Fields TextReader::interface(bool is_extern, std::string& stand_in) 
 /// nothing; the caller takes it out.
 TextReader::Outcome TextReader::value() {
   const Token first = tokens_.next();
-  if (first.kind == Kind::String) return Outcome::Kept;
+  if (first.kind == Kind::String) {
+    change_string(first);
+    return Outcome::Kept;
+  }
   if (first.kind == Kind::Number) {
     tokens_.skip_numbers();
     return Outcome::Kept;
@@ -255,7 +266,10 @@ void TextReader::list() {
     tokens_.skip_numbers();
     const Token token = tokens_.next();
     if (token.kind == Kind::CloseList) return;
-    if (token.kind == Kind::String) continue;
+    if (token.kind == Kind::String) {
+      change_string(token);
+      continue;
+    }
     if (token.kind != Kind::Word) throw Unclear{};
     if (is_value_word(word(token))) continue;
     if (node(token) == Outcome::Dropped) drop(token.begin);
@@ -360,6 +374,18 @@ void TextReader::change_name(const Token& token) {
       changed_.try_emplace(name, std::string(kChangedName) + std::to_string(names_.size()));
   if (is_new) names_.push_back(name.substr(0, name.find('+')));
   replace(token.begin, token.end, changed->second);
+}
+
+void TextReader::change_string(const Token& token) {
+  const std::string_view quoted = word(token);
+  if (quoted.size() <= kLongString || quoted.back() != '"') return;
+  std::string text;
+  for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
+    if (quoted[i] == '\\' && i + 2 < quoted.size()) ++i;
+    text += quoted[i];
+  }
+  replace(token.begin, token.end, '"' + std::string(kChangedName) + std::to_string(names_.size()) + '"');
+  names_.push_back(std::move(text));
 }
 
 }  // namespace

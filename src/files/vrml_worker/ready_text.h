@@ -16,7 +16,8 @@ struct TextNote {
 
 /// The text of a VRML file made ready for Coin, which gives up a whole file for one field or node that it
 /// does not know: such are taken out, and so are uses of names that nothing has and all ROUTEs, since
-/// nothing moves here. Names that Coin would change become `IcomeName_7`. Lines stay where they were.
+/// nothing moves here. Names that Coin would change become `IcomeName_7`, and so do long strings, which it
+/// reads in a time that grows with the square of their length. Lines stay where they were.
 struct ReadyText {
   std::string text;  // begins with the header of VRML 2.0
   /// For each EXTERNPROTO in order: a PROTO that can stand in for it and shows nothing.
@@ -29,7 +30,7 @@ struct ReadyText {
 inline constexpr std::string_view kChangedName = "IcomeName_";
 
 /// `has_field(node, field)` tells whether a node of VRML 2.0 has this field. `names` gets, at the number in
-/// a changed name, what it was. Whatever does not follow the grammar is left to Coin from there on.
+/// a changed name or string, what it was. Whatever does not follow the grammar is left to Coin from there on.
 /// `tells_strange_nodes`: notes nodes that nobody knows, too.
 ReadyText make_ready(std::string_view file, bool tells_strange_nodes,
                      base::FunctionRef<bool(const std::string& node, const std::string& field)> has_field,

@@ -6,6 +6,7 @@
 #include <Inventor/VRMLnodes/SoVRMLInline.h>
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/errors/SoReadError.h>
+#include <Inventor/fields/SoMFString.h>
 #include <Inventor/lists/SoFieldList.h>
 #include <Inventor/misc/SoProto.h>
 #include <Inventor/nodes/SoNode.h>
@@ -186,12 +187,20 @@ const SceneFile* SceneFiles::home(const SoProto* proto) const {
   return found == homes_.end() ? nullptr : found->second;
 }
 
-std::string SceneFiles::original_name(const SbName& name) const {
-  const std::string_view text = name.getString();
+std::string SceneFiles::original(const char* text) const {
+  const std::string_view name = text;
   std::size_t number = changed_names_.size();
-  if (text.starts_with(kChangedName))
-    std::from_chars(text.data() + kChangedName.size(), text.data() + text.size(), number);
-  return number < changed_names_.size() ? changed_names_[number] : std::string(text);
+  if (name.starts_with(kChangedName))
+    std::from_chars(name.data() + kChangedName.size(), name.data() + name.size(), number);
+  return number < changed_names_.size() ? changed_names_[number] : std::string(name);
+}
+
+std::string SceneFiles::original_name(const SbName& name) const { return original(name.getString()); }
+
+std::vector<std::string> SceneFiles::strings(const SoMFString& field) const {
+  std::vector<std::string> strings;
+  for (int i = 0; i < field.getNum(); ++i) strings.push_back(original(field[i].getString()));
+  return strings;
 }
 
 /// Reads node by node, so that what comes before a mistake is there.

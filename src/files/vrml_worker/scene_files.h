@@ -9,6 +9,7 @@
 #include "files/vrml_worker/channel.h"
 
 class SbName;
+class SoMFString;
 class SoNode;
 class SoProto;
 
@@ -41,8 +42,10 @@ class SceneFiles {
   SceneFile* fetch(const SceneFile& from, const std::vector<std::string>& urls, const char* who);
   /// The file that an EXTERNPROTO was taken from; null: it is none.
   const SceneFile* home(const SoProto* proto) const;
-  /// What a node was called in its file.
+  /// What a node was called in its file, or what a string was.
+  std::string original(const char* text) const;
   std::string original_name(const SbName& name) const;
+  std::vector<std::string> strings(const SoMFString& field) const;
 
  private:
   struct Callbacks;

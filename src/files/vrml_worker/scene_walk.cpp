@@ -30,11 +30,11 @@ const Node* as(const SoNode* node) {
 }
 
 /// The title of a WorldInfo among the children of a group names it.
-std::string title_among(const SoMFNode& children, int first, int last) {
+std::string title_among(const SceneFiles& files, const SoMFNode& children, int first, int last) {
   for (int i = first; i < last; ++i)
     if (const SoNode* child = children[i])
       if (const auto* info = as<SoVRMLWorldInfo>(child))
-        if (info->title.getValue().getLength() > 0) return info->title.getValue().getString();
+        if (info->title.getValue().getLength() > 0) return files.original(info->title.getValue().getString());
   return {};
 }
 
@@ -111,7 +111,8 @@ bool SceneWalk::visit_group(const Unwrapped& it, NodeParts& parts, const Place& 
 
 void SceneWalk::visit_children(const SoMFNode& children, int first, int last, NodeParts& parts,
                                const Place& place) {
-  if (std::string title = title_among(children, first, last); !title.empty()) parts.name = std::move(title);
+  if (std::string title = title_among(files_, children, first, last); !title.empty())
+    parts.name = std::move(title);
   Place within = place;
   within.parent = answer_.add(parts);
   within.file = &wrapping_.home(children, *place.file);
@@ -121,7 +122,7 @@ void SceneWalk::visit_children(const SoMFNode& children, int first, int last, No
 void SceneWalk::visit_inline(const SoVRMLInline& it, NodeParts& parts, const Place& place) {
   Place within = place;
   within.parent = answer_.add(parts);
-  SceneFile* file = files_.fetch(wrapping_.home(it.url, *place.file), as_strings(it.url), "Inline");
+  SceneFile* file = files_.fetch(wrapping_.home(it.url, *place.file), files_.strings(it.url), "Inline");
   if (!file) return;
   if (file->inlined > 0) {
     answer_.note(place.file->told, 0, "An Inline of the file that it is in is left out.");
@@ -153,8 +154,8 @@ bool SceneWalk::visit_scene(const Unwrapped& it, NodeParts& parts) {
   const SoField* name = find_field(*it.instance, "name", "SFString");
   const SoField* members = find_field(*it.instance, "objects", "MFString");
   if (!name || !members) return false;
-  parts.scene = static_cast<const SoSFString*>(name)->getValue().getString();
-  parts.members = as_strings(*static_cast<const SoMFString*>(members));
+  parts.scene = files_.original(static_cast<const SoSFString*>(name)->getValue().getString());
+  parts.members = files_.strings(*static_cast<const SoMFString*>(members));
   if (!parts.scene.empty()) answer_.add(parts);
   return true;
 }
