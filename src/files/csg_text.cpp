@@ -52,6 +52,7 @@ class CsgTextWriter {
  public:
   Result<std::string> write(const CsgTree& tree) {
     if (tree.size() > kMostNodes) return too_many();
+    if (tree.empty()) return "# nothing\n";
     world::CsgNodeCheck check(tree.size());
     for (CsgTree::Index i = 0; i < tree.size(); ++i) {
       const CsgTree::Node& node = tree.node(i);

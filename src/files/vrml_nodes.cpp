@@ -50,8 +50,9 @@ class NodeReader {
     node.is_object = !from.scene();
     node.piece = index(from.piece(), scene_.pieces());
     node.look = index(from.look(), scene_.looks());
-    node.name = said_by(reader_.text(from.name()));
+    node.name = reader_.text(from.name());
     node.def = reader_.text(from.def());
+    if (node.name == node.def) node.name = said_by(node.def);
     node.reused = from.reused();
     read_place(from, node);
     if (from.lamp() && node.piece == VrmlNode::kNone) node.fixture = fixture_of(*from.lamp());
@@ -79,8 +80,11 @@ class NodeReader {
   }
 
   bool is_bare(const VrmlNode& node) const {
-    return node.is_object && node.name.empty() && node.def.empty() && node.children == 0 &&
-           node.parent != VrmlNode::kNone && node.parent_from_node.matrix().isIdentity(0.0);
+    if (node.parent == VrmlNode::kNone) return false;
+    // A viewpoint may say for viewers what its object is called.
+    const bool says_more = !node.name.empty() && node.name != nodes_[std::size_t(node.parent)].name;
+    return node.is_object && !says_more && node.def.empty() && node.children == 0 &&
+           node.parent_from_node.matrix().isIdentity(0.0);
   }
 
   void merge() {

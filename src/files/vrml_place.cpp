@@ -19,37 +19,49 @@ using base::Vector3;
 
 // What single precision does not tell from nothing beside one.
 constexpr double kNothing = std::numeric_limits<float>::epsilon() / 4.0;
+// By how much one of several ways to say the same must be better than those before it, so that rounding
+// does not decide.
+constexpr double kClearly = 1e-5;
 
 Vector3 decimals(const Eigen::Vector3f& value) {
   return {from_single(value.x()), from_single(value.y()), from_single(value.z())};
+}
+
+/// As Coin and others keep it: in quaternions of single precision, more decimals would come back as others.
+/// Parts of a turn by 15 degrees are told by more, whose meaning is known.
+float lasting_angle(double angle) {
+  constexpr double kDecimals = 1e6, kStep = std::numbers::pi / 12.0;
+  // Half a turn is as far as it goes: rounding must not lead past it and back by the other way.
+  if (std::fabs(angle) > std::numbers::pi - 1.0 / kDecimals) return std::numbers::pi_v<float>;
+  const double step = std::round(angle / kStep) * kStep;
+  if (std::fabs(angle - step) < 0.5 / kDecimals) return float(step);
+  return float(std::round(angle * kDecimals) / kDecimals);
+}
+
+/// All parts to the same decimal: rounded each by itself, readers that make the axis one long again would
+/// move the small ones, and another axis would be written each time.
+Eigen::Vector3f lasting_axis(const Vector3& axis) {
+  constexpr double kDecimals = 1e6;
+  return ((axis * kDecimals).array().round() / kDecimals).cast<float>();
 }
 
 VrmlTurn turn_of(const Matrix3& rotation) {
   base::Quaternion turn(rotation);
   if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
   const double sine = turn.vec().norm();
-  if (sine < kNothing) return {};
+  if (sine == 0.0) return {};
   Vector3 axis = turn.vec() / sine;
   double angle = 2.0 * std::atan2(sine, turn.w());
   // The same turn about the opposite axis reads worse.
-  constexpr double kClearly = 0.4;
-  for (const double part : axis) {
-    if (std::fabs(part) < kClearly) continue;
-    if (part < 0.0) {
-      axis = -axis;
-      angle = -angle;
-    }
-    break;
+  constexpr double kMuch = 0.4;
+  int first = 0;
+  while (first < 2 && std::fabs(axis[first]) < kMuch) ++first;
+  if (axis[first] < 0.0) {
+    axis = -axis;
+    angle = -angle;
   }
-  // All parts to the same decimal: rounded each by itself, readers that make the axis one long again would
-  // move the small ones, and another axis would be written each time.
-  constexpr double kDecimals = 1e7;
-  VrmlTurn result{((axis * kDecimals).array().round() / kDecimals).cast<float>(), float(angle)};
-  // Half a turn is as far as it goes: rounding must not lead past it and back by the other way.
-  constexpr float kHalfTurn = std::numbers::pi_v<float>;
-  constexpr float kRoundedAway = 4.0F * std::numeric_limits<float>::epsilon();
-  if (std::fabs(result.angle) > kHalfTurn - kRoundedAway) result.angle = kHalfTurn;
-  return result;
+  const float lasting = lasting_angle(angle);
+  return lasting == 0.0F ? VrmlTurn() : VrmlTurn{lasting_axis(axis), lasting};
 }
 
 Matrix3 matrix_of(const VrmlTurn& turn) {
@@ -81,7 +93,7 @@ bool settle_equal(Stretch& stretch) {
   const Vector3 axis = stretch.orientation.col(other);
   stretch.axis = 0;
   for (const int i : {1, 2}) {
-    if (std::fabs(axis[i]) > std::fabs(axis[stretch.axis]) + kNothing) stretch.axis = i;
+    if (std::fabs(axis[i]) > std::fabs(axis[stretch.axis]) + kClearly) stretch.axis = i;
   }
   const double twice = upper ? 0.5 * (scale[0] + scale[1]) : 0.5 * (scale[1] + scale[2]);
   stretch.scale = Vector3::Constant(twice);
@@ -101,7 +113,7 @@ void turn_least(Stretch& stretch) {
   do {
     double along = 0.0;
     for (int i = 0; i < 3; ++i) along += std::fabs(axes(i, order[i]));
-    if (along > most + kNothing) {
+    if (along > most + kClearly) {
       most = along;
       best = order;
     }
@@ -129,7 +141,7 @@ void mirror(Stretch& stretch) {
     Vector3 way = Vector3::Constant(axis < 0 ? -1.0 : 1.0);
     if (axis >= 0) way[axis] = -1.0;
     const Matrix3 rotation = mirrored * axes * way.asDiagonal() * axes.transpose();
-    if (rotation.trace() <= most + kNothing) continue;
+    if (rotation.trace() <= most + kClearly) continue;
     most = rotation.trace();
     best = way;
     stretch.rotation = rotation;

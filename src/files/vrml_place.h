@@ -24,8 +24,9 @@ struct VrmlPlace {
   bool operator==(const VrmlPlace&) const = default;
 };
 
-/// The fields that say where an object is, within single precision of its largest axis; for any affine
-/// transform that does not flatten. Those of what they say are the same again, to the last bit.
+/// The fields that say where an object is, for any affine transform that does not flatten. Turns are told to
+/// six decimals, since readers keep no more of them (Coin: quaternions of single precision); the rest is
+/// within single precision. The fields of what they say are the same again, to the last bit.
 VrmlPlace vrml_place(const base::Affine3& parent_from_object);
 
 /// What the fields say, by the decimals that they are written as.

@@ -19,23 +19,34 @@ struct AxisAngle {
   double angle = 0.0;
 };
 
+/// Is this what the file said, as far as Coin kept it?
+bool is_kept(const AxisAngle& turn, const SoSFRotation& field) {
+  const SbVec3f axis(static_cast<float>(turn.axis[0]), static_cast<float>(turn.axis[1]),
+                     static_cast<float>(turn.axis[2]));
+  return axis.length() > 0.0F && SbRotation(axis, static_cast<float>(turn.angle)) == field.getValue();
+}
+
 /// Coin keeps a rotation as a quaternion in single precision. The numbers of the file are the roundest that
-/// give this one; where there are none, the file had too many digits to be kept.
+/// give this one, or a multiple of 15 degrees; where there are none, the file had too many digits to be kept.
 AxisAngle axis_angle(const SoSFRotation& field) {
-  SbVec3f axis;
-  float angle = 0.0F;
-  field.getValue(axis, angle);
-  const auto round_to = [](float number, double unit) { return std::round(number * unit) / unit; };
+  const float* const kept = field.getValue().getValue();
+  // Not as Coin does it, from the cosine, which hardly tells small angles.
+  const base::Vector3 sine(kept[0], kept[1], kept[2]);
+  const double length = sine.norm();
+  if (!(length > 0.0)) return {};
+  const base::Vector3 axis = sine / length;
+  const double angle = 2.0 * std::atan2(length, kept[3]);
+  constexpr double kStep = M_PI / 12.0;
+  const double step = as_written(static_cast<float>(std::round(angle / kStep) * kStep));
+  const auto round_to = [](double number, double unit) { return std::round(number * unit) / unit; };
   for (double unit = 10.0; unit < 1e8; unit *= 10.0) {
-    const AxisAngle round = {{round_to(axis[0], unit), round_to(axis[1], unit), round_to(axis[2], unit)},
-                             round_to(angle, unit)};
-    const SbVec3f direction(static_cast<float>(round.axis[0]), static_cast<float>(round.axis[1]),
-                            static_cast<float>(round.axis[2]));
-    if (direction.length() > 0.0F &&
-        SbRotation(direction, static_cast<float>(round.angle)) == field.getValue())
-      return round;
+    AxisAngle round = {{round_to(axis[0], unit), round_to(axis[1], unit), round_to(axis[2], unit)},
+                       round_to(angle, unit)};
+    if (is_kept(round, field)) return round;
+    round.angle = step;
+    if (is_kept(round, field)) return round;
   }
-  return {as_written(axis), as_written(angle)};
+  return {{axis[0], axis[1], axis[2]}, angle};
 }
 
 base::Vector3 vector(const SbVec3f& v) { return base::Vector3(as_written(v).data()); }

@@ -1,0 +1,145 @@
+// Designs through VRML 2.0 files and back.
+#include <gtest/gtest.h>
+
+#include "files/file_bytes.h"
+#include "files/same_design.h"
+#include "files/sample_files.h"
+#include "files/vrml_reader.h"
+#include "files/vrml_writer.h"
+#include "world/every_edit.h"
+#include "world/random_edits.h"
+
+namespace icome::files {
+namespace {
+
+using namespace world;
+namespace fs = std::filesystem;
+
+World read(const fs::path& path) {
+  auto design = read_vrml(path);
+  if (!design) throw std::runtime_error(design.error().message);
+  return std::move(design->world);
+}
+
+std::string written(const fs::path& path, const World& world) {
+  const auto remarks = write_vrml(path, world);
+  if (!remarks) throw std::runtime_error(remarks.error().message);
+  return read_bytes(path, 1U << 30U).value();
+}
+
+/// What went through a file once is the same whenever it does so again, to the last byte.
+void expect_stays(const World& once, const fs::path& path) {
+  const std::string text = written(path, once);
+  const World twice = read(path);
+  EXPECT_EQ(difference(once, twice, {.tolerance = 0.0}), "");
+  EXPECT_EQ(written(path, twice), text);
+}
+
+/// The design after it went through a file.
+World through_file(const World& world, const Likeness& likeness = {.tolerance = 3e-6}) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "design.wrl";
+  written(path, world);
+  World once = read(path);
+  EXPECT_EQ(difference(world, once, likeness), "");
+  expect_stays(once, path);
+  return once;
+}
+
+/// Textures get their names from where they lie.
+constexpr Likeness kWithoutTextureNames{.texture_names = false};
+
+struct Design {
+  World world;
+  IdSource ids;
+
+  ObjectId add(const std::string& name, GeometryPointer shape, ObjectId parent = {},
+               const Affine3& frame = Affine3::Identity()) {
+    return add_object(world, ids, name, std::move(shape), parent, frame);
+  }
+};
+
+TEST(VrmlRoundTrip, EveryKindOfShape) {
+  Design design;
+  for (const GeometryPointer& shape : every_shape()) {
+    if (shape->bounds().isEmpty() && shape->kind() == "mesh") continue;
+    design.add("shape of kind " + std::string(shape->kind()), shape);
+  }
+  through_file(design.world);
+}
+
+TEST(VrmlRoundTrip, NamesTitlesAndMaterials) {
+  Design design;
+  for (const char* name :
+       {"left door", "door", "door", "2nd", "w\xc3\xb6od", "USE", "a+b", "a+1", "IcomeUnnamed", "say \"\\\"",
+        "", "IcomeDefault", "Transform", "line\nbreak", " ", "_"}) {
+    const ObjectId object = design.add(name, design.world.objects().size() % 2 == 0 ? box(1.0) : nullptr);
+    const MaterialId material = design.ids.next<MaterialId>();
+    Material rich = rich_material({});
+    rich.name = std::string(name).starts_with("Icome") ? "plain" : name;
+    rich.ambient = 0.0F;
+    applied(design.world, CreateMaterial{material, design.world.objects().size() % 3 == 0
+                                                       ? rich
+                                                       : Material{.name = rich.name, .shininess = 0.5F}});
+    applied(design.world, ChooseMaterial{object, material});
+    if (design.world.objects().size() % 4 == 0)
+      applied(design.world, ChooseMaterial{design.add("", box(0.1), object), material});
+  }
+  through_file(design.world);
+}
+
+TEST(VrmlRoundTrip, LightsViewpointsScriptsAndScenes) {
+  Design design;
+  const ObjectId room = design.add("room", box(3.0));
+  const ObjectId lamp =
+      design.add("the lamp", box(0.1), room, at(0.1, 0.2, 0.3) * Eigen::AngleAxisd(0.3, Vector3::UnitX()));
+  applied(design.world, ChangeFixture{lamp, spot_light()});
+  for (const Light::Kind kind : {Light::Kind::Directional, Light::Kind::Point, Light::Kind::Spot})
+    applied(design.world, ChangeFixture{design.add("", nullptr, room),
+                                        std::make_shared<const Fixture>(Light{.kind = kind})});
+  const ObjectId eye = design.add("from the door", nullptr, {}, at(0.0, 1.6, 3.0));
+  applied(design.world, ChangeFixture{eye, std::make_shared<const Fixture>(Viewpoint{1.2})});
+  const ObjectId script = design.add("logic", nullptr);
+  applied(design.world, ChangeFixture{script, std::make_shared<const Fixture>(
+                                                  Inert{"Script", "DEF logic Script {\n  url \"a\"\n}"})});
+  const SceneId one = design.ids.next<SceneId>(), two = design.ids.next<SceneId>();
+  applied(design.world, CreateScene{one, "the room"});
+  applied(design.world, CreateScene{two, "lights"});
+  applied(design.world, EnterScene{one, room, 0});
+  for (std::size_t i = 0; i < design.world.find(room)->children.size(); ++i)
+    applied(design.world, EnterScene{two, design.world.find(room)->children[i], 0});
+  through_file(design.world);
+}
+
+TEST(VrmlRoundTrip, AnyTransform) {
+  base::Random random(5);
+  Design design;
+  ObjectId parent;
+  for (int i = 0; i < 500; ++i) {
+    Affine3 frame = Affine3::Identity();
+    for (int k = 0; k < 12; ++k) frame(k / 4, k % 4) = random.uniform(-1.0, 1.0);
+    design.add("", nullptr, i % 3 == 0 ? ObjectId{} : parent, frame);
+    parent = design.world.roots().back();
+  }
+  through_file(design.world);
+}
+
+TEST(VrmlRoundTrip, TwoTablesOfFigure29) {
+  Design design;
+  const ObjectId table = design.add("table", box(1.0));
+  const ObjectId leg = design.add("leg", one_triangle(), table, at(0.4, -0.5, 0.4));
+  for (int i = 0; i < 3; ++i) duplicated(design.world, design.ids, leg, Duplicate::CloneObject, table);
+  duplicated(design.world, design.ids, table, Duplicate::CopyObjectAndChildren);
+  World world = through_file(design.world);
+  ASSERT_EQ(world.roots().size(), 2U);
+  const auto legs = [&](std::size_t which) { return world.find(world.roots()[which])->children; };
+  ASSERT_EQ(legs(0).size(), 4U);
+  ASSERT_EQ(legs(1).size(), 4U);
+  applied(world, ReplaceGeometry{world.find(legs(1)[2])->geometry, box(0.25)});
+  for (const ObjectId it : legs(0)) EXPECT_EQ(world.find(world.find(it)->geometry)->shape->kind(), "mesh");
+  for (const ObjectId it : legs(1))
+    EXPECT_EQ(world.find(world.find(it)->geometry)->shape->kind(), "primitive");
+}
+
+}  // namespace
+}  // namespace icome::files
