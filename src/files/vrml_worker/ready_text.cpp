@@ -36,6 +36,8 @@ const char* default_value(std::string_view type) {
   return "0";
 }
 
+std::string too_deep() { return "nests nodes more than " + std::to_string(kDepthLimit) + " deep"; }
+
 bool is_value_word(std::string_view word) { return word == "TRUE" || word == "FALSE" || word == "NULL"; }
 
 /// Does Coin keep a node name as it is? (It also cuts `+3` from the end of names, which it adds itself.)
@@ -71,7 +73,8 @@ class TextReader {
     try {
       statements(Kind::End);
     } catch (const Unclear&) {
-      // Coin tells what is wrong there.
+      // Coin tells what is wrong there, but must not go too deep for it.
+      if (tokens_.deepest() > kDepthLimit) ready.error = too_deep();
     } catch (const Refusal& refusal) {
       ready.error = refusal.why;
     }
@@ -107,8 +110,7 @@ class TextReader {
   class Level {
    public:
     explicit Level(int& depth) : depth_(depth) {
-      if (++depth_ > kDepthLimit)
-        throw Refusal{"nests nodes more than " + std::to_string(kDepthLimit) + " deep"};
+      if (++depth_ > kDepthLimit) throw Refusal{too_deep()};
     }
     Level(const Level&) = delete;
     Level& operator=(const Level&) = delete;

@@ -91,6 +91,17 @@ bool Tokens::skip_to_partner() {
   return true;
 }
 
+int Tokens::deepest() {
+  int depth = 0;
+  int most = 0;
+  for (Token token = next(); token.kind != Token::Kind::End; token = next()) {
+    if (token.kind == Token::Kind::Open || token.kind == Token::Kind::OpenList)
+      most = std::max(most, ++depth);
+    if (token.kind == Token::Kind::Close || token.kind == Token::Kind::CloseList) --depth;
+  }
+  return most;
+}
+
 int Tokens::line(std::size_t place) {
   if (place < counted_place_) counted_place_ = 0, counted_line_ = 1;
   const std::string_view passed = text_.substr(counted_place_, place - counted_place_);

@@ -25,6 +25,8 @@ class Tokens {
   void skip_numbers();
   /// Passes what belongs to a bracket that was just read, its partner included. False: it has none.
   bool skip_to_partner();
+  /// How deep the brackets of all that is left go.
+  int deepest();
   std::string_view word(const Token& token) const {
     return text_.substr(token.begin, token.end - token.begin);
   }
