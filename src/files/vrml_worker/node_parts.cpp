@@ -92,8 +92,9 @@ bool fill_lamp_or_eye(const SoNode& node, NodeParts& parts) {
   if (node.isOfType(SoVRMLViewpoint::getClassTypeId())) {
     const auto& view = static_cast<const SoVRMLViewpoint&>(node);
     const AxisAngle turn = axis_angle(view.orientation);
-    parts.eye = EyeParts{as_written(view.fieldOfView.getValue()), as_written(view.position.getValue()),
-                         turn.axis, turn.angle};
+    parts.eye = EyeParts{as_written(view.fieldOfView.getValue()), EyeParts().position, turn.axis, turn.angle};
+    // Coin's own default is the origin, against the standard.
+    if (!view.position.isDefault()) parts.eye->position = as_written(view.position.getValue());
     // What viewers show in their menus.
     if (view.description.getValue().getLength() > 0) parts.name = view.description.getValue().getString();
     return true;
