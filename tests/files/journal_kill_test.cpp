@@ -44,7 +44,7 @@ std::uint64_t steps_done(const world::World& world) {
 
 /// Goes on with the edits until it is killed, and says each time that one is done.
 [[noreturn]] void work(const std::filesystem::path& path, int report) {
-  JournaledWorld journal = opened(path, {.create = true, .compact_from = 40000, .compact_factor = 0.0});
+  JournaledWorld journal = opened(path, {.create = true, .compact_from = 20000, .compact_factor = 0.0});
   for (std::uint64_t step = steps_done(journal.world());; ++step) {
     if (!journal.perform(edit_number(step))) ::_exit(1);
     const std::uint64_t done = step + 1;
@@ -70,8 +70,8 @@ std::optional<std::uint64_t> work_and_kill(const std::filesystem::path& path, ba
     if (heard) last = done;
     return heard;
   };
-  for (std::uint64_t wait = random.index(120); wait > 0 && hear();) --wait;
-  std::this_thread::sleep_for(std::chrono::microseconds(random.index(1500)));
+  for (std::uint64_t wait = random.index(60); wait > 0 && hear();) --wait;
+  std::this_thread::sleep_for(std::chrono::microseconds(random.index(1000)));
   ::kill(child, SIGKILL);
   while (hear()) continue;
   ::close(ends[0]);

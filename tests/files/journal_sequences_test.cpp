@@ -10,7 +10,7 @@ constexpr std::uint64_t kSequences = 300;
 #else
 constexpr std::uint64_t kSequences = 10000;
 #endif
-constexpr int kEdits = 40;
+constexpr int kEdits = 25;
 
 TEST(JournalSequences, EndWhereTheyEndedHoweverTheyAreRepeated) {
   const ScratchFolder folder(memory_folder());
