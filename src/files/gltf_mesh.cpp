@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "files/gltf_accessor.h"
@@ -113,31 +113,43 @@ class PrimitiveReading {
     return primitive.attributes.at("POSITION");
   }
 
+  /// Of the vertices that are used, in the order of the file.
   geometry::TriangleMesh mesh() const {
     geometry::TriangleMesh mesh;
-    std::unordered_map<std::uint32_t, std::uint32_t> few;
-    std::vector<std::uint32_t> many;
-    constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
-    const bool use_most = positions_.size() / 8 < triangles_.size();
-    if (use_most) many.assign(positions_.size(), kNew);
     mesh.triangles = triangles_;
+    const std::vector<std::uint32_t> used = used_vertices();
+    mesh.positions.reserve(used.size());
+    for (const std::uint32_t vertex : used) mesh.positions.push_back(position(vertex));
+    if (used.size() == positions_.size()) return mesh;
     for (Triangle& triangle : mesh.triangles) {
-      for (std::uint32_t& corner : triangle) {
-        std::uint32_t& place = use_most ? many[corner] : few.try_emplace(corner, kNew).first->second;
-        if (place == kNew) {
-          place = std::uint32_t(mesh.positions.size());
-          mesh.positions.push_back(position(corner));
-        }
-        corner = place;
-      }
+      for (std::uint32_t& corner : triangle)
+        corner = std::uint32_t(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
     }
     return mesh;
+  }
+
+  std::vector<std::uint32_t> used_vertices() const {
+    std::vector<std::uint32_t> used;
+    if (positions_.size() / 8 < triangles_.size()) {
+      std::vector<bool> is_used(positions_.size(), false);
+      for (const Triangle& triangle : triangles_) {
+        for (const std::uint32_t corner : triangle) is_used[corner] = true;
+      }
+      for (std::uint32_t v = 0; v < is_used.size(); ++v) {
+        if (is_used[v]) used.push_back(v);
+      }
+      return used;
+    }
+    for (const Triangle& triangle : triangles_) used.insert(used.end(), triangle.begin(), triangle.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return used;
   }
 
   /// As written: 0.1 where the file holds the float nearest to it.
   double exact(const GltfAccessor& accessor, std::uint32_t vertex, std::size_t component) const {
     const double number = accessor.number(vertex, component);
-    return accessor.is_float() ? from_single(float(number)) : number;
+    return accessor.is_float() ? from_short_single(float(number)) : number;
   }
   Vector3 position(std::uint32_t v) const {
     return {exact(positions_, v, 0), exact(positions_, v, 1), exact(positions_, v, 2)};

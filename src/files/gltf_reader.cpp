@@ -419,8 +419,7 @@ class GltfReading {
 base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::filesystem::path& path,
                                            const DesignReadOptions& options) {
   const std::string name = path.string();
-  const bool is_glb = ending_of(path).type == ".glb";
-  if (is_glb && !bytes.starts_with("glTF"))
+  if (ending_of(path).type == ".glb" && !bytes.starts_with("glTF"))
     return base::fail(name + ": does not begin with 'glTF', so it is not a GLB file");
   try {
     const GltfModel loaded = load_gltf(bytes, path, options);
@@ -429,8 +428,8 @@ base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::fi
     for (const std::string& sentence : loaded.not_fetched) builder.remark("Picture " + sentence + ".");
     return builder.take(loaded.format, name);
   } catch (const GltfError& problem) {
-    return base::fail(fmt::format("{}: is not a {} file that can be read: {}", name, is_glb ? "GLB" : "glTF",
-                                  problem.what()));
+    return base::fail(fmt::format("{}: is not a {} file that can be read: {}", name,
+                                  bytes.starts_with("glTF") ? "GLB" : "glTF", problem.what()));
   }
 }
 

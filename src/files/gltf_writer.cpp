@@ -9,6 +9,7 @@
 #include <map>
 #include <ostream>
 #include <streambuf>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -190,17 +191,25 @@ class GltfMaking {
     model_.materials.push_back(std::move(material));
   }
 
-  /// A mesh's own colours are multiplied with those of its material: a white one is made for it.
-  int white_variant(MaterialId id) {
+  /// The material for a mesh. glTF multiplies a mesh's own colours with those of its material, and allows no
+  /// texture on a mesh without coordinates: materials that are otherwise get a variant for such meshes.
+  int material_for(MaterialId id, const tinygltf::Primitive& primitive) {
     const int base = materials_.at(id);
-    const std::vector<double>& colour =
-        model_.materials[std::size_t(base)].pbrMetallicRoughness.baseColorFactor;
-    if (colour[0] == 1.0 && colour[1] == 1.0 && colour[2] == 1.0) return base;
-    const auto [found, is_new] = white_variants_.try_emplace(id, int(model_.materials.size()));
+    const auto factor = model_.materials[std::size_t(base)].pbrMetallicRoughness.baseColorFactor;
+    const bool textured = bool(world_.find(id)->texture);
+    const bool needs_white = primitive.attributes.count("COLOR_0") > 0 &&
+                             !(factor[0] == 1.0 && factor[1] == 1.0 && factor[2] == 1.0);
+    const bool needs_plain = textured && primitive.attributes.count("TEXCOORD_0") == 0;
+    if (!needs_white && !needs_plain) return base;
+    const auto [found, is_new] =
+        variants_.try_emplace({id, needs_white, needs_plain}, int(model_.materials.size()));
     if (!is_new) return found->second;
     tinygltf::Material variant = model_.materials[std::size_t(base)];
-    auto& factor = variant.pbrMetallicRoughness.baseColorFactor;
-    std::fill(factor.begin(), factor.begin() + 3, 1.0);
+    auto& pbr = variant.pbrMetallicRoughness;
+    std::vector<double> colour = numbers_of(world_.find(id)->diffuse);
+    if (needs_white || primitive.attributes.count("COLOR_0") > 0) colour = {1.0, 1.0, 1.0};
+    std::copy(colour.begin(), colour.end(), pbr.baseColorFactor.begin());
+    if (needs_plain) pbr.baseColorTexture.index = -1;
     Value::Object extras;
     extras["variantOf"] = Value(base);
     variant.extras = extras_with(Value(std::move(extras)));
@@ -250,9 +259,7 @@ class GltfMaking {
     const tinygltf::Primitive* const shared = primitive_of(geometry);
     if (shared == nullptr) return -1;
     tinygltf::Primitive primitive = *shared;
-    if (material)
-      primitive.material =
-          primitive.attributes.count("COLOR_0") > 0 ? white_variant(material) : materials_.at(material);
+    if (material) primitive.material = material_for(material, primitive);
     tinygltf::Mesh mesh;
     mesh.primitives.push_back(std::move(primitive));
     Value::Object extras;
@@ -338,6 +345,7 @@ class GltfMaking {
     camera.type = "perspective";
     camera.perspective.yfov = it.field_of_view;
     camera.perspective.znear = 0.01;
+    camera.perspective.zfar = 1e5;  // the library cannot leave it out
     node.camera = int(model_.cameras.size());
     model_.cameras.push_back(std::move(camera));
   }
@@ -370,7 +378,8 @@ class GltfMaking {
   ShownShapes shown_;
   tinygltf::Model model_;
   std::unordered_map<TextureId, int> textures_;
-  std::unordered_map<MaterialId, int> materials_, white_variants_;
+  std::unordered_map<MaterialId, int> materials_;
+  std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture
   std::unordered_map<GeometryId, int> exact_;
   std::unordered_map<GeometryId, tinygltf::Primitive> primitives_;
   std::unordered_set<GeometryId> smooth_;

@@ -38,6 +38,17 @@ class Flattening {
  public:
   Flattening(const World& world, bool with_colours) : world_(world), with_colours_(with_colours) {}
 
+  void reserve(const std::vector<ShownObject>& objects) {
+    std::size_t positions = 0;
+    std::size_t triangles = 0;
+    for (const ShownObject& it : objects) {
+      positions += it.mesh->mesh.positions.size();
+      triangles += it.mesh->mesh.triangles.size();
+    }
+    flat_.mesh.positions.reserve(positions);
+    flat_.mesh.triangles.reserve(triangles);
+  }
+
   void add(const ShownObject& it) {
     const auto first = std::uint32_t(flat_.mesh.positions.size());
     for (const auto& position : it.mesh->mesh.positions)
@@ -188,6 +199,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, std::ve
 
 FlatWorld flatten(const World& world, const std::vector<ShownObject>& objects, bool with_colours) {
   Flattening flattening(world, with_colours && has_colours(world, objects));
+  flattening.reserve(objects);
   for (const ShownObject& object : objects) flattening.add(object);
   return flattening.take();
 }

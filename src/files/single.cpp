@@ -17,4 +17,20 @@ double from_single(float value) {
   return result;
 }
 
+double from_short_single(float value) {
+  // So many places behind the point that at most one such number has this float nearest to it.
+  struct Magnitude {
+    float below;
+    double places;
+  };
+  constexpr std::array<Magnitude, 4> kMagnitudes{
+      {{16.0F, 1e6}, {128.0F, 1e5}, {1024.0F, 1e4}, {16384.0F, 1e3}}};
+  for (const auto& [below, places] : kMagnitudes) {
+    if (!(std::fabs(value) < below)) continue;
+    const double candidate = std::round(double(value) * places) / places;
+    return float(candidate) == value ? candidate : double(value);
+  }
+  return value;
+}
+
 }  // namespace icome::files

@@ -114,6 +114,19 @@ TEST(Gltf, MaterialsOfColouredMeshesStayOne) {
   EXPECT_EQ(difference(world, back, kAsGltf), "");
 }
 
+TEST(Gltf, TexturesOnMeshesWithoutCoordinatesStayWithTheirMaterial) {
+  World world;
+  IdSource ids;
+  const auto texture = ids.next<TextureId>();
+  applied(world, CreateTexture{texture, {"wood", "image/png", std::make_shared<std::string>("bytes")}});
+  const auto material = ids.next<MaterialId>();
+  applied(world, CreateMaterial{material, Material{.name = "oak", .diffuse = {0, 1, 0}, .texture = texture}});
+  applied(world, ChooseMaterial{add_object(world, ids, "square", square()), material});
+  const World back = through(world, "a.glb");
+  EXPECT_EQ(back.materials().size(), 1U);
+  EXPECT_EQ(difference(world, back, kAsGltf), "");
+}
+
 TEST(Gltf, ClonesInOtherMaterialsShareTheirShape) {
   World world;
   IdSource ids;

@@ -163,8 +163,9 @@ std::string glb_with(std::string_view old, std::string replacement) {
 }
 const std::string kGlbError = "f: is not a GLB file that can be read: ";
 
-TEST(GlbParser, DataInOtherFilesIsNotRead) {
-  EXPECT_EQ(error_of(parse_glb, sample_glb("x")), kGlbError + "it keeps its data in another file");
+TEST(GlbParser, DataInOtherFilesMustBeBeside) {
+  EXPECT_EQ(error_of(parse_glb, sample_glb("x")), kGlbError + "'x' is not fetched: there is no such file");
+  EXPECT_NE(error_of(parse_glb, sample_glb("/etc/hosts")).find("not fetched"), std::string::npos);
 }
 
 TEST(GlbParser, StripsAndFansAreCut) {
@@ -196,7 +197,7 @@ TEST(GlbParser, MalformedFilesAreRefused) {
   EXPECT_EQ(error_of(parse_glb, glb_with("\"count\":4,", "\"count\":3,")),
             kGlbError + "face refers to vertex 3; the 3 vertices are numbered from 0");
   EXPECT_EQ(error_of(parse_glb, glb_with("\"nodes\":[{", "\"nodes\":[[")),
-            kGlbError + "its JSON does not describe a glTF 2.0 model");
+            kGlbError + "line 1 of its JSON is malformed");
 }
 
 }  // namespace

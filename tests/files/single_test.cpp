@@ -39,5 +39,26 @@ TEST(FromSingle, GivesTheSameFloatBack) {
   }
 }
 
+TEST(FromShortSingle, GivesBackWhatPeopleWrite) {
+  for (const double written : {0.1, -0.3, 1.25, 3.141593, 12.5, 99.9, 123.45, 1000.1, 0.000001})
+    EXPECT_EQ(from_short_single(static_cast<float>(written)), written);
+}
+
+TEST(FromShortSingle, LeavesOtherNumbersAsTheyAre) {
+  for (const float value : {179.828125F, 1.0F / 3.0F, 1e-9F, 1e9F, -0.0F, 123456.7F})
+    EXPECT_EQ(from_short_single(value), double(value));
+  EXPECT_TRUE(std::isnan(from_short_single(std::numeric_limits<float>::quiet_NaN())));
+}
+
+TEST(FromShortSingle, NeverLeavesTheFloat) {
+  base::Random random(3);
+  for (int i = 0; i < 100'000; ++i) {
+    const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()));
+    if (std::isfinite(value)) {
+      EXPECT_EQ(static_cast<float>(from_short_single(value)), value);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace icome::files
