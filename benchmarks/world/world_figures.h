@@ -20,5 +20,6 @@ WorldSection edit_figures(const WorldExtent& extent);
 WorldSection journal_figures(const WorldExtent& extent);
 WorldSection file_figures(const WorldExtent& extent);
 WorldSection mesh_figures(const WorldExtent& extent);
+std::vector<WorldSection> design_figures(const WorldExtent& extent);
 
 }  // namespace icome::benchmarks
