@@ -26,8 +26,16 @@ base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, b
   return packed ? unpack_gzip(*bytes, limit, path.string()) : std::move(bytes);
 }
 
-bool goes_on(const DesignReadOptions& options, double part) {
-  return !options.progress || options.progress(part);
+/// What the process that parses VRML may ask for and tells of its progress.
+DesignReadOptions options_of_worker(const DesignReadOptions& options, bool& stopped) {
+  DesignReadOptions result = options;
+  if (options.progress) {
+    result.progress = [&](double part) {
+      stopped = !options.progress(kReadPart + part * (kParsedPart - kReadPart));
+      return !stopped;
+    };
+  }
+  return result;
 }
 
 /// Remarks on the files that are inlined, which were good enough for the parser.
@@ -61,8 +69,10 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   if (!text) return tl::unexpected(text.error());
   auto left_out = scan_vrml(*text, path.string());
   if (!left_out) return tl::unexpected(left_out.error());
-  if (!goes_on(options, kReadPart)) return base::fail("interrupted");
-  const auto answer = ask_vrml_worker(*text, path, options);
+  if (options.progress && !options.progress(kReadPart)) return base::fail("interrupted");
+  bool stopped = false;
+  const auto answer = ask_vrml_worker(*text, path, options_of_worker(options, stopped));
+  if (stopped) return base::fail("interrupted");
   if (!answer) return tl::unexpected(answer.error());
   text->clear();
   text->shrink_to_fit();

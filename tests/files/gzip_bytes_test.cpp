@@ -1,26 +1,12 @@
 #include "files/gzip_bytes.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include "base/random.h"
+#include "files/gzip_sample.h"
 
 namespace icome::files {
 namespace {
-
-std::string gzipped(const std::string& text) {
-  z_stream stream{};
-  deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = uInt(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = uInt(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
 
 std::string gzip_failure(const std::string& packed, std::uint64_t limit = 1 << 30) {
   const auto result = unpack_gzip(packed, limit, "a.wrz");
