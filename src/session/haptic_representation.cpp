@@ -33,8 +33,9 @@ std::string remark_on(const std::string& object, const FeltShape& felt, std::siz
 /// hands them out.
 class HapticRepresentation::Update {
  public:
-  Update(HapticRepresentation& owner, const World& world, const std::vector<Due>& due)
-      : owner_(owner), world_(world) {
+  Update(HapticRepresentation& owner, const World& world) : owner_(owner), world_(world) {}
+
+  void bring(const std::vector<Due>& due) {
     needs_.reserve(due.size());
     for (const Due& it : due) look_at(it);
     make_missing();
@@ -178,7 +179,7 @@ void HapticRepresentation::survey(const World& world) {
   std::sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id < b.id; });
   due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
             due.end());
-  Update(*this, world, due);
+  Update(*this, world).bring(due);
   std::vector<world::ObjectId> gone;
   for (const auto& [id, member] : members_) {
     if (member.seen != surveys_) gone.push_back(id);
@@ -236,7 +237,7 @@ void HapticRepresentation::follow(const World& world, const world::Changes& chan
   std::stable_sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id < b.id; });
   due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
             due.end());
-  Update(*this, world, due);
+  Update(*this, world).bring(due);
   forget_unused();
   publish();
 }

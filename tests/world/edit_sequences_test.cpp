@@ -89,7 +89,7 @@ TEST(EditSequences, GoThereAndBackAgain) {
 
 TEST(EditSequences, GoThereAndBackAgainWhenTheyAreLong) {
   for (int seed = 0; seed < kLongSequences && !HasFatalFailure(); ++seed)
-    expect_there_and_back(std::uint64_t(1'000'000 + seed), 2'000);
+    expect_there_and_back(1'000'000 + std::uint64_t(seed), 2'000);
 }
 
 }  // namespace
