@@ -40,7 +40,7 @@ base::Result<files::LoadedDesign> read_file(const std::string& text, const Touch
 }
 
 /// Turned and scaled about the origin, never moved, as all MODELs are.
-base::Result<Affine3> placing(const World& world, const std::string& text, const TouchOptions& options) {
+Affine3 placing(const World& world, const TouchOptions& options) {
   Affine3 world_from_design = Affine3::Identity();
   if (options.y_up) {
     world_from_design.linear() << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;  // a quarter turn about x
@@ -48,8 +48,7 @@ base::Result<Affine3> placing(const World& world, const std::string& text, const
   if (options.fit) {
     // The sides change places under a quarter turn, and no more.
     const double longest = longest_side(world);
-    if (!(longest > 0.0)) return base::fail(text + ": --fit needs something of a size, there is nothing.");
-    world_from_design.linear() *= *options.fit / longest;
+    if (longest > 0.0) world_from_design.linear() *= *options.fit / longest;
   }
   return world_from_design;
 }
@@ -117,12 +116,9 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
   TouchModel model;
   model.name = text;
   model.read_seconds = reading.seconds();
-  const auto placed = placing(design->world, text, options);
-  if (!placed) return tl::unexpected(placed.error());
-
   session::HapticRepresentationSettings settings;
   settings.felt = {options.radius, options.smooth_shading};
-  settings.world_from_design = *placed;
+  settings.world_from_design = placing(design->world, options);
   const Stopwatch building;
   session::HapticRepresentation felt(settings);
   felt.show(design->world);
