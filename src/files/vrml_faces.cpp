@@ -5,7 +5,6 @@
 
 #include "files/corner_table.h"
 #include "files/number_text.h"
-#include "files/single.h"
 #include "geometry/mesh_topology.h"
 
 namespace icome::files {
@@ -37,22 +36,21 @@ bool looks_flat(const MeshGeometry& shape) {
   return true;
 }
 
-/// Readers may make it one long again, and it would be another one to write: this one stays.
-std::array<float, 3> lasting_normal(Eigen::Vector3f result) {
-  constexpr int kMostRounds = 8;
+std::array<float, 2> parts(const Vector2& value) { return {to_single(value.x()), to_single(value.y())}; }
+/// Readers may make it one long again, and it would be another one to write: this one stays. All parts are
+/// rounded to the same decimal, or small ones would be moved each time.
+std::array<float, 3> parts(const Vector3& normal) {
+  constexpr double kDecimals = 1e7;
+  constexpr int kMostRounds = 16;
+  Vector3 result = normal;
   for (int i = 0; i < kMostRounds; ++i) {
-    const Vector3 decimal(from_single(result.x()), from_single(result.y()), from_single(result.z()));
-    const Eigen::Vector3f again = decimal.normalized().cast<float>();
+    const Vector3 again = (result.normalized() * kDecimals).array().round() / kDecimals;
     if (again == result || !again.allFinite()) break;
     result = again;
   }
-  return {result.x(), result.y(), result.z()};
+  return {float(result.x()), float(result.y()), float(result.z())};
 }
 
-std::array<float, 2> parts(const Vector2& value) { return {to_single(value.x()), to_single(value.y())}; }
-std::array<float, 3> parts(const Vector3& value) {
-  return {to_single(value.x()), to_single(value.y()), to_single(value.z())};
-}
 Colour parts(Colour value) {
   for (float& part : value) part = std::clamp(part, 0.0F, 1.0F);
   return value;
@@ -75,16 +73,6 @@ Corners<kParts> gather(const std::vector<std::array<Value, 3>>& corners) {
   return result;
 }
 
-void make_lasting(Corners<3>& normals) {
-  CornerTable<3> table(normals.values.size());
-  std::vector<std::uint32_t> lasting;
-  for (const auto& [x, y, z] : normals.values) lasting.push_back(table.add(lasting_normal({x, y, z})));
-  for (TriangleMesh::Triangle& triangle : normals.indices) {
-    for (std::uint32_t& corner : triangle) corner = lasting[corner];
-  }
-  normals.values = table.take();
-}
-
 /// Fields such as "normal Normal { vector [ ... ] }" and "normalIndex [ ... ]".
 template <std::size_t kParts>
 void write_corners(const Corners<kParts>& corners, std::string_view node, std::string_view list,
@@ -102,9 +90,7 @@ void write_corners(const Corners<kParts>& corners, std::string_view node, std::s
 void write_normals(const MeshGeometry& shape, VrmlText& text) {
   if (shape.normals.empty()) return write_crease_angle(VrmlEdges::Smooth, text);
   if (looks_flat(shape)) return;  // as VRML shows it when nothing is said
-  Corners<3> normals = gather<3>(shape.normals);
-  make_lasting(normals);
-  write_corners(normals, "normal Normal", "vector", "normalIndex", text);
+  write_corners(gather<3>(shape.normals), "normal Normal", "vector", "normalIndex", text);
 }
 
 }  // namespace

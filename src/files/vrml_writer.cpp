@@ -290,10 +290,9 @@ Result<void> VrmlWriter::write_shape(const PhysicalObject& object) {
 void VrmlWriter::write_fixture(ObjectId id, const PhysicalObject& object) {
   if (const auto* light = std::get_if<Light>(&*object.fixture)) return write_light(*light);
   if (const auto* view = std::get_if<world::Viewpoint>(&*object.fixture)) {
-    const world::Viewpoint usual;
     text_.open("Viewpoint");
     text_.field("position", base::Vector3(base::Vector3::Zero()));
-    if (!(*view == usual)) text_.field("fieldOfView", view->field_of_view);
+    text_.field("fieldOfView", view->field_of_view);
     if (!object.name.empty()) text_.text_field("description", object.name);
     return text_.close();
   }
@@ -313,9 +312,9 @@ void VrmlWriter::write_light(const Light& light) {
     if (light.attenuation != usual.attenuation) text_.field("attenuation", light.attenuation);
     if (light.radius != usual.radius) text_.field("radius", light.radius);
   }
-  if (spot) {
-    if (light.cut_off_angle != usual.cut_off_angle) text_.field("cutOffAngle", light.cut_off_angle);
-    if (light.beam_width != usual.beam_width) text_.field("beamWidth", light.beam_width);
+  if (spot) {  // programs do not agree on the last decimal of what is usual
+    text_.field("cutOffAngle", light.cut_off_angle);
+    text_.field("beamWidth", light.beam_width);
   }
   text_.close();
 }

@@ -40,11 +40,15 @@ AxisAngle axis_angle(const SoSFRotation& field) {
   const double step = as_written(static_cast<float>(std::round(angle / kStep) * kStep));
   const auto round_to = [](double number, double unit) { return std::round(number * unit) / unit; };
   for (double unit = 10.0; unit < 1e8; unit *= 10.0) {
-    AxisAngle round = {{round_to(axis[0], unit), round_to(axis[1], unit), round_to(axis[2], unit)},
-                       round_to(angle, unit)};
-    if (is_kept(round, field)) return round;
-    round.angle = step;
-    if (is_kept(round, field)) return round;
+    // The axis in the file may be longer or shorter than one by what its decimals leave out.
+    for (const double off : {0.0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
+      const base::Vector3 scaled = axis * (1.0 + off / unit);
+      AxisAngle round = {{round_to(scaled[0], unit), round_to(scaled[1], unit), round_to(scaled[2], unit)},
+                         round_to(angle, unit)};
+      if (is_kept(round, field)) return round;
+      round.angle = step;
+      if (is_kept(round, field)) return round;
+    }
   }
   return {{axis[0], axis[1], axis[2]}, angle};
 }
