@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "files/file_bytes.h"
+#include "files/gzip_bytes.h"
 #include "files/url_policy.h"
 #include "files/vrml_header.h"
 
@@ -61,6 +62,7 @@ base::Result<VrmlBroker::Reply> VrmlBroker::fetch_one(int from, std::string_view
     return base::fail(fmt::format("{} is not fetched: it is more than {} files away from the design",
                                   path->filename().string(), kFetchDepthLimit));
   auto bytes = read_bytes(*path, bytes_left_);
+  if (bytes && is_gzip(*bytes)) bytes = unpack_gzip(*bytes, bytes_left_, path->string());
   if (!bytes) return base::fail(bytes.error().message);
   if (const auto checked = check_content(*path, *bytes); !checked) return base::fail(checked.error().message);
   bytes_left_ -= bytes->size();

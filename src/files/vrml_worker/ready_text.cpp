@@ -392,7 +392,7 @@ void TextReader::change_string(const Token& token) {
 
 }  // namespace
 
-ReadyText make_ready(std::string_view file, bool tells_strange_nodes,
+ReadyText make_ready(std::string_view file,
                      base::FunctionRef<bool(const std::string&, const std::string&)> has_field,
                      std::vector<std::string>& names) {
   ReadyText ready;
@@ -407,7 +407,7 @@ ReadyText make_ready(std::string_view file, bool tells_strange_nodes,
     ready.error = header.error().message;
     return ready;
   }
-  TextReader(file, tells_strange_nodes, has_field, names).read(ready);
+  TextReader(file, ready.added_lines > 0, has_field, names).read(ready);
   return ready;
 }
 

@@ -31,8 +31,8 @@ inline constexpr std::string_view kChangedName = "IcomeName_";
 
 /// `has_field(node, field)` tells whether a node of VRML 2.0 has this field. `names` gets, at the number in
 /// a changed name or string, what it was. Whatever does not follow the grammar is left to Coin from there on.
-/// `tells_strange_nodes`: notes nodes that nobody knows, too.
-ReadyText make_ready(std::string_view file, bool tells_strange_nodes,
+/// Nodes that nobody knows are only noted in a part without a header, since the reader finds them in others.
+ReadyText make_ready(std::string_view file,
                      base::FunctionRef<bool(const std::string& node, const std::string& field)> has_field,
                      std::vector<std::string>& names);
 

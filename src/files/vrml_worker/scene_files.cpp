@@ -205,10 +205,8 @@ std::vector<std::string> SceneFiles::strings(const SoMFString& field) const {
 
 /// Reads node by node, so that what comes before a mistake is there.
 void SceneFiles::read(SceneFile& file, std::string_view bytes) {
-  // What the design itself holds of nodes that nobody knows, the reader finds.
   ReadyText ready = make_ready(
-      bytes, !file.told.empty(),
-      [](const std::string& node, const std::string& field) { return coin_has_field(node, field); },
+      bytes, [](const std::string& node, const std::string& field) { return coin_has_field(node, field); },
       changed_names_);
   for (const TextNote& note : ready.notes) answer_.note(file.told, note.line, note.text);
   if (!ready.error.empty()) throw Refusal{ready.error};
