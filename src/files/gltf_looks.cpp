@@ -75,7 +75,13 @@ world::MaterialId GltfLooks::material(int index) const {
 }
 
 GltfSurface GltfLooks::surface(int material) const {
-  return material < 0 ? GltfSurface{} : surfaces_.at(std::size_t(material));
+  return material < 0 ? GltfSurface{} : surfaces_[checked(material)];
+}
+
+std::size_t GltfLooks::checked(int material) const {
+  if (std::size_t(material) >= materials_.size())
+    throw GltfError("a mesh refers to a material that is not there");
+  return std::size_t(material);
 }
 
 void GltfLooks::read(int index) {

@@ -19,6 +19,7 @@ class GltfLooks {
   GltfSurface surface(int material) const;
 
  private:
+  std::size_t checked(int material) const;
   void read(int index);
   world::TextureId texture(int index);
 

@@ -239,7 +239,6 @@ class GltfReading {
       return {};
     }
     GltfSurface surface = looks_.surface(primitive.material);
-    looks_.material(primitive.material);
     const Value& smooth = member(extras, "smooth");
     surface.smooth = smooth.IsBool() && smooth.Get<bool>();
     const auto [found, is_new] = shapes_.try_emplace(key_of(primitive, surface));
