@@ -45,18 +45,19 @@ class CreaseNormals {
         around_(mesh),
         faces_(polygon_normals(mesh)),
         polygon_of_(mesh.corners.size()),
-        cosine_(std::cos(std::min(angle + kAngleSlack, std::numbers::pi))) {
+        cosine_(std::cos(std::min(angle + kAngleSlack, std::numbers::pi))),
+        half_cosine_(std::cos(0.5 * std::min(angle + kAngleSlack, std::numbers::pi))) {
     for (std::uint32_t i = 0; i < mesh.polygons(); ++i)
       std::fill(polygon_of_.begin() + mesh.begins[i], polygon_of_.begin() + mesh.begins[i + 1], i);
   }
 
   std::vector<Vector3> normals() {
+    const auto smooth = [&](std::size_t vertex) { return all_lie_near(around_.at(vertex)); };
+    std::size_t vertex = 0;
+    while (vertex < mesh_.positions.size() && smooth(vertex)) ++vertex;
+    if (vertex == mesh_.positions.size()) return {};
     result_.resize(mesh_.corners.size());
-    bool smooth = true;
-    for (std::size_t vertex = 0; vertex < mesh_.positions.size(); ++vertex) {
-      if (!join_at(around_.at(vertex))) smooth = false;
-    }
-    if (smooth) result_.clear();
+    for (vertex = 0; vertex < mesh_.positions.size(); ++vertex) join_at(around_.at(vertex));
     return std::move(result_);
   }
 
@@ -64,8 +65,8 @@ class CreaseNormals {
   const Vector3& face(std::uint32_t corner) const { return faces_[polygon_of_[corner]]; }
   bool meet_smoothly(std::uint32_t a, std::uint32_t b) const { return face(a).dot(face(b)) >= cosine_; }
 
-  /// Normals of the corners of a vertex; false when they differ.
-  bool join_at(std::span<const std::uint32_t> corners) {
+  /// Finds the normals of the corners of a vertex.
+  void join_at(std::span<const std::uint32_t> corners) {
     weighted_.clear();
     Vector3 sum = Vector3::Zero();
     for (const std::uint32_t corner : corners) {
@@ -74,7 +75,7 @@ class CreaseNormals {
     }
     if (all_lie_near(corners)) {
       for (const std::uint32_t corner : corners) result_[corner] = direction_or(sum, corner);
-      return true;
+      return;
     }
     const bool too_many = corners.size() > kMostPolygonsAround;
     for (const std::uint32_t corner : corners) {
@@ -84,7 +85,6 @@ class CreaseNormals {
                                                 : mean_at(corner, corners),
                                      corner);
     }
-    return false;
   }
 
   /// Does every polygon meet every other smoothly? Looks at pairs only where a cone around their mean, half
@@ -93,8 +93,9 @@ class CreaseNormals {
     Vector3 mean = Vector3::Zero();
     for (const std::uint32_t corner : corners) mean += face(corner);
     mean = direction_of(mean);
-    const double half = std::cos(0.5 * std::acos(std::clamp(cosine_, -1.0, 1.0)));
-    const auto in_cone = [&](std::uint32_t it) { return face(it).isZero(0.0) || face(it).dot(mean) >= half; };
+    const auto in_cone = [&](std::uint32_t it) {
+      return face(it).isZero(0.0) || face(it).dot(mean) >= half_cosine_;
+    };
     if (std::all_of(corners.begin(), corners.end(), in_cone)) return true;
     if (corners.size() > kMostPolygonsAround) return false;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -138,8 +139,9 @@ class CreaseNormals {
   CornersAround around_;
   std::vector<Vector3> faces_;
   std::vector<std::uint32_t> polygon_of_;  // each corner
-  double cosine_;
-  std::vector<Vector3> weighted_;  // scratch
+  double cosine_;                          // of the crease angle
+  double half_cosine_;                     // of its half
+  std::vector<Vector3> weighted_;          // scratch
   std::vector<Vector3> result_;
 };
 

@@ -24,6 +24,6 @@ std::vector<base::Vector3> polygon_normals(const PolygonMesh& mesh);
 /// at the vertex. Empty when no edge is a crease, so that all corners of a vertex agree. More than
 /// `kMostPolygonsAround` polygons around a vertex each keep their own normal there, if there are creases.
 std::vector<base::Vector3> crease_normals(const PolygonMesh& mesh, double crease_angle);
-inline constexpr std::size_t kMostPolygonsAround = 2048;
+inline constexpr std::size_t kMostPolygonsAround = 512;
 
 }  // namespace icome::files

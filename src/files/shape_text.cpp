@@ -165,7 +165,7 @@ base::Result<GeometryPointer> shape_from_text(const ShapeText& text) {
   if (kind == "csg") return csg_of(text);
   if (kind == "implicit") return implicit_of(text);
   if (kind == "loop") return loop_of(text);
-  return base::fail(fmt::format("{} is not a kind of shape", quoted(kind)));
+  return base::fail(fmt::format("{} is not a kind of shape", files::quoted(kind)));
 }
 
 }  // namespace icome::files
