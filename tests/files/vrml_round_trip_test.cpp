@@ -1,7 +1,10 @@
 // Designs through VRML 2.0 files and back.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "files/file_bytes.h"
+#include "files/picture_bytes.h"
 #include "files/same_design.h"
 #include "files/sample_files.h"
 #include "files/vrml_reader.h"
@@ -45,9 +48,6 @@ World through_file(const World& world, const Likeness& likeness = {.tolerance = 
   expect_stays(once, path);
   return once;
 }
-
-/// Textures get their names from where they lie.
-constexpr Likeness kWithoutTextureNames{.texture_names = false};
 
 struct Design {
   World world;
@@ -122,6 +122,33 @@ TEST(VrmlRoundTrip, AnyTransform) {
     parent = design.world.roots().back();
   }
   through_file(design.world);
+}
+
+TEST(VrmlRoundTrip, Pictures) {
+  const std::string pixels("\xff\0\0\0\xff\0", 6);
+  const auto png = png_of({1, 2, 3, pixels});
+  ASSERT_TRUE(png);
+  Design design;
+  const auto paint = [&](const std::string& name, const std::string& bytes, const std::string& type,
+                         std::array<bool, 2> repeats) {
+    const TextureId picture = design.ids.next<TextureId>();
+    applied(design.world,
+            CreateTexture{picture, {name, type, std::make_shared<std::string>(bytes), repeats}});
+    for (int i = 0; i < 2; ++i) {
+      const MaterialId material = design.ids.next<MaterialId>();
+      applied(design.world, CreateMaterial{material, {.name = i == 0 ? "" : name, .texture = picture}});
+      applied(design.world, ChooseMaterial{design.add(name, textured_mesh()), material});
+      applied(design.world, ChooseMaterial{design.add(name, box(1.0)), material});
+    }
+  };
+  paint("wood", *png, "image/png", {true, false});
+  paint("maps/a b.jpeg", "\xff\xd8\xff\xe0 picture", "image/jpeg", {false, true});
+  paint("../c.gif", "GIF89a picture", "image/gif", {true, true});
+  const World world = through_file(design.world, {.tolerance = 3e-6, .texture_names = false});
+  std::set<std::string> names;
+  for (const auto& [id, texture] : world.textures()) names.insert(texture.name);
+  EXPECT_EQ(names, (std::set<std::string>{"design_textures/wood.png", "design_textures/a_b.jpeg",
+                                          "design_textures/c.gif"}));
 }
 
 TEST(VrmlRoundTrip, TwoTablesOfFigure29) {
