@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "files/file_ending.h"
 #include "files/gltf_looks.h"
 #include "files/gltf_model.h"
+#include "files/gltf_node.h"
 #include "files/gltf_value.h"
 #include "files/mesh_formats.h"
 
@@ -27,40 +27,12 @@ using world::GeometryId;
 using world::ObjectId;
 using world::PhysicalObject;
 
-constexpr const char* kLights = "KHR_lights_punctual";
-
 /// What readers may not do without understanding it; looks (KHR_materials_...) only become plainer.
 bool is_understood(const std::string& extension) {
-  constexpr std::array<std::string_view, 4> kUnderstood{kLights, "KHR_texture_transform",
+  constexpr std::array<std::string_view, 4> kUnderstood{kGltfLights, "KHR_texture_transform",
                                                         "KHR_mesh_quantization", "ICOME"};
   return extension.starts_with("KHR_materials_") ||
          std::find(kUnderstood.begin(), kUnderstood.end(), extension) != kUnderstood.end();
-}
-
-std::array<double, 3> three_of(const std::vector<double>& numbers, double otherwise) {
-  if (numbers.empty()) return {otherwise, otherwise, otherwise};
-  if (numbers.size() != 3) throw GltfError("a node's scale or translation has the wrong length");
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-/// A matrix, or scale, then rotation, then translation.
-Affine3 parent_from(const tinygltf::Node& node) {
-  Affine3 frame = Affine3::Identity();
-  if (!node.matrix.empty()) {
-    if (node.matrix.size() != 16) throw GltfError("a node's matrix has the wrong length");
-    for (int i = 0; i < 12; ++i) frame.matrix()(i % 3, i / 3) = node.matrix[std::size_t(i / 3 * 4 + i % 3)];
-    return frame;
-  }
-  const auto [x, y, z] = three_of(node.translation, 0.0);
-  frame.translate(base::Vector3(x, y, z));
-  if (!node.rotation.empty()) {
-    if (node.rotation.size() != 4) throw GltfError("a node's rotation has the wrong length");
-    const base::Quaternion turn(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    frame.rotate(turn.normalized());
-  }
-  const auto [sx, sy, sz] = three_of(node.scale, 1.0);
-  frame.scale(base::Vector3(sx, sy, sz));
-  return frame;
 }
 
 bool can_be_placed(const Affine3& frame) {
@@ -162,7 +134,7 @@ class GltfReading {
   /// None where the node flattens all that is in it.
   ObjectId add_node(const tinygltf::Node& node, ObjectId parent) {
     ask_whether_to_go_on();
-    PhysicalObject object{.name = node.name, .parent = parent, .parent_from_object = parent_from(node)};
+    PhysicalObject object{.name = node.name, .parent = parent, .parent_from_object = parent_from_node(node)};
     if (!can_be_placed(object.parent_from_object)) {
       ++flat_nodes_;
       return {};
@@ -282,10 +254,10 @@ class GltfReading {
     const auto own_light = light_of(member(extras, "light"));
     if (own_light) {
       fixtures.push_back(share(*own_light));
-    } else if (const auto it = node.extensions.find(kLights); it != node.extensions.end()) {
+    } else if (const auto it = node.extensions.find(kGltfLights); it != node.extensions.end()) {
       const auto light = index_in(it->second, "light", model_.lights.size());
       if (!light) throw GltfError("a node refers to a light that is not there");
-      fixtures.push_back(share(light_from(model_.lights[std::size_t(*light)])));
+      fixtures.push_back(share(light_of(model_.lights[std::size_t(*light)])));
     }
     if (node.camera >= 0) {
       if (std::size_t(node.camera) >= model_.cameras.size())
@@ -295,29 +267,10 @@ class GltfReading {
     return fixtures;
   }
 
-  world::Light light_from(const tinygltf::Light& it) {
-    world::Light light;
-    if (it.type == "point") light.kind = world::Light::Kind::Point;
-    if (it.type == "spot") light.kind = world::Light::Kind::Spot;
-    for (std::size_t i = 0; i < 3 && it.color.size() == 3; ++i) light.colour[i] = part_of_one(it.color[i]);
-    light.intensity = part_of_one(it.intensity);
-    light.attenuation = {0.0F, 0.0F, 1.0F};
-    constexpr double kEndless = 1e9;  // m
-    light.radius = it.range > 0.0 ? std::min(it.range, kEndless) : kEndless;
-    light.cut_off_angle = std::clamp(it.spot.outerConeAngle, 0.0, 0.5 * std::numbers::pi);
-    light.beam_width = std::clamp(it.spot.innerConeAngle, 0.0, light.cut_off_angle);
-    return light;
-  }
-
   world::Viewpoint viewpoint_from(const tinygltf::Camera& it) {
-    world::Viewpoint viewpoint;
-    const double angle = it.perspective.yfov;
-    if (it.type == "perspective" && angle > 0.0 && angle < std::numbers::pi) {
-      viewpoint.field_of_view = angle;
-    } else {
-      ++other_cameras_;
-    }
-    return viewpoint;
+    const auto angle = field_of_view(it);
+    other_cameras_ += angle ? 0 : 1;
+    return angle ? world::Viewpoint{*angle} : world::Viewpoint{};
   }
 
   void add_own_scenes() {

@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "files/file_ending.h"
+#include "files/gltf_buffer.h"
+#include "files/gltf_node.h"
 #include "files/gltf_value.h"
 #include "files/gltf_vertices.h"
 #include "files/new_file.h"
@@ -31,9 +33,6 @@ using world::ObjectId;
 using world::PhysicalObject;
 using world::TextureId;
 using world::World;
-
-constexpr const char* kLights = "KHR_lights_punctual";
-constexpr std::size_t kMostBytes = 0xf0000000U;  // GLB counts with 32 bits; the JSON needs some of them
 
 template <typename Named>
 std::vector<world::Id<Named>> ids_in_order(const World::Table<Named>& table) {
@@ -67,7 +66,6 @@ class GltfMaking {
   base::Result<tinygltf::Model> run() {
     model_.asset.version = "2.0";
     model_.asset.generator = "ICOME";
-    model_.buffers.resize(1);
     for (const TextureId id : ids_in_order(world_.textures())) add_texture(id);
     for (const MaterialId id : ids_in_order(world_.materials())) add_material(id);
     add_nodes();
@@ -75,7 +73,7 @@ class GltfMaking {
       if (world_.find(id)->users == 0) mesh_of(id, {});
     }
     add_root_extras();
-    if (!failure_.empty()) return base::fail(failure_);
+    if (!buffer_.failure().empty()) return base::fail(buffer_.failure());
     if (model_.buffers[0].data.empty()) model_.buffers.clear();
     if (sheared_ > 0)
       remark(fmt::format("{} sheared: some programs cannot show that.",
@@ -88,74 +86,12 @@ class GltfMaking {
  private:
   void remark(std::string text) { remarks_.push_back({{}, 0, std::move(text)}); }
 
-  /// A part of the buffer, which begins where any number may.
-  int add_view(const void* data, std::size_t bytes, int target) {
-    std::vector<unsigned char>& buffer = model_.buffers[0].data;
-    buffer.resize((buffer.size() + 3) / 4 * 4);
-    if (bytes > kMostBytes - std::min(buffer.size(), kMostBytes)) {
-      failure_ = "The design is larger than a glTF file may be (4 GB).";
-      return 0;
-    }
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = buffer.size();
-    view.byteLength = bytes;
-    view.target = target;
-    const auto* const first = static_cast<const unsigned char*>(data);
-    buffer.insert(buffer.end(), first, first + bytes);
-    model_.bufferViews.push_back(std::move(view));
-    return int(model_.bufferViews.size()) - 1;
-  }
-
-  template <std::size_t Size>
-  int add_accessor(const std::vector<std::array<float, Size>>& rows, bool with_bounds = false) {
-    tinygltf::Accessor accessor;
-    accessor.bufferView = add_view(rows.data(), rows.size() * sizeof(rows[0]), TINYGLTF_TARGET_ARRAY_BUFFER);
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = Size == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC2;
-    accessor.count = rows.size();
-    if (with_bounds) {
-      accessor.minValues.assign(Size, std::numeric_limits<double>::max());
-      accessor.maxValues.assign(Size, std::numeric_limits<double>::lowest());
-      for (const auto& row : rows) {
-        for (std::size_t i = 0; i < Size; ++i) {
-          accessor.minValues[i] = std::min(accessor.minValues[i], double(row[i]));
-          accessor.maxValues[i] = std::max(accessor.maxValues[i], double(row[i]));
-        }
-      }
-      const auto finite = [](double it) { return std::isfinite(it); };
-      if (!std::all_of(accessor.maxValues.begin(), accessor.maxValues.end(), finite) ||
-          !std::all_of(accessor.minValues.begin(), accessor.minValues.end(), finite))
-        failure_ = "The design is too large for a glTF file's single precision.";
-    }
-    model_.accessors.push_back(std::move(accessor));
-    return int(model_.accessors.size()) - 1;
-  }
-
-  int add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertices) {
-    tinygltf::Accessor accessor;
-    accessor.type = TINYGLTF_TYPE_SCALAR;
-    accessor.count = corners.size();
-    if (vertices < 0xffff) {
-      const std::vector<std::uint16_t> narrow(corners.begin(), corners.end());
-      accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-      accessor.bufferView =
-          add_view(narrow.data(), narrow.size() * sizeof(narrow[0]), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    } else {
-      accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-      accessor.bufferView =
-          add_view(corners.data(), corners.size() * sizeof(corners[0]), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    }
-    model_.accessors.push_back(std::move(accessor));
-    return int(model_.accessors.size()) - 1;
-  }
-
   void add_texture(TextureId id) {
     const world::Texture& it = *world_.find(id);
     tinygltf::Image image;
     image.name = as_utf8(it.name);
     image.mimeType = it.media_type;
-    image.bufferView = add_view(it.bytes->data(), it.bytes->size(), 0);
+    image.bufferView = buffer_.add_view(it.bytes->data(), it.bytes->size(), 0);
     if (it.media_type != "image/png" && it.media_type != "image/jpeg")
       remark(fmt::format("The picture \"{}\" is neither PNG nor JPEG: other programs may not show it.",
                          it.name));
@@ -241,12 +177,12 @@ class GltfMaking {
     const GltfVertices vertices = gltf_vertices(*mesh, world_.find(id)->shape->kind() != "mesh");
     tinygltf::Primitive& primitive = found->second;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.attributes["POSITION"] = add_accessor(vertices.positions, true);
-    if (!vertices.normals.empty()) primitive.attributes["NORMAL"] = add_accessor(vertices.normals);
+    primitive.attributes["POSITION"] = buffer_.add_accessor(vertices.positions, true);
+    if (!vertices.normals.empty()) primitive.attributes["NORMAL"] = buffer_.add_accessor(vertices.normals);
     if (!vertices.coordinates.empty())
-      primitive.attributes["TEXCOORD_0"] = add_accessor(vertices.coordinates);
-    if (!vertices.colours.empty()) primitive.attributes["COLOR_0"] = add_accessor(vertices.colours);
-    primitive.indices = add_indices(vertices.corners, vertices.positions.size());
+      primitive.attributes["TEXCOORD_0"] = buffer_.add_accessor(vertices.coordinates);
+    if (!vertices.colours.empty()) primitive.attributes["COLOR_0"] = buffer_.add_accessor(vertices.colours);
+    primitive.indices = buffer_.add_indices(vertices.corners, vertices.positions.size());
     if (vertices.smooth) smooth_.insert(id);
     return &primitive;
   }
@@ -336,7 +272,7 @@ class GltfMaking {
     light.spot.innerConeAngle = std::clamp(it.beam_width, 0.0, 0.999 * light.spot.outerConeAngle);
     Value::Object extension;
     extension["light"] = Value(int(model_.lights.size()));
-    node.extensions[kLights] = Value(std::move(extension));
+    node.extensions[kGltfLights] = Value(std::move(extension));
     model_.lights.push_back(std::move(light));
   }
 
@@ -377,6 +313,7 @@ class GltfMaking {
   const World& world_;
   ShownShapes shown_;
   tinygltf::Model model_;
+  GltfBuffer buffer_{model_};
   std::unordered_map<TextureId, int> textures_;
   std::unordered_map<MaterialId, int> materials_;
   std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture
@@ -388,7 +325,6 @@ class GltfMaking {
   Value::Array shapes_;
   std::vector<Remark> remarks_;
   std::size_t sheared_ = 0;
-  std::string failure_;
 };
 
 /// What is written into the stream goes into the file.

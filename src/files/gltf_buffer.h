@@ -1,0 +1,37 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tinygltf {
+class Model;
+}
+
+namespace icome::files {
+
+/// The one buffer of a glTF file that is written; the model that it is a part of outlives it.
+class GltfBuffer {
+ public:
+  explicit GltfBuffer(tinygltf::Model& model);
+
+  /// A part of the buffer, which begins where any number may. `target`: what OpenGL takes it for, 0: nothing.
+  int add_view(const void* data, std::size_t bytes, int target);
+  /// An attribute of vertices; positions need bounds.
+  int add_accessor(const std::vector<std::array<float, 3>>& rows, bool with_bounds = false);
+  int add_accessor(const std::vector<std::array<float, 2>>& rows);
+  /// As 16 bits each where these hold them all.
+  int add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertices);
+
+  /// A sentence on why the buffer cannot be written; empty while it can.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  template <std::size_t Size>
+  int add_rows(const std::vector<std::array<float, Size>>& rows, bool with_bounds);
+
+  tinygltf::Model& model_;
+  std::string failure_;
+};
+
+}  // namespace icome::files

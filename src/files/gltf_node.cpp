@@ -1,0 +1,64 @@
+#include "files/gltf_node.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "files/gltf_model.h"
+#include "files/gltf_value.h"
+
+namespace icome::files {
+namespace {
+
+using base::Affine3;
+
+std::array<double, 3> three_of(const std::vector<double>& numbers, double otherwise) {
+  if (numbers.empty()) return {otherwise, otherwise, otherwise};
+  if (numbers.size() != 3) throw GltfError("a node's scale or translation has the wrong length");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+}  // namespace
+
+Affine3 parent_from_node(const tinygltf::Node& node) {
+  Affine3 frame = Affine3::Identity();
+  if (!node.matrix.empty()) {
+    if (node.matrix.size() != 16) throw GltfError("a node's matrix has the wrong length");
+    for (int i = 0; i < 12; ++i) frame.matrix()(i % 3, i / 3) = node.matrix[std::size_t(i / 3 * 4 + i % 3)];
+    return frame;
+  }
+  const auto [x, y, z] = three_of(node.translation, 0.0);
+  frame.translate(base::Vector3(x, y, z));
+  if (!node.rotation.empty()) {
+    if (node.rotation.size() != 4) throw GltfError("a node's rotation has the wrong length");
+    const base::Quaternion turn(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    frame.rotate(turn.normalized());
+  }
+  const auto [sx, sy, sz] = three_of(node.scale, 1.0);
+  frame.scale(base::Vector3(sx, sy, sz));
+  return frame;
+}
+
+world::Light light_of(const tinygltf::Light& it) {
+  world::Light light;
+  if (it.type == "point") light.kind = world::Light::Kind::Point;
+  if (it.type == "spot") light.kind = world::Light::Kind::Spot;
+  for (std::size_t i = 0; i < 3 && it.color.size() == 3; ++i) light.colour[i] = part_of_one(it.color[i]);
+  light.intensity = part_of_one(it.intensity);
+  light.attenuation = {0.0F, 0.0F, 1.0F};
+  constexpr double kEndless = 1e9;  // m
+  light.radius = it.range > 0.0 ? std::min(it.range, kEndless) : kEndless;
+  light.cut_off_angle = std::clamp(it.spot.outerConeAngle, 0.0, 0.5 * std::numbers::pi);
+  light.beam_width = std::clamp(it.spot.innerConeAngle, 0.0, light.cut_off_angle);
+  return light;
+}
+
+std::optional<double> field_of_view(const tinygltf::Camera& camera) {
+  const double angle = camera.perspective.yfov;
+  const bool usable = camera.type == "perspective" && angle > 0.0 && angle < std::numbers::pi;
+  return usable ? std::optional<double>(angle) : std::nullopt;
+}
+
+}  // namespace icome::files

@@ -1,0 +1,27 @@
+#pragma once
+#include <optional>
+
+#include "world/world.h"
+
+namespace tinygltf {
+class Node;
+struct Light;
+struct Camera;
+}  // namespace tinygltf
+
+namespace icome::files {
+
+/// The extension that lamps of glTF files are an object of.
+inline constexpr const char* kGltfLights = "KHR_lights_punctual";
+
+/// A node's matrix, or its scale, then rotation, then translation. Throws GltfError where their numbers are
+/// not as many as they must be; may be anything else.
+base::Affine3 parent_from_node(const tinygltf::Node& node);
+
+/// A lamp as VRML 2.0 has it: an intensity of one stands for one lux or candela.
+world::Light light_of(const tinygltf::Light& light);
+
+/// Of a camera in perspective, rad; none for others.
+std::optional<double> field_of_view(const tinygltf::Camera& camera);
+
+}  // namespace icome::files
