@@ -13,7 +13,7 @@ std::string small_letters(std::string word) {
 
 }  // namespace
 
-FileEnding ending_of(std::filesystem::path path) {
+FileEnding ending_of(const std::filesystem::path& path) {
   FileEnding ending{small_letters(path.extension().string())};
   ending.packed = ending.type == ".xz";
   if (ending.packed) ending.type = small_letters(path.stem().extension().string());

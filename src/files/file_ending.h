@@ -10,7 +10,7 @@ struct FileEnding {
   bool packed = false;  // by xz
 };
 
-FileEnding ending_of(std::filesystem::path path);
+FileEnding ending_of(const std::filesystem::path& path);
 
 /// The name without folders and endings: "part" of "models/part.obj.xz".
 std::string bare_name(const std::filesystem::path& path);
