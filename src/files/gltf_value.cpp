@@ -12,7 +12,7 @@ namespace {
 using tinygltf::Value;
 using world::Colour;
 
-const Value kNothing;
+const Value kNoValue;
 
 template <typename Numbers>
 Value array_value(const Numbers& numbers) {
@@ -85,7 +85,7 @@ Value extras_with(Value icome) {
 }
 
 const Value& member(const Value& object, const std::string& name) {
-  return object.IsObject() ? object.Get(name) : kNothing;
+  return object.IsObject() ? object.Get(name) : kNoValue;
 }
 
 std::optional<double> number_in(const Value& object, const std::string& name) {

@@ -20,7 +20,7 @@ using base::Vector3;
 using world::GeometryPointer;
 
 template <typename Number>
-void append(std::string& text, Number number) {
+void append_word(std::string& text, Number number) {
   if (!text.empty()) text += ' ';
   append_number(text, number);
 }
@@ -28,7 +28,7 @@ void append(std::string& text, Number number) {
 std::string text_of(const std::vector<Vector3>& points) {
   std::string text;
   for (const Vector3& point : points) {
-    for (const double coordinate : point) append(text, coordinate);
+    for (const double coordinate : point) append_word(text, coordinate);
   }
   return text;
 }
@@ -37,14 +37,14 @@ template <std::size_t Size>
 std::string text_of(const std::vector<std::array<std::uint32_t, Size>>& rows) {
   std::string text;
   for (const auto& row : rows) {
-    for (const std::uint32_t index : row) append(text, index);
+    for (const std::uint32_t index : row) append_word(text, index);
   }
   return text;
 }
 
 std::string text_of(const std::vector<std::uint32_t>& indices) {
   std::string text;
-  for (const std::uint32_t index : indices) append(text, index);
+  for (const std::uint32_t index : indices) append_word(text, index);
   return text;
 }
 

@@ -15,7 +15,7 @@ using world::MeshGeometry;
 using world::ObjectId;
 using world::PhysicalObject;
 using world::World;
-using Triangles = base::Result<std::shared_ptr<const MeshGeometry>>;
+using MadeTriangles = base::Result<std::shared_ptr<const MeshGeometry>>;
 
 /// The longest side of the box around it. Endless shapes, which have no triangles, say so themselves.
 double size_of(const world::Geometry& shape) {
@@ -126,7 +126,7 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
 
 }  // namespace
 
-Triangles shown_triangles(const world::Geometry& shape) {
+MadeTriangles shown_triangles(const world::Geometry& shape) {
   // As parts of the shape's size. Solids that have to be sampled take their time, by its third power.
   const double finest = shape.kind() == "csg" || shape.kind() == "implicit" ? 1.0 / 28.0 : 1.0 / 500.0;
   constexpr double kCoarser = 2.0;
@@ -140,7 +140,7 @@ Triangles shown_triangles(const world::Geometry& shape) {
   }
 }
 
-Triangles fine_triangles(const world::Geometry& shape) {
+MadeTriangles fine_triangles(const world::Geometry& shape) {
   if (shape.bounds().isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
   // Contoured solids take a cell of this size, and lie nearer than that.
   const bool contoured = shape.kind() == "csg" || shape.kind() == "implicit";
