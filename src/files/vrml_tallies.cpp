@@ -16,7 +16,7 @@ constexpr std::string_view kOtherType = "?";  // stands for all types beyond; no
 
 const std::map<std::string_view, VrmlFate>& fates() {
   using enum VrmlFate;
-  static const std::map<std::string_view, VrmlFate> table = {
+  static const std::map<std::string_view, VrmlFate> kTable = {
       {"Anchor", Group},
       {"AudioClip", LeftOut},
       {"Background", LeftOut},
@@ -43,7 +43,7 @@ const std::map<std::string_view, VrmlFate>& fates() {
       {"TouchSensor", LeftOut},
       {"VisibilitySensor", LeftOut},
   };
-  return table;
+  return kTable;
 }
 
 /// "A TouchSensor is" or "3 TouchSensors are".
