@@ -24,7 +24,7 @@ constexpr int kSlowness = 8;
 constexpr int kSlowness = 1;
 #endif
 
-DesignReadOptions bounds() { return {.memory_limit = 2ULL << 30U, .seconds_limit = 5.0 * kSlowness}; }
+DesignReadOptions bounds() { return {.memory_limit = 2ULL << 30U, .seconds_limit = 60.0 * kSlowness}; }
 
 std::string repeated(const std::string& text, int times) {
   std::string all;
