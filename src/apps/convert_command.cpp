@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/design_figures.h"
 #include "apps/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/touch_report.h"
@@ -13,12 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string convert_json(const ConvertOptions& options, std::size_t objects,
+std::string convert_json(const ConvertOptions& options, const DesignFigures& figures,
                          const std::vector<std::string>& warnings) {
   Json report;
   report["in"] = options.in.string();
   report["out"] = options.out.string();
-  report["objects"] = objects;
+  report["objects"] = figures.objects;
+  report["triangles"] = figures.triangles;
   report["bytes"] = std::filesystem::file_size(options.out);
   report["warnings"] = warnings;
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -50,9 +52,10 @@ int run_convert(const ConvertOptions& options) {
   for (const files::Remark& remark : design->remarks)
     warnings.push_back(sentence(remark, options.in.string()));
   for (const files::Remark& remark : *losses) warnings.push_back(sentence(remark, options.out.string()));
-  const std::size_t objects = design->world.objects().size();
-  return print_answer(options.json ? convert_json(options, objects, warnings)
-                                   : convert_text(options, objects, warnings));
+  if (!options.json) return print_answer(convert_text(options, design->world.objects().size(), warnings));
+  const auto figures =
+      figures_of(*design, options.in.string(), [](std::size_t, std::size_t) { return true; });
+  return print_answer(convert_json(options, *figures, warnings));
 }
 
 }  // namespace icome::apps

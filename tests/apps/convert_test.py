@@ -44,10 +44,20 @@ class ConvertTest(ProgramTest):
             self.succeeds("convert", solid, out)
             self.assertEqual(self.info(out)["shapes"], {"csg": 1})
 
+    def test_vrml_through_gltf_and_back(self):
+        table = self.write("table.wrl", "#VRML V2.0 utf8\nDEF table Transform { children [\n"
+                           "  DEF leg Transform { translation 1 2 3 children Shape { geometry DEF box Box {} } }\n"
+                           "  Transform { children Shape { geometry USE box } } ] }\n")
+        self.succeeds("convert", table, self.folder / "table.glb")
+        self.succeeds("convert", self.folder / "table.glb", self.folder / "back.wrl")
+        first, last = self.info(table), self.info(self.folder / "back.wrl")
+        for key in ("objects", "clones", "triangles", "materials", "textures", "bounds", "shapes", "depth"):
+            self.assertEqual(first[key], last[key], key)
+
     def test_losses_are_told(self):
         solid = self.write("solid.csg", "cube(size = [10, 20, 30], center = false);\n")
         done = json.loads(self.succeeds("convert", solid, self.folder / "solid.ply", "--json").stdout)
-        self.assertEqual(list(done), ["in", "out", "objects", "bytes", "warnings"])
+        self.assertEqual(list(done), ["in", "out", "objects", "triangles", "bytes", "warnings"])
         self.assertEqual(done["objects"], 1)
         self.assertTrue(any("triangles" in warning for warning in done["warnings"]), done)
 
