@@ -24,7 +24,6 @@ using world::LoopGeometry;
 using world::MeshGeometry;
 using world::PrimitiveGeometry;
 using world::Vector3;
-using Triangles = std::shared_ptr<const MeshGeometry>;
 
 /// Has VRML 2.0 a node for the primitive as it stands?
 bool is_native(const PrimitiveGeometry& shape) {

@@ -25,7 +25,7 @@ void expect_same_after_text(const CsgTree& tree) {
   EXPECT_EQ(*csg_text(*back), *text);
 }
 
-std::string error_of(std::string_view text) {
+std::string csg_text_error(std::string_view text) {
   const auto tree = csg_from_text(text);
   return tree ? "" : tree.error().message;
 }
@@ -104,31 +104,35 @@ TEST(CsgText, ReadsCommentsSpaceAndAnyLineEnds) {
 }
 
 TEST(CsgText, RefusesWhatIsNoTreeAndNamesTheLine) {
-  EXPECT_EQ(error_of("sphere:1\nunion 0 1"), "CSG tree:2: 1 is not the number of a node: there are 1 so far");
-  EXPECT_NE(error_of("sphere:1\nunion 0 0").find("CSG tree:2: A node of a CSG tree can be an operand once"),
+  EXPECT_EQ(csg_text_error("sphere:1\nunion 0 1"),
+            "CSG tree:2: 1 is not the number of a node: there are 1 so far");
+  EXPECT_NE(
+      csg_text_error("sphere:1\nunion 0 0").find("CSG tree:2: A node of a CSG tree can be an operand once"),
+      std::string::npos);
+  EXPECT_NE(csg_text_error("sphere:0").find("CSG tree:1: \"sphere:0\": "), std::string::npos);
+  EXPECT_NE(csg_text_error("blob").find("CSG tree:1: \"blob\" is not a primitive"), std::string::npos);
+  EXPECT_NE(csg_text_error("sphere:1 move 1 2\n").find("the line ends where a length is expected"),
             std::string::npos);
-  EXPECT_NE(error_of("sphere:0").find("CSG tree:1: \"sphere:0\": "), std::string::npos);
-  EXPECT_NE(error_of("blob").find("CSG tree:1: \"blob\" is not a primitive"), std::string::npos);
-  EXPECT_NE(error_of("sphere:1 move 1 2\n").find("the line ends where a length is expected"),
+  EXPECT_EQ(csg_text_error("sphere:1 move 1 2 3 move 1 2 3"), "CSG tree:1: 'move' is not expected here");
+  EXPECT_EQ(csg_text_error("sphere:1 tilt 3"), "CSG tree:1: 'tilt' is not expected here");
+  EXPECT_NE(csg_text_error("sphere:1 matrix 1 0 0 0 0 1 0 0 0 0 0 0").find("does not flatten it"),
             std::string::npos);
-  EXPECT_EQ(error_of("sphere:1 move 1 2 3 move 1 2 3"), "CSG tree:1: 'move' is not expected here");
-  EXPECT_EQ(error_of("sphere:1 tilt 3"), "CSG tree:1: 'tilt' is not expected here");
-  EXPECT_NE(error_of("sphere:1 matrix 1 0 0 0 0 1 0 0 0 0 0 0").find("does not flatten it"),
+  EXPECT_NE(csg_text_error("sphere:1 move nan 0 0").find("finite"), std::string::npos);
+  EXPECT_NE(csg_text_error("sphere:1 colour 1 1 1").find("A colour needs four numbers"), std::string::npos);
+  EXPECT_NE(csg_text_error("sphere:1\nsphere:1\nunion 0 1 colour 1 1 1 1").find(":3: 'colour' is not"),
             std::string::npos);
-  EXPECT_NE(error_of("sphere:1 move nan 0 0").find("finite"), std::string::npos);
-  EXPECT_NE(error_of("sphere:1 colour 1 1 1").find("A colour needs four numbers"), std::string::npos);
-  EXPECT_NE(error_of("sphere:1\nsphere:1\nunion 0 1 colour 1 1 1 1").find(":3: 'colour' is not"),
-            std::string::npos);
-  EXPECT_EQ(error_of("mesh 0"), "CSG tree:1: 0 is not the number of a mesh: there are 0 so far");
-  EXPECT_EQ(error_of("define mesh 1"), "CSG tree:1: \"define mesh 0\" is expected");
-  EXPECT_EQ(error_of("define mesh 0\nvertex 0 0 0\nmesh 0"),
+  EXPECT_EQ(csg_text_error("mesh 0"), "CSG tree:1: 0 is not the number of a mesh: there are 0 so far");
+  EXPECT_EQ(csg_text_error("define mesh 1"), "CSG tree:1: \"define mesh 0\" is expected");
+  EXPECT_EQ(csg_text_error("define mesh 0\nvertex 0 0 0\nmesh 0"),
             "CSG tree:3: A mesh in a CSG tree needs triangles");
-  EXPECT_NE(error_of("define mesh 0\nvertex 0 0 0\ntriangle 0 0 1").find("CSG tree:3: 1 is not the number"),
-            std::string::npos);
-  EXPECT_EQ(error_of("vertex 0 0 0"), "CSG tree:1: A vertex must follow \"define mesh\"");
-  EXPECT_EQ(error_of("sphere:1\nroot -1"), "CSG tree:2: -1 is not the number of a node: there are 1 so far");
-  EXPECT_EQ(error_of("sphere:1\nroot 0\nsphere:1"), "CSG tree:3: Nothing may follow the root");
-  EXPECT_EQ(error_of("sphere:1\nsphere:2\nunion 0 99999999999999999999999"),
+  EXPECT_NE(
+      csg_text_error("define mesh 0\nvertex 0 0 0\ntriangle 0 0 1").find("CSG tree:3: 1 is not the number"),
+      std::string::npos);
+  EXPECT_EQ(csg_text_error("vertex 0 0 0"), "CSG tree:1: A vertex must follow \"define mesh\"");
+  EXPECT_EQ(csg_text_error("sphere:1\nroot -1"),
+            "CSG tree:2: -1 is not the number of a node: there are 1 so far");
+  EXPECT_EQ(csg_text_error("sphere:1\nroot 0\nsphere:1"), "CSG tree:3: Nothing may follow the root");
+  EXPECT_EQ(csg_text_error("sphere:1\nsphere:2\nunion 0 99999999999999999999999"),
             "CSG tree:3: '99999999999999999999999' is not the number of a node");
 }
 

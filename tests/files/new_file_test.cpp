@@ -9,7 +9,7 @@
 namespace icome::files {
 namespace {
 
-std::size_t files_in(const std::filesystem::path& folder) {
+std::size_t count_files(const std::filesystem::path& folder) {
   return std::size_t(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
@@ -33,7 +33,7 @@ TEST(NewFile, IsThereWholeOrNotAtAll) {
   EXPECT_EQ(read_bytes(path, 9).value(), "before");
   write_at(path, "after");
   EXPECT_EQ(read_bytes(path, 9).value(), "after");
-  EXPECT_EQ(files_in(folder.path()), 1U);
+  EXPECT_EQ(count_files(folder.path()), 1U);
 }
 
 TEST(NewFile, SeveralMayWriteTheSameFileAtOnce) {
@@ -46,7 +46,7 @@ TEST(NewFile, SeveralMayWriteTheSameFileAtOnce) {
   EXPECT_TRUE(two->finish());
   EXPECT_TRUE(one->finish());
   EXPECT_EQ(read_bytes(path, 9).value(), "one");
-  EXPECT_EQ(files_in(folder.path()), 1U);
+  EXPECT_EQ(count_files(folder.path()), 1U);
 }
 
 TEST(NewFile, GoesWhereALinkLeadsAndKeepsPermissions) {

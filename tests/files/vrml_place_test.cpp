@@ -13,7 +13,7 @@ using base::Affine3;
 using base::Matrix3;
 using base::Vector3;
 
-Affine3 made_of(const Matrix3& axes) {
+Affine3 with_axes(const Matrix3& axes) {
   Affine3 frame = Affine3::Identity();
   frame.linear() = axes;
   return frame;
@@ -41,22 +41,22 @@ TEST(VrmlPlace, SaysWhatPeopleWouldSay) {
 
 TEST(VrmlPlace, HalfATurnIsOneWhicheverWay) {
   for (const double angle : {std::numbers::pi, -std::numbers::pi, 3.1415927, 3.1415925}) {
-    EXPECT_EQ(vrml_place(made_of(turned(angle, Vector3::UnitY()))).rotation,
+    EXPECT_EQ(vrml_place(with_axes(turned(angle, Vector3::UnitY()))).rotation,
               (VrmlTurn{Eigen::Vector3f::UnitY(), std::numbers::pi_v<float>}));
   }
 }
 
 TEST(VrmlPlace, MirrorsByNegativeScales) {
-  const VrmlPlace one = vrml_place(made_of(Vector3(1.0, -2.0, 3.0).asDiagonal()));
+  const VrmlPlace one = vrml_place(with_axes(Vector3(1.0, -2.0, 3.0).asDiagonal()));
   EXPECT_EQ(one.scale, Eigen::Vector3f(1.0F, -2.0F, 3.0F));
   EXPECT_EQ(one.rotation, VrmlTurn());
-  const VrmlPlace all = vrml_place(made_of(Vector3::Constant(-0.5).asDiagonal()));
+  const VrmlPlace all = vrml_place(with_axes(Vector3::Constant(-0.5).asDiagonal()));
   EXPECT_EQ(all.scale, Eigen::Vector3f::Constant(-0.5F));
   EXPECT_EQ(all.rotation, VrmlTurn());
 }
 
 TEST(VrmlPlace, ScalesBeyondSinglePrecisionDoNotFlatten) {
-  const VrmlPlace fields = vrml_place(made_of(Vector3(1e-60, 1e60, 1.0).asDiagonal()));
+  const VrmlPlace fields = vrml_place(with_axes(Vector3(1e-60, 1e60, 1.0).asDiagonal()));
   EXPECT_GT(fields.scale.x(), 0.0F);
   EXPECT_TRUE(fields.scale.allFinite());
 }
@@ -109,7 +109,7 @@ class AnyAxes {
 TEST(VrmlPlace, AnyTransformComesBackToSixDecimalsAndThenStays) {
   AnyAxes axes(1);
   for (int i = 0; i < 20'000; ++i) {
-    const Affine3 frame = made_of(axes.next());
+    const Affine3 frame = with_axes(axes.next());
     EXPECT_LT(off_by(frame), 3e-6) << frame.linear();
     const VrmlPlace fields = vrml_place(frame);
     EXPECT_EQ(vrml_place(affine(fields)), fields) << frame.linear();

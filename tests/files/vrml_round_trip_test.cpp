@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "files/design_maker.h"
 #include "files/file_bytes.h"
 #include "files/picture_bytes.h"
 #include "files/same_design.h"
@@ -24,7 +25,7 @@ World read(const fs::path& path) {
   return std::move(design->world);
 }
 
-std::string written(const fs::path& path, const World& world) {
+std::string text_of_file(const fs::path& path, const World& world) {
   const auto remarks = write_vrml(path, world);
   if (!remarks) throw std::runtime_error(remarks.error().message);
   return read_bytes(path, 1U << 30U).value();
@@ -32,35 +33,25 @@ std::string written(const fs::path& path, const World& world) {
 
 /// What went through a file once is the same whenever it does so again, to the last byte.
 void expect_stays(const World& once, const fs::path& path) {
-  const std::string text = written(path, once);
+  const std::string text = text_of_file(path, once);
   const World twice = read(path);
   EXPECT_EQ(difference(once, twice, {.tolerance = 0.0}), "");
-  EXPECT_EQ(written(path, twice), text);
+  EXPECT_EQ(text_of_file(path, twice), text);
 }
 
 /// The design after it went through a file.
 World through_file(const World& world, const Likeness& likeness = {.tolerance = 3e-6}) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "design.wrl";
-  written(path, world);
+  text_of_file(path, world);
   World once = read(path);
   EXPECT_EQ(difference(world, once, likeness), "");
   expect_stays(once, path);
   return once;
 }
 
-struct Design {
-  World world;
-  IdSource ids;
-
-  ObjectId add(const std::string& name, GeometryPointer shape, ObjectId parent = {},
-               const Affine3& frame = Affine3::Identity()) {
-    return add_object(world, ids, name, std::move(shape), parent, frame);
-  }
-};
-
 TEST(VrmlRoundTrip, EveryKindOfShape) {
-  Design design;
+  DesignMaker design;
   for (const GeometryPointer& shape : every_shape()) {
     if (shape->bounds().isEmpty() && shape->kind() == "mesh") continue;
     design.add("shape of kind " + std::string(shape->kind()), shape);
@@ -69,7 +60,7 @@ TEST(VrmlRoundTrip, EveryKindOfShape) {
 }
 
 TEST(VrmlRoundTrip, NamesTitlesAndMaterials) {
-  Design design;
+  DesignMaker design;
   for (const char* name :
        {"left door", "door", "door", "2nd", "w\xc3\xb6od", "USE", "a+b", "a+1", "IcomeUnnamed", "say \"\\\"",
         "", "IcomeDefault", "Transform", "line\nbreak", " ", "_"}) {
@@ -89,7 +80,7 @@ TEST(VrmlRoundTrip, NamesTitlesAndMaterials) {
 }
 
 TEST(VrmlRoundTrip, LightsViewpointsScriptsAndScenes) {
-  Design design;
+  DesignMaker design;
   const ObjectId room = design.add("room", box(3.0));
   const ObjectId lamp =
       design.add("the lamp", box(0.1), room, at(0.1, 0.2, 0.3) * Eigen::AngleAxisd(0.3, Vector3::UnitX()));
@@ -113,7 +104,7 @@ TEST(VrmlRoundTrip, LightsViewpointsScriptsAndScenes) {
 
 TEST(VrmlRoundTrip, AnyTransform) {
   base::Random random(5);
-  Design design;
+  DesignMaker design;
   ObjectId parent;
   for (int i = 0; i < 500; ++i) {
     Affine3 frame = Affine3::Identity();
@@ -128,7 +119,7 @@ TEST(VrmlRoundTrip, Pictures) {
   const std::string pixels("\xff\0\0\0\xff\0", 6);
   const auto png = png_of({1, 2, 3, pixels});
   ASSERT_TRUE(png);
-  Design design;
+  DesignMaker design;
   const auto paint = [&](const std::string& name, const std::string& bytes, const std::string& type,
                          std::array<bool, 2> repeats) {
     const TextureId picture = design.ids.next<TextureId>();
@@ -152,7 +143,7 @@ TEST(VrmlRoundTrip, Pictures) {
 }
 
 TEST(VrmlRoundTrip, TwoTablesOfFigure29) {
-  Design design;
+  DesignMaker design;
   const ObjectId table = design.add("table", box(1.0));
   const ObjectId leg = design.add("leg", one_triangle(), table, at(0.4, -0.5, 0.4));
   for (int i = 0; i < 3; ++i) duplicated(design.world, design.ids, leg, Duplicate::CloneObject, table);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "files/design_maker.h"
 #include "files/file_bytes.h"
 #include "files/sample_files.h"
 #include "world/every_edit.h"
@@ -17,7 +18,7 @@ struct Written {
   std::vector<std::string> remarks;
 };
 
-Written written(const World& world, const ScratchFolder& folder, const std::string& name = "design.wrl") {
+Written write_out(const World& world, const ScratchFolder& folder, const std::string& name = "design.wrl") {
   const auto remarks = write_vrml(folder.path() / name, world);
   if (!remarks) throw std::runtime_error(remarks.error().message);
   Written result{read_bytes(folder.path() / name, 1U << 28U).value(), {}};
@@ -28,7 +29,7 @@ Written written(const World& world, const ScratchFolder& folder, const std::stri
 /// What follows the first line and the PROTOs.
 std::string body(const World& world) {
   const ScratchFolder folder;
-  const std::string text = written(world, folder).text;
+  const std::string text = write_out(world, folder).text;
   const std::size_t protos = text.rfind("\n}\n\n");
   return text.substr(protos == std::string::npos ? text.find("\n\n") + 2 : protos + 4);
 }
@@ -43,18 +44,8 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-struct Design {
-  World world;
-  IdSource ids;
-
-  ObjectId add(const std::string& name, GeometryPointer shape, ObjectId parent = {},
-               const Affine3& frame = Affine3::Identity()) {
-    return add_object(world, ids, name, std::move(shape), parent, frame);
-  }
-};
-
 TEST(VrmlWriter, WritesAnObjectAsPeopleWould) {
-  Design design;
+  DesignMaker design;
   const ObjectId table = design.add("table", box(0.5), {}, at(0.0, 0.9, -0.0));
   design.add("ball", std::make_shared<PrimitiveGeometry>(geometry::Sphere{0.1}), table);
   EXPECT_EQ(body(design.world), R"(DEF table Transform {
@@ -85,11 +76,11 @@ TEST(VrmlWriter, WritesAnObjectAsPeopleWould) {
 
 TEST(VrmlWriter, AnEmptyWorldIsAFileToo) {
   const ScratchFolder folder;
-  EXPECT_EQ(written(World(), folder).text, "#VRML V2.0 utf8\n\n");
+  EXPECT_EQ(write_out(World(), folder).text, "#VRML V2.0 utf8\n\n");
 }
 
 TEST(VrmlWriter, NamesAreTitlesWhereTheyCannotBeDefNames) {
-  Design design;
+  DesignMaker design;
   for (const char* name :
        {"left door", "door", "door", "2nd", "w\xc3\xb6od", "USE", "a+b", "IcomeUnnamed", "say \"\\\""})
     design.add(name, nullptr);
@@ -109,7 +100,7 @@ TEST(VrmlWriter, NamesAreTitlesWhereTheyCannotBeDefNames) {
 }
 
 TEST(VrmlWriter, ClonesUseWhatTheyShare) {
-  Design design;
+  DesignMaker design;
   const ObjectId leg = design.add("leg", one_triangle());
   const MaterialId wood = design.ids.next<MaterialId>();
   applied(design.world, CreateMaterial{wood, {.name = "wood"}});
@@ -125,20 +116,20 @@ TEST(VrmlWriter, ClonesUseWhatTheyShare) {
 }
 
 TEST(VrmlWriter, DefinesOnlyProtosThatAreUsed) {
-  Design design;
+  DesignMaker design;
   design.add("solid", csg());
   const ScratchFolder folder;
-  const std::string text = written(design.world, folder).text;
+  const std::string text = write_out(design.world, folder).text;
   EXPECT_EQ(count(text, "PROTO "), 1U);
   EXPECT_TRUE(contains(text, "PROTO IcomeCsg ["));
   EXPECT_TRUE(contains(text, "geometry IcomeCsg {"));
 }
 
 TEST(VrmlWriter, WritesEveryKindOfShapeForOtherProgramsToo) {
-  Design design;
+  DesignMaker design;
   for (const GeometryPointer& shape : every_shape()) design.add("one", shape);
   const ScratchFolder folder;
-  const Written all = written(design.world, folder);
+  const Written all = write_out(design.world, folder);
   for (const char* part : {"IcomeLoopSurface {", "IcomeImplicit {", "shape \"torus:0.3x0.1\"", "axis \"y\"",
                            "formula \"x^2 + y^2 + z^2 - 0.05^2\"", "box \"-0.1 -0.1 -0.1 0.1 0.1 0.1\"",
                            "crease [\n", "corner [\n", "tree \"define mesh 0\n"})
@@ -162,11 +153,11 @@ class OwnShape final : public Geometry {
 };
 
 TEST(VrmlWriter, WhatItHasNoNodeForBecomesTrianglesOrNothing) {
-  Design design;
+  DesignMaker design;
   design.add("own", std::make_shared<OwnShape>());
   design.add("broken", std::make_shared<MeshGeometry>(geometry::TriangleMesh{{}, {{0, 1, 2}}}));
   const ScratchFolder folder;
-  const Written all = written(design.world, folder);
+  const Written all = write_out(design.world, folder);
   EXPECT_EQ(count(all.text, "-1\n"), 4U);
   ASSERT_EQ(all.remarks.size(), 2U);
   EXPECT_TRUE(contains(all.remarks[0], "The shape of \"own\" is written as triangles: VRML 2.0 has nothing"));
@@ -181,15 +172,15 @@ TEST(VrmlWriter, MeshesSayWhatLooksSmooth) {
         (tetra.corner(t, 1) - tetra.corner(t, 0)).cross(tetra.corner(t, 2) - tetra.corner(t, 0));
     flat->normals.push_back({across.normalized(), across.normalized(), across.normalized()});
   }
-  Design design;
+  DesignMaker design;
   design.add("flat", flat);
   std::string text = body(design.world);
   EXPECT_FALSE(contains(text, "normal Normal") || contains(text, "creaseAngle") || contains(text, "solid"));
-  Design smooth;
+  DesignMaker smooth;
   smooth.add("smooth", std::make_shared<MeshGeometry>(tetra));
   text = body(smooth.world);
   EXPECT_TRUE(contains(text, "creaseAngle 3.1415927") && !contains(text, "normal"));
-  Design other;
+  DesignMaker other;
   other.add("other", textured_mesh());
   text = body(other.world);
   EXPECT_TRUE(contains(text, "normal Normal {") && contains(text, "normalIndex [") &&
@@ -198,7 +189,7 @@ TEST(VrmlWriter, MeshesSayWhatLooksSmooth) {
 
 TEST(VrmlWriter, PicturesLieBesideTheDesignAndAreNeverOverwritten) {
   const ScratchFolder folder;
-  Design design;
+  DesignMaker design;
   const auto paint = [&](const std::string& name, const std::string& bytes) {
     const TextureId picture = design.ids.next<TextureId>();
     const MaterialId material = design.ids.next<MaterialId>();
@@ -212,7 +203,7 @@ TEST(VrmlWriter, PicturesLieBesideTheDesignAndAreNeverOverwritten) {
   paint("..", "three");
   paint("bark.jpg", "four");
   std::string first, again;
-  for (std::string* text : {&first, &again}) *text = written(design.world, folder, "my table.wrl").text;
+  for (std::string* text : {&first, &again}) *text = write_out(design.world, folder, "my table.wrl").text;
   EXPECT_EQ(first, again);
   for (const char* part : {"url \"my_table_textures/wood.png\"", "url \"my_table_textures/wood-2.png\"",
                            "url \"my_table_textures/bark_jpg.png\""})
@@ -238,7 +229,7 @@ TEST(VrmlWriter, DoesNotFollowALinkInPlaceOfThePicturesFolder) {
 }
 
 TEST(VrmlWriter, LightsViewpointsAndScenes) {
-  Design design;
+  DesignMaker design;
   const ObjectId lamp = design.add("lamp", nullptr, {}, at(0.0, 2.0, 0.0));
   applied(design.world, ChangeFixture{lamp, spot_light()});
   const ObjectId eye = design.add("from the door", nullptr, {}, at(0.0, 1.6, 3.0));
@@ -260,7 +251,7 @@ TEST(VrmlWriter, LightsViewpointsAndScenes) {
 }
 
 TEST(VrmlWriter, ScriptsStandAsTheyStoodAndKeepTheirNames) {
-  Design design;
+  DesignMaker design;
   const auto script = [&](const std::string& name, const std::string& source, ObjectId parent = {}) {
     const ObjectId id = design.add(name, nullptr, parent);
     applied(design.world, ChangeFixture{id, std::make_shared<const Fixture>(Inert{"Script", source})});
@@ -279,7 +270,7 @@ TEST(VrmlWriter, ScriptsStandAsTheyStoodAndKeepTheirNames) {
   script("", "Script { field SFNode x USE door }");
   script("", "Sound { }");
   const ScratchFolder folder;
-  const Written all = written(design.world, folder);
+  const Written all = write_out(design.world, folder);
   EXPECT_TRUE(
       contains(all.text, "DEF door Transform {\n  children [\n    Script { }\n    Transform { }\n  ]\n}\n"));
   EXPECT_TRUE(all.text.ends_with("]\n}\nTransform { }\nTransform { }\nTransform { }\n"));
@@ -290,14 +281,14 @@ TEST(VrmlWriter, ScriptsStandAsTheyStoodAndKeepTheirNames) {
 }
 
 TEST(VrmlWriter, TellsWhatIsLeftOut) {
-  Design design;
+  DesignMaker design;
   applied(design.world, CreateGeometry{design.ids.next<GeometryId>(), box(1.0)});
   applied(design.world, CreateMaterial{design.ids.next<MaterialId>(), {}});
   geometry::TriangleMesh large = tetrahedron();
   large.positions[1].x() = 1e300;
   design.add("large", std::make_shared<MeshGeometry>(large));
   const ScratchFolder folder;
-  const Written all = written(design.world, folder);
+  const Written all = write_out(design.world, folder);
   EXPECT_EQ(all.remarks,
             (std::vector<std::string>{
                 "1 shapes that no object has are left out.", "1 materials that no object has are left out.",
@@ -307,12 +298,12 @@ TEST(VrmlWriter, TellsWhatIsLeftOut) {
 TEST(VrmlWriter, ReplacesTheFileWhenAllIsWrittenOrNotAtAll) {
   const ScratchFolder folder;
   folder.write("design.wrl", "before");
-  EXPECT_TRUE(written(World(), folder).text.starts_with("#VRML"));
+  EXPECT_TRUE(write_out(World(), folder).text.starts_with("#VRML"));
   EXPECT_FALSE(write_vrml(folder.path() / "nowhere" / "design.wrl", World()));
 }
 
 TEST(VrmlWriter, DeepAndRandomWorldsAreWrittenTheSameEachTime) {
-  Design chain;
+  DesignMaker chain;
   ObjectId parent;
   for (int i = 0; i < 900; ++i) parent = chain.add("link", nullptr, parent);
   EXPECT_EQ(count(body(chain.world), "Transform {"), 900U);
@@ -326,10 +317,10 @@ TEST(VrmlWriter, DeepAndRandomWorldsAreWrittenTheSameEachTime) {
     RandomEdits edits(seed);
     World world;
     for (int i = 0; i < 200; ++i) (void)apply(world, edits.next(world));
-    const std::string text = written(world, folder).text;
+    const std::string text = write_out(world, folder).text;
     EXPECT_EQ(count(text, "Transform {"), world.objects().size());
     EXPECT_EQ(count(text, "{"), count(text, "}"));
-    EXPECT_EQ(written(world, folder).text, text);
+    EXPECT_EQ(write_out(world, folder).text, text);
   }
 }
 
