@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/primitive_places.h"
 #include "world/mesh_geometry.h"
 
 namespace icome::render {
@@ -154,6 +155,11 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape)
   const double tolerance = std::isfinite(size) && size > 0.0 ? size * fineness(shape) : 1.0;
   const auto surface = shape.triangles(tolerance);
   if (!surface) return tl::unexpected(surface.error());
+  if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
+    MeshGeometry wrapped = **surface;
+    wrapped.texture_coordinates = primitive_places(*primitive, wrapped.mesh);
+    return make_from_surface(wrapped, kSolidCrease);
+  }
   return make_from_surface(**surface, kSolidCrease);
 }
 
