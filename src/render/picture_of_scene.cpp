@@ -38,7 +38,7 @@ int tiles_along(int side) { return (side + kTileSide - 1) / kTileSide; }
 
 int still_passes(const RenderScene& scene) {
   const double work = double(scene.triangle_count()) + 300.0 * double(scene.object_count());
-  return int(std::clamp(16.0 * 3e5 / std::max(work, 1.0), 8.0, 16.0));
+  return int(std::clamp(20.0 * 2e5 / std::max(work, 1.0), 8.0, 20.0));
 }
 
 base::Result<Image> draw_picture(const RenderScene& scene, const Camera& camera, const SceneLook& look,

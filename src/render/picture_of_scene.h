@@ -12,7 +12,7 @@ namespace icome::render {
 base::Result<Image> draw_picture(const RenderScene& scene, const Camera& camera, const SceneLook& look,
                                  int width, int height);
 
-/// As many passes as look well in the time that a person waits: 16 for most scenes, 8 for heavy ones.
+/// As many passes as look well in the time that a person waits: 20 for most scenes, down to 8 for heavy ones.
 int still_passes(const RenderScene& scene);
 
 }  // namespace icome::render

@@ -7,8 +7,8 @@
 namespace icome::render {
 namespace {
 
-constexpr std::size_t kCoarseCasterFrom = 150'000;  // triangles
-constexpr double kCasterCell = 1.0 / 96.0;          // of half the shape's size
+constexpr std::size_t kCoarseCasterFrom = 40'000;  // triangles
+constexpr double kCasterCell = 1.0 / 96.0;         // of half the shape's size
 
 /// Bottom row first, as OpenGL counts.
 std::vector<std::uint8_t> upside_down(const Image& image) {

@@ -80,9 +80,10 @@ SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightC
   if (choice == LightChoice::Automatic) {
     SceneLights lights = design_lights(scene);
     if (!lights.suns.empty() || !lights.lamps.empty()) {
-      lights.shadowed = !lights.suns.empty();
-      // What no light of the design reaches can still be made out.
-      lights.suns.push_back({from_camera(camera, Vector3::UnitZ()), Eigen::Vector3f::Constant(0.25F)});
+      // What no light of the design reaches can still be made out. The first throws a shadow; that of the
+      // light at the eye is hidden behind what throws it.
+      lights.suns.push_back({from_camera(camera, Vector3::UnitZ()), Eigen::Vector3f::Constant(0.15F)});
+      lights.shadowed = true;
       lights.sky = 0.4;
       return lights;
     }

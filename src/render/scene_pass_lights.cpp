@@ -103,7 +103,7 @@ void ScenePassLights::add_shadows(const ShadowRegion& region, int shadow_side) {
   kinds_.maps = int(lenses_.size());
   // Three texels: a point never lies in its own shadow.
   shadow_offset_ = float(6.0 * region.radius / shadow_side);
-  shadow_blur_ = float(0.022 * region.radius);
+  shadow_blur_ = float(0.015 * region.radius);
   texel_ = 1.0F / float(shadow_side);
 }
 
