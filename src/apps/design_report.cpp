@@ -4,6 +4,7 @@
 
 #include "apps/design_figures.h"
 #include "apps/touch_report.h"
+#include "world/sharing.h"
 #include "world/solid_geometry.h"
 
 namespace icome::apps {
@@ -62,7 +63,7 @@ std::string object_text(const DesignFigures& figures, const World& world, const 
       const std::string& name = world.find(object.material)->name;
       if (!name.empty()) parts.push_back(printable(name));
     }
-    if (geometry.users > 1) parts.push_back(fmt::format("{} objects use this shape", geometry.users));
+    if (geometry.users > 1) parts.push_back(sharing(world, object.geometry));
   }
   if (object.fixture) {
     constexpr std::array<const char*, 2> kFixtures{"light", "viewpoint"};

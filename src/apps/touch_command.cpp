@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/design_models.h"
 #include "apps/exploration.h"
 #include "apps/interrupt.h"
 #include "apps/status_line.h"
@@ -152,6 +153,13 @@ void add_to(render::TouchPicture& picture, const TouchBody& body, const std::str
   picture.bodies.push_back(drawn);
 }
 
+/// Models have z up, or are turned so; only designs keep their y.
+base::Vector3 up(const TouchOptions& options) {
+  const bool upright = !options.y_up && !options.models.empty() &&
+                       std::all_of(options.models.begin(), options.models.end(), names_design);
+  return upright ? base::Vector3::UnitY() : base::Vector3::UnitZ();
+}
+
 base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
                         const TouchOptions& options) {
   render::TouchPicture picture;
@@ -166,7 +174,7 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
                                       figures.tick_us.median, figures.tick_us.p999));
   picture.samples = diary.samples();
   picture.rate_hz = options.rate_hz;
-  picture.up = base::Vector3::UnitZ();
+  picture.up = up(options);
   return render::write_touch_picture(picture, *options.picture);
 }
 
