@@ -171,8 +171,8 @@ constexpr const char* kConvertExamples =
     "place when it is complete; until then, and when something goes wrong, what was there stays. IN and OUT\n"
     "may be the same file.\n"
     "\n"
-    "JSON: in, out, objects, bytes (of the file), warnings (what was skipped in reading and lost in "
-    "writing).\n"
+    "JSON: in, out, objects, triangles (as icome info counts them), bytes (of the file), warnings (what was\n"
+    "  skipped in reading and lost in writing).\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

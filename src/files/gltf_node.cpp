@@ -26,7 +26,8 @@ Affine3 parent_from_node(const tinygltf::Node& node) {
   Affine3 frame = Affine3::Identity();
   if (!node.matrix.empty()) {
     if (node.matrix.size() != 16) throw GltfError("a node's matrix has the wrong length");
-    for (int i = 0; i < 12; ++i) frame.matrix()(i % 3, i / 3) = node.matrix[std::size_t(i / 3 * 4 + i % 3)];
+    // Column after column; the last row of an affine one says nothing.
+    frame.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).topRows<3>();
     return frame;
   }
   const auto [x, y, z] = three_of(node.translation, 0.0);
