@@ -29,9 +29,8 @@ base::Affine3 matrix_of(const flat::Node* node) {
   base::Affine3 matrix = base::Affine3::Identity();
   const auto numbers = vector_of(node->matrix());
   EXPECT_EQ(numbers.size(), 12U);
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      matrix(row, column) = numbers[static_cast<std::size_t>(4 * row + column)];
+  if (numbers.size() == 12)
+    matrix.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
   return matrix;
 }
 

@@ -15,8 +15,8 @@ struct TextHash {
 
 /// Nodes of a set stay where they are. Lives as long as the process.
 auto& coin_names() {
-  static auto* const names = new std::unordered_set<std::string, TextHash, std::equal_to<>>();
-  return *names;
+  static auto* const kNames = new std::unordered_set<std::string, TextHash, std::equal_to<>>();
+  return *kNames;
 }
 
 }  // namespace

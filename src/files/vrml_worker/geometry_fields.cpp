@@ -14,10 +14,11 @@ namespace {
 template <typename Field>
 std::span<const float> floats_of(const Field& field) {
   using Value = std::remove_cvref_t<decltype(*field.getValues(0))>;
-  static_assert(sizeof(Value) % sizeof(float) == 0);
+  constexpr std::size_t kWidth = sizeof(Value) / sizeof(float);  // NOLINT(bugprone-sizeof-expression)
+  static_assert(sizeof(Value) == kWidth * sizeof(float));
   const auto count = static_cast<std::size_t>(field.getNum());
   if (count == 0) return {};
-  return {reinterpret_cast<const float*>(field.getValues(0)), count * (sizeof(Value) / sizeof(float))};
+  return {reinterpret_cast<const float*>(field.getValues(0)), count * kWidth};
 }
 
 }  // namespace

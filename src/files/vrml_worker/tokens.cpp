@@ -7,7 +7,10 @@ namespace icome::files {
 namespace {
 
 // What words and numbers are made of is even.
-enum CharacterClass : unsigned char { kOther, kSpace, kNumeric, kSpecial };
+constexpr unsigned char kOther = 0;
+constexpr unsigned char kSpace = 1;
+constexpr unsigned char kNumeric = 2;
+constexpr unsigned char kSpecial = 3;
 
 constexpr std::array<unsigned char, 256> make_classes() {
   std::array<unsigned char, 256> classes{};
