@@ -21,8 +21,8 @@ constexpr std::size_t kStackMargin = 1U << 20U;
 /// Where so much is not to be had, a fault is one of too little memory.
 constexpr std::size_t kLittleMemory = 32U << 20U;
 
-std::uintptr_t stack_end = 0;
-char signal_stack[1U << 16U];
+[[maybe_unused]] std::uintptr_t stack_end = 0;  // not by builds with a sanitizer
+[[maybe_unused]] char signal_stack[1U << 16U];
 
 void limit(__rlimit_resource resource, rlim_t most) {
   rlimit now{};
