@@ -12,7 +12,7 @@ namespace icome::files {
 namespace {
 
 constexpr std::size_t kFlushAt = 1U << 20U;
-constexpr int kSpacesPerLevel = 2;
+constexpr std::size_t kSpacesPerLevel = 2;
 // Deeper down lines begin in the same column: a chain of objects must not make a file of spaces.
 constexpr int kMostLevels = 32;
 
@@ -22,7 +22,7 @@ void VrmlText::begin_line() {
   if (empty_) buffer_ += '\n';
   empty_ = false;
   if (buffer_.size() > kFlushAt) finish();
-  buffer_.append(std::size_t(kSpacesPerLevel * std::min(depth_, kMostLevels)), ' ');
+  buffer_.append(kSpacesPerLevel * std::size_t(std::min(depth_, kMostLevels)), ' ');
 }
 
 void VrmlText::finish() {
