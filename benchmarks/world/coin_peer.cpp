@@ -18,8 +18,8 @@ namespace {
 class CoinScene {
  public:
   explicit CoinScene(const std::filesystem::path& path) {
-    static const bool ready = (SoDB::init(), SoInteraction::init(), true);
-    (void)ready;
+    static const bool kReady = (SoDB::init(), SoInteraction::init(), true);
+    (void)kReady;
     SoInput input;
     if (input.openFile(path.c_str())) root_ = SoDB::readAllVRML(&input);
     if (root_) root_->ref();
