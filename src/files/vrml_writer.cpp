@@ -62,7 +62,7 @@ std::vector<ObjectId> all_objects(const World& world) {
 // Each object takes a brace and a bracket, what is in the last one a few more.
 constexpr std::size_t kMostObjectsAbove = kMostNestedVrml / 2 - 5;
 
-tl::unexpected<base::Error> too_deep() {
+tl::unexpected<base::Error> objects_too_deep() {
   return base::fail(
       fmt::format("Objects lie more than {} deep within each other, which no program could read "
                   "as VRML: put some higher up, or save the design as .icome.",
@@ -222,7 +222,7 @@ Result<void> VrmlWriter::write_objects() {
         open_objects.pop_back();
         continue;
       }
-      if (open_objects.size() == kMostObjectsAbove) return too_deep();
+      if (open_objects.size() == kMostObjectsAbove) return objects_too_deep();
       auto child = open(children[object.next_child++]);
       if (!child) return tl::unexpected(child.error());
       open_objects.push_back(*child);
