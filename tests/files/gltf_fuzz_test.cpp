@@ -122,20 +122,20 @@ std::string error_of_json(const std::string& members, const std::string& data = 
   return design ? "" : design.error().message;
 }
 
-std::string repeated(const std::string& text, int times) {
+std::string many_times(const std::string& text, int times) {
   std::string all;
   for (int i = 0; i < times; ++i) all += text;
   return all;
 }
 
 TEST(GltfHostile, NestingIsBounded) {
-  const std::string deep = repeated("[", 100'000) + repeated("]", 100'000);
+  const std::string deep = many_times("[", 100'000) + many_times("]", 100'000);
   EXPECT_NE(error_of_json("\"extras\":" + deep).find("nests deeper"), std::string::npos);
 }
 
 TEST(GltfHostile, WhatJsonDescribesIsBounded) {
   EXPECT_NE(
-      error_of_json("\"nodes\":[{}" + repeated(",{}", 1'000'000) + "]").find("more than there is memory"),
+      error_of_json("\"nodes\":[{}" + many_times(",{}", 1'000'000) + "]").find("more than there is memory"),
       std::string::npos);
 }
 
