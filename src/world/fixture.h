@@ -7,7 +7,9 @@
 
 namespace icome::world {
 
-using Colour = std::array<float, 3>;  // red, green, blue in [0, 1], linear
+/// Red, green, blue in [0, 1]. Drawn as linear, which those of glTF are. VRML means what a display shows, and
+/// they stand here as in the file: such colours are drawn paler than they were meant.
+using Colour = std::array<float, 3>;
 
 /// A lamp where its object is, shining along the object's -z. The model of VRML 2.0, 4.14.
 struct Light {

@@ -123,7 +123,9 @@ Bounds bounds(const World& world, ObjectId root) {
     world_from.emplace(id, here);
     if (!object.geometry) continue;
     const Bounds own = world.find(object.geometry)->shape->bounds();
-    if (!own.isEmpty()) result.extend(own.transformed(here));
+    // An endless box, turned, would be made of 0 times infinity.
+    const bool has_end = own.min().allFinite() && own.max().allFinite();
+    if (!own.isEmpty() && has_end) result.extend(own.transformed(here));
   }
   return result;
 }

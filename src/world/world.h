@@ -132,7 +132,8 @@ bool is_within(const World& world, ObjectId id, ObjectId ancestor);
 /// The objects of a subtree, parents before children.
 std::vector<ObjectId> subtree(const World& world, ObjectId root);
 
-/// Around the shapes of a subtree, in the world's frame. Empty where there are none.
+/// Around the shapes of a subtree, in the world's frame; those without an end, such as planes, are left out.
+/// Empty where there are none.
 Bounds bounds(const World& world, ObjectId root);
 
 /// Equal for worlds that hold the same, whatever the way they came about.

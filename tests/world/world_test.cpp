@@ -31,6 +31,10 @@ TEST(World, BoundsHoldAllBelow) {
   const Bounds box = bounds(world, group);
   EXPECT_NEAR(box.max().x(), 1.0 + std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(box.max().z(), 1.0, 1e-12);
+  // What has no end cannot widen them, however it lies.
+  add_object(world, ids, "floor", std::make_shared<PrimitiveGeometry>(geometry::Plane{}), group, turned);
+  EXPECT_EQ(bounds(world, group).max(), box.max());
+  EXPECT_EQ(bounds(world, group).min(), box.min());
 }
 
 TEST(World, HashTellsWorldsApartAndTheSameAlike) {
