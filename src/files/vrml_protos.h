@@ -7,7 +7,9 @@ namespace icome::files {
 /// Written at the head of a file that uses them, each only if it is used.
 struct VrmlProto {
   const char* name;
-  const char* text;
+  const char* fields;  // lines of VRML
+  const char* body =
+      nullptr;  // the same; null: a geometry, which has the fields and the body of kTriangles too
 };
 
 /// DEF names that begin so stand for none: of things without a name that the file has to refer to.
@@ -16,8 +18,20 @@ inline constexpr const char* kNoName = "IcomeUnnamed";
 /// DEF name of the Appearance of objects that have no material: it looks as they do, and is none again.
 inline constexpr const char* kNoMaterial = "IcomeDefault";
 
-inline constexpr VrmlProto kMaterialProto = {"IcomeMaterial", R"(PROTO IcomeMaterial [
-  field SFString name ""
+inline constexpr VrmlProto kTriangles = {"", R"(  field SFNode coord NULL
+  field MFInt32 coordIndex []
+  field SFFloat creaseAngle 0
+  field SFBool solid TRUE
+)",
+                                         R"(  IndexedFaceSet {
+    coord IS coord
+    coordIndex IS coordIndex
+    creaseAngle IS creaseAngle
+    solid IS solid
+  }
+)"};
+
+inline constexpr VrmlProto kMaterialProto = {"IcomeMaterial", R"(  field SFString name ""
   exposedField SFFloat ambientIntensity 0.2
   exposedField SFColor diffuseColor 0.8 0.8 0.8
   exposedField SFColor emissiveColor 0 0 0
@@ -29,8 +43,8 @@ inline constexpr VrmlProto kMaterialProto = {"IcomeMaterial", R"(PROTO IcomeMate
   field SFFloat staticFriction 0
   field SFFloat dynamicFriction 0
   field SFString hapticTexture ""
-] {
-  Material {
+)",
+                                             R"(  Material {
     ambientIntensity IS ambientIntensity
     diffuseColor IS diffuseColor
     emissiveColor IS emissiveColor
@@ -38,84 +52,29 @@ inline constexpr VrmlProto kMaterialProto = {"IcomeMaterial", R"(PROTO IcomeMate
     specularColor IS specularColor
     transparency IS transparency
   }
-}
 )"};
 
-inline constexpr VrmlProto kCsgProto = {"IcomeCsg", R"(PROTO IcomeCsg [
-  field SFString tree ""
-  field SFNode coord NULL
-  field MFInt32 coordIndex []
-  field SFFloat creaseAngle 0
-  field SFBool solid TRUE
-] {
-  IndexedFaceSet {
-    coord IS coord
-    coordIndex IS coordIndex
-    creaseAngle IS creaseAngle
-    solid IS solid
-  }
-}
+inline constexpr VrmlProto kCsgProto = {"IcomeCsg", R"(  field SFString tree ""
 )"};
 
-inline constexpr VrmlProto kLoopProto = {"IcomeLoopSurface", R"(PROTO IcomeLoopSurface [
-  field MFVec3f controlPoint []
+inline constexpr VrmlProto kLoopProto = {"IcomeLoopSurface", R"(  field MFVec3f controlPoint []
   field MFInt32 controlIndex []
   field MFInt32 crease []
   field MFInt32 corner []
-  field SFNode coord NULL
-  field MFInt32 coordIndex []
-  field SFFloat creaseAngle 0
-  field SFBool solid TRUE
-] {
-  IndexedFaceSet {
-    coord IS coord
-    coordIndex IS coordIndex
-    creaseAngle IS creaseAngle
-    solid IS solid
-  }
-}
 )"};
 
-inline constexpr VrmlProto kImplicitProto = {"IcomeImplicit", R"(PROTO IcomeImplicit [
-  field SFString formula ""
+inline constexpr VrmlProto kImplicitProto = {"IcomeImplicit", R"(  field SFString formula ""
   field SFString box ""
-  field SFNode coord NULL
-  field MFInt32 coordIndex []
-  field SFFloat creaseAngle 0
-  field SFBool solid TRUE
-] {
-  IndexedFaceSet {
-    coord IS coord
-    coordIndex IS coordIndex
-    creaseAngle IS creaseAngle
-    solid IS solid
-  }
-}
 )"};
 
-inline constexpr VrmlProto kPrimitiveProto = {"IcomePrimitive", R"(PROTO IcomePrimitive [
-  field SFString shape ""
+inline constexpr VrmlProto kPrimitiveProto = {"IcomePrimitive", R"(  field SFString shape ""
   field SFString axis "z"
-  field SFNode coord NULL
-  field MFInt32 coordIndex []
-  field SFFloat creaseAngle 0
-  field SFBool solid TRUE
-] {
-  IndexedFaceSet {
-    coord IS coord
-    coordIndex IS coordIndex
-    creaseAngle IS creaseAngle
-    solid IS solid
-  }
-}
 )"};
 
-inline constexpr VrmlProto kSceneProto = {"IcomeScene", R"(PROTO IcomeScene [
-  field SFString name ""
+inline constexpr VrmlProto kSceneProto = {"IcomeScene", R"(  field SFString name ""
   field MFString objects []
-] {
-  Group {}
-}
+)",
+                                          R"(  Group {}
 )"};
 
 }  // namespace icome::files

@@ -103,6 +103,7 @@ class VrmlWriter {
   void look_at_scripts();
   void give_names();
   void name_shapes();
+  static std::string definition(const VrmlProto& proto);
   void write_protos();
   Result<void> write_objects();
   Result<Open> open(ObjectId id);
@@ -191,6 +192,11 @@ void VrmlWriter::name_shapes() {
   }
 }
 
+std::string VrmlWriter::definition(const VrmlProto& proto) {
+  return fmt::format("PROTO {} [\n{}{}] {{\n{}}}\n", proto.name, proto.fields,
+                     proto.body ? "" : kTriangles.fields, proto.body ? proto.body : kTriangles.body);
+}
+
 void VrmlWriter::write_protos() {
   std::set<const VrmlProto*> used;
   for (const auto& [id, geometry] : world_.geometries()) {
@@ -200,7 +206,7 @@ void VrmlWriter::write_protos() {
   if (!world_.scenes().empty()) used.insert(&kSceneProto);
   for (const VrmlProto* proto :
        {&kMaterialProto, &kPrimitiveProto, &kCsgProto, &kLoopProto, &kImplicitProto, &kSceneProto}) {
-    if (used.contains(proto)) text_.add(proto->text);
+    if (used.contains(proto)) text_.add(definition(*proto));
   }
 }
 
