@@ -1,0 +1,63 @@
+#pragma once
+#include "base/vector.h"
+#include "devices/navigation_device.h"
+
+namespace icome::interaction {
+
+using base::Bounds;
+using base::Pose;
+using base::Vector3;
+
+/// Where one looks from. The eye looks along its -z, y up; world frame, y up.
+struct View {
+  Pose world_from_eye = Pose(Eigen::Translation3d(0.0, 0.0, 1.0));
+  double field = 0.6;     // rad, of the shorter side of the picture; 0.05 to 2.5
+  double distance = 1.0;  // m, from the eye to what is looked at: what orbiting turns about; > 0
+};
+
+/// What moving the navigation device moves (thesis 2.4.2).
+enum class NavigationMode : std::uint8_t { Camera, Hand };
+
+/// A straight line that starts somewhere; world frame.
+struct Ray {
+  Vector3 origin = Vector3::Zero();
+  Vector3 direction = -Vector3::UnitZ();  // unit
+};
+
+/// The ray through a place in the picture: x and y in [-1, 1] from left to right and from bottom to top;
+/// aspect is width over height.
+Ray ray_through(const View& view, double x, double y, double aspect);
+
+// Movements of a view. Each is a pure function; all keep the horizon level unless the view was tilted
+// already, and never turn over the poles.
+
+/// About the point at `distance`: rad to the right and up.
+View orbited(const View& view, double right, double up);
+/// The view turned where it is: rad to the right and up.
+View looked_around(const View& view, double right, double up);
+/// Sideways, so that what is at `distance` follows the mouse: shares of the picture's shorter side.
+View panned(const View& view, double right, double up);
+/// Nearer (factor < 1) or farther; `towards` stays in its place in the picture.
+View zoomed(const View& view, double factor, const Vector3& towards);
+/// As the navigation device says, for dt seconds: pushed by up to one `distance` a second.
+View flown(const View& view, const devices::NavigationState& state, double dt);
+/// Looks at all of the bounds from the direction (to the eye), as near as that goes; aspect as above. Empty
+/// bounds are taken as a ball of 0.1 m around the origin.
+View fitted(const View& view, const Bounds& bounds, const Vector3& toward_eye, const Vector3& up,
+            double aspect);
+
+/// A view on its way to another: starts and ends softly, turns the short way, keeps what is looked at in
+/// sight.
+class ViewFlight {
+ public:
+  ViewFlight(const View& from, const View& to, double seconds) : from_(from), to_(to), seconds_(seconds) {}
+  /// Where it is after that time (s); `to` from the end on.
+  View at(double time) const;
+  bool over(double time) const { return time >= seconds_; }
+
+ private:
+  View from_, to_;
+  double seconds_;
+};
+
+}  // namespace icome::interaction

@@ -1,0 +1,61 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <semaphore>
+#include <vector>
+
+#include "realtime/message_pipe.h"
+#include "world/edit.h"
+
+namespace icome::session {
+
+/// One thing that happened to a session's world.
+struct Edited {
+  std::uint64_t number = 0;                             // counts what was posted, from 1
+  std::shared_ptr<const world::World> whole = nullptr;  // not null: the world is another one from now on
+  std::shared_ptr<const world::Edit> edit = nullptr;    // not null: it has been through this
+  std::optional<world::SceneId> shown = {};  // another scene (none: the whole world) is looked at and touched
+};
+
+/// The EditedQueue of thesis 5.6.1: what was edited is queued once, and each representation of the world (for
+/// hand, eye, disk, colleagues) takes what it needs, on a thread of its own and in its own time. One thread
+/// (main) posts and never waits, however far behind a reader is; what does not fit into a reader's pipe is
+/// kept for it. Owns the readers.
+class EditedQueue {
+ public:
+  /// One representation's end of the queue; one thread uses it.
+  class Reader {
+   public:
+    /// Waits until there is something to take; false when the queue has been closed and all is taken.
+    bool wait();
+    /// What was posted next; nothing when all is taken. Never waits.
+    std::optional<Edited> take();
+
+   private:
+    friend class EditedQueue;
+    static constexpr std::size_t kRoom = 1024;
+    realtime::MessagePipe<Edited> pipe_{kRoom};
+    std::counting_semaphore<> news_{0};
+    std::atomic<bool> closed_ = false;
+    std::deque<Edited> kept_;  // did not fit; the posting thread's
+  };
+
+  /// For one more representation. Before the first post; lives as long as the queue.
+  Reader& add_reader();
+
+  /// Queues it for all readers and gives it its number.
+  std::uint64_t post(Edited edited);
+  /// Hands on what did not fit before. The posting thread calls it now and then.
+  void pump();
+  /// Readers take what is left and then hear that there will be no more.
+  void close();
+
+ private:
+  std::vector<std::unique_ptr<Reader>> readers_;
+  std::uint64_t posted_ = 0;
+};
+
+}  // namespace icome::session

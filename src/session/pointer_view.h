@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+
+#include "base/object_id.h"
+#include "base/vector.h"
+#include "devices/pointer_device.h"
+#include "world/id.h"
+
+namespace icome::session {
+
+/// What the servo says of one pointer after a tick, for eyes and for interaction; stage frame.
+struct PointerView {
+  std::int64_t time = 0;  // ns, steady clock
+  devices::DeviceStatus status = devices::DeviceStatus::Lost;
+  base::Vector3 tip = base::Vector3::Zero();  // m, the device's own
+  base::Vector3 scp = base::Vector3::Zero();  // m, the surface contact point; the tip when nothing is touched
+  base::Vector3 force = base::Vector3::Zero();  // N, on the hand
+  bool touching = false;
+  base::ObjectId touched = {};  // in the haptic scene, when touching
+  std::uint32_t buttons = 0;    // bit i: button i is down
+};
+
+/// One sample of force over time, for a plot.
+struct ForceSample {
+  std::int64_t time = 0;  // ns, steady clock
+  float force = 0.0F;     // N, magnitude; the largest since the sample before
+  bool touching = false;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,187 @@
+#pragma once
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "devices/head_device.h"
+#include "devices/navigation_device.h"
+#include "devices/pointer_device.h"
+#include "haptics/servo/servo.h"
+#include "interaction/mouse_hand.h"
+#include "interaction/navigation.h"
+#include "realtime/loop.h"
+#include "render/render_scene.h"
+#include "session/display_feed.h"
+#include "session/pointer_view.h"
+#include "world/changes.h"
+#include "world/history.h"
+
+namespace icome::session {
+
+struct SessionSettings {
+  /// Devices that the session then owns. Without pointers there is one that the mouse drives: a simulated
+  /// hand.
+  std::vector<std::unique_ptr<devices::PointerDevice>> pointers = {};
+  std::unique_ptr<devices::NavigationDevice> navigation = nullptr;  // may be null
+  std::unique_ptr<devices::HeadDevice> head = nullptr;              // may be null
+  haptics::ServoSettings servo = {};
+  bool realtime_priority = true;  // asked for; refused, the servo runs as well as it can
+  /// Where work in progress is kept against crashes; empty: nowhere.
+  std::filesystem::path autosave_folder = {};
+};
+
+/// Something that a person should be told.
+struct SessionEvent {
+  enum class Kind : std::uint8_t {
+    Opened,      // a design was read; details: what was skipped or put right
+    OpenFailed,  // the world is what it was before
+    OpenCancelled,
+    Saved,           // details: what the format cannot hold
+    SaveFailed,      // the work is still there, as is the old file
+    Recovered,       // work of a session that ended without closing
+    AutosaveFailed,  // work goes on, but a crash would lose it
+    AutosaveResumed,
+    DeviceLost,
+    DeviceBack,
+    Notice,  // such as that the servo has no real-time priority
+  };
+  Kind kind = Kind::Notice;
+  std::string text = {};  // a sentence or two: what happened, and what to do
+  std::vector<std::string> details = {};
+};
+
+/// Work that was kept of a session that ended without closing.
+struct RecoverableWork {
+  std::filesystem::path journal;
+  std::filesystem::path design;  // that was worked on; empty: one that has never been saved
+  std::chrono::system_clock::time_point changed = {};
+};
+
+/// How the servo is doing.
+struct ServoHealth {
+  bool running = false;
+  double rate_hz = 0.0;  // as asked for
+  realtime::LoopSummary summary = {};
+  std::array<std::uint64_t, realtime::LoopRecorder::kLoadBins> load_histogram = {};  // since the start
+  std::string notice = {};  // what the system refused; or empty
+};
+
+/// One running workspace without a window (thesis 5.6.1): the world with its history, the servo loop, what is
+/// drawn, devices, view, selection, and the journal that keeps work against crashes. Tests, command-line
+/// tools, studies and the desktop drive one. Owns all of these and their threads: servo, one for each
+/// representation (hand, eye, disk), one for files; the thread that made it is main, and only that one calls
+/// it, but for display(). Nothing here waits for a thread unless it says so.
+///
+/// What is shown and touched lies on the stage: y up, metres. Worlds of formats with z up are turned onto it.
+class Session {
+ public:
+  /// Starts devices and threads with an empty design. Fails when the servo loop cannot start.
+  static base::Result<std::unique_ptr<Session>> create(SessionSettings settings);
+  /// Ends all threads; waits for files being written. Work that was not saved stays recoverable unless
+  /// close() was called.
+  ~Session();
+
+  // The main loop.
+  /// Takes in what other threads and devices have brought since the last call, moves the view on, and gives
+  /// what a person should be told. Call it some 60 times a second.
+  std::vector<SessionEvent> update();
+  /// Called on main after the world has changed: by these changes, or, when null, to another one.
+  void on_change(std::function<void(const world::Changes*)> listener);
+  void on_selection(std::function<void()> listener);
+
+  // The world.
+  const world::World& world() const;
+  world::IdSource& ids();
+  /// Performs an action called `name` ("Move leg"), which can then be undone.
+  base::Result<void> perform(const world::Edit& edit, const std::string& name);
+  /// More of the last action, such as the next step of a drag.
+  base::Result<void> extend(const world::Edit& edit);
+  base::Result<void> undo();
+  base::Result<void> redo();
+  const world::History& history() const;
+  const base::Pose& stage_from_world() const;
+
+  // Files. Opening and saving go on in the background; update() tells how they end.
+  /// Starts an empty design.
+  void make_new();
+  /// Starts reading; a reading under way is given up. The world stays what it is until all is read.
+  void open(const std::filesystem::path& design);
+  void cancel_open();
+  /// The part that is done, [0, 1], while a design is being read.
+  std::optional<double> opening() const;
+  /// Starts writing what the world is now, there from now on.
+  void save(const std::filesystem::path& design);
+  bool saving() const;
+  /// Of the design; empty: it has never been saved.
+  const std::filesystem::path& path() const;
+  /// Would closing lose something?
+  bool modified() const;
+  /// Waits until nothing is being read or written, and all threads have caught up with the world. For tests
+  /// and command-line tools.
+  void settle();
+  /// The work is saved or not wanted: nothing of it is kept for recovery.
+  void close();
+
+  // Recovery.
+  std::vector<RecoverableWork> recoverable() const;
+  /// Opens it instead of the design that it was made of, as modified work on that.
+  void recover(const RecoverableWork& work);
+  void discard(const RecoverableWork& work);
+
+  // Scenes, selection.
+  /// Shows and touches one scene of the world, or all of it.
+  void show_scene(world::SceneId scene);
+  world::SceneId shown_scene() const;
+  /// In the order of selecting. Those that are gone are left out by themselves.
+  const std::vector<world::ObjectId>& selection() const;
+  void select(std::vector<world::ObjectId> objects);
+  /// Of the selection (all, without one), stage frame.
+  base::Bounds selection_bounds() const;
+
+  // The view.
+  const interaction::View& view() const;
+  void set_view(const interaction::View& view);
+  /// On its way softly, over some tenths of a second.
+  void fly_to(const interaction::View& view);
+  void home(double aspect);
+  interaction::NavigationMode navigation_mode() const;
+  void set_navigation_mode(interaction::NavigationMode mode);
+  /// How main wants the world to look; view and selection are put in by the session.
+  void set_look(const DisplayWish& look);
+  /// What is on the stage, as main saw it last; never null.
+  const render::RenderScenePointer& drawn() const;
+  /// The display thread's.
+  DisplayFeed& display();
+
+  // Hands.
+  std::size_t pointers() const;
+  const PointerView& pointer(std::size_t index) const;
+  const devices::DeviceInfo& pointer_info(std::size_t index) const;
+  /// The object that a pointer touches.
+  std::optional<world::ObjectId> touched(std::size_t index) const;
+  /// Where the hand of the mouse-driven pointer wants to be, stage frame; surfaces may keep it away. Without
+  /// effect on other devices.
+  void aim_hand(const base::Vector3& position);
+  /// What the ray meets first of what can be touched, stage frame.
+  struct Picked {
+    world::ObjectId object;
+    interaction::PickedPoint place;
+  };
+  std::optional<Picked> pick(const interaction::Ray& ray) const;
+  ServoHealth servo() const;
+  /// Force over time of the first pointer since the last call, oldest first, some 200 a second.
+  std::vector<ForceSample> take_forces();
+
+ private:
+  struct Parts;
+  explicit Session(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace icome::session

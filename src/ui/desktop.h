@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace icome::ui {
+
+struct DesktopOptions {
+  std::filesystem::path design = {};  // to open; empty: what was left unsaved by a crash, or an empty design
+  std::string theme = {};             // "dark", "light"; empty: as chosen before, or as the system has it
+};
+
+/// Opens the window and runs until it is closed; gives the program's exit code. Where there is no display it
+/// says so on standard error, names `icome touch` and `icome shot` as the way on, and gives 1.
+int run_desktop(int argc, char** argv, const DesktopOptions& options);
+
+}  // namespace icome::ui
