@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <string>
 
+#include "session/session.h"
+
 namespace icome::ui {
 
 struct DesktopOptions {
@@ -9,8 +11,9 @@ struct DesktopOptions {
   std::string theme = {};             // "dark", "light"; empty: as chosen before, or as the system has it
 };
 
-/// Opens the window and runs until it is closed; gives the program's exit code. Where there is no display it
-/// says so on standard error, names `icome touch` and `icome shot` as the way on, and gives 1.
-int run_desktop(int argc, char** argv, const DesktopOptions& options);
+/// Opens the window on a session of these settings (apps chooses the devices) and runs until it is closed;
+/// gives the program's exit code. Where there is no display it says so on standard error, names `icome touch`
+/// and `icome shot` as the way on, and gives 1.
+int run_desktop(int argc, char** argv, const DesktopOptions& options, session::SessionSettings settings);
 
 }  // namespace icome::ui

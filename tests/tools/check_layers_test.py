@@ -50,6 +50,11 @@ class CheckLayersTest(unittest.TestCase):
                                         "src/files/a.cpp": "#include <assimp/scene.h>\n"})
         self.assertIn("src/files/a.h:1: <assimp/scene.h> belongs in a source file", complaint)
 
+    def test_windows_are_made_of_qt(self):
+        self.assertEqual([], self.complaints({"src/ui/a.h": "#include <QWidget>\n"}))
+        (complaint,) = self.complaints({"src/session/a.h": "#include <QWidget>\n"})
+        self.assertIn("<QWidget> belongs in a source file", complaint)
+
     def test_an_include_names_its_folder(self):
         (complaint,) = self.complaints({"src/files/a.cpp": '#include "mesh.h"\n'})
         self.assertIn("does not begin with a folder", complaint)
