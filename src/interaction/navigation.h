@@ -24,14 +24,23 @@ struct Ray {
   Vector3 direction = -Vector3::UnitZ();  // unit
 };
 
-/// The ray through a place in the picture: x and y in [-1, 1] from left to right and from bottom to top;
-/// aspect is width over height.
+/// Half the picture's width and height at 1 m from the eye, m; aspect is width over height.
+Eigen::Vector2d half_picture(const View& view, double aspect);
+
+/// The ray through a place in the picture: x and y in [-1, 1] from left to right and from bottom to top.
 Ray ray_through(const View& view, double x, double y, double aspect);
 
-// Movements of a view. Each is a pure function; all keep the horizon level unless the view was tilted
-// already, and never turn over the poles.
+/// The point at `distance` straight ahead of the eye.
+Vector3 looked_at(const View& view);
 
-/// About the point at `distance`: rad to the right and up.
+/// The view with what no view can have (not a number, out of range, not rigid) put right.
+View usable(const View& view);
+
+// Movements of a view. Each is a pure function; all keep the horizon level unless the view was tilted
+// already, and never turn over the poles. The view they give is usable, whatever they are given: what leads
+// nowhere is no movement.
+
+/// The eye goes round the point at `distance`: rad to the right and up.
 View orbited(const View& view, double right, double up);
 /// The view turned where it is: rad to the right and up.
 View looked_around(const View& view, double right, double up);
@@ -39,23 +48,33 @@ View looked_around(const View& view, double right, double up);
 View panned(const View& view, double right, double up);
 /// Nearer (factor < 1) or farther; `towards` stays in its place in the picture.
 View zoomed(const View& view, double factor, const Vector3& towards);
-/// As the navigation device says, for dt seconds: pushed by up to one `distance` a second.
+/// As the navigation device says, for dt seconds: pushed by up to one `distance` a second, turned by up to a
+/// quarter turn a second. What tilts the horizon is left out.
 View flown(const View& view, const devices::NavigationState& state, double dt);
-/// Looks at all of the bounds from the direction (to the eye), as near as that goes; aspect as above. Empty
-/// bounds are taken as a ball of 0.1 m around the origin.
+/// Looks at the centre of the bounds from the direction (to the eye), as near as that goes with all of them
+/// in the picture and a little room around. Bounds that are empty or without end are taken as a ball of 0.1 m
+/// around the origin; a point is looked at from where it is.
 View fitted(const View& view, const Bounds& bounds, const Vector3& toward_eye, const Vector3& up,
             double aspect);
 
-/// A view on its way to another: starts and ends softly, turns the short way, keeps what is looked at in
-/// sight.
+/// A view on its way to another: starts and ends softly and turns the short way. What the views look at
+/// stays in the middle of the picture; to get far it steps back first, so that one sees where one goes (van
+/// Wijk and Nuij, Smooth and Efficient Zooming and Panning, 2003).
 class ViewFlight {
  public:
-  ViewFlight(const View& from, const View& to, double seconds) : from_(from), to_(to), seconds_(seconds) {}
+  /// Over at once when `seconds` is no positive number.
+  ViewFlight(const View& from, const View& to, double seconds);
   /// Where it is after that time (s); `to` from the end on.
   View at(double time) const;
-  bool over(double time) const { return time >= seconds_; }
+  bool over(double time) const { return !(time < seconds_); }
 
  private:
+  /// How far along to what is looked at, in [0, 1], and how far away the eye is, m.
+  struct Stage {
+    double along, distance;
+  };
+  Stage stage(double progress) const;
+
   View from_, to_;
   double seconds_;
 };
