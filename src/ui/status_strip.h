@@ -1,0 +1,21 @@
+#pragma once
+#include <QWidget>
+#include <memory>
+
+#include "session/session.h"
+
+namespace icome::ui {
+
+/// How hand and servo are doing, live: pointer device, servo rate, haptic load, lateness and force over time.
+/// Looks at the session, which outlives it, some 15 times a second while it is visible.
+class StatusStrip final : public QWidget {
+ public:
+  StatusStrip(session::Session& session, QWidget* parent);
+  ~StatusStrip() override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace icome::ui
