@@ -15,28 +15,38 @@
 
 namespace icome::files {
 
-base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
-                                            const DesignReadOptions& options) {
-  auto parsed = parse_mesh_file(path, options.size_limit);
+base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
+                                        std::uint64_t size_limit) {
+  auto parsed = parse_mesh_file(path, size_limit);
   if (!parsed) return tl::unexpected(parsed.error());
-  DesignBuilder builder;
-  for (const std::string& note : parsed->notes) builder.remark(as_sentence(note));
+  MeshShape result{nullptr, std::move(parsed->format), {}};
+  for (const std::string& note : parsed->notes) result.remarks.push_back(as_sentence(note));
   world::MeshGeometry shape(std::move(parsed->mesh));
   if (!parsed->colours.empty()) {
     for (const auto& [a, b, c] : shape.mesh.triangles)
       shape.colours.push_back({parsed->colours[a], parsed->colours[b], parsed->colours[c]});
   }
-  if (const auto scaled = scale(shape.mesh.positions, options.unit, path.string()); !scaled)
+  if (const auto scaled = scale(shape.mesh.positions, unit, path.string()); !scaled)
     return tl::unexpected(scaled.error());
-  if (const std::string lost = drop_not_finite(shape); !lost.empty()) builder.remark(lost);
+  if (std::string lost = drop_not_finite(shape); !lost.empty()) result.remarks.push_back(std::move(lost));
   // STL repeats every corner; what meets there is one vertex.
   if (ending_of(path).type == ".stl") {
     geometry::weld_equal(shape.mesh);
     drop_unused(shape.mesh);
   }
-  const auto geometry = builder.add(std::make_shared<const world::MeshGeometry>(std::move(shape)));
-  builder.add(world::PhysicalObject{.name = bare_name(path), .geometry = geometry});
-  return builder.take(parsed->format, path.string());
+  result.shape = std::make_shared<const world::MeshGeometry>(std::move(shape));
+  return result;
+}
+
+base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
+                                            const DesignReadOptions& options) {
+  auto read = read_mesh_shape(path, options.unit, options.size_limit);
+  if (!read) return tl::unexpected(read.error());
+  DesignBuilder builder;
+  for (const std::string& remark : read->remarks) builder.remark(remark);
+  builder.add(
+      world::PhysicalObject{.name = bare_name(path), .geometry = builder.add(std::move(read->shape))});
+  return builder.take(read->format, path.string());
 }
 
 base::Result<LoadedDesign> read_csg_design(const std::filesystem::path& path,

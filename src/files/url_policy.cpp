@@ -66,7 +66,47 @@ const char* objection(const std::string& name) {
   return nullptr;
 }
 
+/// The absolute name that a url of this machine has: `/a` of `/a`, `file:/a`, `file:///a` and
+/// `file://localhost/a`; else nothing.
+std::string_view absolute_name(std::string_view url) {
+  constexpr std::string_view kScheme = "file:", kHere = "//localhost/", kNoHost = "///";
+  if (url.starts_with(kScheme)) {
+    url.remove_prefix(kScheme.size());
+    if (url.starts_with(kHere)) url.remove_prefix(kHere.size() - 1);
+    if (url.starts_with(kNoHost)) url.remove_prefix(kNoHost.size() - 1);
+  }
+  return url.starts_with('/') && !url.starts_with("//") ? url : std::string_view();
+}
+
 }  // namespace
+
+bool is_below(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+base::Result<std::filesystem::path> find_installed_or_beside(const std::filesystem::path& base_file,
+                                                             std::string_view url,
+                                                             const std::filesystem::path& installed) {
+  const std::string_view name = absolute_name(url);
+  if (name.empty()) return find_beside(base_file, url);
+  const auto refused = [&](const std::string& why) {
+    return base::fail(fmt::format("{} is not fetched: {}", url_text(url), why));
+  };
+  const std::string decoded = percent_decoded(name);
+  if (decoded.find('\0') != std::string::npos) return refused("it holds a zero byte");
+  // The name must lie there before links are looked at, so that nothing is learnt of other places.
+  if (!is_below(installed, std::filesystem::path(decoded).lexically_normal()))
+    return refused(fmt::format("of this machine only what lies below {} is", installed.string()));
+  for (const std::string& meaning : {std::string(name), decoded}) {
+    std::error_code error;
+    const std::filesystem::path found = std::filesystem::canonical(meaning, error);
+    if (error || !std::filesystem::is_regular_file(found, error)) continue;
+    const std::filesystem::path folder = std::filesystem::canonical(installed, error);
+    if (!error && is_below(folder, found)) return found;
+    return refused(fmt::format("it is a link to what does not lie below {}", installed.string()));
+  }
+  return refused("there is no such file");
+}
 
 base::Result<std::filesystem::path> find_beside(const std::filesystem::path& base_file,
                                                 std::string_view url) {

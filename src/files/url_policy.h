@@ -20,4 +20,17 @@ base::Result<std::filesystem::path> find_beside(const std::filesystem::path& bas
 base::Result<std::string> fetch_beside(const std::filesystem::path& base_file, std::string_view url,
                                        std::uint64_t limit);
 
+/// Where packages put data that anybody may read.
+inline constexpr const char* kInstalledData = "/usr/share";
+
+/// As find_beside(), and also what packages have installed: an absolute name (`/usr/share/a/b.obj`,
+/// `file:///usr/share/a/b.obj`) of a regular file that lies below `installed` once all links are resolved.
+/// Nothing there is anybody's secret. For meshes only; the caller must see that it is one.
+base::Result<std::filesystem::path> find_installed_or_beside(const std::filesystem::path& base_file,
+                                                             std::string_view url,
+                                                             const std::filesystem::path& installed);
+
+/// Does `path` lie in the folder or below it? Both with links resolved.
+bool is_below(const std::filesystem::path& folder, const std::filesystem::path& path);
+
 }  // namespace icome::files

@@ -21,10 +21,6 @@ std::filesystem::path canonical_or_same(const std::filesystem::path& path) {
   return error ? path : found;
 }
 
-bool is_below(const std::filesystem::path& folder, const std::filesystem::path& path) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
 }  // namespace
 
 VrmlBroker::VrmlBroker(const std::filesystem::path& design, std::uint64_t size_limit)

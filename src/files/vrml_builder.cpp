@@ -57,7 +57,8 @@ class VrmlBuilder {
         scene_(scene),
         reader_(reader),
         patience_(patience),
-        pictures_(sources.fetch_picture, sources.picture_limit, findings_) {}
+        pictures_(sources.fetch_picture, sources.picture_limit, findings_),
+        meshes_(sources.find_mesh, sources.picture_limit, findings_) {}
 
   Result<LoadedDesign> build() {
     add_notes();
@@ -200,8 +201,25 @@ class VrmlBuilder {
   }
 
   void make_shapes(const flat::Piece& piece, PiecePlan& plan) {
+    if (piece.kind() == flat::PieceKind::Mesh) {
+      const world::GeometryPointer shape = mesh_of_file(piece);
+      plan.shapes.assign(plan.textures.size(), shape ? design_.add(shape) : GeometryId{});
+      return;
+    }
     for (const world::GeometryPointer& shape : shapes_of(piece, reader_, plan.textures, findings_, patience_))
       plan.shapes.push_back(shape ? design_.add(shape) : GeometryId{});
+  }
+
+  world::GeometryPointer mesh_of_file(const flat::Piece& piece) {
+    VrmlMeshNode node;
+    node.name = reader_.text(piece.name());
+    node.base = reader_.text(piece.base());
+    node.unit = piece.unit();
+    node.package = reader_.text(piece.text());
+    if (piece.urls()) {
+      for (const flat::Word* url : *piece.urls()) node.urls.push_back(reader_.text(url->text()));
+    }
+    return reader_.fault().empty() ? meshes_.shape_of(node) : nullptr;
   }
 
   /// None for a look that is nothing but the default.
@@ -297,6 +315,7 @@ class VrmlBuilder {
   Findings findings_;
   std::vector<Remark> notes_;
   VrmlPictures pictures_;
+  VrmlMeshes meshes_;
   DesignBuilder design_;
   std::vector<VrmlNode> nodes_;
   std::vector<LookPlan> looks_;

@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "files/design.h"
 #include "files/patience.h"
+#include "files/vrml_meshes.h"
 #include "files/vrml_pictures.h"
 #include "files/vrml_scanner.h"
 
@@ -16,7 +17,8 @@ namespace icome::files {
 struct VrmlSources {
   std::string name = {};                  // of the file, for errors
   FetchPicture fetch_picture = {};        // never empty
-  std::uint64_t picture_limit = 1 << 30;  // bytes, of all pictures together
+  FindMesh find_mesh = {};                // never empty
+  std::uint64_t picture_limit = 1 << 30;  // bytes, of all pictures together, and of all meshes
   std::vector<VrmlScript> scripts = {};   // become objects behind all others
 };
 

@@ -67,6 +67,12 @@ inline constexpr VrmlProto kImplicitProto = {"IcomeImplicit", R"(  field SFStrin
   field SFString box ""
 )"};
 
+/// Read, never written: a design that is saved holds the triangles of its meshes.
+inline constexpr VrmlProto kMeshProto = {"IcomeMesh", R"(  field MFString url []
+  field SFFloat unit 1
+  field SFString package ""
+)"};
+
 inline constexpr VrmlProto kPrimitiveProto = {"IcomePrimitive", R"(  field SFString shape ""
   field SFString axis "z"
 )"};

@@ -61,6 +61,21 @@ FetchPicture beside(const fs::path& path, const std::vector<fs::path>& files) {
   };
 }
 
+/// Finds meshes beside a file that was read, and among what packages have installed.
+FindMesh mesh_finder(const fs::path& path, const std::vector<fs::path>& files) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(path, error).parent_path();
+  return [=](const std::string& base, const std::string& url) -> base::Result<FoundMesh> {
+    const auto known = std::find(files.begin(), files.end(), fs::path(base));
+    if (!base.empty() && known == files.end())
+      return base::fail("it is asked for by a file that was not read");
+    auto found = find_installed_or_beside(base.empty() ? path : *known, url, kInstalledData);
+    if (!found) return tl::unexpected(found.error());
+    const bool is_public = is_below(kInstalledData, *found) || (!folder.empty() && is_below(folder, *found));
+    return FoundMesh{std::move(*found), is_public};
+  };
+}
+
 }  // namespace
 
 base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptions& options) {
@@ -79,8 +94,8 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
 
   std::vector<Remark> remarks = std::move(left_out->remarks);
   add_remarks_of_others(answer->files, options, remarks);
-  const VrmlSources sources = {path.string(), beside(path, answer->files), options.size_limit,
-                               std::move(left_out->scripts)};
+  const VrmlSources sources = {path.string(), beside(path, answer->files), mesh_finder(path, answer->files),
+                               options.size_limit, std::move(left_out->scripts)};
   Patience patience(options.seconds_limit, options.progress, kParsedPart);
   auto design = build_vrml(answer->bytes, sources, patience);
   if (!design) return design;

@@ -97,6 +97,39 @@ TEST_F(UrlPolicy, ResolvesLinks) {
   EXPECT_FALSE(fetch("loop.png"));
 }
 
+TEST_F(UrlPolicy, FindsWhatPackagesInstalled) {
+  const fs::path installed = fs::canonical(folder_) / "installed";
+  fs::create_directories(installed / "models");
+  write("installed/models/a b.obj", "mesh");
+  write("installedtoo.obj", "secret");
+  fs::create_symlink("a b.obj", installed / "models/link.obj");
+  fs::create_symlink("../shared.png", installed / "out.obj");
+  fs::create_directory_symlink("..", installed / "up");
+  const auto find = [&](const std::string& url) {
+    return find_installed_or_beside(folder_ / "design/main.wrl", url, installed);
+  };
+  const std::string there = installed.string();
+  for (const std::string& url :
+       {there + "/models/a b.obj", there + "/models/a%20b.obj", "file://" + there + "/models/a%20b.obj",
+        "file:" + there + "/models/a b.obj", "file://localhost" + there + "/models/a b.obj",
+        there + "/models/../models//a b.obj", there + "/models/link.obj"}) {
+    const auto found = find(url);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(*found, installed / "models/a b.obj") << url;
+  }
+  EXPECT_EQ(find("../shared.png").value(), fs::canonical(folder_ / "shared.png")) << "beside, as ever";
+  for (const std::string& url :
+       {there, there + "/models", there + "/gone.obj", there + "/out.obj", there + "/up/shared.png",
+        there + "/../shared.png", there + "/%2e%2e/shared.png", there + "too.obj", std::string("/etc/passwd"),
+        "//host" + there + "/models/a b.obj", "file://host" + there + "/models/a b.obj",
+        "http://" + there + "/models/a b.obj", there + "/models/a b.obj%00", std::string("file:///"),
+        there + std::string("/models/a b.obj\0", 16)})
+    EXPECT_FALSE(find(url)) << url;
+  // Nothing is learnt of what lies elsewhere.
+  EXPECT_EQ(find("/etc/passwd").error().message.find("no such"), std::string::npos);
+  EXPECT_EQ(find("/etc/passwd").error().message.substr(15), find("/etc/nosuch").error().message.substr(15));
+}
+
 TEST_F(UrlPolicy, ErrorsAreOneShortLine) {
   const auto bytes = fetch("data:\n" + std::string(1'000'000, 'A'));
   ASSERT_FALSE(bytes);

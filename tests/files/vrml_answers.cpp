@@ -35,8 +35,10 @@ flatbuffers::Offset<flat::Piece> add(Flat& flat, const AnswerPiece& from) {
   const auto colour_polygons = numbers(flat, from.colour_polygons);
   const auto creases = numbers(flat, from.creases);
   const auto corners = numbers(flat, from.corners);
-  const auto words = text(flat, from.text);
+  const auto said = text(flat, from.text);
   const auto box = numbers(flat, from.box);
+  const auto urls = words(flat, from.urls);
+  const auto base = text(flat, from.base);
   flat::PieceBuilder piece(flat);
   piece.add_name(name);
   piece.add_kind(from.kind);
@@ -55,9 +57,12 @@ flatbuffers::Offset<flat::Piece> add(Flat& flat, const AnswerPiece& from) {
   piece.add_crease_angle(from.crease_angle);
   piece.add_creases(creases);
   piece.add_corners(corners);
-  piece.add_text(words);
+  piece.add_text(said);
   piece.add_box(box);
   piece.add_along_y(from.along_y);
+  piece.add_urls(urls);
+  piece.add_base(base);
+  piece.add_unit(from.unit);
   return piece.Finish();
 }
 

@@ -33,6 +33,9 @@ struct AnswerPiece {
   std::string text = {};
   std::vector<double> box = {};
   bool along_y = false;
+  std::vector<std::string> urls = {};
+  std::string base = {};
+  double unit = 1.0;
 };
 
 struct AnswerPicture {

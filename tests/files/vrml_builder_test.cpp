@@ -25,6 +25,9 @@ base::Result<LoadedDesign> try_build(const std::string& bytes, std::vector<VrmlS
   VrmlSources sources;
   sources.name = "test.wrl";
   sources.scripts = std::move(scripts);
+  sources.find_mesh = [](const std::string&, const std::string& url) -> base::Result<FoundMesh> {
+    return base::fail("there is no " + url);
+  };
   sources.fetch_picture = [](const std::string& base, const std::string& url,
                              std::uint64_t limit) -> base::Result<std::string> {
     if (url == "passwd") return std::string("root:x:0:0");

@@ -1,8 +1,11 @@
 // Whatever the process that parses VRML answers, a world that keeps its rules comes out, or a sentence.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "base/random.h"
@@ -16,9 +19,23 @@ namespace {
 
 using base::Random;
 
+std::filesystem::path sample_mesh() {
+  static const std::filesystem::path kPath = [] {
+    std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / ("vrml_fuzz_" + std::to_string(::getpid()) + ".obj");
+    std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    return path;
+  }();
+  return kPath;
+}
+
 base::Result<LoadedDesign> build_anything(const std::string& bytes) {
   VrmlSources sources;
   sources.name = "fuzz.wrl";
+  sources.find_mesh = [](const std::string&, const std::string& url) -> base::Result<FoundMesh> {
+    return url.size() % 2 == 0 ? base::Result<FoundMesh>(FoundMesh{sample_mesh(), true})
+                               : base::fail("there is no " + url);
+  };
   sources.fetch_picture = [](const std::string&, const std::string& url, std::uint64_t) {
     return url.size() % 2 == 0 ? base::Result<std::string>("GIF89a" + url) : base::fail("not there");
   };
@@ -176,8 +193,10 @@ class NonsenseMaker {
 
   AnswerPiece piece() {
     AnswerPiece piece;
-    piece.kind = flat::PieceKind(random_.index(seldom() ? 256 : 9));
+    piece.kind = flat::PieceKind(random_.index(seldom() ? 256 : 10));
     piece.sizes = numbers<double>(random_.index(4));
+    for (std::uint64_t i = random_.index(4); i > 0; --i) piece.urls.emplace_back(random_.index(40), 'u');
+    if (random_.index(2) == 0) piece.unit = number();
     const std::size_t vertices = random_.index(9);
     piece.positions = numbers<float>(3 * vertices);
     piece.polygons = polygons(vertices);

@@ -63,7 +63,7 @@ Answer::Answer(std::size_t expected) : parts_(std::make_unique<Parts>(expected))
 Answer::~Answer() = default;
 
 int Answer::add(const PieceParts& piece) {
-  static_assert(static_cast<int>(PartKind::Primitive) == static_cast<int>(flat::PieceKind::MAX));
+  static_assert(static_cast<int>(PartKind::Mesh) == static_cast<int>(flat::PieceKind::MAX));
   Parts& to = *parts_;
   const auto name = to.text(piece.name);
   const auto sizes = to.numbers(piece.sizes);
@@ -79,6 +79,8 @@ int Answer::add(const PieceParts& piece) {
   const auto corners = to.numbers(piece.corners);
   const auto text = to.text(piece.text);
   const auto box = to.numbers(piece.box);
+  const auto urls = to.words(piece.urls);
+  const auto base = to.text(piece.base);
   flat::PieceBuilder table(to.builder);
   table.add_name(name);
   table.add_kind(static_cast<flat::PieceKind>(piece.kind));
@@ -101,6 +103,9 @@ int Answer::add(const PieceParts& piece) {
   table.add_text(text);
   table.add_box(box);
   table.add_along_y(piece.along_y);
+  table.add_urls(urls);
+  table.add_base(base);
+  table.add_unit(piece.unit);
   to.pieces.push_back(table.Finish());
   return static_cast<int>(to.pieces.size()) - 1;
 }

@@ -16,7 +16,18 @@ struct Refusal {
 };
 
 /// The kinds of piece in vrml_answer.fbs, in its order.
-enum class PartKind : std::uint8_t { Box, Sphere, Cone, Cylinder, Faces, Loop, Csg, Implicit, Primitive };
+enum class PartKind : std::uint8_t {
+  Box,
+  Sphere,
+  Cone,
+  Cylinder,
+  Faces,
+  Loop,
+  Csg,
+  Implicit,
+  Primitive,
+  Mesh
+};
 
 /// A Piece of vrml_answer.fbs, which tells what each means; the numbers are copied from where they lie.
 struct PieceParts {
@@ -41,6 +52,9 @@ struct PieceParts {
   std::string text = {};
   std::vector<double> box = {};
   bool along_y = false;
+  std::vector<std::string> urls = {};
+  std::string base = {};
+  double unit = 1.0;
 };
 
 struct PictureParts {

@@ -1,6 +1,8 @@
 // ICOME's own shapes, which files name by the PROTOs of vrml_protos.h.
 #include <Inventor/fields/SoMFInt32.h>
+#include <Inventor/fields/SoMFString.h>
 #include <Inventor/fields/SoMFVec3f.h>
+#include <Inventor/fields/SoSFFloat.h>
 #include <Inventor/fields/SoSFString.h>
 #include <Inventor/misc/SoProtoInstance.h>
 
@@ -23,6 +25,17 @@ std::string text_in(const SceneFiles& files, const SoNode& instance, const char*
 std::span<const int> indices_in(const SoNode& instance, const char* name) {
   const SoField* field = find_field(instance, name, "MFInt32");
   return field ? indices(*static_cast<const SoMFInt32*>(field)) : std::span<const int>();
+}
+
+/// Urls count from where the instance stands, and not from where its PROTO does.
+void fill_mesh(const SceneFiles& files, const Wrapping& wrapping, const SoProtoInstance& instance,
+               PieceParts& parts) {
+  const SoField* urls = find_field(instance, "url", "MFString");
+  if (!urls) return;
+  parts.urls = files.strings(*static_cast<const SoMFString*>(urls));
+  if (const SceneFile* place = wrapping.place(instance)) parts.base = wrapping.home(*urls, *place).path;
+  if (const SoField* unit = find_field(instance, "unit", "SFFloat"))
+    parts.unit = as_written(static_cast<const SoSFFloat*>(unit)->getValue());
 }
 
 /// Six numbers with spaces between them; else nothing.
@@ -59,6 +72,12 @@ std::optional<int> Pieces::add_own(const Unwrapped& it, PieceParts& parts) {
     parts.kind = PartKind::Primitive;
     parts.text = text_in(files_, instance, "shape");
     parts.along_y = text_in(files_, instance, "axis") == "y";
+  } else if (proto == kMeshProto.name) {
+    fill_mesh(files_, wrapping_, *it.instance, parts);
+    if (parts.urls.empty()) return std::nullopt;
+    parts.kind = PartKind::Mesh;
+    parts.text = text_in(files_, instance, "package");
+    return answer_.add(parts);
   } else if (proto == kLoopProto.name) {
     const SoField* points = find_field(instance, "controlPoint", "MFVec3f");
     if (!points) return std::nullopt;

@@ -43,6 +43,11 @@ Unwrapped Wrapping::unwrap(const SoSFNode& field, const SceneFile& file) {
   return unwrap(field.getValue(), home(field, file));
 }
 
+const SceneFile* Wrapping::place(const SoProtoInstance& instance) const {
+  const auto found = instances_.find(&instance);
+  return found == instances_.end() ? nullptr : found->second;
+}
+
 const SceneFile& Wrapping::home(const SoField& field, const SceneFile& file) const {
   const SceneFile* home = &file;
   SoField* from = nullptr;

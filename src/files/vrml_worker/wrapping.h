@@ -26,6 +26,8 @@ class Wrapping {
   Unwrapped unwrap(SoNode* node, const SceneFile& file);
   /// The node in a field of a node that stands in `file`.
   Unwrapped unwrap(const SoSFNode& field, const SceneFile& file);
+  /// The file that an instance of a PROTO stands in; null: it was not unwrapped.
+  const SceneFile* place(const SoProtoInstance& instance) const;
   /// Where the value of a field of a node that stands in `file` was written.
   const SceneFile& home(const SoField& field, const SceneFile& file) const;
 
