@@ -40,7 +40,8 @@ void set_all(const SceneProgram& program, const char* name, const std::vector<Ei
 }  // namespace
 
 ScenePassLights::ScenePassLights(const SceneLights& lights, const Camera& camera,
-                                 const std::optional<ShadowRegion>& shadows, int shadow_side, PassNumber pass)
+                                 const std::optional<ShadowRegion>& shadows, int shadow_side, PassNumber pass,
+                                 bool toned)
     : camera_(camera), seed_(float(pass.index)) {
   add_suns(lights, pass);
   add_lamps(lights);
@@ -48,6 +49,7 @@ ScenePassLights::ScenePassLights(const SceneLights& lights, const Camera& camera
   add_sky(lights.sky, sampled, pass);
   if (shadows && lights.shadowed) add_shadows(*shadows, shadow_side);
   kinds_.taps = sampled ? 1 : 4;
+  kinds_.toned = toned;
 }
 
 void ScenePassLights::add_suns(const SceneLights& lights, PassNumber pass) {

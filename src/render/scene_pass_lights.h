@@ -24,8 +24,9 @@ struct PassNumber {
 /// The lights of one pass in the camera's frame, as shaders take them, with the lenses of its shadow maps.
 class ScenePassLights {
  public:
+  /// `toned`: what is drawn is shown as it is, not averaged.
   ScenePassLights(const SceneLights& lights, const Camera& camera, const std::optional<ShadowRegion>& shadows,
-                  int shadow_side, PassNumber pass);
+                  int shadow_side, PassNumber pass, bool toned);
 
   const LightKinds& kinds() const { return kinds_; }
   const std::vector<Camera>& lenses() const { return lenses_; }  ///< one a shadow map

@@ -13,9 +13,9 @@ namespace {
 std::string light_defines(const LightKinds& lights) {
   return fmt::format(
       "#define LIT\n#define SUNS {}\n#define LAMPS {}\n{}#define MAPS {}\n#define SKIES {}\n"
-      "#define TAPS {}\n",
+      "#define TAPS {}\n{}",
       lights.suns, lights.lamps, lights.spots ? "#define SPOTS\n" : "", lights.maps, lights.skies,
-      lights.taps);
+      lights.taps, lights.toned ? "#define TONED\n" : "");
 }
 
 void find_slots(SceneProgram& it) {
@@ -49,7 +49,8 @@ base::Result<SceneProgram*> ScenePrograms::surface(const SurfaceKind& kind, cons
   if (kind.textured) defines += "#define TEXTURED\n";
   if (kind.coloured) defines += "#define COLOURED\n";
   if (kind.cut_out) defines += "#define CUT_OUT\n";
-  return variant(kSceneVertexShader, std::string(kSceneLightShader) + kSceneFragmentShader, defines);
+  return variant(kSceneVertexShader, std::string(kToneShader) + kSceneLightShader + kSceneFragmentShader,
+                 defines);
 }
 
 base::Result<SceneProgram*> ScenePrograms::ground(const LightKinds& lights) {
@@ -69,8 +70,16 @@ base::Result<SceneProgram*> ScenePrograms::sum() {
   return variant(kWholeVertexShader, kSumFragmentShader, "");
 }
 
-base::Result<SceneProgram*> ScenePrograms::resolve() {
-  return variant(kWholeVertexShader, kResolveFragmentShader, "");
+base::Result<SceneProgram*> ScenePrograms::background() {
+  return variant(kWholeVertexShader, std::string(kDitherShader) + kBackgroundFragmentShader, "");
+}
+
+base::Result<SceneProgram*> ScenePrograms::mean() {
+  return variant(kWholeVertexShader, std::string(kToneShader) + kDitherShader + kMeanFragmentShader, "");
+}
+
+base::Result<SceneProgram*> ScenePrograms::clear() {
+  return variant(kWholeVertexShader, kClearFragmentShader, "");
 }
 
 base::Result<SceneProgram*> ScenePrograms::outline() {

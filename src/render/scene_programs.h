@@ -23,7 +23,8 @@ struct LightKinds {
   bool spots = false;
   int maps = 0;  ///< shadow maps
   int skies = 0;
-  int taps = 1;  ///< looks at the shadow map a pixel, 1 or 4
+  int taps = 1;        ///< looks at the shadow map a pixel, 1 or 4
+  bool toned = false;  ///< drawn as a screen shows it, not as light to be averaged
 
   auto operator<=>(const LightKinds&) const = default;
 };
@@ -37,7 +38,9 @@ class ScenePrograms {
   base::Result<SceneProgram*> flat(bool cut_out);  ///< depth or one colour
   base::Result<SceneProgram*> line();
   base::Result<SceneProgram*> sum();
-  base::Result<SceneProgram*> resolve();
+  base::Result<SceneProgram*> background();
+  base::Result<SceneProgram*> mean();
+  base::Result<SceneProgram*> clear();
   base::Result<SceneProgram*> outline();
 
  private:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "render/scene_markers.h"
@@ -17,6 +18,8 @@ using base::Bounds;
 using base::Vector3;
 
 constexpr double kGroundReach = 3.0;  // times half the size of what stands on it
+constexpr int kMostPasses = 256;
+constexpr int kMeltingPasses = 8;  // from the picture that was drawn at once to the mean of passes
 
 /// What the camera can see of the visible things: the shadow maps' texels are spent on that.
 std::optional<ShadowRegion> shadow_region(const Bounds& visible, const Camera& camera) {
@@ -55,6 +58,13 @@ Matrix4 pass_shift(PassNumber pass, const SceneTarget& target) {
   return shift;
 }
 
+/// Each number once, in an order whose beginnings are spread over all: steps of about the golden section.
+int spread_number(int number, int count) {
+  int step = std::max(1, int(std::lround(0.6180339887 * count)));
+  while (std::gcd(step, count) != 1) ++step;
+  return number * step % count;
+}
+
 Eigen::Vector4f linear_with_alpha(const Colour& colour) {
   return {float(linear_from_srgb(colour.red)), float(linear_from_srgb(colour.green)),
           float(linear_from_srgb(colour.blue)), float(colour.alpha)};
@@ -76,18 +86,64 @@ base::Result<void> check_target(const SceneTarget& target) {
                                 target.width, target.height, largest));
 }
 
-/// One picture on its way.
-struct ScenePicture {
+/// What is asked for.
+struct ScenePictureWish {
   const RenderScene& scene;
+  const Camera& camera;  ///< of the whole picture
   const SceneLook& look;
   const SceneTarget& target;
-  const Camera& camera;  ///< of the whole picture
-  Camera part;           ///< of the target's window
-  ScenePlan plan;        ///< of the window
+  Camera part;  ///< of the target's window
+  int passes;
+
+  bool is_clear() const { return look.above.alpha < 1.0 || look.below.alpha < 1.0; }
+};
+
+/// What all passes of a picture share.
+struct ScenePicture {
+  const ScenePictureWish& wish;
+  ScenePlan plan;  ///< of the window
   SceneLights lights;
   std::optional<ShadowRegion> shadows;
-  int passes;
 };
+
+ScenePicture plan_picture(const ScenePictureWish& wish) {
+  ScenePicture picture{wish, plan_scene(wish.scene, wish.part),
+                       choose_lights(wish.scene, wish.camera, wish.look.lights), std::nullopt};
+  // Of the whole picture: its tiles have the same shadows.
+  if (wish.look.shadows)
+    picture.shadows = shadow_region(plan_scene(wish.scene, wish.camera).visible, wish.camera);
+  return picture;
+}
+
+/// Colours are light from here on: what is drawn is turned into what screens take by the frame.
+class ScreenColours {
+ public:
+  ScreenColours() { glEnable(GL_FRAMEBUFFER_SRGB); }
+  ScreenColours(const ScreenColours&) = delete;
+  ScreenColours& operator=(const ScreenColours&) = delete;
+  ~ScreenColours() { glDisable(GL_FRAMEBUFFER_SRGB); }
+};
+
+void copy(const SceneCanvas& from, unsigned to, GLbitfield what) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.frame.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  glBlitFramebuffer(0, 0, from.width, from.height, 0, 0, from.width, from.height, what, GL_NEAREST);
+}
+
+void set_background(const GlObject& program, const ScenePictureWish& wish) {
+  glUseProgram(program.name());
+  const auto slot = [&](const char* uniform) { return glGetUniformLocation(program.name(), uniform); };
+  glUniform4fv(slot("above"), 1, linear_with_alpha(wish.look.above).data());
+  glUniform4fv(slot("below"), 1, linear_with_alpha(wish.look.below).data());
+  const PictureWindow& window = wish.target.window;
+  glUniform4f(slot("window"), float(window.left), float(window.bottom), float(window.width),
+              float(window.height));
+}
+
+void bind_canvas(const SceneCanvas& canvas) {
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.frame.name());
+  glViewport(0, 0, canvas.width, canvas.height);
+}
 
 }  // namespace
 
@@ -95,24 +151,40 @@ struct SceneRenderer::Parts {
   ScenePrograms programs;
   SceneBuffers buffers;
   SceneMarkers markers;
-  SceneCanvas pass, sum, shadow, mask;
+  SceneCanvas at_once;  // the picture in one pass, and its depths
+  SceneCanvas pass, sum, mean;
+  SceneCanvas shown;  // with what is drawn over it
+  SceneCanvas shadow, mask;
   MeshView ground = make_ground_square();
   GlObject empty_arrays{GlObject::Kind::VertexArray};
   int serial = 0;  // of passes
+  int summed = 0;  // passes of the picture so far
+  int begun = 0;   // passes that it is to have; 0: there is none
 
-  base::Result<void> fit_canvases(const SceneLook& look, const SceneTarget& target);
+  base::Result<void> draw(const ScenePictureWish& wish, int passes, bool anew);
+  base::Result<void> fit_canvases(const ScenePictureWish& wish, bool refined);
   base::Result<void> fit_shadow(int maps, int side);
-  base::Result<void> draw_pass(const ScenePicture& picture, PassNumber number);
-  base::Result<void> draw_whole(base::Result<SceneProgram*> program, const GlObject& source);
+  base::Result<void> draw_at_once(const ScenePicture& picture);
+  base::Result<void> refine(const ScenePicture& picture, int passes);
+  base::Result<void> draw_scene(const ScenePicture& picture, const SceneCanvas& canvas, PassNumber number,
+                                bool toned);
+  base::Result<void> draw_whole(base::Result<SceneProgram*> program, const GlObject* source);
+  base::Result<void> draw_background(const ScenePictureWish& wish);
   base::Result<void> add_to_sum();
-  base::Result<void> resolve(const ScenePicture& picture);
-  base::Result<void> outline(const ScenePicture& picture);
+  base::Result<void> make_mean(const ScenePictureWish& wish);
+  base::Result<void> show(const ScenePictureWish& wish);
+  base::Result<void> outline(const ScenePictureWish& wish);
+  base::Result<void> draw_markers(const ScenePictureWish& wish);
 };
 
-base::Result<void> SceneRenderer::Parts::fit_canvases(const SceneLook& look, const SceneTarget& target) {
-  auto done = pass.fit(target.width, target.height, GL_RGBA16F, GL_DEPTH24_STENCIL8);
-  if (done && look.passes > 1) done = sum.fit(target.width, target.height, GL_RGBA32F, 0);
-  if (done && !look.selected.empty()) done = mask.fit(target.width, target.height, GL_R8, 0);
+base::Result<void> SceneRenderer::Parts::fit_canvases(const ScenePictureWish& wish, bool refined) {
+  const int width = wish.target.width, height = wish.target.height;
+  auto done = at_once.fit(width, height, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8);
+  if (done && refined) done = pass.fit(width, height, GL_RGBA16F, GL_DEPTH24_STENCIL8);
+  if (done && refined) done = sum.fit(width, height, GL_RGBA32F, 0);
+  if (done && refined) done = mean.fit(width, height, GL_SRGB8_ALPHA8, 0);
+  if (done) done = shown.fit(width, height, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8);
+  if (done && !wish.look.selected.empty()) done = mask.fit(width, height, GL_R8, 0);
   return done;
 }
 
@@ -126,44 +198,64 @@ base::Result<void> SceneRenderer::Parts::fit_shadow(int maps, int side) {
   return done;
 }
 
-base::Result<void> SceneRenderer::Parts::draw_pass(const ScenePicture& picture, PassNumber number) {
-  const int side = std::clamp(picture.look.shadow_side, 64, 4096);
-  const ScenePassLights lights(picture.lights, picture.camera, picture.shadows, side, number);
-  ScenePass stages(programs, buffers, lights, pass_shift(number, picture.target), ++serial);
+base::Result<void> SceneRenderer::Parts::draw_scene(const ScenePicture& picture, const SceneCanvas& canvas,
+                                                    PassNumber number, bool toned) {
+  const ScenePictureWish& wish = picture.wish;
+  const int side = std::clamp(wish.look.shadow_side, 64, 4096);
+  const ScenePassLights lights(picture.lights, wish.camera, picture.shadows, side, number, toned);
+  ScenePass stages(programs, buffers, lights, pass_shift(number, wish.target), ++serial);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glActiveTexture(GL_TEXTURE0);
   base::Result<void> done;
   if (!lights.lenses().empty()) {
     done = fit_shadow(int(lights.lenses().size()), side);
-    if (done) done = stages.shadow_maps(picture.scene, shadow, side);
+    if (done) done = stages.shadow_maps(wish.scene, shadow, side);
     if (!done) return done;
     glBindTexture(GL_TEXTURE_2D, shadow.depth.name());
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, pass.frame.name());
-  glViewport(0, 0, picture.target.width, picture.target.height);
+  bind_canvas(canvas);
   glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   done = stages.opaque(picture.plan.opaque);
-  const Bounds& all = picture.scene.bounds();
-  if (done && picture.look.ground && !lights.lenses().empty() && picture.camera.eye().y() > all.min().y()) {
+  if (done && toned) done = draw_background(wish);
+  const Bounds& all = wish.scene.bounds();
+  if (done && wish.look.ground && !lights.lenses().empty() && wish.camera.eye().y() > all.min().y()) {
     const double size = 0.5 * all.sizes().norm();
     const Vector3 middle(0.5 * (all.min().x() + all.max().x()), all.min().y() - 1e-4 * size,
                          0.5 * (all.min().z() + all.max().z()));
-    done = stages.ground(ground, picture.part, middle, kGroundReach * size);
+    done = stages.ground(ground, wish.part, middle, kGroundReach * size);
   }
   if (done) done = stages.blended(picture.plan.blended);
-  if (done) done = markers.draw(picture.look.overlay, picture.part, stages, programs, picture.target);
   return done;
 }
 
-/// Fills the frame that is bound by what the program makes of a picture.
+base::Result<void> SceneRenderer::Parts::draw_at_once(const ScenePicture& picture) {
+  const ScreenColours light;
+  return draw_scene(picture, at_once, {0, 1}, true);
+}
+
+base::Result<void> SceneRenderer::Parts::refine(const ScenePicture& picture, int passes) {
+  if (summed == 0) {
+    bind_canvas(sum);
+    glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  base::Result<void> done;
+  for (; summed < passes && done; ++summed) {
+    done =
+        draw_scene(picture, pass, {spread_number(summed, picture.wish.passes), picture.wish.passes}, false);
+    if (done) done = add_to_sum();
+  }
+  return done ? make_mean(picture.wish) : done;
+}
+
+/// Fills the frame that is bound by what the program makes of a picture or, without one, of nothing.
 base::Result<void> SceneRenderer::Parts::draw_whole(base::Result<SceneProgram*> program,
-                                                    const GlObject& source) {
+                                                    const GlObject* source) {
   if (!program) return tl::unexpected(program.error());
-  glDisable(GL_DEPTH_TEST);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, source.name());
+  if (source) glBindTexture(GL_TEXTURE_2D, source->name());
   glUseProgram((*program)->program.name());
   set_uniform((*program)->program, "source", 0);
   glBindVertexArray(empty_arrays.name());
@@ -171,58 +263,127 @@ base::Result<void> SceneRenderer::Parts::draw_whole(base::Result<SceneProgram*> 
   return {};
 }
 
+/// Where nothing is yet.
+base::Result<void> SceneRenderer::Parts::draw_background(const ScenePictureWish& wish) {
+  const auto program = programs.background();
+  if (!program) return tl::unexpected(program.error());
+  set_background((*program)->program, wish);
+  glDepthFunc(GL_LEQUAL);
+  auto done = draw_whole(program, nullptr);
+  glDepthFunc(GL_LESS);
+  return done;
+}
+
 base::Result<void> SceneRenderer::Parts::add_to_sum() {
-  glBindFramebuffer(GL_FRAMEBUFFER, sum.frame.name());
+  bind_canvas(sum);
+  glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
-  auto done = draw_whole(programs.sum(), pass.colour);
+  auto done = draw_whole(programs.sum(), &pass.colour);
   glDisable(GL_BLEND);
   return done;
 }
 
-base::Result<void> SceneRenderer::Parts::resolve(const ScenePicture& picture) {
-  glBindFramebuffer(GL_FRAMEBUFFER, picture.target.frame);
-  glViewport(0, 0, picture.target.width, picture.target.height);
-  const auto program = programs.resolve();
+base::Result<void> SceneRenderer::Parts::make_mean(const ScenePictureWish& wish) {
+  const ScreenColours light;
+  bind_canvas(mean);
+  glDisable(GL_DEPTH_TEST);
+  const auto program = programs.mean();
   if (!program) return tl::unexpected(program.error());
   const GlObject& name = (*program)->program;
-  glUseProgram(name.name());
-  const auto slot = [&](const char* uniform) { return glGetUniformLocation(name.name(), uniform); };
-  set_uniform(name, "share", 1.0F / float(picture.passes));
-  glUniform4fv(slot("above"), 1, linear_with_alpha(picture.look.above).data());
-  glUniform4fv(slot("below"), 1, linear_with_alpha(picture.look.below).data());
-  const PictureWindow& window = picture.target.window;
-  glUniform4f(slot("window"), float(window.left), float(window.bottom), float(window.width),
-              float(window.height));
-  return draw_whole(program, picture.passes > 1 ? sum.colour : pass.colour);
+  set_background(name, wish);
+  set_uniform(name, "share", 1.0F / float(summed));
+  const int melted = std::min(kMeltingPasses, wish.passes);
+  set_uniform(name, "at_once_share", float(std::max(0, melted - summed)) / float(melted));
+  set_uniform(name, "at_once", 1);
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, at_once.colour.name());
+  return draw_whole(program, &sum.colour);
 }
 
-base::Result<void> SceneRenderer::Parts::outline(const ScenePicture& picture) {
-  const auto& selected = picture.look.selected;
+base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish) {
+  const auto& selected = wish.look.selected;
   std::vector<PlannedItem> items;
-  picture.scene.for_each([&](const RenderItem& item) {
+  wish.scene.for_each([&](const RenderItem& item) {
     if (std::find(selected.begin(), selected.end(), item.object) != selected.end())
-      items.push_back(plan_item(item, picture.part));
+      items.push_back(plan_item(item, wish.part));
   });
   if (items.empty()) return {};
-  const ScenePassLights dark({}, picture.camera, std::nullopt, 1, {});
+  const ScenePassLights dark({}, wish.camera, std::nullopt, 1, {}, true);
   ScenePass stage(programs, buffers, dark, Matrix4::Identity(), ++serial);
-  glBindFramebuffer(GL_FRAMEBUFFER, mask.frame.name());
+  bind_canvas(mask);
+  glDisable(GL_DEPTH_TEST);
+  glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
   glClear(GL_COLOR_BUFFER_BIT);
   auto done = stage.mask(items);
   const auto program = programs.outline();
   if (!program) return tl::unexpected(program.error());
   glUseProgram((*program)->program.name());
-  const Colour& line = picture.look.selection;
+  const Colour& line = wish.look.selection;
   glUniform4f(glGetUniformLocation((*program)->program.name(), "colour"), float(line.red), float(line.green),
               float(line.blue), 1.0F);
-  set_uniform((*program)->program, "reach", std::clamp(picture.look.selection_width, 1, 8));
-  glBindFramebuffer(GL_FRAMEBUFFER, picture.target.frame);
+  set_uniform((*program)->program, "reach", std::clamp(wish.look.selection_width, 1, 8));
+  bind_canvas(shown);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (done) done = draw_whole(program, mask.colour);
+  if (done) done = draw_whole(program, &mask.colour);
   glDisable(GL_BLEND);
   return done;
+}
+
+base::Result<void> SceneRenderer::Parts::draw_markers(const ScenePictureWish& wish) {
+  const ScreenColours light;
+  const ScenePassLights lights(choose_lights(wish.scene, wish.camera, wish.look.lights), wish.camera,
+                               std::nullopt, 1, {}, true);
+  ScenePass stages(programs, buffers, lights, Matrix4::Identity(), ++serial);
+  bind_canvas(shown);
+  glEnable(GL_DEPTH_TEST);
+  return markers.draw(wish.look.overlay, wish.part, stages, programs, wish.target);
+}
+
+/// The picture as it is so far, with what is drawn over it.
+base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
+  const SceneCanvas* canvas = summed > 0 ? &mean : &at_once;
+  base::Result<void> done;
+  if (!wish.look.selected.empty() || !wish.look.overlay.empty()) {
+    copy(*canvas, shown.frame.name(), GL_COLOR_BUFFER_BIT);
+    copy(at_once, shown.frame.name(), GL_DEPTH_BUFFER_BIT);
+    canvas = &shown;
+    if (!wish.look.selected.empty()) done = outline(wish);
+    if (done) done = draw_markers(wish);
+  }
+  glDisable(GL_DEPTH_TEST);
+  if (!done) return done;
+  if (!wish.is_clear()) {
+    copy(*canvas, wish.target.frame, GL_COLOR_BUFFER_BIT);
+    glBindFramebuffer(GL_FRAMEBUFFER, wish.target.frame);
+    return {};
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, wish.target.frame);
+  glViewport(0, 0, wish.target.width, wish.target.height);
+  return draw_whole(programs.clear(), &canvas->colour);
+}
+
+/// `passes` is how many the picture has then; 1 is what is drawn at once.
+base::Result<void> SceneRenderer::Parts::draw(const ScenePictureWish& wish, int passes, bool anew) {
+  const bool fits = at_once.width == wish.target.width && at_once.height == wish.target.height;
+  if (!fits || begun != wish.passes) anew = true;
+  auto done = fit_canvases(wish, wish.passes > 1);
+  if (!done) return done;
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDepthMask(GL_TRUE);
+  if (anew) begun = summed = 0;
+  if (anew || (passes > 1 && summed < passes)) {
+    buffers.drop_unused();
+    const ScenePicture picture = plan_picture(wish);
+    if (anew) done = draw_at_once(picture);
+    if (done && passes > 1) done = refine(picture, passes);
+    // What failed begins anew next time.
+    begun = done ? wish.passes : 0;
+  }
+  return done ? show(wish) : done;
 }
 
 SceneRenderer::SceneRenderer() : parts_(std::make_unique<Parts>()) {}
@@ -232,39 +393,17 @@ SceneRenderer::~SceneRenderer() = default;
 
 base::Result<void> SceneRenderer::draw(const RenderScene& scene, const Camera& camera, const SceneLook& look,
                                        const SceneTarget& target) {
-  auto done = check_target(target);
-  if (done) done = parts_->fit_canvases(look, target);
-  if (!done) return done;
-  parts_->buffers.drop_unused();
-  const Camera part = windowed(camera, target.window);
-  ScenePicture picture{scene,
-                       look,
-                       target,
-                       camera,
-                       part,
-                       plan_scene(scene, part),
-                       choose_lights(scene, camera, look.lights),
-                       std::nullopt,
-                       std::clamp(look.passes, 1, 256)};
-  // Of the whole picture: its tiles have the same shadows.
-  if (look.shadows) picture.shadows = shadow_region(plan_scene(scene, camera).visible, camera);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glDepthMask(GL_TRUE);
-  glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-  if (picture.passes > 1) {
-    glBindFramebuffer(GL_FRAMEBUFFER, parts_->sum.frame.name());
-    glClear(GL_COLOR_BUFFER_BIT);
-  }
-  for (int i = 0; i < picture.passes && done; ++i) {
-    done = parts_->draw_pass(picture, {i, picture.passes});
-    if (done && picture.passes > 1) done = parts_->add_to_sum();
-  }
-  if (done) done = parts_->resolve(picture);
-  if (done && !look.selected.empty()) done = parts_->outline(picture);
-  glDisable(GL_DEPTH_TEST);
-  return done;
+  if (auto good = check_target(target); !good) return good;
+  const int passes = std::clamp(look.passes, 1, kMostPasses);
+  return parts_->draw({scene, camera, look, target, windowed(camera, target.window), passes}, passes, true);
+}
+
+base::Result<void> SceneRenderer::draw_pass(const RenderScene& scene, const Camera& camera,
+                                            const SceneLook& look, const SceneTarget& target, int number) {
+  if (auto good = check_target(target); !good) return good;
+  const int passes = std::clamp(look.passes, 1, kMostPasses);
+  return parts_->draw({scene, camera, look, target, windowed(camera, target.window), passes},
+                      std::clamp(number, 0, passes - 1) + 1, number <= 0);
 }
 
 }  // namespace icome::render

@@ -34,6 +34,8 @@ struct SceneOverlay {
   std::vector<Ball> balls = {};
   std::vector<Arrow> arrows = {};
   std::vector<Line> lines = {};
+
+  bool empty() const { return balls.empty() && arrows.empty() && lines.empty(); }
 };
 
 /// How a scene is drawn.
@@ -76,6 +78,16 @@ class SceneRenderer {
   /// test, blending, culling and scissor off.
   base::Result<void> draw(const RenderScene& scene, const Camera& camera, const SceneLook& look,
                           const SceneTarget& target);
+
+  /// For windows, which show a picture at once and better it while nothing moves. Call it with 0 where
+  /// something moved: that draws as with one pass. Each further number, up to look.passes - 1, adds one more
+  /// pass of the same picture and shows what they give so far, melting from the first into what draw() gives;
+  /// with the last it is just that. From look.passes on it shows that again, at little cost. Overlay and
+  /// selection may differ in each call, so that a moving hand does not start the picture anew; scene, camera
+  /// and the rest of the look must stay what they were with 0. A target of another size begins anew by
+  /// itself. Otherwise as draw().
+  base::Result<void> draw_pass(const RenderScene& scene, const Camera& camera, const SceneLook& look,
+                               const SceneTarget& target, int number);
 
  private:
   struct Parts;

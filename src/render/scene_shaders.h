@@ -80,6 +80,16 @@ uniform vec3 sky_light[SKIES];
 #endif
 )";
 
+// Light beyond what a screen can show is bent towards white instead of cut off, so that bright surfaces keep
+// their shape.
+constexpr char kToneShader[] = R"(
+vec3 shoulder(vec3 light) {
+  const float kBend = 0.75;
+  vec3 over = max(light - kBend, 0.0) / (1.0 - kBend);
+  return min(light, kBend) + (1.0 - kBend) * over / (1.0 + over);
+}
+)";
+
 constexpr char kSceneFragmentShader[] = R"(
 in vec3 seen_position;
 in vec3 seen_normal;
@@ -185,6 +195,9 @@ void main() {
     radiance += fade * lamp_ambient[i] * ambient * own.rgb * own.a;
   }
 #endif
+#ifdef TONED
+  radiance = shoulder(radiance / max(own.a, 1e-3)) * own.a;
+#endif
   result = vec4(radiance, own.a);
 }
 )";
@@ -240,7 +253,7 @@ constexpr char kWholeVertexShader[] = R"(
 out vec2 at;
 void main() {
   at = vec2(float(gl_VertexID & 1) * 2.0, float(gl_VertexID & 2));
-  gl_Position = vec4(2.0 * at - 1.0, 0.0, 1.0);
+  gl_Position = vec4(2.0 * at - 1.0, 1.0, 1.0);  // as far as anything
 }
 )";
 
@@ -251,41 +264,67 @@ out vec4 result;
 void main() { result = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
 )";
 
-// From light to what screens take, over a background that goes from above to below. Light beyond what a
-// screen can show is bent towards white instead of cut off, so that bright surfaces keep their shape.
-constexpr char kResolveFragmentShader[] = R"(
+// The mean of the passes so far over a background that goes from above to below, mixed with the picture that
+// was drawn at once before. Premultiplied.
+constexpr char kMeanFragmentShader[] = R"(
 in vec2 at;
 uniform sampler2D source;
+uniform sampler2D at_once;
 uniform float share;
+uniform float at_once_share;
 uniform vec4 above;
 uniform vec4 below;
 uniform vec4 window;
 out vec4 result;
 
-vec3 shoulder(vec3 light) {
-  const float kBend = 0.75;
-  vec3 over = max(light - kBend, 0.0) / (1.0 - kBend);
-  return min(light, kBend) + (1.0 - kBend) * over / (1.0 + over) ;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  vec4 seen = share * texelFetch(source, here, 0);
+  seen.a = clamp(seen.a, 0.0, 1.0);
+  vec3 own = seen.a > 0.0 ? shoulder(seen.rgb / seen.a) * seen.a : shoulder(seen.rgb);
+  vec4 behind = mix(below, above, window.y + window.w * at.y);
+  vec4 all = vec4(own + (1.0 - seen.a) * behind.rgb * behind.a, seen.a + (1.0 - seen.a) * behind.a);
+  all = mix(all, texelFetch(at_once, here, 0), at_once_share);
+  result = vec4(dithered(all.rgb), all.a);
 }
+)";
 
+/// The background alone, behind all that was drawn.
+constexpr char kBackgroundFragmentShader[] = R"(
+in vec2 at;
+uniform vec4 above;
+uniform vec4 below;
+uniform vec4 window;
+out vec4 result;
+void main() {
+  vec4 behind = mix(below, above, window.y + window.w * at.y);
+  result = vec4(dithered(behind.rgb * behind.a), behind.a);
+}
+)";
+
+// Less than one of 256 steps of noise hides the edges between the steps. How large a step is in light follows
+// from the slope of the curve that screens have.
+constexpr char kDitherShader[] = R"(
+vec3 dithered(vec3 light) {
+  vec3 noise = fract(vec3(gl_FragCoord.xyx) * vec3(0.1031, 0.1030, 0.0973));
+  noise += dot(noise, noise.yzx + 33.33);
+  float shift = (fract((noise.x + noise.y) * noise.z) - 0.5) / 255.0;
+  return max(light + shift * max(vec3(0.077), 2.1 * sqrt(max(light, 0.0))), 0.0);
+}
+)";
+
+/// A picture that is clear in places, as files and windows take it: not premultiplied.
+constexpr char kClearFragmentShader[] = R"(
+uniform sampler2D source;
+out vec4 result;
 vec3 screen(vec3 light) {
   vec3 low = 12.92 * light;
   vec3 high = 1.055 * pow(max(light, 1e-6), vec3(1.0 / 2.4)) - 0.055;
   return mix(low, high, step(0.0031308, light));
 }
-
 void main() {
-  vec4 seen = share * texelFetch(source, ivec2(gl_FragCoord.xy), 0);
-  seen.a = clamp(seen.a, 0.0, 1.0);
-  float height = window.y + window.w * at.y;
-  vec4 behind = mix(below, above, height);
-  vec3 own = seen.a > 0.0 ? shoulder(seen.rgb / seen.a) * seen.a : shoulder(seen.rgb);
-  vec3 light = own + (1.0 - seen.a) * behind.rgb * behind.a;
-  float alpha = seen.a + (1.0 - seen.a) * behind.a;
-  vec3 noise = fract(vec3(gl_FragCoord.xyx) * vec3(0.1031, 0.1030, 0.0973));
-  noise += dot(noise, noise.yzx + 33.33);
-  float dither = (fract((noise.x + noise.y) * noise.z) - 0.5) / 255.0;
-  result = vec4(screen(alpha > 0.0 ? light / alpha : vec3(0.0)) + dither, alpha);
+  vec4 seen = texelFetch(source, ivec2(gl_FragCoord.xy), 0);
+  result = vec4(seen.a > 0.0 ? screen(seen.rgb / seen.a) : vec3(0.0), seen.a);
 }
 )";
 
