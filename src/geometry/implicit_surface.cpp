@@ -12,6 +12,7 @@
 #include "geometry/implicit_entry.h"
 #include "geometry/implicit_walk.h"
 #include "geometry/implicit_way_out.h"
+#include "geometry/segment.h"
 
 namespace icome::geometry {
 namespace {
@@ -67,24 +68,6 @@ std::string box_complaint(const Bounds& box) {
     return "the box around an implicit surface is too thin for its size or its distance from the origin";
   }
   return {};
-}
-
-/// Where `start` + s * `step`, s in [0, 1], is within `reach` of the box.
-std::optional<std::array<double, 2>> stay_in(const Bounds& box, const Vector3& start, const Vector3& step,
-                                             double reach) {
-  double first = 0.0, last = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double lo = box.min()[axis] - reach - start[axis], hi = box.max()[axis] + reach - start[axis];
-    if (step[axis] == 0.0) {
-      if (!(lo <= 0.0 && hi >= 0.0)) return std::nullopt;
-      continue;
-    }
-    const double s = lo / step[axis], t = hi / step[axis];
-    first = std::max(first, std::min(s, t));
-    last = std::min(last, std::max(s, t));
-  }
-  if (!(first <= last) || !step.allFinite() || !start.allFinite()) return std::nullopt;
-  return std::array<double, 2>{first, last};
 }
 
 bool is_within(const Bounds& box, const Vector3& point, double reach) {
@@ -152,7 +135,7 @@ void ImplicitSurface::near(const Vector3& a, const Vector3& b, double reach, dou
   if (!parts_->cells.near(a, b, reach, visit_cell)) return;
   for (std::uint32_t piece = 1; piece <= kSides; ++piece) {
     const Bounds& part = parts_->sides[piece - 1];
-    if (part.isEmpty() || !stay_in(part, a, b - a, reach)) continue;
+    if (part.isEmpty() || !part_within(part, a, b - a, reach)) continue;
     if (!visit(piece, part)) return;
   }
 }
@@ -190,7 +173,7 @@ std::optional<SurfaceEntry> ImplicitSurface::entry(std::uint32_t piece, const Ve
 std::optional<SurfaceEntry> ImplicitSurface::entry_of_formula(const Vector3& start, const Vector3& step,
                                                               bool from_behind, double time,
                                                               double slack) const {
-  const auto stay = stay_in(box_, start, step, slack);
+  const auto stay = part_within(box_, start, step, slack);
   if (!stay) return std::nullopt;
   const auto [first, last] = *stay;
   const auto t =

@@ -160,6 +160,14 @@ std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position
   return geometry::SurfacePoint{hit->point, length > 0.0 ? Vector3(away / length) : face};
 }
 
+std::optional<ShapeHit> MeshShape::cast(const Vector3& start, const Vector3& step, double /*time*/) const {
+  const auto hit = tree_.first_hit(start, start + step);
+  if (!hit) return std::nullopt;
+  const auto corner = [&](int which) { return mesh_->corner(hit->triangle, which); };
+  const Vector3 across = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+  return ShapeHit{hit->parameter, hit->point, across.stableNormalized()};
+}
+
 Vector3 MeshShape::shading_normal(std::uint32_t feature, const Vector3& position,
                                   const Vector3& face_normal) const {
   if (normals_.empty() || (feature & ((1u << kPartBits) - 1)) != 0) return face_normal;

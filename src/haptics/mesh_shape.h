@@ -26,6 +26,7 @@ class MeshShape final : public Shape {
   void gather(const GatherRequest& request, ElementSink& sink) const override;
   void expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const override;
   std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double /*time*/) const override;
+  std::optional<ShapeHit> cast(const Vector3& start, const Vector3& step, double /*time*/) const override;
   Vector3 shading_normal(std::uint32_t feature, const Vector3& position,
                          const Vector3& face_normal) const override;
   std::size_t bytes() const override;

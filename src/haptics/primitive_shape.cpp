@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/primitive_crossing.h"
+
 namespace icome::haptics {
 namespace {
 
@@ -186,6 +188,15 @@ std::optional<geometry::SurfacePoint> PrimitiveShape::way_out(const Vector3& pos
                                                               double /*time*/) const {
   if (!geometry::inside(primitive_, position)) return std::nullopt;
   return geometry::scp_from_inside(primitive_, position);
+}
+
+std::optional<ShapeHit> PrimitiveShape::cast(const Vector3& start, const Vector3& step,
+                                             double /*time*/) const {
+  const std::optional<double> t = geometry::first_crossing(primitive_, start, step);
+  if (!t) return std::nullopt;
+  // Rounding may have left the place off the surface; the normal is the nearest face's.
+  const geometry::SurfacePoint place = geometry::scp_from_inside(primitive_, start + *t * step);
+  return ShapeHit{*t, place.point, place.normal};
 }
 
 }  // namespace icome::haptics

@@ -61,6 +61,13 @@ class PieceElements {
   bool complete_ = true;
 };
 
+/// Where a straight way meets a shape, in the shape's frame.
+struct ShapeHit {
+  double t;        // along the step, in [0, 1]
+  Vector3 point;   // m, on the surface
+  Vector3 normal;  // unit, out of the solid or towards the front
+};
+
 /// Something that can be touched. To add a kind of shape, derive from this and say which elements lie
 /// where. Immutable once built, so that many objects and scenes may share it; whoever holds the
 /// shared pointer owns it.
@@ -81,6 +88,10 @@ class Shape {
   /// The nearest place of the surface when `position` is inside a solid that is touched from the
   /// front; nothing when it is not inside, or the shape has no inside. `time`: see changes(). Real-time safe.
   virtual std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double time) const = 0;
+
+  /// Where start + t * step, t in [0, 1], first goes through the surface, from either side; for picking with
+  /// the mouse, so it may allocate. `time`: see changes().
+  virtual std::optional<ShapeHit> cast(const Vector3& start, const Vector3& step, double time) const = 0;
 
   /// The normal to feel at a position on element `feature`: interpolated between faces where the
   /// shape has such normals (force shading, Morgenbesser and Srinivasan 1996), else `face_normal`.

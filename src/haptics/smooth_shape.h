@@ -19,6 +19,7 @@ class SmoothShape final : public Shape {
   void gather(const GatherRequest& request, ElementSink& sink) const override;
   void expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const override;
   std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double time) const override;
+  std::optional<ShapeHit> cast(const Vector3& start, const Vector3& step, double time) const override;
   bool changes() const override { return surface_->changes(); }
   std::size_t bytes() const override { return sizeof(*this) + surface_->bytes(); }
 

@@ -31,6 +31,7 @@ class DirectShape : public Shape {
 
   void gather(const GatherRequest&, ElementSink&) const final {}
   std::optional<geometry::SurfacePoint> way_out(const Vector3&, double) const final { return std::nullopt; }
+  std::optional<ShapeHit> cast(const Vector3&, const Vector3&, double) const final { return std::nullopt; }
 };
 
 }  // namespace icome::haptics
