@@ -101,7 +101,8 @@ TEST(VrmlMeshes, CountFromTheFileThatNamesThem) {
   const LoadedDesign design = read_whole(folder.write(
       "b.wrl", std::string("#VRML V2.0 utf8\nEXTERNPROTO IcomeMesh [ field MFString url field SFFloat unit "
                            "] \"parts/proto.wrl\"\n") +
-                   "Shape { appearance Appearance { material Material {} } geometry IcomeMesh { url \"own.obj\" } }\n"));
+                   "Shape { appearance Appearance { material Material {} } geometry IcomeMesh { url "
+                   "\"own.obj\" } }\n"));
   EXPECT_EQ(remarks_in(design), "");
   EXPECT_NE(mesh_in(design), nullptr);
 }
