@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "files/new_file.h"
 #include "render/picture_of_scene.h"
 #include "render/views.h"
+#include "session/stage.h"
 
 namespace icome::apps {
 namespace {
@@ -28,13 +28,8 @@ struct ShotFigures {
   std::vector<std::string> remarks;
 };
 
-/// CAD and printing have z up, VRML and glTF y.
 bool stands_on_z(const ShotOptions& options) {
-  if (!options.up.empty()) return options.up == "z";
-  std::filesystem::path name = options.file;
-  if (name.extension() == ".xz") name = name.stem();
-  const std::string ending = name.extension().string();
-  return ending == ".csg" || ending == ".stl" || ending == ".STL";
+  return options.up.empty() ? session::stands_on_z(options.file) : options.up == "z";
 }
 
 /// Some names in quotes, for a sentence.
@@ -135,11 +130,7 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   if (!id) return tl::unexpected(id.error());
   status.say("Drawing");
   const Stopwatch drawing;
-  base::Pose stage_from_world = base::Pose::Identity();
-  if (stands_on_z(options))
-    stage_from_world.linear() =
-        Eigen::AngleAxisd(-0.5 * std::numbers::pi, base::Vector3::UnitX()).toRotationMatrix();
-  render::ScenePublisher publisher(*id, stage_from_world);
+  render::ScenePublisher publisher(*id, session::stage_from_world(stands_on_z(options)));
   const render::RenderScenePointer scene = publisher.publish(design->world);
   const auto camera = choose_camera(*scene, options, figures.view);
   if (!camera) return tl::unexpected(camera.error());

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -29,13 +30,13 @@ class DisplayFeed {
   void wish(const DisplayWish& wish) { wish_.publish(wish); }
   /// The frames drawn so far: how long each took, and when.
   const realtime::LoopRecorder& recorder() const { return recorder_; }
-  std::uint64_t frames() const;
+  std::uint64_t frames() const { return frames_.load(std::memory_order_acquire); }
 
   // The thread that makes versions of the world for drawing.
-  void publish(render::RenderScenePointer scene);
+  void publish(render::RenderScenePointer scene) { scene_.publish(scene); }
 
   // The servo thread. Real-time safe.
-  void publish(std::size_t pointer, const PointerView& view);
+  void publish(std::size_t pointer, const PointerView& view) { pointers_[pointer]->newest.publish(view); }
 
   // The display thread.
   /// Is there something to draw: news since the last frame, or a picture that can be refined? Call it before
@@ -43,15 +44,36 @@ class DisplayFeed {
   bool is_due();
   /// Draws the newest of all, or refines the last frame where there is no news, into the target.
   base::Result<void> draw(render::SceneRenderer& renderer, const render::SceneTarget& target);
+  /// What is drawn next.
+  const render::RenderScenePointer& scene() const { return scene_.read(); }
 
  private:
   struct PointerBox {
     realtime::LatestValue<PointerView> newest;
+    PointerView drawn;  // in the last frame
   };
+
+  void take_news();
+  void take_wish();
+  void note_target(const render::SceneRenderer& renderer, const render::SceneTarget& target);
+  bool has_moved(const PointerView& before, const PointerView& now) const;
+  bool is_shown(const PointerView& pointer) const;
+  render::Camera camera(double aspect) const;
+  void add_markers(render::SceneOverlay& overlay) const;
+
   realtime::LatestValue<DisplayWish> wish_;
   realtime::LatestValue<render::RenderScenePointer> scene_;
   std::vector<std::unique_ptr<PointerBox>> pointers_;
   realtime::LoopRecorder recorder_;
+  std::atomic<std::uint64_t> frames_ = 0;
+
+  // The display thread's.
+  DisplayWish shown_ = {};                           // the newest wish
+  bool is_new_ = true;                               // another picture: what was refined is of no use
+  bool has_moved_ = false;                           // only what is drawn over the picture is another
+  int passes_ = 0;                                   // of this picture, so far
+  render::SceneTarget target_ = {};                  // the last
+  const render::SceneRenderer* renderer_ = nullptr;  // the last; only compared
 };
 
 }  // namespace icome::session

@@ -1,23 +1,42 @@
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <semaphore>
 #include <vector>
 
+#include "base/vector.h"
 #include "realtime/message_pipe.h"
 #include "world/edit.h"
 
 namespace icome::session {
 
+class ClaimedWork;
+
+/// What of a session's work is in a file of the person's own, for who keeps the rest against crashes.
+struct SavedWork {
+  std::filesystem::path design = {};  // the file; empty: there is none yet
+  std::uint64_t number = 0;           // what was posted up to here is in it; a `whole` that comes along, too
+  /// Not null: the `whole` that comes along is in no file but this work, recovered of a session that crashed,
+  /// which goes when it is kept anew.
+  std::shared_ptr<ClaimedWork> recovered = nullptr;
+};
+
 /// One thing that happened to a session's world.
 struct Edited {
-  std::uint64_t number = 0;                             // counts what was posted, from 1
-  std::shared_ptr<const world::World> whole = nullptr;  // not null: the world is another one from now on
-  std::shared_ptr<const world::Edit> edit = nullptr;    // not null: it has been through this
+  std::uint64_t number = 0;                              // counts what was posted, from 1
+  std::shared_ptr<const world::World> whole = nullptr;   // not null: the world is another one from now on
+  base::Pose stage_from_world = base::Pose::Identity();  // of `whole`
+  std::shared_ptr<const world::Edit> edit = nullptr;     // not null: it has been through this
+  /// Not null where `edit` is not, often the same: what makes a replica of the world equal again. It holds
+  /// the shapes that main has made in performing `edit`, so that nobody makes them once more.
+  std::shared_ptr<const world::Edit> for_replicas = nullptr;
   std::optional<world::SceneId> shown = {};  // another scene (none: the whole world) is looked at and touched
+  std::shared_ptr<const SavedWork> saved = nullptr;  // not null: the design was saved, opened or recovered
 };
 
 /// The EditedQueue of thesis 5.6.1: what was edited is queued once, and each representation of the world (for
@@ -31,16 +50,24 @@ class EditedQueue {
    public:
     /// Waits until there is something to take; false when the queue has been closed and all is taken.
     bool wait();
+    /// The same, for so long at most; then true, though there may be nothing.
+    bool wait_for(std::chrono::nanoseconds longest);
     /// What was posted next; nothing when all is taken. Never waits.
     std::optional<Edited> take();
 
    private:
     friend class EditedQueue;
     static constexpr std::size_t kRoom = 1024;
+
+    void hand_on();
+    bool look();
+
     realtime::MessagePipe<Edited> pipe_{kRoom};
     std::counting_semaphore<> news_{0};
     std::atomic<bool> closed_ = false;
-    std::deque<Edited> kept_;  // did not fit; the posting thread's
+    std::deque<Edited>
+        kept_;  // did not fit; the posting thread's until the queue is closed, then the reader's
+    std::optional<Edited> next_;  // the reader's
   };
 
   /// For one more representation. Before the first post; lives as long as the queue.
@@ -52,10 +79,13 @@ class EditedQueue {
   void pump();
   /// Readers take what is left and then hear that there will be no more.
   void close();
+  /// The number of the last post; 0 before it.
+  std::uint64_t posted() const { return posted_; }
 
  private:
   std::vector<std::unique_ptr<Reader>> readers_;
   std::uint64_t posted_ = 0;
+  bool closed_ = false;
 };
 
 }  // namespace icome::session

@@ -130,6 +130,7 @@ class HapticRepresentation::Update {
     Slot& slot = owner_.slots_[*member.slot];
     ++slot.object.id.generation;  // who still names the last one finds nothing
     slot.world_id = id;
+    owner_.names_.reset();
     owner_.stale_ = true;
   }
 
@@ -147,6 +148,7 @@ class HapticRepresentation::Update {
     slot.object.surface = {};
     owner.free_slots_.push_back(*member.slot);
     member.slot.reset();
+    owner.names_.reset();
     owner.stale_ = true;
   }
 
@@ -159,6 +161,29 @@ class HapticRepresentation::Update {
 
 HapticRepresentation::HapticRepresentation(HapticRepresentationSettings settings)
     : settings_(std::move(settings)), scene_(haptics::HapticScene::compile({})) {}
+
+std::optional<world::ObjectId> TouchedNames::object(base::ObjectId haptic_id) const {
+  if (haptic_id.index >= names_.size()) return std::nullopt;
+  const Name& name = names_[haptic_id.index];
+  if (!name.object || name.generation != haptic_id.generation) return std::nullopt;
+  return name.object;
+}
+
+void HapticRepresentation::open(const World& world, world::SceneId scene, const Affine3& world_from_design) {
+  members_.clear();
+  shapes_.clear();
+  free_slots_.clear();
+  for (std::size_t i = slots_.size(); i-- > 0;) {
+    slots_[i].object.shape = nullptr;
+    slots_[i].object.surface = {};
+    slots_[i].world_id = {};
+    free_slots_.push_back(std::uint32_t(i));  // the first are given away first, as in a new one
+  }
+  names_.reset();
+  stale_ = true;
+  settings_.world_from_design = world_from_design;
+  show(world, scene);
+}
 
 void HapticRepresentation::show(const World& world, world::SceneId scene) {
   shown_ = scene;
@@ -338,6 +363,16 @@ std::optional<world::ObjectId> HapticRepresentation::object(base::ObjectId hapti
   const Slot& slot = slots_[haptic_id.index];
   if (!slot.world_id || slot.object.id != haptic_id) return std::nullopt;
   return slot.world_id;
+}
+
+const std::shared_ptr<const TouchedNames>& HapticRepresentation::names() {
+  if (!names_) {
+    std::vector<TouchedNames::Name> names;
+    names.reserve(slots_.size());
+    for (const Slot& slot : slots_) names.push_back({slot.object.id.generation, slot.world_id});
+    names_ = std::make_shared<const TouchedNames>(std::move(names));
+  }
+  return names_;
 }
 
 FeltShapePointer HapticRepresentation::felt(world::ObjectId object) const {

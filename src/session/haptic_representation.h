@@ -23,6 +23,21 @@ struct HapticRepresentationSettings {
       standard_texture;
 };
 
+/// Which objects of a world the ids of its haptic scene name. Immutable.
+class TouchedNames {
+ public:
+  struct Name {
+    std::uint32_t generation = 0;
+    world::ObjectId object = {};  // none: not given away
+  };
+  explicit TouchedNames(std::vector<Name> names = {}) : names_(std::move(names)) {}
+
+  std::optional<world::ObjectId> object(base::ObjectId haptic_id) const;
+
+ private:
+  std::vector<Name> names_;  // by index
+};
+
 /// What of a world can be touched: one HapticObject for each object with a shape, of the whole world or of
 /// one of its scenes (thesis 5.6.1: the haptic thread's own representation). Shapes are made once for all
 /// objects that share one and are stretched alike, and kept for as long as they are used, also by scenes that
@@ -31,6 +46,9 @@ struct HapticRepresentationSettings {
 class HapticRepresentation {
  public:
   explicit HapticRepresentation(HapticRepresentationSettings settings = {});
+
+  /// Represents another world from now on. Nothing that was made before is used again, and no name.
+  void open(const world::World& world, world::SceneId scene, const base::Affine3& world_from_design);
 
   /// Represents this scene from now on, or the whole world. What was made for it before is used again.
   void show(const world::World& world, world::SceneId scene = {});
@@ -44,6 +62,8 @@ class HapticRepresentation {
   /// Names go both ways. What cannot be touched, or is gone, has none.
   std::optional<base::ObjectId> haptic_id(world::ObjectId object) const;
   std::optional<world::ObjectId> object(base::ObjectId haptic_id) const;
+  /// The latter for another thread; never null, and the same until a name is given or taken away.
+  const std::shared_ptr<const TouchedNames>& names();
 
   /// How the object is felt; null when it has no shape or is not in the scene.
   FeltShapePointer felt(world::ObjectId object) const;
@@ -104,6 +124,7 @@ class HapticRepresentation {
   std::map<std::string, std::shared_ptr<const haptics::HapticTexture>> textures_;  // null: not known
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
+  std::shared_ptr<const TouchedNames> names_;      // null: to be made anew
   std::vector<haptics::HapticScene::Move> moves_;  // since the last published scene
   bool stale_ = false;                             // moving objects is not enough
   std::uint64_t surveys_ = 0;

@@ -36,8 +36,13 @@ void keep_each_once(std::vector<AnyId>& ids) {
 }  // namespace
 
 Changes changes_of(const Edit& edit) {
+  const Edit* const only = &edit;
+  return changes_of(std::span(&only, 1));
+}
+
+Changes changes_of(std::span<const Edit* const> edits) {
   Changes changes;
-  std::visit(NoteChanges{changes}, edit.what);
+  for (const Edit* edit : edits) std::visit(NoteChanges{changes}, edit->what);
   keep_each_once(changes.objects);
   keep_each_once(changes.geometries);
   keep_each_once(changes.materials);

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "world/edit.h"
@@ -15,5 +16,7 @@ struct Changes {
   std::vector<SceneId> scenes = {};
 };
 Changes changes_of(const Edit& edit);
+/// Of several edits, one after the other.
+Changes changes_of(std::span<const Edit* const> edits);
 
 }  // namespace icome::world

@@ -1,5 +1,6 @@
 #include "haptics/servo/servo.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/clock.h"
@@ -10,6 +11,10 @@ namespace {
 SurfaceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
   return {device.nominal_stiffness, device.effective_mass, 1.0 / rate_hz};
 }
+
+/// Over so long a workspace moves to where it is carried: longer than main takes from one call to the next,
+/// so that the tip goes on without a halt.
+constexpr double kCarrySeconds = 0.02;  // s
 
 /// Measures the stages of a tick, one after the other.
 class StageClock {
@@ -41,15 +46,19 @@ Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings, Effe
       effects_(effects),
       feed_(limits_of(device.info(), settings.rate_hz)),
       solver_(make_solver(settings.renderer, settings.scp)),
-      limiter_(device.info(), settings.limiter) {}
+      limiter_(device.info(), settings.limiter),
+      carried_(settings.world_from_device),
+      world_from_device_(settings.world_from_device) {}
 
 const TickReport& Servo::tick(double dt) {
   StageClock clock(report_.stage_ns);
   const bool fresh = read();
+  const bool carried = move_workspace(dt);
+  if (has_state_) report_.tip = world_from_device_ * state_.position;
   clock.ends(Stage::Read);
   follow_scene(dt);
   clock.ends(Stage::Scene);
-  if (fresh) find_contact();
+  if (fresh || (carried && has_state_)) find_contact();
   clock.ends(Stage::Contact);
   Vector3 wanted = surface_force();
   clock.ends(Stage::Force);
@@ -59,7 +68,7 @@ const TickReport& Servo::tick(double dt) {
       wanted, dt, {fresh, report_.status != devices::DeviceStatus::Lost, report_.contact.started_inside});
   clock.ends(Stage::Limit);
   const devices::DeviceStatus written =
-      device_.write(settings_.world_from_device.linear().transpose() * report_.force);
+      device_.write(world_from_device_.linear().transpose() * report_.force);
   if (written == devices::DeviceStatus::Lost) report_.status = written;
   clock.ends(Stage::Write);
   time_ += dt;
@@ -76,8 +85,30 @@ bool Servo::read() {
     return false;
   }
   state_ = state;
-  report_.tip = settings_.world_from_device * state.position;
-  tip_velocity_ = settings_.world_from_device.linear() * state.velocity;
+  has_state_ = true;
+  // The workspace's own speed is left out: it comes in jerks from who carries it, which damping would turn
+  // into jerks of the force.
+  tip_velocity_ = world_from_device_.linear() * state.velocity;
+  return true;
+}
+
+/// True when the workspace lies elsewhere than in the last tick.
+bool Servo::move_workspace(double dt) {
+  if (carried_.update()) carry_seconds_ = kCarrySeconds;
+  if (carry_seconds_ <= 0.0) return false;
+  const Pose& goal = carried_.read();
+  const double share = dt < carry_seconds_ ? std::max(dt, 0.0) / carry_seconds_ : 1.0;
+  carry_seconds_ -= dt;
+  if (share == 1.0) {
+    carry_seconds_ = 0.0;
+    world_from_device_ = goal;
+    return true;
+  }
+  const devices::Quaternion from(world_from_device_.linear());
+  const Vector3 origin = world_from_device_.translation();
+  world_from_device_.linear() =
+      from.slerp(share, devices::Quaternion(goal.linear())).normalized().toRotationMatrix();
+  world_from_device_.translation() = origin + share * (goal.translation() - origin);
   return true;
 }
 

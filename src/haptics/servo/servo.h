@@ -8,6 +8,7 @@
 #include "haptics/force_limiter.h"
 #include "haptics/renderer.h"
 #include "haptics/servo/scene_feed.h"
+#include "realtime/latest_value.h"
 
 namespace icome::haptics {
 
@@ -16,7 +17,7 @@ struct ServoSettings {
   Renderer renderer = Renderer::Exact;
   ScpSettings scp;
   LimiterSettings limiter;
-  Pose world_from_device = Pose::Identity();  // where the device's workspace lies in the world
+  Pose world_from_device = Pose::Identity();  // where the device's workspace lies in the world at first
   bool force_shading = false;                 // feel interpolated normals (Shape::shading_normal)
 };
 
@@ -40,7 +41,7 @@ struct TickReport {
 /// The servo's tick: reads the device, goes over to the newest scene, finds the surface contact point,
 /// makes a force of it, adds effects, limits, writes. Owns the solver and the limiter; device and
 /// effects are the caller's and outlive it. One thread calls tick(), a loop or a test; another may
-/// call publish().
+/// call publish(), and one carry().
 class Servo {
  public:
   /// `effects` may be null.
@@ -50,14 +51,23 @@ class Servo {
   /// thread, the main one.
   void publish(std::shared_ptr<const HapticScene> scene) { feed_.publish(std::move(scene)); }
 
+  /// Where the device's workspace lies in the world from now on: it moves there smoothly within some ticks,
+  /// sweeping the tip along as a hand would. The pose is finite. From one thread, the main one.
+  void carry(const Pose& world_from_device) { carried_.publish(world_from_device); }
+
   /// One turn of the servo loop, `dt` seconds after the last. Real-time safe.
   const TickReport& tick(double dt);
 
   const TickReport& last() const { return report_; }
+  /// Those of the device that are down, at its last good reading. Real-time safe.
+  std::uint32_t buttons() const { return state_.buttons; }
+  /// Where the device's workspace lies. The thread that ticks. Real-time safe.
+  const Pose& world_from_device() const { return world_from_device_; }
   const ForceLimiter& limiter() const { return limiter_; }
 
  private:
   bool read();
+  bool move_workspace(double dt);
   void follow_scene(double dt);
   void find_contact();
   Vector3 surface_force() const;
@@ -73,8 +83,12 @@ class Servo {
   const PublishedScene* scene_ = nullptr;  // null until the first publish()
   double elapsed_ = 0.0;                   // s since the scene was taken
   double time_ = 0.0;                      // s since the first tick
+  realtime::LatestValue<Pose> carried_;
+  Pose world_from_device_;
+  double carry_seconds_ = 0.0;  // until it is where it was carried to
   devices::PointerState state_;
-  Vector3 tip_velocity_ = Vector3::Zero();  // m/s, world
+  bool has_state_ = false;
+  Vector3 tip_velocity_ = Vector3::Zero();  // m/s, world; of the hand, not of the workspace
   TickReport report_;
 };
 

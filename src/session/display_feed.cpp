@@ -1,0 +1,159 @@
+#include "session/display_feed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "render/views.h"
+
+namespace icome::session {
+namespace {
+
+using base::Vector3;
+
+constexpr double kNominalPeriod = 1.0 / 60.0;  // s
+constexpr double kSeenMove = 0.5;              // pixels
+
+// Markers, as multiples of the tip's radius.
+constexpr double kArrowPerNewton = 12.0;
+constexpr double kLongestArrow = 60.0;
+constexpr double kArrowRadius = 0.35;
+constexpr double kHeldTip = 0.7;  // the tip while a surface holds the contact point back
+
+constexpr render::Colour kTipColour{0.16, 0.47, 0.90};
+constexpr render::Colour kContactColour{1.0, 0.62, 0.08};
+constexpr render::Colour kForceColour{0.88, 0.20, 0.34};
+
+bool same(const render::Colour& a, const render::Colour& b) {
+  return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
+}
+
+/// Does it give the same picture, but for what is drawn over it?
+bool same_picture(const DisplayWish& a, const DisplayWish& b) {
+  const render::SceneLook &one = a.look, &other = b.look;
+  return a.view.world_from_eye.matrix() == b.view.world_from_eye.matrix() && a.view.field == b.view.field &&
+         same(one.above, other.above) && same(one.below, other.below) && one.lights == other.lights &&
+         one.shadows == other.shadows && one.ground == other.ground && one.shadow_side == other.shadow_side &&
+         one.passes == other.passes;
+}
+
+}  // namespace
+
+DisplayFeed::DisplayFeed(std::size_t pointers)
+    : scene_(std::make_shared<const render::RenderScene>()), recorder_(kNominalPeriod) {
+  for (std::size_t i = 0; i < pointers; ++i) pointers_.push_back(std::make_unique<PointerBox>());
+}
+
+bool DisplayFeed::is_due() {
+  take_news();
+  return is_new_ || has_moved_ || passes_ < shown_.look.passes;
+}
+
+void DisplayFeed::take_news() {
+  if (scene_.update()) is_new_ = true;
+  take_wish();
+  for (const auto& box : pointers_) {
+    box->newest.update();
+    if (has_moved(box->drawn, box->newest.read())) has_moved_ = true;
+  }
+}
+
+void DisplayFeed::take_wish() {
+  if (!wish_.update()) return;
+  const DisplayWish& wish = wish_.read();
+  if (!same_picture(shown_, wish)) is_new_ = true;
+  has_moved_ = true;
+  shown_ = wish;
+  shown_.look.passes = std::max(1, wish.look.passes);
+}
+
+void DisplayFeed::note_target(const render::SceneRenderer& renderer, const render::SceneTarget& target) {
+  const render::PictureWindow &now = target.window, &before = target_.window;
+  if (&renderer != renderer_ || target.width != target_.width || target.height != target_.height ||
+      now.left != before.left || now.bottom != before.bottom || now.width != before.width ||
+      now.height != before.height)
+    is_new_ = true;
+  renderer_ = &renderer;
+  target_ = target;
+}
+
+base::Result<void> DisplayFeed::draw(render::SceneRenderer& renderer, const render::SceneTarget& target) {
+  realtime::TickTimes times;
+  times.started = times.scheduled = base::steady_nanoseconds();
+  take_news();
+  note_target(renderer, target);
+  render::SceneLook look = shown_.look;
+  if (shown_.pointers) add_markers(look.overlay);
+  // Tiles of a picture have its shape in common.
+  const double aspect = target.width * target.window.height / (target.height * target.window.width);
+  const int pass = is_new_ ? 0 : std::min(passes_, look.passes);
+  const auto drawn = renderer.draw_pass(*scene_.read(), camera(aspect), look, target, pass);
+  for (const auto& box : pointers_) box->drawn = box->newest.read();
+  passes_ = pass + 1;
+  is_new_ = has_moved_ = false;
+  times.finished = base::steady_nanoseconds();
+  recorder_.record(times);
+  frames_.store(frames_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  return drawn;
+}
+
+bool DisplayFeed::is_shown(const PointerView& pointer) const {
+  return shown_.pointers && pointer.time != 0 && pointer.status != devices::DeviceStatus::Lost &&
+         pointer.tip.allFinite() && pointer.scp.allFinite() && pointer.force.allFinite();
+}
+
+/// By so much that it can be seen?
+bool DisplayFeed::has_moved(const PointerView& before, const PointerView& now) const {
+  if (is_shown(before) != is_shown(now)) return true;
+  if (!is_shown(now)) return false;
+  if (before.touching != now.touching) return true;
+  const double distance = (now.tip - shown_.view.world_from_eye.translation()).norm();
+  const double pixel = 2.0 * distance * std::tan(0.5 * shown_.view.field) /
+                       (std::min(target_.width, target_.height) / target_.window.width);
+  const double newton = kArrowPerNewton * shown_.marker_size * distance;
+  const double moved = std::max({(now.tip - before.tip).norm(), (now.scp - before.scp).norm(),
+                                 now.touching ? newton * (now.force - before.force).norm() : 0.0});
+  return moved > kSeenMove * pixel;
+}
+
+/// What is looked at by whoever looks along -z there.
+render::Camera DisplayFeed::camera(double aspect) const {
+  const base::Pose& world_from_eye = shown_.view.world_from_eye;
+  render::Camera camera;
+  camera.camera_from_world = world_from_eye.inverse();
+  base::Bounds bounds = scene_.read()->bounds();
+  for (const auto& box : pointers_) {
+    if (!is_shown(box->newest.read())) continue;
+    // Pointers before and behind the scene are to be seen too. In steps, so that the lens, and with it the
+    // picture, rarely changes with the hand.
+    const double depth = -(camera.camera_from_world * box->newest.read().tip).z();
+    if (!(depth > 0.0)) continue;
+    for (const double step : {std::floor(std::log2(depth)), std::ceil(std::log2(depth))})
+      bounds.extend(world_from_eye * Vector3(0.0, 0.0, -std::exp2(step)));
+  }
+  camera.clip_from_camera = render::lens_for(camera.camera_from_world, bounds, shown_.view.field, aspect);
+  return camera;
+}
+
+void DisplayFeed::add_markers(render::SceneOverlay& overlay) const {
+  const Vector3 eye = shown_.view.world_from_eye.translation();
+  for (const auto& box : pointers_) {
+    const PointerView& pointer = box->newest.read();
+    const double radius = shown_.marker_size * (pointer.tip - eye).norm();
+    if (!is_shown(pointer) || !(radius > 0.0)) continue;
+    if (!pointer.touching) {
+      overlay.balls.push_back({pointer.tip, radius, kTipColour});
+      continue;
+    }
+    overlay.balls.push_back({pointer.scp, radius, kContactColour});
+    overlay.balls.push_back({pointer.tip, kHeldTip * radius, kTipColour});
+    overlay.lines.push_back({{pointer.tip, pointer.scp}, kTipColour});
+    const double force = pointer.force.norm();
+    if (!(force > 0.0)) continue;
+    const double length = radius * std::min(kArrowPerNewton * force, kLongestArrow);
+    overlay.arrows.push_back(
+        {pointer.scp, pointer.scp + length / force * pointer.force, kArrowRadius * radius, kForceColour});
+  }
+}
+
+}  // namespace icome::session

@@ -1,0 +1,85 @@
+#include "session/edited_queue.h"
+
+#include <cassert>
+#include <utility>
+
+namespace icome::session {
+
+bool EditedQueue::Reader::wait() {
+  for (;;) {
+    // Asked before looking: what was kept is the reader's once it is closed.
+    const bool closed = closed_.load(std::memory_order_acquire);
+    if (look()) return true;
+    if (closed) return false;
+    news_.acquire();
+    // One look finds all that is there, however often it was told.
+    while (news_.try_acquire()) {
+    }
+  }
+}
+
+bool EditedQueue::Reader::wait_for(std::chrono::nanoseconds longest) {
+  const bool closed = closed_.load(std::memory_order_acquire);
+  if (look()) return true;
+  if (closed) return false;
+  (void)news_.try_acquire_for(longest);
+  return true;
+}
+
+std::optional<Edited> EditedQueue::Reader::take() {
+  if (!look()) return std::nullopt;
+  return std::exchange(next_, std::nullopt);
+}
+
+/// Is there something to take?
+bool EditedQueue::Reader::look() {
+  if (next_) return true;
+  const bool closed = closed_.load(std::memory_order_acquire);
+  next_ = pipe_.try_pop();
+  if (!next_ && closed && !kept_.empty()) {
+    next_ = std::move(kept_.front());
+    kept_.pop_front();
+  }
+  return next_.has_value();
+}
+
+/// The posting thread: moves what was kept into the pipe as far as there is room.
+void EditedQueue::Reader::hand_on() {
+  bool some = false;
+  while (!kept_.empty() && pipe_.try_push(std::move(kept_.front()))) {
+    kept_.pop_front();
+    some = true;
+  }
+  if (some) news_.release();
+}
+
+EditedQueue::Reader& EditedQueue::add_reader() {
+  assert(posted_ == 0 && !closed_);
+  return *readers_.emplace_back(std::make_unique<Reader>());
+}
+
+std::uint64_t EditedQueue::post(Edited edited) {
+  assert(!closed_);
+  edited.number = ++posted_;
+  for (const auto& reader : readers_) {
+    reader->kept_.push_back(edited);
+    reader->hand_on();
+  }
+  return posted_;
+}
+
+void EditedQueue::pump() {
+  if (closed_) return;
+  for (const auto& reader : readers_) reader->hand_on();
+}
+
+void EditedQueue::close() {
+  if (std::exchange(closed_, true)) return;
+  for (const auto& reader : readers_) {
+    reader->hand_on();
+    reader->closed_.store(true, std::memory_order_release);
+    reader->news_.release();
+  }
+}
+
+}  // namespace icome::session

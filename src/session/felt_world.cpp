@@ -1,0 +1,34 @@
+#include "session/felt_world.h"
+
+#include <utility>
+
+namespace icome::session {
+
+FeltWorld::FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
+                     realtime::LatestValue<FeltVersion>& newest)
+    : felt_(settings), servos_(std::move(servos)), newest_(newest) {}
+
+void FeltWorld::open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) {
+  felt_.open(world, shown, base::Affine3(stage_from_world));
+  publish();
+}
+
+void FeltWorld::show(const world::World& world, world::SceneId shown) {
+  felt_.show(world, shown);
+  publish();
+}
+
+void FeltWorld::follow(const world::World& world, const world::Changes& changes) {
+  felt_.follow(world, changes);
+  publish();
+}
+
+void FeltWorld::publish() {
+  const FeltVersion version{felt_.scene(), felt_.names()};
+  if (version.scene == published_.scene && version.names == published_.names) return;
+  published_ = version;
+  newest_.publish(version);
+  for (haptics::Servo* servo : servos_) servo->publish(version.scene);
+}
+
+}  // namespace icome::session

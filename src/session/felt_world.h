@@ -1,0 +1,39 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "haptics/servo/servo.h"
+#include "realtime/latest_value.h"
+#include "session/follower.h"
+#include "session/haptic_representation.h"
+
+namespace icome::session {
+
+/// What can be touched, as others than the servo look at it.
+struct FeltVersion {
+  std::shared_ptr<const haptics::HapticScene> scene;
+  std::shared_ptr<const TouchedNames> names;
+};
+
+/// Keeps the world under the hand: brings each version of what can be touched to the servos of all pointers,
+/// and to main.
+class FeltWorld final : public Representation {
+ public:
+  /// The servos and the box outlive this; it alone publishes to them.
+  FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
+            realtime::LatestValue<FeltVersion>& newest);
+
+  void open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) override;
+  void show(const world::World& world, world::SceneId shown) override;
+  void follow(const world::World& world, const world::Changes& changes) override;
+
+ private:
+  void publish();
+
+  HapticRepresentation felt_;
+  std::vector<haptics::Servo*> servos_;
+  realtime::LatestValue<FeltVersion>& newest_;
+  FeltVersion published_ = {};
+};
+
+}  // namespace icome::session

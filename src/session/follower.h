@@ -1,0 +1,76 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "session/edited_queue.h"
+#include "world/changes.h"
+
+namespace icome::session {
+
+/// What is made of a world for one purpose, such as being felt or being seen, kept up to date as the world is
+/// edited. Derive from it to add one (collisions, colleagues): nothing else changes. A Follower calls it, on
+/// one thread of its own; making may take as long as it takes.
+class Representation {
+ public:
+  virtual ~Representation() = default;
+
+  /// Another world from now on: nothing that was made of the last one is of use.
+  virtual void open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) = 0;
+  /// Another scene (none: the whole world) of the same world is shown.
+  virtual void show(const world::World& world, world::SceneId shown) = 0;
+  /// The world has been through edits that may have changed this.
+  virtual void follow(const world::World& world, const world::Changes& changes) = 0;
+};
+
+/// Keeps a representation up to date on a thread of its own: a replica of the world goes through the same
+/// edits as main's, those that have queued up meanwhile in one go. Owns replica, representation and thread.
+class Follower {
+ public:
+  /// Starts with an empty world. `name` is the thread's, for debuggers; 15 letters are shown. The queue
+  /// outlives this.
+  Follower(EditedQueue& queue, std::unique_ptr<Representation> representation, std::string name);
+  /// Waits for what the representation is making; what is in the queue behind that is left there. The queue
+  /// has been closed.
+  ~Follower();
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
+
+  /// The number of the last post that the representation shows. Any thread.
+  std::uint64_t followed() const { return followed_.load(std::memory_order_acquire); }
+  /// How often the representation was brought up to date: less often than there were posts, where making took
+  /// long. Any thread.
+  std::uint64_t rounds() const { return rounds_.load(std::memory_order_relaxed); }
+
+  /// The queue's readers end without taking what is left. Before the queue is closed.
+  void give_up() { given_up_.store(true, std::memory_order_relaxed); }
+
+  /// What it has become of the world; for those who know that the thread rests.
+  const world::World& replica() const { return replica_; }
+
+ private:
+  void run(const std::string& name);
+  void take_all();
+  void take(Edited& edited);
+  void bring_up_to_date();
+
+  EditedQueue::Reader& reader_;
+  std::unique_ptr<Representation> representation_;
+  world::World replica_;
+  world::SceneId shown_ = {};
+  // Since the representation was brought up to date.
+  std::shared_ptr<const world::World> whole_;
+  base::Pose stage_from_world_ = base::Pose::Identity();
+  std::vector<std::shared_ptr<const world::Edit>> edits_;
+  bool other_scene_ = false;
+  std::uint64_t taken_ = 0;
+
+  std::atomic<std::uint64_t> followed_ = 0;
+  std::atomic<std::uint64_t> rounds_ = 0;
+  std::atomic<bool> given_up_ = false;
+  std::thread thread_;
+};
+
+}  // namespace icome::session

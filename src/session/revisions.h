@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+namespace icome::session {
+
+/// Knows which of its states a world with a history is in, so that one that was undone back to what was saved
+/// is not modified. Told of all that is done to the history.
+class Revisions {
+ public:
+  void performed() {
+    undone_.clear();
+    done_.push_back(++last_);
+  }
+  void extended() { done_.back() = ++last_; }
+  void undid() {
+    undone_.push_back(done_.back());
+    done_.pop_back();
+  }
+  void redid() {
+    done_.push_back(undone_.back());
+    undone_.pop_back();
+  }
+
+  /// Another one in each state, also of other histories.
+  std::uint64_t now() const { return done_.empty() ? first_ : done_.back(); }
+  /// Begins anew, with another world.
+  void restart() {
+    done_.clear();
+    undone_.clear();
+    first_ = ++last_;
+  }
+
+ private:
+  std::uint64_t last_ = 0;   // given
+  std::uint64_t first_ = 0;  // before anything was done
+  std::vector<std::uint64_t> done_, undone_;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,24 @@
+#include "session/seen_world.h"
+
+namespace icome::session {
+
+void SeenWorld::open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) {
+  stage_from_world_ = stage_from_world;
+  show(world, shown);
+}
+
+void SeenWorld::show(const world::World& world, world::SceneId shown) {
+  publisher_ = render::ScenePublisher(shown, stage_from_world_);
+  publish(publisher_.publish(world));
+}
+
+void SeenWorld::follow(const world::World& world, const world::Changes& changes) {
+  publish(publisher_.update(world, changes));
+}
+
+void SeenWorld::publish(const render::RenderScenePointer& scene) {
+  display_.publish(scene);
+  newest_.publish(scene);
+}
+
+}  // namespace icome::session

@@ -1,0 +1,157 @@
+#include "session/session.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "session/session_parts.h"
+
+namespace icome::session {
+namespace {
+
+/// The hand that the mouse drives where there is no device.
+std::unique_ptr<devices::SimulatedDevice> make_mouse_hand(double rate_hz) {
+  devices::SimulatedSettings settings;
+  settings.info.name = "mouse";
+  settings.rate = rate_hz;
+  return std::make_unique<devices::SimulatedDevice>(std::move(settings));
+}
+
+HapticRepresentationSettings felt_settings(const haptics::ServoSettings& servo) {
+  HapticRepresentationSettings settings;
+  settings.felt.tip_radius = servo.scp.tip_radius;
+  settings.felt.interpolate_normals = servo.force_shading;
+  return settings;
+}
+
+}  // namespace
+
+Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
+                      devices::SimulatedDevice* mouse)
+    : settings(std::move(given)),
+      display(devices.size()),
+      mouse_hand(mouse),
+      hands(std::move(devices), settings.servo, display),
+      lost(hands.pointers(), false),
+      losses(hands.pointers(), 0),
+      felt({haptics::HapticScene::compile({}), std::make_shared<const TouchedNames>()}),
+      seen(std::make_shared<const render::RenderScene>()) {}
+
+Session::Parts::~Parts() {
+  for (Follower* follower : {felt_follower.get(), seen_follower.get()}) {
+    if (follower) follower->give_up();
+  }
+  queue.close();
+  hands.stop();
+}
+
+base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings) {
+  auto devices = std::move(settings.pointers);
+  devices::SimulatedDevice* mouse = nullptr;
+  if (devices.empty()) {
+    auto hand = make_mouse_hand(settings.servo.rate_hz);
+    mouse = hand.get();
+    devices.push_back(std::move(hand));
+  }
+  const haptics::ServoSettings servo = settings.servo;
+  const bool realtime = settings.realtime_priority;
+  auto parts = std::make_unique<Parts>(std::move(settings), std::move(devices), mouse);
+  try {
+    parts->felt_follower = std::make_unique<Follower>(
+        parts->queue, std::make_unique<FeltWorld>(felt_settings(servo), parts->hands.servos(), parts->felt),
+        "felt world");
+    parts->seen_follower = std::make_unique<Follower>(
+        parts->queue, std::make_unique<SeenWorld>(parts->display, parts->seen), "seen world");
+  } catch (const std::system_error& error) {
+    return base::fail(fmt::format(
+        "The system gave no threads for a session ({}): close other programs and try again.", error.what()));
+  }
+  if (const auto started = parts->hands.start(realtime); !started) return tl::unexpected(started.error());
+  if (const std::string& notice = parts->hands.loop()->report().notice; !notice.empty())
+    parts->tell(SessionEvent::Kind::Notice, notice);
+  parts->open_world({}, {}, base::Pose::Identity());
+  return std::unique_ptr<Session>(new Session(std::move(parts)));
+}
+
+Session::Session(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Session::~Session() = default;
+
+void Session::Parts::tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details) {
+  events.push_back({kind, std::move(text), std::move(details)});
+}
+
+/// What other threads have brought. Pointers first: the names of what they touch are never older then.
+void Session::Parts::take_in() {
+  queue.pump();
+  hands.update();
+  felt.update();
+  seen.update();
+  notice_devices();
+}
+
+void Session::Parts::notice_devices() {
+  for (std::size_t i = 0; i < hands.pointers(); ++i) {
+    const PointerView& pointer = hands.view(i);
+    if (pointer.time == 0) continue;  // no tick yet
+    const bool is_lost = pointer.status == devices::DeviceStatus::Lost;
+    const std::string& name = hands.info(i).name;
+    // One that was lost and came back in between is told of, too.
+    if (hands.losses(i) > std::exchange(losses[i], hands.losses(i)) && !lost[i]) {
+      lost[i] = true;
+      tell(SessionEvent::Kind::DeviceLost,
+           fmt::format("The device \"{}\" does not answer: see that it is plugged in and switched on. It is "
+                       "used again as soon as it answers.",
+                       name));
+    }
+    if (lost[i] && !is_lost) {
+      lost[i] = false;
+      tell(SessionEvent::Kind::DeviceBack, fmt::format("The device \"{}\" is back.", name));
+    }
+  }
+}
+
+std::vector<SessionEvent> Session::update() {
+  parts_->take_in();
+  parts_->move_view();
+  parts_->publish_wish();
+  return std::exchange(parts_->events, {});
+}
+
+bool Session::Parts::is_settled() const {
+  return felt_follower->followed() == queue.posted() && seen_follower->followed() == queue.posted();
+}
+
+void Session::settle() {
+  const auto wait = [](const auto& is_over) {
+    while (!is_over()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  wait([this] {
+    parts_->take_in();
+    return parts_->is_settled();
+  });
+  // One tick may have begun before the newest scene was there; the next one has it.
+  const std::uint64_t ticks = parts_->hands.ticks();
+  wait([this, ticks] { return parts_->hands.ticks() >= ticks + 2; });
+  parts_->take_in();
+  parts_->publish_wish();
+}
+
+const render::RenderScenePointer& Session::drawn() const { return parts_->seen.read(); }
+
+DisplayFeed& Session::display() { return parts_->display; }
+
+ServoHealth Session::servo() const {
+  const realtime::LoopRunner& loop = *parts_->hands.loop();
+  ServoHealth health;
+  health.running = loop.running();
+  health.rate_hz = parts_->settings.servo.rate_hz;
+  health.summary = loop.recorder().summary();
+  health.load_histogram = loop.recorder().load_histogram();
+  health.notice = loop.report().notice;
+  return health;
+}
+
+}  // namespace icome::session

@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "session/session_parts.h"
+#include "session/shared_edit.h"
+
+namespace icome::session {
+
+using world::ObjectId;
+
+/// Performs on main's world, and keeps what is to be posted.
+world::EditSink Session::Parts::sink() {
+  return world::EditSink([this](const world::Edit& edit) -> base::Result<world::Edit> {
+    auto shared = perform_shared(world, edit);
+    if (!shared) return tl::unexpected(shared.error());
+    performed.emplace();
+    performed->edit = std::make_shared<const world::Edit>(edit);
+    performed->for_replicas = std::make_shared<const world::Edit>(std::move(shared->for_replicas));
+    return std::move(shared->inverse);
+  });
+}
+
+/// Posts what was performed, and tells of it.
+base::Result<void> Session::Parts::done(base::Result<void> result) {
+  if (!result) return result;
+  const std::shared_ptr<const world::Edit> edit = performed->edit;
+  queue.post(std::move(*std::exchange(performed, std::nullopt)));
+  const world::Changes changes = world::changes_of(*edit);
+  tell_change(&changes);
+  return {};
+}
+
+void Session::Parts::tell_change(const world::Changes* changes) {
+  const std::size_t before = selection.size();
+  std::erase_if(selection, [this](ObjectId id) { return !world.find(id); });
+  if (shown_scene && !world.find(shown_scene)) show({});
+  if (selection.size() != before) look_is_new = true;
+  if (on_change) on_change(changes);
+  if (selection.size() != before && on_selection) on_selection();
+}
+
+void Session::Parts::show(world::SceneId scene) {
+  if (shown_scene == scene) return;
+  shown_scene = scene;
+  Edited edited;
+  edited.shown = scene;
+  queue.post(std::move(edited));
+}
+
+void Session::Parts::open_world(world::World opened, const std::filesystem::path& design,
+                                const base::Pose& stage) {
+  world = std::move(opened);
+  history = {};
+  ids = world::IdSource(0, world.next_number(0));
+  revisions.restart();
+  saved_revision = revisions.now();
+  stage_from_world = stage;
+  path = design;
+  shown_scene = {};
+  Edited edited;
+  edited.whole = std::make_shared<const world::World>(world);
+  edited.stage_from_world = stage;
+  queue.post(std::move(edited));
+  const bool had_selection = !std::exchange(selection, {}).empty();
+  look_is_new = true;
+  if (on_change) on_change(nullptr);
+  if (had_selection && on_selection) on_selection();
+}
+
+void Session::on_change(std::function<void(const world::Changes*)> listener) {
+  parts_->on_change = std::move(listener);
+}
+
+void Session::on_selection(std::function<void()> listener) { parts_->on_selection = std::move(listener); }
+
+const world::World& Session::world() const { return parts_->world; }
+
+world::IdSource& Session::ids() { return parts_->ids; }
+
+const world::History& Session::history() const { return parts_->history; }
+
+const base::Pose& Session::stage_from_world() const { return parts_->stage_from_world; }
+
+base::Result<void> Session::perform(const world::Edit& edit, const std::string& name) {
+  const auto performed = parts_->history.perform(parts_->sink(), edit, name);
+  if (performed) parts_->revisions.performed();
+  return parts_->done(performed);
+}
+
+base::Result<void> Session::extend(const world::Edit& edit) {
+  const world::History& history = parts_->history;
+  if (!history.can_undo() || history.can_redo())
+    return base::fail("The action is over, as it was undone or another design was opened: begin it anew.");
+  const auto extended = parts_->history.extend(parts_->sink(), edit);
+  if (extended) parts_->revisions.extended();
+  return parts_->done(extended);
+}
+
+base::Result<void> Session::undo() {
+  const auto undone = parts_->history.undo(parts_->sink());
+  if (!undone) return tl::unexpected(undone.error());
+  parts_->revisions.undid();
+  return parts_->done({});
+}
+
+base::Result<void> Session::redo() {
+  const auto redone = parts_->history.redo(parts_->sink());
+  if (!redone) return tl::unexpected(redone.error());
+  parts_->revisions.redid();
+  return parts_->done({});
+}
+
+void Session::show_scene(world::SceneId scene) {
+  if (!scene || parts_->world.find(scene)) parts_->show(scene);
+}
+
+world::SceneId Session::shown_scene() const { return parts_->shown_scene; }
+
+const std::vector<ObjectId>& Session::selection() const { return parts_->selection; }
+
+void Session::select(std::vector<ObjectId> objects) {
+  std::unordered_set<ObjectId> met;
+  std::erase_if(objects, [&](ObjectId id) { return !parts_->world.find(id) || !met.insert(id).second; });
+  if (objects == parts_->selection) return;
+  parts_->selection = std::move(objects);
+  parts_->look_is_new = true;
+  if (parts_->on_selection) parts_->on_selection();
+}
+
+base::Bounds Session::selection_bounds() const {
+  const world::World& world = parts_->world;
+  const world::Scene* scene = world.find(parts_->shown_scene);
+  const auto& all = scene ? scene->roots : world.roots();
+  base::Bounds bounds;
+  for (const ObjectId id : parts_->selection.empty() ? all : parts_->selection)
+    bounds.extend(world::bounds(world, id));
+  return bounds.isEmpty() ? bounds : bounds.transformed(base::Affine3(parts_->stage_from_world));
+}
+
+}  // namespace icome::session
