@@ -21,39 +21,53 @@ struct MouseHandSettings {
 
 /// Turns a mouse or a pen into the hand of a pointer device: it hovers over what is under the mouse and
 /// presses into it while the button is down, the deeper the harder a pen is pressed or the further the wheel
-/// was turned. Over nothing it stays as far from the eye as it was last. One thread owns it; the same inputs
+/// was turned. It presses straight down, so that the surface contact point stays under the mouse, and only
+/// where the hand has arrived: on its way to somewhere else it is lifted, and so gets over what stands in
+/// between. Over nothing it stays as far from the eye as it was last. One thread owns it; the same inputs
 /// give the same targets.
 class MouseHand {
  public:
   explicit MouseHand(const MouseHandSettings& settings = {}) : settings_(settings) {}
 
   struct Input {
-    Ray ray;                            // through the mouse
-    double view_width = 1.0;            // m, of the view at 1 m from the eye
-    std::optional<PickedPoint> picked;  // nothing: the ray meets nothing
-    double pressure = 0.0;              // [0, 1]; 0: the button is up. A mouse button is 0.5
+    Ray ray = {};                            // through the mouse
+    double view_width = 1.0;                 // m, of the view at 1 m from the eye
+    double distance = 0.5;                   // m, to what the view looks at (View::distance)
+    std::optional<PickedPoint> picked = {};  // nothing: the ray meets nothing
+    double pressure = 0.0;                   // [0, 1]; 0: the button is up. A mouse button is 0.5
     double wheel = 0.0;  // notches turned since the last input: presses deeper (away from the eye)
+    std::optional<Vector3> hand = {};  // m, where its surface contact point is; nothing: where it should be
   };
-  /// Where the hand wants to be, m.
+  /// Where the hand wants to be, m; where it wanted to be last, when the input is of no numbers.
   Vector3 target(const Input& input);
 
  private:
+  Vector3 over_nothing(const Input& input, double wheel);
+  Vector3 over(const PickedPoint& picked, const Input& input, double wheel);
+  double arrived(const PickedPoint& picked, const Input& input, double width) const;
+
   MouseHandSettings settings_;
-  double depth_ = 0.5;  // m from the eye, of what was touched last
-  double extra_ = 0.0;  // notches
+  double depth_ = 1.0;     // of the view's `distance`, from the eye to what was touched last
+  double extra_ = 0.0;     // notches, until the button goes up
+  bool pressing_ = false;  // at the last input
+  Vector3 last_ = Vector3::Zero();
 };
 
 /// Moves something that was grasped at a point so that the point follows the mouse: in the plane through it
-/// that faces the eye, or along a line.
+/// with that normal (of any length > 0, such as towards the eye), or along a line.
 class DragPlane {
  public:
   DragPlane(const Vector3& grasped, const Vector3& normal) : start_(grasped), normal_(normal) {}
   /// Keeps the movement on the line through the grasped point along this direction; nothing: in the plane.
   void keep_to(const std::optional<Vector3>& direction) { along_ = direction; }
-  /// How far it has moved, m; nothing where the ray does not meet the plane before the eye.
+  /// How far it has moved, m; nothing where the ray does not meet the plane before the eye, or only a
+  /// thousand times as far away as what was grasped; with a line, where it comes near it, likewise.
   std::optional<Vector3> moved(const Ray& ray) const;
 
  private:
+  std::optional<Vector3> moved_in_plane(const Ray& ray, double reach) const;
+  std::optional<Vector3> moved_along(const Vector3& line, const Ray& ray, double reach) const;
+
   Vector3 start_, normal_;
   std::optional<Vector3> along_;
 };

@@ -1,0 +1,92 @@
+#include "interaction/mouse_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace icome::interaction {
+namespace {
+
+constexpr double kNotch = 0.25;      // of `deepest`, by which a notch of the wheel presses deeper
+constexpr double kMostNotches = 12;  // either way
+constexpr double kFree = 1.05;       // times as far away, for a notch over nothing
+
+double unit_range(double value) { return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0; }
+
+bool all_numbers(const PickedPoint& picked) {
+  return picked.point.allFinite() && picked.normal.allFinite() && std::isfinite(picked.distance) &&
+         picked.distance > 0.0;
+}
+
+}  // namespace
+
+Vector3 MouseHand::target(const Input& input) {
+  const bool usable = input.ray.origin.allFinite() && input.ray.direction.allFinite() &&
+                      std::isfinite(input.view_width) && std::isfinite(input.distance) &&
+                      input.distance > 0.0;
+  if (!usable) return last_;
+  const bool pressing = unit_range(input.pressure) > 0.0;
+  if (pressing_ && !pressing) extra_ = 0.0;  // the next press begins as this one did
+  pressing_ = pressing;
+  const double wheel =
+      std::isfinite(input.wheel) ? std::clamp(input.wheel, -kMostNotches, kMostNotches) : 0.0;
+  const bool something = input.picked && all_numbers(*input.picked);
+  const Vector3 wanted = something ? over(*input.picked, input, wheel) : over_nothing(input, wheel);
+  if (wanted.allFinite()) last_ = wanted;
+  return last_;
+}
+
+// As a share of the view's distance it survives zooming.
+Vector3 MouseHand::over_nothing(const Input& input, double wheel) {
+  depth_ = std::clamp(depth_ * std::pow(kFree, wheel), 1e-3, 1e3);
+  return input.ray.origin + depth_ * input.distance * input.ray.direction;
+}
+
+Vector3 MouseHand::over(const PickedPoint& picked, const Input& input, double wheel) {
+  depth_ = std::clamp(picked.distance / input.distance, 1e-3, 1e3);
+  extra_ = std::clamp(extra_ + wheel, -kMostNotches, kMostNotches);
+  const double width = input.view_width * picked.distance;
+  // Above a surface that is seen askew: off it, but still nearly under the mouse.
+  const Vector3 above = (picked.normal - input.ray.direction).stableNormalized();
+  const Vector3 hover = picked.point + settings_.hover * width * above;
+  const double pressure = unit_range(input.pressure) + kNotch * extra_;
+  if (!(pressure > 0.0) || !(pressing_ || extra_ > 0.0)) return hover;
+  const Vector3 pressed = picked.point - pressure * settings_.deepest * width * picked.normal;
+  return hover + arrived(picked, input, width) * (pressed - hover);
+}
+
+/// 1 where the hand may press with all its strength, 0 where it is elsewhere still. It may lag as far as it
+/// would press: that is what friction holds back.
+double MouseHand::arrived(const PickedPoint& picked, const Input& input, double width) const {
+  if (!input.hand || !input.hand->allFinite()) return 1.0;
+  const double lag = (*input.hand - picked.point).norm() / (settings_.deepest * width);
+  return std::isfinite(lag) ? std::clamp(2.0 - lag, 0.0, 1.0) : 1.0;
+}
+
+std::optional<Vector3> DragPlane::moved(const Ray& ray) const {
+  constexpr double kReach = 1000.0;  // times the distance to what was grasped
+  if (!ray.origin.allFinite() || !ray.direction.allFinite() || !start_.allFinite()) return std::nullopt;
+  const double reach = kReach * (start_ - ray.origin).norm();
+  const Ray unit{ray.origin, ray.direction.stableNormalized()};
+  const auto moved =
+      along_ ? moved_along(along_->stableNormalized(), unit, reach) : moved_in_plane(unit, reach);
+  return moved && moved->allFinite() ? moved : std::nullopt;
+}
+
+std::optional<Vector3> DragPlane::moved_in_plane(const Ray& ray, double reach) const {
+  const Vector3 normal = normal_.stableNormalized();
+  const double t = normal.dot(start_ - ray.origin) / normal.dot(ray.direction);
+  if (!(t > 0.0 && t <= reach)) return std::nullopt;
+  return ray.origin + t * ray.direction - start_;
+}
+
+/// To the place of the line that the ray comes nearest to.
+std::optional<Vector3> DragPlane::moved_along(const Vector3& line, const Ray& ray, double reach) const {
+  const Vector3 back = start_ - ray.origin;
+  const double both = line.dot(ray.direction);
+  const Vector3 across = ray.direction - both * line;  // of the ray, square to the line
+  const double t = back.dot(across) / across.squaredNorm();
+  if (!(t > 0.0 && t <= reach)) return std::nullopt;
+  return line.dot(ray.origin + t * ray.direction - start_) * line;
+}
+
+}  // namespace icome::interaction
