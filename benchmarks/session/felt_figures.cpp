@@ -1,0 +1,83 @@
+// From an edit to the first tick that feels it: a hand rests on a plate, which an edit then takes away.
+#include <cmath>
+#include <functional>
+
+#include "base/clock.h"
+#include "bench_session.h"
+#include "session_figures.h"
+#include "world/mesh_geometry.h"
+
+namespace icome::benchmarks {
+namespace {
+
+const base::Vector3 kAbove(0.0, 0.03, 0.0), kWithin(0.0, -0.004, 0.0);
+constexpr double kFar = 0.1;  // m, that a plate is lowered to be gone
+
+/// Ticks until the hand hears of the edit, which leaves nothing to touch. `undo` brings it back.
+std::vector<double> ticks_to_feel(session::Session& session, int edits,
+                                  const std::function<void()>& take_away) {
+  std::vector<double> ticks;
+  const auto touching = [&] { return session.pointer(0).touching; };
+  for (int i = 0; i < edits; ++i) {
+    session.aim_hand(kAbove);
+    if (!turn_until(session, [&] { return session.pointer(0).tip.y() > 0.02; })) break;
+    session.aim_hand(kWithin);
+    if (!turn_until(session, touching)) break;
+    const std::int64_t begin = base::steady_nanoseconds();
+    take_away();
+    if (!turn_until(session, [&] { return !touching(); })) break;
+    const double seconds = 1e-9 * double(session.pointer(0).time - begin);
+    ticks.push_back(std::ceil(std::max(0.0, seconds * session.servo().rate_hz)));
+    must(session.undo());
+    session.settle();
+  }
+  return ticks;
+}
+
+/// The vertices of the large plate within 3 cm of its middle, far below.
+world::MoveVertices dent(const session::Session& session, world::GeometryId geometry) {
+  const auto& mesh = dynamic_cast<const world::MeshGeometry&>(*session.world().find(geometry)->shape).mesh;
+  world::MoveVertices edit{geometry, {}, {}};
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const base::Vector3& at = mesh.positions[i];
+    if (std::hypot(at.x(), at.z()) > 0.03) continue;
+    edit.vertices.push_back(i);
+    edit.positions.push_back(at - base::Vector3(0.0, kFar, 0.0));
+  }
+  return edit;
+}
+
+}  // namespace
+
+SessionSection felt_figures(const SessionExtent& extent) {
+  SessionSection section{"from an edit to its being felt", {}};
+  {
+    const auto session = start_session();
+    const Added plate = add_shape(*session, thick_plate(), lowered(0.01));
+    section.rows.push_back(row_of(
+        "a plate is moved",
+        ticks_to_feel(*session, extent.edits,
+                      [&] {
+                        must(session->perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
+                      }),
+        "ticks"));
+  }
+  const auto session = start_session();
+  const Added plate = add_shape(*session, large_plate(extent.grid), lowered(0.0));
+  const std::string name = std::to_string(2 * extent.grid * extent.grid) + " triangles";
+  section.rows.push_back(
+      row_of("a mesh of " + name + " is moved",
+             ticks_to_feel(*session, extent.edits,
+                           [&] {
+                             must(session->perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
+                           }),
+             "ticks"));
+  const world::MoveVertices edit = dent(*session, plate.geometry);
+  section.rows.push_back(row_of(
+      "the middle of that mesh is dented (" + std::to_string(edit.vertices.size()) + " vertices)",
+      ticks_to_feel(*session, std::max(1, extent.edits / 10), [&] { must(session->perform(edit, "Dent")); }),
+      "ticks"));
+  return section;
+}
+
+}  // namespace icome::benchmarks
