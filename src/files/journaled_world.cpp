@@ -178,7 +178,15 @@ base::Result<void> JournaledWorld::sync() {
   return broken_ ? base::Result<void>(tl::unexpected(*broken_)) : synced;
 }
 
-base::Result<void> JournaledWorld::compact() {
+base::Result<void> JournaledWorld::compact() { return write_anew(world_); }
+
+base::Result<void> JournaledWorld::restart(world::World world) {
+  auto written = write_anew(world);
+  if (written) world_ = std::move(world);
+  return written;
+}
+
+base::Result<void> JournaledWorld::write_anew(const world::World& world) {
   auto fresh = NewFile::create(path());
   if (!fresh) return tl::unexpected(fresh.error());
   auto file = OpenFile::copy_of(fresh->descriptor(), path());
@@ -186,7 +194,7 @@ base::Result<void> JournaledWorld::compact() {
   // Before it has the journal's name, so that nobody comes between.
   const auto locked = file->lock();
   if (!locked) return tl::unexpected(locked.error());
-  const auto snapshot = write_snapshot(world_, *fresh);
+  const auto snapshot = write_snapshot(world, *fresh);
   if (!snapshot) return tl::unexpected(snapshot.error());
   if (const auto finished = fresh->finish(); !finished) return finished;
   file_ = std::move(*file);

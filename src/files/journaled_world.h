@@ -52,18 +52,23 @@ class JournaledWorld {
   /// Writes the journal anew as a snapshot of the world, with no edits behind it: the old one stays until
   /// the new one is whole and on the disk.
   base::Result<void> compact();
+  /// The same with another world, which this is from then on. When that fails, nothing has changed.
+  base::Result<void> restart(world::World world);
   /// Why compacting failed when it was due; nothing while all is well. The journal grows meanwhile, and
   /// it is tried again when it has doubled.
   const std::optional<base::Error>& compact_problem() const { return compact_problem_; }
 
   /// Of the file.
   std::uint64_t bytes() const { return end_; }
+  /// Is the file still where it was? One that was deleted keeps nothing for anybody; `compact` makes it anew.
+  bool is_in_place() const { return file_.is_at_its_path(); }
 
  private:
   JournaledWorld(OpenFile file, const JournalOptions& options) : file_(std::move(file)), options_(options) {}
   base::Result<void> start(const world::GeometryFactory& factory);
   base::Result<void> set_aside(std::uint64_t from);
   base::Result<void> append(std::string_view content);
+  base::Result<void> write_anew(const world::World& world);
   void compact_if_due();
 
   OpenFile file_;

@@ -214,6 +214,27 @@ TEST(JournaledWorld, CompactsByItselfWhenEditsOutweighTheSnapshot) {
   EXPECT_EQ(hash(read(path).world), hash(journal.world()));
 }
 
+TEST(JournaledWorld, RestartsWithAnotherWorld) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "kept" / "design.icome";
+  std::filesystem::create_directory(path.parent_path());
+  JournaledWorld journal = opened(path, kCreate);
+  performed(journal, CreateObject{{1}, 0, {.name = "first"}});
+  EXPECT_TRUE(journal.is_in_place());
+  std::filesystem::remove_all(path.parent_path());
+  EXPECT_FALSE(journal.is_in_place());
+  world::World other;
+  world::applied(other, CreateObject{{2}, 0, {.name = "other"}});
+  EXPECT_FALSE(journal.restart(other));
+  EXPECT_NE(hash(journal.world()), hash(other));
+  std::filesystem::create_directory(path.parent_path());
+  ASSERT_TRUE(journal.restart(other));
+  EXPECT_TRUE(journal.is_in_place());
+  performed(journal, CreateObject{{3}, 0, {}});
+  EXPECT_EQ(hash(read(path).world), hash(journal.world()));
+  EXPECT_EQ(journal.world().objects().size(), 2u);
+}
+
 TEST(JournaledWorld, CompactsWhereALinkLeads) {
   const ScratchFolder folder;
   const auto path = folder.path() / "design.icome", link = folder.path() / "link.icome";
