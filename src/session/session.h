@@ -19,6 +19,7 @@
 #include "render/render_scene.h"
 #include "session/display_feed.h"
 #include "session/pointer_view.h"
+#include "session/recovery.h"
 #include "world/changes.h"
 #include "world/history.h"
 
@@ -54,13 +55,6 @@ struct SessionEvent {
   Kind kind = Kind::Notice;
   std::string text = {};  // a sentence or two: what happened, and what to do
   std::vector<std::string> details = {};
-};
-
-/// Work that was kept of a session that ended without closing.
-struct RecoverableWork {
-  std::filesystem::path journal;
-  std::filesystem::path design;  // that was worked on; empty: one that has never been saved
-  std::chrono::system_clock::time_point changed = {};
 };
 
 /// How the servo is doing.

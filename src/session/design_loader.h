@@ -1,0 +1,57 @@
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "files/design.h"
+#include "session/background_task.h"
+
+namespace icome::session {
+
+/// Reads designs in the background, one at a time; who wants one asks now and then how far it is. One thread
+/// (main) uses it and never waits but in the destructor. Owns the threads that read.
+class DesignLoader {
+ public:
+  /// Reads a design, as told by the options: it calls their progress and ends soon when that says stop.
+  using Read = std::function<base::Result<files::LoadedDesign>(const files::DesignReadOptions& options)>;
+
+  struct Outcome {
+    std::filesystem::path design = {};  // as it was asked for
+    /// Nothing: the reading was cancelled.
+    std::optional<base::Result<files::LoadedDesign>> result = {};
+  };
+
+  DesignLoader();
+  /// Cancels what is being read and waits until the threads have noticed.
+  ~DesignLoader();
+  DesignLoader(const DesignLoader&) = delete;
+  DesignLoader& operator=(const DesignLoader&) = delete;
+
+  /// Starts reading; a reading under way is given up, and nothing is told of it.
+  void open(const std::filesystem::path& design, const files::DesignReadOptions& options = {});
+  /// The same for what is read in another way, such as recovered work; `design` only comes back with it.
+  void start(const std::filesystem::path& design, Read read, const files::DesignReadOptions& options = {});
+  /// Gives the reading up; the next poll tells so at once, though its thread may take a moment to end.
+  void cancel();
+
+  /// The part that is done, [0, 1], while a design is being read.
+  std::optional<double> part() const;
+  /// How the reading ended, once.
+  std::optional<Outcome> poll();
+  /// Waits until the reading under way has ended, so that poll() tells of it.
+  void wait() const;
+
+ private:
+  struct Reading;
+
+  void give_up();
+
+  std::unique_ptr<Reading> reading_;               // null: none is under way
+  std::vector<std::unique_ptr<Reading>> leaving_;  // given up, their threads about to end
+  std::optional<Outcome> cancelled_;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "files/design.h"
+#include "session/background_task.h"
+
+namespace icome::session {
+
+/// Writes designs in the background, one after the other; who wants to know asks now and then. A file that
+/// was there stays as it was until the new one is whole. One thread (main) uses it and never waits but in
+/// the destructor. Owns the thread that writes.
+class DesignSaver {
+ public:
+  struct Outcome {
+    std::filesystem::path design = {};
+    std::uint64_t number = 0;  // as given to save()
+    /// What the format cannot hold; or why there is no new file, and what to do.
+    base::Result<std::vector<files::Remark>> result = {};
+  };
+
+  DesignSaver();
+  /// Writes what is still waiting.
+  ~DesignSaver();
+  DesignSaver(const DesignSaver&) = delete;
+  DesignSaver& operator=(const DesignSaver&) = delete;
+
+  /// Writes the world as it is now, behind what is being written. `number` comes back with the outcome: the
+  /// last post of the EditedQueue that is in this world.
+  void save(const std::filesystem::path& design, world::World world, std::uint64_t number = 0);
+
+  bool busy() const { return writing_ != nullptr || !waiting_.empty(); }
+  /// How the oldest ended, once each, in the order of saving. Begins with the next.
+  std::optional<Outcome> poll();
+  /// Waits until the oldest has ended, so that poll() tells of it.
+  void wait() const;
+
+ private:
+  struct Order {
+    std::filesystem::path design;
+    world::World world;
+    std::uint64_t number = 0;
+  };
+  struct Writing;
+
+  void begin_next();
+
+  std::unique_ptr<Writing> writing_;  // null: none is under way
+  std::deque<Order> waiting_;
+};
+
+}  // namespace icome::session
