@@ -1,0 +1,90 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/head_device.h"
+#include "devices/navigation_device.h"
+#include "interaction/navigation.h"
+
+namespace icome::session {
+
+/// How the user stands to the world (thesis 5.6.3 and 2.4.2): owns the view, a flight of it under way, the
+/// navigation and the head device, and says where the workspaces of the pointers lie. Whatever moves the view
+/// carries the pointers along; the head moves the eye alone. One thread (main) uses it; it knows no clock, so
+/// the same calls give the same poses.
+class UserInteraction {
+ public:
+  /// Either device may be null.
+  explicit UserInteraction(std::unique_ptr<devices::NavigationDevice> navigation = nullptr,
+                           std::unique_ptr<devices::HeadDevice> head = nullptr);
+
+  /// A device that has gone, or is back.
+  struct DeviceNews {
+    bool lost = false;
+    std::string text = {};  // a sentence or two: what happened, and what to do
+  };
+  /// What update() found that others have to act on.
+  struct News {
+    bool home = false;  // the user wants to see everything: button 1 of the navigation device
+    bool mode = false;  // camera and hand mode were exchanged: button 0
+    std::vector<DeviceNews> devices = {};
+  };
+  /// Reads the devices and moves on by `dt` seconds (what is more than a tenth is not made up for). Call it
+  /// some 60 times a second.
+  News update(double dt);
+
+  /// The user's view, without the head; always usable.
+  const interaction::View& view() const { return view_; }
+  /// What is to be drawn: the view as the head sees it. A head that moves as far as its distance to a screen
+  /// (`kScreenDistance`) moves the eye by the view's distance.
+  const interaction::View& drawn_view() const { return drawn_; }
+  static constexpr double kScreenDistance = 0.6;  // m
+
+  /// At once; a flight ends.
+  void set_view(const interaction::View& view);
+  /// Softly, within that time (s). Pushing the navigation device ends the flight where it is.
+  void fly_to(const interaction::View& view, double seconds = 0.35);
+  bool flying() const { return flight_.has_value(); }
+
+  interaction::NavigationMode mode() const { return mode_; }
+  void set_mode(interaction::NavigationMode mode) { mode_ = mode; }
+
+  /// Where all pointer devices' workspaces lie on the stage: their middle is at what the view looks at, or
+  /// where hand mode moved it from there; upright, and turned as the view is.
+  const base::Pose& stage_from_device() const { return stage_from_device_; }
+  /// Brings the workspaces back to what the view looks at, softly.
+  void recall_hands() { recalled_ = true; }
+
+ private:
+  /// What is known of a device's presence.
+  struct Presence {
+    bool asked = false;   // has it been read yet?
+    bool there = false;   // at the last reading
+    double silent = 0.0;  // s, since it said something new
+  };
+  void note(const std::string& name, Presence& presence, devices::DeviceStatus status, double dt, News& news);
+  void read_navigation(double dt, News& news);
+  void read_head(double dt, News& news);
+  void steer(double dt);
+  void move_hands(double dt);
+  void place();
+
+  std::unique_ptr<devices::NavigationDevice> navigation_;  // may be null
+  std::unique_ptr<devices::HeadDevice> head_;              // may be null
+  Presence navigation_presence_, head_presence_;
+  devices::NavigationState steering_;  // no push, no turn, while there is no device
+  interaction::View view_, drawn_;
+  std::optional<interaction::ViewFlight> flight_;
+  double flown_for_ = 0.0;  // s
+  interaction::NavigationMode mode_ = interaction::NavigationMode::Camera;
+  // Of the workspaces, from what the view looks at: in the view's heading, of its distance; rad to the left.
+  base::Vector3 hand_offset_ = base::Vector3::Zero();
+  double hand_turn_ = 0.0;
+  bool recalled_ = false;
+  base::Pose user_from_head_ = base::Pose::Identity();
+  base::Pose stage_from_device_ = base::Pose::Identity();
+};
+
+}  // namespace icome::session
