@@ -85,8 +85,10 @@ class Session {
   /// Takes in what other threads and devices have brought since the last call, moves the view on, and gives
   /// what a person should be told. Call it some 60 times a second.
   std::vector<SessionEvent> update();
-  /// Called on main after the world has changed: by these changes, or, when null, to another one.
+  /// Calls `listener` on main after the world has changed: by these changes, or, when null, to another one.
+  /// Several may listen, as long as the session lives; they are called in the order of asking.
   void on_change(std::function<void(const world::Changes*)> listener);
+  /// The same after another selection.
   void on_selection(std::function<void()> listener);
 
   // The world.

@@ -24,6 +24,8 @@ struct Session::Parts {
   base::Result<void> done(base::Result<void> result);
   void open_world(world::World world, const std::filesystem::path& design, const base::Pose& stage);
   void tell_change(const world::Changes* changes);
+  void notify_change(const world::Changes* changes) const;
+  void notify_selection() const;
   void show(world::SceneId scene);
   world::EditSink sink();
 
@@ -48,8 +50,9 @@ struct Session::Parts {
   std::filesystem::path path;
   world::SceneId shown_scene = {};
   std::vector<world::ObjectId> selection;
-  std::function<void(const world::Changes*)> on_change;
-  std::function<void()> on_selection;
+  // A listener may let another one in while it is called.
+  std::deque<std::function<void(const world::Changes*)>> change_listeners;
+  std::deque<std::function<void()>> selection_listeners;
   std::vector<SessionEvent> events;  // that update() has not given yet
   std::optional<Edited> performed;   // by the sink, to be posted when the history has it
 

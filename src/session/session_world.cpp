@@ -36,8 +36,16 @@ void Session::Parts::tell_change(const world::Changes* changes) {
   std::erase_if(selection, [this](ObjectId id) { return !world.find(id); });
   if (shown_scene && !world.find(shown_scene)) show({});
   if (selection.size() != before) look_is_new = true;
-  if (on_change) on_change(changes);
-  if (selection.size() != before && on_selection) on_selection();
+  notify_change(changes);
+  if (selection.size() != before) notify_selection();
+}
+
+void Session::Parts::notify_change(const world::Changes* changes) const {
+  for (std::size_t i = 0; i < change_listeners.size(); ++i) change_listeners[i](changes);
+}
+
+void Session::Parts::notify_selection() const {
+  for (std::size_t i = 0; i < selection_listeners.size(); ++i) selection_listeners[i]();
 }
 
 void Session::Parts::show(world::SceneId scene) {
@@ -64,15 +72,17 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
   queue.post(std::move(edited));
   const bool had_selection = !std::exchange(selection, {}).empty();
   look_is_new = true;
-  if (on_change) on_change(nullptr);
-  if (had_selection && on_selection) on_selection();
+  notify_change(nullptr);
+  if (had_selection) notify_selection();
 }
 
 void Session::on_change(std::function<void(const world::Changes*)> listener) {
-  parts_->on_change = std::move(listener);
+  if (listener) parts_->change_listeners.push_back(std::move(listener));
 }
 
-void Session::on_selection(std::function<void()> listener) { parts_->on_selection = std::move(listener); }
+void Session::on_selection(std::function<void()> listener) {
+  if (listener) parts_->selection_listeners.push_back(std::move(listener));
+}
 
 const world::World& Session::world() const { return parts_->world; }
 
@@ -125,7 +135,7 @@ void Session::select(std::vector<ObjectId> objects) {
   if (objects == parts_->selection) return;
   parts_->selection = std::move(objects);
   parts_->look_is_new = true;
-  if (parts_->on_selection) parts_->on_selection();
+  parts_->notify_selection();
 }
 
 base::Bounds Session::selection_bounds() const {
