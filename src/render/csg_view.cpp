@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <mutex>
 #include <utility>
 #include <vector>
 
+#include "render/gl_context.h"
 #include "render/gl_objects.h"
 
 // Declared here, because the headers of GLEW and epoxy exclude each other.
@@ -21,9 +21,15 @@ namespace icome::render {
 namespace {
 
 /// OpenCSG and GLEW keep what they know in global variables.
-std::mutex& library_lock() {
-  static std::mutex lock;
-  return lock;
+struct Library {
+  std::mutex lock;
+  int last_number = 0;  // given to a context; none twice
+  int loaded_for = 0;   // the context whose functions GLEW found last
+};
+
+Library& library() {
+  static Library it;
+  return it;
 }
 
 /// Finds the OpenGL functions that OpenCSG calls: version 1.5 takes them from GLEW, for the context that is
@@ -33,12 +39,6 @@ bool load_library_functions() {
   constexpr unsigned kNoWindowSystem = 4;  // what is about X windows is missing; OpenGL itself is loaded
   const unsigned outcome = glewInit();
   return outcome == kGood || outcome == kNoWindowSystem;
-}
-
-/// A number for OpenCSG's buffers in one context, never given twice.
-int next_library_context() {
-  static std::atomic<int> last{0};
-  return ++last;
 }
 
 template <typename T>
@@ -157,6 +157,7 @@ void draw_lone_depth(const OperandView& operand) {
   glPushAttrib(GL_ENABLE_BIT | GL_COLOR_BUFFER_BIT | GL_POLYGON_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
@@ -164,78 +165,84 @@ void draw_lone_depth(const OperandView& operand) {
   glPopAttrib();
 }
 
-void set_matrices(const Matrix4& clip_from_studio, const Matrix4& studio_from_buffer) {
-  const Eigen::Matrix4f projection = clip_from_studio.cast<float>();
-  const Eigen::Matrix4f model = studio_from_buffer.cast<float>();
+void set_matrix(const Matrix4& clip_from_buffer) {
+  const Eigen::Matrix4f model = clip_from_buffer.cast<float>();
   glMatrixMode(GL_PROJECTION);
-  glLoadMatrixf(projection.data());
+  glLoadIdentity();
   glMatrixMode(GL_MODELVIEW);
   glLoadMatrixf(model.data());
 }
 
 }  // namespace
 
-struct CsgView::Solid {
-  std::vector<ProductView> products;
-  int library_context = next_library_context();
-
-  Solid() = default;
-  Solid(const Solid&) = delete;
-  Solid& operator=(const Solid&) = delete;
-  ~Solid() {
-    const std::lock_guard hold(library_lock());
-    OpenCSG::setContext(library_context);
-    OpenCSG::freeResources();
-  }
-};
-
-base::Result<CsgView> CsgView::create(const Offscreen& context, const CsgGeometry& geometry) {
-  bool loaded = false;
-  if (context.has_built_in_pipeline()) {
-    const std::lock_guard hold(library_lock());
-    loaded = load_library_functions();
-  }
-  if (!loaded) {
+base::Result<std::shared_ptr<CsgImages>> CsgImages::create() {
+  Library& lib = library();
+  const std::lock_guard hold(lib.lock);
+  const ContextTraits traits = context_traits();
+  if (!traits.built_in_pipeline || !load_library_functions()) {
     return base::fail(fmt::format("{} offers no OpenGL 3.3 compatibility context, which images of CSG need",
-                                  context.renderer()));
+                                  traits.renderer));
   }
-  auto solid = std::make_unique<Solid>();
-  for (const CsgOperands& product : geometry.products) {
-    ProductView& view = solid->products.emplace_back();
-    for (const CsgOperand& operand : product) view.emplace_back(operand);
-  }
-  return CsgView(std::move(solid), geometry.tree_from_buffer());
+  lib.loaded_for = ++lib.last_number;
+  return std::shared_ptr<CsgImages>(new CsgImages(lib.last_number));
 }
 
-CsgView::CsgView(std::unique_ptr<Solid> solid, const Matrix4& tree_from_buffer)
-    : solid_(std::move(solid)), tree_from_buffer_(tree_from_buffer) {}
+CsgImages::~CsgImages() {
+  const auto turn = take_turn();
+  OpenCSG::freeResources();
+}
+
+std::unique_lock<std::mutex> CsgImages::take_turn() const {
+  Library& lib = library();
+  std::unique_lock turn(lib.lock);
+  // Another context's driver may have other functions.
+  if (lib.loaded_for != number_) load_library_functions();
+  lib.loaded_for = number_;
+  OpenCSG::setContext(number_);
+  return turn;
+}
+
+struct CsgView::Solid {
+  std::shared_ptr<const CsgImages> images;
+  std::vector<ProductView> products = {};
+};
+
+CsgView::CsgView(std::shared_ptr<const CsgImages> images, const CsgGeometry& geometry)
+    : solid_(std::make_unique<Solid>()), tree_from_buffer_(geometry.tree_from_buffer()) {
+  solid_->images = std::move(images);
+  for (const CsgOperands& product : geometry.products) {
+    ProductView& view = solid_->products.emplace_back();
+    for (const CsgOperand& operand : product) view.emplace_back(operand);
+  }
+}
+
 CsgView::CsgView(CsgView&&) noexcept = default;
 CsgView& CsgView::operator=(CsgView&&) noexcept = default;
 CsgView::~CsgView() = default;
 
-void CsgView::draw_depth(const Matrix4& clip_from_studio, const Matrix4& studio_from_tree) const {
+void CsgView::draw_depth(const Matrix4& clip_from_buffer) const {
   glUseProgram(0);
-  const Matrix4 studio_from_buffer = studio_from_tree * tree_from_buffer_;
-  const Matrix4 clip_from_buffer = clip_from_studio * studio_from_buffer;
-  set_matrices(clip_from_studio, studio_from_buffer);
+  set_matrix(clip_from_buffer);
   glBindBuffer(GL_ARRAY_BUFFER, 0);  // OpenCSG has arrays outside of buffers
   glPushAttrib(GL_ALL_ATTRIB_BITS);
+  glEnable(GL_DEPTH_TEST);
   glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-  const std::lock_guard hold(library_lock());
-  OpenCSG::setContext(solid_->library_context);
-  for (const ProductView& product : solid_->products) {
-    if (product.size() == 1) {
-      draw_lone_depth(product.front());
-    } else {
-      draw_product_depth(product, clip_from_buffer);
+  {
+    const auto turn = solid_->images->take_turn();
+    for (const ProductView& product : solid_->products) {
+      if (product.size() == 1) {
+        draw_lone_depth(product.front());
+      } else {
+        draw_product_depth(product, clip_from_buffer);
+      }
     }
   }
   glPopAttrib();
 }
 
-void CsgView::shade(const Matrix4& clip_from_studio, const Matrix4& studio_from_tree,
+void CsgView::shade(const Matrix4& clip_from_buffer,
                     const std::function<void(const CsgFaces&)>& prepare) const {
-  set_matrices(clip_from_studio, studio_from_tree * tree_from_buffer_);
+  set_matrix(clip_from_buffer);
   glPushAttrib(GL_ENABLE_BIT | GL_POLYGON_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_EQUAL);

@@ -4,8 +4,9 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <string_view>
 #include <utility>
+
+#include "render/gl_context.h"
 
 namespace icome::render {
 namespace {
@@ -95,13 +96,9 @@ Offscreen::Offscreen(Offscreen&&) noexcept = default;
 Offscreen& Offscreen::operator=(Offscreen&&) noexcept = default;
 Offscreen::~Offscreen() = default;
 
-std::string Offscreen::renderer() const { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
+std::string Offscreen::renderer() const { return context_traits().renderer; }
 
-bool Offscreen::is_software() const {
-  const std::string name = renderer();
-  const auto names = [&](std::string_view software) { return name.find(software) != std::string::npos; };
-  return names("llvmpipe") || names("softpipe") || names("SWR");
-}
+bool Offscreen::is_software() const { return context_traits().software; }
 
 bool Offscreen::has_built_in_pipeline() const { return context_->compatible; }
 

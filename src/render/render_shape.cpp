@@ -7,6 +7,7 @@
 
 #include "render/primitive_places.h"
 #include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
 
 namespace icome::render {
 namespace {
@@ -131,17 +132,38 @@ std::vector<Vector3> outermost(const ShadingMesh& mesh) {
   return extremes;
 }
 
-RenderShapePointer make_from_surface(const MeshGeometry& surface, double crease) {
+using SolidPointer = std::shared_ptr<const RenderSolid>;
+
+/// Where the numbers of buffers are small.
+void choose_frame(RenderShape& shape) {
+  if (shape.solid) {
+    shape.mesh.centre = shape.solid->images.centre;
+    shape.mesh.radius = shape.solid->images.radius;
+    return;
+  }
+  shape.mesh.centre = 0.5 * shape.bounds.min() + 0.5 * shape.bounds.max();
+  const double half = 0.5 * shape.bounds.sizes().stableNorm();
+  if (half > 0.0 && std::isfinite(half)) shape.mesh.radius = half;
+}
+
+RenderShapePointer make_from_surface(const MeshGeometry& surface, double crease,
+                                     const SolidPointer& solid = nullptr) {
   auto shape = std::make_shared<RenderShape>();
   shape->bounds = used_bounds(surface.mesh);
   if (shape->bounds.isEmpty()) return shape;
-  shape->mesh.centre = 0.5 * shape->bounds.min() + 0.5 * shape->bounds.max();
-  const double half = 0.5 * shape->bounds.sizes().stableNorm();
-  if (half > 0.0 && std::isfinite(half)) shape->mesh.radius = half;
+  shape->solid = solid;
+  choose_frame(*shape);
   ShapeWelder(surface, *shape, crease).add_triangles();
   if (shape->mesh.indices.empty()) shape->bounds.setEmpty();
   shape->extremes = outermost(shape->mesh);
   return shape;
+}
+
+/// Null where images will not do.
+SolidPointer make_solid(const geometry::CsgTree& tree) {
+  auto images = make_csg_geometry(tree);
+  if (!images || images->products.empty()) return nullptr;
+  return std::make_shared<const RenderSolid>(RenderSolid{std::move(*images), tree});
 }
 
 }  // namespace
@@ -160,7 +182,8 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape)
     wrapped.texture_coordinates = primitive_places(*primitive, wrapped.mesh);
     return make_from_surface(wrapped, kSolidCrease);
   }
-  return make_from_surface(**surface, kSolidCrease);
+  const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape);
+  return make_from_surface(**surface, kSolidCrease, csg ? make_solid(csg->tree) : nullptr);
 }
 
 }  // namespace icome::render

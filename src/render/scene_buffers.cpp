@@ -64,6 +64,7 @@ unsigned SceneBuffers::picture(const std::shared_ptr<const RenderPicture>& pictu
 
 void SceneBuffers::drop_unused() {
   std::erase_if(shapes_, [](const auto& it) { return it.second.shape.expired(); });
+  solids_.drop_unused();
   std::erase_if(pictures_, [](const auto& it) { return it.second.picture.expired(); });
 }
 

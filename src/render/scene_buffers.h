@@ -4,6 +4,7 @@
 
 #include "render/mesh_view.h"
 #include "render/render_scene.h"
+#include "render/scene_solids.h"
 
 namespace icome::render {
 
@@ -15,6 +16,8 @@ class SceneBuffers {
   /// A coarser one for shadows, of large shapes.
   const MeshView& caster(const RenderShapePointer& shape);
   unsigned picture(const std::shared_ptr<const RenderPicture>& picture);
+
+  SceneSolids& solids() { return solids_; }
 
   void drop_unused();
 
@@ -33,6 +36,7 @@ class SceneBuffers {
 
   std::unordered_map<const RenderShape*, ShapeEntry> shapes_;
   std::unordered_map<const RenderPicture*, PictureEntry> pictures_;
+  SceneSolids solids_;
 };
 
 }  // namespace icome::render

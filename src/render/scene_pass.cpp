@@ -35,9 +35,8 @@ base::Result<SceneProgram*> ScenePass::use_lit(base::Result<SceneProgram*> progr
   return program;
 }
 
-void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& planned) {
+void ScenePass::set_look(const SceneProgram& program, const PlannedItem& planned) {
   const RenderMaterial& look = *planned.item->material;
-  set_matrix(program.clip_from_buffer, Matrix4(clip_shift_ * planned.clip_from_buffer));
   set_matrix(program.camera_from_buffer, planned.camera_from_buffer);
   set_matrix(program.direction_from_buffer, planned.direction_from_buffer);
   glUniform4f(program.diffuse, look.diffuse.x(), look.diffuse.y(), look.diffuse.z(), look.alpha);
@@ -46,15 +45,25 @@ void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& pla
   glUniform4f(program.specular, look.specular.x(), look.specular.y(), look.specular.z(), exponent);
   glUniform3fv(program.emission, 1, look.emission.data());
   glUniform1f(program.ambient, look.ambient);
-  if (surface_kind(*planned.item).textured) bind_picture(buffers_, *planned.item);
   glFrontFace(planned.mirrored ? GL_CW : GL_CCW);
+}
+
+void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& planned) {
+  set_matrix(program.clip_from_buffer, Matrix4(clip_shift_ * planned.clip_from_buffer));
+  set_look(program, planned);
+  if (surface_kind(*planned.item).textured) bind_picture(buffers_, *planned.item);
   buffers_.view(planned.item->shape).draw();
 }
 
 base::Result<void> ScenePass::opaque(std::span<const PlannedItem> items) {
   SceneProgram* used = nullptr;
   SurfaceKind kind;
+  std::vector<PlannedSolid> imaged;
   for (const PlannedItem& planned : items) {
+    if (const CsgView* view = buffers_.solids().images(planned)) {
+      imaged.push_back({&planned, view});
+      continue;
+    }
     const SurfaceKind own = surface_kind(*planned.item);
     if (!used || own != kind) {
       const auto program = use_lit(programs_.surface(own, lights_.kinds()));
@@ -64,7 +73,7 @@ base::Result<void> ScenePass::opaque(std::span<const PlannedItem> items) {
     }
     draw_surface(*used, planned);
   }
-  return {};
+  return solids(imaged);
 }
 
 base::Result<void> ScenePass::blended(std::span<const PlannedItem> items) {
@@ -75,6 +84,10 @@ base::Result<void> ScenePass::blended(std::span<const PlannedItem> items) {
   glEnable(GL_CULL_FACE);
   base::Result<void> done;
   for (const PlannedItem& planned : items) {
+    if (const CsgView* view = buffers_.solids().images(planned)) {
+      if (done) done = blended_solid({&planned, view});
+      continue;
+    }
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
       glCullFace(hidden);
       if (done) done = opaque({&planned, 1});
@@ -130,7 +143,17 @@ base::Result<void> ScenePass::draw_flat(std::span<const PlannedItem> items, cons
 }
 
 base::Result<void> ScenePass::mask(std::span<const PlannedItem> items) {
-  return draw_flat(items, Eigen::Vector4f::Ones(), false);
+  std::vector<PlannedItem> meshes;
+  std::vector<PlannedSolid> imaged;
+  for (const PlannedItem& planned : items) {
+    const CsgView* view = buffers_.solids().images(planned);
+    if (view)
+      imaged.push_back({&planned, view});
+    else
+      meshes.push_back(planned);
+  }
+  auto done = draw_flat(meshes, Eigen::Vector4f::Ones(), false);
+  return done ? mask_solids(imaged) : done;
 }
 
 base::Result<void> ScenePass::shadow_maps(const RenderScene& scene, const SceneCanvas& maps, int side) {
@@ -139,7 +162,9 @@ base::Result<void> ScenePass::shadow_maps(const RenderScene& scene, const SceneC
   glEnable(GL_DEPTH_CLAMP);  // what lies between the light and what is seen throws its shadow all the same
   for (std::size_t i = 0; i < lights_.lenses().size(); ++i) {
     glViewport(GLint(i) * side, 0, side, side);
-    const auto drawn = draw_flat(plan_casters(scene, lights_.lenses()[i]), Eigen::Vector4f::Zero(), true);
+    const std::vector<PlannedItem> casters = plan_casters(scene, lights_.lenses()[i]);
+    auto drawn = draw_flat(casters, Eigen::Vector4f::Zero(), true);
+    if (drawn) drawn = cast_solids(casters, maps, int(i), side);
     if (!drawn) return drawn;
   }
   glDisable(GL_DEPTH_CLAMP);

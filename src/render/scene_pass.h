@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,12 @@
 #include "render/scene_targets.h"
 
 namespace icome::render {
+
+/// A solid that is drawn from images of its operands.
+struct PlannedSolid {
+  const PlannedItem* item;
+  const CsgView* view;
+};
 
 /// Draws the stages of one pass into the frame that is bound. Refers to what it is made of.
 class ScenePass {
@@ -31,7 +38,16 @@ class ScenePass {
 
  private:
   base::Result<SceneProgram*> use_lit(base::Result<SceneProgram*> program) const;
+  void set_look(const SceneProgram& program, const PlannedItem& item);
   void draw_surface(const SceneProgram& program, const PlannedItem& item);
+  base::Result<void> solids(std::span<const PlannedSolid> solids);
+  base::Result<void> blended_solid(const PlannedSolid& solid);
+  base::Result<void> mask_solids(std::span<const PlannedSolid> solids);
+  base::Result<void> cast_solids(std::span<const PlannedItem> casters, const SceneCanvas& maps, int map,
+                                 int side);
+  void draw_whole(const GlObject& program, const GlObject& source);
+  base::Result<void> draw_depths(const GlObject& depths, const std::array<int, 2>& corner, double scale,
+                                 double shift);
   base::Result<void> draw_flat(std::span<const PlannedItem> items, const Eigen::Vector4f& colour,
                                bool coarse);
 

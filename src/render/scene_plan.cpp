@@ -70,7 +70,7 @@ SurfaceKind surface_kind(const RenderItem& item) {
   const RenderPicture* picture = item.material->picture.get();
   const bool textured = picture != nullptr && !item.shape->picture_places.empty();
   return {textured, !item.shape->colours.empty(),
-          textured && picture->opacity == RenderPicture::Opacity::CutOut};
+          textured && picture->opacity == RenderPicture::Opacity::CutOut, false};
 }
 
 bool is_blended(const RenderItem& item) {

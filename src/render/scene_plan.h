@@ -37,6 +37,7 @@ struct SurfaceKind {
   bool textured = false;
   bool coloured = false;
   bool cut_out = false;
+  bool built_in = false;  ///< inputs and matrix are those of OpenGL 1, as operands of CSG have
 
   auto operator<=>(const SurfaceKind&) const = default;
 };

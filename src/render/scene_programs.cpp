@@ -32,11 +32,11 @@ void find_slots(SceneProgram& it) {
 }  // namespace
 
 base::Result<SceneProgram*> ScenePrograms::variant(const char* vertex, const std::string& fragment,
-                                                   const std::string& defines) {
+                                                   const std::string& defines, const char* profile) {
   const std::string key = defines + vertex + fragment;
   const auto found = made_.find(key);
   if (found != made_.end()) return &found->second;
-  auto program = compile_program(vertex, fragment, defines);
+  auto program = compile_program(vertex, fragment, defines, profile);
   if (!program) return tl::unexpected(program.error());
   SceneProgram& made = made_[key];
   made.program = std::move(*program);
@@ -49,8 +49,9 @@ base::Result<SceneProgram*> ScenePrograms::surface(const SurfaceKind& kind, cons
   if (kind.textured) defines += "#define TEXTURED\n";
   if (kind.coloured) defines += "#define COLOURED\n";
   if (kind.cut_out) defines += "#define CUT_OUT\n";
+  if (kind.built_in) defines += "#define BUILT_IN\n";
   return variant(kSceneVertexShader, std::string(kToneShader) + kSceneLightShader + kSceneFragmentShader,
-                 defines);
+                 defines, kind.built_in ? "compatibility" : "core");
 }
 
 base::Result<SceneProgram*> ScenePrograms::ground(const LightKinds& lights) {
@@ -64,6 +65,14 @@ base::Result<SceneProgram*> ScenePrograms::flat(bool cut_out) {
 
 base::Result<SceneProgram*> ScenePrograms::line() {
   return variant(kLineVertexShader, kFlatFragmentShader, "");
+}
+
+base::Result<SceneProgram*> ScenePrograms::depth_copy() {
+  return variant(kWholeVertexShader, kDepthCopyFragmentShader, "");
+}
+
+base::Result<SceneProgram*> ScenePrograms::cover() {
+  return variant(kWholeVertexShader, kCoverFragmentShader, "");
 }
 
 base::Result<SceneProgram*> ScenePrograms::sum() {

@@ -37,6 +37,8 @@ class ScenePrograms {
   base::Result<SceneProgram*> ground(const LightKinds& lights);
   base::Result<SceneProgram*> flat(bool cut_out);  ///< depth or one colour
   base::Result<SceneProgram*> line();
+  base::Result<SceneProgram*> depth_copy();  ///< of a picture of depths
+  base::Result<SceneProgram*> cover();       ///< one colour where a picture of depths has something
   base::Result<SceneProgram*> sum();
   base::Result<SceneProgram*> background();
   base::Result<SceneProgram*> mean();
@@ -45,7 +47,7 @@ class ScenePrograms {
 
  private:
   base::Result<SceneProgram*> variant(const char* vertex, const std::string& fragment,
-                                      const std::string& defines);
+                                      const std::string& defines, const char* profile = "core");
 
   std::map<std::string, SceneProgram> made_;  // by their source
 };

@@ -370,6 +370,7 @@ base::Result<void> SceneRenderer::Parts::draw(const ScenePictureWish& wish, int 
   if (!fits || begun != wish.passes) anew = true;
   auto done = fit_canvases(wish, wish.passes > 1);
   if (!done) return done;
+  buffers.solids().set_rule(wish.look.csg, double(wish.target.width) * wish.target.height);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);

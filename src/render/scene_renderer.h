@@ -9,6 +9,7 @@
 #include "render/render_scene.h"
 #include "render/scene_lighting.h"
 #include "render/scene_plan.h"
+#include "render/scene_solids.h"
 
 namespace icome::render {
 
@@ -49,6 +50,7 @@ struct SceneLook {
   /// 1 draws at once, as a view that is turned does. More, up to 256, are averaged: smooth edges, soft
   /// shadows, light from all of the sky; for views at rest and pictures.
   int passes = 1;
+  CsgWay csg = CsgWay::Automatic;
   std::vector<world::ObjectId> selected = {};  ///< have a line around
   Colour selection{1.0, 0.55, 0.10};
   int selection_width = 2;  ///< pixels, 1 ... 8

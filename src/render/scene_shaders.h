@@ -6,10 +6,15 @@ namespace icome::render {
 // instead of uniform conditions, because software renderers run both sides of those.
 
 constexpr char kSceneVertexShader[] = R"(
+#ifdef BUILT_IN
+#define position gl_Vertex.xyz
+#define normal gl_Normal
+#else
 in vec3 position;
-uniform mat4 clip_from_buffer;
-#ifdef LIT
 in vec3 normal;
+uniform mat4 clip_from_buffer;
+#endif
+#ifdef LIT
 uniform mat4 camera_from_buffer;
 uniform mat3 direction_from_buffer;
 out vec3 seen_position;
@@ -34,7 +39,11 @@ void main() {
 #ifdef COLOURED
   own_colour = corner_colour;
 #endif
+#ifdef BUILT_IN
+  gl_Position = ftransform();
+#else
   gl_Position = clip_from_buffer * vec4(position, 1.0);
+#endif
 }
 )";
 
@@ -245,6 +254,28 @@ void main() {
 #ifdef TEXTURED
   if (texture(picture, place).a < 0.5) discard;
 #endif
+  result = diffuse;
+}
+)";
+
+/// Depths of another picture, brought to another scale; where it has nothing, nothing.
+constexpr char kDepthCopyFragmentShader[] = R"(
+uniform sampler2D source;
+uniform vec2 scale;
+uniform vec2 corner;
+void main() {
+  float depth = texelFetch(source, ivec2(gl_FragCoord.xy - corner), 0).r;
+  gl_FragDepth = depth < 1.0 ? clamp(scale.x * depth + scale.y, 0.0, 1.0) : 1.0;
+}
+)";
+
+/// One colour where a picture of depths has something.
+constexpr char kCoverFragmentShader[] = R"(
+uniform sampler2D source;
+uniform vec4 diffuse;
+out vec4 result;
+void main() {
+  if (texelFetch(source, ivec2(gl_FragCoord.xy), 0).r >= 1.0) discard;
   result = diffuse;
 }
 )";

@@ -386,7 +386,7 @@ void draw_depth(const Studio& studio, const Matrix4& clip_from_studio, bool coar
 
 void draw_solids_depth(const Studio& studio, const Matrix4& clip_from_studio) {
   for (const SolidItem& solid : studio.solids) {
-    solid.view.draw_depth(clip_from_studio, solid.studio_from_tree);
+    solid.view.draw_depth(clip_from_studio * solid.studio_from_tree * solid.view.tree_from_buffer());
   }
 }
 
@@ -460,9 +460,10 @@ void set_view(const Studio& studio, const GlObject& program, double share) {
 
 void draw_solid(const Studio& studio, const SolidItem& solid, const Matrix4& clip) {
   const GlObject& program = studio.programs.solid;
-  set_uniform(program, "studio_from_buffer", Matrix4(solid.studio_from_tree * solid.view.tree_from_buffer()));
+  const Matrix4 studio_from_buffer = solid.studio_from_tree * solid.view.tree_from_buffer();
+  set_uniform(program, "studio_from_buffer", studio_from_buffer);
   set_uniform(program, "direction_from_buffer", solid.direction_from_tree);
-  solid.view.shade(clip, solid.studio_from_tree, [&](const CsgFaces& faces) {
+  solid.view.shade(clip * studio_from_buffer, [&](const CsgFaces& faces) {
     set_uniform(program, "albedo", linear_rgb(faces.colour.value_or(solid.colour)));
     set_uniform(program, "facing_out", faces.subtracted ? -1.0F : 1.0F);
   });
@@ -690,21 +691,22 @@ PixelBox covered_pixels(const Matrix4& clip_from_studio, const StudioSettings& s
           pixel(box.max().y(), settings.height, 2.0) - bottom};
 }
 
-base::Result<std::vector<SolidItem>> make_solids(const Offscreen& context,
-                                                 const std::vector<StudioSolid>& solids,
+base::Result<std::vector<SolidItem>> make_solids(const std::vector<StudioSolid>& solids,
                                                  const Matrix4& to_studio) {
   std::vector<SolidItem> items;
+  if (solids.empty()) return items;
+  const auto images = CsgImages::create();
+  if (!images) return base::fail(images.error().message);
   for (const StudioSolid& solid : solids) {
-    auto view = CsgView::create(context, solid.geometry);
-    if (!view) return base::fail(view.error().message);
     Matrix4 direction = Matrix4::Identity();
     direction.topLeftCorner<3, 3>() = solid.world_from_tree.linear();
-    items.push_back({std::move(*view), to_studio * solid.world_from_tree.matrix(), direction, solid.colour});
+    items.push_back({CsgView(*images, solid.geometry), to_studio * solid.world_from_tree.matrix(), direction,
+                     solid.colour});
   }
   return items;
 }
 
-base::Result<Studio> make_studio(const Offscreen& context, const StudioScene& scene, const Camera& camera,
+base::Result<Studio> make_studio(const StudioScene& scene, const Camera& camera,
                                  const StudioSettings& settings) {
   auto programs = compile_programs(!scene.solids.empty());
   if (!programs) return base::fail(programs.error().message);
@@ -717,7 +719,7 @@ base::Result<Studio> make_studio(const Offscreen& context, const StudioScene& sc
     items.push_back(make_item(body.mesh, to_studio * body.world_from_mesh.matrix(), body.world_from_mesh,
                               body.colour, settings.crease_angle));
   }
-  auto solids = make_solids(context, scene.solids, to_studio);
+  auto solids = make_solids(scene.solids, to_studio);
   if (!solids) return base::fail(solids.error().message);
   const Vector3 up = settings.up.normalized();
   const double height = settings.floor / settings.radius;
@@ -740,15 +742,15 @@ base::Result<Studio> make_studio(const Offscreen& context, const StudioScene& sc
 
 }  // namespace
 
-base::Result<StudioPicture> draw_studio(const Offscreen& context, const StudioScene& scene,
-                                        const Camera& camera, const StudioSettings& settings) {
+base::Result<StudioPicture> draw_studio(const Offscreen&, const StudioScene& scene, const Camera& camera,
+                                        const StudioSettings& settings) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest) {
     return base::fail(fmt::format("a picture of {}x{} cannot be drawn; sides go from 1 to {} pixels",
                                   settings.width, settings.height, largest));
   }
-  const auto studio = make_studio(context, scene, camera, settings);
+  const auto studio = make_studio(scene, camera, settings);
   if (!studio) return base::fail(studio.error().message);
   const Pose studio_from_camera(camera.camera_from_world.inverse());
   accumulate(*studio, make_lights(studio->sampling.passes, studio_from_camera, settings.up.normalized()));
