@@ -1,0 +1,98 @@
+#include "ui/match_model.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "ui/object_look.h"
+
+namespace icome::ui {
+
+using world::ObjectId;
+
+void MatchModel::search(const QString& text) {
+  beginResetModel();
+  text_ = text.simplified();
+  collect();
+  endResetModel();
+}
+
+bool MatchModel::matches(ObjectId object) const {
+  return !text_.isEmpty() && shown_name(world(), object).contains(text_, Qt::CaseInsensitive);
+}
+
+void MatchModel::collect() {
+  found_.clear();
+  if (text_.isEmpty()) return;
+  std::vector<ObjectId> due(world().roots().rbegin(), world().roots().rend());
+  while (!due.empty()) {
+    const ObjectId id = due.back();
+    due.pop_back();
+    if (matches(id)) found_.push_back(id);
+    const std::vector<ObjectId>& children = world().find(id)->children;
+    due.insert(due.end(), children.rbegin(), children.rend());
+  }
+}
+
+QModelIndex MatchModel::index_of(ObjectId object) {
+  const auto found = std::find(found_.begin(), found_.end(), object);
+  return found == found_.end() ? QModelIndex() : index(int(found - found_.begin()), 0);
+}
+
+void MatchModel::follow(const world::Changes* changes) {
+  if (text_.isEmpty()) return;
+  if (!changes) return search(text_);
+  if (changes->objects.empty() && changes->geometries.empty()) return;
+  remove_lost();
+  add_found(*changes);
+  if (!found_.empty()) emit dataChanged(index(0, 0), index(int(found_.size()) - 1, 0));
+}
+
+void MatchModel::remove_lost() {
+  for (std::size_t end = found_.size(); end > 0; --end) {
+    if (matches(found_[end - 1])) continue;
+    std::size_t begin = end - 1;
+    while (begin > 0 && !matches(found_[begin - 1])) --begin;
+    beginRemoveRows({}, int(begin), int(end) - 1);
+    found_.erase(found_.begin() + std::ptrdiff_t(begin), found_.begin() + std::ptrdiff_t(end));
+    endRemoveRows();
+    end = begin + 1;
+  }
+}
+
+/// What is found now comes behind what was found before.
+void MatchModel::add_found(const world::Changes& changes) {
+  const std::unordered_set<ObjectId> known(found_.begin(), found_.end());
+  std::vector<ObjectId> fresh;
+  for (const ObjectId id : changes.objects) {
+    if (!known.contains(id) && matches(id)) fresh.push_back(id);
+  }
+  if (fresh.empty()) return;
+  beginInsertRows({}, int(found_.size()), int(found_.size() + fresh.size()) - 1);
+  found_.insert(found_.end(), fresh.begin(), fresh.end());
+  endInsertRows();
+}
+
+QModelIndex MatchModel::index(int row, int column, const QModelIndex& parent) const {
+  if (parent.isValid() || column != 0 || row < 0 || std::size_t(row) >= found_.size()) return {};
+  return createIndex(row, 0, quintptr(found_[std::size_t(row)].value));
+}
+
+int MatchModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : int(found_.size());
+}
+
+QVariant MatchModel::data(const QModelIndex& index, int role) const {
+  if (role != kPathRole) return ObjectModel::data(index, role);
+  const world::PhysicalObject* it = index.isValid() ? world().find(object(index)) : nullptr;
+  QStringList names;
+  constexpr qsizetype kMost = 4;  // of the nearest: the rest would not fit anyway
+  for (; it && it->parent && names.size() < kMost; it = world().find(it->parent))
+    names.prepend(shown_name(world(), it->parent));
+  return names.join(QStringLiteral(" › "));
+}
+
+Qt::ItemFlags MatchModel::flags(const QModelIndex& index) const {
+  return ObjectModel::flags(index) & ~(Qt::ItemIsDragEnabled | Qt::ItemIsDropEnabled);
+}
+
+}  // namespace icome::ui

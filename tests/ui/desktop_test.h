@@ -1,0 +1,50 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <memory>
+
+#include "session/session.h"
+#include "world/edits_of.h"
+
+namespace icome::ui {
+
+/// The one application of the tests, without a screen.
+inline QApplication& application() {
+  static int argc = 1;
+  static char name[] = "icome_ui_tests";
+  static char* argv[] = {name, nullptr};
+  static QApplication* const kApplication = [] {
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    return new QApplication(argc, argv);
+  }();
+  return *kApplication;
+}
+
+/// A session with an empty design, and what panels do with it.
+class DesktopTest : public ::testing::Test {
+ protected:
+  DesktopTest() {
+    application();
+    auto made = session::Session::create({});
+    EXPECT_TRUE(made) << made.error().message;
+    session_ = std::move(*made);
+  }
+
+  session::Session& session() { return *session_; }
+  const world::World& world() { return session_->world(); }
+
+  void perform(const world::Edit& edit, const std::string& name = "Edit") {
+    const auto done = session_->perform(edit, name);
+    EXPECT_TRUE(done) << done.error().message;
+  }
+  /// Makes the session's empty world equal to another.
+  void load(const world::World& other) {
+    for (const world::Edit& edit : world::edits_of(other)) perform(edit, "Load");
+  }
+
+ private:
+  std::unique_ptr<session::Session> session_;
+};
+
+}  // namespace icome::ui
