@@ -1,14 +1,252 @@
 #include "ui/status_strip.h"
 
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QTimer>
+#include <cmath>
+
+#include "base/clock.h"
+#include "render/length_text.h"
+#include "ui/force_plot.h"
+#include "ui/load_plot.h"
+#include "ui/load_window.h"
+#include "ui/object_look.h"
+#include "ui/theme.h"
+
 namespace icome::ui {
 
-struct StatusStrip::Parts {
-  session::Session& session;
+using devices::DeviceStatus;
+
+namespace {
+
+constexpr int kEvery = 66;  // ms
+
+/// A lamp that says how the device is.
+class StateDot final : public QWidget {
+ public:
+  explicit StateDot(QWidget* parent) : QWidget(parent) { setFixedSize(3 * kGrid, 3 * kGrid); }
+
+  void show(DeviceStatus status) {
+    if (status == status_) return;
+    status_ = status;
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent* /*event*/) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const ThemeColours& theme = colours();
+    const QColor colour = status_ == DeviceStatus::Ok        ? theme.good
+                          : status_ == DeviceStatus::Stalled ? theme.warning
+                                                             : theme.bad;
+    const QRectF round = QRectF(rect()).adjusted(1.5, 1.5, -1.5, -1.5);
+    // Not by colour alone: a lost device is a ring.
+    painter.setPen(QPen(colour, 1.6));
+    painter.setBrush(status_ == DeviceStatus::Lost ? QBrush(Qt::NoBrush) : QBrush(colour));
+    painter.drawEllipse(round);
+  }
+
+ private:
+  DeviceStatus status_ = DeviceStatus::Lost;
 };
 
+QLabel* figure(const QString& caption, const QString& tip, QGridLayout& grid, int row, QWidget* parent) {
+  auto* name = new QLabel(caption, parent);
+  name->setForegroundRole(QPalette::PlaceholderText);
+  auto* value = new QLabel(parent);
+  value->setAccessibleName(caption);
+  value->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  name->setToolTip(tip);
+  value->setToolTip(tip);
+  grid.addWidget(name, row, 0);
+  grid.addWidget(value, row, 1, Qt::AlignRight);
+  return value;
+}
+
+void set(QLabel& label, const QString& text) {
+  if (label.text() == text) return;
+  label.setText(text);
+  label.setAccessibleDescription(text);
+}
+
+QString words_of(DeviceStatus status) {
+  switch (status) {
+    case DeviceStatus::Ok:
+      return "ready";
+    case DeviceStatus::Stalled:
+      return "no news";
+    case DeviceStatus::Lost:
+      break;
+  }
+  return "lost";
+}
+
+QString explanation_of(DeviceStatus status) {
+  switch (status) {
+    case DeviceStatus::Ok:
+      return "The pointer device gives its place at every tick.";
+    case DeviceStatus::Stalled:
+      return "The pointer device is there, but has nothing new to say.";
+    case DeviceStatus::Lost:
+      break;
+  }
+  return "The pointer device does not answer: plug it in again. Forces go nowhere meanwhile.";
+}
+
+QString grouped(double number) {
+  return number >= 0.0 && number < 1e15 ? QString::fromStdString(render::grouped(std::size_t(number + 0.5)))
+                                        : QString("–");
+}
+
+QString microseconds(double seconds) {
+  return std::isfinite(seconds) ? QString("%1 µs").arg(grouped(seconds * 1e6)) : QString("–");
+}
+
+}  // namespace
+
+struct StatusStrip::Parts {
+  Parts(session::Session& of, StatusStrip& strip);
+
+  QWidget* build_device(QWidget* strip);
+  QWidget* build_servo(QWidget* strip);
+  void look();
+  void look_at_device();
+  void look_at_servo(std::int64_t now);
+
+  session::Session& session;
+  LoadWindow window{};
+  StateDot* dot = nullptr;
+  QLabel* device = nullptr;
+  QLabel* state = nullptr;
+  QLabel* touched = nullptr;
+  QLabel* rate = nullptr;
+  QLabel* overruns = nullptr;
+  QLabel* lateness = nullptr;
+  LoadPlot* load;
+  ForcePlot* force;
+  QTimer* timer;
+};
+
+StatusStrip::Parts::Parts(session::Session& of, StatusStrip& strip)
+    : session(of), load(new LoadPlot(&strip)), force(new ForcePlot(&strip)), timer(new QTimer(&strip)) {
+  auto* row = new QHBoxLayout(&strip);
+  row->setContentsMargins(3 * kGrid, 2 * kGrid, 3 * kGrid, 2 * kGrid);
+  row->setSpacing(5 * kGrid);
+  row->addWidget(build_device(&strip));
+  row->addWidget(build_servo(&strip));
+  row->addWidget(load, 3);
+  row->addWidget(force, 4);
+  QObject::connect(timer, &QTimer::timeout, &strip, [this] { look(); });
+  timer->setInterval(kEvery);
+}
+
+QWidget* StatusStrip::Parts::build_device(QWidget* strip) {
+  auto* block = new QWidget(strip);
+  block->setFixedWidth(42 * kGrid);
+  auto* grid = new QGridLayout(block);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(kGrid);
+  grid->setColumnStretch(1, 1);
+  dot = new StateDot(block);
+  device = new QLabel(block);
+  QFont bold = device->font();
+  bold.setWeight(QFont::DemiBold);
+  device->setFont(bold);
+  device->setAccessibleName("Pointer device");
+  state = new QLabel(block);
+  state->setForegroundRole(QPalette::PlaceholderText);
+  state->setAccessibleName("State of the pointer device");
+  touched = new QLabel(block);
+  touched->setAccessibleName("Object that is touched");
+  touched->setToolTip("The object under the hand");
+  grid->addWidget(dot, 0, 0);
+  grid->addWidget(device, 0, 1);
+  grid->addWidget(state, 1, 1);
+  grid->addWidget(touched, 2, 1);
+  grid->setRowStretch(3, 1);
+  return block;
+}
+
+QWidget* StatusStrip::Parts::build_servo(QWidget* strip) {
+  auto* block = new QWidget(strip);
+  block->setFixedWidth(40 * kGrid);
+  auto* grid = new QGridLayout(block);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(kGrid);
+  grid->setColumnStretch(0, 1);
+  rate = figure("Servo rate",
+                "How often a second the servo asks the device where the hand is and answers with a "
+                "force (Hz), and how often it was asked to.",
+                *grid, 0, block);
+  overruns = figure("Overruns",
+                    "Ticks since the start that took longer than there was time: the next one was due "
+                    "before they had ended.",
+                    *grid, 1, block);
+  lateness = figure("Lateness",
+                    "How long after its time a tick begins (p99.9 since the start: all but one in a "
+                    "thousand are earlier). The system decides; real-time priority helps.",
+                    *grid, 2, block);
+  grid->setRowStretch(3, 1);
+  return block;
+}
+
+void StatusStrip::Parts::look() {
+  const std::int64_t now = base::steady_nanoseconds();
+  look_at_device();
+  look_at_servo(now);
+  const double reach = session.pointers() > 0 ? session.pointer_info(0).max_force : 0.0;
+  force->add(session.take_forces(), now, reach);
+}
+
+void StatusStrip::Parts::look_at_device() {
+  if (session.pointers() == 0) return set(*device, "No pointer device");
+  const session::PointerView& view = session.pointer(0);
+  const QString name = one_line(session.pointer_info(0).name);
+  const QString more = session.pointers() > 1 ? QString(" + %1").arg(session.pointers() - 1) : QString();
+  set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
+  dot->show(view.status);
+  set(*state, words_of(view.status));
+  state->setToolTip(explanation_of(view.status));
+  dot->setToolTip(explanation_of(view.status));
+  const auto object = view.touching ? session.touched(0) : std::nullopt;
+  const QString what = object ? "touches " + shown_name(session.world(), *object) : QString();
+  set(*touched, touched->fontMetrics().elidedText(what, Qt::ElideRight, 36 * kGrid));
+}
+
+void StatusStrip::Parts::look_at_servo(std::int64_t now) {
+  const session::ServoHealth health = session.servo();
+  const double period = health.summary.period.median;
+  if (!health.running) {
+    set(*rate, "stopped");
+  } else {
+    set(*rate, QString("%1 of %2 Hz")
+                   .arg(period > 0.0 ? grouped(1.0 / period) : QString("–"), grouped(health.rate_hz)));
+  }
+  set(*overruns, grouped(double(health.summary.overruns)));
+  set(*lateness, microseconds(health.summary.lateness.p999));
+  window.add(now, health.load_histogram);
+  load->show(window);
+}
+
 StatusStrip::StatusStrip(session::Session& session, QWidget* parent)
-    : QWidget(parent), parts_(std::make_unique<Parts>(Parts{session})) {}
+    : QWidget(parent), parts_(std::make_unique<Parts>(session, *this)) {
+  setAccessibleName("Hand and servo");
+}
 
 StatusStrip::~StatusStrip() = default;
+
+void StatusStrip::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  parts_->look();
+  parts_->timer->start();
+}
+
+void StatusStrip::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  parts_->timer->stop();
+}
 
 }  // namespace icome::ui

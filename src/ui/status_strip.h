@@ -13,6 +13,10 @@ class StatusStrip final : public QWidget {
   StatusStrip(session::Session& session, QWidget* parent);
   ~StatusStrip() override;
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

@@ -1,0 +1,58 @@
+#include "interaction/object_move.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <unordered_set>
+
+namespace icome::interaction {
+
+using world::ObjectId;
+
+std::vector<ObjectId> topmost(const world::World& world, std::span<const ObjectId> objects) {
+  const std::unordered_set<ObjectId> named(objects.begin(), objects.end());
+  std::unordered_set<ObjectId> taken;
+  std::vector<ObjectId> found;
+  for (const ObjectId id : objects) {
+    const world::PhysicalObject* object = world.find(id);
+    if (!object || !taken.insert(id).second) continue;
+    bool below = false;
+    for (ObjectId above = object->parent; above && !below; above = world.find(above)->parent)
+      below = named.contains(above);
+    if (!below) found.push_back(id);
+  }
+  return found;
+}
+
+std::string action_name(const char* verb, const world::World& world, std::span<const ObjectId> objects) {
+  if (objects.size() != 1) return fmt::format("{} {} objects", verb, objects.size());
+  const world::PhysicalObject* object = world.find(objects.front());
+  return object && !object->name.empty() ? fmt::format("{} {}", verb, object->name)
+                                         : fmt::format("{} object", verb);
+}
+
+ObjectMove::ObjectMove(const world::World& world, std::span<const ObjectId> objects,
+                       const base::Pose& stage_from_world) {
+  for (const ObjectId id : topmost(world, objects)) {
+    const world::PhysicalObject& object = *world.find(id);
+    base::Matrix3 stage_from_parent = stage_from_world.linear();
+    if (object.parent) stage_from_parent *= world_from_object(world, object.parent).linear();
+    const base::Matrix3 parent_from_stage = stage_from_parent.inverse();
+    if (!parent_from_stage.allFinite()) continue;
+    objects_.push_back(id);
+    starts_.push_back({object.parent_from_object, parent_from_stage});
+  }
+}
+
+world::Edit ObjectMove::by(const base::Vector3& offset) const {
+  world::EditGroup group;
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    base::Affine3 place = starts_[i].parent_from_object;
+    place.translation() += starts_[i].parent_from_stage * offset;
+    group.edits.emplace_back(world::PlaceObject{objects_[i], place});
+  }
+  return group;
+}
+
+}  // namespace icome::interaction
