@@ -1,0 +1,238 @@
+#include "ui/file_actions.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
+#include <utility>
+
+#include "ui/icons.h"
+
+namespace icome::ui {
+
+using session::SessionEvent;
+
+FileActions::FileActions(session::Session& session, QSettings& settings, QWidget& window)
+    : session_(session), window_(window), recent_(settings) {
+  // Who goes on with this design does not want it replaced when another has been read.
+  session_.on_change([this](const world::Changes* changes) {
+    if (changes && !opened_.empty() && session_.opening()) session_.cancel_open();
+  });
+}
+
+void FileActions::add(QMenu& menu, QAction*& action, const char* name, const QString& text,
+                      const QKeySequence& keys, void (FileActions::*act)()) {
+  action = menu.addAction(text);
+  action->setObjectName(name);
+  action->setShortcut(keys);
+  QObject::connect(action, &QAction::triggered, &window_, [this, act] { (this->*act)(); });
+}
+
+void FileActions::fill(QMenu& menu) {
+  add(menu, new_, "file.new", "&New", QKeySequence::New, &FileActions::start);
+  new_->setIcon(icon(Icon::New));
+  add(menu, open_, "file.open", "&Open\u2026", QKeySequence::Open, &FileActions::choose_and_open);
+  open_->setIcon(icon(Icon::Open));
+  recent_menu_ = menu.addMenu("Open &Recent");
+  recent_menu_->setObjectName("file.recent");
+  QObject::connect(recent_menu_, &QMenu::aboutToShow, &window_, [this] { fill_recent(); });
+  recent_menu_->setEnabled(!recent_.paths().isEmpty());
+  menu.addSeparator();
+  add(menu, save_, "file.save", "&Save", QKeySequence::Save, &FileActions::save);
+  save_->setIcon(icon(Icon::Save));
+  add(menu, save_as_, "file.save_as", "Save &As\u2026", QKeySequence("Ctrl+Shift+S"), &FileActions::save_as);
+}
+
+void FileActions::fill_recent() {
+  recent_menu_->clear();
+  const QStringList labels = recent_.labels();
+  for (int i = 0; i < labels.size(); ++i) {
+    // An ampersand in a file's name is none of a shortcut.
+    const QString name = QString(labels[i]).replace('&', "&&");
+    QAction* action = recent_menu_->addAction(i < 9 ? QString("&%1  %2").arg(i + 1).arg(name) : name);
+    action->setStatusTip(recent_.paths()[i]);
+    QObject::connect(action, &QAction::triggered, &window_,
+                     [this, path = recent_.paths()[i]] { open(path_of(path)); });
+  }
+  recent_menu_->addSeparator();
+  QObject::connect(recent_menu_->addAction("&Clear This List"), &QAction::triggered, &window_, [this] {
+    recent_.clear();
+    recent_menu_->setEnabled(false);
+  });
+}
+
+QString FileActions::design_name() const {
+  return session_.path().empty() ? QString("Untitled") : text_of(session_.path().filename());
+}
+
+QString FileActions::doing() const {
+  if (session_.opening()) {
+    return opened_.empty() ? QString("Reading\u2026")
+                           : QString("Reading %1\u2026").arg(text_of(opened_.filename()));
+  }
+  if (session_.saving()) return QString("Saving %1\u2026").arg(text_of(saved_.filename()));
+  return {};
+}
+
+void FileActions::start() {
+  when_safe([this] { make_new(); });
+}
+
+void FileActions::make_new() {
+  opened_.clear();
+  session_.make_new();
+}
+
+void FileActions::open(const std::filesystem::path& design) {
+  when_safe([this, design] {
+    std::error_code ignored;
+    const auto whole = std::filesystem::absolute(design, ignored);
+    opened_ = whole.empty() ? design : whole;
+    session_.open(opened_);
+  });
+}
+
+void FileActions::recover(const std::filesystem::path& journal) {
+  for (const session::RecoverableWork& work : session_.recoverable()) {
+    if (work.journal != journal) continue;
+    when_safe([this, work] {
+      opened_ = work.design;
+      session_.recover(work);
+    });
+    return;
+  }
+}
+
+void FileActions::revert() {
+  if (session_.path().empty()) {
+    start();
+  } else {
+    open(session_.path());
+  }
+}
+
+void FileActions::choose_and_open() {
+  begin_();
+  auto* dialog = new QFileDialog(&window_, "Open a Design");
+  dialog->setObjectName("open");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->setNameFilters(open_filters());
+  if (!session_.path().empty()) {
+    dialog->setDirectory(text_of(session_.path().parent_path()));
+  } else if (!recent_.paths().isEmpty()) {
+    dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
+  }
+  QObject::connect(dialog, &QFileDialog::fileSelected, &window_,
+                   [this](const QString& path) { open(path_of(path)); });
+  dialog->open();
+}
+
+void FileActions::save() {
+  begin_();
+  if (session_.path().empty()) {
+    save_as();
+  } else {
+    begin_save(session_.path());
+  }
+}
+
+void FileActions::save_again() {
+  begin_();
+  if (saved_.empty()) {
+    save();
+  } else {
+    begin_save(saved_);
+  }
+}
+
+void FileActions::save_as() {
+  begin_();
+  auto* dialog = new QFileDialog(&window_, "Save the Design As");
+  dialog->setObjectName("save_as");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  const QStringList filters = save_filters();
+  dialog->setNameFilters(filters);
+  QString chosen = filters.front();
+  if (!session_.path().empty()) {
+    const QFileInfo file(text_of(session_.path()));
+    for (const QString& it : filters) {
+      if (it.contains("*." + file.suffix().toLower())) chosen = it;
+    }
+    dialog->setDirectory(file.dir());
+    dialog->selectFile(file.completeBaseName());
+  } else {
+    if (!recent_.paths().isEmpty()) dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
+    dialog->selectFile("Untitled");
+  }
+  dialog->selectNameFilter(chosen);
+  dialog->setDefaultSuffix(ending_of(chosen));
+  QObject::connect(dialog, &QFileDialog::filterSelected, dialog,
+                   [dialog](const QString& it) { dialog->setDefaultSuffix(ending_of(it)); });
+  QObject::connect(dialog, &QFileDialog::fileSelected, &window_,
+                   [this](const QString& path) { begin_save(path_of(path)); });
+  QObject::connect(dialog, &QFileDialog::rejected, &window_, [this] { then_ = nullptr; });
+  dialog->open();
+}
+
+void FileActions::begin_save(const std::filesystem::path& design) {
+  saved_ = design;
+  session_.save(design);
+}
+
+void FileActions::when_safe(const std::function<void()>& then) {
+  begin_();
+  if (session_.modified()) {
+    ask(then);
+  } else if (session_.saving()) {
+    then_ = then;
+  } else {
+    then();
+  }
+}
+
+void FileActions::ask(const std::function<void()>& then) {
+  if (asking_) return;
+  asking_ = true;
+  auto* box = new QMessageBox(QMessageBox::Warning, "Save Changes?",
+                              QString("Save the changes to %1?").arg(design_name()),
+                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box->setObjectName("save_changes");
+  box->setTextFormat(Qt::PlainText);
+  box->setInformativeText("Without saving, what you did since the last time is lost.");
+  box->button(QMessageBox::Discard)->setText("&Don\u2019t Save");
+  box->setDefaultButton(QMessageBox::Save);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  QObject::connect(box, &QMessageBox::finished, &window_, [this, then](int answer) {
+    asking_ = false;
+    if (answer == QMessageBox::Discard) {
+      then();
+    } else if (answer == QMessageBox::Save) {
+      then_ = then;
+      save();
+    }
+  });
+  box->open();
+}
+
+void FileActions::hear(const SessionEvent& event) {
+  switch (event.kind) {
+    case SessionEvent::Kind::Opened:
+    case SessionEvent::Kind::Saved:
+      if (!session_.path().empty()) recent_.add(session_.path());
+      if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
+      if (event.kind == SessionEvent::Kind::Opened) opened_.clear();
+      break;
+    case SessionEvent::Kind::OpenFailed:
+    case SessionEvent::Kind::OpenCancelled:
+    case SessionEvent::Kind::Recovered: opened_.clear(); break;
+    case SessionEvent::Kind::SaveFailed: then_ = nullptr; break;
+    default: break;
+  }
+  // Asks again if the work has gone on meanwhile.
+  if (event.kind == SessionEvent::Kind::Saved && then_) when_safe(std::exchange(then_, nullptr));
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,77 @@
+#pragma once
+#include <QAction>
+#include <QMenu>
+#include <filesystem>
+#include <functional>
+
+#include "session/session.h"
+#include "ui/note.h"
+#include "ui/recent_files.h"
+
+namespace icome::ui {
+
+/// The design as a file: new, open, save, and what to ask before work would be lost. Dialogs belong to the
+/// window; nothing here waits for one. Session and window outlive it.
+class FileActions {
+ public:
+  FileActions(session::Session& session, QSettings& settings, QWidget& window);
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+
+  /// Puts them into the menu; those with an icon are `new_design`, `open_design` and `save_design`.
+  void fill(QMenu& menu);
+  QAction* new_design() const { return new_; }
+  QAction* open_design() const { return open_; }
+  QAction* save_design() const { return save_; }
+
+  /// What else is to happen before the world is touched from here, such as ending a drag.
+  void on_begin(std::function<void()> begin) { begin_ = std::move(begin); }
+
+  /// Opens it, once what would be lost is saved or given up.
+  void open(const std::filesystem::path& design);
+  void recover(const std::filesystem::path& journal);
+  /// The file as it was saved last, instead of what is there.
+  void revert();
+  void choose_and_open();
+  void save();
+  void save_again();
+  void save_as();
+  /// Calls `then` when nothing would be lost any more: at once, after saving, or after a person has given it
+  /// up; not at all when the person thinks better of it.
+  void when_safe(const std::function<void()>& then);
+
+  /// What happened to the session.
+  void hear(const session::SessionEvent& event);
+  /// The name of the design as people know it.
+  QString design_name() const;
+  /// What is being read or written, for people; null when nothing is.
+  QString doing() const;
+
+ private:
+  void add(QMenu& menu, QAction*& action, const char* name, const QString& text, const QKeySequence& keys,
+           void (FileActions::*act)());
+  void start();
+  void make_new();
+  void fill_recent();
+  void begin_save(const std::filesystem::path& design);
+  void ask(const std::function<void()>& then);
+
+  session::Session& session_;
+  QWidget& window_;
+  RecentFiles recent_;
+  QMenu* recent_menu_ = nullptr;
+  QAction *new_ = nullptr, *open_ = nullptr, *save_ = nullptr, *save_as_ = nullptr;
+  std::function<void()> begin_ = [] {};
+  std::function<void()> then_ = {};      // waits for the work to be saved
+  std::filesystem::path opened_ = {};    // is being read
+  std::filesystem::path saved_ = {};     // was, or is being, written
+  bool asking_ = false;
+};
+
+/// For a file dialog: all formats together, then each; and those that can be written.
+QStringList open_filters();
+QStringList save_filters();
+/// The ending of a filter's first format, without the dot: "wrl" for "VRML 2.0 (*.wrl *.vrml)".
+QString ending_of(const QString& filter);
+
+}  // namespace icome::ui

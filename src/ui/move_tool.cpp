@@ -1,0 +1,136 @@
+#include "ui/move_tool.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/view_moves.h"
+
+namespace icome::ui {
+
+using base::Vector3;
+using world::ObjectId;
+
+void MoveTool::press(const SceneInput& input) {
+  finish();
+  press_ = Press{input, session_.pick(input.ray(session_.view()))};
+}
+
+void MoveTool::follow(const SceneInput& input) {
+  if (!press_) return;
+  const QPointF way = input.at - press_->input.at;
+  if (!drag_ && std::hypot(way.x(), way.y()) > kClickSlack) begin_drag();
+  if (drag_) due_ = input;
+}
+
+void MoveTool::release(const SceneInput& input) {
+  if (!press_) return;
+  follow(input);
+  if (drag_) {
+    step();
+  } else {
+    select(*press_);
+  }
+  drop();
+}
+
+void MoveTool::select(const Press& press) {
+  const bool toggles = press.input.modifiers & Qt::ControlModifier;
+  const bool adds = press.input.modifiers & Qt::ShiftModifier;
+  std::vector<ObjectId> chosen;
+  if (toggles || adds) chosen = session_.selection();
+  if (press.picked) {
+    const auto found = std::find(chosen.begin(), chosen.end(), press.picked->object);
+    if (found == chosen.end()) {
+      chosen.push_back(press.picked->object);
+    } else if (toggles) {
+      chosen.erase(found);
+    }
+  }
+  session_.select(std::move(chosen));
+}
+
+void MoveTool::begin_drag() {
+  if (!press_->picked) return;
+  const std::vector<ObjectId>& selected = session_.selection();
+  // A part of a selected whole takes the whole along.
+  const bool grasped = std::any_of(selected.begin(), selected.end(), [&](ObjectId id) {
+    return is_within(session_.world(), press_->picked->object, id);
+  });
+  if (!grasped) select(*press_);
+  const Vector3 toward_eye = session_.view().world_from_eye.linear().col(2);
+  drag_ = Drag{.move = {session_.world(), session_.selection(), session_.stage_from_world()},
+               .plane = {press_->picked->place.point, toward_eye}};
+  keep_to(axis_);
+}
+
+void MoveTool::keep_to(std::optional<int> axis) {
+  axis_ = axis;
+  if (!drag_) return;
+  drag_->plane.keep_to(axis ? std::optional<Vector3>(Vector3::Unit(*axis)) : std::nullopt);
+}
+
+void MoveTool::tick() {
+  if (drag_ && due_) step();
+}
+
+void MoveTool::step() {
+  if (!due_) return;
+  const auto offset = drag_->plane.moved(due_->ray(session_.view()));
+  due_.reset();
+  if (!offset || !offset->allFinite() || drag_->move.empty()) return;
+  const world::Edit edit = drag_->move.by(*offset);
+  const auto done = drag_->performed
+                        ? session_.extend(edit)
+                        : session_.perform(edit, interaction::action_name("Move", session_.world(),
+                                                                          drag_->move.objects()));
+  if (!done) {
+    refused_(done.error().message);
+    drop();
+    return;
+  }
+  drag_->performed = true;
+  nudged_ = false;
+}
+
+void MoveTool::cancel() {
+  const bool performed = drag_ && drag_->performed;
+  drop();
+  if (!performed) return;
+  const auto undone = session_.undo();
+  if (!undone) refused_(undone.error().message);
+}
+
+void MoveTool::finish() {
+  if (drag_) step();
+  drop();
+  nudged_ = false;
+}
+
+void MoveTool::drop() {
+  press_.reset();
+  drag_.reset();
+  due_.reset();
+}
+
+void MoveTool::nudge(const Vector3& in_view, bool more) {
+  if (session_.selection().empty() || press_) return;
+  const Vector3 wanted = session_.view().world_from_eye.linear() * in_view;
+  Eigen::Index axis = 0;
+  if (axis_) {
+    axis = *axis_;
+  } else {
+    wanted.cwiseAbs().maxCoeff(&axis);
+  }
+  const Vector3 offset = std::copysign(in_view.norm(), wanted[axis]) * Vector3::Unit(axis);
+  const interaction::ObjectMove move(session_.world(), session_.selection(), session_.stage_from_world());
+  if (move.empty()) return;
+  const auto done =
+      more && nudged_
+          ? session_.extend(move.by(offset))
+          : session_.perform(move.by(offset),
+                             interaction::action_name("Move", session_.world(), move.objects()));
+  nudged_ = done.has_value();
+  if (!done) refused_(done.error().message);
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,79 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "session/session.h"
+#include "ui/move_tool.h"
+#include "ui/scene_input.h"
+#include "ui/touch_tool.h"
+#include "ui/view_moves.h"
+
+namespace icome::ui {
+
+/// What the left button does.
+enum class Tool : std::uint8_t { Select, Touch, View };
+
+/// Turns what mouse, pen and keyboard do over the scene into what the session does. The left button is the
+/// chosen tool's; right turns and middle (or Shift and right) shifts the view, the wheel zooms. The session
+/// outlives it.
+class SceneTools {
+ public:
+  struct Listener {
+    std::function<void(Tool)> chosen = [](Tool) {};
+    std::function<void(const std::string&)> refused = [](const std::string&) {};  // why something was not done
+    std::function<void(QPointF)> asked = [](QPointF) {};  // for the menu of what is there: a right click
+    std::function<void()> left = [] {};                   // Escape, and nothing to leave here
+  };
+  SceneTools(session::Session& session, Listener listener);
+  SceneTools(const SceneTools&) = delete;
+  SceneTools& operator=(const SceneTools&) = delete;
+
+  Tool tool() const { return tool_; }
+  void choose(Tool tool);
+
+  // What happens over the scene. Those that return bool: was it of use?
+  void press(const SceneInput& input);
+  void move(const SceneInput& input);
+  void release(const SceneInput& input);
+  void double_click(const SceneInput& input);
+  void wheel(const SceneInput& input, double notches);
+  /// A pen at the tablet, which presses that hard, in [0, 1]. Only Touch wants to know; to the others it is
+  /// a mouse.
+  bool pen(const SceneInput& input, double pressure);
+  bool key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats);
+  bool key_release(int key);
+  /// The mouse has left the scene.
+  void leave();
+  void resize(const QSizeF& size);
+
+  /// Once for each update of the session, before it.
+  void tick();
+  /// Ends what the mouse is doing where it is: something else is about to change the world.
+  void finish();
+
+  /// What the mouse is over, as of the last tick; nothing while it does something.
+  std::optional<world::ObjectId> hovered() const { return hovered_; }
+  /// Where the mouse is.
+  const std::optional<SceneInput>& mouse() const { return mouse_; }
+  bool dragging() const { return move_tool_.dragging(); }
+  double aspect() const { return size_.width() / size_.height(); }
+
+ private:
+  bool escape();
+  bool arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats);
+  std::optional<ViewMove> view_move(const SceneInput& input) const;
+  void look_for_hovered();
+
+  session::Session& session_;
+  Listener listener_;
+  MoveTool move_tool_;
+  TouchTool touch_tool_;
+  ViewDrag view_drag_;
+  Qt::MouseButton view_button_ = {};  // what the view is dragged with
+  Tool tool_ = Tool::Select;
+  QSizeF size_ = {1.0, 1.0};
+  std::optional<SceneInput> mouse_ = {};
+  std::optional<world::ObjectId> hovered_ = {};
+};
+
+}  // namespace icome::ui

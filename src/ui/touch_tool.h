@@ -1,0 +1,42 @@
+#pragma once
+#include "interaction/mouse_hand.h"
+#include "session/session.h"
+#include "ui/scene_input.h"
+
+namespace icome::ui {
+
+/// Drives the hand with the mouse, a pen or the keyboard: it follows what is under the mouse, and presses
+/// while the button is down. The session outlives it.
+class TouchTool {
+ public:
+  explicit TouchTool(session::Session& session) : session_(session) {}
+
+  /// The hand comes into the scene, where the mouse was last or else in the middle, or goes out of it.
+  void enter(const QSizeF& scene);
+  void leave();
+  bool active() const { return active_; }
+
+  void follow(const SceneInput& input) { input_ = input; }
+  /// 0: it does not press; 1: as hard as a pen can be pressed.
+  void press(double pressure) { pressure_ = pressure; }
+  bool pressing() const { return pressure_ > 0.0; }
+  /// Presses deeper (or less deep) while the button is down.
+  void turn_wheel(double notches) { wheel_ += notches; }
+  /// One step by the arrow keys; false: it is another key.
+  bool step(int key, bool fine);
+  /// Aims the hand at what is under the mouse now: objects and the eye move, too.
+  void tick();
+
+  /// How hard a mouse button or a key presses.
+  static constexpr double kButton = 0.5;
+
+ private:
+  session::Session& session_;
+  interaction::MouseHand hand_ = interaction::MouseHand();
+  bool active_ = false;
+  SceneInput input_ = {};
+  double pressure_ = 0.0;
+  double wheel_ = 0.0;
+};
+
+}  // namespace icome::ui
