@@ -36,7 +36,8 @@ void Banner::tell(const Note& note) {
   told_.insert(told_.begin(), row);
   rows_->insertWidget(progress_ ? 1 : 0, row);
   if (told_.size() > kMostKept) take_away(told_.back());
-  if (note.weight == Note::Weight::Passing) QTimer::singleShot(kPassing, row, [this, row] { take_away(row); });
+  if (note.weight == Note::Weight::Passing)
+    QTimer::singleShot(kPassing, row, [this, row] { take_away(row); });
   arrange();
   QAccessibleEvent alert(row, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);

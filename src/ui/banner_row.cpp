@@ -19,9 +19,12 @@ constexpr int kMark = 4;  // pixels, the coloured edge
 
 QColor mark_colour(Note::Weight weight) {
   switch (weight) {
-    case Note::Weight::Error: return colours().bad;
-    case Note::Weight::Warning: return colours().warning;
-    default: return colours().accent;
+    case Note::Weight::Error:
+      return colours().bad;
+    case Note::Weight::Warning:
+      return colours().warning;
+    default:
+      return colours().accent;
   }
 }
 
@@ -53,8 +56,7 @@ void BannerStrip::paintEvent(QPaintEvent*) {
   painter.fillRect(QRect(0, 0, kMark, height() - 1), mark_colour(weight_));
 }
 
-BannerRow::BannerRow(const Note& note, QWidget* parent)
-    : BannerStrip(note.weight, parent), note_(note) {
+BannerRow::BannerRow(const Note& note, QWidget* parent) : BannerStrip(note.weight, parent), note_(note) {
   setObjectName("banner.note");
   const QString text = QString::fromStdString(note.text);
   setAccessibleName(text);

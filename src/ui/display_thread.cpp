@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <QOpenGLContext>
+#include <QOpenGLFunctions>
 #include <QScreen>
 #include <QSurfaceFormat>
 #include <QThread>
@@ -62,8 +63,10 @@ struct DisplayThread::Parts {
   int width = 0, height = 0;
 
   realtime::LatestValue<std::string> trouble;
+  realtime::LatestValue<std::string> driver;
 
   bool wait_for_turn(Clock::time_point last);
+  std::unique_ptr<render::SceneRenderer> start();
   base::Result<void> draw(render::SceneRenderer& renderer);
   void run();
 };
@@ -101,15 +104,20 @@ base::Result<void> DisplayThread::Parts::draw(render::SceneRenderer& renderer) {
   return drawn;
 }
 
+std::unique_ptr<render::SceneRenderer> DisplayThread::Parts::start() {
+  if (!context->makeCurrent(&window)) return nullptr;
+  const auto* name = reinterpret_cast<const char*>(context->functions()->glGetString(GL_RENDERER));
+  driver.publish(name ? name : "");
+  return std::make_unique<render::SceneRenderer>();
+}
+
 void DisplayThread::Parts::run() {
   std::unique_ptr<render::SceneRenderer> renderer;
   Clock::time_point last = {};
   while (wait_for_turn(last)) {
     last = Clock::now();
     base::Result<void> drawn;
-    if (!renderer) {
-      if (context->makeCurrent(&window)) renderer = std::make_unique<render::SceneRenderer>();
-    }
+    if (!renderer) renderer = start();
     drawn = renderer ? draw(*renderer) : base::fail(needed() + " (the driver refused the window).");
     {
       const std::lock_guard hold(lock);
@@ -175,6 +183,11 @@ void DisplayThread::hide() {
   std::unique_lock hold(parts_->lock);
   parts_->seen = false;
   parts_->changed.wait(hold, [this] { return !parts_->drawing; });
+}
+
+std::string DisplayThread::renderer() {
+  parts_->driver.update();
+  return parts_->driver.read();
 }
 
 std::optional<std::string> DisplayThread::trouble() {

@@ -29,6 +29,8 @@ class DisplayThread {
   void show(int width, int height);
   /// The window is not seen: when this returns, nothing is drawn any more.
   void hide();
+  /// What draws, in the driver's words; empty until the first frame.
+  std::string renderer();
   /// Why it draws no more, once; nothing while all is well.
   std::optional<std::string> trouble();
 

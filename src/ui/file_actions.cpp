@@ -227,9 +227,14 @@ void FileActions::hear(const SessionEvent& event) {
       break;
     case SessionEvent::Kind::OpenFailed:
     case SessionEvent::Kind::OpenCancelled:
-    case SessionEvent::Kind::Recovered: opened_.clear(); break;
-    case SessionEvent::Kind::SaveFailed: then_ = nullptr; break;
-    default: break;
+    case SessionEvent::Kind::Recovered:
+      opened_.clear();
+      break;
+    case SessionEvent::Kind::SaveFailed:
+      then_ = nullptr;
+      break;
+    default:
+      break;
   }
   // Asks again if the work has gone on meanwhile.
   if (event.kind == SessionEvent::Kind::Saved && then_) when_safe(std::exchange(then_, nullptr));

@@ -62,9 +62,9 @@ class FileActions {
   QMenu* recent_menu_ = nullptr;
   QAction *new_ = nullptr, *open_ = nullptr, *save_ = nullptr, *save_as_ = nullptr;
   std::function<void()> begin_ = [] {};
-  std::function<void()> then_ = {};      // waits for the work to be saved
-  std::filesystem::path opened_ = {};    // is being read
-  std::filesystem::path saved_ = {};     // was, or is being, written
+  std::function<void()> then_ = {};    // waits for the work to be saved
+  std::filesystem::path opened_ = {};  // is being read
+  std::filesystem::path saved_ = {};   // was, or is being, written
   bool asking_ = false;
 };
 

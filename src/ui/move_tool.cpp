@@ -79,10 +79,10 @@ void MoveTool::step() {
   due_.reset();
   if (!offset || !offset->allFinite() || drag_->move.empty()) return;
   const world::Edit edit = drag_->move.by(*offset);
-  const auto done = drag_->performed
-                        ? session_.extend(edit)
-                        : session_.perform(edit, interaction::action_name("Move", session_.world(),
-                                                                          drag_->move.objects()));
+  const auto done =
+      drag_->performed
+          ? session_.extend(edit)
+          : session_.perform(edit, interaction::action_name("Move", session_.world(), drag_->move.objects()));
   if (!done) {
     refused_(done.error().message);
     drop();
@@ -125,10 +125,9 @@ void MoveTool::nudge(const Vector3& in_view, bool more) {
   const interaction::ObjectMove move(session_.world(), session_.selection(), session_.stage_from_world());
   if (move.empty()) return;
   const auto done =
-      more && nudged_
-          ? session_.extend(move.by(offset))
-          : session_.perform(move.by(offset),
-                             interaction::action_name("Move", session_.world(), move.objects()));
+      more && nudged_ ? session_.extend(move.by(offset))
+                      : session_.perform(move.by(offset),
+                                         interaction::action_name("Move", session_.world(), move.objects()));
   nudged_ = done.has_value();
   if (!done) refused_(done.error().message);
 }

@@ -13,14 +13,20 @@ using Remedy = Note::Remedy;
 
 const char* label(Remedy remedy) {
   switch (remedy) {
-    case Remedy::Save: return "Save";
-    case Remedy::SaveAs: return "Save As\u2026";
-    case Remedy::SaveAgain: return "Try Again";
-    case Remedy::OpenAnother: return "Open Another\u2026";
-    case Remedy::RevertToSaved: return "Open the Saved One";
-    case Remedy::Recover: return "Recover";
-    case Remedy::DiscardJournal: return "Discard";
-    case Remedy::RetryDrawing: return "Try Again";
+    case Remedy::Save:
+      return "Save";
+    case Remedy::SaveAs:
+      return "Save As\u2026";
+    case Remedy::SaveAgain:
+      return "Try Again";
+    case Remedy::OpenAnother:
+      return "Open Another\u2026";
+    case Remedy::RevertToSaved:
+      return "Open the Saved One";
+    case Remedy::Recover:
+      return "Recover";
+    case Remedy::DiscardJournal:
+      return "Discard";
   }
   return "";
 }

@@ -23,7 +23,6 @@ struct Note {
     RevertToSaved,   // the file as it was saved, instead of recovered work
     Recover,         // work of `journal`
     DiscardJournal,  // the same
-    RetryDrawing,
   };
   Weight weight = Weight::Plain;
   std::string text = {};

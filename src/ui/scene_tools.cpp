@@ -119,13 +119,26 @@ bool SceneTools::arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
     const double step = shift ? 0.01 : 0.001;  // m
     Vector3 in_view = Vector3::Zero();
     switch (key) {
-      case Qt::Key_Left: in_view.x() = -step; break;
-      case Qt::Key_Right: in_view.x() = step; break;
-      case Qt::Key_Up: in_view.y() = step; break;
-      case Qt::Key_Down: in_view.y() = -step; break;
-      case Qt::Key_PageUp: in_view.z() = -step; break;
-      case Qt::Key_PageDown: in_view.z() = step; break;
-      default: return false;
+      case Qt::Key_Left:
+        in_view.x() = -step;
+        break;
+      case Qt::Key_Right:
+        in_view.x() = step;
+        break;
+      case Qt::Key_Up:
+        in_view.y() = step;
+        break;
+      case Qt::Key_Down:
+        in_view.y() = -step;
+        break;
+      case Qt::Key_PageUp:
+        in_view.z() = -step;
+        break;
+      case Qt::Key_PageDown:
+        in_view.z() = step;
+        break;
+      default:
+        return false;
     }
     move_tool_.nudge(in_view, repeats);
     return true;
@@ -136,16 +149,28 @@ bool SceneTools::arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
 bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
   if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
   switch (key) {
-    case Qt::Key_Escape: return escape();
-    case Qt::Key_X: move_tool_.keep_to(0); return true;
-    case Qt::Key_Y: move_tool_.keep_to(1); return true;
-    case Qt::Key_Z: move_tool_.keep_to(2); return true;
-    case Qt::Key_Tab: choose(Tool((int(tool_) + 1) % 3)); return true;
-    case Qt::Key_Backtab: choose(Tool((int(tool_) + 2) % 3)); return true;
+    case Qt::Key_Escape:
+      return escape();
+    case Qt::Key_X:
+      move_tool_.keep_to(0);
+      return true;
+    case Qt::Key_Y:
+      move_tool_.keep_to(1);
+      return true;
+    case Qt::Key_Z:
+      move_tool_.keep_to(2);
+      return true;
+    case Qt::Key_Tab:
+      choose(Tool((int(tool_) + 1) % 3));
+      return true;
+    case Qt::Key_Backtab:
+      choose(Tool((int(tool_) + 2) % 3));
+      return true;
     case Qt::Key_Space:
       if (tool_ == Tool::Touch) touch_tool_.press(TouchTool::kButton);
       return tool_ == Tool::Touch;
-    default: return arrow(key, modifiers, repeats);
+    default:
+      return arrow(key, modifiers, repeats);
   }
 }
 
@@ -156,9 +181,17 @@ bool SceneTools::key_release(int key) {
     case Qt::Key_Z:
       if (move_tool_.axis() == key - Qt::Key_X) move_tool_.keep_to(std::nullopt);
       return true;
-    case Qt::Key_Space: touch_tool_.press(0.0); return tool_ == Tool::Touch;
-    default: return false;
+    case Qt::Key_Space:
+      touch_tool_.press(0.0);
+      return tool_ == Tool::Touch;
+    default:
+      return false;
   }
+}
+
+void SceneTools::forget_keys() {
+  move_tool_.keep_to(std::nullopt);
+  touch_tool_.press(0.0);
 }
 
 void SceneTools::leave() {

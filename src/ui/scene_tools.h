@@ -20,7 +20,8 @@ class SceneTools {
  public:
   struct Listener {
     std::function<void(Tool)> chosen = [](Tool) {};
-    std::function<void(const std::string&)> refused = [](const std::string&) {};  // why something was not done
+    std::function<void(const std::string&)> refused = [](const std::string&) {
+    };                                                    // why something was not done
     std::function<void(QPointF)> asked = [](QPointF) {};  // for the menu of what is there: a right click
     std::function<void()> left = [] {};                   // Escape, and nothing to leave here
   };
@@ -42,6 +43,8 @@ class SceneTools {
   bool pen(const SceneInput& input, double pressure);
   bool key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats);
   bool key_release(int key);
+  /// The keyboard goes elsewhere: nobody will hear of keys that are let go.
+  void forget_keys();
   /// The mouse has left the scene.
   void leave();
   void resize(const QSizeF& size);
@@ -56,6 +59,7 @@ class SceneTools {
   /// Where the mouse is.
   const std::optional<SceneInput>& mouse() const { return mouse_; }
   bool dragging() const { return move_tool_.dragging(); }
+  bool turning() const { return view_drag_.active(); }
   double aspect() const { return size_.width() / size_.height(); }
 
  private:

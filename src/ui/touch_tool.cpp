@@ -1,7 +1,6 @@
 #include "ui/touch_tool.h"
 
 #include <QRectF>
-
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +18,8 @@ void TouchTool::leave() {
   if (!active_) return;
   active_ = false;
   pressure_ = wheel_ = 0.0;
-  // Back to the eye, away from what it touched: nothing is in between, or the mouse could not have reached it.
+  // Back to the eye, away from what it touched: nothing is in between, or the mouse could not have reached
+  // it.
   session_.aim_hand(session_.view().world_from_eye.translation());
 }
 

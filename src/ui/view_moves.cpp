@@ -54,6 +54,10 @@ void zoom_at(session::Session& session, const SceneInput& input, double notches)
   session.set_view(interaction::zoomed(view, std::pow(kNotch, std::clamp(notches, -20.0, 20.0)), towards));
 }
 
+void zoom_in_middle(session::Session& session, double notches) {
+  zoom_at(session, {.at = {0.5, 0.5}, .size = {1.0, 1.0}}, notches);
+}
+
 bool step_view(session::Session& session, int key, ViewMove how) {
   const double right = key == Qt::Key_Right ? 1.0 : key == Qt::Key_Left ? -1.0 : 0.0;
   const double up = key == Qt::Key_Up ? 1.0 : key == Qt::Key_Down ? -1.0 : 0.0;
@@ -62,9 +66,15 @@ bool step_view(session::Session& session, int key, ViewMove how) {
   constexpr double kShare = 0.05;        // of the picture
   const View& view = session.view();
   switch (how) {
-    case ViewMove::Orbit: session.set_view(interaction::orbited(view, kTurn * right, kTurn * up)); break;
-    case ViewMove::Pan: session.set_view(interaction::panned(view, kShare * right, kShare * up)); break;
-    case ViewMove::Look: session.set_view(interaction::looked_around(view, kTurn * right, kTurn * up)); break;
+    case ViewMove::Orbit:
+      session.set_view(interaction::orbited(view, kTurn * right, kTurn * up));
+      break;
+    case ViewMove::Pan:
+      session.set_view(interaction::panned(view, kShare * right, kShare * up));
+      break;
+    case ViewMove::Look:
+      session.set_view(interaction::looked_around(view, kTurn * right, kTurn * up));
+      break;
   }
   return true;
 }
@@ -80,8 +90,7 @@ void zoom_to_selection(session::Session& session, double aspect) {
 }
 
 void look_from(session::Session& session, const Vector3& toward_eye, const Vector3& up, double aspect) {
-  session.fly_to(
-      interaction::fitted(session.view(), session.drawn()->bounds(), toward_eye, up, aspect));
+  session.fly_to(interaction::fitted(session.view(), session.drawn()->bounds(), toward_eye, up, aspect));
 }
 
 void look_from(session::Session& session, const render::RenderViewpoint& viewpoint) {

@@ -35,6 +35,9 @@ inline constexpr double kClickSlack = 4.0;
 /// Notches of the wheel: nearer to, or farther from, what is under the mouse.
 void zoom_at(session::Session& session, const SceneInput& input, double notches);
 
+/// The same in the middle of the picture.
+void zoom_in_middle(session::Session& session, double notches);
+
 /// One step by the arrow keys; Pan moves what is seen that way. False: it is another key.
 bool step_view(session::Session& session, int key, ViewMove how);
 

@@ -1,0 +1,190 @@
+#include <QActionGroup>
+#include <QApplication>
+#include <QDockWidget>
+#include <QLabel>
+#include <QMenuBar>
+#include <QToolBar>
+
+#include "ui/about_box.h"
+#include "ui/actions.h"
+#include "ui/icons.h"
+#include "ui/main_window.h"
+#include "ui/shortcut_sheet.h"
+
+namespace icome::ui {
+namespace {
+
+struct ToolEntry {
+  Tool tool;
+  Icon icon;
+  const char* name;
+  const char* text;
+  const char* keys;
+  const char* hint;  // what mouse and keyboard do
+};
+constexpr ToolEntry kTools[] = {
+    {Tool::Select, Icon::Select, "tool.select", "&Select and Move", "S",
+     "Click to select, drag to move (hold X, Y or Z to keep to an axis)"},
+    {Tool::Touch, Icon::Touch, "tool.touch", "&Touch", "T",
+     "Press to touch, turn the wheel to press harder or softer"},
+    {Tool::View, Icon::View, "tool.view", "Orbit and &View", "V",
+     "Drag to turn, Shift and drag to shift, Ctrl and drag to look around"},
+};
+
+/// What is no action of a menu.
+ShortcutSheet::Part mouse_part() {
+  return {"In the scene",
+          {{"Turn the view", "Right drag"},
+           {"Shift the view", "Middle drag, or Shift+right drag"},
+           {"Closer, farther", "Wheel"},
+           {"Zoom to an object", "Double click"},
+           {"Select", "Click"},
+           {"Select more", "Shift or Ctrl and click"},
+           {"Move what is selected", "Drag"},
+           {"\u2026 along x, y or z", "hold X, Y or Z"},
+           {"Move by 1 mm, by 10 mm", "Arrow keys, with Shift"},
+           {"\u2026 away, nearer", "Page Up, Page Down"},
+           {"Turn the view (nothing selected)", "Arrow keys"},
+           {"Touch", "Press the button, the pen or Space"},
+           {"Next tool", "Tab"},
+           {"Back out", "Esc"}}};
+}
+
+QString millimetres(double metres) { return QString::number(1000.0 * metres, 'f', 1); }
+
+}  // namespace
+
+void MainWindow::make_menus() {
+  files_.fill(*menuBar()->addMenu("&File"));
+  QMenu* file = menuBar()->actions().front()->menu();
+  file->addSeparator();
+  add_action(*file, "file.quit", "&Quit", QKeySequence("Ctrl+Q"), [this] { close(); });
+  edits_.fill(*menuBar()->addMenu("&Edit"));
+  views_.fill(*menuBar()->addMenu("&View"));
+  make_tool_menu(*menuBar()->addMenu("&Tools"));
+  QMenu* window = menuBar()->addMenu("&Window");
+  for (QDockWidget* dock : findChildren<QDockWidget*>()) window->addAction(dock->toggleViewAction());
+  window->addSeparator();
+  add_action(*window, "window.next_part", "&Next Part", QKeySequence("F6"), [this] { next_part(); });
+  make_help_menu(*menuBar()->addMenu("&Help"));
+}
+
+void MainWindow::make_tool_menu(QMenu& menu) {
+  auto* group = new QActionGroup(this);
+  for (const ToolEntry& it : kTools) {
+    QAction* action = add_action(menu, it.name, it.text, QKeySequence(it.keys),
+                                 [this, tool = it.tool] { tools_.choose(tool); });
+    action->setIcon(icon(it.icon));
+    action->setCheckable(true);
+    group->addAction(action);
+    tool_actions_[int(it.tool)] = action;
+  }
+}
+
+void MainWindow::make_help_menu(QMenu& menu) {
+  QAction* sheet =
+      add_action(menu, "help.shortcuts", "&Keys and Mouse", QKeySequence("F1"), [this] { show_shortcuts(); });
+  sheet->setIcon(icon(Icon::Help));
+  add_action(menu, "help.about", "&About ICOME", {}, [this] {
+    auto* box = new AboutBox(scene_->window_of_scene().renderer(), this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->open();
+  });
+}
+
+void MainWindow::show_shortcuts() {
+  std::vector<ShortcutSheet::Part> parts = {mouse_part()};
+  for (QAction* it : menuBar()->actions()) {
+    QList<QAction*> actions;
+    for (QAction* entry : it->menu()->actions()) {
+      if (entry->menu()) actions << entry->menu()->actions();
+      actions << entry;
+    }
+    auto part = ShortcutSheet::of_actions(it->text().remove('&'), actions);
+    if (!part.rows.empty()) parts.push_back(std::move(part));
+  }
+  auto* sheet = new ShortcutSheet(parts, this);
+  sheet->setAttribute(Qt::WA_DeleteOnClose);
+  sheet->open();
+}
+
+void MainWindow::make_tool_bar() {
+  QToolBar* bar = addToolBar("Tools");
+  bar->setObjectName("toolbar");
+  bar->addAction(files_.open_design());
+  bar->addAction(files_.save_design());
+  bar->addSeparator();
+  bar->addAction(edits_.undo());
+  bar->addAction(edits_.redo());
+  bar->addSeparator();
+  for (QAction* it : tool_actions_) bar->addAction(it);
+  bar->addSeparator();
+  bar->addAction(views_.home());
+  bar->addAction(views_.zoom_to_selection());
+  bar->addSeparator();
+  bar->addAction(edits_.duplicate());
+  bar->addAction(edits_.delete_objects());
+}
+
+void MainWindow::show_tool(Tool tool) {
+  tool_actions_[int(tool)]->setChecked(true);
+  show_look();
+}
+
+void MainWindow::show_hint() {
+  const std::vector<world::ObjectId>& selected = session_.selection();
+  QString text = kTools[int(tools_.tool())].hint;
+  if (tools_.tool() == Tool::Select && !selected.empty()) {
+    const base::Bounds bounds = session_.selection_bounds();
+    const world::PhysicalObject* object = session_.world().find(selected.front());
+    text = selected.size() > 1               ? QString("%1 objects").arg(selected.size())
+           : object && !object->name.empty() ? QString::fromStdString(object->name)
+                                             : QString("An object without a name");
+    if (!bounds.isEmpty()) {
+      const base::Vector3 size = bounds.sizes();
+      text += QString(": %1 \u00d7 %2 \u00d7 %3 mm")
+                  .arg(millimetres(size.x()), millimetres(size.y()), millimetres(size.z()));
+    }
+  }
+  if (hint_->text() != text) hint_->setText(text);
+  const auto& drawn = session_.drawn();
+  const QString count =
+      QString("%L1 objects, %L2 triangles").arg(drawn->object_count()).arg(drawn->triangle_count());
+  if (count_->text() != count) count_->setText(count);
+}
+
+void MainWindow::show_scene_menu(QPointF at) {
+  const SceneInput input{.at = at, .size = scene_->size()};
+  if (const auto picked = session_.pick(input.ray(session_.view()))) {
+    const auto& selected = session_.selection();
+    if (std::find(selected.begin(), selected.end(), picked->object) == selected.end())
+      session_.select({picked->object});
+  } else {
+    session_.select({});
+  }
+  edits_.refresh();
+  auto* menu = new QMenu(this);
+  menu->setObjectName("scene.menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(views_.zoom_to_selection());
+  menu->addAction(views_.home());
+  menu->addSeparator();
+  menu->addAction(edits_.duplicate());
+  menu->addMenu(edits_.duplicate_as());
+  menu->addAction(edits_.rename());
+  menu->addAction(edits_.delete_objects());
+  menu->popup(scene_->mapToGlobal(at.toPoint()));
+}
+
+void MainWindow::next_part() {
+  QWidget* focus = QApplication::focusWidget();
+  if (scene_->has_keyboard()) {
+    properties_->setFocus(Qt::TabFocusReason);
+  } else if (focus && properties_->isAncestorOf(focus)) {
+    tree_->setFocus(Qt::TabFocusReason);
+  } else {
+    scene_->take_keyboard();
+  }
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,263 @@
+#include "ui/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "ui/icons.h"
+#include "ui/property_panel.h"
+#include "ui/status_strip.h"
+
+namespace icome::ui {
+namespace {
+
+constexpr int kLayout = 1;  // counts up when docks and bars change, so that old layouts are not restored
+
+bool same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code error;
+  const bool same = std::filesystem::equivalent(one, other, error);
+  return error ? std::filesystem::absolute(one, error) == std::filesystem::absolute(other, error) : same;
+}
+
+QDockWidget* make_dock(QMainWindow* window, const char* name, const QString& title, QWidget* content,
+                       Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, window);
+  dock->setObjectName(name);
+  dock->setAccessibleName(title);
+  dock->setWidget(content);
+  window->addDockWidget(area, dock);
+  return dock;
+}
+
+}  // namespace
+
+MainWindow::MainWindow(session::Session& session, QSettings& settings, const Options& options)
+    : session_(session),
+      settings_(settings),
+      options_(options),
+      tools_(session, {.chosen = [this](Tool tool) { show_tool(tool); },
+                       .refused = [this](const std::string& why) { tell_error(why); },
+                       .asked = [this](QPointF at) { show_scene_menu(at); },
+                       .left = [] {}}),
+      files_(session, settings, *this),
+      edits_(session, {.begin = [this] { tools_.finish(); },
+                       .refused = [this](const std::string& why) { tell_error(why); },
+                       .rename = [this] { tree_->rename(); },
+                       .search = [this] { tree_->search(); }}),
+      views_(session, tools_, settings) {
+  setObjectName("icome");
+  setWindowIcon(app_icon());
+  setAcceptDrops(true);
+  make_center();
+  make_docks();
+  make_menus();
+  make_tool_bar();
+  restore_layout();
+  files_.on_begin([this] { tools_.finish(); });
+  views_.on_look([this] { show_look(); });
+  views_.on_theme([this](Theme theme) { choose_theme(theme); });
+  views_.show_theme(options_.theme);
+  banner_->on_remedy([this](const Note& note, Note::Remedy what) { remedy(note, what); });
+  tree_->on_zoom_to([this] { zoom_to_selection(session_, tools_.aspect()); });
+  show_tool(tools_.tool());
+  show_title();
+  timer_.setTimerType(Qt::PreciseTimer);
+  connect(&timer_, &QTimer::timeout, this, [this] { tick(); });
+  timer_.start(16);
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::make_center() {
+  auto* center = new QWidget(this);
+  auto* rows = new QVBoxLayout(center);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+  banner_ = new Banner(center);
+  scene_ = new SceneView(session_, tools_, center);
+  scene_->window_of_scene().send_drops_to(this);
+  rows->addWidget(banner_);
+  rows->addWidget(scene_, 1);
+  setCentralWidget(center);
+  hint_ = new QLabel(this);
+  hint_->setObjectName("status.hint");
+  count_ = new QLabel(this);
+  count_->setObjectName("status.count");
+  statusBar()->addWidget(hint_, 1);
+  statusBar()->addPermanentWidget(count_);
+}
+
+void MainWindow::make_docks() {
+  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  tree_ = new WorldTree(session_, this);
+  make_dock(this, "dock.world", "World", tree_, Qt::LeftDockWidgetArea);
+  properties_ = new PropertyPanel(session_, this);
+  make_dock(this, "dock.properties", "Properties", properties_, Qt::RightDockWidgetArea);
+  make_dock(this, "dock.hand", "Hand", new StatusStrip(session_, this), Qt::BottomDockWidgetArea);
+}
+
+void MainWindow::restore_layout() {
+  // The smallest screens that people work at have a little more.
+  resize(1240, 740);
+  restoreGeometry(settings_.value("window/geometry").toByteArray());
+  restoreState(settings_.value("window/state").toByteArray(), kLayout);
+}
+
+void MainWindow::begin(const std::filesystem::path& design) {
+  auto works = session_.recoverable();
+  // The work on what is asked for, or else the newest.
+  std::stable_sort(works.begin(), works.end(),
+                   [](const auto& a, const auto& b) { return a.changed > b.changed; });
+  const auto wanted = std::find_if(works.begin(), works.end(), [&](const session::RecoverableWork& it) {
+    return design.empty() || (!it.design.empty() && same_file(it.design, design));
+  });
+  if (wanted != works.end()) {
+    files_.recover(wanted->journal);
+    works.erase(wanted);
+  } else if (!design.empty()) {
+    files_.open(design);
+  }
+  for (auto work = works.rbegin(); work != works.rend(); ++work) tell(note_of(*work));
+  scene_->take_keyboard();
+}
+
+void MainWindow::tick() {
+  tools_.tick();
+  for (const session::SessionEvent& event : session_.update()) {
+    files_.hear(event);
+    tell(note_of(event));
+  }
+  scene_->tick();
+  edits_.refresh();
+  views_.refresh();
+  show_progress();
+  show_title();
+  show_hint();
+}
+
+void MainWindow::tell_error(const std::string& why) {
+  tell({.weight = Note::Weight::Error, .text = why, .topic = "edit"});
+}
+
+void MainWindow::discard(const std::filesystem::path& journal) {
+  for (const session::RecoverableWork& work : session_.recoverable()) {
+    if (work.journal != journal) continue;
+    session_.discard(work);
+    return;
+  }
+}
+
+void MainWindow::remedy(const Note& note, Note::Remedy what) {
+  switch (what) {
+    case Note::Remedy::Save:
+      files_.save();
+      break;
+    case Note::Remedy::SaveAs:
+      files_.save_as();
+      break;
+    case Note::Remedy::SaveAgain:
+      files_.save_again();
+      break;
+    case Note::Remedy::OpenAnother:
+      files_.choose_and_open();
+      break;
+    case Note::Remedy::RevertToSaved:
+      files_.revert();
+      break;
+    case Note::Remedy::Recover:
+      files_.recover(note.journal);
+      break;
+    case Note::Remedy::DiscardJournal:
+      discard(note.journal);
+      break;
+  }
+}
+
+void MainWindow::show_progress() {
+  const QString doing = files_.doing();
+  if (doing.isEmpty()) {
+    busy_since_.invalidate();
+    banner_->hide_progress();
+    return;
+  }
+  if (!busy_since_.isValid()) busy_since_.start();
+  constexpr int kPatience = 300;  // ms, that nobody needs to be told about
+  if (busy_since_.elapsed() < kPatience) return;
+  const auto part = session_.opening();
+  banner_->show_progress(doing, part, part ? [this] { session_.cancel_open(); } : std::function<void()>());
+}
+
+void MainWindow::show_title() {
+  const QString title = QString("%1[*] - ICOME").arg(files_.design_name().replace("[*]", "[*][*]"));
+  if (windowTitle() != title) setWindowTitle(title);
+  setWindowModified(session_.modified());
+}
+
+void MainWindow::show_look() {
+  const SceneColours its = scene_colours();
+  session::DisplayWish wish;
+  wish.look.above = its.above;
+  wish.look.below = its.below;
+  wish.look.selection = its.selection;
+  wish.look.shadows = views_.shadows();
+  wish.look.passes = 16;
+  wish.pointers = options_.hand_in_sight || tools_.tool() == Tool::Touch;
+  session_.set_look(wish);
+}
+
+void MainWindow::choose_theme(Theme theme) {
+  settings_.setValue("theme", QString::fromStdString(std::string(name(theme))));
+  apply_theme(*qApp, theme);
+  views_.show_theme(theme);
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && scene_) show_look();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  closing_ = true;
+  if (!agreed_) {
+    files_.when_safe([this] {
+      agreed_ = true;
+      if (!closing_) close();
+    });
+  }
+  closing_ = false;
+  event->setAccepted(agreed_);
+  if (!agreed_) return;
+  timer_.stop();
+  settings_.setValue("window/geometry", saveGeometry());
+  settings_.setValue("window/state", saveState(kLayout));
+  session_.cancel_open();
+  session_.close();
+}
+
+bool MainWindow::offer_drop(QEvent& event) {
+  auto& drop = static_cast<QDropEvent&>(event);
+  const QList<QUrl> urls = drop.mimeData()->urls();
+  if (urls.size() != 1 || !urls.front().isLocalFile()) return false;
+  drop.setDropAction(Qt::CopyAction);
+  drop.accept();
+  if (event.type() == QEvent::Drop) files_.open(path_of(urls.front().toLocalFile()));
+  return true;
+}
+
+bool MainWindow::event(QEvent* event) {
+  const bool drop = event->type() == QEvent::DragEnter || event->type() == QEvent::DragMove ||
+                    event->type() == QEvent::Drop;
+  if (drop && offer_drop(*event)) return true;
+  return QMainWindow::event(event);
+}
+
+}  // namespace icome::ui

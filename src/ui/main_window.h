@@ -1,0 +1,85 @@
+#pragma once
+#include <QElapsedTimer>
+#include <QMainWindow>
+#include <QSettings>
+#include <QTimer>
+
+#include "session/session.h"
+#include "ui/banner.h"
+#include "ui/edit_actions.h"
+#include "ui/file_actions.h"
+#include "ui/scene_tools.h"
+#include "ui/scene_view.h"
+#include "ui/theme.h"
+#include "ui/view_actions.h"
+#include "ui/world_tree.h"
+
+class QLabel;
+
+namespace icome::ui {
+
+/// The desktop's one window: the scene in the middle, messages above it, the world's tree and the properties
+/// beside it, and how the hand is doing below. Session and settings outlive it.
+class MainWindow final : public QMainWindow {
+ public:
+  struct Options {
+    Theme theme = Theme::System;
+    bool hand_in_sight = false;  // there is a pointer device: its hand is always shown
+  };
+  MainWindow(session::Session& session, QSettings& settings, const Options& options);
+  ~MainWindow() override;
+
+  /// Opens the design or what was left of it by a crash; without one, what was left of any other.
+  void begin(const std::filesystem::path& design);
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void make_center();
+  void make_docks();
+  void make_menus();
+  void make_tool_menu(QMenu& menu);
+  void make_help_menu(QMenu& menu);
+  void make_tool_bar();
+  void restore_layout();
+
+  void tick();
+  void tell(const Note& note) { banner_->tell(note); }
+  void tell_error(const std::string& why);
+  void remedy(const Note& note, Note::Remedy remedy);
+  void discard(const std::filesystem::path& journal);
+  void show_progress();
+  void show_title();
+  void show_hint();
+  void show_look();
+  void show_tool(Tool tool);
+  void choose_theme(Theme theme);
+  void show_scene_menu(QPointF at);
+  void show_shortcuts();
+  void next_part();
+  bool offer_drop(QEvent& event);
+
+  session::Session& session_;
+  QSettings& settings_;
+  Options options_;
+  SceneTools tools_;
+  FileActions files_;
+  EditActions edits_;
+  ViewActions views_;
+  Banner* banner_ = nullptr;
+  SceneView* scene_ = nullptr;
+  WorldTree* tree_ = nullptr;
+  QWidget* properties_ = nullptr;
+  QLabel* hint_ = nullptr;
+  QLabel* count_ = nullptr;
+  QAction* tool_actions_[3] = {};
+  QTimer timer_;
+  QElapsedTimer busy_since_;  // invalid: nothing is being read or written
+  bool agreed_ = false;       // to close
+  bool closing_ = false;      // within the event
+};
+
+}  // namespace icome::ui

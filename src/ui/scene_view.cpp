@@ -1,0 +1,84 @@
+#include "ui/scene_view.h"
+
+#include <QGuiApplication>
+#include <QLabel>
+#include <QPushButton>
+#include <QStackedLayout>
+#include <QVBoxLayout>
+
+#include "ui/icons.h"
+#include "ui/theme.h"
+
+namespace icome::ui {
+
+SceneView::SceneView(session::Session& session, SceneTools& tools, QWidget* parent)
+    : QWidget(parent),
+      tools_(tools),
+      scene_(new SceneWindow(tools, session.display())),
+      container_(createWindowContainer(scene_, this)),
+      stack_(new QStackedLayout(this)) {
+  setObjectName("scene");
+  container_->setObjectName("scene.container");
+  container_->setAccessibleName("Scene");
+  container_->setFocusPolicy(Qt::StrongFocus);
+  container_->setMinimumSize(160, 120);
+  stack_->addWidget(container_);
+  make_reason();
+}
+
+void SceneView::make_reason() {
+  auto* page = new QWidget(this);
+  auto* rows = new QVBoxLayout(page);
+  rows->setSpacing(4 * kGrid);
+  auto* sign = new QLabel(page);
+  sign->setPixmap(icon(Icon::Warning).pixmap(12 * kGrid, 12 * kGrid));
+  reason_ = new QLabel(page);
+  reason_->setObjectName("scene.reason");
+  reason_->setTextFormat(Qt::PlainText);
+  reason_->setWordWrap(true);
+  reason_->setAlignment(Qt::AlignCenter);
+  reason_->setMaximumWidth(120 * kGrid);
+  reason_->setMinimumWidth(40 * kGrid);
+  reason_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* again = new QPushButton("Try Again", page);
+  again->setObjectName("scene.retry");
+  connect(again, &QPushButton::clicked, this, [this] {
+    stack_->setCurrentWidget(container_);
+    scene_->retry();
+  });
+  rows->addStretch();
+  rows->addWidget(sign, 0, Qt::AlignHCenter);
+  rows->addWidget(reason_, 0, Qt::AlignHCenter);
+  rows->addWidget(again, 0, Qt::AlignHCenter);
+  rows->addStretch();
+  stack_->addWidget(page);
+}
+
+void SceneView::tick() {
+  show_cursor();
+  const auto why = scene_->trouble();
+  if (!why) return;
+  reason_->setText(QString::fromStdString(*why) + "\n\nEverything else works meanwhile: nothing is lost.");
+  stack_->setCurrentIndex(1);
+}
+
+void SceneView::show_cursor() {
+  Qt::CursorShape shape = Qt::ArrowCursor;
+  if (tools_.tool() == Tool::Touch) {
+    shape = Qt::BlankCursor;  // the hand is shown in its place
+  } else if (tools_.dragging() || tools_.turning()) {
+    shape = Qt::ClosedHandCursor;
+  } else if (tools_.tool() == Tool::View) {
+    shape = Qt::OpenHandCursor;
+  }
+  if (scene_->cursor().shape() != shape) scene_->setCursor(shape);
+}
+
+void SceneView::take_keyboard() {
+  container_->setFocus(Qt::OtherFocusReason);
+  scene_->requestActivate();
+}
+
+bool SceneView::has_keyboard() const { return QGuiApplication::focusWindow() == scene_; }
+
+}  // namespace icome::ui

@@ -1,0 +1,35 @@
+#pragma once
+#include <QWidget>
+
+#include "ui/scene_window.h"
+
+class QLabel;
+class QStackedLayout;
+
+namespace icome::ui {
+
+/// The scene in the middle of the window or, where it cannot be drawn, the reason and what to do. Session and
+/// tools outlive it.
+class SceneView final : public QWidget {
+ public:
+  SceneView(session::Session& session, SceneTools& tools, QWidget* parent);
+
+  /// Once for each update of the session.
+  void tick();
+  /// The keyboard goes to the scene.
+  void take_keyboard();
+  bool has_keyboard() const;
+  SceneWindow& window_of_scene() { return *scene_; }
+
+ private:
+  void make_reason();
+  void show_cursor();
+
+  SceneTools& tools_;
+  SceneWindow* scene_;  // the container's
+  QWidget* container_;
+  QStackedLayout* stack_;
+  QLabel* reason_ = nullptr;
+};
+
+}  // namespace icome::ui
