@@ -133,8 +133,7 @@ void MainWindow::begin(const std::filesystem::path& design) {
 void MainWindow::tick() {
   tools_.tick();
   for (const session::SessionEvent& event : session_.update()) {
-    files_.hear(event);
-    tell(note_of(event));
+    hear(event);
   }
   scene_->tick();
   edits_.refresh();
@@ -142,6 +141,17 @@ void MainWindow::tick() {
   show_progress();
   show_title();
   show_hint();
+}
+
+void MainWindow::hear(const session::SessionEvent& event) {
+  using Kind = session::SessionEvent::Kind;
+  files_.hear(event);
+  tell(note_of(event));
+  // What came last is seen, and nothing that was said of the one before is of use.
+  if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
+    banner_->forget("edit");
+    session_.home(tools_.aspect());
+  }
 }
 
 void MainWindow::tell_error(const std::string& why) {

@@ -47,6 +47,7 @@ class MainWindow final : public QMainWindow {
   void restore_layout();
 
   void tick();
+  void hear(const session::SessionEvent& event);
   void tell(const Note& note) { banner_->tell(note); }
   void tell_error(const std::string& why);
   void remedy(const Note& note, Note::Remedy remedy);

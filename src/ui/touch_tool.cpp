@@ -38,6 +38,8 @@ void TouchTool::tick() {
   const interaction::View& view = session_.view();
   interaction::MouseHand::Input input;
   input.ray = input_.ray(view);
+  input.distance = view.distance;
+  if (session_.pointers() > 0) input.hand = session_.pointer(0).scp;
   input.view_width = 2.0 * std::tan(0.5 * view.field) * std::max(1.0, input_.aspect());
   if (const auto picked = session_.pick(input.ray)) input.picked = picked->place;
   input.pressure = pressure_;
