@@ -21,7 +21,7 @@ struct InnerPart {
 
 constexpr InnerPart kNoPart{kEndless, -kEndless};
 
-InnerPart both(const InnerPart& a, const InnerPart& b) {
+InnerPart shared_part(const InnerPart& a, const InnerPart& b) {
   return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
@@ -33,7 +33,7 @@ InnerPart joined(const InnerPart& a, const InnerPart& b) {
 }
 
 /// Where a value that starts so and changes by that for each t is in [low, high].
-InnerPart slab(double start, double step, double low, double high) {
+InnerPart within_slab(double start, double step, double low, double high) {
   if (step == 0.0) return start >= low && start <= high ? InnerPart{} : kNoPart;
   const double s = (low - start) / step, t = (high - start) / step;
   return {std::min(s, t), std::max(s, t)};
@@ -49,9 +49,9 @@ InnerPart below_zero(double a, double b, double c, const InnerPart& part) {
   const double one = a == 0.0 ? std::copysign(kEndless, -q * c) : q / a;
   const double other = q == 0.0 ? 0.0 : c / q;
   const double low = std::min(one, other), high = std::max(one, other);
-  if (a > 0.0) return both(part, {low, high});
-  if (a == 0.0) return both(part, b > 0.0 ? InnerPart{-kEndless, other} : InnerPart{other, kEndless});
-  const InnerPart before = both(part, {-kEndless, low}), after = both(part, {high, kEndless});
+  if (a > 0.0) return shared_part(part, {low, high});
+  if (a == 0.0) return shared_part(part, b > 0.0 ? InnerPart{-kEndless, other} : InnerPart{other, kEndless});
+  const InnerPart before = shared_part(part, {-kEndless, low}), after = shared_part(part, {high, kEndless});
   // The other one is the far nappe of a cone, or the tip's rounding.
   return before.last - before.first > after.last - after.first ? before : after;
 }
@@ -67,11 +67,11 @@ class Line {
   const Vector3& start() const { return start_; }
   const Vector3& step() const { return step_; }
 
-  InnerPart operator()(const Plane&) const { return slab(start_.z(), step_.z(), -kEndless, 0.0); }
+  InnerPart operator()(const Plane&) const { return within_slab(start_.z(), step_.z(), -kEndless, 0.0); }
   InnerPart operator()(const Box& box) const {
     InnerPart part;
     for (int axis = 0; axis < 3; ++axis)
-      part = both(part, slab(start_[axis], step_[axis], -box.half[axis], box.half[axis]));
+      part = shared_part(part, within_slab(start_[axis], step_[axis], -box.half[axis], box.half[axis]));
     return part;
   }
   InnerPart operator()(const Sphere& sphere) const { return ball(sphere.radius, 0.0); }
@@ -97,7 +97,9 @@ class Line {
 
  private:
   static double flat(const Vector3& a, const Vector3& b) { return a.head<2>().dot(b.head<2>()); }
-  InnerPart ends(double height) const { return slab(start_.z(), step_.z(), -0.5 * height, 0.5 * height); }
+  InnerPart ends(double height) const {
+    return within_slab(start_.z(), step_.z(), -0.5 * height, 0.5 * height);
+  }
   InnerPart rod(double radius, double height) const {
     return below_zero(flat(step_, step_), flat(start_, step_), flat(start_, start_) - radius * radius,
                       ends(height));

@@ -19,7 +19,7 @@ const std::vector<std::string>& crossed_primitives() {
   return kAll;
 }
 
-Primitive parsed(const std::string& text) { return *parse_primitive(text); }
+Primitive named_primitive(const std::string& text) { return *parse_primitive(text); }
 
 /// The first change of side along the way, by looking at many places of it.
 std::optional<double> sampled_crossing(const Primitive& primitive, const Vector3& start, const Vector3& step,
@@ -40,7 +40,7 @@ std::optional<double> sampled_crossing(const Primitive& primitive, const Vector3
 TEST(PrimitiveCrossing, IsWhereSamplesChangeSides) {
   constexpr int kSamples = 1000;
   for (const std::string& name : crossed_primitives()) {
-    const Primitive primitive = parsed(name);
+    const Primitive primitive = named_primitive(name);
     base::Random random(7);
     int met = 0;
     for (int i = 0; i < 300; ++i) {
@@ -126,7 +126,7 @@ TEST(PrimitiveCrossing, NoWayMeetsNothing) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double endless = std::numeric_limits<double>::infinity();
   for (const std::string& name : crossed_primitives()) {
-    const Primitive primitive = parsed(name);
+    const Primitive primitive = named_primitive(name);
     EXPECT_FALSE(first_crossing(primitive, Vector3::Zero(), Vector3::Zero())) << name;
     EXPECT_FALSE(first_crossing(primitive, Vector3(none, 0, 0), Vector3(1, 0, 0))) << name;
     EXPECT_FALSE(first_crossing(primitive, Vector3(0, 0, 0.1), Vector3(endless, 0, 0))) << name;
