@@ -14,9 +14,14 @@ build:  ## the program, build/release/bin/icome
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS) --target icome
 
-run: build  ## touch the Stanford bunny, see touch.png
+run: build  ## open the demo in the window; without a display, draw it to demo.png
 	tools/install-packages run
-	$(PROGRAM) touch /usr/share/glmark2/models/bunny.obj --up y --fit 0.1 --seconds 5 --picture touch.png
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then \
+	  echo "$(PROGRAM) data/demo.wrl" && $(PROGRAM) data/demo.wrl; \
+	else \
+	  $(PROGRAM) shot data/demo.wrl demo.png && \
+	  echo "There is no display for the window (DISPLAY is not set), so demo.png shows the demo design."; \
+	fi
 
 # Quick checks first, so that a slip is told early; the release tests last, so that their total ends the log.
 test:  ## every check: layout, names, layers, unit and program tests, sanitizers
@@ -41,4 +46,4 @@ format:  ## lay out every C++ file
 	tools/check-format --fix
 
 clean:  ## remove what was built
-	rm -rf build touch.png
+	rm -rf build demo.png

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "apps/desktop_command.h"
 #include "apps/help_text.h"
 #include "base/version.h"
 
@@ -23,6 +24,7 @@ struct Entries {
   ShotOptions shot;
   std::string shot_size;
   std::string shot_background;
+  DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
   std::string sides;
@@ -189,6 +191,13 @@ void add_shot_options(CLI::App& shot, Entries& entries) {
   shot.add_flag("--json", options.json, "Print what was drawn as JSON (fields below)");
 }
 
+void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
+  app.add_option("DESIGN", options.design, kDesktopDesignHelp)->type_name("");
+  app.add_option("--theme", options.theme, kThemeHelp)
+      ->type_name("dark|light")
+      ->check(CLI::IsMember({"dark", "light"}));
+}
+
 base::Result<ShotOptions> understood_shot(const Entries& entries) {
   ShotOptions options = entries.shot;
   if (!entries.shot_size.empty()) {
@@ -249,6 +258,17 @@ CommandLine bad_usage(const std::string& sentence, const std::string& help) {
   return command_line;
 }
 
+/// Beside a command there is no window.
+base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptions& options,
+                                                       const CLI::App& app) {
+  if (app.get_subcommands().empty()) return options;
+  if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");
+  if (!options.design.empty())
+    return base::fail(
+        fmt::format("a command comes first, and its files after it: not \"{}\".", options.design.string()));
+  return options;
+}
+
 /// The subcommand that the first word names; null when it names none.
 const CLI::App* named_subcommand(const CLI::App& app, int argc, char** argv) {
   const auto named =
@@ -263,9 +283,10 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.footer(kProgramExamples);
   app.set_version_flag("--version", std::string("icome ") + base::kVersion, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
+  Entries entries;
+  add_desktop_options(app, entries.desktop);
   CLI::App& touch = *app.add_subcommand("touch", kTouchSummary);
   touch.footer(kTouchExamples);
-  Entries entries;
   add_model_options(touch, entries);
   add_exact_options(touch, entries);
   add_feel_options(touch, entries);
@@ -285,8 +306,8 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_shot_options(shot, entries);
   const CLI::App* const named = named_subcommand(app, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
-  if (argc > 1 && argv[1][0] != '-' && named == nullptr)
-    return bad_usage(fmt::format("there is no command \"{}\".", argv[1]), "icome --help");
+  if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
+    return bad_usage(fmt::format("there is no command and no file \"{}\".", argv[1]), "icome --help");
   const std::string help = named != nullptr ? "icome " + named->get_name() + " --help" : "icome --help";
   CommandLine command_line;
   try {
@@ -297,6 +318,8 @@ CommandLine parse_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return bad_usage(error.what(), help);
   }
+  const auto desktop = understood_desktop(entries.desktop, app);
+  if (!desktop) return bad_usage(desktop.error().message, help);
   if (touch.parsed()) {
     auto options = understood(std::move(entries));
     if (!options) return bad_usage(options.error().message, help);
@@ -314,7 +337,7 @@ CommandLine parse_command_line(int argc, char** argv) {
     if (!options) return bad_usage(options.error().message, help);
     command_line.shot = std::move(*options);
   } else {
-    fmt::print("{}", app.help());
+    command_line.desktop = *desktop;
   }
   return command_line;
 }

@@ -3,6 +3,7 @@
 
 #include "apps/csg_options.h"
 #include "apps/design_options.h"
+#include "apps/desktop_options.h"
 #include "apps/shot_options.h"
 #include "apps/touch_options.h"
 
@@ -10,12 +11,13 @@ namespace icome::apps {
 
 /// What the command line asks for.
 struct CommandLine {
-  // The subcommand that is to run.
+  // The subcommand that is to run, or the window that is to open.
   std::optional<TouchOptions> touch;
   std::optional<CsgOptions> csg;
   std::optional<InfoOptions> info;
   std::optional<ConvertOptions> convert;
   std::optional<ShotOptions> shot;
+  std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // what to return when none is: help and version were printed, or an error
 };
 

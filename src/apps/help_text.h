@@ -6,10 +6,19 @@ namespace icome::apps {
 
 constexpr const char* kProgramHelp =
     "ICOME makes models touchable: a servo loop computes, a thousand times a second and more, the force\n"
-    "that a force-feedback device must give so that a model feels solid.";
+    "that a force-feedback device must give so that a model feels solid. Without a command it opens its\n"
+    "window, in which designs are seen, touched and changed; the mouse touches where there is no device.";
+
+constexpr const char* kDesktopDesignHelp =
+    "A design to open in the window (see icome info --help for its types)";
+
+constexpr const char* kThemeHelp =
+    "Colours of the window (default: as chosen in it before, else the system's)";
 
 constexpr const char* kProgramExamples =
     "Examples:\n"
+    "  icome                                       the window, with what was left unsaved, or empty\n"
+    "  icome house.wrl                             the window, with a design\n"
     "  icome touch sphere:0.05                     a simulated hand explores a sphere for 5 s\n"
     "  icome touch bunny.obj --up y --fit 0.1 --picture touch.png\n"
     "                                              a scan, 0.1 m large, and a picture of the touch\n"
@@ -20,6 +29,8 @@ constexpr const char* kProgramExamples =
     "  icome info house.glb                        what is in a design: its objects, shapes and materials\n"
     "  icome convert part.ply part.obj             the same design in another format\n"
     "  icome shot house.wrl house.png --view iso   a picture of a design\n"
+    "\n"
+    "The window needs a display. Without one, icome touch touches a design and icome shot draws it.\n"
     "\n"
     "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
     "icome convert --help about designs, icome shot --help about pictures.";

@@ -7,6 +7,7 @@
 #include "apps/command_line.h"
 #include "apps/convert_command.h"
 #include "apps/csg_command.h"
+#include "apps/desktop_command.h"
 #include "apps/info_command.h"
 #include "apps/shot_command.h"
 #include "apps/touch_command.h"
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
     if (command_line.info) return icome::apps::run_info(*command_line.info);
     if (command_line.convert) return icome::apps::run_convert(*command_line.convert);
     if (command_line.shot) return icome::apps::run_shot(*command_line.shot);
+    if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,

@@ -8,6 +8,11 @@ class UsageTest(ProgramTest):
     def test_unknown_command(self):
         self.fails("feel", code=2, saying='"feel"')
 
+    def test_the_window_has_no_commands_beside_it(self):
+        self.fails("--theme", "dark", "touch", "sphere:0.05", code=2, saying="--theme")
+        self.fails("room.wrl", "touch", "sphere:0.05", code=2, saying="room.wrl")
+        self.fails("--theme", "purple", code=2, saying="--theme")
+
     def test_unknown_option(self):
         self.fails("touch", "sphere:0.05", "--bogus", code=2, saying="--bogus")
 

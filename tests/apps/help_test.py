@@ -11,8 +11,11 @@ class HelpTest(ProgramTest):
         self.assertRegex(text, r"\n  touch +\S")
         self.assertGreaterEqual(len(re.findall(r"^  icome touch ", text, re.M)), 3)
 
-    def test_without_arguments_the_help_is_printed(self):
-        self.assertEqual(self.succeeds().stdout, self.succeeds("--help").stdout)
+    def test_help_tells_of_the_window(self):
+        text = self.succeeds("--help").stdout
+        self.assertIn("window", text)
+        self.assertIn("--theme", text)
+        self.assertRegex(text, r"(?m)^  icome +the window")
 
     def test_touch_help_tells_every_option_the_units_and_the_formats(self):
         text = self.succeeds("touch", "--help").stdout

@@ -1,0 +1,266 @@
+"""Runs the desktop on a display in memory, with a window manager, and gives it hands and eyes.
+
+Nothing waits by the clock: each step waits until what it is for can be seen, for a minute and a half at most."""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from icome_program import PROGRAM
+from screen_picture import Picture
+from x_windows import Windows
+
+PATIENCE = 90.0  # s, on a machine that is busy with other things
+NEEDED = ("Xvfb", "openbox", "xdotool")
+
+
+def wait_for(what, condition, patience=PATIENCE):
+    """Asks until the answer is something true, and gives it."""
+    end = time.monotonic() + patience
+    while True:
+        answer = condition()
+        if answer:
+            return answer
+        if time.monotonic() > end:
+            raise AssertionError(f"waited {patience:.0f} s in vain: {what}")
+        time.sleep(0.05)
+
+
+class Screen:
+    """An X display in memory."""
+
+    def __init__(self, width, height):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="icome-screen-"))
+        read, write = os.pipe()
+        self._server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(self.folder),
+             "-nolisten", "tcp", "-noreset"], pass_fds=(write,), stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as line:
+            number = line.readline().strip()
+        if not number:
+            raise AssertionError("Xvfb did not start")
+        self.display = ":" + number
+        self.environment = dict(os.environ, DISPLAY=self.display)
+        self.environment.pop("WAYLAND_DISPLAY", None)
+        home = self.folder / "manager"
+        home.mkdir()
+        self._manager = subprocess.Popen(["openbox", "--sm-disable"], stderr=subprocess.DEVNULL,
+                                         env=dict(self.environment, HOME=str(home)))
+        wait_for("the window manager", lambda: self.ask("get_num_desktops", may_fail=True))
+        self.windows = Windows(self.display)
+
+    def close(self):
+        self.windows.close()
+        for process in (self._manager, self._server):
+            process.terminate()
+            process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def ask(self, *words, may_fail=False):
+        done = subprocess.run(["xdotool", *map(str, words)], capture_output=True, text=True, env=self.environment)
+        if done.returncode != 0 and not may_fail:
+            raise AssertionError(f"xdotool {words}: {done.stderr}")
+        return done.stdout.strip() if done.returncode == 0 else ""
+
+    def picture(self):
+        return Picture.of_xwd((self.folder / "Xvfb_screen0").read_bytes())
+
+
+class Desktop:
+    """The program with its window. Its home is a folder of the test's own."""
+
+    def __init__(self, screen, home, *arguments, environment=None, before=()):
+        self.screen = screen
+        mine = {"HOME": home, "XDG_CONFIG_HOME": home / "config", "XDG_DATA_HOME": home / "data",
+                "XDG_CACHE_HOME": home / "cache", "XDG_STATE_HOME": home / "state", "XDG_RUNTIME_DIR": home / "run",
+                "LIBGL_ALWAYS_SOFTWARE": "1", "DBUS_SESSION_BUS_ADDRESS": "disabled:", "QT_QPA_PLATFORM": "xcb"}
+        (home / "run").mkdir(parents=True, exist_ok=True, mode=0o700)
+        self.log = home / "log.txt"
+        with self.log.open("ab") as log:
+            self.process = subprocess.Popen(
+                [*before, PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                env={**screen.environment, **{k: str(v) for k, v in mine.items()}, **(environment or {})})
+        self.window = None
+
+    # Where things are.
+
+    def said(self):
+        return self.log.read_text(errors="replace")
+
+    def is_running(self):
+        return self.process.poll() is None
+
+    def find_window(self, title="ICOME"):
+        """Waits for the window with that in its title."""
+        def look():
+            if not self.is_running():
+                raise AssertionError(f"the program ended with {self.process.returncode}: {self.said()}")
+            found = self.screen.ask("search", "--onlyvisible", "--name", title, may_fail=True)
+            return found.split()[-1] if found else None
+        return int(wait_for(f"a window called {title}", look))
+
+    def open(self):
+        self.window = self.find_window()
+        self.screen.ask("windowactivate", "--sync", self.window)
+        return self
+
+    def title(self):
+        return self.screen.ask("getwindowname", self.window, may_fail=True)
+
+    def wait_title(self, pattern):
+        """Waits for a title that the pattern fits; the design is there then."""
+        return wait_for(f"a title like {pattern} (it is {self.title()!r})",
+                        lambda: re.search(pattern, self.title()))
+
+    def place(self):
+        return self.screen.windows.place(self.window)
+
+    def scene_place(self):
+        """Where the scene is on the screen: the largest window within the window."""
+        def look():
+            windows = self.screen.windows
+            inner = [windows.place(it) for it in windows.below(self.window)[1:]]
+            inner = [it for it in inner if it and it[2] > 100 and it[3] > 100]
+            return max(inner, key=lambda it: it[2] * it[3], default=None)
+        return wait_for("the scene", look)
+
+    def scene(self):
+        return self.screen.picture().part(*self.scene_place())
+
+    def whole(self):
+        return self.screen.picture().part(*self.place())
+
+    def wait_scene(self, what, condition):
+        """Waits for a picture of the scene of which the condition holds, and gives the picture."""
+        def look():
+            picture = self.scene()
+            return picture if condition(picture) else None
+        return wait_for(what, look)
+
+    def settled_scene(self):
+        """The scene when it changes no more."""
+        last = [self.scene()]
+
+        def look():
+            picture = self.scene()
+            same = picture.planes == last[0].planes
+            last[0] = picture
+            return same and picture
+        for _ in range(3):
+            picture = wait_for("a scene at rest", look)
+        return picture
+
+    # Hands.
+
+    def key(self, *keys):
+        for key in keys:
+            self.screen.ask("key", "--clearmodifiers", key)
+
+    def type(self, text):
+        self.screen.ask("type", "--clearmodifiers", "--delay", "5", text)
+
+    def _at(self, place):
+        left, top, _, _ = self.scene_place()
+        return round(left + place[0]), round(top + place[1])
+
+    def point(self, place):
+        """Moves the mouse to a place in the scene."""
+        self.screen.ask("mousemove", "--sync", *self._at(place))
+
+    def press(self, place, button=1):
+        self.screen.ask("mousemove", *self._at(place), "mousedown", button)
+
+    def release(self, button=1):
+        self.screen.ask("mouseup", button)
+
+    def click(self, place, button=1):
+        self.screen.ask("mousemove", *self._at(place), "click", button)
+
+    def drag(self, begin, end, button=1, steps=8):
+        self.press(begin, button)
+        for i in range(1, steps + 1):
+            self.screen.ask("mousemove", *self._at([a + (b - a) * i / steps for a, b in zip(begin, end)]))
+        self.release(button)
+
+    # How it ends.
+
+    def quit(self):
+        """As the cross in the title bar does."""
+        self.screen.windows.ask_to_close(self.window)
+
+    def wait_end(self, patience=PATIENCE):
+        wait_for("the end of the program", lambda: not self.is_running(), patience)
+        return self.process.returncode
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+
+
+class DesktopTest(unittest.TestCase):
+    """Tests on one screen that they share, each with a folder of its own."""
+
+    SIZE = (1280, 800)
+    PICTURES = os.environ.get("ICOME_DESKTOP_PICTURES")  # a folder to keep screenshots in
+
+    @classmethod
+    def setUpClass(cls):
+        missing = [it for it in NEEDED if shutil.which(it) is None]
+        if missing:
+            raise unittest.SkipTest(f"{', '.join(missing)} not there: tools/install-packages test")
+        cls.screen = Screen(*cls.SIZE)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.screen.close()
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="icome-", ignore_cleanup_errors=True)
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.home = self.folder / "home"
+        self.home.mkdir()
+
+    def start(self, *arguments, **options):
+        desktop = Desktop(self.screen, self.home, *arguments, **options)
+        self.addCleanup(lambda: desktop.is_running() and desktop.kill())
+        return desktop
+
+    def keep(self, desktop, name):
+        """Keeps a screenshot for people to look at."""
+        if self.PICTURES:
+            pathlib.Path(self.PICTURES).mkdir(parents=True, exist_ok=True)
+            desktop.screen.picture().save(pathlib.Path(self.PICTURES) / f"{name}.png")
+
+
+# What the things of the demo design look like, in any light that it is seen in.
+
+def is_clay(red, green, blue):
+    return red > 150 and green < 0.78 * red and blue < 0.68 * red and blue > 50
+
+
+def is_rubber(red, green, blue):
+    return green > 55 and green > 1.6 * red and blue > 1.4 * red and blue < 1.25 * green
+
+
+def is_water(red, green, blue):
+    return blue > 90 and blue > 1.3 * green and blue > 2.2 * red
+
+
+DEMO = pathlib.Path(__file__).resolve().parents[2] / "data" / "demo.wrl"
+BANNER_MARKS = {"error": ((0xff, 0x6b, 0x61), (0xd1, 0x2f, 0x2a)), "news": ((0xff, 0x96, 0x2b), (0xd9, 0x6a, 0x00)),
+                "warning": ((0xf2, 0xc1, 0x4b), (0xb0, 0x78, 0x00))}
+
+
+def shows_banner(desktop, kind):
+    """Is there a message of this kind above the scene? It has a coloured edge, in one of the themes' colours."""
+    left, top, _, _ = desktop.scene_place()
+    at = desktop.place()
+    strip = desktop.screen.picture().part(left, at[1], 12, max(1, top - at[1]))
+    return any(strip.longest_column(colour) >= 16 for colour in BANNER_MARKS[kind])
