@@ -1,10 +1,22 @@
 #include "apps/desktop_command.h"
 
 #include <filesystem>
+#include <utility>
 
+#include "devices/spacemouse/space_mouse.h"
 #include "ui/desktop.h"
 
 namespace icome::apps {
+namespace {
+
+/// A 3D mouse may be plugged in at any time. Where there is no force-feedback device, the mouse is the hand.
+session::SessionSettings desktop_settings() {
+  session::SessionSettings settings;
+  if (auto mouse = devices::SpaceMouse::create({.wait = true})) settings.navigation = std::move(*mouse);
+  return settings;
+}
+
+}  // namespace
 
 bool is_design_name(const std::string& word) {
   std::error_code error;
@@ -15,7 +27,7 @@ int run_desktop_window(int argc, char** argv, const DesktopCommandOptions& optio
   ui::DesktopOptions wanted;
   wanted.design = options.design;
   wanted.theme = options.theme;
-  return ui::run_desktop(argc, argv, wanted, session::SessionSettings{});
+  return ui::run_desktop(argc, argv, wanted, desktop_settings());
 }
 
 }  // namespace icome::apps

@@ -229,8 +229,13 @@ class DesktopTest(unittest.TestCase):
 
     def start(self, *arguments, **options):
         desktop = Desktop(self.screen, self.home, *arguments, **options)
-        self.addCleanup(lambda: desktop.is_running() and desktop.kill())
+        self.addCleanup(self.clear_away, desktop)
         return desktop
+
+    def clear_away(self, desktop):
+        if desktop.is_running():
+            self.keep(desktop, "last-of-" + self.id().rsplit(".", maxsplit=1)[-1])
+            desktop.kill()
 
     def keep(self, desktop, name):
         """Keeps a screenshot for people to look at."""
