@@ -9,7 +9,7 @@
 namespace icome::files {
 namespace {
 
-constexpr std::size_t kMostUrls = 20;      // that are tried for a mesh
+constexpr std::size_t kMostMeshUrls = 20;  // that are tried for a mesh
 constexpr std::size_t kMostFiles = 1000;   // of a design
 constexpr std::size_t kLongestName = 100;  // of a package
 constexpr double kSmallestUnit = 1e-9, kLargestUnit = 1e6;
@@ -34,7 +34,7 @@ world::GeometryPointer VrmlMeshes::shape_of(const VrmlMeshNode& node) {
   if (!std::isfinite(node.unit) || node.unit < kSmallestUnit || node.unit > kLargestUnit) {
     why = fmt::format("its unit is not from {:g} to {:g} metres", kSmallestUnit, kLargestUnit);
   } else {
-    for (std::size_t i = 0; i < node.urls.size() && i < kMostUrls; ++i) {
+    for (std::size_t i = 0; i < node.urls.size() && i < kMostMeshUrls; ++i) {
       auto shape = fetch(node, node.urls[i]);
       if (shape) return *shape;
       // What the first url says is most likely what its author meant.
