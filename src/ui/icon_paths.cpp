@@ -66,11 +66,21 @@ IconPaths folder() {
   return it;
 }
 
+/// A disk.
 IconPaths save() {
   IconPaths it;
-  add_line(it.ink, {{10.0, 2.5}, {10.0, 12.0}});
-  add_line(it.ink, {{6.0, 8.2}, {10.0, 12.2}, {14.0, 8.2}});
-  add_line(it.accent, {{3.0, 12.5}, {3.0, 16.5}, {4.0, 17.5}, {16.0, 17.5}, {17.0, 16.5}, {17.0, 12.5}});
+  add_line(it.ink,
+           {{3.5, 2.5},
+            {14.0, 2.5},
+            {17.5, 6.0},
+            {17.5, 16.5},
+            {16.5, 17.5},
+            {3.5, 17.5},
+            {2.5, 16.5},
+            {2.5, 3.5}},
+           true);
+  add_line(it.ink, {{6.0, 2.5}, {6.0, 7.0}, {13.0, 7.0}, {13.0, 2.5}});
+  add_line(it.accent, {{5.5, 17.5}, {5.5, 11.5}, {14.5, 11.5}, {14.5, 17.5}});
   return it;
 }
 
@@ -102,7 +112,6 @@ IconPaths touch() {
   it.ink.lineTo(6.6, 9.4);
   it.ink.arcTo(QRectF(6.6, 6.8, 5.4, 5.4), 180.0, 180.0);
   it.ink.lineTo(12.0, 2.0);
-  add_arc(it.ink, {9.3, 9.6}, 1.3, 1.5, 25.0, 130.0);
   it.accent.moveTo(1.5, 12.0);
   it.accent.cubicTo(5.0, 12.0, 5.6, 14.8, 9.3, 14.8);
   it.accent.cubicTo(13.0, 14.8, 13.6, 12.0, 18.5, 12.0);
@@ -269,10 +278,12 @@ IconPaths cone() {
 
 IconPaths torus() {
   IconPaths it;
-  add_oval(it.ink, {10.0, 10.0}, 8.0, 5.5);
-  add_oval(it.wash, {10.0, 10.0}, 8.0, 5.5);
-  add_arc(it.ink, {10.0, 8.2}, 4.2, 2.6, 195.0, 150.0);
-  add_arc(it.ink, {10.0, 11.2}, 3.4, 2.0, 20.0, 140.0);
+  add_oval(it.ink, {10.0, 10.0}, 8.0, 5.8);
+  add_oval(it.ink, {10.0, 9.2}, 3.2, 1.6);
+  add_oval(it.wash, {10.0, 10.0}, 8.0, 5.8);
+  QPainterPath hole;
+  add_oval(hole, {10.0, 9.2}, 3.2, 1.6);
+  it.wash = it.wash.subtracted(hole);
   return it;
 }
 

@@ -13,6 +13,9 @@ class PropertyPanel final : public QWidget {
   PropertyPanel(session::Session& session, QWidget* parent);
   ~PropertyPanel() override;
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

@@ -172,7 +172,7 @@ QWidget* StatusStrip::Parts::build_device(QWidget* strip) {
 
 QWidget* StatusStrip::Parts::build_servo(QWidget* strip) {
   auto* block = new QWidget(strip);
-  block->setFixedWidth(40 * kGrid);
+  block->setFixedWidth(46 * kGrid);
   auto* grid = new QGridLayout(block);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(kGrid);

@@ -28,10 +28,12 @@ void draw_panel(QPainter& painter, const QRect& rect, const QColor& fill, const 
   painter.restore();
 }
 
-/// What one types into: the focus shows as an edge in the accent's colour.
-void draw_field(QPainter& painter, const QStyleOption& option) {
+/// What one types into: the focus shows as an edge in the accent's colour, a refused value as a red one.
+void draw_field(QPainter& painter, const QStyleOption& option, const QWidget* widget) {
   const ThemeColours& theme = colours();
   const bool focus = enabled(option) && (option.state & QStyle::State_HasFocus);
+  if (widget && widget->property("refused").toBool())
+    return draw_panel(painter, option.rect, option.palette.color(QPalette::Base), theme.bad, 1.5);
   const QColor edge = focus ? theme.accent : under_mouse(option) ? theme.faint : theme.line;
   draw_panel(painter, option.rect, option.palette.color(QPalette::Base), edge, focus ? 1.5 : 1.0);
 }
@@ -94,7 +96,7 @@ void draw_check(QPainter& painter, const QStyleOption& option, bool round) {
 
 void draw_combo_box(QPainter& painter, const QStyleOptionComboBox& option) {
   if (option.editable) {
-    draw_field(painter, option);
+    draw_field(painter, option, nullptr);
   } else {
     draw_button(painter, option, !option.frame);
     if (option.state & QStyle::State_HasFocus)
@@ -141,11 +143,11 @@ void DesktopStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* o
   switch (element) {
     case PE_PanelLineEdit: {
       const auto* frame = qstyleoption_cast<const QStyleOptionFrame*>(option);
-      if (frame && frame->lineWidth > 0) draw_field(*painter, *option);
+      if (frame && frame->lineWidth > 0) draw_field(*painter, *option, widget);
       return;
     }
     case PE_FrameLineEdit:
-      return draw_field(*painter, *option);
+      return draw_field(*painter, *option, widget);
     case PE_PanelButtonCommand: {
       const auto* button = qstyleoption_cast<const QStyleOptionButton*>(option);
       draw_button(*painter, *option, button && (button->features & QStyleOptionButton::Flat));
@@ -197,7 +199,7 @@ void DesktopStyle::drawComplexControl(ComplexControl control, const QStyleOption
     return draw_scroll_bar(*painter, *bar, subControlRect(control, option, SC_ScrollBarSlider, widget));
   if (const auto* box = qstyleoption_cast<const QStyleOptionSpinBox*>(option);
       box && control == CC_SpinBox && box->buttonSymbols == QAbstractSpinBox::NoButtons) {
-    if (box->frame) draw_field(*painter, *option);
+    if (box->frame) draw_field(*painter, *option, widget);
     return;
   }
   QProxyStyle::drawComplexControl(control, option, painter, widget);

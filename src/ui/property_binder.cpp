@@ -1,0 +1,245 @@
+#include "ui/property_binder.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QWheelEvent>
+
+#include "ui/colour_button.h"
+#include "ui/object_look.h"
+#include "ui/text_field.h"
+
+namespace icome::ui {
+
+using base::Result;
+using world::ObjectId;
+
+namespace {
+
+QString noun_of(PropertyBinder::Of of) {
+  switch (of) {
+    case PropertyBinder::Of::Shapes:
+      return "shapes";
+    case PropertyBinder::Of::Materials:
+      return "materials";
+    case PropertyBinder::Of::Lights:
+      return "lights";
+    case PropertyBinder::Of::Viewpoints:
+      return "viewpoints";
+    case PropertyBinder::Of::Objects:
+      break;
+  }
+  return "objects";
+}
+
+/// Those that are told to a note beside the field.
+auto told_to(const PanelSection& section) {
+  return [&note = section.note()](const QString& why) { note.say(why); };
+}
+
+/// Wheels scroll the panel, and do not change what they happen to be over.
+class QuietComboBox final : public QComboBox {
+ public:
+  explicit QuietComboBox(QWidget* parent) : QComboBox(parent) {
+    setFocusPolicy(Qt::StrongFocus);
+    setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    setMinimumContentsLength(6);
+  }
+
+ protected:
+  void wheelEvent(QWheelEvent* event) override {
+    hasFocus() ? QComboBox::wheelEvent(event) : event->ignore();
+  }
+};
+
+}  // namespace
+
+const std::vector<ObjectId>& PropertyBinder::list(Of of) const {
+  switch (of) {
+    case Of::Shapes:
+      return subjects_.shapes;
+    case Of::Materials:
+      return subjects_.materials;
+    case Of::Lights:
+      return subjects_.lights;
+    case Of::Viewpoints:
+      return subjects_.viewpoints;
+    case Of::Objects:
+      break;
+  }
+  return subjects_.objects;
+}
+
+std::string PropertyBinder::action(const QString& verb, Of of) const {
+  const std::vector<ObjectId>& all = list(of);
+  if (all.size() != 1) return QString("%1 %2 %3").arg(verb).arg(all.size()).arg(noun_of(of)).toStdString();
+  const world::World& world = session_.world();
+  const QString name = of == Of::Materials ? shown_name(world, world.find(all.front())->material)
+                                           : shown_name(world, all.front());
+  return QString("%1 %2").arg(verb, name).toStdString();
+}
+
+void PropertyBinder::refresh() {
+  subjects_ = subjects_of(session_.world(), session_.selection());
+  for (const auto& refresher : refreshers_) refresher();
+}
+
+template <typename Value>
+Result<void> PropertyBinder::set(const void* control, const Row& row, const Property<Value>& property,
+                                 const Value& value, bool more) {
+  subjects_ = subjects_of(session_.world(), session_.selection());  // never an older one
+  const std::vector<ObjectId>& objects = list(row.of);
+  const Common<Value> now = common(session_.world(), objects, property);
+  if (!now.shared_by_all) return base::fail("What is selected now has no such value.");
+  if (now.value && *now.value == value) return {};
+  const auto edit = edit_all(session_.world(), objects, property, value);
+  if (!edit) return tl::unexpected(edit.error());
+  return perform(control, *edit, action(row.verb, row.of), more);
+}
+
+QuantityField* PropertyBinder::number_field(PanelSection& section, const Row& row, Quantity quantity,
+                                            const Property<double>& property) {
+  auto* field = new QuantityField(quantity, section.body());
+  field->on_refusal(told_to(section));
+  field->on_commit([this, field, row, property](std::optional<double> value, bool more) -> Result<void> {
+    return value ? set(field, row, property, *value, more) : Result<void>();
+  });
+  return field;
+}
+
+void PropertyBinder::number(PanelSection& section, const Row& row, Quantity quantity,
+                            const Property<double>& property) {
+  QuantityField* field = number_field(section, row, quantity, property);
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {field});
+  follow([this, field, shown, row, property] {
+    const Common<double> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    now.value || !now.shared_by_all ? field->show_value(now.value) : field->show_mixed();
+  });
+}
+
+void PropertyBinder::triple(PanelSection& section, const Row& row, Quantity quantity,
+                            const std::array<Property<double>, 3>& properties) {
+  std::vector<QWidget*> widgets;
+  std::array<QuantityField*, 3> fields{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    fields[axis] = number_field(section, row, quantity, properties[axis]);
+    fields[axis]->setAccessibleName(QString("%1 %2").arg(row.label, QChar("xyz"[axis])));
+    widgets.push_back(fields[axis]);
+  }
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, widgets);
+  follow([this, fields, shown, row, properties] {
+    bool any = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Common<double> now = common(session_.world(), list(row.of), properties[axis]);
+      now.value || !now.shared_by_all ? fields[axis]->show_value(now.value) : fields[axis]->show_mixed();
+      fields[axis]->setEnabled(now.shared_by_all);
+      any = any || now.shared_by_all;
+    }
+    shown.set_visible(any);
+  });
+}
+
+void PropertyBinder::maybe_number(PanelSection& section, const Row& row, Quantity quantity,
+                                  const Property<std::optional<double>>& property, const QString& none) {
+  auto* field = new QuantityField(quantity, section.body());
+  field->allow_none(none);
+  field->on_refusal(told_to(section));
+  field->on_commit([this, field, row, property](std::optional<double> value, bool more) {
+    return set(field, row, property, value, more);
+  });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {field});
+  follow([this, field, shown, row, property] {
+    const Common<std::optional<double>> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    now.value || !now.shared_by_all ? field->show_value(now.value.value_or(std::nullopt))
+                                    : field->show_mixed();
+  });
+}
+
+void PropertyBinder::text(PanelSection& section, const Row& row, const Property<std::string>& property) {
+  auto* field = new TextField(section.body());
+  field->on_refusal(told_to(section));
+  field->on_commit(
+      [this, field, row, property](const std::string& text) { return set(field, row, property, text); });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {field});
+  follow([this, field, shown, row, property] {
+    const Common<std::string> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    field->show_text(now.value);
+  });
+}
+
+void PropertyBinder::colour(PanelSection& section, const Row& row, const Property<world::Colour>& property) {
+  auto* button = new ColourButton(row.label, section.body());
+  const auto told = told_to(section);
+  button->on_choice([this, button, row, property, told](const world::Colour& colour) {
+    const auto done = set(button, row, property, colour);
+    told(done ? QString() : QString::fromStdString(done.error().message));
+  });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {button});
+  follow([this, button, shown, row, property] {
+    const Common<world::Colour> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    button->show_colour(now.value);
+  });
+}
+
+void PropertyBinder::check(PanelSection& section, const Row& row, const Property<bool>& property) {
+  auto* box = new QCheckBox(section.body());
+  const auto told = told_to(section);
+  QObject::connect(box, &QCheckBox::clicked, box, [this, box, row, property, told](bool on) {
+    box->setTristate(false);
+    const auto done = set(box, row, property, on);
+    told(done ? QString() : QString::fromStdString(done.error().message));
+  });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {box});
+  follow([this, box, shown, row, property] {
+    const Common<bool> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    box->setTristate(!now.value);
+    box->setCheckState(!now.value ? Qt::PartiallyChecked : *now.value ? Qt::Checked : Qt::Unchecked);
+  });
+}
+
+void PropertyBinder::choice(PanelSection& section, const Row& row, const Property<int>& property,
+                            const QStringList& items) {
+  auto* box = new QuietComboBox(section.body());
+  box->addItems(items);
+  box->setPlaceholderText("mixed");
+  const auto told = told_to(section);
+  QObject::connect(box, &QComboBox::activated, box, [this, box, row, property, told](int chosen) {
+    const auto done = set(box, row, property, chosen);
+    told(done ? QString() : QString::fromStdString(done.error().message));
+  });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {box});
+  follow([this, box, shown, row, property] {
+    const Common<int> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    box->setCurrentIndex(now.value.value_or(-1));
+  });
+}
+
+void PropertyBinder::text_choice(PanelSection& section, const Row& row, const Property<std::string>& property,
+                                 const std::vector<std::string>& texts, const QStringList& items) {
+  auto* box = new QuietComboBox(section.body());
+  box->setPlaceholderText("mixed");
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    box->addItem(items[qsizetype(i)], QString::fromStdString(texts[i]));
+  const auto told = told_to(section);
+  QObject::connect(box, &QComboBox::activated, box, [this, box, row, property, told](int chosen) {
+    const auto done = set(box, row, property, box->itemData(chosen).toString().toStdString());
+    told(done ? QString() : QString::fromStdString(done.error().message));
+  });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {box});
+  const int known = box->count();
+  follow([this, box, shown, row, property, known] {
+    const Common<std::string> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    while (box->count() > known) box->removeItem(box->count() - 1);
+    const QString text = QString::fromStdString(now.value.value_or(""));
+    if (now.value && box->findData(text) < 0) box->addItem(one_line(*now.value) + " (not known)", text);
+    box->setCurrentIndex(now.value ? box->findData(text) : -1);
+  });
+}
+
+}  // namespace icome::ui

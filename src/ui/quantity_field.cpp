@@ -1,0 +1,148 @@
+#include "ui/quantity_field.h"
+
+#include <QKeyEvent>
+#include <QStyle>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "ui/theme.h"
+
+namespace icome::ui {
+
+QuantityField::QuantityField(Quantity quantity, QWidget* parent) : QLineEdit(parent), quantity_(quantity) {
+  setAlignment(Qt::AlignRight);
+  setMinimumWidth(12 * kGrid);
+  setTextMargins(2, 0, 2, 0);
+  connect(this, &QLineEdit::textEdited, this, [this] {
+    edited_ = true;
+    mark(false);
+  });
+}
+
+void QuantityField::allow_none(const QString& meaning) {
+  none_ = meaning;
+  setPlaceholderText(meaning);
+}
+
+void QuantityField::show_value(std::optional<double> value) {
+  value_ = value;
+  mixed_ = false;
+  if (edited_ && hasFocus()) return;  // what is being typed is not taken away
+  restore();
+}
+
+void QuantityField::show_mixed() {
+  mixed_ = true;
+  value_.reset();
+  if (edited_ && hasFocus()) return;
+  restore();
+}
+
+void QuantityField::restore() {
+  edited_ = false;
+  mark(false);
+  setPlaceholderText(mixed_ ? QString("mixed") : none_.value_or(QString()));
+  const QString text = value_ ? number_text(*value_, quantity_) : QString();
+  if (text == this->text()) return;
+  setText(text);
+  setCursorPosition(0);
+  if (hasFocus()) selectAll();
+}
+
+void QuantityField::mark(bool refused) {
+  if (property("refused").toBool() == refused) return;
+  setProperty("refused", refused);
+  update();
+}
+
+void QuantityField::commit_text() {
+  if (!edited_) return;
+  stepping_ = false;
+  const QString typed = text().simplified();
+  if (typed.isEmpty() && (mixed_ || !none_)) return restore();
+  if (typed.isEmpty()) return commit(std::nullopt, false);
+  const auto value = read_quantity(typed, quantity_);
+  if (value) return commit(*value, false);
+  refuse(value.error().message);
+}
+
+void QuantityField::commit(std::optional<double> value, bool more) {
+  if (!commit_) return;
+  const bool typed = edited_;
+  edited_ = false;  // so that what comes back is shown
+  const QString text = this->text();
+  const auto done = commit_(value, more);
+  if (done) {
+    value_ = value;
+    mixed_ = false;
+    restore();
+    if (refused_) refused_({});
+    return;
+  }
+  if (typed) setText(text);
+  edited_ = typed;
+  refuse(done.error().message);
+}
+
+void QuantityField::refuse(const std::string& why) {
+  mark(edited_);
+  if (!edited_) restore();
+  if (refused_) refused_(QString::fromStdString(why));
+}
+
+void QuantityField::step(double steps, Qt::KeyboardModifiers modifiers) {
+  if (isReadOnly() || mixed_) return;
+  if (edited_) commit_text();
+  if (edited_) return;  // refused
+  double size = step_of(quantity_);
+  if (modifiers & Qt::ShiftModifier) size *= 10.0;
+  if (modifiers & Qt::ControlModifier) size *= 0.1;
+  const bool more = stepping_;
+  stepping_ = true;
+  commit(value_.value_or(0.0) + steps * size, more);
+}
+
+void QuantityField::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_Up:
+      return step(1.0, event->modifiers());
+    case Qt::Key_Down:
+      return step(-1.0, event->modifiers());
+    case Qt::Key_PageUp:
+      return step(10.0, event->modifiers());
+    case Qt::Key_PageDown:
+      return step(-10.0, event->modifiers());
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      commit_text();
+      stepping_ = false;
+      selectAll();
+      return;
+    case Qt::Key_Escape:
+      if (!edited_) break;
+      restore();
+      selectAll();
+      return;
+    default:
+      break;
+  }
+  QLineEdit::keyPressEvent(event);
+}
+
+void QuantityField::focusOutEvent(QFocusEvent* event) {
+  commit_text();
+  stepping_ = false;
+  QLineEdit::focusOutEvent(event);
+}
+
+void QuantityField::wheelEvent(QWheelEvent* event) {
+  if (!hasFocus()) return event->ignore();  // the panel scrolls
+  constexpr double kNotch = 120.0;
+  wheel_ += event->angleDelta().y();
+  const double steps = std::trunc(wheel_ / kNotch);
+  wheel_ -= steps * kNotch;
+  if (steps != 0.0) step(steps, event->modifiers() & ~Qt::AltModifier);
+  event->accept();
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,31 @@
+#pragma once
+#include <QString>
+
+#include "base/result.h"
+
+namespace icome::ui {
+
+/// What a number means, and so which unit people see and may type. Values are SI.
+enum class Quantity : std::uint8_t {
+  Length,     // shown in mm
+  Angle,      // shown in degrees
+  Stiffness,  // N/m
+  Damping,    // N s/m
+  Share,      // of 1, shown in percent
+  Plain,
+};
+
+/// "mm", "°"; empty for plain numbers.
+QString unit_of(Quantity quantity);
+
+/// What a person typed: "3", "3 cm", "0.2m", "1,5 in", "0.5 rad". Without a unit it is the one that is shown.
+/// Fails, saying what is understood, for anything else and for numbers beyond all use.
+base::Result<double> read_quantity(const QString& text, Quantity quantity);
+
+/// The number in the shown unit, to six figures, without the unit.
+QString number_text(double value, Quantity quantity);
+
+/// What one step of the arrow keys changes: one of the shown unit, or a hundredth for plain numbers.
+double step_of(Quantity quantity);
+
+}  // namespace icome::ui

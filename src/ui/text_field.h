@@ -1,0 +1,39 @@
+#pragma once
+#include <QLineEdit>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+
+namespace icome::ui {
+
+/// A line of text that is set with Enter or by leaving it; Escape gives it up.
+class TextField final : public QLineEdit {
+ public:
+  explicit TextField(QWidget* parent);
+
+  void on_commit(std::function<base::Result<void>(const std::string&)> commit) {
+    commit_ = std::move(commit);
+  }
+  /// Hears why something was refused, and nothing (empty) when the next text is fine.
+  void on_refusal(std::function<void(const QString&)> hear) { refused_ = std::move(hear); }
+  /// Nothing: several objects, several texts.
+  void show_text(std::optional<std::string> text);
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+
+ private:
+  void commit_text();
+  void restore();
+  void mark(bool refused);
+
+  std::function<base::Result<void>(const std::string&)> commit_ = {};
+  std::function<void(const QString&)> refused_ = {};
+  std::optional<std::string> text_ = std::string();
+  bool edited_ = false;
+};
+
+}  // namespace icome::ui

@@ -1,0 +1,276 @@
+#include "ui/property_panel.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QTest>
+#include <numbers>
+
+#include "base/random.h"
+#include "desktop_test.h"
+#include "ui/colour_button.h"
+#include "ui/object_properties.h"
+#include "ui/quantity_field.h"
+#include "ui/text_field.h"
+#include "world/solid_geometry.h"
+
+namespace icome::ui {
+namespace {
+
+using world::ObjectId;
+
+class PropertyPanelTest : public DesktopTest {
+ protected:
+  PropertyPanelTest() {
+    world::IdSource& ids = session().ids();
+    shape_ = ids.next<world::GeometryId>();
+    material_ = ids.next<world::MaterialId>();
+    perform(world::CreateGeometry{shape_,
+                                  std::make_shared<world::PrimitiveGeometry>(geometry::Cylinder{0.02, 0.1})});
+    perform(world::CreateMaterial{material_, {.name = "Beech"}});
+    one_ = create("one", 0.01);
+    two_ = create("two", 0.02);
+    panel_ = std::make_unique<PropertyPanel>(session(), nullptr);
+    panel_->setAttribute(Qt::WA_DontShowOnScreen);
+    panel_->resize(320, 900);
+    panel_->show();
+  }
+
+  ObjectId create(const std::string& name, double x) {
+    const ObjectId id = session().ids().next<ObjectId>();
+    world::PhysicalObject object{.name = name, .geometry = shape_, .material = material_};
+    object.parent_from_object.translation() = base::Vector3(x, 0.0, 0.0);
+    perform(world::CreateObject{id, world().roots().size(), object});
+    return id;
+  }
+  void select(std::vector<ObjectId> objects) {
+    session().select(std::move(objects));
+    QApplication::processEvents();
+  }
+  template <typename Widget>
+  Widget& field(const QString& name) {
+    for (Widget* it : panel_->findChildren<Widget*>()) {
+      if (it->accessibleName() == name && it->isVisibleTo(panel_.get())) return *it;
+    }
+    ADD_FAILURE() << "no field " << name.toStdString();
+    static Widget* const kNone = nullptr;
+    return *kNone;
+  }
+  bool is_shown(const QString& name) {
+    for (QWidget* it : panel_->findChildren<QWidget*>()) {
+      if (it->accessibleName() == name && it->isVisibleTo(panel_.get())) return true;
+    }
+    return false;
+  }
+  QPushButton& button(const QString& text) {
+    for (QPushButton* it : panel_->findChildren<QPushButton*>()) {
+      if (it->text().remove('&') == text) return *it;
+    }
+    ADD_FAILURE() << "no button " << text.toStdString();
+    static QPushButton* const kNone = nullptr;
+    return *kNone;
+  }
+  /// Types into a field as a person does.
+  void type(QLineEdit& field, const QString& text) {
+    field.setFocus();
+    field.selectAll();
+    QTest::keyClicks(&field, text);
+    QTest::keyClick(&field, Qt::Key_Return);
+    QApplication::processEvents();
+  }
+  QString complaint() {
+    for (const QLabel* label : panel_->findChildren<QLabel*>()) {
+      if (label->accessibleName() == "Why something was refused" && !label->text().isEmpty())
+        return label->text();
+    }
+    return {};
+  }
+  const world::Material& material() { return *world().find(material_); }
+  double radius() {
+    const auto& shape = dynamic_cast<const world::PrimitiveGeometry&>(*world().find(shape_)->shape);
+    return std::get<geometry::Cylinder>(shape.primitive).radius;
+  }
+
+  world::GeometryId shape_;
+  world::MaterialId material_;
+  ObjectId one_, two_;
+  std::unique_ptr<PropertyPanel> panel_;
+};
+
+TEST_F(PropertyPanelTest, ShowsWhatSeveralHaveInCommon) {
+  select({one_, two_});
+  EXPECT_EQ(field<QuantityField>("Position, mm x").text(), "");
+  EXPECT_EQ(field<QuantityField>("Position, mm x").placeholderText(), "mixed");
+  EXPECT_EQ(field<QuantityField>("Position, mm y").text(), "0");
+  EXPECT_EQ(field<QuantityField>("Radius, mm").text(), "20");
+  EXPECT_EQ(field<TextField>("Name").placeholderText(), "mixed");
+  EXPECT_FALSE(is_shown("Ring radius, mm"));
+  EXPECT_FALSE(is_shown("Intensity, %"));
+}
+
+TEST_F(PropertyPanelTest, MovesAllThatIsSelectedInOneAction) {
+  select({one_, two_});
+  type(field<QuantityField>("Position, mm x"), "3 cm");
+  EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.03);
+  EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.03);
+  EXPECT_EQ(session().history().undo_name(), "Move 2 objects");
+  EXPECT_EQ(field<QuantityField>("Position, mm x").text(), "30");
+  ASSERT_TRUE(session().undo());
+  EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.02);
+}
+
+TEST_F(PropertyPanelTest, ASpunValueIsOneStepToUndo) {
+  select({one_});
+  QuantityField& x = field<QuantityField>("Position, mm x");
+  x.setFocus();
+  for (int i = 0; i < 5; ++i) QTest::keyClick(&x, Qt::Key_Up);
+  QTest::keyClick(&x, Qt::Key_Up, Qt::ShiftModifier);
+  EXPECT_NEAR(world().find(one_)->parent_from_object.translation().x(), 0.025, 1e-12);
+  ASSERT_TRUE(session().undo());
+  EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.01);
+  QApplication::processEvents();
+  // After something else, spinning begins another action.
+  QTest::keyClick(&x, Qt::Key_Up);
+  EXPECT_NEAR(world().find(one_)->parent_from_object.translation().x(), 0.011, 1e-12);
+  ASSERT_TRUE(session().undo());
+  EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.01);
+}
+
+TEST_F(PropertyPanelTest, RefusesAbsurdValuesAtTheField) {
+  select({one_});
+  for (const char* text : {"0", "-3", "nonsense", "1e400", "5000 km"}) {
+    QuantityField& field = this->field<QuantityField>("Radius, mm");
+    type(field, text);
+    EXPECT_TRUE(field.property("refused").toBool()) << text;
+    EXPECT_EQ(field.text(), text);  // still there to be put right
+    EXPECT_FALSE(complaint().isEmpty()) << text;
+    EXPECT_DOUBLE_EQ(radius(), 0.02);
+  }
+  QTest::keyClick(&field<QuantityField>("Radius, mm"), Qt::Key_Escape);
+  EXPECT_EQ(field<QuantityField>("Radius, mm").text(), "20");
+  type(field<QuantityField>("Radius, mm"), "25");
+  EXPECT_DOUBLE_EQ(radius(), 0.025);
+  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(session().history().undo_name(), "Change radius of one");
+}
+
+TEST_F(PropertyPanelTest, AnglesStayAsTheyWereTyped) {
+  select({one_});
+  type(field<QuantityField>("Rotation, ° y"), "100");
+  EXPECT_EQ(field<QuantityField>("Rotation, ° x").text(), "0");
+  EXPECT_EQ(field<QuantityField>("Rotation, ° y").text(), "100");
+  const base::Matrix3 turn = world().find(one_)->parent_from_object.linear();
+  const base::Matrix3 wanted =
+      Eigen::AngleAxisd(100.0 / 180.0 * std::numbers::pi, base::Vector3::UnitY()).toRotationMatrix();
+  EXPECT_TRUE(turn.isApprox(wanted, 1e-12));
+}
+
+TEST_F(PropertyPanelTest, SizeStretchesAlongTheObjectsOwnAxis) {
+  select({one_});
+  EXPECT_EQ(field<QuantityField>("Size, mm z").text(), "100");
+  type(field<QuantityField>("Rotation, ° x"), "30");
+  type(field<QuantityField>("Size, mm z"), "150");
+  EXPECT_EQ(field<QuantityField>("Size, mm z").text(), "150");
+  EXPECT_EQ(field<QuantityField>("Size, mm x").text(), "40");
+  EXPECT_NEAR(world().find(one_)->parent_from_object.linear().col(2).norm(), 1.5, 1e-12);
+  type(field<QuantityField>("Rotation, ° x"), "0");
+  EXPECT_EQ(field<QuantityField>("Size, mm z").text(), "150");
+}
+
+TEST_F(PropertyPanelTest, TouchKnowsTheDevicesBest) {
+  select({one_});
+  QuantityField& stiffness = field<QuantityField>("Stiffness, N/m");
+  EXPECT_EQ(stiffness.text(), "");
+  EXPECT_EQ(stiffness.placeholderText(), "device's best");
+  type(stiffness, "0.8 N/mm");
+  EXPECT_DOUBLE_EQ(*material().touch.stiffness, 800.0);
+  EXPECT_EQ(session().history().undo_name(), "Change stiffness of Beech");
+  type(stiffness, "nan");
+  EXPECT_DOUBLE_EQ(*material().touch.stiffness, 800.0);
+  stiffness.setFocus();
+  stiffness.selectAll();
+  QTest::keyClick(&stiffness, Qt::Key_Delete);
+  QTest::keyClick(&stiffness, Qt::Key_Return);
+  EXPECT_FALSE(material().touch.stiffness);
+  type(field<QuantityField>("Dynamic friction"), "0.3");
+  EXPECT_FALSE(complaint().isEmpty());  // static friction is less
+  EXPECT_DOUBLE_EQ(material().touch.dynamic_friction, 0.0);
+}
+
+TEST_F(PropertyPanelTest, OwnCopyPartsWaysWithTheOthers) {
+  select({one_});
+  ASSERT_TRUE(button("Make own copy").isVisibleTo(panel_.get()));
+  button("Make own copy").click();
+  QApplication::processEvents();
+  EXPECT_NE(world().find(one_)->geometry, shape_);
+  EXPECT_EQ(world().find(two_)->geometry, shape_);
+  EXPECT_FALSE(button("Make own copy").isVisibleTo(panel_.get()));
+  type(field<QuantityField>("Radius, mm"), "7");
+  EXPECT_DOUBLE_EQ(radius(), 0.02);
+  button("Make own material").click();
+  EXPECT_NE(world().find(one_)->material, material_);
+  EXPECT_EQ(world().find(world().find(one_)->material)->name, "Beech");
+}
+
+TEST_F(PropertyPanelTest, ChoosesAmongMaterials) {
+  const auto steel = session().ids().next<world::MaterialId>();
+  perform(world::CreateMaterial{steel, {.name = "Steel"}});
+  select({two_});
+  QComboBox& box = field<QComboBox>("Made of");
+  const int row = box.findText("Steel");
+  ASSERT_GE(row, 0);
+  box.setCurrentIndex(row);
+  emit box.activated(row);
+  EXPECT_EQ(world().find(two_)->material, steel);
+  EXPECT_EQ(world().find(one_)->material, material_);
+}
+
+TEST_F(PropertyPanelTest, FollowsUndoAndSurvivesAnotherWorld) {
+  select({one_});
+  type(field<TextField>("Name"), "first");
+  EXPECT_EQ(world().find(one_)->name, "first");
+  ASSERT_TRUE(session().undo());
+  QApplication::processEvents();
+  EXPECT_EQ(field<TextField>("Name").text(), "one");
+  perform(world::delete_subtree(world(), one_));
+  QApplication::processEvents();
+  EXPECT_FALSE(is_shown("Name"));
+  session().make_new();
+  QApplication::processEvents();
+  EXPECT_FALSE(is_shown("Name"));
+}
+
+TEST(PlaceProperties, EveryTurnIsReadBack) {
+  base::Random random(7);
+  world::World world;
+  world::IdSource ids;
+  const auto id = ids.next<ObjectId>();
+  ASSERT_TRUE(world::apply(world, world::CreateObject{id, 0, {}}));
+  for (int i = 0; i < 300; ++i) {
+    base::Affine3 place = base::Affine3::Identity();
+    place.linear() = Eigen::AngleAxisd(random.uniform(-3.0, 3.0), random.direction()).toRotationMatrix() *
+                     base::Vector3(random.uniform(0.1, 2.0), random.uniform(0.1, 2.0), 1.0).asDiagonal();
+    if (i % 10 == 0)
+      place.linear() = Eigen::AngleAxisd(std::numbers::pi / 2.0, base::Vector3::UnitY()).matrix();
+    ASSERT_TRUE(world::apply(world, world::PlaceObject{id, place}));
+    PlaceProperties properties;
+    // Setting the angles that are shown changes nothing.
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto angle = properties.turn(axis).get(world, id);
+      const auto edit = properties.turn(axis).set(world, id, *angle);
+      ASSERT_TRUE(edit && world::apply(world, *edit));
+      EXPECT_TRUE(world.find(id)->parent_from_object.isApprox(place, 1e-9)) << i;
+    }
+  }
+}
+
+TEST(ColourButton, ShowsColoursAsTheyAreDrawn) {
+  EXPECT_EQ(screen_colour({1.0F, 0.0F, 0.0F}), QColor(255, 0, 0));
+  for (const int channel : {0, 1, 17, 128, 200, 255}) {
+    const QColor colour(channel, 255 - channel, 40);
+    EXPECT_EQ(screen_colour(world_colour(colour)).rgb(), colour.rgb());
+  }
+}
+
+}  // namespace
+}  // namespace icome::ui
