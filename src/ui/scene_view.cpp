@@ -1,6 +1,6 @@
 #include "ui/scene_view.h"
 
-#include <QGuiApplication>
+#include <QApplication>
 #include <QLabel>
 #include <QPushButton>
 #include <QStackedLayout>
@@ -10,6 +10,11 @@
 #include "ui/theme.h"
 
 namespace icome::ui {
+namespace {
+
+constexpr int kReasonWidth = 90 * kGrid;
+
+}  // namespace
 
 SceneView::SceneView(session::Session& session, SceneTools& tools, QWidget* parent)
     : QWidget(parent),
@@ -37,8 +42,7 @@ void SceneView::make_reason() {
   reason_->setTextFormat(Qt::PlainText);
   reason_->setWordWrap(true);
   reason_->setAlignment(Qt::AlignCenter);
-  reason_->setMaximumWidth(120 * kGrid);
-  reason_->setMinimumWidth(40 * kGrid);
+  reason_->setFixedWidth(kReasonWidth);
   reason_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* again = new QPushButton("Try Again", page);
   again->setObjectName("scene.retry");
@@ -59,6 +63,7 @@ void SceneView::tick() {
   const auto why = scene_->trouble();
   if (!why) return;
   reason_->setText(QString::fromStdString(*why) + "\n\nEverything else works meanwhile: nothing is lost.");
+  reason_->setFixedHeight(reason_->heightForWidth(kReasonWidth));
   stack_->setCurrentIndex(1);
 }
 
@@ -74,11 +79,28 @@ void SceneView::show_cursor() {
   if (scene_->cursor().shape() != shape) scene_->setCursor(shape);
 }
 
+bool SceneView::eventFilter(QObject* of, QEvent* event) {
+  const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
+  if (!key || of != window() || !has_keyboard()) return QWidget::eventFilter(of, event);
+  // The window manager gives the keyboard to the whole window when it was the scene that had it before.
+  QCoreApplication::sendEvent(scene_, event);
+  return event->isAccepted();
+}
+
+void SceneView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  window()->installEventFilter(this);
+}
+
 void SceneView::take_keyboard() {
   container_->setFocus(Qt::OtherFocusReason);
   scene_->requestActivate();
 }
 
-bool SceneView::has_keyboard() const { return QGuiApplication::focusWindow() == scene_; }
+bool SceneView::has_keyboard() const {
+  const QWidget* const focus = QApplication::focusWidget();
+  return QGuiApplication::focusWindow() == scene_ ||
+         (window()->isActiveWindow() && (!focus || focus == container_));
+}
 
 }  // namespace icome::ui

@@ -21,6 +21,10 @@ class SceneView final : public QWidget {
   bool has_keyboard() const;
   SceneWindow& window_of_scene() { return *scene_; }
 
+ protected:
+  bool eventFilter(QObject* of, QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
  private:
   void make_reason();
   void show_cursor();

@@ -96,11 +96,14 @@ class Desktop:
     def is_running(self):
         return self.process.poll() is None
 
+    def check_running(self):
+        if not self.is_running():
+            raise AssertionError(f"the program ended with {self.process.returncode}: {self.said()}")
+
     def find_window(self, title="ICOME"):
         """Waits for the window with that in its title."""
         def look():
-            if not self.is_running():
-                raise AssertionError(f"the program ended with {self.process.returncode}: {self.said()}")
+            self.check_running()
             found = self.screen.ask("search", "--onlyvisible", "--name", title, may_fail=True)
             return found.split()[-1] if found else None
         return int(wait_for(f"a window called {title}", look))
@@ -115,8 +118,10 @@ class Desktop:
 
     def wait_title(self, pattern):
         """Waits for a title that the pattern fits; the design is there then."""
-        return wait_for(f"a title like {pattern} (it is {self.title()!r})",
-                        lambda: re.search(pattern, self.title()))
+        def look():
+            self.check_running()
+            return re.search(pattern, self.title())
+        return wait_for(f"a title like {pattern} (it is {self.title()!r})", look)
 
     def place(self):
         return self.screen.windows.place(self.window)
@@ -124,6 +129,7 @@ class Desktop:
     def scene_place(self):
         """Where the scene is on the screen: the largest window within the window."""
         def look():
+            self.check_running()
             windows = self.screen.windows
             inner = [windows.place(it) for it in windows.below(self.window)[1:]]
             inner = [it for it in inner if it and it[2] > 100 and it[3] > 100]
@@ -160,10 +166,10 @@ class Desktop:
 
     def key(self, *keys):
         for key in keys:
-            self.screen.ask("key", "--clearmodifiers", key)
+            self.screen.ask("key", key)
 
     def type(self, text):
-        self.screen.ask("type", "--clearmodifiers", "--delay", "5", text)
+        self.screen.ask("type", "--delay", "5", text)
 
     def _at(self, place):
         left, top, _, _ = self.scene_place()

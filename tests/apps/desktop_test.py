@@ -36,7 +36,7 @@ class DesktopUseTest(DesktopTest):
     @staticmethod
     def wait_desk(desktop):
         return desktop.wait_scene("bunny, knot and sea in sight", lambda it: (
-            it.share(is_clay) > 0.01 and it.share(is_rubber) > 0.003 and it.share(is_water) > 0.003))
+            it.share(is_clay) > 0.004 and it.share(is_rubber) > 0.002 and it.share(is_water) > 0.002))
 
     @staticmethod
     def knot_in_sight(desktop):

@@ -48,10 +48,8 @@ class DesktopTroubleTest(DesktopTest):
 
     def nudge(self, desktop):
         """Moves the ball a little, by keys."""
-        picture = self.wait_ball(desktop)
-        desktop.key("s")
-        desktop.click(picture.middle(is_rubber))
-        desktop.key("shift+Right")
+        self.wait_ball(desktop)
+        desktop.key("ctrl+a", "shift+Right")
         desktop.wait_title(r"\*")
 
     def test_a_broken_file_is_told_and_the_work_stays(self):
