@@ -192,7 +192,10 @@ void WorldTree::Parts::show_scenes() {
     scene->addItem(icon(Icon::Scene), name.isEmpty() ? QString("Scene without a name") : name);
     if (id == session.shown_scene()) scene->setCurrentIndex(scene->count() - 1);
   }
-  scene->setVisible(!scenes.empty());
+  // One scene of all there is would be no choice.
+  const bool all =
+      scenes.size() == 1 && session.world().find(scenes.front())->roots == session.world().roots();
+  scene->setVisible(!scenes.empty() && !all);
 }
 
 void WorldTree::Parts::open_menu(const QPoint& at) {
