@@ -68,9 +68,10 @@ void Banner::show_progress(const QString& text, std::optional<double> part,
   if (!progress_) {
     progress_ = new ProgressRow(cancel, this);
     rows_->insertWidget(0, progress_);
+    progress_->show();
     arrange();
   }
-  progress_->show(text, part);
+  progress_->report(text, part);
 }
 
 void Banner::hide_progress() {

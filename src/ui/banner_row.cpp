@@ -122,7 +122,7 @@ ProgressRow::ProgressRow(const std::function<void()>& cancel, QWidget* parent)
   line()->addWidget(button);
 }
 
-void ProgressRow::show(const QString& text, std::optional<double> part) {
+void ProgressRow::report(const QString& text, std::optional<double> part) {
   constexpr int kSteps = 1000;
   text_->setText(text);
   setAccessibleName(text);

@@ -46,7 +46,7 @@ class BannerRow final : public BannerStrip {
 class ProgressRow final : public BannerStrip {
  public:
   ProgressRow(const std::function<void()>& cancel, QWidget* parent);
-  void show(const QString& text, std::optional<double> part);
+  void report(const QString& text, std::optional<double> part);
 
  private:
   QLabel* text_;

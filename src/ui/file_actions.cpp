@@ -98,6 +98,7 @@ void FileActions::recover(const std::filesystem::path& journal) {
     if (work.journal != journal) continue;
     when_safe([this, work] {
       opened_ = work.design;
+      recovered_ = work;
       session_.recover(work);
     });
     return;
@@ -217,7 +218,7 @@ void FileActions::ask(const std::function<void()>& then) {
   box->open();
 }
 
-void FileActions::hear(const SessionEvent& event) {
+Note FileActions::hear(const SessionEvent& event) {
   switch (event.kind) {
     case SessionEvent::Kind::Opened:
     case SessionEvent::Kind::Saved:
@@ -238,6 +239,9 @@ void FileActions::hear(const SessionEvent& event) {
   }
   // Asks again if the work has gone on meanwhile.
   if (event.kind == SessionEvent::Kind::Saved && then_) when_safe(std::exchange(then_, nullptr));
+  if (event.kind == SessionEvent::Kind::Recovered && recovered_)
+    return note_of_recovered(*std::exchange(recovered_, std::nullopt), event.details);
+  return note_of(event);
 }
 
 }  // namespace icome::ui

@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "session/session.h"
 #include "ui/note.h"
@@ -40,8 +41,8 @@ class FileActions {
   /// up; not at all when the person thinks better of it.
   void when_safe(const std::function<void()>& then);
 
-  /// What happened to the session.
-  void hear(const session::SessionEvent& event);
+  /// What happened to the session; gives what to say of it.
+  Note hear(const session::SessionEvent& event);
   /// The name of the design as people know it.
   QString design_name() const;
   /// What is being read or written, for people; null when nothing is.
@@ -62,9 +63,10 @@ class FileActions {
   QMenu* recent_menu_ = nullptr;
   QAction *new_ = nullptr, *open_ = nullptr, *save_ = nullptr, *save_as_ = nullptr;
   std::function<void()> begin_ = [] {};
-  std::function<void()> then_ = {};    // waits for the work to be saved
-  std::filesystem::path opened_ = {};  // is being read
-  std::filesystem::path saved_ = {};   // was, or is being, written
+  std::function<void()> then_ = {};                         // waits for the work to be saved
+  std::filesystem::path opened_ = {};                       // is being read
+  std::filesystem::path saved_ = {};                        // was, or is being, written
+  std::optional<session::RecoverableWork> recovered_ = {};  // the last
   bool asking_ = false;
 };
 

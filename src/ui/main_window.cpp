@@ -145,8 +145,7 @@ void MainWindow::tick() {
 
 void MainWindow::hear(const session::SessionEvent& event) {
   using Kind = session::SessionEvent::Kind;
-  files_.hear(event);
-  tell(note_of(event));
+  tell(files_.hear(event));
   // What came last is seen, and nothing that was said of the one before is of use.
   if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
     banner_->forget("edit");

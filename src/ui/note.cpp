@@ -11,6 +11,20 @@ using session::SessionEvent;
 using Weight = Note::Weight;
 using Remedy = Note::Remedy;
 
+namespace {
+
+std::string design_of(const session::RecoverableWork& work) {
+  if (work.design.empty()) return "a design that was never saved";
+  return work.design.filename().string();
+}
+
+/// "1 thing was", "2 things were".
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return count == 1 ? fmt::format(" 1 {}.", one) : fmt::format(" {} {}.", count, many);
+}
+
+}  // namespace
+
 const char* label(Remedy remedy) {
   switch (remedy) {
     case Remedy::Save:
@@ -38,6 +52,10 @@ Note note_of(const SessionEvent& event) {
     case SessionEvent::Kind::Opened:
       note.topic = "file";
       note.weight = event.details.empty() ? Weight::Passing : Weight::Plain;
+      if (!event.details.empty()) {
+        note.text += counted(event.details.size(), "thing in it was skipped or put right",
+                             "things in it were skipped or put right");
+      }
       break;
     case SessionEvent::Kind::OpenFailed:
       note.topic = "file";
@@ -51,6 +69,10 @@ Note note_of(const SessionEvent& event) {
     case SessionEvent::Kind::Saved:
       note.topic = "file";
       note.weight = event.details.empty() ? Weight::Passing : Weight::Plain;
+      if (!event.details.empty()) {
+        note.text += counted(event.details.size(), "thing cannot be kept in this format",
+                             "things cannot be kept in this format");
+      }
       break;
     case SessionEvent::Kind::SaveFailed:
       note.topic = "file";
@@ -58,8 +80,8 @@ Note note_of(const SessionEvent& event) {
       note.remedies = {Remedy::SaveAgain, Remedy::SaveAs};
       break;
     case SessionEvent::Kind::Recovered:
-      note.topic = "recovery";
-      note.remedies = {Remedy::Save, Remedy::RevertToSaved};
+      note.topic = "file";
+      note.remedies = {Remedy::Save};
       break;
     case SessionEvent::Kind::AutosaveFailed:
       note.topic = "autosave";
@@ -86,14 +108,21 @@ Note note_of(const SessionEvent& event) {
 }
 
 Note note_of(const session::RecoverableWork& work) {
-  const std::string design = work.design.empty()
-                                 ? "a design that was never saved"
-                                 : QString::fromStdWString(work.design.filename().wstring()).toStdString();
-  return {.text = fmt::format("There is work on {} from {} that was not saved.", design,
+  return {.text = fmt::format("There is work on {} from {} that was not saved.", design_of(work),
                               time_text(work.changed, std::chrono::system_clock::now())),
           .topic = work.journal.string(),
           .remedies = {Remedy::Recover, Remedy::DiscardJournal},
           .journal = work.journal};
+}
+
+Note note_of_recovered(const session::RecoverableWork& work, const std::vector<std::string>& details) {
+  Note note{.text = fmt::format("Recovered your work on {} from {}. Save it to keep it.", design_of(work),
+                                time_text(work.changed, std::chrono::system_clock::now())),
+            .topic = "file",
+            .details = details,
+            .remedies = {Remedy::Save}};
+  if (!work.design.empty()) note.remedies.push_back(Remedy::RevertToSaved);
+  return note;
 }
 
 std::string time_text(std::chrono::system_clock::time_point then, std::chrono::system_clock::time_point now) {

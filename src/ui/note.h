@@ -41,6 +41,9 @@ Note note_of(const session::SessionEvent& event);
 /// Of work that waits to be recovered: "There is work on tables.wrl from 22:14 that was not saved."
 Note note_of(const session::RecoverableWork& work);
 
+/// Of work that was recovered: "Recovered your work on tables.wrl from 22:14. Save it to keep it."
+Note note_of_recovered(const session::RecoverableWork& work, const std::vector<std::string>& details);
+
 /// When that was, as people say it where this is written: "22:14", "yesterday 22:14", "17 May, 22:14".
 std::string time_text(std::chrono::system_clock::time_point then, std::chrono::system_clock::time_point now);
 
