@@ -128,6 +128,7 @@ void MainWindow::make_tool_bar() {
 
 void MainWindow::show_tool(Tool tool) {
   tool_actions_[int(tool)]->setChecked(true);
+  is_stale_ = true;
   show_look();
 }
 
@@ -146,7 +147,10 @@ void MainWindow::show_hint() {
                   .arg(millimetres(size.x()), millimetres(size.y()), millimetres(size.z()));
     }
   }
-  if (hint_->text() != text) hint_->setText(text);
+  hint_->setText(text);
+}
+
+void MainWindow::show_count() {
   const auto& drawn = session_.drawn();
   const QString count =
       QString("%L1 objects, %L2 triangles").arg(drawn->object_count()).arg(drawn->triangle_count());

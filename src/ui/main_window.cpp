@@ -7,10 +7,12 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QScreen>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "ui/icons.h"
 #include "ui/property_panel.h"
@@ -67,6 +69,8 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
   views_.show_theme(options_.theme);
   banner_->on_remedy([this](const Note& note, Note::Remedy what) { remedy(note, what); });
   tree_->on_zoom_to([this] { zoom_to_selection(session_, tools_.aspect()); });
+  session_.on_change([this](const world::Changes*) { is_stale_ = true; });
+  session_.on_selection([this] { is_stale_ = true; });
   show_tool(tools_.tool());
   show_title();
   timer_.setTimerType(Qt::PreciseTimer);
@@ -74,7 +78,10 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
   timer_.start(16);
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  // The scene's window hands events to the tools, which go before the widgets would go by themselves.
+  delete takeCentralWidget();
+}
 
 void MainWindow::make_center() {
   auto* center = new QWidget(this);
@@ -96,8 +103,6 @@ void MainWindow::make_center() {
 }
 
 void MainWindow::make_docks() {
-  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
-  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   tree_ = new WorldTree(session_, this);
   make_dock(this, "dock.world", "World", tree_, Qt::LeftDockWidgetArea);
   properties_ = new PropertyPanel(session_, this);
@@ -106,8 +111,8 @@ void MainWindow::make_docks() {
 }
 
 void MainWindow::restore_layout() {
-  // The smallest screens that people work at have a little more.
-  resize(1240, 740);
+  const QSize room = screen()->availableSize();
+  resize(std::min(1240, room.width() * 31 / 32), std::min(740, room.height() * 15 / 16));
   restoreGeometry(settings_.value("window/geometry").toByteArray());
   restoreState(settings_.value("window/state").toByteArray(), kLayout);
 }
@@ -140,7 +145,8 @@ void MainWindow::tick() {
   views_.refresh();
   show_progress();
   show_title();
-  show_hint();
+  show_count();
+  if (std::exchange(is_stale_, false)) show_hint();
 }
 
 void MainWindow::hear(const session::SessionEvent& event) {

@@ -55,6 +55,7 @@ class MainWindow final : public QMainWindow {
   void show_progress();
   void show_title();
   void show_hint();
+  void show_count();
   void show_look();
   void show_tool(Tool tool);
   void choose_theme(Theme theme);
@@ -78,6 +79,7 @@ class MainWindow final : public QMainWindow {
   QLabel* count_ = nullptr;
   QAction* tool_actions_[3] = {};
   QTimer timer_;
+  bool is_stale_ = true;      // what is said of the selection
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // to close
   bool closing_ = false;      // within the event

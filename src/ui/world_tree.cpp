@@ -43,7 +43,6 @@ struct WorldTree::Parts {
   void show_count();
   void show_scenes();
   void open_menu(const QPoint& at);
-  void remove_selected();
 
   session::Session& session;
   std::function<void()> zoom = {};
@@ -128,11 +127,6 @@ void WorldTree::Parts::connect_view(ObjectView& it) {
   QObject::connect(&it, &QTreeView::doubleClicked, &it, [this] {
     if (zoom) zoom();
   });
-  auto* removal = new QAction(&it);
-  removal->setShortcut(QKeySequence::Delete);
-  removal->setShortcutContext(Qt::WidgetShortcut);
-  QObject::connect(removal, &QAction::triggered, &it, [this] { remove_selected(); });
-  it.addAction(removal);
 }
 
 void WorldTree::Parts::follow(const world::Changes* changes) {
@@ -209,11 +203,6 @@ void WorldTree::Parts::open_menu(const QPoint& at) {
   };
   fill_object_menu(menu, session, entries);
   if (!menu.isEmpty()) menu.exec(it.viewport()->mapToGlobal(at));
-}
-
-void WorldTree::Parts::remove_selected() {
-  const auto done = delete_selected(session);
-  if (!done) note->say(QString::fromStdString(done.error().message));
 }
 
 WorldTree::WorldTree(session::Session& session, QWidget* parent)

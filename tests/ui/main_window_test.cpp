@@ -1,0 +1,159 @@
+// The whole window, where there is no OpenGL: all but the picture of the scene.
+#include "ui/main_window.h"
+
+#include <QDropEvent>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <thread>
+
+#include "ui/desktop_test.h"
+
+namespace icome::ui {
+namespace {
+
+class MainWindowTest : public DesktopTest {
+ protected:
+  MainWindowTest() : settings_(folder_.filePath("icome.conf"), QSettings::IniFormat) { open_window(); }
+
+  void open_window() {
+    window_.reset();
+    window_ = std::make_unique<MainWindow>(session(), settings_, MainWindow::Options{.theme = Theme::Light});
+    window_->show();
+  }
+  /// Lets the window live until something has come about.
+  template <typename Come>
+  bool until(const Come& come) {
+    for (int i = 0; i < 6000; ++i) {
+      QCoreApplication::processEvents();
+      if (come()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  bool until_title(const QString& title) {
+    // As the window's frame shows it.
+    const auto shown = [this] {
+      return window_->windowTitle().replace("[*]", window_->isWindowModified() ? "*" : "");
+    };
+    return until([&] { return shown() == title; });
+  }
+  QAction* action(const char* name) {
+    auto* found = window_->findChild<QAction*>(name);
+    EXPECT_TRUE(found) << name;
+    return found;
+  }
+  world::ObjectId add(const char* name) {
+    const auto id = session().ids().next<world::ObjectId>();
+    perform(world::CreateObject{id, 0, {.name = name}}, std::string("Add ") + name);
+    return id;
+  }
+  QString file(const char* name) { return folder_.filePath(name); }
+
+  QTemporaryDir folder_;
+  QSettings settings_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(MainWindowTest, SaysWhyThereIsNoPictureAndWorksOn) {
+  auto* reason = window_->findChild<QLabel*>("scene.reason");
+  ASSERT_TRUE(reason);
+  ASSERT_TRUE(until([&] { return reason->isVisible(); }));
+  EXPECT_TRUE(reason->text().contains("OpenGL 3.3"));
+  window_->findChild<QPushButton*>("scene.retry")->click();
+  ASSERT_TRUE(until([&] { return reason->isVisible(); }));
+  add("leg");
+  EXPECT_TRUE(until_title("Untitled* - ICOME"));
+}
+
+TEST_F(MainWindowTest, NamesWhatCanBeUndone) {
+  EXPECT_FALSE(action("edit.undo")->isEnabled());
+  add("R&D leg");
+  ASSERT_TRUE(until([&] { return action("edit.undo")->isEnabled(); }));
+  EXPECT_EQ(action("edit.undo")->text(), "&Undo Add R&&D leg");
+  action("edit.undo")->trigger();
+  EXPECT_TRUE(world().objects().empty());
+  ASSERT_TRUE(until([&] { return action("edit.redo")->isEnabled(); }));
+  action("edit.redo")->trigger();
+  EXPECT_EQ(world().objects().size(), 1U);
+}
+
+TEST_F(MainWindowTest, DeletesAndDuplicatesAsOneAction) {
+  const auto table = add("table"), lamp = add("lamp");
+  session().select({table, lamp});
+  ASSERT_TRUE(until([&] { return action("edit.duplicate")->isEnabled(); }));
+  action("edit.duplicate")->trigger();
+  EXPECT_EQ(world().objects().size(), 4U);
+  EXPECT_EQ(session().selection().size(), 2U);
+  EXPECT_EQ(session().history().undo_name(), "Duplicate 2 objects");
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(world().objects().size(), 2U);
+  session().select({table, lamp});
+  action("edit.delete")->trigger();
+  EXPECT_TRUE(world().objects().empty());
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(world().objects().size(), 2U);
+}
+
+TEST_F(MainWindowTest, OpensWhatIsDroppedOnIt) {
+  add("leg");
+  session().save(path_of(file("tables.icome")));
+  ASSERT_TRUE(until_title("tables.icome - ICOME"));
+  session().make_new();
+  ASSERT_TRUE(until_title("Untitled - ICOME"));
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(file("tables.icome"))});
+  QDragEnterEvent entered({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(window_.get(), &entered);
+  EXPECT_TRUE(entered.isAccepted());
+  QDropEvent drop({10.0, 10.0}, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(window_.get(), &drop);
+  EXPECT_TRUE(until_title("tables.icome - ICOME"));
+  EXPECT_EQ(world().objects().size(), 1U);
+}
+
+TEST_F(MainWindowTest, SaysWhyADesignCannotBeOpened) {
+  window_->begin(path_of(file("nothing.wrl")));
+  QLabel* text = nullptr;
+  ASSERT_TRUE(until([&] { return (text = window_->findChild<QLabel*>("banner.text")) != nullptr; }));
+  EXPECT_TRUE(text->text().contains("nothing.wrl"));
+  EXPECT_TRUE(window_->findChild<QAbstractButton*>("banner.Open Another\u2026"));
+}
+
+TEST_F(MainWindowTest, ClosesAtOnceWhenNothingWouldBeLost) {
+  EXPECT_TRUE(window_->close());
+  EXPECT_TRUE(window_->isHidden());
+}
+
+TEST_F(MainWindowTest, AsksBeforeItClosesOverUnsavedWork) {
+  add("leg");
+  EXPECT_FALSE(window_->close());
+  auto* box = window_->findChild<QMessageBox*>("save_changes");
+  ASSERT_TRUE(box);
+  box->button(QMessageBox::Cancel)->click();
+  EXPECT_FALSE(window_->isHidden());
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_FALSE(window_->close());
+  window_->findChild<QMessageBox*>("save_changes")->button(QMessageBox::Discard)->click();
+  EXPECT_TRUE(until([&] { return window_->isHidden(); }));
+}
+
+TEST_F(MainWindowTest, NoTwoActionsHaveTheSameKeys) {
+  QMap<QString, QString> users;
+  for (const QAction* it : window_->findChildren<QAction*>()) {
+    if (it->shortcutContext() != Qt::WindowShortcut) continue;
+    for (const QKeySequence& keys : it->shortcuts()) {
+      EXPECT_FALSE(users.contains(keys.toString()))
+          << keys.toString().toStdString() << " of " << it->text().toStdString() << " and "
+          << users[keys.toString()].toStdString();
+      users[keys.toString()] = it->text();
+    }
+  }
+  EXPECT_GE(users.size(), 25);
+}
+
+}  // namespace
+}  // namespace icome::ui
