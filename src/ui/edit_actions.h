@@ -4,14 +4,9 @@
 #include <functional>
 
 #include "session/session.h"
-#include "world/copy.h"
 
 namespace icome::ui {
 
-// What the edit menu does; each is one action to undo.
-base::Result<void> delete_selection(session::Session& session);
-/// The duplicates are selected then.
-base::Result<void> duplicate_selection(session::Session& session, world::Duplicate how);
 /// Every object that has a shape, of the scene that is shown.
 void select_all(session::Session& session);
 
@@ -34,8 +29,6 @@ class EditActions {
   QAction* redo() const { return redo_; }
   QAction* duplicate() const { return duplicate_; }
   QAction* delete_objects() const { return delete_; }
-  QAction* rename() const { return rename_; }
-  QMenu* duplicate_as() const { return duplicate_as_; }
 
   /// Brings names and states up to date.
   void refresh();
@@ -46,7 +39,8 @@ class EditActions {
 
   session::Session& session_;
   Hooks hooks_;
-  QAction *undo_ = nullptr, *redo_ = nullptr, *duplicate_ = nullptr, *delete_ = nullptr, *rename_ = nullptr;
+  QAction *undo_ = nullptr, *redo_ = nullptr, *duplicate_ = nullptr, *delete_ = nullptr;
+  QAction *group_ = nullptr, *rename_ = nullptr;
   QMenu* duplicate_as_ = nullptr;
 };
 

@@ -9,6 +9,7 @@
 #include "ui/actions.h"
 #include "ui/icons.h"
 #include "ui/main_window.h"
+#include "ui/object_menu.h"
 #include "ui/shortcut_sheet.h"
 
 namespace icome::ui {
@@ -166,17 +167,15 @@ void MainWindow::show_scene_menu(QPointF at) {
   } else {
     session_.select({});
   }
-  edits_.refresh();
   auto* menu = new QMenu(this);
   menu->setObjectName("scene.menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  menu->addAction(views_.zoom_to_selection());
-  menu->addAction(views_.home());
+  fill_object_menu(*menu, session_,
+                   {.zoom = [this] { zoom_to_selection(session_, tools_.aspect()); },
+                    .rename = [this] { tree_->rename(); },
+                    .refused = [this](const std::string& why) { tell_error(why); }});
   menu->addSeparator();
-  menu->addAction(edits_.duplicate());
-  menu->addMenu(edits_.duplicate_as());
-  menu->addAction(edits_.rename());
-  menu->addAction(edits_.delete_objects());
+  menu->addAction(views_.home());
   menu->popup(scene_->mapToGlobal(at.toPoint()));
 }
 
