@@ -13,10 +13,6 @@ using Area2 = Eigen::AlignedBox2d;
 // Measured with llvmpipe on two cores of 2020.
 constexpr double kSecondsATriangle = 0.2e-6;
 constexpr double kSecondsAPixel = 3.7e-9;
-/// A picture has some fifty views.
-constexpr double kLongestView = 0.4;          // s, in software
-constexpr double kLongestLiveView = 0.005;    // s, of one solid among others that move
-constexpr double kHardwareFactor = 1 / 30.0;  // of the time in software, at most
 
 /// Layers of a mesh that are not known before it is drawn.
 constexpr unsigned kLayersAssumed = 4;
@@ -91,6 +87,8 @@ double seconds_for(const CsgOperands& product, const Matrix4& clip_from_buffer, 
   return convex ? seconds_in_sequence(drawn) : seconds_by_layers(drawn);
 }
 
+}  // namespace
+
 double seconds_from_buffer(const CsgGeometry& geometry, const Matrix4& clip_from_buffer, double pixels) {
   double seconds = 0.0;
   for (const CsgOperands& product : geometry.products) {
@@ -99,19 +97,8 @@ double seconds_from_buffer(const CsgGeometry& geometry, const Matrix4& clip_from
   return seconds;
 }
 
-}  // namespace
-
 double software_seconds(const CsgGeometry& geometry, const Matrix4& clip_from_tree, double pixels) {
   return seconds_from_buffer(geometry, clip_from_tree * geometry.tree_from_buffer(), pixels);
-}
-
-bool prefer_images(const CsgGeometry& geometry, std::size_t triangles, const Matrix4& clip_from_buffer,
-                   double pixels, bool software) {
-  const double seconds = seconds_from_buffer(geometry, clip_from_buffer, pixels);
-  if (!software) return seconds * kHardwareFactor <= kLongestLiveView;
-  // Operands are drawn once more to be shaded.
-  const double shading = double(geometry.triangle_count()) * kSecondsATriangle;
-  return seconds + shading <= double(triangles) * kSecondsATriangle;
 }
 
 std::optional<std::string> reason_against_images(const Offscreen& context, const CsgGeometry& geometry,
@@ -121,7 +108,7 @@ std::optional<std::string> reason_against_images(const Offscreen& context, const
   }
   const double factor = context.is_software() ? 1.0 : kHardwareFactor;
   const double seconds = factor * software_seconds(geometry, clip_from_tree, pixels);
-  if (seconds <= kLongestView) return std::nullopt;
+  if (seconds <= kLongestStillView) return std::nullopt;
   return fmt::format("images of {} operands in {} products would take about {:.2g} s a view",
                      geometry.operand_count(), geometry.products.size(), seconds);
 }

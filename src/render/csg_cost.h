@@ -13,9 +13,14 @@ namespace icome::render {
 /// other in the picture.
 double software_seconds(const CsgGeometry& geometry, const Matrix4& clip_from_tree, double pixels);
 
-/// Is the solid drawn sooner from images than as that many triangles?
-bool prefer_images(const CsgGeometry& geometry, std::size_t triangles, const Matrix4& clip_from_buffer,
-                   double pixels, bool software);
+/// The same, from the frame of the geometry's buffers.
+double seconds_from_buffer(const CsgGeometry& geometry, const Matrix4& clip_from_buffer, double pixels);
+
+// How long images may take, s: of a solid in a view that moves, and in a picture of some fifty passes.
+constexpr double kLongestLiveView = 0.1;
+constexpr double kLongestStillView = 0.4;
+/// A graphics card's time as a share of a processor's, at most.
+constexpr double kHardwareFactor = 1.0 / 30.0;
 
 /// Why the solid had better be drawn as a triangle mesh, as a part of a sentence: the driver cannot make
 /// images of CSG, or a picture would take too long. Nothing when images will do.

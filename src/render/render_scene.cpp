@@ -212,7 +212,7 @@ void ScenePublisher::show_object(const World& world, ObjectId id, const Affine3&
   if (fixed_.erase(id) > 0 || is_fixed) fixtures_touched_ = true;
   if (is_fixed) fixed_.insert(id);
   const RenderShapePointer own = object.geometry ? shape(world, object.geometry).shape : nullptr;
-  if (!own || own->mesh.indices.empty()) {
+  if (!own || (own->mesh.indices.empty() && !own->solid)) {
     clear_slot(id);
     return;
   }

@@ -26,8 +26,7 @@ constexpr std::size_t kMostVerticesCompared = 64;  // at the tip of a fine cone 
 /// How far triangles may be off the surface, as a share of its size: solids are sampled through their
 /// volume, so finer takes much longer there.
 double fineness(const world::Geometry& shape) {
-  const bool sampled = shape.kind() == "csg" || shape.kind() == "implicit";
-  return sampled ? 1.0 / 160.0 : 1.0 / 1500.0;
+  return shape.kind() == "implicit" ? 1.0 / 160.0 : 1.0 / 1500.0;
 }
 
 /// All that a corner of a triangle brings along.
@@ -116,20 +115,27 @@ Bounds used_bounds(const geometry::TriangleMesh& mesh) {
 /// Directions evenly over half a ball; opposite ones come with them.
 constexpr int kExtremeDirections = 32;
 
-std::vector<Vector3> outermost(const ShadingMesh& mesh) {
-  constexpr float kGolden = 2.39996323F;  // rad
+std::vector<Vector3> outermost(const std::vector<Vector3>& points) {
+  constexpr double kGolden = 2.39996323;  // rad
   std::vector<Vector3> extremes;
-  for (int i = 0; i < kExtremeDirections && !mesh.vertices.empty(); ++i) {
-    const float z = (float(i) + 0.5F) / kExtremeDirections;
-    const float rho = std::sqrt(1.0F - z * z);
-    const Eigen::Vector3f way(rho * std::cos(kGolden * float(i)), rho * std::sin(kGolden * float(i)), z);
-    const auto [low, high] = std::minmax_element(
-        mesh.vertices.begin(), mesh.vertices.end(),
-        [&](const auto& a, const auto& b) { return way.dot(a.position) < way.dot(b.position); });
-    for (const auto& it : {low, high})
-      extremes.push_back(mesh.centre + mesh.radius * it->position.cast<double>());
+  for (int i = 0; i < kExtremeDirections && !points.empty(); ++i) {
+    const double z = (i + 0.5) / kExtremeDirections;
+    const double rho = std::sqrt(1.0 - z * z);
+    const Vector3 way(rho * std::cos(kGolden * i), rho * std::sin(kGolden * i), z);
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const Vector3& a, const Vector3& b) { return way.dot(a) < way.dot(b); });
+    extremes.insert(extremes.end(), {*low, *high});
   }
   return extremes;
+}
+
+std::vector<Vector3> positions_of(const ShadingMesh& mesh) {
+  std::vector<Vector3> positions;
+  positions.reserve(mesh.vertices.size());
+  for (const auto& vertex : mesh.vertices)
+    positions.push_back(mesh.centre + mesh.radius * vertex.position.cast<double>());
+  return positions;
 }
 
 using SolidPointer = std::shared_ptr<const RenderSolid>;
@@ -150,20 +156,16 @@ RenderShapePointer make_from_surface(const MeshGeometry& surface, double crease,
                                      const SolidPointer& solid = nullptr) {
   auto shape = std::make_shared<RenderShape>();
   shape->bounds = used_bounds(surface.mesh);
+  if (solid) {
+    for (const Vector3& point : solid->images.surface) shape->bounds.extend(point);
+  }
   if (shape->bounds.isEmpty()) return shape;
   shape->solid = solid;
   choose_frame(*shape);
   ShapeWelder(surface, *shape, crease).add_triangles();
-  if (shape->mesh.indices.empty()) shape->bounds.setEmpty();
-  shape->extremes = outermost(shape->mesh);
+  if (shape->mesh.indices.empty() && !solid) shape->bounds.setEmpty();
+  shape->extremes = outermost(solid ? solid->images.surface : positions_of(shape->mesh));
   return shape;
-}
-
-/// Null where images will not do.
-SolidPointer make_solid(const geometry::CsgTree& tree) {
-  auto images = make_csg_geometry(tree);
-  if (!images || images->products.empty()) return nullptr;
-  return std::make_shared<const RenderSolid>(RenderSolid{std::move(*images), tree});
 }
 
 }  // namespace
@@ -171,6 +173,11 @@ SolidPointer make_solid(const geometry::CsgTree& tree) {
 base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape) {
   if (const auto* mesh = dynamic_cast<const MeshGeometry*>(&shape))
     return make_from_surface(*mesh, mesh->mesh.triangles.size() > kScanFrom ? kScanCrease : kMeshCrease);
+  if (const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape)) {
+    const auto drawn = make_drawn_solid(*csg);
+    if (!drawn) return tl::unexpected(drawn.error());
+    return make_from_surface(*drawn->surface, kSolidCrease, drawn->solid);
+  }
   const Bounds box = shape.bounds();
   const double size = box.isEmpty() ? 0.0 : box.sizes().stableNorm();
   if (box.isEmpty()) return std::make_shared<const RenderShape>();
@@ -182,8 +189,7 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape)
     wrapped.texture_coordinates = primitive_places(*primitive, wrapped.mesh);
     return make_from_surface(wrapped, kSolidCrease);
   }
-  const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape);
-  return make_from_surface(**surface, kSolidCrease, csg ? make_solid(csg->tree) : nullptr);
+  return make_from_surface(**surface, kSolidCrease);
 }
 
 }  // namespace icome::render

@@ -3,25 +3,18 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geometry/csg_tree.h"
-#include "render/csg_geometry.h"
+#include "render/render_solid.h"
 #include "render/shading_mesh.h"
 #include "world/geometry.h"
 
 namespace icome::render {
-
-/// A CSG solid made ready to be drawn from images of its operands. Immutable once made.
-struct RenderSolid {
-  CsgGeometry images;
-  geometry::CsgTree tree;  ///< that it was made from
-};
 
 /// A shape's surface as a graphics card takes it, made once for all objects of the shape. Immutable once
 /// made: edits and drawing share it across threads. Owns its arrays.
 struct RenderShape {
   ShadingMesh mesh;
   std::vector<Eigen::Vector2f> picture_places;  ///< of every vertex or none; (0, 0) is the lower left
-  std::vector<Eigen::Vector3f> colours;         ///< of every vertex or none; linear
+  std::vector<Eigen::Vector3f> colours;         ///< of every vertex or none; linear; < 0: the material's
   base::Bounds bounds;                          ///< m, the shape's frame, of what is drawn; empty for nothing
   std::vector<base::Vector3> extremes;          ///< m, outermost vertices all round, to frame a view by
   std::shared_ptr<const RenderSolid> solid;     ///< null: has no images; else in the same frame as the mesh

@@ -157,14 +157,14 @@ base::Result<void> ScenePass::mask_solids(std::span<const PlannedSolid> solids) 
   return {};
 }
 
-/// Solids without triangles are drawn by themselves and put among the others: images of CSG are made from
-/// pixel (0, 0) only, and of all that lies between the light and what is seen.
+/// Solids that are not all there as triangles are drawn by themselves and put among the others: images of CSG
+/// are made from pixel (0, 0) only, and of all that lies between the light and what is seen.
 base::Result<void> ScenePass::cast_solids(std::span<const PlannedItem> casters, const SceneCanvas& maps,
                                           int map, int side) {
   std::vector<PlannedSolid> imaged;
   double nearest = -1.0, farthest = 1.0;  // device depths
   for (const PlannedItem& planned : casters) {
-    const CsgView* view = buffers_.solids().images_alone(planned);
+    const CsgView* view = buffers_.solids().shadow_images(planned);
     if (!view) continue;
     imaged.push_back({&planned, view});
     const Bounds box = device_box(buffer_bounds(*planned.item->shape), planned.clip_from_buffer);

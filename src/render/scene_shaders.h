@@ -146,7 +146,7 @@ vec3 answer(vec3 to_light, vec3 light, float gloss) {
 void main() {
   own = diffuse;
 #ifdef COLOURED
-  own.rgb = own_colour;
+  if (own_colour.r > -0.5) own.rgb = own_colour;
 #endif
 #ifdef TEXTURED
   own *= texture(picture, place);

@@ -20,21 +20,21 @@ bool SceneSolids::is_able() {
 
 bool SceneSolids::prefers_images(const PlannedItem& planned) const {
   if (way_ != CsgWay::Automatic) return way_ == CsgWay::Images;
-  const RenderShape& shape = *planned.item->shape;
-  return prefer_images(shape.solid->images, shape.triangle_count(), planned.clip_from_buffer, pixels_,
-                       traits_->software);
+  const RenderSolid& solid = *planned.item->shape->solid;
+  const double most = solid.triangles == RenderSolid::Triangles::Fine ? kLongestLiveView : kLongestStillView;
+  const double seconds = seconds_from_buffer(solid.images, planned.clip_from_buffer, pixels_);
+  return (traits_->software ? 1.0 : kHardwareFactor) * seconds <= most;
 }
 
 const CsgView* SceneSolids::images(const PlannedItem& planned) {
   const RenderShapePointer& shape = planned.item->shape;
-  if (!shape->solid || !is_able()) return nullptr;
-  const bool alone = shape->mesh.indices.empty();
-  return alone || prefers_images(planned) ? &view(shape) : nullptr;
+  return shape->solid && is_able() && prefers_images(planned) ? &view(shape) : nullptr;
 }
 
-const CsgView* SceneSolids::images_alone(const PlannedItem& planned) {
+const CsgView* SceneSolids::shadow_images(const PlannedItem& planned) {
   const RenderShapePointer& shape = planned.item->shape;
-  return shape->solid && shape->mesh.indices.empty() && is_able() ? &view(shape) : nullptr;
+  const bool partial = shape->solid && shape->solid->triangles == RenderSolid::Triangles::Partial;
+  return partial && is_able() ? &view(shape) : nullptr;
 }
 
 const CsgView& SceneSolids::view(const RenderShapePointer& shape) {

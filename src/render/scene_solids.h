@@ -27,8 +27,8 @@ class SceneSolids {
 
   /// What draws the item from images; null where its triangles are drawn.
   const CsgView* images(const PlannedItem& planned);
-  /// The same where nothing but images can be drawn.
-  const CsgView* images_alone(const PlannedItem& planned);
+  /// What draws its shadow from images, as not all of it is there as triangles.
+  const CsgView* shadow_images(const PlannedItem& planned);
 
   void drop_unused();
 

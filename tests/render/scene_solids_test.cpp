@@ -3,7 +3,10 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -210,14 +213,17 @@ TEST_F(SolidPictures, OperandsKeepTheirColours) {
   DrawnWorld it;
   it.add(csg_shape(tree), at(0.0, 0.0, 0.0), coloured(kGreen));
   const Camera camera = camera_at({0.0, 0.0, 4.0});
-  const Image image = shot(it, camera, plain_look(), CsgWay::Images);
-  const auto colour_at = [&](const Vector3& p) {
-    const auto where = project(camera, p);
-    return at_share(image, where->x, where->y);
-  };
-  EXPECT_TRUE(is_red(colour_at({0.0, 0.0, -0.15})));
-  EXPECT_TRUE(is_blue(colour_at({0.7, 0.7, 0.5})));
-  EXPECT_TRUE(is_green(colour_at({-0.8, -0.8, 0.2})));
+  for (const CsgWay way : {CsgWay::Images, CsgWay::Triangles}) {
+    const Image image = shot(it, camera, plain_look(), way);
+    keep_for_the_eye(image, way == CsgWay::Images ? "colours_images" : "colours_triangles");
+    const auto colour_at = [&](const Vector3& p) {
+      const auto where = project(camera, p);
+      return at_share(image, where->x, where->y);
+    };
+    EXPECT_TRUE(is_red(colour_at({0.0, 0.0, -0.15})));
+    EXPECT_TRUE(is_blue(colour_at({0.7, 0.7, 0.5})));
+    EXPECT_TRUE(is_green(colour_at({-0.8, -0.8, 0.2})));
+  }
 }
 
 TEST_F(SolidPictures, SelectedOnesHaveALineAround) {
@@ -253,6 +259,64 @@ TEST_F(SolidPictures, EmptyAndDegenerateOnesHarmNothing) {
   it.add(box(1.0), at(0.0, 0.0, 0.0), coloured(kRed));
   for (const CsgWay way : {CsgWay::Images, CsgWay::Triangles, CsgWay::Automatic})
     EXPECT_TRUE(is_red(middle(shot(it, camera_at({0.0, 0.0, 3.0}), lit_look(), way))));
+}
+
+TEST_F(SolidPictures, ThinPartsThrowShadowsToo) {
+  // Far thinner than what sampling finds, so that there are no triangles of it.
+  CsgTree tree;
+  const auto plate = tree.add_leaf(Primitive(Box{{1.0, 0.0005, 1.0}}));
+  const auto hole = tree.add_leaf(Primitive(Box{{0.3, 1.0, 0.3}}));
+  tree.add(CsgOperator::Difference, plate, hole);
+  DrawnWorld it;
+  base::Affine3 down = base::Affine3::Identity();
+  down.linear() = Eigen::AngleAxisd(-1.5707963, Vector3::UnitX()).toRotationMatrix();  // -z becomes -y
+  it.add_fixture(world::Light{}, down);
+  it.add(csg_shape(tree), at(0.0, 1.0, 0.0), coloured(kRed));
+  it.add(box(4.0), at(0.0, -2.0, 0.0), coloured({0.8F, 0.8F, 0.8F}));
+  Camera camera = camera_at({0.0, 0.0, 0.0});
+  camera.camera_from_world.linear() = Eigen::AngleAxisd(0.4, Vector3::UnitX()).toRotationMatrix();
+  camera.camera_from_world.translation() = -(camera.camera_from_world.linear() * Vector3(0.0, 2.0, 4.0));
+  SceneLook look = plain_look();
+  look.shadows = true;
+  for (const int passes : {1, 4}) {
+    look.passes = passes;
+    const Image image = shot(it, camera, look);
+    keep_for_the_eye(image, "thin");
+    const auto light_at = [&](const Vector3& p) {
+      const auto where = project(camera, p);
+      return at_share(image, where->x, where->y).light();
+    };
+    EXPECT_GT(light_at({1.4, 0.0, 0.5}), light_at({0.7, 0.0, 0.5}) + 60);  // beside and below it
+    EXPECT_GT(light_at({0.0, 0.0, 0.0}), light_at({0.7, 0.0, 0.5}) + 60);  // through its hole
+  }
+}
+
+/// Draws the scene some times in a context of its own; true when all pictures are alike.
+bool draws_the_same_again(const RenderScene& scene, const Camera& camera, const Image& expected) {
+  auto easel = Easel::create();
+  if (!easel) return false;
+  for (int i = 0; i < 6; ++i) {
+    if (easel->draw(scene, camera, lit_look(), CsgWay::Images).rgba != expected.rgba) return false;
+  }
+  return true;
+}
+
+TEST_F(SolidPictures, ContextsOnTwoThreadsDoNotDisturbEachOther) {
+  RenderScenePointer scenes[2];
+  Camera cameras[2];
+  Image expected[2];
+  for (int i = 0; i < 2; ++i) {
+    DrawnWorld it;
+    it.add(csg_shape(i == 0 ? figure_5_6(1.0) : dented_ball(6)), at(0.0, 0.0, 0.0), coloured(kGreen));
+    scenes[i] = published(it);
+    cameras[i] = oblique(scenes[i]);
+    expected[i] = Easel::create()->draw(*scenes[i], cameras[i], lit_look(), CsgWay::Images);
+  }
+  std::array<std::future<bool>, 4> same;
+  for (std::size_t i = 0; i < same.size(); ++i)
+    same[i] = std::async(std::launch::async, draws_the_same_again, std::cref(*scenes[i % 2]),
+                         std::cref(cameras[i % 2]), std::cref(expected[i % 2]));
+  for (auto& it : same) EXPECT_TRUE(it.get());
 }
 
 CsgTree random_tree(base::Random& random, int operands) {

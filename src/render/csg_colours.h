@@ -1,0 +1,17 @@
+#pragma once
+#include <memory>
+
+#include "geometry/csg_tree.h"
+#include "world/mesh_geometry.h"
+
+namespace icome::render {
+
+/// Stands in a mesh's corner for the material's own colour.
+constexpr world::Colour kMaterialsColour = {-1.0F, -1.0F, -1.0F};
+
+/// The solid's triangles with the colours (linear) of the operands whose surface they are, where any has one;
+/// of several that coincide, the first has it. Else the triangles as they are.
+std::shared_ptr<const world::MeshGeometry> coloured_by_operands(
+    const geometry::CsgTree& tree, std::shared_ptr<const world::MeshGeometry> surface);
+
+}  // namespace icome::render

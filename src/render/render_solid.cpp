@@ -1,0 +1,127 @@
+#include "render/render_solid.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "render/csg_colours.h"
+#include "render/csg_cost.h"
+
+namespace icome::render {
+namespace {
+
+using base::Bounds;
+using base::Vector3;
+using world::MeshGeometry;
+using Surface = std::shared_ptr<const MeshGeometry>;
+
+// Shares of the solid's size: solids are sampled through their volume, so finer takes much longer.
+constexpr double kFine = 1.0 / 160.0;
+constexpr double kCoarse = 1.0 / 64.0;
+
+/// Cells of a grid where there is something.
+class Cells {
+ public:
+  explicit Cells(double side) : side_(side) {}
+
+  void add(const Vector3& point) { filled_.insert(key(cell(point))); }
+
+  /// In the point's cell or one beside it?
+  bool has_near(const Vector3& point) const {
+    const std::array<std::int64_t, 3> middle = cell(point);
+    for (int i = 0; i < 27; ++i) {
+      if (filled_.contains(key({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1})))
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  std::array<std::int64_t, 3> cell(const Vector3& point) const {
+    std::array<std::int64_t, 3> c;
+    for (int i = 0; i < 3; ++i) c[std::size_t(i)] = std::int64_t(std::floor(point[i] / side_));
+    return c;
+  }
+  static std::uint64_t key(const std::array<std::int64_t, 3>& c) {
+    return std::uint64_t(c[0]) * 0x9e3779b97f4a7c15ULL ^ std::uint64_t(c[1]) * 0xc2b2ae3d27d4eb4fULL ^
+           std::uint64_t(c[2]) * 0x165667b19e3779f9ULL;
+  }
+
+  double side_;
+  std::unordered_set<std::uint64_t> filled_;
+};
+
+/// Is there nothing but solid around a point of an operand's surface? There products of a union overlap.
+bool is_within(const geometry::CsgTree& tree, const Vector3& point, double reach) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      if (!geometry::inside(tree, point + sign * reach * Vector3::Unit(axis))) return false;
+    }
+  }
+  return true;
+}
+
+/// Are there triangles wherever the solid has surface? Sampling loses parts that are thinner than a cell.
+bool is_whole(const MeshGeometry& surface, const CsgGeometry& images, const geometry::CsgTree& tree,
+              double cell) {
+  constexpr std::size_t kMostAsked = 4'000;
+  constexpr double kMissing = 0.002;  // share of the points
+  Cells cells(2.0 * cell);
+  for (const Vector3& position : surface.mesh.positions) cells.add(position - images.centre);
+  const std::size_t step = 1 + images.surface.size() / kMostAsked;
+  std::size_t asked = 0, missing = 0;
+  for (std::size_t i = 0; i < images.surface.size(); i += step) {
+    ++asked;
+    const Vector3& point = images.surface[i];
+    missing += !cells.has_near(point - images.centre) && !is_within(tree, point, 1e-3 * cell);
+  }
+  return double(missing) <= kMissing * double(asked);
+}
+
+/// In a view of usual size that the solid fills.
+double usual_seconds(const CsgGeometry& images) {
+  constexpr double kWidth = 1280.0, kHeight = 800.0;  // pixels
+  FitOptions fit;
+  fit.toward_eye = Vector3(1.0, 0.8, 1.2);
+  fit.aspect = kWidth / kHeight;
+  return software_seconds(images, fit_camera(images.surface, fit).clip_from_world(), kWidth * kHeight);
+}
+
+/// The images with what triangles they need beside them; made in the order of what takes longer.
+DrawnSolid with_triangles(const world::CsgGeometry& shape, CsgGeometry images, double size) {
+  auto solid = std::make_shared<RenderSolid>();
+  solid->images = std::move(images);
+  DrawnSolid drawn;
+  std::optional<Surface> made;
+  if (usual_seconds(solid->images) <= kLongestLiveView) {
+    if (auto coarse = shape.triangles(size * kCoarse);
+        coarse && is_whole(**coarse, solid->images, shape.tree, size * kCoarse))
+      made = *coarse;
+  }
+  if (!made) {
+    auto fine = shape.triangles(size * kFine);
+    const bool whole = fine && is_whole(**fine, solid->images, shape.tree, size * kFine);
+    solid->triangles = whole ? RenderSolid::Triangles::Fine : RenderSolid::Triangles::Partial;
+    made = fine ? *fine : std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
+  }
+  return {std::move(solid), coloured_by_operands(shape.tree, *made)};
+}
+
+}  // namespace
+
+base::Result<DrawnSolid> make_drawn_solid(const world::CsgGeometry& shape) {
+  const Bounds box = shape.bounds();
+  const double size = box.isEmpty() ? 0.0 : box.sizes().stableNorm();
+  const double unit = std::isfinite(size) && size > 0.0 ? size : 1.0;
+  auto images = make_csg_geometry(shape.tree);
+  if (images && !images->products.empty()) return with_triangles(shape, std::move(*images), unit);
+  auto surface = shape.triangles(unit * kFine);
+  if (!surface) return tl::unexpected(surface.error());
+  return DrawnSolid{nullptr, coloured_by_operands(shape.tree, *surface)};
+}
+
+}  // namespace icome::render
