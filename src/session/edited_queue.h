@@ -9,7 +9,6 @@
 #include <semaphore>
 #include <vector>
 
-#include "base/vector.h"
 #include "realtime/message_pipe.h"
 #include "world/edit.h"
 
@@ -28,10 +27,9 @@ struct SavedWork {
 
 /// One thing that happened to a session's world.
 struct Edited {
-  std::uint64_t number = 0;                              // counts what was posted, from 1
-  std::shared_ptr<const world::World> whole = nullptr;   // not null: the world is another one from now on
-  base::Pose stage_from_world = base::Pose::Identity();  // of `whole`
-  std::shared_ptr<const world::Edit> edit = nullptr;     // not null: it has been through this
+  std::uint64_t number = 0;                             // counts what was posted, from 1
+  std::shared_ptr<const world::World> whole = nullptr;  // not null: the world is another one from now on
+  std::shared_ptr<const world::Edit> edit = nullptr;    // not null: it has been through this
   /// Not null where `edit` is not, often the same: what makes a replica of the world equal again. It holds
   /// the shapes that main has made in performing `edit`, so that nobody makes them once more.
   std::shared_ptr<const world::Edit> for_replicas = nullptr;

@@ -8,8 +8,8 @@ FeltWorld::FeltWorld(const HapticRepresentationSettings& settings, std::vector<h
                      realtime::LatestValue<FeltVersion>& newest)
     : felt_(settings), servos_(std::move(servos)), newest_(newest) {}
 
-void FeltWorld::open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) {
-  felt_.open(world, shown, base::Affine3(stage_from_world));
+void FeltWorld::open(const world::World& world, world::SceneId shown) {
+  felt_.open(world, shown);
   publish();
 }
 

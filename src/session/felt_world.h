@@ -23,7 +23,7 @@ class FeltWorld final : public Representation {
   FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
             realtime::LatestValue<FeltVersion>& newest);
 
-  void open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) override;
+  void open(const world::World& world, world::SceneId shown) override;
   void show(const world::World& world, world::SceneId shown) override;
   void follow(const world::World& world, const world::Changes& changes) override;
 

@@ -39,7 +39,6 @@ void Follower::take(Edited& edited) {
   taken_ = edited.number;
   if (edited.whole) {
     whole_ = std::move(edited.whole);
-    stage_from_world_ = edited.stage_from_world;
     edits_.clear();
     shown_ = {};
     replica_ = *whole_;
@@ -58,7 +57,7 @@ void Follower::take(Edited& edited) {
 
 void Follower::bring_up_to_date() {
   if (whole_) {
-    representation_->open(replica_, shown_, stage_from_world_);
+    representation_->open(replica_, shown_);
   } else {
     std::vector<const world::Edit*> edits;
     for (const auto& edit : edits_) edits.push_back(edit.get());

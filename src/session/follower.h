@@ -6,24 +6,9 @@
 #include <thread>
 
 #include "session/edited_queue.h"
-#include "world/changes.h"
+#include "session/representation.h"
 
 namespace icome::session {
-
-/// What is made of a world for one purpose, such as being felt or being seen, kept up to date as the world is
-/// edited. Derive from it to add one (collisions, colleagues): nothing else changes. A Follower calls it, on
-/// one thread of its own; making may take as long as it takes.
-class Representation {
- public:
-  virtual ~Representation() = default;
-
-  /// Another world from now on: nothing that was made of the last one is of use.
-  virtual void open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) = 0;
-  /// Another scene (none: the whole world) of the same world is shown.
-  virtual void show(const world::World& world, world::SceneId shown) = 0;
-  /// The world has been through edits that may have changed this.
-  virtual void follow(const world::World& world, const world::Changes& changes) = 0;
-};
 
 /// Keeps a representation up to date on a thread of its own: a replica of the world goes through the same
 /// edits as main's, those that have queued up meanwhile in one go. Owns replica, representation and thread.
@@ -62,7 +47,6 @@ class Follower {
   world::SceneId shown_ = {};
   // Since the representation was brought up to date.
   std::shared_ptr<const world::World> whole_;
-  base::Pose stage_from_world_ = base::Pose::Identity();
   std::vector<std::shared_ptr<const world::Edit>> edits_;
   bool other_scene_ = false;
   std::uint64_t taken_ = 0;

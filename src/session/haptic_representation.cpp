@@ -169,7 +169,7 @@ std::optional<world::ObjectId> TouchedNames::object(base::ObjectId haptic_id) co
   return name.object;
 }
 
-void HapticRepresentation::open(const World& world, world::SceneId scene, const Affine3& world_from_design) {
+void HapticRepresentation::open(const World& world, world::SceneId scene) {
   members_.clear();
   shapes_.clear();
   free_slots_.clear();
@@ -181,7 +181,6 @@ void HapticRepresentation::open(const World& world, world::SceneId scene, const 
   }
   names_.reset();
   stale_ = true;
-  settings_.world_from_design = world_from_design;
   show(world, scene);
 }
 

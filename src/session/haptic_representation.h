@@ -48,7 +48,7 @@ class HapticRepresentation {
   explicit HapticRepresentation(HapticRepresentationSettings settings = {});
 
   /// Represents another world from now on. Nothing that was made before is used again, and no name.
-  void open(const world::World& world, world::SceneId scene, const base::Affine3& world_from_design);
+  void open(const world::World& world, world::SceneId scene = {});
 
   /// Represents this scene from now on, or the whole world. What was made for it before is used again.
   void show(const world::World& world, world::SceneId scene = {});

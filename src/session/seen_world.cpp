@@ -2,13 +2,10 @@
 
 namespace icome::session {
 
-void SeenWorld::open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) {
-  stage_from_world_ = stage_from_world;
-  show(world, shown);
-}
+void SeenWorld::open(const world::World& world, world::SceneId shown) { show(world, shown); }
 
 void SeenWorld::show(const world::World& world, world::SceneId shown) {
-  publisher_ = render::ScenePublisher(shown, stage_from_world_);
+  publisher_ = render::ScenePublisher(shown);
   publish(publisher_.publish(world));
 }
 

@@ -13,7 +13,7 @@ class SeenWorld final : public Representation {
   SeenWorld(DisplayFeed& display, realtime::LatestValue<render::RenderScenePointer>& newest)
       : display_(display), newest_(newest) {}
 
-  void open(const world::World& world, world::SceneId shown, const base::Pose& stage_from_world) override;
+  void open(const world::World& world, world::SceneId shown) override;
   void show(const world::World& world, world::SceneId shown) override;
   void follow(const world::World& world, const world::Changes& changes) override;
 
@@ -21,7 +21,6 @@ class SeenWorld final : public Representation {
   void publish(const render::RenderScenePointer& scene);
 
   render::ScenePublisher publisher_;
-  base::Pose stage_from_world_ = base::Pose::Identity();
   DisplayFeed& display_;
   realtime::LatestValue<render::RenderScenePointer>& newest_;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <system_error>
 #include <thread>
@@ -32,6 +33,7 @@ HapticRepresentationSettings felt_settings(const haptics::ServoSettings& servo) 
 Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
                       devices::SimulatedDevice* mouse)
     : settings(std::move(given)),
+      user(std::move(settings.navigation), std::move(settings.head)),
       display(devices.size()),
       mouse_hand(mouse),
       hands(std::move(devices), settings.servo, display),
@@ -41,9 +43,8 @@ Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices
       seen(std::make_shared<const render::RenderScene>()) {}
 
 Session::Parts::~Parts() {
-  for (Follower* follower : {felt_follower.get(), seen_follower.get()}) {
-    if (follower) follower->give_up();
-  }
+  finish_saving();
+  for (const auto& follower : followers) follower->give_up();
   queue.close();
   hands.stop();
 }
@@ -56,15 +57,10 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
     mouse = hand.get();
     devices.push_back(std::move(hand));
   }
-  const haptics::ServoSettings servo = settings.servo;
   const bool realtime = settings.realtime_priority;
   auto parts = std::make_unique<Parts>(std::move(settings), std::move(devices), mouse);
   try {
-    parts->felt_follower = std::make_unique<Follower>(
-        parts->queue, std::make_unique<FeltWorld>(felt_settings(servo), parts->hands.servos(), parts->felt),
-        "felt world");
-    parts->seen_follower = std::make_unique<Follower>(
-        parts->queue, std::make_unique<SeenWorld>(parts->display, parts->seen), "seen world");
+    parts->start_followers();
   } catch (const std::system_error& error) {
     return base::fail(fmt::format(
         "The system gave no threads for a session ({}): close other programs and try again.", error.what()));
@@ -72,8 +68,20 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
   if (const auto started = parts->hands.start(realtime); !started) return tl::unexpected(started.error());
   if (const std::string& notice = parts->hands.loop()->report().notice; !notice.empty())
     parts->tell(SessionEvent::Kind::Notice, notice);
-  parts->open_world({}, {}, base::Pose::Identity());
+  parts->open_world({}, {});
   return std::unique_ptr<Session>(new Session(std::move(parts)));
+}
+
+void Session::Parts::start_followers() {
+  followers.push_back(std::make_unique<Follower>(
+      queue, std::make_unique<FeltWorld>(felt_settings(settings.servo), hands.servos(), felt), "felt world"));
+  followers.push_back(
+      std::make_unique<Follower>(queue, std::make_unique<SeenWorld>(display, seen), "seen world"));
+  if (!settings.autosave_folder.empty())
+    journal =
+        std::make_unique<AutosaveJournal>(queue.add_reader(), AutosaveSettings{settings.autosave_folder});
+  for (auto& representation : settings.representations)
+    followers.push_back(std::make_unique<Follower>(queue, std::move(representation), "representation"));
 }
 
 Session::Session(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -86,6 +94,7 @@ void Session::Parts::tell(SessionEvent::Kind kind, std::string text, std::vector
 /// What other threads have brought. Pointers first: the names of what they touch are never older then.
 void Session::Parts::take_in() {
   queue.pump();
+  take_files();
   hands.update();
   felt.update();
   seen.update();
@@ -115,13 +124,16 @@ void Session::Parts::notice_devices() {
 
 std::vector<SessionEvent> Session::update() {
   parts_->take_in();
-  parts_->move_view();
+  parts_->move_user();
   parts_->publish_wish();
   return std::exchange(parts_->events, {});
 }
 
 bool Session::Parts::is_settled() const {
-  return felt_follower->followed() == queue.posted() && seen_follower->followed() == queue.posted();
+  if (loader.part() || saver.busy()) return false;
+  if (journal && journal->followed() != queue.posted()) return false;
+  return std::all_of(followers.begin(), followers.end(),
+                     [this](const auto& it) { return it->followed() == queue.posted(); });
 }
 
 void Session::settle() {

@@ -20,6 +20,7 @@
 #include "session/display_feed.h"
 #include "session/pointer_view.h"
 #include "session/recovery.h"
+#include "session/representation.h"
 #include "world/changes.h"
 #include "world/history.h"
 
@@ -32,6 +33,8 @@ struct SessionSettings {
   std::unique_ptr<devices::NavigationDevice> navigation = nullptr;  // may be null
   std::unique_ptr<devices::HeadDevice> head = nullptr;              // may be null
   haptics::ServoSettings servo = {};
+  /// More that is made of the world beside what hand and eye need, each on a thread of its own.
+  std::vector<std::unique_ptr<Representation>> representations = {};
   bool realtime_priority = true;  // asked for; refused, the servo runs as well as it can
   /// Where work in progress is kept against crashes; empty: nowhere.
   std::filesystem::path autosave_folder = {};
@@ -72,7 +75,8 @@ struct ServoHealth {
 /// representation (hand, eye, disk), one for files; the thread that made it is main, and only that one calls
 /// it, but for display(). Nothing here waits for a thread unless it says so.
 ///
-/// What is shown and touched lies on the stage: y up, metres. Worlds of formats with z up are turned onto it.
+/// What is shown and touched lies on the stage: y up, metres. So does the world: designs of formats with z up
+/// are turned when they are read, and turned back when they are written.
 class Session {
  public:
   /// Starts devices and threads with an empty design. Fails when the servo loop cannot start.

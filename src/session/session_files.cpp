@@ -16,52 +16,126 @@ std::vector<std::string> sentences(const std::vector<files::Remark>& remarks,
   return result;
 }
 
+std::string shown_name(const std::filesystem::path& design) {
+  return design.empty() ? "A design without a name" : design.filename().string();
+}
+
 }  // namespace
 
+/// Takes in a design that was read, or why there is none.
+void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
+  const std::shared_ptr<ClaimedWork> work = std::exchange(recovering, nullptr);
+  const std::string name = shown_name(outcome.design);
+  if (!outcome.result) {
+    tell(SessionEvent::Kind::OpenCancelled, fmt::format("{} was not opened: it was cancelled.", name));
+  } else if (!*outcome.result) {
+    tell(SessionEvent::Kind::OpenFailed, outcome.result->error().message);
+  } else {
+    files::LoadedDesign& loaded = **outcome.result;
+    std::vector<std::string> details = sentences(loaded.remarks, outcome.design);
+    open_world(std::move(loaded.world), outcome.design, work);
+    if (work) {
+      tell(SessionEvent::Kind::Recovered,
+           fmt::format("{}: your unsaved work was recovered. Save it to keep it.", name), std::move(details));
+    } else {
+      tell(SessionEvent::Kind::Opened, fmt::format("{} was opened ({}).", name, loaded.format),
+           std::move(details));
+    }
+  }
+}
+
+void Session::Parts::take_saved(DesignSaver::Outcome& outcome) {
+  const std::uint64_t revision = saving_revisions.front();
+  saving_revisions.pop_front();
+  if (!outcome.result) {
+    tell(SessionEvent::Kind::SaveFailed, outcome.result.error().message);
+    return;
+  }
+  tell(SessionEvent::Kind::Saved, fmt::format("{} was saved.", shown_name(outcome.design)),
+       sentences(*outcome.result, outcome.design));
+  // Of a design that is not open any more.
+  if (outcome.number < opened_number) return;
+  path = outcome.design;
+  saved_revision = revision;
+  Edited edited;
+  edited.saved = std::make_shared<const SavedWork>(SavedWork{outcome.design, outcome.number});
+  queue.post(std::move(edited));
+}
+
+void Session::Parts::take_files() {
+  if (auto opened = loader.poll()) take_opened(*opened);
+  while (auto saved = saver.poll()) take_saved(*saved);
+  if (!journal) return;
+  if (const auto news = journal->news())
+    tell(news->keeping ? SessionEvent::Kind::AutosaveResumed : SessionEvent::Kind::AutosaveFailed,
+         news->text);
+}
+
+/// So that what has been written by now is not kept against crashes, too.
+void Session::Parts::finish_saving() {
+  while (saver.busy()) {
+    saver.wait();
+    while (auto saved = saver.poll()) take_saved(*saved);
+  }
+}
+
 void Session::make_new() {
-  cancel_open();
-  parts_->open_world({}, {}, base::Pose::Identity());
+  parts_->loader.cancel();
+  parts_->take_files();
+  parts_->open_world({}, {});
 }
 
 void Session::open(const std::filesystem::path& design) {
-  auto loaded = files::read_design(design);
-  if (!loaded) {
-    parts_->tell(SessionEvent::Kind::OpenFailed, loaded.error().message);
-    return;
-  }
-  parts_->open_world(std::move(loaded->world), design, session::stage_from_world(stands_on_z(design)));
-  parts_->tell(SessionEvent::Kind::Opened, fmt::format("{} was opened.", design.filename().string()),
-               sentences(loaded->remarks, design));
+  parts_->recovering.reset();
+  const auto read = [design](const files::DesignReadOptions& options) {
+    auto loaded = files::read_design(design, options);
+    if (loaded && stands_on_z(design)) set_upright(loaded->world);
+    return loaded;
+  };
+  parts_->loader.start(design, read);
 }
 
-void Session::cancel_open() {}
+void Session::cancel_open() { parts_->loader.cancel(); }
 
-std::optional<double> Session::opening() const { return std::nullopt; }
+std::optional<double> Session::opening() const { return parts_->loader.part(); }
 
 void Session::save(const std::filesystem::path& design) {
-  const auto written = files::write_design(design, parts_->world);
-  if (!written) {
-    parts_->tell(SessionEvent::Kind::SaveFailed, written.error().message);
-    return;
-  }
-  parts_->path = design;
-  parts_->saved_revision = parts_->revisions.now();
-  parts_->tell(SessionEvent::Kind::Saved, fmt::format("{} was saved.", design.filename().string()),
-               sentences(*written, design));
+  world::World world = parts_->world;
+  if (stands_on_z(design)) lay_down(world);
+  parts_->saving_revisions.push_back(parts_->revisions.now());
+  parts_->saver.save(design, std::move(world), parts_->queue.posted());
 }
 
-bool Session::saving() const { return false; }
+bool Session::saving() const { return parts_->saver.busy(); }
 
 const std::filesystem::path& Session::path() const { return parts_->path; }
 
 bool Session::modified() const { return parts_->revisions.now() != parts_->saved_revision; }
 
-void Session::close() {}
+void Session::close() {
+  if (parts_->journal) parts_->journal->close();
+}
 
-std::vector<RecoverableWork> Session::recoverable() const { return {}; }
+std::vector<RecoverableWork> Session::recoverable() const {
+  const std::filesystem::path& folder = parts_->settings.autosave_folder;
+  return folder.empty() ? std::vector<RecoverableWork>{} : find_recoverable_work(folder);
+}
 
-void Session::recover(const RecoverableWork&) {}
+void Session::recover(const RecoverableWork& work) {
+  const auto claimed = ClaimedWork::claim(work);
+  if (!claimed) {
+    parts_->tell(SessionEvent::Kind::OpenFailed, claimed.error().message);
+    return;
+  }
+  parts_->loader.start(work.design, [work = *claimed](const files::DesignReadOptions& options) {
+    return work->read(options);
+  });
+  parts_->recovering = *claimed;
+}
 
-void Session::discard(const RecoverableWork&) {}
+void Session::discard(const RecoverableWork& work) {
+  // What another program has claimed in the meantime is its own to keep.
+  if (const auto claimed = ClaimedWork::claim(work)) (*claimed)->discard();
+}
 
 }  // namespace icome::session

@@ -6,11 +6,16 @@
 #include <vector>
 
 #include "devices/simulated/simulated_device.h"
+#include "session/autosave_journal.h"
+#include "session/claimed_work.h"
+#include "session/design_loader.h"
+#include "session/design_saver.h"
 #include "session/felt_world.h"
 #include "session/haptic_loop.h"
 #include "session/revisions.h"
 #include "session/seen_world.h"
 #include "session/session.h"
+#include "session/user_interaction.h"
 
 namespace icome::session {
 
@@ -22,15 +27,24 @@ struct Session::Parts {
 
   // session_world.cpp
   base::Result<void> done(base::Result<void> result);
-  void open_world(world::World world, const std::filesystem::path& design, const base::Pose& stage);
+  void open_world(world::World opened, const std::filesystem::path& design,
+                  const std::shared_ptr<ClaimedWork>& recovered = nullptr);
   void tell_change(const world::Changes* changes);
   void notify_change(const world::Changes* changes) const;
   void notify_selection() const;
   void show(world::SceneId scene);
   world::EditSink sink();
 
+  // session_files.cpp
+  void take_opened(DesignLoader::Outcome& outcome);
+  void take_saved(DesignSaver::Outcome& outcome);
+  void take_files();
+  void finish_saving();
+
   // session_view.cpp
-  void move_view();
+  void move_user();
+  void go_home(double aspect);
+  void aim(const base::Vector3& position);
   void publish_wish();
 
   // session.cpp
@@ -38,6 +52,7 @@ struct Session::Parts {
   void notice_devices();
   void tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details = {});
   bool is_settled() const;
+  void start_followers();
 
   SessionSettings settings;
 
@@ -46,7 +61,9 @@ struct Session::Parts {
   world::IdSource ids;
   Revisions revisions;
   std::uint64_t saved_revision = 0;
-  base::Pose stage_from_world = base::Pose::Identity();
+  std::deque<std::uint64_t> saving_revisions;  // on their way to disk
+  std::uint64_t opened_number = 0;             // of the post with this world
+  std::shared_ptr<ClaimedWork> recovering;     // not null: it is what the loader reads
   std::filesystem::path path;
   world::SceneId shown_scene = {};
   std::vector<world::ObjectId> selection;
@@ -58,10 +75,11 @@ struct Session::Parts {
 
   DisplayWish look;  // as main wants it, without view and selection
   bool look_is_new = true;
-  interaction::View view;
-  std::optional<interaction::ViewFlight> flight;
-  std::int64_t flight_began = 0;  // ns
-  interaction::NavigationMode navigation_mode = interaction::NavigationMode::Camera;
+  UserInteraction user;
+  std::int64_t moved_at = 0;  // ns, when the user moved last; 0: not yet
+  interaction::View drawn_view;
+  double aspect = 1.5;         // of the picture, when it was asked for last
+  bool hand_is_aimed = false;  // by the mouse
 
   EditedQueue queue;
   DisplayFeed display;
@@ -71,9 +89,11 @@ struct Session::Parts {
   std::vector<std::uint64_t> losses;  // that a person was told of
   realtime::LatestValue<FeltVersion> felt;
   realtime::LatestValue<render::RenderScenePointer> seen;
+  DesignLoader loader;
+  DesignSaver saver;
   // Last, as their threads use the rest.
-  std::unique_ptr<Follower> felt_follower;
-  std::unique_ptr<Follower> seen_follower;
+  std::unique_ptr<AutosaveJournal> journal;  // null: nothing is kept against crashes
+  std::vector<std::unique_ptr<Follower>> followers;
 };
 
 }  // namespace icome::session

@@ -2,58 +2,70 @@
 
 #include "base/clock.h"
 #include "render/views.h"
+#include "session/picking.h"
 #include "session/session_parts.h"
 
 namespace icome::session {
-namespace {
 
-constexpr double kFlightSeconds = 0.35;
+/// Moves the user on, with the workspaces of all pointers.
+void Session::Parts::move_user() {
+  const std::int64_t now = base::steady_nanoseconds();
+  const double dt = moved_at == 0 ? 0.0 : double(now - moved_at) * 1e-9;
+  moved_at = now;
+  const UserInteraction::News news = user.update(dt);
+  for (const auto& it : news.devices)
+    tell(it.lost ? SessionEvent::Kind::DeviceLost : SessionEvent::Kind::DeviceBack, it.text);
+  if (news.home) go_home(aspect);
+  for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
+  // Until the mouse says where, its hand is at the eye: out of sight, and out of the way.
+  if (!hand_is_aimed) aim(user.view().world_from_eye.translation());
+}
 
-}  // namespace
-
-void Session::Parts::move_view() {
-  if (!flight) return;
-  const double time = double(base::steady_nanoseconds() - flight_began) * 1e-9;
-  view = flight->at(time);
-  if (flight->over(time)) flight.reset();
-  look_is_new = true;
+void Session::Parts::aim(const base::Vector3& position) {
+  if (mouse_hand) mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
 }
 
 void Session::Parts::publish_wish() {
+  const interaction::View& now = user.drawn_view();
+  if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
+      now.distance != drawn_view.distance)
+    look_is_new = true;
   if (!std::exchange(look_is_new, false)) return;
+  drawn_view = now;
   DisplayWish wish = look;
-  wish.view = view;
+  wish.view = now;
   wish.look.selected = selection;
   display.wish(wish);
 }
 
-const interaction::View& Session::view() const { return parts_->view; }
-
-void Session::set_view(const interaction::View& view) {
-  parts_->flight.reset();
-  parts_->view = view;
-  parts_->look_is_new = true;
-}
-
-void Session::fly_to(const interaction::View& view) {
-  parts_->flight.emplace(parts_->view, view, kFlightSeconds);
-  parts_->flight_began = base::steady_nanoseconds();
-}
-
-void Session::home(double aspect) {
+void Session::Parts::go_home(double shape) {
   const render::ViewDirection iso = *render::view_direction("iso");
-  const world::World& world = parts_->world;
-  const world::Scene* scene = world.find(parts_->shown_scene);
+  const world::Scene* scene = world.find(shown_scene);
   base::Bounds bounds;
   for (const world::ObjectId id : scene ? scene->roots : world.roots())
     bounds.extend(world::bounds(world, id));
-  if (!bounds.isEmpty()) bounds = bounds.transformed(base::Affine3(parts_->stage_from_world));
-  fly_to(interaction::fitted(parts_->view, bounds, iso.toward_eye, iso.up, aspect));
+  user.fly_to(interaction::fitted(user.view(), bounds, iso.toward_eye, iso.up, shape));
 }
 
-interaction::NavigationMode Session::navigation_mode() const { return parts_->navigation_mode; }
+const base::Pose& Session::stage_from_world() const {
+  static const base::Pose kSame = base::Pose::Identity();
+  return kSame;
+}
 
-void Session::set_navigation_mode(interaction::NavigationMode mode) { parts_->navigation_mode = mode; }
+const interaction::View& Session::view() const { return parts_->user.view(); }
+
+void Session::set_view(const interaction::View& view) { parts_->user.set_view(view); }
+
+void Session::fly_to(const interaction::View& view) { parts_->user.fly_to(view); }
+
+void Session::home(double aspect) {
+  parts_->aspect = aspect;
+  parts_->go_home(aspect);
+}
+
+interaction::NavigationMode Session::navigation_mode() const { return parts_->user.mode(); }
+
+void Session::set_navigation_mode(interaction::NavigationMode mode) { parts_->user.set_mode(mode); }
 
 void Session::set_look(const DisplayWish& look) {
   parts_->look = look;
@@ -75,11 +87,19 @@ std::optional<world::ObjectId> Session::touched(std::size_t index) const {
 }
 
 void Session::aim_hand(const base::Vector3& position) {
-  if (!parts_->mouse_hand || !position.allFinite()) return;
-  parts_->mouse_hand->set_target(parts_->hands.stage_from_device(0).inverse() * position);
+  if (!position.allFinite()) return;
+  parts_->hand_is_aimed = true;
+  parts_->aim(position);
 }
 
-std::optional<Session::Picked> Session::pick(const interaction::Ray&) const { return std::nullopt; }
+std::optional<Session::Picked> Session::pick(const interaction::Ray& ray) const {
+  const FeltVersion& felt = parts_->felt.read();
+  const auto thing = session::pick(*felt.scene, ray);
+  if (!thing) return std::nullopt;
+  const auto object = felt.names->object(thing->object);
+  if (!object) return std::nullopt;
+  return Picked{*object, thing->place};
+}
 
 std::vector<ForceSample> Session::take_forces() { return parts_->hands.take_forces(); }
 

@@ -57,19 +57,19 @@ void Session::Parts::show(world::SceneId scene) {
 }
 
 void Session::Parts::open_world(world::World opened, const std::filesystem::path& design,
-                                const base::Pose& stage) {
+                                const std::shared_ptr<ClaimedWork>& recovered) {
   world = std::move(opened);
   history = {};
   ids = world::IdSource(0, world.next_number(0));
   revisions.restart();
-  saved_revision = revisions.now();
-  stage_from_world = stage;
+  constexpr std::uint64_t kNever = 0;  // what was recovered is in no file
+  saved_revision = recovered ? kNever : revisions.now();
   path = design;
   shown_scene = {};
   Edited edited;
   edited.whole = std::make_shared<const world::World>(world);
-  edited.stage_from_world = stage;
-  queue.post(std::move(edited));
+  edited.saved = std::make_shared<const SavedWork>(SavedWork{design, queue.posted() + 1, recovered});
+  opened_number = queue.post(std::move(edited));
   const bool had_selection = !std::exchange(selection, {}).empty();
   look_is_new = true;
   notify_change(nullptr);
@@ -89,8 +89,6 @@ const world::World& Session::world() const { return parts_->world; }
 world::IdSource& Session::ids() { return parts_->ids; }
 
 const world::History& Session::history() const { return parts_->history; }
-
-const base::Pose& Session::stage_from_world() const { return parts_->stage_from_world; }
 
 base::Result<void> Session::perform(const world::Edit& edit, const std::string& name) {
   const auto performed = parts_->history.perform(parts_->sink(), edit, name);
@@ -145,7 +143,7 @@ base::Bounds Session::selection_bounds() const {
   base::Bounds bounds;
   for (const ObjectId id : parts_->selection.empty() ? all : parts_->selection)
     bounds.extend(world::bounds(world, id));
-  return bounds.isEmpty() ? bounds : bounds.transformed(base::Affine3(parts_->stage_from_world));
+  return bounds;
 }
 
 }  // namespace icome::session

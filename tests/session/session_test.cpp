@@ -1,42 +1,44 @@
 // A session as the desktop, tools and studies drive it.
 #include "session/session.h"
 
-#include <gtest/gtest.h>
-
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
-#include "world/sample_world.h"
+#include "devices/simulated/simulated_device.h"
+#include "session/sessions.h"
 
 namespace icome::session {
 namespace {
 
 using base::Vector3;
 using world::at;
-using world::box;
+using Kind = SessionEvent::Kind;
 
-SessionSettings quiet_settings() {
-  SessionSettings settings;
-  settings.realtime_priority = false;
-  return settings;
+/// A folder of its own for a test, gone afterwards.
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(std::filesystem::path(testing::TempDir()) / ("icome-session-" + name)) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::unique_ptr<devices::SimulatedDevice> hand_at(const Vector3& place) {
+  devices::SimulatedSettings settings;
+  settings.start = place;
+  return std::make_unique<devices::SimulatedDevice>(settings);
 }
 
-std::unique_ptr<Session> start(SessionSettings settings = quiet_settings()) {
-  auto session = Session::create(std::move(settings));
-  EXPECT_TRUE(session) << session.error().message;
-  return std::move(*session);
-}
-
-/// Adds a box of 1 m there, in one action.
-world::ObjectId add_box(Session& session, const base::Affine3& place, const std::string& name = "box") {
-  const auto shape = session.ids().next<world::GeometryId>();
-  const auto id = session.ids().next<world::ObjectId>();
-  world::PhysicalObject object{.name = name, .parent_from_object = place, .geometry = shape};
-  const auto done = session.perform(
-      world::EditGroup{{world::CreateGeometry{shape, box(1.0)}, world::CreateObject{id, 0, object}}},
-      "Add " + name);
-  EXPECT_TRUE(done) << done.error().message;
-  return id;
-}
+/// Looks at the origin from a metre away: workspaces lie as in the world.
+void look_at_origin(Session& session) { session.set_view({}); }
 
 TEST(Session, ShowsAndFeelsWhatIsEdited) {
   const auto session = start();
@@ -46,9 +48,15 @@ TEST(Session, ShowsAndFeelsWhatIsEdited) {
   session->settle();
   ASSERT_EQ(session->drawn()->object_count(), 1U);
   EXPECT_EQ(session->drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
+  EXPECT_EQ(session->selection_bounds().center(), Vector3(0.0, 0.0, -3.0));
+  const auto picked = session->pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()});
+  ASSERT_TRUE(picked);
+  EXPECT_EQ(picked->object, id);
+  EXPECT_NEAR((picked->place.point - Vector3(0.1, 0.2, -2.5)).norm(), 0.0, 1e-9);
   ASSERT_TRUE(session->perform(world::PlaceObject{id, at(2.0, 0.0, 0.0)}, "Move box"));
   session->settle();
   EXPECT_EQ(session->drawn()->bounds().center(), Vector3(2.0, 0.0, 0.0));
+  EXPECT_FALSE(session->pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()}));
   ASSERT_TRUE(session->undo());
   session->settle();
   EXPECT_EQ(session->drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
@@ -85,6 +93,250 @@ TEST(Session, RefusesWhatMakesNoSense) {
   ASSERT_TRUE(session->redo());
   EXPECT_EQ(world::hash(session->world()), before);
   EXPECT_EQ(session->history().undo_name(), "Add box");
+  session->aim_hand({nan, 0.0, 0.0});
+  session->settle();
+  EXPECT_TRUE(session->pointer(0).tip.allFinite());
+}
+
+TEST(Session, SelectsOnlyWhatIsThere) {
+  const auto session = start();
+  int heard = 0;
+  session->on_selection([&] { ++heard; });
+  const auto one = add_box(*session, at(0.0, 0.0, -3.0));
+  const auto other = add_box(*session, at(3.0, 0.0, -3.0));
+  session->select({other, one, other, {77}});
+  EXPECT_EQ(session->selection(), (std::vector<world::ObjectId>{other, one}));
+  EXPECT_EQ(heard, 1);
+  session->select({other, one});
+  EXPECT_EQ(heard, 1);
+  ASSERT_TRUE(session->perform(delete_subtree(session->world(), other), "Delete"));
+  EXPECT_EQ(session->selection(), (std::vector<world::ObjectId>{one}));
+  EXPECT_EQ(heard, 2);
+  ASSERT_TRUE(session->undo());  // it is back, but nobody has selected it
+  EXPECT_EQ(session->selection(), (std::vector<world::ObjectId>{one}));
+  session->make_new();
+  EXPECT_TRUE(session->selection().empty());
+  EXPECT_EQ(heard, 3);
+}
+
+TEST(Session, ShowsOneSceneAndAllAgainWhenItGoes) {
+  const auto session = start();
+  const auto one = add_box(*session, at(0.0, 0.0, -3.0));
+  add_box(*session, at(5.0, 0.0, -3.0));
+  const auto scene = session->ids().next<world::SceneId>();
+  ASSERT_TRUE(session->perform(
+      world::EditGroup{{world::CreateScene{scene, "one"}, world::EnterScene{scene, one, 0}}}, "Make scene"));
+  session->show_scene(scene);
+  session->settle();
+  EXPECT_EQ(session->drawn()->object_count(), 1U);
+  EXPECT_FALSE(session->pick({Vector3(5.0, 0.0, 0.0), -Vector3::UnitZ()}));
+  EXPECT_TRUE(session->pick({Vector3(0.0, 0.0, 0.0), -Vector3::UnitZ()}));
+  EXPECT_NEAR(session->selection_bounds().max().x(), 0.5, 1e-12);
+  ASSERT_TRUE(session->undo());
+  EXPECT_EQ(session->shown_scene(), world::SceneId{});
+  session->settle();
+  EXPECT_EQ(session->drawn()->object_count(), 2U);
+  session->show_scene({12345});  // there is none
+  EXPECT_EQ(session->shown_scene(), world::SceneId{});
+}
+
+TEST(Session, OpensAndSavesInTheBackground) {
+  const Folder folder("files");
+  const auto session = start();
+  add_box(*session, at(0.0, 0.0, -3.0), "kept");
+  const std::uint64_t hash = world::hash(session->world());
+  session->save(folder / "a.icome");
+  ASSERT_TRUE(session->undo());  // what was saved is what was there
+  auto events = run_until(*session, [&] { return !session->saving(); });
+  EXPECT_EQ(count(events, Kind::Saved) + count(session->update(), Kind::Saved), 1U);
+  EXPECT_EQ(session->path(), folder / "a.icome");
+  EXPECT_TRUE(session->modified());
+  ASSERT_TRUE(session->redo());
+  EXPECT_FALSE(session->modified());
+
+  session->make_new();
+  EXPECT_TRUE(session->world().objects().empty());
+  session->open(folder / "a.icome");
+  events = run_until(*session, [&] { return !session->world().objects().empty(); });
+  EXPECT_EQ(count(events, Kind::Opened), 1U);
+  EXPECT_EQ(world::hash(session->world()), hash);
+  EXPECT_FALSE(session->undo());  // histories end where a design is opened
+  EXPECT_FALSE(session->modified());
+  add_box(*session, at(0.0, 0.0, 3.0));  // its id is a new one
+  session->settle();
+  EXPECT_EQ(session->drawn()->object_count(), 2U);
+}
+
+TEST(Session, KeepsTheWorldWhenADesignCannotBeOpenedOrSaved) {
+  const Folder folder("failures");
+  const auto session = start();
+  add_box(*session, at(0.0, 0.0, -3.0));
+  const std::uint64_t hash = world::hash(session->world());
+  std::ofstream(folder / "broken.glb") << "glTF, or so it says";
+  for (const auto& design : {folder / "missing.glb", folder / "broken.glb"}) {
+    session->open(design);
+    session->settle();
+    const auto events = session->update();
+    EXPECT_EQ(count(events, Kind::OpenFailed), 1U) << design;
+    EXPECT_EQ(world::hash(session->world()), hash);
+  }
+  session->save(folder / "no/such/folder/a.icome");
+  auto events = run_until(*session, [&] { return !session->saving(); });
+  EXPECT_EQ(count(events, Kind::SaveFailed) + count(session->update(), Kind::SaveFailed), 1U);
+  EXPECT_TRUE(session->modified());
+  EXPECT_TRUE(session->path().empty());
+}
+
+TEST(Session, TurnsDesignsWithZUpAndBack) {
+  const Folder folder("upright");
+  // One facet that stands at z = 1 ... 2.
+  std::ofstream(folder / "up.stl") << "solid s\nfacet normal 0 1 0\nouter loop\nvertex 0 0 1\nvertex 0 0 2\n"
+                                      "vertex 1 0 1\nendloop\nendfacet\nendsolid s\n";
+  const auto session = start();
+  session->open(folder / "up.stl");
+  run_until(*session, [&] { return !session->world().objects().empty(); });
+  EXPECT_EQ(session->selection_bounds().max(), Vector3(1.0, 2.0, 0.0));
+  session->save(folder / "again.stl");
+  session->save(folder / "other.glb");
+  run_until(*session, [&] { return !session->saving(); });
+  for (const char* name : {"again.stl", "other.glb"}) {
+    session->make_new();
+    session->open(folder / name);
+    run_until(*session, [&] { return !session->world().objects().empty(); });
+    EXPECT_NEAR((session->selection_bounds().max() - Vector3(1.0, 2.0, 0.0)).norm(), 0.0, 1e-6) << name;
+  }
+}
+
+TEST(Session, TellsOfDevicesThatGoAndComeBack) {
+  SessionSettings settings = quiet_settings();
+  auto first = hand_at({0.0, 0.0, 0.1});
+  auto second = hand_at({0.1, 0.0, 0.1});
+  auto *lost_at_start = first.get(), *fine = second.get();
+  lost_at_start->inject(devices::SimulatedFailure::Unplugged);
+  settings.pointers.push_back(std::move(first));
+  settings.pointers.push_back(std::move(second));
+  const auto session = start(std::move(settings));
+  ASSERT_EQ(session->pointers(), 2U);
+  std::size_t lost = 0, back = 0;
+  const auto run = [&](std::size_t lost_in_all, std::size_t back_in_all) {
+    while (lost < lost_in_all || back < back_in_all) {
+      for (const auto& events : {session->update()}) {
+        lost += count(events, Kind::DeviceLost);
+        back += count(events, Kind::DeviceBack);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(lost, lost_in_all);
+    EXPECT_EQ(back, back_in_all);
+  };
+  run(1, 0);
+  lost_at_start->inject(devices::SimulatedFailure::None);
+  run(1, 1);
+  fine->inject(devices::SimulatedFailure::Unplugged);
+  run(2, 1);
+  EXPECT_EQ(session->pointer(1).force, Vector3::Zero());
+  EXPECT_EQ(session->pointer(0).status, devices::DeviceStatus::Ok);
+  fine->inject(devices::SimulatedFailure::None);
+  run(2, 2);
+}
+
+TEST(Session, SeveralPointersTouchAtOnce) {
+  SessionSettings settings = quiet_settings();
+  std::vector<devices::SimulatedDevice*> hands;
+  for (const double x : {-0.7, 0.7}) {
+    auto hand = hand_at({x, 0.0, 0.6});
+    hands.push_back(hand.get());
+    settings.pointers.push_back(std::move(hand));
+  }
+  const auto session = start(std::move(settings));
+  look_at_origin(*session);
+  const auto left = add_box(*session, at(-0.7, 0.0, 0.0));
+  const auto right = add_box(*session, at(0.7, 0.0, 0.0));
+  session->settle();
+  hands[0]->set_target({-0.7, 0.0, 0.49});
+  hands[1]->set_target({0.7, 0.0, 0.49});
+  run_until(*session, [&] { return session->touched(0) && session->touched(1); });
+  EXPECT_EQ(session->touched(0), left);
+  EXPECT_EQ(session->touched(1), right);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(session->pointer(i).scp.z(), 0.5, 1e-6);
+}
+
+TEST(Session, TheMouseDrivesAHandThatIsHeldBackBySurfaces) {
+  const auto session = start();
+  look_at_origin(*session);
+  const auto id = add_box(*session, at(0.0, 0.0, 0.0));
+  session->settle();
+  session->aim_hand({0.1, 0.1, 0.49});
+  run_until(*session, [&] { return session->touched(0) && session->pointer(0).force.z() > 0.5; });
+  EXPECT_EQ(session->touched(0), id);
+  EXPECT_NEAR(session->pointer(0).scp.z(), 0.5, 1e-6);
+  EXPECT_GT(session->pointer(0).tip.z(), 0.49);  // not where the mouse is
+  EXPECT_TRUE(session->servo().running);
+  EXPECT_FALSE(session->take_forces().empty());
+  // What is touched goes: nothing is touched any more, by no name.
+  ASSERT_TRUE(session->perform(delete_subtree(session->world(), id), "Delete"));
+  run_until(*session, [&] { return !session->touched(0) && session->pointer(0).force.norm() == 0.0; });
+}
+
+TEST(Session, CarriesTheHandWithTheView) {
+  SessionSettings settings = quiet_settings();
+  settings.pointers.push_back(hand_at({0.0, 0.0, 0.0}));
+  const auto session = start(std::move(settings));
+  look_at_origin(*session);
+  run_until(*session, [&] { return session->pointer(0).tip.norm() < 1e-9; });
+  interaction::View view;
+  view.world_from_eye.translation() = Vector3(1.0, 2.0, 1.0);
+  session->fly_to(view);
+  run_until(*session, [&] { return (session->pointer(0).tip - Vector3(1.0, 2.0, 0.0)).norm() < 1e-9; });
+  EXPECT_EQ(session->pointer(0).force, Vector3::Zero());
+}
+
+TEST(Session, RecoversWorkOfASessionThatWasNotClosed) {
+  const Folder folder("recovery");
+  SessionSettings settings = quiet_settings();
+  settings.autosave_folder = folder.path();
+  std::uint64_t hash = 0;
+  {
+    const auto session = start(std::move(settings));
+    add_box(*session, at(0.0, 0.0, -3.0), "precious");
+    hash = world::hash(session->world());
+  }
+  for (const bool keep : {true, false}) {
+    SessionSettings again = quiet_settings();
+    again.autosave_folder = folder.path();
+    const auto session = start(std::move(again));
+    const auto work = session->recoverable();
+    ASSERT_EQ(work.size(), 1U);
+    session->recover(work.front());
+    const auto events = run_until(*session, [&] { return !session->world().objects().empty(); });
+    EXPECT_EQ(count(events, Kind::Recovered), 1U);
+    EXPECT_EQ(world::hash(session->world()), hash);
+    EXPECT_TRUE(session->modified());
+    session->settle();
+    if (!keep) session->close();
+  }
+  SessionSettings last = quiet_settings();
+  last.autosave_folder = folder.path();
+  EXPECT_TRUE(start(std::move(last))->recoverable().empty());
+}
+
+TEST(Session, WhatWasSavedInTheEndIsNotRecovered) {
+  const Folder folder("saved");
+  SessionSettings settings = quiet_settings();
+  settings.autosave_folder = folder / "autosave";
+  {
+    const auto session = start(std::move(settings));
+    add_box(*session, at(0.0, 0.0, -3.0));
+    session->save(folder / "a.icome");
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.icome"));
+  EXPECT_TRUE(find_recoverable_work(folder / "autosave").empty());
+}
+
+TEST(Session, RefusesARateThatNoLoopHas) {
+  SessionSettings settings = quiet_settings();
+  settings.servo.rate_hz = 3.0;
+  EXPECT_FALSE(Session::create(std::move(settings)));
 }
 
 }  // namespace

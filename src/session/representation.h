@@ -1,0 +1,21 @@
+#pragma once
+#include "world/changes.h"
+
+namespace icome::session {
+
+/// What is made of a world for one purpose, such as being felt or being seen, kept up to date as the world is
+/// edited. Derive from it to add one (collisions, colleagues): nothing else changes. A Follower calls it, on
+/// one thread of its own; making may take as long as it takes.
+class Representation {
+ public:
+  virtual ~Representation() = default;
+
+  /// Another world from now on: nothing that was made of the last one is of use.
+  virtual void open(const world::World& world, world::SceneId shown) = 0;
+  /// Another scene (none: the whole world) of the same world is shown.
+  virtual void show(const world::World& world, world::SceneId shown) = 0;
+  /// The world has been through edits that may have changed this.
+  virtual void follow(const world::World& world, const world::Changes& changes) = 0;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,230 @@
+// Nobody waits for anybody (thesis 5.6.1): shown by what goes on while others are held up.
+#include <atomic>
+
+#include "devices/simulated/simulated_device.h"
+#include "render/live_renderer.h"
+#include "session/held_shape.h"
+#include "session/sessions.h"
+
+namespace icome::session {
+namespace {
+
+using base::Vector3;
+using world::at;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kFrequency = 71;  // 100,820 triangles: work takes ten times as long
+#else
+constexpr int kFrequency = 230;  // 1,058,000 triangles
+#endif
+
+/// A display thread with a picture of its own, as a window has. Needs an OpenGL driver.
+class Eye {
+ public:
+  explicit Eye(DisplayFeed& feed) : feed_(feed), thread_([this] { run(); }) {}
+  ~Eye() {
+    stop_.store(true);
+    thread_.join();
+  }
+  /// Waits until so many frames more have been drawn.
+  void wait_for_frames(std::uint64_t more) const {
+    const std::uint64_t until = feed_.frames() + more;
+    while (feed_.frames() < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  /// Of the newest version that was drawn.
+  std::size_t objects() const { return objects_.load(); }
+
+ private:
+  void run() {
+    render::LiveRenderer live(64, 48);
+    while (!stop_.load()) {
+      feed_.is_due();
+      const auto drawn = feed_.draw(live.renderer(), live.target());
+      EXPECT_TRUE(drawn) << (drawn ? "" : drawn.error().message);
+      objects_.store(feed_.scene()->object_count());
+    }
+  }
+
+  DisplayFeed& feed_;
+  std::atomic<bool> stop_ = false;
+  std::atomic<std::size_t> objects_ = 0;
+  std::thread thread_;
+};
+
+bool can_draw() { return render::Offscreen::create().has_value(); }
+
+/// Presses a tip onto the box there.
+std::unique_ptr<Session> pressing_session(world::ObjectId* box) {
+  auto session = start();
+  session->set_view({});
+  *box = add_box(*session, at(0.0, 0.0, 0.0));
+  session->settle();
+  session->aim_hand({0.0, 0.0, 0.49});
+  run_until(*session, [&] { return session->touched(0) && session->pointer(0).force.z() > 0.5; });
+  return session;
+}
+
+void wait_for_ticks(const Session& session, std::uint64_t more) {
+  const std::uint64_t until = session.servo().summary.ticks + more;
+  while (session.servo().summary.ticks < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+TEST(SessionThreads, AnEditInFlightHoldsUpNeitherHandNorEyeNorOtherEdits) {
+  if (!can_draw()) GTEST_SKIP() << "there is no OpenGL without a window here";
+  world::ObjectId box;
+  const auto session = pressing_session(&box);
+  session->settle();
+  const Eye eye(session->display());
+  eye.wait_for_frames(2);
+  const auto big = std::make_shared<HeldShape>(geometry::bumpy_geodesic_sphere(kFrequency, 0.3, 0.1, 9));
+  add_shape(*session, big, at(5.0, 0.0, 0.0), "big");
+  // Both representations are in the middle of it.
+  while (big->at_work() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  // That the rest goes on at all shows that nobody waits for them.
+  const auto before = session->drawn();
+  for (int i = 1; i <= 100; ++i)
+    ASSERT_TRUE(session->perform(world::PlaceObject{box, at(0.0, 0.0, -1e-5 * i)}, "Move box"));
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(session->undo());
+  add_box(*session, at(-5.0, 0.0, 0.0));
+  wait_for_ticks(*session, 200);
+  eye.wait_for_frames(5);
+  session->update();
+  EXPECT_EQ(session->drawn(), before);
+  EXPECT_EQ(eye.objects(), 1U);  // the last version that was published
+  EXPECT_EQ(session->touched(0), box);
+  EXPECT_NEAR(session->pointer(0).scp.z(), 0.5, 1e-6);
+  EXPECT_GT(session->pointer(0).force.z(), 0.5);
+  big->let_go();
+  // Now it takes as long as it takes, while hand and eye go on.
+  run_until(*session, [&] { return session->drawn() != before; });
+  session->settle();
+  eye.wait_for_frames(2);
+  EXPECT_EQ(session->drawn()->object_count(), 3U);
+  EXPECT_EQ(eye.objects(), 3U);
+  EXPECT_TRUE(session->pick({Vector3(5.0, 0.0, 2.0), -Vector3::UnitZ()}));
+  EXPECT_EQ(session->touched(0), box);
+}
+
+/// Work that a test holds up.
+class Held final : public Representation {
+ public:
+  struct Gate {
+    std::atomic<int> entered = 0;
+    std::atomic<bool> shut = true;
+  };
+  explicit Held(Gate& gate) : gate_(gate) {}
+  void open(const world::World&, world::SceneId) override {}
+  void show(const world::World&, world::SceneId) override {}
+  void follow(const world::World&, const world::Changes&) override {
+    ++gate_.entered;
+    gate_.entered.notify_all();
+    gate_.shut.wait(true);
+  }
+
+ private:
+  Gate& gate_;
+};
+
+TEST(SessionThreads, ARepresentationOfOnesOwnMayLagBehindForAsLongAsItLikes) {
+  Held::Gate gate;
+  SessionSettings settings = quiet_settings();
+  settings.representations.push_back(std::make_unique<Held>(gate));
+  const auto session = start(std::move(settings));
+  session->settle();  // its world has been opened: what comes now is followed
+  const auto box = add_box(*session, at(0.0, 0.0, -3.0));
+  gate.entered.wait(0);
+  for (int i = 1; i <= 3000; ++i)  // more than its pipe holds
+    ASSERT_TRUE(session->perform(world::PlaceObject{box, at(0.001 * i, 0.0, -3.0)}, "Move box"));
+  run_until(*session, [&] { return session->drawn()->bounds().center().x() > 2.9999; });
+  EXPECT_EQ(gate.entered.load(), 1);
+  gate.shut.store(false);
+  gate.shut.notify_all();
+  session->settle();
+  EXPECT_LT(gate.entered.load(), 20);  // all in few rounds
+}
+
+TEST(SessionThreads, EndWhateverIsUnderWay) {
+  for (int moment = 0; moment < 6; ++moment) {
+    const auto big = std::make_shared<HeldShape>(geometry::bumpy_geodesic_sphere(20, 0.3, 0.1, 9));
+    const auto file = std::filesystem::path(testing::TempDir()) / "icome-session-end.icome";
+    auto session = start();
+    if (moment >= 1) add_box(*session, at(0.0, 0.0, -3.0));
+    if (moment >= 2) add_shape(*session, big, at(5.0, 0.0, 0.0));
+    if (moment >= 3) session->open("/dev/null/there-is-nothing.glb");
+    if (moment >= 4) {
+      while (big->at_work() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      session->save(file);  // of a shape that cannot be written
+    }
+    std::thread helper;
+    if (moment >= 5) {
+      helper = std::thread([&] { big->let_go(); });
+    } else {
+      big->let_go();
+    }
+    session.reset();
+    if (helper.joinable()) helper.join();
+    std::filesystem::remove(file);
+  }
+}
+
+TEST(SessionThreads, AreAllBusyAtOnce) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "icome-session-busy";
+  std::filesystem::remove_all(folder);
+  SessionSettings settings = quiet_settings();
+  settings.autosave_folder = folder / "autosave";
+  std::vector<devices::SimulatedDevice*> hands;
+  for (int i = 0; i < 2; ++i) {
+    auto hand = std::make_unique<devices::SimulatedDevice>();
+    hands.push_back(hand.get());
+    settings.pointers.push_back(std::move(hand));
+  }
+  const auto session = start(std::move(settings));
+  std::optional<Eye> eye;
+  if (can_draw()) eye.emplace(session->display());
+  base::Random random(99);
+  std::vector<world::ObjectId> boxes;
+  for (int i = 0; i < 20; ++i)
+    boxes.push_back(add_box(*session, at(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), 0.0)));
+  const auto scene = session->ids().next<world::SceneId>();
+  ASSERT_TRUE(session->perform(
+      world::EditGroup{{world::CreateScene{scene, "some"}, world::EnterScene{scene, boxes[0], 0},
+                        world::EnterScene{scene, boxes[1], 1}}},
+      "Make scene"));
+  const auto mesh = add_shape(
+      *session, std::make_shared<world::MeshGeometry>(geometry::bumpy_geodesic_sphere(30, 0.5, 0.1, 5)),
+      at(0.0, 0.0, -2.0), "mesh");
+  const auto shape = session->world().find(mesh)->geometry;
+  for (int round = 0; round < 150; ++round) {
+    ASSERT_TRUE(session->perform(
+        world::PlaceObject{boxes[random.index(boxes.size())], at(random.uniform(-3.0, 3.0), 0.0, 0.0)},
+        "Move"));
+    if (round % 3 == 0) {
+      const world::MoveVertices pull{shape, {std::uint32_t(random.index(9000))}, {random.direction()}};
+      ASSERT_TRUE(session->perform(pull, "Pull"));
+    }
+    if (round % 4 == 0) {
+      ASSERT_TRUE(session->undo());
+    }
+    if (round % 10 == 0) session->show_scene(round % 20 == 0 ? scene : world::SceneId{});
+    if (round % 30 == 7) session->save(folder / "busy.icome");
+    if (round == 100) session->open(folder / "busy.icome");
+    if (round == 101) session->cancel_open();
+    if (round % 25 == 5) hands[0]->inject(devices::SimulatedFailure::Unplugged);
+    if (round % 25 == 8) hands[0]->inject(devices::SimulatedFailure::None);
+    for (devices::SimulatedDevice* hand : hands) hand->set_target(0.5 * random.direction());
+    session->select({boxes[random.index(boxes.size())]});
+    if (round % 20 == 0) session->fly_to(interaction::orbited(session->view(), 0.3, 0.1));
+    session->update();
+    (void)session->pick({Vector3(0.0, 0.0, 5.0), -Vector3::UnitZ()});
+    (void)session->servo();
+  }
+  session->settle();
+  EXPECT_EQ(session->drawn()->object_count(), session->shown_scene() ? 2U : 21U);
+  if (eye) eye->wait_for_frames(1);
+  eye.reset();
+  session->close();
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace icome::session

@@ -1,0 +1,64 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "session/session.h"
+#include "world/sample_world.h"
+
+namespace icome::session {
+
+/// What tests can do without: a priority that few machines allow.
+inline SessionSettings quiet_settings() {
+  SessionSettings settings;
+  settings.realtime_priority = false;
+  return settings;
+}
+
+inline std::unique_ptr<Session> start(SessionSettings settings = quiet_settings()) {
+  auto session = Session::create(std::move(settings));
+  if (!session) throw std::runtime_error(session.error().message);
+  return std::move(*session);
+}
+
+/// Adds an object of a shape there, in one action.
+inline world::ObjectId add_shape(Session& session, world::GeometryPointer shape, const base::Affine3& place,
+                                 const std::string& name = "box") {
+  const auto geometry = session.ids().next<world::GeometryId>();
+  const auto id = session.ids().next<world::ObjectId>();
+  world::PhysicalObject object{.name = name, .parent_from_object = place, .geometry = geometry};
+  const auto done =
+      session.perform(world::EditGroup{{world::CreateGeometry{geometry, std::move(shape)},
+                                        world::CreateObject{id, session.world().roots().size(), object}}},
+                      "Add " + name);
+  if (!done) throw std::runtime_error(done.error().message);
+  return id;
+}
+
+inline world::ObjectId add_box(Session& session, const base::Affine3& place,
+                               const std::string& name = "box") {
+  return add_shape(session, world::box(1.0), place, name);
+}
+
+/// Goes on as a main loop does until that is so. A test that waits for ever says what it waits for by its
+/// name.
+template <typename IsSo>
+std::vector<SessionEvent> run_until(Session& session, const IsSo& is_so) {
+  std::vector<SessionEvent> events;
+  for (;;) {
+    for (SessionEvent& event : session.update()) events.push_back(std::move(event));
+    if (is_so()) return events;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+/// How many events of a kind there are.
+inline std::size_t count(const std::vector<SessionEvent>& events, SessionEvent::Kind kind) {
+  std::size_t result = 0;
+  for (const SessionEvent& event : events) result += event.kind == kind ? 1 : 0;
+  return result;
+}
+
+}  // namespace icome::session
