@@ -26,6 +26,7 @@ struct PointerState {
   Vector3 velocity = Vector3::Zero();               // m/s
   Quaternion orientation = Quaternion::Identity();  // device_from_stylus
   std::uint32_t buttons = 0;                        // bit i: button i is down
+  bool jumped = false;                              // it got there without a way: what it touched it left
 };
 
 /// How a read or write went.

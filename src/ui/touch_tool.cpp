@@ -18,9 +18,7 @@ void TouchTool::leave() {
   if (!active_) return;
   active_ = false;
   pressure_ = wheel_ = 0.0;
-  // Back to the eye, away from what it touched: nothing is in between, or the mouse could not have reached
-  // it.
-  session_.aim_hand(session_.view().world_from_eye.translation());
+  session_.park_hand();
 }
 
 bool TouchTool::step(int key, bool fine) {
@@ -30,6 +28,19 @@ bool TouchTool::step(int key, bool fine) {
   const double pixels = fine ? 1.0 : 8.0;
   input_.at.setX(std::clamp(input_.at.x() + pixels * right, 0.0, input_.size.width()));
   input_.at.setY(std::clamp(input_.at.y() + pixels * down, 0.0, input_.size.height()));
+  return true;
+}
+
+/// Has something been in the way for a while that no button presses against? Then the hand is lifted like a
+/// pen, and comes again from the eye, from where all that the mouse can point at is free to reach.
+bool TouchTool::is_stuck(const interaction::MouseHand::Input& input, const base::Vector3& target) {
+  constexpr double kFar = 0.1;   // of the view's width at the target
+  constexpr int kPatience = 30;  // ticks
+  const double width = input.view_width * (target - input.ray.origin).norm();
+  const bool is_away = input.pressure <= 0.0 && input.hand && (*input.hand - target).norm() > kFar * width;
+  away_ticks_ = is_away ? away_ticks_ + 1 : 0;
+  if (away_ticks_ < kPatience) return false;
+  away_ticks_ = 0;
   return true;
 }
 
@@ -46,7 +57,9 @@ void TouchTool::tick() {
   input.wheel = wheel_;
   wheel_ = 0.0;
   const base::Vector3 target = hand_.target(input);
-  if (target.allFinite()) session_.aim_hand(target);
+  if (!target.allFinite()) return;
+  if (is_stuck(input, target)) session_.park_hand();
+  session_.aim_hand(target);
 }
 
 }  // namespace icome::ui

@@ -171,6 +171,27 @@ TEST(SimulatedDevice, ReadAndWriteTakeNoMemoryAndNoLock) {
   EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0u);
 }
 
+TEST(SimulatedDevice, IsPutElsewhereAtRestAndSaysSoOnce) {
+  SimulatedDevice device;
+  PointerState state;
+  device.set_target({0.1, 0.0, 0.0});
+  for (int i = 0; i < 20; ++i) device.read(state);
+  EXPECT_GT(state.velocity.x(), 0.0);
+  const Vector3 there(0.0, 0.5, 0.0);
+  device.set_target(there);
+  device.put(there);
+  // Whoever could not read meanwhile hears of it later.
+  device.inject(SimulatedFailure::Stalled);
+  EXPECT_EQ(device.read(state), DeviceStatus::Stalled);
+  device.inject(SimulatedFailure::None);
+  ASSERT_EQ(device.read(state), DeviceStatus::Ok);
+  EXPECT_TRUE(state.jumped);
+  EXPECT_LT((state.position - there).norm(), 1e-12);
+  EXPECT_LT(state.velocity.norm(), 1e-9);
+  ASSERT_EQ(device.read(state), DeviceStatus::Ok);
+  EXPECT_FALSE(state.jumped);
+}
+
 TEST(SimulatedDevice, TargetMayBeSetFromAnotherThread) {
   SimulatedDevice device;
   std::thread person([&device] {

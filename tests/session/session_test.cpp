@@ -278,6 +278,30 @@ TEST(Session, TheMouseDrivesAHandThatIsHeldBackBySurfaces) {
   run_until(*session, [&] { return !session->touched(0) && session->pointer(0).force.norm() == 0.0; });
 }
 
+TEST(Session, ParksTheHandAtTheEyeWhateverStandsInTheWay) {
+  const auto session = start();
+  look_at_origin(*session);
+  add_box(*session, at(0.0, 0.0, 0.0));
+  session->settle();
+  session->aim_hand({0.0, 0.0, 0.49});
+  run_until(*session, [&] { return session->touched(0).has_value(); });
+  // From behind: the box lies between the hand and the eye.
+  interaction::View behind = session->view();
+  const base::Vector3 eye(0.0, 0.0, -4.0);
+  behind.world_from_eye.linear() =
+      Eigen::AngleAxisd(3.141592653589793, base::Vector3::UnitY()).toRotationMatrix();
+  behind.world_from_eye.translation() = eye;
+  session->set_view(behind);
+  session->park_hand();
+  run_until(*session, [&] { return (session->pointer(0).tip - eye).norm() < 1e-6; });
+  EXPECT_EQ(session->pointer(0).scp, session->pointer(0).tip);
+  EXPECT_FALSE(session->touched(0));
+  // And on its way again it meets the other side.
+  session->aim_hand({0.0, 0.0, 0.49});
+  run_until(*session, [&] { return session->touched(0).has_value(); });
+  EXPECT_NEAR(session->pointer(0).scp.z(), -0.5, 1e-6);
+}
+
 TEST(Session, CarriesTheHandWithTheView) {
   SessionSettings settings = quiet_settings();
   settings.pointers.push_back(hand_at({0.0, 0.0, 0.0}));

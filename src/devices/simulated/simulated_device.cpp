@@ -38,6 +38,7 @@ SimulatedDevice::SimulatedDevice(SimulatedSettings settings)
 DeviceStatus SimulatedDevice::read(PointerState& state) {
   const SimulatedFailure failure = failure_.load(std::memory_order_relaxed);
   if (failure == SimulatedFailure::Unplugged) force_ = Vector3::Zero();
+  if (put_.update()) set_down(put_.read());
   advance();
   const Vector3 reading = rounded_to(position_, settings_.encoder_resolution);
   const Vector3 difference = (reading - encoder_) * settings_.rate;
@@ -47,6 +48,7 @@ DeviceStatus SimulatedDevice::read(PointerState& state) {
   state = PointerState{};
   state.position = reading;
   state.velocity = settings_.encoder_resolution > 0.0 ? difference : velocity_;
+  state.jumped = std::exchange(jumped_, false);
   if (failure == SimulatedFailure::NotANumber) state.position.setConstant(std::nan(""));
   return DeviceStatus::Ok;
 }
@@ -55,6 +57,13 @@ DeviceStatus SimulatedDevice::write(const Vector3& force) {
   if (failure_.load(std::memory_order_relaxed) == SimulatedFailure::Unplugged) return DeviceStatus::Lost;
   force_ = force.allFinite() ? force : Vector3::Zero();
   return DeviceStatus::Ok;
+}
+
+void SimulatedDevice::set_down(const Vector3& position) {
+  position_ = position;
+  velocity_ = force_ = Vector3::Zero();
+  encoder_ = rounded_to(position_, settings_.encoder_resolution);
+  jumped_ = true;
 }
 
 void SimulatedDevice::advance() {

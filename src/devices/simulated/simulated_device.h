@@ -58,6 +58,10 @@ class SimulatedDevice final : public PointerDevice {
   /// Where the hand wants to be from the next tick on, m. One other thread may call this.
   /// Real-time safe.
   void set_target(const Vector3& position) { target_.publish(position); }
+  /// Puts the tip there at rest, m, without a way in between, as a pen is lifted and set down elsewhere. The
+  /// hand still wants to be where it was told. One other thread, that of set_target(), may call this.
+  /// Real-time safe.
+  void put(const Vector3& position) { put_.publish(position); }
   /// Makes the device fail from the next tick on, or work again. Any thread. Real-time safe.
   void inject(SimulatedFailure failure) { failure_.store(failure, std::memory_order_relaxed); }
 
@@ -69,6 +73,7 @@ class SimulatedDevice final : public PointerDevice {
 
  private:
   void advance();
+  void set_down(const Vector3& position);
   Vector3 target_at(double time) const;
 
   SimulatedSettings settings_;
@@ -76,6 +81,8 @@ class SimulatedDevice final : public PointerDevice {
   // [position; velocity] after a sub-step = these times [position; velocity; push/mass].
   std::array<std::array<double, 3>, 2> step_{};
   realtime::LatestValue<Vector3> target_;
+  realtime::LatestValue<Vector3> put_;
+  bool jumped_ = false;  // since the last reading that was Ok
   std::atomic<SimulatedFailure> failure_ = SimulatedFailure::None;
   Vector3 position_;                    // m
   Vector3 velocity_ = Vector3::Zero();  // m/s

@@ -86,6 +86,11 @@ bool Servo::read() {
   }
   state_ = state;
   has_state_ = true;
+  if (state.jumped) {
+    solver_->reset();
+    limiter_.restart();
+    if (effects_ != nullptr) effects_->reset();
+  }
   // The workspace's own speed is left out: it comes in jerks from who carries it, which damping would turn
   // into jerks of the force.
   tip_velocity_ = world_from_device_.linear() * state.velocity;

@@ -19,6 +19,7 @@ class StillDevice final : public devices::PointerDevice {
  public:
   const devices::DeviceInfo& info() const override { return info_; }
   DeviceStatus read(devices::PointerState& state) override {
+    state.jumped = jumped;
     if (status == DeviceStatus::Ok) state.position = position;
     return status;
   }
@@ -29,6 +30,7 @@ class StillDevice final : public devices::PointerDevice {
 
   Vector3 position = Vector3::Zero();
   Vector3 force = Vector3::Zero();
+  bool jumped = false;
   DeviceStatus status = DeviceStatus::Ok;
 
  private:
@@ -36,6 +38,28 @@ class StillDevice final : public devices::PointerDevice {
 };
 
 ScenePointer box_scene() { return HapticScene::compile({object(1, shape_of(primitive("box:0.1x0.1x0.1")))}); }
+
+TEST(Servo, BeginsAnewWhereADeviceHasJumpedTo) {
+  StillDevice device;
+  Servo servo(device, {});
+  servo.publish(box_scene());
+  device.position.z() = 0.06;
+  servo.tick(kTick);
+  device.position.z() = 0.049;
+  servo.tick(kTick);
+  EXPECT_TRUE(servo.last().contact.touching);
+  // Without a jump the SCP would stay on this side.
+  device.position.z() = -0.06;
+  device.jumped = true;
+  servo.tick(kTick);
+  EXPECT_FALSE(servo.last().contact.touching);
+  EXPECT_EQ(servo.last().contact.scp, servo.last().tip);
+  device.jumped = false;
+  device.position.z() = -0.049;
+  for (int i = 0; i < 10; ++i) servo.tick(kTick);
+  EXPECT_NEAR(servo.last().contact.scp.z(), -0.05, 1e-9);
+  EXPECT_LT(servo.last().force.z(), 0.0);
+}
 
 TEST(ServoCarry, CarriesARestingTipThroughFreeSpaceWithoutForce) {
   StillDevice device;
