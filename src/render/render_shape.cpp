@@ -20,6 +20,7 @@ constexpr double kMeshCrease = 0.9;                // rad
 constexpr double kScanCrease = 2.2;                // rad
 constexpr double kSolidCrease = 0.6;               // rad, of fine triangles made of an exact shape
 constexpr std::size_t kScanFrom = 20'000;          // triangles
+constexpr std::size_t kFewTriangles = 300;         // need no coarser ones
 constexpr std::uint32_t kNoVertex = 0xffffffff;    // ends a list of vertices
 constexpr std::size_t kMostVerticesCompared = 64;  // at the tip of a fine cone each triangle has its own
 
@@ -152,7 +153,7 @@ void choose_frame(RenderShape& shape) {
   if (half > 0.0 && std::isfinite(half)) shape.mesh.radius = half;
 }
 
-RenderShapePointer make_from_surface(const MeshGeometry& surface, double crease,
+std::shared_ptr<RenderShape> make_from_surface(const MeshGeometry& surface, double crease,
                                      const SolidPointer& solid = nullptr) {
   auto shape = std::make_shared<RenderShape>();
   shape->bounds = used_bounds(surface.mesh);
@@ -168,15 +169,49 @@ RenderShapePointer make_from_surface(const MeshGeometry& surface, double crease,
   return shape;
 }
 
+/// Vertices in the frame of another mesh's buffers.
+void change_frame(ShadingMesh& mesh, const ShadingMesh& to) {
+  for (ShadingMesh::Vertex& it : mesh.vertices) {
+    const Vector3 at = mesh.centre + mesh.radius * it.position.cast<double>();
+    it.position = ((at - to.centre) / to.radius).cast<float>();
+  }
+  mesh.centre = to.centre;
+  mesh.radius = to.radius;
+}
+
+/// Exact shapes are made of fewer triangles anew, which keeps their normals exact.
+std::vector<ShapeLevel> coarser_primitives(const world::PrimitiveGeometry& primitive, const RenderShape& full,
+                                           double tolerance) {
+  std::vector<ShapeLevel> levels;
+  std::size_t triangles = full.triangle_count();
+  for (double coarser = 4.0 * tolerance; triangles > kFewTriangles; coarser *= 3.0) {
+    const auto surface = primitive.triangles(coarser);
+    if (!surface || 3 * (*surface)->mesh.triangles.size() > 2 * triangles) break;
+    ShapeLevel level{make_from_surface(**surface, kSolidCrease)->mesh, {}, 2.0 * coarser / full.mesh.radius};
+    change_frame(level.mesh, full.mesh);
+    triangles = level.mesh.indices.size() / 3;
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+std::shared_ptr<RenderShape> with_levels(std::shared_ptr<RenderShape> shape) {
+  shape->coarser = make_shape_levels(shape->mesh, shape->colours);
+  return shape;
+}
+
 }  // namespace
 
 base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape) {
   if (const auto* mesh = dynamic_cast<const MeshGeometry*>(&shape))
-    return make_from_surface(*mesh, mesh->mesh.triangles.size() > kScanFrom ? kScanCrease : kMeshCrease);
+    return with_levels(
+        make_from_surface(*mesh, mesh->mesh.triangles.size() > kScanFrom ? kScanCrease : kMeshCrease));
   if (const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape)) {
     const auto drawn = make_drawn_solid(*csg);
     if (!drawn) return tl::unexpected(drawn.error());
-    return make_from_surface(*drawn->surface, kSolidCrease, drawn->solid);
+    const auto made = make_from_surface(*drawn->surface, kSolidCrease, drawn->solid);
+    // Colours of operands end at edges: they must not be averaged.
+    return made->colours.empty() ? with_levels(made) : made;
   }
   const Bounds box = shape.bounds();
   const double size = box.isEmpty() ? 0.0 : box.sizes().stableNorm();
@@ -187,9 +222,11 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape)
   if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
     MeshGeometry wrapped = **surface;
     wrapped.texture_coordinates = primitive_places(*primitive, wrapped.mesh);
-    return make_from_surface(wrapped, kSolidCrease);
+    const auto made = make_from_surface(wrapped, kSolidCrease);
+    made->coarser = coarser_primitives(*primitive, *made, tolerance);
+    return made;
   }
-  return make_from_surface(**surface, kSolidCrease);
+  return with_levels(make_from_surface(**surface, kSolidCrease));
 }
 
 }  // namespace icome::render

@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "render/render_solid.h"
 #include "render/shading_mesh.h"
+#include "render/shape_levels.h"
 #include "world/geometry.h"
 
 namespace icome::render {
@@ -15,6 +16,7 @@ struct RenderShape {
   ShadingMesh mesh;
   std::vector<Eigen::Vector2f> picture_places;  ///< of every vertex or none; (0, 0) is the lower left
   std::vector<Eigen::Vector3f> colours;         ///< of every vertex or none; linear; < 0: the material's
+  std::vector<ShapeLevel> coarser;              ///< without places in a picture
   base::Bounds bounds;                          ///< m, the shape's frame, of what is drawn; empty for nothing
   std::vector<base::Vector3> extremes;          ///< m, outermost vertices all round, to frame a view by
   std::shared_ptr<const RenderSolid> solid;     ///< null: has no images; else in the same frame as the mesh

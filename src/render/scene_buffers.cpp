@@ -7,9 +7,6 @@
 namespace icome::render {
 namespace {
 
-constexpr std::size_t kCoarseCasterFrom = 40'000;  // triangles
-constexpr double kCasterCell = 1.0 / 96.0;         // of half the shape's size
-
 /// Bottom row first, as OpenGL counts.
 std::vector<std::uint8_t> upside_down(const Image& image) {
   std::vector<std::uint8_t> rows(image.rgba.size());
@@ -35,25 +32,20 @@ GlObject upload_picture(const RenderPicture& picture) {
 
 }  // namespace
 
-SceneBuffers::ShapeEntry& SceneBuffers::entry(const RenderShapePointer& shape) {
+const MeshView& SceneBuffers::view(const RenderShapePointer& shape, int level) {
   ShapeEntry& found = shapes_[shape.get()];
   // Another may have come to lie where one that is gone was.
-  if (found.shape.lock() != shape) found = {shape, nullptr, nullptr};
-  return found;
-}
-
-const MeshView& SceneBuffers::view(const RenderShapePointer& shape) {
-  ShapeEntry& found = entry(shape);
-  if (!found.view)
-    found.view = std::make_unique<MeshView>(shape->mesh, shape->picture_places, shape->colours);
-  return *found.view;
-}
-
-const MeshView& SceneBuffers::caster(const RenderShapePointer& shape) {
-  if (shape->triangle_count() < kCoarseCasterFrom || !shape->picture_places.empty()) return view(shape);
-  ShapeEntry& found = entry(shape);
-  if (!found.caster) found.caster = std::make_unique<MeshView>(clustered(shape->mesh, kCasterCell));
-  return *found.caster;
+  if (found.shape.lock() != shape) found = {shape, {}};
+  found.views.resize(1 + shape->coarser.size());
+  std::unique_ptr<MeshView>& view = found.views[std::size_t(level - kFullLevel)];
+  if (view) return *view;
+  if (level == kFullLevel) {
+    view = std::make_unique<MeshView>(shape->mesh, shape->picture_places, shape->colours);
+  } else {
+    const ShapeLevel& coarser = shape->coarser[std::size_t(level)];
+    view = std::make_unique<MeshView>(coarser.mesh, std::span<const Eigen::Vector2f>(), coarser.colours);
+  }
+  return *view;
 }
 
 unsigned SceneBuffers::picture(const std::shared_ptr<const RenderPicture>& picture) {

@@ -1,9 +1,11 @@
 #pragma once
 #include <memory>
 #include <unordered_map>
+#include <vector>
 
 #include "render/mesh_view.h"
 #include "render/render_scene.h"
+#include "render/scene_plan.h"
 #include "render/scene_solids.h"
 
 namespace icome::render {
@@ -12,9 +14,8 @@ namespace icome::render {
 /// of a scene has them any more. Lives in one context.
 class SceneBuffers {
  public:
-  const MeshView& view(const RenderShapePointer& shape);
-  /// A coarser one for shadows, of large shapes.
-  const MeshView& caster(const RenderShapePointer& shape);
+  /// `level` of the shape's coarser ones, or kFullLevel.
+  const MeshView& view(const RenderShapePointer& shape, int level);
   unsigned picture(const std::shared_ptr<const RenderPicture>& picture);
 
   SceneSolids& solids() { return solids_; }
@@ -24,15 +25,12 @@ class SceneBuffers {
  private:
   struct ShapeEntry {
     std::weak_ptr<const RenderShape> shape;
-    std::unique_ptr<MeshView> view;
-    std::unique_ptr<MeshView> caster;
+    std::vector<std::unique_ptr<MeshView>> views;  // the shape itself, then its coarser ones
   };
   struct PictureEntry {
     std::weak_ptr<const RenderPicture> picture;
     GlObject texture;
   };
-
-  ShapeEntry& entry(const RenderShapePointer& shape);
 
   std::unordered_map<const RenderShape*, ShapeEntry> shapes_;
   std::unordered_map<const RenderPicture*, PictureEntry> pictures_;

@@ -89,10 +89,11 @@ SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightC
     }
   }
   SceneLights studio;
-  // Never from below the ground.
-  Vector3 key = from_camera(camera, {-0.55, 0.80, 0.62});
-  key.y() = std::max(key.y(), 0.25);
-  studio.suns.push_back({key.normalized(), {0.74F, 0.72F, 0.68F}, Eigen::Vector3f::Zero(), 0.10F, 0.22});
+  // It stands still in the world: shadows stay where they are while one walks round things.
+  studio.suns.push_back(
+      {Vector3(-0.46, 0.80, 0.62).normalized(), {0.62F, 0.60F, 0.57F}, Eigen::Vector3f::Zero(), 0.10F, 0.22});
+  // Sides that it does not reach are seen by a light at the eye.
+  studio.suns.push_back({from_camera(camera, {-0.25, 0.35, 1.0}), {0.20F, 0.20F, 0.21F}});
   studio.shadowed = true;
   return studio;
 }

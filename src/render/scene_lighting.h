@@ -9,7 +9,7 @@ namespace icome::render {
 /// Which lights a picture is drawn in.
 enum class LightChoice {
   Automatic,  ///< the design's own where it has any that are on, else the studio's
-  Studio      ///< a soft light from the upper left behind the eye, and the sky
+  Studio      ///< a soft light from above, the sky, and a faint one at the eye
 };
 
 /// Light from one direction.

@@ -9,6 +9,8 @@ namespace {
 
 using base::Vector3;
 
+constexpr double kCasterCell = 1.5;  // texels
+
 void set_matrix(int slot, const Matrix4& value) {
   const Eigen::Matrix4f single = value.cast<float>();
   glUniformMatrix4fv(slot, 1, GL_FALSE, single.data());
@@ -52,7 +54,7 @@ void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& pla
   set_matrix(program.clip_from_buffer, Matrix4(clip_shift_ * planned.clip_from_buffer));
   set_look(program, planned);
   if (surface_kind(*planned.item).textured) bind_picture(buffers_, *planned.item);
-  buffers_.view(planned.item->shape).draw();
+  buffers_.view(planned.item->shape, planned.level).draw();
 }
 
 base::Result<void> ScenePass::opaque(std::span<const PlannedItem> items) {
@@ -123,8 +125,7 @@ base::Result<void> ScenePass::ground(const MeshView& square, const Camera& camer
   return {};
 }
 
-base::Result<void> ScenePass::draw_flat(std::span<const PlannedItem> items, const Eigen::Vector4f& colour,
-                                        bool coarse) {
+base::Result<void> ScenePass::draw_flat(std::span<const PlannedItem> items, const Eigen::Vector4f& colour) {
   for (const bool cut_out : {false, true}) {
     const auto program = programs_.flat(cut_out);
     if (!program) return tl::unexpected(program.error());
@@ -135,8 +136,7 @@ base::Result<void> ScenePass::draw_flat(std::span<const PlannedItem> items, cons
       if (surface_kind(*planned.item).cut_out != cut_out) continue;
       set_matrix((*program)->clip_from_buffer, planned.clip_from_buffer);
       if (cut_out) bind_picture(buffers_, *planned.item);
-      const RenderShapePointer& shape = planned.item->shape;
-      (coarse ? buffers_.caster(shape) : buffers_.view(shape)).draw();
+      buffers_.view(planned.item->shape, planned.level).draw();
     }
   }
   return {};
@@ -152,7 +152,7 @@ base::Result<void> ScenePass::mask(std::span<const PlannedItem> items) {
     else
       meshes.push_back(planned);
   }
-  auto done = draw_flat(meshes, Eigen::Vector4f::Ones(), false);
+  auto done = draw_flat(meshes, Eigen::Vector4f::Ones());
   return done ? mask_solids(imaged) : done;
 }
 
@@ -162,8 +162,9 @@ base::Result<void> ScenePass::shadow_maps(const RenderScene& scene, const SceneC
   glEnable(GL_DEPTH_CLAMP);  // what lies between the light and what is seen throws its shadow all the same
   for (std::size_t i = 0; i < lights_.lenses().size(); ++i) {
     glViewport(GLint(i) * side, 0, side, side);
-    const std::vector<PlannedItem> casters = plan_casters(scene, lights_.lenses()[i]);
-    auto drawn = draw_flat(casters, Eigen::Vector4f::Zero(), true);
+    const SceneDetail detail{double(side), kCasterCell};
+    const std::vector<PlannedItem> casters = plan_casters(scene, lights_.lenses()[i], detail);
+    auto drawn = draw_flat(casters, Eigen::Vector4f::Zero());
     if (drawn) drawn = cast_solids(casters, maps, int(i), side);
     if (!drawn) return drawn;
   }

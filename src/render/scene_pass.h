@@ -48,8 +48,7 @@ class ScenePass {
   void draw_whole(const GlObject& program, const GlObject& source);
   base::Result<void> draw_depths(const GlObject& depths, const std::array<int, 2>& corner, double scale,
                                  double shift);
-  base::Result<void> draw_flat(std::span<const PlannedItem> items, const Eigen::Vector4f& colour,
-                               bool coarse);
+  base::Result<void> draw_flat(std::span<const PlannedItem> items, const Eigen::Vector4f& colour);
 
   ScenePrograms& programs_;
   SceneBuffers& buffers_;

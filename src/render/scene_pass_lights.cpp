@@ -48,7 +48,7 @@ ScenePassLights::ScenePassLights(const SceneLights& lights, const Camera& camera
   const bool sampled = shadows && lights.shadowed && pass.count > 1;
   add_sky(lights.sky, sampled, pass);
   if (shadows && lights.shadowed) add_shadows(*shadows, shadow_side);
-  kinds_.taps = sampled ? 1 : 4;
+  kinds_.taps = 1;
   kinds_.toned = toned;
 }
 
@@ -60,8 +60,10 @@ void ScenePassLights::add_suns(const SceneLights& lights, PassNumber pass) {
     sun_light_.push_back(sun.light);
     sun_ambient_.push_back(sun.ambient);
     sun_gloss_.push_back(sun.gloss);
+    if (sun.ambient.maxCoeff() > 0.0F) kinds_.ambient = true;
   }
   kinds_.suns = int(lights.suns.size());
+  kinds_.gloss = !lights.suns.empty() && lights.suns.front().gloss > 0.0F;
 }
 
 void ScenePassLights::add_lamps(const SceneLights& lights) {

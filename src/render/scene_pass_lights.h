@@ -6,14 +6,9 @@
 #include "render/camera.h"
 #include "render/scene_lighting.h"
 #include "render/scene_programs.h"
+#include "render/scene_shadows.h"
 
 namespace icome::render {
-
-/// What shadow maps cover.
-struct ShadowRegion {
-  base::Vector3 centre;  ///< m, world frame
-  double radius = 1.0;   ///< m, > 0
-};
 
 /// Which of the pictures that are averaged.
 struct PassNumber {

@@ -45,6 +45,54 @@ class ViewSides {
   std::size_t count_ = 0;
 };
 
+bool is_textured(const RenderItem& item) {
+  return item.material->picture && !item.shape->picture_places.empty();
+}
+
+/// How many pixels a unit of the buffers' frame takes where the object is nearest; infinite where the eye may
+/// be in it.
+double pixels_a_unit(const PlannedItem& planned, const Camera& camera, double height) {
+  const Bounds& box = planned.item->bounds;
+  const Vector3 middle = camera.camera_from_world * Vector3(0.5 * (box.min() + box.max()));
+  const auto depth = camera.clip_from_camera.row(3);  // what things grow smaller by
+  const double nearest =
+      depth.head<3>() * middle + depth[3] - 0.5 * box.sizes().norm() * depth.head<3>().norm();
+  const double unit = planned.camera_from_buffer.topLeftCorner<3, 3>().colwise().norm().maxCoeff();
+  const double pixels = 0.5 * height * camera.clip_from_camera.row(1).head<3>().norm() * unit / nearest;
+  return nearest > 0.0 && std::isfinite(pixels) ? pixels : HUGE_VAL;
+}
+
+/// The coarsest that is fine enough.
+int level_for(const RenderShape& shape, double pixels, double cell) {
+  int level = kFullLevel;
+  while (level + 1 < int(shape.coarser.size()) && shape.coarser[std::size_t(level + 1)].cell * pixels <= cell)
+    ++level;
+  return level;
+}
+
+std::size_t triangles_of(const RenderShape& shape, int level) {
+  return level == kFullLevel ? shape.triangle_count()
+                             : shape.coarser[std::size_t(level)].mesh.indices.size() / 3;
+}
+
+void choose_levels(std::initializer_list<std::vector<PlannedItem>*> lists, const Camera& camera,
+                   const SceneDetail& detail) {
+  if (!(detail.height > 0.0)) return;
+  constexpr double kCoarsestCell = 6.0;  // pixels
+  double cell = detail.cell;
+  for (std::size_t triangles = 0;; cell *= 1.5, triangles = 0) {
+    for (std::vector<PlannedItem>* list : lists) {
+      for (PlannedItem& it : *list) {
+        const RenderShape& shape = *it.item->shape;
+        if (!shape.coarser.empty() && !is_textured(*it.item))
+          it.level = level_for(shape, pixels_a_unit(it, camera, detail.height), cell);
+        triangles += triangles_of(shape, it.level);
+      }
+    }
+    if (triangles <= detail.most_triangles || cell * 1.5 > kCoarsestCell) return;
+  }
+}
+
 /// Normals are turned by the cofactors: as the inverse transposed, but also where a shape is flat.
 Matrix3 cofactors(const Matrix3& m) {
   Matrix3 c;
@@ -68,14 +116,15 @@ void visit_seen(const RenderScene& scene, const ViewSides& sides, Visit&& visit)
 
 SurfaceKind surface_kind(const RenderItem& item) {
   const RenderPicture* picture = item.material->picture.get();
-  const bool textured = picture != nullptr && !item.shape->picture_places.empty();
+  const bool textured = is_textured(item);
   return {textured, !item.shape->colours.empty(),
-          textured && picture->opacity == RenderPicture::Opacity::CutOut, false};
+          textured && picture->opacity == RenderPicture::Opacity::CutOut,
+          item.material->specular.maxCoeff() > 0.0F, is_blended(item), false};
 }
 
 bool is_blended(const RenderItem& item) {
   if (item.material->alpha < 1.0F - kLeastAlpha) return true;
-  return surface_kind(item).textured && item.material->picture->opacity == RenderPicture::Opacity::Blended;
+  return is_textured(item) && item.material->picture->opacity == RenderPicture::Opacity::Blended;
 }
 
 PlannedItem plan_item(const RenderItem& item, const Camera& camera) {
@@ -98,12 +147,12 @@ PlannedItem plan_item(const RenderItem& item, const Camera& camera) {
   return planned;
 }
 
-ScenePlan plan_scene(const RenderScene& scene, const Camera& camera) {
+ScenePlan plan_scene(const RenderScene& scene, const Camera& camera, const SceneDetail& detail) {
   ScenePlan plan;
   visit_seen(scene, ViewSides(camera.clip_from_world(), false), [&](const RenderItem& item) {
-    plan.visible.extend(item.bounds);
     (is_blended(item) ? plan.blended : plan.opaque).push_back(plan_item(item, camera));
   });
+  choose_levels({&plan.opaque, &plan.blended}, camera, detail);
   std::sort(plan.opaque.begin(), plan.opaque.end(), [](const PlannedItem& a, const PlannedItem& b) {
     const SurfaceKind one = surface_kind(*a.item), other = surface_kind(*b.item);
     return one != other ? one < other : a.distance < b.distance;
@@ -113,12 +162,21 @@ ScenePlan plan_scene(const RenderScene& scene, const Camera& camera) {
   return plan;
 }
 
-std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens) {
+std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens,
+                                      const SceneDetail& detail) {
   std::vector<PlannedItem> casters;
   visit_seen(scene, ViewSides(lens.clip_from_world(), true), [&](const RenderItem& item) {
     if (!is_blended(item)) casters.push_back(plan_item(item, lens));
   });
+  choose_levels({&casters}, lens, detail);
   return casters;
+}
+
+Bounds visible_bounds(const RenderScene& scene, const Camera& camera) {
+  Bounds visible;
+  visit_seen(scene, ViewSides(camera.clip_from_world(), false),
+             [&](const RenderItem& item) { visible.extend(item.bounds); });
+  return visible;
 }
 
 Camera windowed(const Camera& camera, const PictureWindow& window) {

@@ -1,11 +1,14 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "render/camera.h"
 #include "render/render_scene.h"
 
 namespace icome::render {
+
+constexpr int kFullLevel = -1;
 
 /// One object that may appear in a picture. Refers to the scene.
 struct PlannedItem {
@@ -14,6 +17,7 @@ struct PlannedItem {
   Matrix4 camera_from_buffer = Matrix4::Identity();
   base::Matrix3 direction_from_buffer = base::Matrix3::Identity();  ///< turns normals; not of unit length
   double distance = 0.0;                                            ///< m, from the eye to its middle
+  int level = kFullLevel;                                           ///< of the shape's coarser ones
   bool mirrored = false;                                            ///< fronts are clockwise
 };
 
@@ -21,13 +25,24 @@ struct PlannedItem {
 struct ScenePlan {
   std::vector<PlannedItem> opaque;   ///< what is drawn alike side by side, near before far
   std::vector<PlannedItem> blended;  ///< seen through, far before near
-  base::Bounds visible;              ///< m, world frame, of all that may be seen; empty for nothing
 };
 
-ScenePlan plan_scene(const RenderScene& scene, const Camera& camera);
+/// How fine shapes are drawn.
+struct SceneDetail {
+  double height = 0.0;  ///< pixels of the picture; 0: all as fine as they are
+  double cell = 0.7;    ///< pixels: what is smaller is not seen
+  /// With more, they get coarser, up to a few pixels.
+  std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
+};
+
+ScenePlan plan_scene(const RenderScene& scene, const Camera& camera, const SceneDetail& detail = {});
 
 /// All that may be between a light and what its lens (light_camera) covers.
-std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens);
+std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens,
+                                      const SceneDetail& detail = {});
+
+/// The box around all that the camera may see; empty for nothing.
+base::Bounds visible_bounds(const RenderScene& scene, const Camera& camera);
 
 /// The matrices of one object, as a camera sees it.
 PlannedItem plan_item(const RenderItem& item, const Camera& camera);
@@ -37,6 +52,8 @@ struct SurfaceKind {
   bool textured = false;
   bool coloured = false;
   bool cut_out = false;
+  bool shiny = false;    ///< has highlights of its own
+  bool blended = false;  ///< something is seen through it
   bool built_in = false;  ///< inputs and matrix are those of OpenGL 1, as operands of CSG have
 
   auto operator<=>(const SurfaceKind&) const = default;

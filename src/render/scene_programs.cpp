@@ -13,9 +13,10 @@ namespace {
 std::string light_defines(const LightKinds& lights) {
   return fmt::format(
       "#define LIT\n#define SUNS {}\n#define LAMPS {}\n{}#define MAPS {}\n#define SKIES {}\n"
-      "#define TAPS {}\n{}",
+      "#define TAPS {}\n{}{}{}",
       lights.suns, lights.lamps, lights.spots ? "#define SPOTS\n" : "", lights.maps, lights.skies,
-      lights.taps, lights.toned ? "#define TONED\n" : "");
+      lights.taps, lights.toned ? "#define TONED\n" : "", lights.gloss ? "#define GLOSS\n" : "",
+      lights.ambient ? "#define SUN_AMBIENT\n" : "");
 }
 
 void find_slots(SceneProgram& it) {
@@ -50,6 +51,8 @@ base::Result<SceneProgram*> ScenePrograms::surface(const SurfaceKind& kind, cons
   if (kind.coloured) defines += "#define COLOURED\n";
   if (kind.cut_out) defines += "#define CUT_OUT\n";
   if (kind.built_in) defines += "#define BUILT_IN\n";
+  if (kind.shiny) defines += "#define SHINY\n";
+  if (kind.blended) defines += "#define BLENDED\n";
   return variant(kSceneVertexShader, std::string(kToneShader) + kSceneLightShader + kSceneFragmentShader,
                  defines, kind.built_in ? "compatibility" : "core");
 }

@@ -21,7 +21,9 @@ struct LightKinds {
   int suns = 0;
   int lamps = 0;
   bool spots = false;
-  int maps = 0;  ///< shadow maps
+  bool gloss = false;    ///< the first sun makes highlights on all surfaces
+  bool ambient = false;  ///< suns have ambient light
+  int maps = 0;          ///< shadow maps
   int skies = 0;
   int taps = 1;        ///< looks at the shadow map a pixel, 1 or 4
   bool toned = false;  ///< drawn as a screen shows it, not as light to be averaged

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "render/scene_markers.h"
@@ -18,34 +19,9 @@ using base::Bounds;
 using base::Vector3;
 
 constexpr double kGroundReach = 3.0;  // times half the size of what stands on it
+constexpr double kCellAtOnce = 1.0;   // pixels: what is smaller may be left out
 constexpr int kMostPasses = 256;
 constexpr int kMeltingPasses = 8;  // from the picture that was drawn at once to the mean of passes
-
-/// What the camera can see of the visible things: the shadow maps' texels are spent on that.
-std::optional<ShadowRegion> shadow_region(const Bounds& visible, const Camera& camera) {
-  if (visible.isEmpty()) return std::nullopt;
-  Bounds seen;
-  const Matrix4 world_from_clip = camera.clip_from_world().inverse();
-  double farthest = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 at = camera.camera_from_world * visible.corner(static_cast<Bounds::CornerType>(corner));
-    farthest = std::max(farthest, -at.z());
-  }
-  const Vector3 eye = camera.eye();
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      const Vector3 at = (world_from_clip * Eigen::Vector4d(x, y, 0.0, 1.0)).hnormalized();
-      const double depth = -(camera.camera_from_world * at).z();
-      seen.extend(eye + farthest / depth * (at - eye));
-    }
-  }
-  seen.extend(eye);
-  const Bounds region = visible.intersection(seen);
-  const Bounds& used = region.isEmpty() || !region.sizes().allFinite() ? visible : region;
-  const double radius = 0.5 * used.sizes().norm();
-  if (!std::isfinite(radius) || !(radius > 0.0)) return std::nullopt;
-  return ShadowRegion{0.5 * (used.min() + used.max()), radius};
-}
 
 /// A shift within the pixel, the same for each number (the R2 sequence, Roberts 2018).
 Matrix4 pass_shift(PassNumber pass, const SceneTarget& target) {
@@ -101,18 +77,32 @@ struct ScenePictureWish {
 /// What all passes of a picture share.
 struct ScenePicture {
   const ScenePictureWish& wish;
-  ScenePlan plan;  ///< of the window
   SceneLights lights;
   std::optional<ShadowRegion> shadows;
 };
 
 ScenePicture plan_picture(const ScenePictureWish& wish) {
-  ScenePicture picture{wish, plan_scene(wish.scene, wish.part),
-                       choose_lights(wish.scene, wish.camera, wish.look.lights), std::nullopt};
+  ScenePicture picture{wish, choose_lights(wish.scene, wish.camera, wish.look.lights), std::nullopt};
   // Of the whole picture: its tiles have the same shadows.
   if (wish.look.shadows)
-    picture.shadows = shadow_region(plan_scene(wish.scene, wish.camera).visible, wish.camera);
+    picture.shadows = shadow_region(visible_bounds(wish.scene, wish.camera), wish.camera);
   return picture;
+}
+
+/// What a background's looks depend on beside its size.
+struct BackgroundKey {
+  Eigen::Vector4f above = Eigen::Vector4f::Zero(), below = Eigen::Vector4f::Zero();
+  Eigen::Vector2d window = Eigen::Vector2d::Zero();
+
+  bool operator==(const BackgroundKey&) const = default;
+};
+
+/// Triangles, in a picture that must be there before the next one is due.
+std::size_t drawn_at_once_at_most() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view driver = name ? name : "";
+  const bool in_software = driver.find("llvmpipe") != driver.npos || driver.find("softpipe") != driver.npos;
+  return in_software ? 250'000 : 5'000'000;
 }
 
 /// Colours are light from here on: what is drawn is turned into what screens take by the frame.
@@ -154,22 +144,26 @@ struct SceneRenderer::Parts {
   SceneCanvas at_once;  // the picture in one pass, and its depths
   SceneCanvas pass, sum, mean;
   SceneCanvas shown;  // with what is drawn over it
-  SceneCanvas shadow, mask;
+  SceneCanvas background, mask;
+  BackgroundKey background_key;
+  SceneShadowMaps steady_shadow;  // of pictures drawn at once: kept while things stay where they are
+  SceneShadowMaps shadows;        // of one pass
   MeshView ground = make_ground_square();
   GlObject empty_arrays{GlObject::Kind::VertexArray};
+  std::size_t most_triangles = drawn_at_once_at_most();
   int serial = 0;  // of passes
   int summed = 0;  // passes of the picture so far
   int begun = 0;   // passes that it is to have; 0: there is none
 
   base::Result<void> draw(const ScenePictureWish& wish, int passes, bool anew);
   base::Result<void> fit_canvases(const ScenePictureWish& wish, bool refined);
-  base::Result<void> fit_shadow(int maps, int side);
-  base::Result<void> draw_at_once(const ScenePicture& picture);
+  base::Result<void> draw_at_once(ScenePicture picture);
   base::Result<void> refine(const ScenePicture& picture, int passes);
-  base::Result<void> draw_scene(const ScenePicture& picture, const SceneCanvas& canvas, PassNumber number,
-                                bool toned);
+  base::Result<void> draw_scene(const ScenePicture& picture, const ScenePlan& plan, PassNumber number);
+  base::Result<void> draw_shadows(const RenderScene& scene, ScenePass& stages, SceneShadowMaps& maps,
+                                  const std::vector<Camera>& lenses, int side);
   base::Result<void> draw_whole(base::Result<SceneProgram*> program, const GlObject* source);
-  base::Result<void> draw_background(const ScenePictureWish& wish);
+  base::Result<void> fill_background(const ScenePictureWish& wish);
   base::Result<void> add_to_sum();
   base::Result<void> make_mean(const ScenePictureWish& wish);
   base::Result<void> show(const ScenePictureWish& wish);
@@ -188,37 +182,43 @@ base::Result<void> SceneRenderer::Parts::fit_canvases(const ScenePictureWish& wi
   return done;
 }
 
-base::Result<void> SceneRenderer::Parts::fit_shadow(int maps, int side) {
-  if (shadow.width == maps * side && shadow.height == side) return {};
-  auto done = shadow.fit(maps * side, side, 0, GL_DEPTH24_STENCIL8);
-  if (!done) return done;
-  glBindTexture(GL_TEXTURE_2D, shadow.depth.name());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+base::Result<void> SceneRenderer::Parts::draw_shadows(const RenderScene& scene, ScenePass& stages,
+                                                      SceneShadowMaps& maps,
+                                                      const std::vector<Camera>& lenses, int side) {
+  auto done = maps.fit(int(lenses.size()), side);
+  if (!done || maps.show(scene, lenses)) return done;
+  done = stages.shadow_maps(scene, maps.canvas, side);
+  maps.blocks = scene.blocks();
+  maps.lenses = lenses;
   return done;
 }
 
-base::Result<void> SceneRenderer::Parts::draw_scene(const ScenePicture& picture, const SceneCanvas& canvas,
-                                                    PassNumber number, bool toned) {
+/// A picture of a single pass is drawn as it is shown; others are averaged first.
+base::Result<void> SceneRenderer::Parts::draw_scene(const ScenePicture& picture, const ScenePlan& plan,
+                                                    PassNumber number) {
   const ScenePictureWish& wish = picture.wish;
+  const bool toned = number.count == 1;
   const int side = std::clamp(wish.look.shadow_side, 64, 4096);
   const ScenePassLights lights(picture.lights, wish.camera, picture.shadows, side, number, toned);
   ScenePass stages(programs, buffers, lights, pass_shift(number, wish.target), ++serial);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glActiveTexture(GL_TEXTURE0);
+  SceneShadowMaps& maps = toned ? steady_shadow : shadows;
   base::Result<void> done;
-  if (!lights.lenses().empty()) {
-    done = fit_shadow(int(lights.lenses().size()), side);
-    if (done) done = stages.shadow_maps(wish.scene, shadow, side);
+  if (!lights.lenses().empty()) done = draw_shadows(wish.scene, stages, maps, lights.lenses(), side);
+  if (!done) return done;
+  bind_canvas(toned ? at_once : pass);
+  if (toned) {
+    done = fill_background(wish);
     if (!done) return done;
-    glBindTexture(GL_TEXTURE_2D, shadow.depth.name());
+    glClear(GL_DEPTH_BUFFER_BIT);
+  } else {
+    glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   }
-  bind_canvas(canvas);
-  glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  done = stages.opaque(picture.plan.opaque);
-  if (done && toned) done = draw_background(wish);
+  glBindTexture(GL_TEXTURE_2D, maps.canvas.depth.name());
+  done = stages.opaque(plan.opaque);
   const Bounds& all = wish.scene.bounds();
   if (done && wish.look.ground && !lights.lenses().empty() && wish.camera.eye().y() > all.min().y()) {
     const double size = 0.5 * all.sizes().norm();
@@ -226,13 +226,17 @@ base::Result<void> SceneRenderer::Parts::draw_scene(const ScenePicture& picture,
                          0.5 * (all.min().z() + all.max().z()));
     done = stages.ground(ground, wish.part, middle, kGroundReach * size);
   }
-  if (done) done = stages.blended(picture.plan.blended);
+  if (done) done = stages.blended(plan.blended);
   return done;
 }
 
-base::Result<void> SceneRenderer::Parts::draw_at_once(const ScenePicture& picture) {
+base::Result<void> SceneRenderer::Parts::draw_at_once(ScenePicture picture) {
   const ScreenColours light;
-  return draw_scene(picture, at_once, {0, 1}, true);
+  // Shadow maps that stay what they are while the view moves.
+  if (picture.shadows) picture.shadows = steady_region(*picture.shadows, picture.wish.scene.bounds());
+  const ScenePictureWish& wish = picture.wish;
+  const SceneDetail detail{double(wish.target.height), kCellAtOnce, most_triangles};
+  return draw_scene(picture, plan_scene(wish.scene, wish.part, detail), {0, 1});
 }
 
 base::Result<void> SceneRenderer::Parts::refine(const ScenePicture& picture, int passes) {
@@ -241,13 +245,14 @@ base::Result<void> SceneRenderer::Parts::refine(const ScenePicture& picture, int
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT);
   }
+  const ScenePictureWish& wish = picture.wish;
+  const ScenePlan plan = plan_scene(wish.scene, wish.part, {double(wish.target.height)});
   base::Result<void> done;
   for (; summed < passes && done; ++summed) {
-    done =
-        draw_scene(picture, pass, {spread_number(summed, picture.wish.passes), picture.wish.passes}, false);
+    done = draw_scene(picture, plan, {spread_number(summed, wish.passes), wish.passes});
     if (done) done = add_to_sum();
   }
-  return done ? make_mean(picture.wish) : done;
+  return done ? make_mean(wish) : done;
 }
 
 /// Fills the frame that is bound by what the program makes of a picture or, without one, of nothing.
@@ -263,15 +268,27 @@ base::Result<void> SceneRenderer::Parts::draw_whole(base::Result<SceneProgram*> 
   return {};
 }
 
-/// Where nothing is yet.
-base::Result<void> SceneRenderer::Parts::draw_background(const ScenePictureWish& wish) {
-  const auto program = programs.background();
-  if (!program) return tl::unexpected(program.error());
-  set_background((*program)->program, wish);
-  glDepthFunc(GL_LEQUAL);
-  auto done = draw_whole(program, nullptr);
-  glDepthFunc(GL_LESS);
-  return done;
+/// It is the same from picture to picture: copied, not drawn.
+base::Result<void> SceneRenderer::Parts::fill_background(const ScenePictureWish& wish) {
+  const BackgroundKey key{linear_with_alpha(wish.look.above), linear_with_alpha(wish.look.below),
+                          Eigen::Vector2d(wish.target.window.bottom, wish.target.window.height)};
+  if (background.width != wish.target.width || background.height != wish.target.height ||
+      !(key == background_key)) {
+    auto done = background.fit(wish.target.width, wish.target.height, GL_SRGB8_ALPHA8, 0);
+    const auto program = programs.background();
+    if (!program) return tl::unexpected(program.error());
+    if (!done) return done;
+    set_background((*program)->program, wish);
+    bind_canvas(background);
+    glDisable(GL_DEPTH_TEST);
+    done = draw_whole(program, nullptr);
+    glEnable(GL_DEPTH_TEST);
+    if (!done) return done;
+    background_key = key;
+  }
+  copy(background, at_once.frame.name(), GL_COLOR_BUFFER_BIT);
+  bind_canvas(at_once);
+  return {};
 }
 
 base::Result<void> SceneRenderer::Parts::add_to_sum() {
@@ -346,8 +363,9 @@ base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
   const SceneCanvas* canvas = summed > 0 ? &mean : &at_once;
   base::Result<void> done;
   if (!wish.look.selected.empty() || !wish.look.overlay.empty()) {
+    const ScreenColours light;  // both are: it makes this a mere copy
     copy(*canvas, shown.frame.name(), GL_COLOR_BUFFER_BIT);
-    copy(at_once, shown.frame.name(), GL_DEPTH_BUFFER_BIT);
+    copy(at_once, shown.frame.name(), GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     canvas = &shown;
     if (!wish.look.selected.empty()) done = outline(wish);
     if (done) done = draw_markers(wish);

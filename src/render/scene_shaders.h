@@ -132,19 +132,31 @@ uniform vec2 lamp_cone[LAMPS];
 out vec4 result;
 
 vec3 n;
-vec3 view;
-vec4 own;
+vec3 view;  // to the eye
 
-// What reaches the eye of a light from that direction.
-vec3 answer(vec3 to_light, vec3 light, float gloss) {
+// What reaches the eye of a light from that direction. Highlights cost as much as all else together: only
+// what has them is drawn with them.
+vec3 answer(vec3 to_light, vec3 light, vec3 body, float gloss) {
   float facing = max(dot(n, to_light), 0.0);
-  float shine = pow(max(dot(n, normalize(view + to_light)), 0.0), specular.a);
-  float sheen = gloss * pow(max(dot(n, normalize(view + to_light)), 0.0), 40.0);
-  return light * (facing * (own.rgb * own.a + sheen) + (facing > 0.0 ? shine : 0.0) * specular.rgb);
+  vec3 answered = facing * body;
+#if defined(SHINY) || defined(GLOSS)
+  float along = max(dot(n, normalize(view + to_light)), 0.0);
+#endif
+#ifdef SHINY
+  answered += (facing > 0.0 ? pow(along, specular.a) : 0.0) * specular.rgb;
+#endif
+#ifdef GLOSS
+  float sheen = along * along;
+  sheen *= sheen;
+  sheen *= sheen;
+  float narrower = sheen * sheen;
+  answered += gloss * sheen * narrower * narrower;  // to the power of 40
+#endif
+  return light * answered;
 }
 
 void main() {
-  own = diffuse;
+  vec4 own = diffuse;
 #ifdef COLOURED
   if (own_colour.r > -0.5) own.rgb = own_colour;
 #endif
@@ -155,36 +167,44 @@ void main() {
   if (own.a < 0.5 * diffuse.a) discard;
   own.a = diffuse.a;
 #endif
-  n = normalize(gl_FrontFacing ? seen_normal : -seen_normal);
-  view = normalize(-seen_position);
+#ifdef BLENDED
+  vec3 body = own.rgb * own.a;
   vec3 radiance = emission * own.a;
+#else
+  vec3 body = own.rgb;
+  vec3 radiance = emission;
+#endif
+  n = normalize(gl_FrontFacing ? seen_normal : -seen_normal);
+#if defined(SHINY) || defined(GLOSS)
+  view = normalize(-seen_position);
+#endif
+#if MAPS > 0
+  vec3 lifted = seen_position + shadow_offset * n;
+#endif
 #if SKIES > 0
   vec3 spread = noise(gl_FragCoord.xy);
   // Within the surface's plane, so that the shift alone never puts a point into its own shadow.
-  vec3 lifted = seen_position + shadow_offset * n;
   vec3 shifted = lifted + shadow_blur * (spread - dot(spread, n) * n);
-  radiance += 0.035 * own.rgb * own.a;
+  radiance += 0.035 * body;
   for (int i = 0; i < SKIES; ++i) {
     float facing = dot(n, to_sky[i]);
-    if (facing > 0.0) radiance += sky_light[i] * facing * lit(i + 1, shifted) * own.rgb * own.a;
+    if (facing > 0.0) radiance += sky_light[i] * facing * lit(i + 1, shifted) * body;
   }
 #else
-  radiance += mix(sky_below, sky_above, 0.5 + 0.333 * dot(n, sky_up)) * own.rgb * own.a;
+  radiance += mix(sky_below, sky_above, 0.5 + 0.333 * dot(n, sky_up)) * body;
 #endif
 #if SUNS > 0
   for (int i = 0; i < SUNS; ++i) {
-#if MAPS > 0
-    float seen = 1.0;
+    vec3 answered = answer(to_sun[i], sun_light[i], body, i == 0 ? sun_gloss[i] : 0.0);
 #if SKIES > 0
-    if (i == 0 && dot(n, to_sun[0]) > 0.0) seen = lit(0, mix(lifted, shifted, 0.3));
-#else
-    if (i == 0 && dot(n, to_sun[0]) > 0.0) seen = lit(0, seen_position + shadow_offset * n);
+    if (i == 0 && dot(n, to_sun[0]) > 0.0) answered *= lit(0, mix(lifted, shifted, 0.3));
+#elif MAPS > 0
+    if (i == 0) answered *= lit(0, lifted);
 #endif
-    radiance += seen * answer(to_sun[i], sun_light[i], sun_gloss[i]);
-#else
-    radiance += answer(to_sun[i], sun_light[i], sun_gloss[i]);
+    radiance += answered;
+#ifdef SUN_AMBIENT
+    radiance += sun_ambient[i] * ambient * body;
 #endif
-    radiance += sun_ambient[i] * ambient * own.rgb * own.a;
   }
 #endif
 #if LAMPS > 0
@@ -200,14 +220,21 @@ void main() {
     float angle = acos(clamp(dot(-way, lamp_along[i]), -1.0, 1.0));
     fade *= clamp((lamp_cone[i].x - angle) * lamp_cone[i].y, 0.0, 1.0);
 #endif
-    radiance += fade * answer(way, lamp_light[i], 0.0);
-    radiance += fade * lamp_ambient[i] * ambient * own.rgb * own.a;
+    radiance += fade * answer(way, lamp_light[i], body, 0.0);
+    radiance += fade * lamp_ambient[i] * ambient * body;
   }
 #endif
+#ifdef BLENDED
 #ifdef TONED
   radiance = shoulder(radiance / max(own.a, 1e-3)) * own.a;
 #endif
   result = vec4(radiance, own.a);
+#else
+#ifdef TONED
+  radiance = shoulder(radiance);
+#endif
+  result = vec4(radiance, 1.0);
+#endif
 }
 )";
 
