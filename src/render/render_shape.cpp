@@ -154,7 +154,7 @@ void choose_frame(RenderShape& shape) {
 }
 
 std::shared_ptr<RenderShape> make_from_surface(const MeshGeometry& surface, double crease,
-                                     const SolidPointer& solid = nullptr) {
+                                               const SolidPointer& solid = nullptr) {
   auto shape = std::make_shared<RenderShape>();
   shape->bounds = used_bounds(surface.mesh);
   if (solid) {

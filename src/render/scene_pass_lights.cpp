@@ -48,7 +48,6 @@ ScenePassLights::ScenePassLights(const SceneLights& lights, const Camera& camera
   const bool sampled = shadows && lights.shadowed && pass.count > 1;
   add_sky(lights.sky, sampled, pass);
   if (shadows && lights.shadowed) add_shadows(*shadows, shadow_side);
-  kinds_.taps = 1;
   kinds_.toned = toned;
 }
 
@@ -108,7 +107,6 @@ void ScenePassLights::add_shadows(const ShadowRegion& region, int shadow_side) {
   // Three texels: a point never lies in its own shadow.
   shadow_offset_ = float(6.0 * region.radius / shadow_side);
   shadow_blur_ = float(0.015 * region.radius);
-  texel_ = 1.0F / float(shadow_side);
 }
 
 void ScenePassLights::set(const SceneProgram& program) const {
@@ -130,7 +128,6 @@ void ScenePassLights::set(const SceneProgram& program) const {
   set_all(program, "sky_below", std::vector{sky_below_});
   set_all(program, "shadow_offset", std::vector{shadow_offset_});
   set_all(program, "shadow_blur", std::vector{shadow_blur_});
-  set_all(program, "texel", std::vector{texel_});
   set_all(program, "noise_seed", std::vector{seed_});
   glUniform1i(slot_of(program, "shadow_map"), 0);
   glUniform1i(slot_of(program, "picture"), 1);

@@ -47,7 +47,7 @@ class ScenePassLights {
   std::vector<Eigen::Vector3f> to_sky_, sky_light_;
   std::vector<Eigen::Matrix4f> shadow_from_camera_;
   Eigen::Vector3f sky_up_, sky_above_, sky_below_;
-  float shadow_offset_ = 0.0F, shadow_blur_ = 0.0F, texel_ = 0.0F, seed_ = 0.0F;
+  float shadow_offset_ = 0.0F, shadow_blur_ = 0.0F, seed_ = 0.0F;
 };
 
 }  // namespace icome::render

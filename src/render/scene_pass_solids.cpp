@@ -80,7 +80,8 @@ base::Result<void> ScenePass::solids(std::span<const PlannedSolid> solids) {
   if (solids.empty()) return {};
   for (const PlannedSolid& solid : solids)
     draw_solid_depth(solid, clip_shift_ * solid.item->clip_from_buffer);
-  const auto program = use_lit(programs_.surface({.shiny = true, .blended = true, .built_in = true}, lights_.kinds()));
+  const auto program =
+      use_lit(programs_.surface({.shiny = true, .blended = true, .built_in = true}, lights_.kinds()));
   if (!program) return tl::unexpected(program.error());
   for (const PlannedSolid& solid : solids) {
     set_look(**program, *solid.item);

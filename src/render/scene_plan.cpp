@@ -117,9 +117,12 @@ void visit_seen(const RenderScene& scene, const ViewSides& sides, Visit&& visit)
 SurfaceKind surface_kind(const RenderItem& item) {
   const RenderPicture* picture = item.material->picture.get();
   const bool textured = is_textured(item);
-  return {textured, !item.shape->colours.empty(),
+  return {textured,
+          !item.shape->colours.empty(),
           textured && picture->opacity == RenderPicture::Opacity::CutOut,
-          item.material->specular.maxCoeff() > 0.0F, is_blended(item), false};
+          item.material->specular.maxCoeff() > 0.0F,
+          is_blended(item),
+          false};
 }
 
 bool is_blended(const RenderItem& item) {

@@ -52,8 +52,8 @@ struct SurfaceKind {
   bool textured = false;
   bool coloured = false;
   bool cut_out = false;
-  bool shiny = false;    ///< has highlights of its own
-  bool blended = false;  ///< something is seen through it
+  bool shiny = false;     ///< has highlights of its own
+  bool blended = false;   ///< something is seen through it
   bool built_in = false;  ///< inputs and matrix are those of OpenGL 1, as operands of CSG have
 
   auto operator<=>(const SurfaceKind&) const = default;

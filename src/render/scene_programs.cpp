@@ -13,9 +13,9 @@ namespace {
 std::string light_defines(const LightKinds& lights) {
   return fmt::format(
       "#define LIT\n#define SUNS {}\n#define LAMPS {}\n{}#define MAPS {}\n#define SKIES {}\n"
-      "#define TAPS {}\n{}{}{}",
+      "{}{}{}",
       lights.suns, lights.lamps, lights.spots ? "#define SPOTS\n" : "", lights.maps, lights.skies,
-      lights.taps, lights.toned ? "#define TONED\n" : "", lights.gloss ? "#define GLOSS\n" : "",
+      lights.toned ? "#define TONED\n" : "", lights.gloss ? "#define GLOSS\n" : "",
       lights.ambient ? "#define SUN_AMBIENT\n" : "");
 }
 
@@ -80,6 +80,14 @@ base::Result<SceneProgram*> ScenePrograms::cover() {
 
 base::Result<SceneProgram*> ScenePrograms::sum() {
   return variant(kWholeVertexShader, kSumFragmentShader, "");
+}
+
+base::Result<SceneProgram*> ScenePrograms::grid() {
+  return variant(kGridVertexShader, kGridFragmentShader, "");
+}
+
+base::Result<SceneProgram*> ScenePrograms::panel() {
+  return variant(kPanelVertexShader, kPanelFragmentShader, "");
 }
 
 base::Result<SceneProgram*> ScenePrograms::background() {

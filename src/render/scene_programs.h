@@ -25,7 +25,6 @@ struct LightKinds {
   bool ambient = false;  ///< suns have ambient light
   int maps = 0;          ///< shadow maps
   int skies = 0;
-  int taps = 1;        ///< looks at the shadow map a pixel, 1 or 4
   bool toned = false;  ///< drawn as a screen shows it, not as light to be averaged
 
   auto operator<=>(const LightKinds&) const = default;
@@ -42,6 +41,8 @@ class ScenePrograms {
   base::Result<SceneProgram*> depth_copy();  ///< of a picture of depths
   base::Result<SceneProgram*> cover();       ///< one colour where a picture of depths has something
   base::Result<SceneProgram*> sum();
+  base::Result<SceneProgram*> grid();
+  base::Result<SceneProgram*> panel();
   base::Result<SceneProgram*> background();
   base::Result<SceneProgram*> mean();
   base::Result<SceneProgram*> clear();

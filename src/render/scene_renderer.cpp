@@ -9,7 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "render/scene_grid.h"
 #include "render/scene_markers.h"
+#include "render/scene_panels.h"
 #include "render/scene_pass.h"
 
 namespace icome::render {
@@ -141,6 +143,8 @@ struct SceneRenderer::Parts {
   ScenePrograms programs;
   SceneBuffers buffers;
   SceneMarkers markers;
+  ScenePanels panels;
+  SceneGrid grid;
   SceneCanvas at_once;  // the picture in one pass, and its depths
   SceneCanvas pass, sum, mean;
   SceneCanvas shown;  // with what is drawn over it
@@ -166,6 +170,7 @@ struct SceneRenderer::Parts {
   base::Result<void> fill_background(const ScenePictureWish& wish);
   base::Result<void> add_to_sum();
   base::Result<void> make_mean(const ScenePictureWish& wish);
+  void begin_overlay(const SceneCanvas& picture);
   base::Result<void> show(const ScenePictureWish& wish);
   base::Result<void> outline(const ScenePictureWish& wish);
   base::Result<void> draw_markers(const ScenePictureWish& wish);
@@ -219,6 +224,8 @@ base::Result<void> SceneRenderer::Parts::draw_scene(const ScenePicture& picture,
   }
   glBindTexture(GL_TEXTURE_2D, maps.canvas.depth.name());
   done = stages.opaque(plan.opaque);
+  if (done && wish.look.grid)
+    done = grid.draw(wish.look, wish.camera, wish.part, pass_shift(number, wish.target), programs);
   const Bounds& all = wish.scene.bounds();
   if (done && wish.look.ground && !lights.lenses().empty() && wish.camera.eye().y() > all.min().y()) {
     const double size = 0.5 * all.sizes().norm();
@@ -358,17 +365,23 @@ base::Result<void> SceneRenderer::Parts::draw_markers(const ScenePictureWish& wi
   return markers.draw(wish.look.overlay, wish.part, stages, programs, wish.target);
 }
 
+void SceneRenderer::Parts::begin_overlay(const SceneCanvas& picture) {
+  const ScreenColours light;  // all of them are: this makes it a mere copy
+  copy(picture, shown.frame.name(), GL_COLOR_BUFFER_BIT);
+  copy(at_once, shown.frame.name(), GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
 /// The picture as it is so far, with what is drawn over it.
 base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
   const SceneCanvas* canvas = summed > 0 ? &mean : &at_once;
   base::Result<void> done;
   if (!wish.look.selected.empty() || !wish.look.overlay.empty()) {
-    const ScreenColours light;  // both are: it makes this a mere copy
-    copy(*canvas, shown.frame.name(), GL_COLOR_BUFFER_BIT);
-    copy(at_once, shown.frame.name(), GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    begin_overlay(*canvas);
     canvas = &shown;
     if (!wish.look.selected.empty()) done = outline(wish);
     if (done) done = draw_markers(wish);
+    bind_canvas(shown);
+    if (done) done = panels.draw(wish.look.overlay, wish.camera, wish.target, programs);
   }
   glDisable(GL_DEPTH_TEST);
   if (!done) return done;

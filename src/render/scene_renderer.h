@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "render/camera.h"
 #include "render/colour.h"
+#include "render/image.h"
 #include "render/render_scene.h"
 #include "render/scene_lighting.h"
 #include "render/scene_plan.h"
@@ -32,11 +33,24 @@ struct SceneOverlay {
     double width = 2.0;  ///< pixels
   };
 
+  /// Text and other pictures, which whoever writes them draws: they face the eye and are never hidden.
+  struct Panel {
+    /// sRGB, premultiplied, unlike other images; kept on the graphics card for as long as somebody has it.
+    std::shared_ptr<const Image> picture;
+    std::optional<base::Vector3> at = {};             ///< m, world frame; nothing: in the window
+    base::Vector2 in_window = base::Vector2::Zero();  ///< without `at`: shares from the left and the bottom
+    base::Vector2 anchor = {0.5, 0.5};  ///< which place of the panel comes there: shares, as in_window
+    base::Vector2 shift = base::Vector2::Zero();  ///< pixels to the right and up from there
+    double scale = 1.0;                           ///< pixels of the window for one of the picture, > 0
+    double alpha = 1.0;                           ///< 0 ... 1, of all of it
+  };
+
   std::vector<Ball> balls = {};
   std::vector<Arrow> arrows = {};
   std::vector<Line> lines = {};
+  std::vector<Panel> panels = {};
 
-  bool empty() const { return balls.empty() && arrows.empty() && lines.empty(); }
+  bool empty() const { return balls.empty() && arrows.empty() && lines.empty() && panels.empty(); }
 };
 
 /// How a scene is drawn.
@@ -45,7 +59,14 @@ struct SceneLook {
   Colour below{0.96, 0.96, 0.95};  ///< background at the bottom
   LightChoice lights = LightChoice::Automatic;
   bool shadows = true;
-  bool ground = true;      ///< shadows also fall on a plane below all that is drawn (not seen from below)
+  bool ground = true;  ///< shadows also fall on a plane below all that is drawn (not seen from below)
+  /// Lines on the plane y = 0, as far apart as suits the view: a tenth, one and ten of a power of ten (m).
+  /// They fade far away. `grid_colour` is that of the strongest, `x_axis` and `z_axis` of those through the
+  /// origin.
+  bool grid = false;
+  Colour grid_colour{0.33, 0.37, 0.42, 0.5};
+  Colour x_axis{0.80, 0.25, 0.25, 0.8};
+  Colour z_axis{0.25, 0.40, 0.85, 0.8};
   int shadow_side = 1024;  ///< texels, 64 ... 4096
   /// 1 draws at once, as a view that is turned does. More, up to 256, are averaged: smooth edges, soft
   /// shadows, light from all of the sky; for views at rest and pictures.

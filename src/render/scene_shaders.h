@@ -49,27 +49,18 @@ void main() {
 
 // A point of shadow maps that lie side by side in one texture: MAPS in all, the first of them the shadowed
 // lamp's, SKIES others from all over the sky. Averaged over passes with some noise these melt into a soft
-// light. With a single pass (TAPS > 1) the shadow's edge is blurred by several looks, and the sky has none.
+// light. With a single pass the sky has none, and the texture's filter alone softens the shadow's edge.
 constexpr char kSceneLightShader[] = R"(
 #if MAPS > 0
 uniform sampler2DShadow shadow_map;
 uniform mat4 shadow_from_camera[MAPS];
 uniform float shadow_offset;
 uniform float shadow_blur;
-uniform float texel;
 float lit(int which, vec3 p) {
   vec3 at = (shadow_from_camera[which] * vec4(p, 1.0)).xyz * 0.5 + 0.5;
   at.x = (clamp(at.x, 0.0, 1.0) + float(which)) / float(MAPS);
   at.z = clamp(at.z, 0.0, 1.0) - 0.0006;
-#if TAPS > 1
-  vec2 reach = texel * vec2(1.0 / float(MAPS), 1.0);
-  return 0.25 * (texture(shadow_map, at + vec3(reach * vec2(-0.6, -1.3), 0.0)) +
-                 texture(shadow_map, at + vec3(reach * vec2(1.3, -0.6), 0.0)) +
-                 texture(shadow_map, at + vec3(reach * vec2(0.6, 1.3), 0.0)) +
-                 texture(shadow_map, at + vec3(reach * vec2(-1.3, 0.6), 0.0)));
-#else
   return texture(shadow_map, at);
-#endif
 }
 #endif
 
@@ -253,8 +244,12 @@ void main() {
   vec3 n = normalize(seen_normal);
   float missing = 0.0;
 #if MAPS > 0
+#if SKIES > 0
   vec3 spread = noise(gl_FragCoord.xy);
   vec3 p = seen_position + shadow_blur * (spread - dot(spread, n) * n);
+#else
+  vec3 p = seen_position;
+#endif
   missing = sun_light[0].g * max(dot(n, to_sun[0]), 0.0) * (1.0 - lit(0, p));
 #if SKIES > 0
   vec3 q = seen_position + 2.0 * shadow_blur * (spread - dot(spread, n) * n);
@@ -265,8 +260,73 @@ void main() {
   }
 #endif
 #endif
-  result = vec4(0.0, 0.0, 0.0, 0.62 * fade * clamp(missing, 0.0, 1.0));
+  result = vec4(0.0, 0.0, 0.0, 0.8 * fade * clamp(missing, 0.0, 1.0));
 }
+)";
+
+// Lines on the plane y = 0 at every cell, ten cells and a hundred, finer ones fading as cells come to be
+// smaller than is looked at; those through the world's origin in colours of their own. `place` counts cells
+// from the middle of what is drawn.
+constexpr char kGridVertexShader[] = R"(
+in vec3 position;
+uniform mat4 clip_from_buffer;
+uniform float reach;
+out vec2 place;
+void main() {
+  place = reach * position.xz;
+  gl_Position = clip_from_buffer * vec4(position, 1.0);
+}
+)";
+
+constexpr char kGridFragmentShader[] = R"(
+in vec2 place;
+uniform float reach;
+uniform vec2 offset;
+uniform vec2 origin;
+uniform float fineness;
+uniform vec4 colour;
+uniform vec4 axis_colours[2];
+out vec4 result;
+
+// How much of the pixel lines cover; where there are many in one it comes to nothing.
+float lines(vec2 p, vec2 pixel, float width) {
+  vec2 away = abs(fract(p - 0.5) - 0.5) / pixel;
+  vec2 cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0) * (1.0 - smoothstep(0.15, 0.4, pixel));
+  return max(cover.x, cover.y);
+}
+
+void main() {
+  vec2 pixel = max(fwidth(place), 1e-12);
+  vec2 at = place + offset;
+  float strength = max(max((1.0 - fineness) * 0.45 * lines(at, pixel, 1.0),
+                           mix(1.0, 0.45, fineness) * lines(at / 10.0, pixel / 10.0, 1.0)),
+                       lines(at / 100.0, pixel / 100.0, 1.0));
+  vec4 line = vec4(colour.rgb, colour.a * strength);
+  vec2 axis = clamp(1.5 - abs(place - origin) / pixel, 0.0, 1.0);
+  line = mix(line, axis_colours[0], axis.y);
+  line = mix(line, axis_colours[1], axis.x);
+  line.a *= 1.0 - smoothstep(0.1, 1.0, length(place) / reach);
+  result = vec4(line.rgb * line.a, line.a);
+}
+)";
+
+/// A picture over all else, in its own colours; `area` are its corners in device coordinates.
+constexpr char kPanelVertexShader[] = R"(
+uniform vec4 area;
+out vec2 place;
+void main() {
+  vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
+  place = vec2(corner.x, 1.0 - corner.y);
+  gl_Position = vec4(mix(area.xy, area.zw, corner), 0.0, 1.0);
+}
+)";
+
+constexpr char kPanelFragmentShader[] = R"(
+in vec2 place;
+uniform sampler2D source;
+uniform float alpha;
+out vec4 result;
+void main() { result = alpha * texture(source, place); }
 )";
 
 /// Depth only, for shadow maps, and flat colours, for masks.

@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "base/vector.h"
+#include "geometry/triangle_mesh.h"
+
+namespace icome::benchmarks {
+
+/// A solid of the scene of many.
+struct FrameSolid {
+  enum class Kind { Box, Ball, Cylinder, Cone } kind;
+  base::Vector3 at;  // m
+  base::Vector3 colour;
+};
+constexpr double kSolidSize = 0.06;  // m, height and width of each
+constexpr double kSolidStep = 0.1;   // m, from one to the next
+
+/// In a cube of rows.
+std::vector<FrameSolid> frame_solids(std::size_t count);
+
+/// A bumpy ball of 0.1 m.
+geometry::TriangleMesh frame_mesh(int rows);
+
+/// CPU time of the process so far, with all its threads, ms: drawing in software is done by several.
+double cpu_milliseconds();
+
+}  // namespace icome::benchmarks
