@@ -50,7 +50,8 @@ TEST(ColouredByOperands, TheFirstOfSurfacesThatCoincideCounts) {
       tree.add_leaf(Primitive(Sphere{1.0}), moved_by(0.0, 0.0, 0.0), CsgTree::Colour{0.0F, 1.0F, 0.0F, 1.0F});
   tree.add(CsgOperator::Union, first, second);
   const world::Colour blue = {0.0F, 0.0F, 1.0F};
-  for (const auto& corners : coloured_triangles(tree)->colours) EXPECT_EQ(corners[0], blue);
+  const auto coloured = coloured_triangles(tree);  // the loop alone would not keep it
+  for (const auto& corners : coloured->colours) EXPECT_EQ(corners[0], blue);
 }
 
 TEST(ColouredByOperands, WithoutColoursTrianglesStayWhatTheyAre) {
