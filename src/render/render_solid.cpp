@@ -68,18 +68,15 @@ bool is_within(const geometry::CsgTree& tree, const Vector3& point, double reach
 /// Are there triangles wherever the solid has surface? Sampling loses parts that are thinner than a cell.
 bool is_whole(const MeshGeometry& surface, const CsgGeometry& images, const geometry::CsgTree& tree,
               double cell) {
-  constexpr std::size_t kMostAsked = 4'000;
-  constexpr double kMissing = 0.002;  // share of the points
+  constexpr std::size_t kMostAsked = 20'000;
   Cells cells(2.0 * cell);
   for (const Vector3& position : surface.mesh.positions) cells.add(position - images.centre);
   const std::size_t step = 1 + images.surface.size() / kMostAsked;
-  std::size_t asked = 0, missing = 0;
   for (std::size_t i = 0; i < images.surface.size(); i += step) {
-    ++asked;
     const Vector3& point = images.surface[i];
-    missing += !cells.has_near(point - images.centre) && !is_within(tree, point, 1e-3 * cell);
+    if (!cells.has_near(point - images.centre) && !is_within(tree, point, 0.5 * cell)) return false;
   }
-  return double(missing) <= kMissing * double(asked);
+  return true;
 }
 
 /// In a view of usual size that the solid fills.
