@@ -104,10 +104,12 @@ void MainWindow::make_center() {
 
 void MainWindow::make_docks() {
   tree_ = new WorldTree(session_, this);
-  make_dock(this, "dock.world", "World", tree_, Qt::LeftDockWidgetArea);
+  QDockWidget* world = make_dock(this, "dock.world", "World", tree_, Qt::LeftDockWidgetArea);
   properties_ = new PropertyPanel(session_, this);
-  make_dock(this, "dock.properties", "Properties", properties_, Qt::RightDockWidgetArea);
+  QDockWidget* properties =
+      make_dock(this, "dock.properties", "Properties", properties_, Qt::RightDockWidgetArea);
   make_dock(this, "dock.hand", "Hand", new StatusStrip(session_, this), Qt::BottomDockWidgetArea);
+  resizeDocks({world, properties}, {60 * kGrid, 80 * kGrid}, Qt::Horizontal);
 }
 
 void MainWindow::restore_layout() {
