@@ -81,7 +81,7 @@ class SimulatedDevice final : public PointerDevice {
   // [position; velocity] after a sub-step = these times [position; velocity; push/mass].
   std::array<std::array<double, 3>, 2> step_{};
   realtime::LatestValue<Vector3> target_;
-  realtime::LatestValue<Vector3> put_;
+  realtime::LatestValue<Vector3> put_{Vector3(Vector3::Zero())};
   bool jumped_ = false;  // since the last reading that was Ok
   std::atomic<SimulatedFailure> failure_ = SimulatedFailure::None;
   Vector3 position_;                    // m
