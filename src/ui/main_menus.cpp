@@ -152,9 +152,12 @@ void MainWindow::show_hint() {
 }
 
 void MainWindow::show_count() {
+  const auto counted = [](std::size_t count, const char* one, const char* many) {
+    return QString("%L1 %2").arg(count).arg(count == 1 ? one : many);
+  };
   const auto& drawn = session_.drawn();
-  const QString count =
-      QString("%L1 objects, %L2 triangles").arg(drawn->object_count()).arg(drawn->triangle_count());
+  const QString count = counted(drawn->object_count(), "object", "objects") + ", " +
+                        counted(drawn->triangle_count(), "triangle", "triangles");
   if (count_->text() != count) count_->setText(count);
 }
 

@@ -12,7 +12,6 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <utility>
 
 #include "ui/icons.h"
 #include "ui/property_panel.h"
@@ -148,7 +147,13 @@ void MainWindow::tick() {
   show_progress();
   show_title();
   show_count();
-  if (std::exchange(is_stale_, false)) show_hint();
+  const auto labelled = wanted_label();
+  if (is_stale_) show_hint();
+  if (is_stale_ || labelled != labelled_) {
+    labelled_ = labelled;
+    show_look();
+  }
+  is_stale_ = false;
 }
 
 void MainWindow::hear(const session::SessionEvent& event) {
@@ -219,6 +224,13 @@ void MainWindow::show_title() {
   setWindowModified(session_.modified());
 }
 
+/// What has its name written above it.
+std::optional<world::ObjectId> MainWindow::wanted_label() const {
+  if (tools_.hovered()) return tools_.hovered();
+  const std::vector<world::ObjectId>& selected = session_.selection();
+  return selected.size() == 1 ? std::optional(selected.front()) : std::nullopt;
+}
+
 void MainWindow::show_look() {
   const SceneColours its = scene_colours();
   session::DisplayWish wish;
@@ -226,8 +238,14 @@ void MainWindow::show_look() {
   wish.look.below = its.below;
   wish.look.selection = its.selection;
   wish.look.shadows = views_.shadows();
+  wish.look.grid = views_.grid();
+  wish.look.grid_colour = its.grid;
   wish.look.passes = 16;
   wish.pointers = options_.hand_in_sight || tools_.tool() == Tool::Touch;
+  if (labelled_) {
+    if (auto panel = label_.panel(session_, *labelled_, devicePixelRatio()))
+      wish.look.overlay.panels.push_back(std::move(*panel));
+  }
   session_.set_look(wish);
 }
 

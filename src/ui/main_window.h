@@ -8,6 +8,7 @@
 #include "ui/banner.h"
 #include "ui/edit_actions.h"
 #include "ui/file_actions.h"
+#include "ui/scene_label.h"
 #include "ui/scene_tools.h"
 #include "ui/scene_view.h"
 #include "ui/theme.h"
@@ -56,6 +57,7 @@ class MainWindow final : public QMainWindow {
   void show_title();
   void show_hint();
   void show_count();
+  std::optional<world::ObjectId> wanted_label() const;
   void show_look();
   void show_tool(Tool tool);
   void choose_theme(Theme theme);
@@ -79,7 +81,9 @@ class MainWindow final : public QMainWindow {
   QLabel* count_ = nullptr;
   QAction* tool_actions_[3] = {};
   QTimer timer_;
-  bool is_stale_ = true;      // what is said of the selection
+  bool is_stale_ = true;  // what is said and drawn of the selection
+  SceneLabel label_;
+  std::optional<world::ObjectId> labelled_ = {};
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // to close
   bool closing_ = false;      // within the event
