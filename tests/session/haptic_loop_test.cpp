@@ -7,20 +7,14 @@
 #include <optional>
 #include <thread>
 
-#include "devices/simulated/simulated_device.h"
 #include "haptics/contact_world.h"
 #include "realtime/guard/guard.h"
+#include "session/sessions.h"
 
 namespace icome::session {
 namespace {
 
 using base::Vector3;
-
-std::unique_ptr<devices::SimulatedDevice> hand_at(const Vector3& place) {
-  devices::SimulatedSettings settings;
-  settings.start = place;
-  return std::make_unique<devices::SimulatedDevice>(settings);
-}
 
 std::vector<std::unique_ptr<devices::PointerDevice>> list(std::unique_ptr<devices::PointerDevice> device) {
   std::vector<std::unique_ptr<devices::PointerDevice>> devices;

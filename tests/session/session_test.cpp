@@ -5,7 +5,6 @@
 #include <fstream>
 #include <limits>
 
-#include "devices/simulated/simulated_device.h"
 #include "session/sessions.h"
 
 namespace icome::session {
@@ -30,12 +29,6 @@ class Folder {
  private:
   std::filesystem::path path_;
 };
-
-std::unique_ptr<devices::SimulatedDevice> hand_at(const Vector3& place) {
-  devices::SimulatedSettings settings;
-  settings.start = place;
-  return std::make_unique<devices::SimulatedDevice>(settings);
-}
 
 /// Looks at the origin from a metre away: workspaces lie as in the world.
 void look_at_origin(Session& session) { session.set_view({}); }

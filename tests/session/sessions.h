@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "devices/simulated/simulated_device.h"
 #include "session/session.h"
 #include "world/sample_world.h"
 
@@ -21,6 +22,13 @@ inline std::unique_ptr<Session> start(SessionSettings settings = quiet_settings(
   auto session = Session::create(std::move(settings));
   if (!session) throw std::runtime_error(session.error().message);
   return std::move(*session);
+}
+
+/// A hand that rests there.
+inline std::unique_ptr<devices::SimulatedDevice> hand_at(const base::Vector3& place) {
+  devices::SimulatedSettings settings;
+  settings.start = place;
+  return std::make_unique<devices::SimulatedDevice>(settings);
 }
 
 /// Adds an object of a shape there, in one action.
