@@ -168,7 +168,9 @@ class Session {
   /// Where the hand of the mouse-driven pointer wants to be, stage frame; surfaces may keep it away. Without
   /// effect on other devices.
   void aim_hand(const base::Vector3& position);
-  /// Takes that hand back to the eye, out of sight and touching nothing, and keeps it there until it is aimed
+  /// Puts that hand there without a way in between, as a pen is lifted and set down elsewhere.
+  void put_hand(const base::Vector3& position);
+  /// Puts it at the eye, out of sight and touching nothing, and keeps it there until it is aimed or put
   /// again.
   void park_hand();
   /// What the ray meets first of what can be touched, stage frame.

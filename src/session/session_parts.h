@@ -45,7 +45,7 @@ struct Session::Parts {
   void move_user();
   void go_home(double aspect);
   void aim(const base::Vector3& position);
-  void keep_parked();
+  void put(const base::Vector3& position);
   void publish_wish();
 
   // session.cpp
@@ -79,9 +79,8 @@ struct Session::Parts {
   UserInteraction user;
   std::int64_t moved_at = 0;  // ns, when the user moved last; 0: not yet
   interaction::View drawn_view;
-  double aspect = 1.5;                          // of the picture, when it was asked for last
-  bool hand_is_aimed = false;                   // by the mouse
-  std::optional<base::Vector3> parked_at = {};  // in the device's frame; nothing: it was aimed since
+  double aspect = 1.5;         // of the picture, when it was asked for last
+  bool hand_is_aimed = false;  // by the mouse
 
   EditedQueue queue;
   DisplayFeed display;

@@ -17,20 +17,17 @@ void Session::Parts::move_user() {
     tell(it.lost ? SessionEvent::Kind::DeviceLost : SessionEvent::Kind::DeviceBack, it.text);
   if (news.home) go_home(aspect);
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
-  if (!hand_is_aimed) keep_parked();
+  // Put, not led: something may stand in the way.
+  if (!hand_is_aimed) put(user.view().world_from_eye.translation());
 }
 
 void Session::Parts::aim(const base::Vector3& position) {
   if (mouse_hand) mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
 }
 
-/// The hand is put there, not led: something may stand in the way.
-void Session::Parts::keep_parked() {
-  const base::Vector3 place = hands.stage_from_device(0).inverse() * user.view().world_from_eye.translation();
-  if (!mouse_hand || place == parked_at) return;
-  parked_at = place;
-  mouse_hand->set_target(place);
-  mouse_hand->put(place);
+void Session::Parts::put(const base::Vector3& position) {
+  aim(position);
+  if (mouse_hand) mouse_hand->put(hands.stage_from_device(0).inverse() * position);
 }
 
 void Session::Parts::publish_wish() {
@@ -97,14 +94,16 @@ std::optional<world::ObjectId> Session::touched(std::size_t index) const {
 void Session::aim_hand(const base::Vector3& position) {
   if (!position.allFinite()) return;
   parts_->hand_is_aimed = true;
-  parts_->parked_at.reset();
   parts_->aim(position);
 }
 
-void Session::park_hand() {
-  parts_->hand_is_aimed = false;
-  parts_->keep_parked();
+void Session::put_hand(const base::Vector3& position) {
+  if (!position.allFinite()) return;
+  parts_->hand_is_aimed = true;
+  parts_->put(position);
 }
+
+void Session::park_hand() { parts_->hand_is_aimed = false; }
 
 std::optional<Session::Picked> Session::pick(const interaction::Ray& ray) const {
   const FeltVersion& felt = parts_->felt.read();

@@ -31,19 +31,6 @@ bool TouchTool::step(int key, bool fine) {
   return true;
 }
 
-/// Has something been in the way for a while that no button presses against? Then the hand is lifted like a
-/// pen, and comes again from the eye, from where all that the mouse can point at is free to reach.
-bool TouchTool::is_stuck(const interaction::MouseHand::Input& input, const base::Vector3& target) {
-  constexpr double kFar = 0.1;   // of the view's width at the target
-  constexpr int kPatience = 30;  // ticks
-  const double width = input.view_width * (target - input.ray.origin).norm();
-  const bool is_away = input.pressure <= 0.0 && input.hand && (*input.hand - target).norm() > kFar * width;
-  away_ticks_ = is_away ? away_ticks_ + 1 : 0;
-  if (away_ticks_ < kPatience) return false;
-  away_ticks_ = 0;
-  return true;
-}
-
 void TouchTool::tick() {
   if (!active_) return;
   const interaction::View& view = session_.view();
@@ -58,8 +45,12 @@ void TouchTool::tick() {
   wheel_ = 0.0;
   const base::Vector3 target = hand_.target(input);
   if (!target.allFinite()) return;
-  if (is_stuck(input, target)) session_.park_hand();
-  session_.aim_hand(target);
+  // Without the button the hand is a pen in the air: nothing that it passes behind holds it back.
+  if (pressing()) {
+    session_.aim_hand(target);
+  } else {
+    session_.put_hand(target);
+  }
 }
 
 }  // namespace icome::ui

@@ -31,15 +31,12 @@ class TouchTool {
   static constexpr double kButton = 0.5;
 
  private:
-  bool is_stuck(const interaction::MouseHand::Input& input, const base::Vector3& target);
-
   session::Session& session_;
   interaction::MouseHand hand_ = interaction::MouseHand();
   bool active_ = false;
   SceneInput input_ = {};
   double pressure_ = 0.0;
   double wheel_ = 0.0;
-  int away_ticks_ = 0;  // that the hand could not come to where it should hover
 };
 
 }  // namespace icome::ui

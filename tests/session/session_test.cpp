@@ -289,7 +289,11 @@ TEST(Session, ParksTheHandAtTheEyeWhateverStandsInTheWay) {
   run_until(*session, [&] { return (session->pointer(0).tip - eye).norm() < 1e-6; });
   EXPECT_EQ(session->pointer(0).scp, session->pointer(0).tip);
   EXPECT_FALSE(session->touched(0));
-  // And on its way again it meets the other side.
+  // It is also put elsewhere without a way, and from there it meets the side that it comes to.
+  session->put_hand({0.0, 0.0, 0.6});
+  run_until(*session, [&] { return session->pointer(0).scp.z() > 0.55; });
+  EXPECT_FALSE(session->touched(0));
+  session->put_hand({0.0, 0.0, -0.6});
   session->aim_hand({0.0, 0.0, 0.49});
   run_until(*session, [&] { return session->touched(0).has_value(); });
   EXPECT_NEAR(session->pointer(0).scp.z(), -0.5, 1e-6);

@@ -88,7 +88,6 @@ bool Servo::read() {
   has_state_ = true;
   if (state.jumped) {
     solver_->reset();
-    limiter_.restart();
     if (effects_ != nullptr) effects_->reset();
   }
   // The workspace's own speed is left out: it comes in jerks from who carries it, which damping would turn
