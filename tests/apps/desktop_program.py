@@ -150,17 +150,15 @@ class Desktop:
         return wait_for(what, look)
 
     def settled_scene(self):
-        """The scene when it changes no more."""
-        last = [self.scene()]
+        """The scene when it has not changed for so long that slow drawing cannot be why."""
+        last = [self.scene(), time.monotonic()]
 
         def look():
             picture = self.scene()
-            same = picture.planes == last[0].planes
-            last[0] = picture
-            return same and picture
-        for _ in range(3):
-            picture = wait_for("a scene at rest", look)
-        return picture
+            if picture.planes != last[0].planes:
+                last[:] = [picture, time.monotonic()]
+            return time.monotonic() - last[1] > 2.0 and picture
+        return wait_for("a scene at rest", look)
 
     # Hands.
 
@@ -253,7 +251,7 @@ class DesktopTest(unittest.TestCase):
 # What the things of the demo design look like, in any light that it is seen in.
 
 def is_clay(red, green, blue):
-    return red > 150 and green < 0.78 * red and blue < 0.68 * red and blue > 50
+    return red > 150 and green < 0.74 * red and 0.4 * red < blue < 0.68 * red
 
 
 def is_rubber(red, green, blue):

@@ -35,8 +35,14 @@ class DesktopUseTest(DesktopTest):
 
     @staticmethod
     def wait_desk(desktop):
-        return desktop.wait_scene("bunny, knot and sea in sight", lambda it: (
-            it.share(is_clay) > 0.004 and it.share(is_rubber) > 0.002 and it.share(is_water) > 0.002))
+        """Waits until all of it is there, and the news that it was opened, which takes room, is gone."""
+        def is_there(picture):
+            return (picture.share(is_clay) > 0.004 and picture.share(is_rubber) > 0.002 and
+                    picture.share(is_water) > 0.002)
+        desktop.wait_scene("bunny, knot and sea in sight", is_there)
+        wait_for("the end of passing news", lambda: not shows_banner(desktop, "news"))
+        # What the news covered is black until it is drawn.
+        return desktop.wait_scene("all of the scene", lambda it: it.pixel(5, 5) != (0, 0, 0) and is_there(it))
 
     @staticmethod
     def knot_in_sight(desktop):
@@ -57,7 +63,7 @@ class DesktopUseTest(DesktopTest):
         desktop.click(grip)
         desktop.wait_scene("the line around the knot", lambda it: len(it.places(is_selection)) > 40)
         desktop.drag(grip, (grip[0] + 70, grip[1] + 30))
-        desktop.wait_title(r"^\*?desk\.wrl\*? ?\*? - ICOME")
+        desktop.wait_title(r"desk\.wrl\*")
         self.wait_knot(desktop, before, near=False)
         return before, self.knot_in_sight(desktop)
 
@@ -135,7 +141,7 @@ class DesktopUseTest(DesktopTest):
 
     def test_a_crash_loses_nothing(self):
         desktop = self.open_desk()
-        _, after = self.move_knot(desktop)
+        self.move_knot(desktop)
         kept = self.home / "data"
         sizes = []
 
@@ -145,17 +151,15 @@ class DesktopUseTest(DesktopTest):
         wait_for("the work on the disk", is_on_disk)
         desktop.kill()
         again = self.start("--theme", "dark").open()
-        again.wait_title(r"desk\.wrl")
-        self.wait_desk(again)
+        again.wait_title(r"desk\.wrl\*")
+        again.wait_scene("the knot", lambda it: it.share(is_rubber) > 0.001)
         wait_for("the news that work was recovered", lambda: shows_banner(again, "news"))
         self.keep(again, "recovered")
-        self.assertIn("*", again.title())
         again.key("ctrl+s")
         again.wait_title(r"^desk\.wrl - ICOME")
         self.assertNotEqual(knot_place(self.design), (-0.075, 0.0245, 0.085))
         again.quit()
         self.assertEqual(again.wait_end(), 0, again.said())
-        self.assertIsNotNone(after)
 
     def test_closing_asks_only_when_something_would_be_lost(self):
         desktop = self.open_desk()
