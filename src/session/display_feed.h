@@ -33,7 +33,7 @@ class DisplayFeed {
   std::uint64_t frames() const { return frames_.load(std::memory_order_acquire); }
 
   // The thread that makes versions of the world for drawing.
-  void publish(render::RenderScenePointer scene) { scene_.publish(scene); }
+  void publish(const render::RenderScenePointer& scene) { scene_.publish(scene); }
 
   // The servo thread. Real-time safe.
   void publish(std::size_t pointer, const PointerView& view) { pointers_[pointer]->newest.publish(view); }

@@ -80,7 +80,7 @@ void EditActions::fill_duplicate_as() {
 }
 
 void EditActions::refresh() {
-  const auto named = [](const char* what, std::string name) {
+  const auto named = [](const char* what, const std::string& name) {
     const QString text = QString::fromStdString(name).replace('&', "&&");
     return text.isEmpty() ? QString(what) : QString("%1 %2").arg(what, text);
   };

@@ -98,10 +98,10 @@ IconPaths turn_back(bool mirrored) {
 
 IconPaths arrow() {
   IconPaths it;
-  const std::initializer_list<QPointF> kOutline{{4.5, 2.5},   {15.5, 11.2}, {10.6, 11.9}, {13.4, 17.0},
-                                                {11.0, 18.0}, {8.4, 12.9},  {4.5, 16.2}};
-  add_line(it.ink, kOutline, true);
-  add_line(it.wash, kOutline, true);
+  const std::initializer_list<QPointF> outline{{4.5, 2.5},   {15.5, 11.2}, {10.6, 11.9}, {13.4, 17.0},
+                                               {11.0, 18.0}, {8.4, 12.9},  {4.5, 16.2}};
+  add_line(it.ink, outline, true);
+  add_line(it.wash, outline, true);
   return it;
 }
 

@@ -82,7 +82,7 @@ int MatchModel::rowCount(const QModelIndex& parent) const {
 }
 
 QVariant MatchModel::data(const QModelIndex& index, int role) const {
-  if (role != kPathRole) return ObjectModel::data(index, role);
+  if (role != PathRole) return ObjectModel::data(index, role);
   const world::PhysicalObject* it = index.isValid() ? world().find(object(index)) : nullptr;
   QStringList names;
   constexpr qsizetype kMost = 4;  // of the nearest: the rest would not fit anyway

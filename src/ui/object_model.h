@@ -10,7 +10,7 @@ namespace icome::ui {
 /// and moves objects through the session, which outlives it.
 class ObjectModel : public QAbstractItemModel {
  public:
-  enum Role { kPathRole = Qt::UserRole };  // names of the objects above it, for items of a list
+  enum Role { PathRole = Qt::UserRole };  // names of the objects above it, for items of a list
 
   ObjectModel(session::Session& session, QObject* parent) : QAbstractItemModel(parent), session_(session) {}
 

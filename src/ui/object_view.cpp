@@ -27,7 +27,7 @@ class ObjectDelegate final : public QStyledItemDelegate {
 
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     QStyledItemDelegate::paint(painter, option, index);
-    const QString path = index.data(ObjectModel::kPathRole).toString();
+    const QString path = index.data(ObjectModel::PathRole).toString();
     if (path.isEmpty()) return;
     const QString name = index.data(Qt::DisplayRole).toString();
     const int taken = option.decorationSize.width() + option.fontMetrics.horizontalAdvance(name) + 6 * kGrid;

@@ -97,8 +97,9 @@ QString explanation_of(DeviceStatus status) {
 }
 
 QString grouped(double number) {
-  return number >= 0.0 && number < 1e15 ? QString::fromStdString(render::grouped(std::size_t(number + 0.5)))
-                                        : QString("–");
+  return number >= 0.0 && number < 1e15
+             ? QString::fromStdString(render::grouped(std::size_t(std::llround(number))))
+             : QString("–");
 }
 
 QString microseconds(double seconds) {

@@ -11,6 +11,7 @@
 #include <QPalette>
 #include <QToolTip>
 #include <algorithm>
+#include <cmath>
 
 #include "ui/style.h"
 
@@ -58,7 +59,7 @@ bool wants_dark(Theme theme) {
 }
 
 QColor mixed(const QColor& one, const QColor& other, double share) {
-  const auto channel = [&](int a, int b) { return int(a + (b - a) * share + 0.5); };
+  const auto channel = [&](int a, int b) { return int(std::lround(a + (b - a) * share)); };
   return {channel(one.red(), other.red()), channel(one.green(), other.green()),
           channel(one.blue(), other.blue())};
 }

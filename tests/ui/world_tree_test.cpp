@@ -65,7 +65,7 @@ TEST_F(WorldTreeTest, FindsByNameWhileTheWorldChanges) {
   QTest::keyClicks(tree.findChild<QLineEdit*>(), "tabl");
   QTreeView& found = view(tree);
   ASSERT_EQ(found.model()->rowCount(), 2);
-  EXPECT_EQ(found.model()->index(1, 0).data(ObjectModel::kPathRole).toString(), "Table");
+  EXPECT_EQ(found.model()->index(1, 0).data(ObjectModel::PathRole).toString(), "Table");
   perform(world::RenameObject{leg, "Leg"});
   EXPECT_EQ(found.model()->rowCount(), 1);
   create("Second table");
