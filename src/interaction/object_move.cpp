@@ -32,16 +32,15 @@ std::string action_name(const char* verb, const world::World& world, std::span<c
                                          : fmt::format("{} object", verb);
 }
 
-ObjectMove::ObjectMove(const world::World& world, std::span<const ObjectId> objects,
-                       const base::Pose& stage_from_world) {
+ObjectMove::ObjectMove(const world::World& world, std::span<const ObjectId> objects) {
   for (const ObjectId id : topmost(world, objects)) {
     const world::PhysicalObject& object = *world.find(id);
-    base::Matrix3 stage_from_parent = stage_from_world.linear();
-    if (object.parent) stage_from_parent *= world_from_object(world, object.parent).linear();
-    const base::Matrix3 parent_from_stage = stage_from_parent.inverse();
-    if (!parent_from_stage.allFinite()) continue;
+    base::Matrix3 world_from_parent = base::Matrix3::Identity();
+    if (object.parent) world_from_parent = world_from_object(world, object.parent).linear();
+    const base::Matrix3 parent_from_world = world_from_parent.inverse();
+    if (!parent_from_world.allFinite()) continue;
     objects_.push_back(id);
-    starts_.push_back({object.parent_from_object, parent_from_stage});
+    starts_.push_back({object.parent_from_object, parent_from_world});
   }
 }
 
@@ -49,7 +48,7 @@ world::Edit ObjectMove::by(const base::Vector3& offset) const {
   world::EditGroup group;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     base::Affine3 place = starts_[i].parent_from_object;
-    place.translation() += starts_[i].parent_from_stage * offset;
+    place.translation() += starts_[i].parent_from_world * offset;
     group.edits.emplace_back(world::PlaceObject{objects_[i], place});
   }
   return group;

@@ -20,21 +20,20 @@ std::string action_name(const char* verb, const world::World& world,
 /// them where the hand is, without the rounding of those before it.
 class ObjectMove {
  public:
-  /// An object that is selected along with one above it moves once. Where parents
-  /// within parents shrink space to nothing, there is nowhere to go.
-  ObjectMove(const world::World& world, std::span<const world::ObjectId> objects,
-             const base::Pose& stage_from_world);
+  /// An object that is selected along with one above it moves once. Where parents within parents shrink space
+  /// to nothing, there is nowhere to go.
+  ObjectMove(const world::World& world, std::span<const world::ObjectId> objects);
 
   /// There is nothing to move.
   bool empty() const { return starts_.empty(); }
   const std::vector<world::ObjectId>& objects() const { return objects_; }
-  /// Puts all of them where they stood, moved by that much (m, stage frame).
+  /// Puts all of them where they stood, moved by that much (m, world frame).
   world::Edit by(const base::Vector3& offset) const;
 
  private:
   struct Start {
     base::Affine3 parent_from_object;
-    base::Matrix3 parent_from_stage;  // of directions
+    base::Matrix3 parent_from_world;  // of directions
   };
   std::vector<world::ObjectId> objects_;
   std::vector<Start> starts_;

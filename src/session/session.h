@@ -105,7 +105,6 @@ class Session {
   base::Result<void> undo();
   base::Result<void> redo();
   const world::History& history() const;
-  const base::Pose& stage_from_world() const;
 
   // Files. Opening and saving go on in the background; update() tells how they end.
   /// Starts an empty design.

@@ -52,11 +52,6 @@ void Session::Parts::go_home(double shape) {
   user.fly_to(interaction::fitted(user.view(), bounds, iso.toward_eye, iso.up, shape));
 }
 
-const base::Pose& Session::stage_from_world() const {
-  static const base::Pose kSame = base::Pose::Identity();
-  return kSame;
-}
-
 const interaction::View& Session::view() const { return parts_->user.view(); }
 
 void Session::set_view(const interaction::View& view) { parts_->user.set_view(view); }

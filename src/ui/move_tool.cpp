@@ -58,7 +58,7 @@ void MoveTool::begin_drag() {
   });
   if (!grasped) select(*press_);
   const Vector3 toward_eye = session_.view().world_from_eye.linear().col(2);
-  drag_ = Drag{.move = {session_.world(), session_.selection(), session_.stage_from_world()},
+  drag_ = Drag{.move = {session_.world(), session_.selection()},
                .plane = {press_->picked->place.point, toward_eye}};
   keep_to(axis_);
 }
@@ -122,7 +122,7 @@ void MoveTool::nudge(const Vector3& in_view, bool more) {
     wanted.cwiseAbs().maxCoeff(&axis);
   }
   const Vector3 offset = std::copysign(in_view.norm(), wanted[axis]) * Vector3::Unit(axis);
-  const interaction::ObjectMove move(session_.world(), session_.selection(), session_.stage_from_world());
+  const interaction::ObjectMove move(session_.world(), session_.selection());
   if (move.empty()) return;
   const auto done =
       more && nudged_ ? session_.extend(move.by(offset))

@@ -49,9 +49,8 @@ std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Sess
                                                              world::ObjectId id, double pixel_ratio) {
   const world::PhysicalObject* object = session.world().find(id);
   if (!object || object->name.empty()) return std::nullopt;
-  base::Bounds bounds = world::bounds(session.world(), id);
+  const base::Bounds bounds = world::bounds(session.world(), id);
   if (bounds.isEmpty()) return std::nullopt;
-  bounds = bounds.transformed(base::Affine3(session.stage_from_world()));
   QString text = QString::fromStdString(object->name).simplified();
   if (text.size() > kLongestName) text = text.left(kLongestName - 1) + QChar(0x2026);
   const Look look{text, pixel_ratio, is_dark()};

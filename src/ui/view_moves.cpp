@@ -82,7 +82,7 @@ bool step_view(session::Session& session, int key, ViewMove how) {
 void zoom_to(session::Session& session, world::ObjectId object, double aspect) {
   if (!session.world().find(object)) return;
   const base::Bounds bounds = world::bounds(session.world(), object);
-  if (!bounds.isEmpty()) zoom_to_bounds(session, bounds.transformed(session.stage_from_world()), aspect);
+  if (!bounds.isEmpty()) zoom_to_bounds(session, bounds, aspect);
 }
 
 void zoom_to_selection(session::Session& session, double aspect) {

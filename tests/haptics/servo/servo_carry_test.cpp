@@ -5,42 +5,16 @@
 #include "haptics/contact_judge.h"
 #include "haptics/contact_world.h"
 #include "haptics/servo/servo.h"
+#include "haptics/servo/servo_fixture.h"
 #include "realtime/guard/guard.h"
 
 namespace icome::haptics {
 namespace {
 
-using devices::DeviceStatus;
-
 constexpr double kTick = 1e-3;
 
-/// A hand that holds still where the test says.
-class StillDevice final : public devices::PointerDevice {
- public:
-  const devices::DeviceInfo& info() const override { return info_; }
-  DeviceStatus read(devices::PointerState& state) override {
-    state.jumped = jumped;
-    if (status == DeviceStatus::Ok) state.position = position;
-    return status;
-  }
-  DeviceStatus write(const Vector3& written) override {
-    force = written;
-    return status == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Ok;
-  }
-
-  Vector3 position = Vector3::Zero();
-  Vector3 force = Vector3::Zero();
-  bool jumped = false;
-  DeviceStatus status = DeviceStatus::Ok;
-
- private:
-  devices::DeviceInfo info_;
-};
-
-ScenePointer box_scene() { return HapticScene::compile({object(1, shape_of(primitive("box:0.1x0.1x0.1")))}); }
-
 TEST(Servo, BeginsAnewWhereADeviceHasJumpedTo) {
-  StillDevice device;
+  ScriptedDevice device;
   Servo servo(device, {});
   servo.publish(box_scene());
   device.position.z() = 0.06;
@@ -62,7 +36,7 @@ TEST(Servo, BeginsAnewWhereADeviceHasJumpedTo) {
 }
 
 TEST(ServoCarry, CarriesARestingTipThroughFreeSpaceWithoutForce) {
-  StillDevice device;
+  ScriptedDevice device;
   device.position = {0.0, 0.01, 0.2};
   Servo servo(device, {});
   servo.publish(box_scene());
@@ -92,7 +66,7 @@ TEST(ServoCarry, StopsAtAWallHoweverItIsCarried) {
   base::Random random(4711);
   const auto box = primitive("box:0.1x0.1x0.1");
   for (int run = 0; run < 4; ++run) {
-    StillDevice device;
+    ScriptedDevice device;
     device.position = {0.0, 0.0, 0.08};
     Servo servo(device, {});
     servo.publish(box_scene());
@@ -118,7 +92,7 @@ TEST(ServoCarry, StopsAtAWallHoweverItIsCarried) {
 }
 
 TEST(ServoCarry, GivesTheForceInTheDevicesOwnFrame) {
-  StillDevice device;
+  ScriptedDevice device;
   device.position = {0.0, 0.0, 0.06};
   Servo servo(device, {});
   servo.publish(box_scene());
@@ -138,7 +112,7 @@ TEST(ServoCarry, GivesTheForceInTheDevicesOwnFrame) {
 }
 
 TEST(ServoCarry, TakesALostDeviceAlongWithoutForce) {
-  StillDevice device;
+  ScriptedDevice device;
   device.position = {0.0, 0.0, 0.0501};
   Servo servo(device, {});
   servo.publish(box_scene());
@@ -164,7 +138,7 @@ TEST(ServoCarry, TakesALostDeviceAlongWithoutForce) {
 
 TEST(ServoCarry, TakesNoMemoryAndNoLocks) {
   if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "sanitizers need these functions themselves";
-  StillDevice device;
+  ScriptedDevice device;
   device.position = {0.0, 0.0, 0.06};
   Servo servo(device, {});
   servo.publish(box_scene());

@@ -8,38 +8,12 @@
 
 #include "geometry/geodesic_sphere.h"
 #include "haptics/contact_world.h"
+#include "haptics/servo/servo_fixture.h"
 #include "haptics/thesis/thesis_shapes.h"
 #include "realtime/guard/guard.h"
 
 namespace icome::haptics {
 namespace {
-
-using devices::DeviceStatus;
-
-/// A device that reads what the test says.
-class ScriptedDevice final : public devices::PointerDevice {
- public:
-  const devices::DeviceInfo& info() const override { return info_; }
-  DeviceStatus read(devices::PointerState& state) override {
-    if (status == DeviceStatus::Ok) state.position = position;
-    return status;
-  }
-  DeviceStatus write(const Vector3& written) override {
-    force = written;
-    return status == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Ok;
-  }
-
-  Vector3 position = Vector3::Zero();
-  Vector3 force = Vector3::Zero();
-  DeviceStatus status = DeviceStatus::Ok;
-
- private:
-  devices::DeviceInfo info_;
-};
-
-ScenePointer box_scene(double x = 0.0) {
-  return HapticScene::compile({object(1, shape_of(primitive("box:0.1x0.1x0.1")), translation(x, 0, 0))});
-}
 
 std::shared_ptr<const Shape> thesis_shape(const geometry::Primitive& primitive) {
   geometry::CsgTree tree;
