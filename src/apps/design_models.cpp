@@ -76,9 +76,7 @@ class BodyMaker {
 
  private:
   static render::Colour colour_of(const world::Material& material) {
-    const auto channel = [&](std::size_t i) {
-      return render::srgb_from_linear(std::clamp(double(material.diffuse[i]), 0.0, 1.0));
-    };
+    const auto channel = [&](std::size_t i) { return std::clamp(double(material.diffuse[i]), 0.0, 1.0); };
     return {channel(0), channel(1), channel(2)};
   }
 

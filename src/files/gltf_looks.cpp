@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/srgb.h"
 #include "files/gltf_accessor.h"
 #include "files/gltf_model.h"
 #include "files/gltf_value.h"
@@ -14,11 +15,12 @@
 namespace icome::files {
 namespace {
 
-using world::Colour;
+using base::srgb_from_linear;
 
-Colour colour_of(const std::vector<double>& numbers) {
+/// Linear, as all colours of glTF.
+GltfColour colour_of(const std::vector<double>& numbers) {
   if (numbers.size() < 3) return {};
-  return {part_of_one(numbers[0]), part_of_one(numbers[1]), part_of_one(numbers[2])};
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 /// The exponent of VRML 2.0's highlights that looks most like a microfacet surface of this roughness.
@@ -29,12 +31,11 @@ float shininess_of(double roughness) {
 }
 
 /// What shines is the metal's own colour, else a twenty-fifth of the light.
-Colour specular_of(const Colour& base, double metallic) {
+GltfColour specular_of(const GltfColour& base, double metallic) {
   constexpr double kDielectric = 0.04;
   const double metal = std::clamp(metallic, 0.0, 1.0);
-  Colour specular{};
-  for (std::size_t i = 0; i < 3; ++i)
-    specular[i] = part_of_one(kDielectric + (base[i] - kDielectric) * metal);
+  GltfColour specular{};
+  for (std::size_t i = 0; i < 3; ++i) specular[i] = kDielectric + (base[i] - kDielectric) * metal;
   return specular;
 }
 
@@ -90,16 +91,17 @@ void GltfLooks::read(int index) {
   const tinygltf::Value& extras = icome_extras(it.extras);
   world::Material material;
   material.name = it.name;
-  material.diffuse = colour_of(pbr.baseColorFactor);
+  const GltfColour base = colour_of(pbr.baseColorFactor);
+  material.diffuse = srgb_from_linear(base);
   material.transparency = it.alphaMode == "BLEND" && pbr.baseColorFactor.size() == 4
                               ? part_of_one(1.0 - pbr.baseColorFactor[3])
                               : 0;
-  material.emission = colour_of(it.emissiveFactor);
-  material.specular = specular_of(material.diffuse, pbr.metallicFactor);
+  material.emission = srgb_from_linear(colour_of(it.emissiveFactor));
+  material.specular = srgb_from_linear(specular_of(base, pbr.metallicFactor));
   material.shininess = shininess_of(pbr.roughnessFactor);
   if (it.extensions.count("KHR_materials_unlit") > 0) material.emission = material.diffuse;
   GltfSurface surface;
-  surface.colour = material.diffuse;
+  surface.colour = base;
   if (pbr.baseColorTexture.index >= 0) {
     material.texture = texture(pbr.baseColorTexture.index);
     surface.texture_set = pbr.baseColorTexture.texCoord;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/srgb.h"
 #include "files/gltf_accessor.h"
 #include "files/gltf_model.h"
 #include "files/mesh_cleaning.h"
@@ -166,9 +167,9 @@ class PrimitiveReading {
     return given.stableNormalized();
   }
   world::Colour colour(std::uint32_t v) const {
-    world::Colour colour;
-    for (std::size_t i = 0; i < 3; ++i) colour[i] = float(colours_->number(v, i)) * surface_.colour[i];
-    return colour;
+    GltfColour colour;
+    for (std::size_t i = 0; i < 3; ++i) colour[i] = colours_->number(v, i) * surface_.colour[i];
+    return base::srgb_from_linear(colour);
   }
 
   static void add_flat_normals(world::MeshGeometry& shape) {

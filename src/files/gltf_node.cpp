@@ -6,6 +6,7 @@
 #include <array>
 #include <numbers>
 
+#include "base/srgb.h"
 #include "files/gltf_model.h"
 #include "files/gltf_value.h"
 
@@ -46,7 +47,7 @@ world::Light light_of(const tinygltf::Light& it) {
   world::Light light;
   if (it.type == "point") light.kind = world::Light::Kind::Point;
   if (it.type == "spot") light.kind = world::Light::Kind::Spot;
-  for (std::size_t i = 0; i < 3 && it.color.size() == 3; ++i) light.colour[i] = part_of_one(it.color[i]);
+  if (it.color.size() == 3) light.colour = base::srgb_from_linear({it.color[0], it.color[1], it.color[2]});
   light.intensity = part_of_one(it.intensity);
   light.attenuation = {0.0F, 0.0F, 1.0F};
   constexpr double kEndless = 1e9;  // m

@@ -4,6 +4,8 @@
 #include <bit>
 #include <unordered_map>
 
+#include "base/srgb.h"
+
 namespace icome::files {
 namespace {
 
@@ -81,7 +83,7 @@ class Splitting {
       const base::Vector2& given = shape_.texture_coordinates[t][i];
       coordinates = floats_of<2>(base::Vector2(given.x(), 1.0 - given.y()));
     }
-    if (!shape_.colours.empty()) colour = shape_.colours[t][i];
+    if (!shape_.colours.empty()) colour = base::linear_from_srgb(shape_.colours[t][i]);
     const Corner corner{
         shape_.mesh.triangles[t][i],
         {normal[0], normal[1], normal[2], coordinates[0], coordinates[1], colour[0], colour[1], colour[2]}};

@@ -12,7 +12,7 @@ struct GltfVertices {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;      // of every vertex or none: every triangle is flat
   std::vector<std::array<float, 2>> coordinates;  // of every vertex or none
-  std::vector<std::array<float, 3>> colours;      // of every vertex or none
+  std::vector<std::array<float, 3>> colours;      // of every vertex or none; linear
   std::vector<std::uint32_t> corners;             // three of each triangle
   bool smooth = false;                            // the normals are those of a mesh without any
 };

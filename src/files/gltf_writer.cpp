@@ -14,6 +14,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/srgb.h"
 #include "files/file_ending.h"
 #include "files/gltf_buffer.h"
 #include "files/gltf_node.h"
@@ -42,7 +43,12 @@ std::vector<world::Id<Named>> ids_in_order(const World::Table<Named>& table) {
   return ids;
 }
 
-std::vector<double> numbers_of(const world::Colour& colour) { return {colour[0], colour[1], colour[2]}; }
+/// Linear, as glTF wants it, and precise enough to come back as what it was.
+std::vector<double> numbers_of(const world::Colour& colour) {
+  std::vector<double> numbers;
+  for (const float channel : colour) numbers.push_back(base::linear_from_srgb(double(channel)));
+  return numbers;
+}
 
 /// The roughness of a microfacet surface that looks most like VRML 2.0's highlights.
 double roughness_of(float shininess) { return std::pow(2.0 / (128.0 * shininess + 2.0), 0.25); }

@@ -51,15 +51,6 @@ Vector3 linear_of(double light, double chroma, double hue) {
 
 }  // namespace
 
-double linear_from_srgb(double channel) {
-  return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
-}
-
-double srgb_from_linear(double intensity) {
-  const double clamped = std::clamp(intensity, 0.0, 1.0);
-  return clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1.0 / 2.4) - 0.055;
-}
-
 double lightness(const Colour& colour) {
   const Vector3 linear(linear_from_srgb(colour.red), linear_from_srgb(colour.green),
                        linear_from_srgb(colour.blue));

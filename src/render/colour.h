@@ -1,4 +1,5 @@
 #pragma once
+#include "base/srgb.h"
 
 namespace icome::render {
 
@@ -10,9 +11,8 @@ struct Colour {
   Colour with_alpha(double opacity) const { return {red, green, blue, opacity}; }
 };
 
-/// One sRGB channel as light intensity, and back (IEC 61966-2-1).
-double linear_from_srgb(double channel);
-double srgb_from_linear(double intensity);
+using base::linear_from_srgb;
+using base::srgb_from_linear;
 
 /// Perceived lightness of a colour, 0 (black) ... 1 (white): the L of the Oklab space (Ottosson 2020).
 double lightness(const Colour& colour);

@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "geometry/box_tree.h"
 #include "geometry/hilbert.h"
-#include "render/colour.h"
 
 namespace icome::render {
 namespace {
@@ -26,10 +25,9 @@ struct OwnedLeaf {
   world::Colour colour;
 };
 
-world::Colour linear_colour(const std::optional<CsgTree::Colour>& own) {
+world::Colour colour_or_none(const std::optional<CsgTree::Colour>& own) {
   if (!own) return kMaterialsColour;
-  return {float(linear_from_srgb((*own)[0])), float(linear_from_srgb((*own)[1])),
-          float(linear_from_srgb((*own)[2]))};
+  return {(*own)[0], (*own)[1], (*own)[2]};
 }
 
 /// The leaves below the root, from left to right. Does not recurse: trees may be deep.
@@ -43,7 +41,7 @@ std::vector<OwnedLeaf> leaves_of(const CsgTree& tree) {
     const CsgTree::Node& node = tree.node(index);
     if (node.is_leaf) {
       leaves.push_back(
-          {CsgLeaf(*node.shape, tree_from_node[index]), leaves.size(), linear_colour(node.colour)});
+          {CsgLeaf(*node.shape, tree_from_node[index]), leaves.size(), colour_or_none(node.colour)});
     } else {
       open.push_back(node.right);
       open.push_back(node.left);

@@ -9,7 +9,7 @@ namespace icome::render {
 /// Stands in a mesh's corner for the material's own colour.
 constexpr world::Colour kMaterialsColour = {-1.0F, -1.0F, -1.0F};
 
-/// The solid's triangles with the colours (linear) of the operands whose surface they are, where any has one;
+/// The solid's triangles with the colours of the operands whose surface they are, where any has one;
 /// of several that coincide, the first has it. Else the triangles as they are.
 std::shared_ptr<const world::MeshGeometry> coloured_by_operands(
     const geometry::CsgTree& tree, std::shared_ptr<const world::MeshGeometry> surface);

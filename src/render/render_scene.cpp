@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/srgb.h"
 #include "render/picture_decoder.h"
 
 namespace icome::render {
@@ -29,7 +30,20 @@ RenderPicture::Opacity opacity_of(const Image& image) {
                                              : RenderPicture::Opacity::CutOut;
 }
 
-Eigen::Vector3f rgb(const world::Colour& colour) { return Eigen::Vector3f(colour.data()); }
+Eigen::Vector3f light_of(const world::Colour& colour) {
+  return Eigen::Vector3f(base::linear_from_srgb(colour).data());
+}
+
+RenderMaterial look_of(const world::Material& material) {
+  RenderMaterial it;
+  it.diffuse = light_of(material.diffuse);
+  it.specular = light_of(material.specular);
+  it.emission = light_of(material.emission);
+  it.ambient = material.ambient;
+  it.shininess = material.shininess;
+  it.alpha = 1.0F - std::clamp(material.transparency, 0.0F, 1.0F);
+  return it;
+}
 
 Bounds placed_bounds(const Bounds& box, const Affine3& world_from_object) {
   if (box.isEmpty()) return {};
@@ -164,16 +178,11 @@ const ScenePublisher::MadePicture& ScenePublisher::picture(const World& world, w
 const std::shared_ptr<const RenderMaterial>& ScenePublisher::material(const World& world,
                                                                       world::MaterialId id) {
   const world::Material* own = world.find(id);
+  if (!own && !plain_) plain_ = std::make_shared<const RenderMaterial>(look_of({}));
   if (!own) return plain_;
   auto& made = materials_[id];
   if (made) return made;
-  RenderMaterial it;
-  it.diffuse = rgb(own->diffuse);
-  it.specular = rgb(own->specular);
-  it.emission = rgb(own->emission);
-  it.ambient = own->ambient;
-  it.shininess = own->shininess;
-  it.alpha = 1.0F - std::clamp(own->transparency, 0.0F, 1.0F);
+  RenderMaterial it = look_of(*own);
   if (own->texture) it.picture = picture(world, own->texture).picture;
   return made = std::make_shared<const RenderMaterial>(std::move(it));
 }

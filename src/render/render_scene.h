@@ -24,7 +24,7 @@ struct RenderPicture {
   std::array<bool, 2> repeats = {true, true};  ///< along u and v
 };
 
-/// How a surface looks; linear colours, as world::Material. Immutable once made.
+/// How a surface looks: world::Material with linear colours. Immutable once made.
 struct RenderMaterial {
   Eigen::Vector3f diffuse{0.8F, 0.8F, 0.8F};
   Eigen::Vector3f specular{0.0F, 0.0F, 0.0F};
@@ -151,7 +151,7 @@ class ScenePublisher {
   std::unordered_map<world::GeometryId, Made> shapes_;
   std::unordered_map<world::MaterialId, std::shared_ptr<const RenderMaterial>> materials_;
   std::unordered_map<world::TextureId, MadePicture> pictures_;
-  std::shared_ptr<const RenderMaterial> plain_ = std::make_shared<const RenderMaterial>();
+  std::shared_ptr<const RenderMaterial> plain_;             // made when wanted
   std::unordered_map<world::ObjectId, std::size_t> slots_;  // where shown objects stand in the blocks
   std::vector<std::size_t> free_;                           // slots
   std::vector<std::shared_ptr<const RenderScene::Block>> blocks_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/srgb.h"
+#include "render/csg_colours.h"
 #include "render/primitive_places.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
@@ -28,6 +30,11 @@ constexpr std::size_t kMostVerticesCompared = 64;  // at the tip of a fine cone 
 /// volume, so finer takes much longer there.
 double fineness(const world::Geometry& shape) {
   return shape.kind() == "implicit" ? 1.0 / 160.0 : 1.0 / 1500.0;
+}
+
+/// Linear; what stands for the material's own colour is none.
+Eigen::Vector3f light_of_corner(const world::Colour& colour) {
+  return Eigen::Vector3f((colour == kMaterialsColour ? colour : base::linear_from_srgb(colour)).data());
 }
 
 /// All that a corner of a triangle brings along.
@@ -67,7 +74,7 @@ class ShapeWelder {
       if (own.allFinite() && own.squaredNorm() > 0.01F) it.normal = own;
     }
     if (!surface_.texture_coordinates.empty()) it.place = surface_.texture_coordinates[t][k].cast<float>();
-    if (!surface_.colours.empty()) it.colour = Eigen::Vector3f(surface_.colours[t][k].data());
+    if (!surface_.colours.empty()) it.colour = light_of_corner(surface_.colours[t][k]);
     return it;
   }
 

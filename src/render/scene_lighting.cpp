@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/srgb.h"
+
 namespace icome::render {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr std::size_t kMostLamps = 8;
 constexpr double kGoldenAngle = std::numbers::pi * 0.7639320225002102;  // rad: pi (3 - sqrt 5)
 
 Eigen::Vector3f shine_of(const world::Light& light, float strength) {
-  return strength * Eigen::Vector3f(light.colour.data());
+  return strength * Eigen::Vector3f(base::linear_from_srgb(light.colour).data());
 }
 
 /// Along the light's -z; nothing to go by where its placement is flat.

@@ -5,7 +5,6 @@
 #include <QPainterPath>
 #include <algorithm>
 
-#include "render/colour.h"
 #include "ui/theme.h"
 
 namespace icome::ui {
@@ -55,15 +54,12 @@ void ColourButton::open_dialog() {
 }
 
 QColor screen_colour(const world::Colour& colour) {
-  const auto channel = [](float light) {
-    return float(render::srgb_from_linear(std::clamp(double(light), 0.0, 1.0)));
-  };
+  const auto channel = [](float part) { return std::clamp(part, 0.0F, 1.0F); };
   return QColor::fromRgbF(channel(colour[0]), channel(colour[1]), channel(colour[2]));
 }
 
 world::Colour world_colour(const QColor& colour) {
-  const auto channel = [](float shown) { return float(render::linear_from_srgb(double(shown))); };
-  return {channel(colour.redF()), channel(colour.greenF()), channel(colour.blueF())};
+  return {float(colour.redF()), float(colour.greenF()), float(colour.blueF())};
 }
 
 }  // namespace icome::ui

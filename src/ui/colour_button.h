@@ -30,7 +30,7 @@ class ColourButton final : public QAbstractButton {
   std::optional<world::Colour> colour_ = {};
 };
 
-/// Colours of the world are light, those of the screen sRGB.
+/// Both are as displays show them.
 QColor screen_colour(const world::Colour& colour);
 world::Colour world_colour(const QColor& colour);
 

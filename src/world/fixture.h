@@ -7,8 +7,8 @@
 
 namespace icome::world {
 
-/// Red, green, blue in [0, 1]. Drawn as linear, which those of glTF are. VRML means what a display shows, and
-/// they stand here as in the file: such colours are drawn paler than they were meant.
+/// Red, green, blue in [0, 1] as a display shows them (sRGB), which VRML, MTL, PLY and OpenSCAD mean, too.
+/// Light is computed with what base::linear_from_srgb makes of them.
 using Colour = std::array<float, 3>;
 
 /// A lamp where its object is, shining along the object's -z. The model of VRML 2.0, 4.14.

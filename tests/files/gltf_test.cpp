@@ -97,6 +97,36 @@ TEST(Gltf, WhatBelongsToCornersComesBack) {
   }
 }
 
+TEST(Gltf, ColoursAreLinearInTheFileAndAsDisplayedInTheWorld) {
+  const ScratchFolder folder;
+  const auto path =
+      folder.write("a.gltf", R"({"asset":{"version":"2.0"},"materials":[{"pbrMetallicRoughness":{)"
+                             R"("baseColorFactor":[0.21404114048223255,0,1,1],"metallicFactor":0},)"
+                             R"("emissiveFactor":[0.033104766570885055,0,0]}]})");
+  const auto design = read_design(path);
+  ASSERT_TRUE(design) << design.error().message;
+  ASSERT_EQ(design->world.materials().size(), 1U);
+  const Material& material = design->world.materials().begin()->second;
+  EXPECT_EQ(material.diffuse, (Colour{0.5F, 0.0F, 1.0F}));
+  EXPECT_EQ(material.emission, (Colour{0.2F, 0.0F, 0.0F}));
+  EXPECT_NEAR(material.specular[0], 0.2209, 1e-3);  // a twenty-fifth of the light
+}
+
+TEST(Gltf, ColoursComeBackExactly) {
+  base::Random random(3);
+  World world;
+  IdSource ids;
+  for (int i = 0; i < 200; ++i) {
+    const auto part = [&] { return i < 100 ? float(random.uniform()) : float(random.index(256)) / 255.0F; };
+    Material look{.name = std::to_string(i)};
+    for (Colour* colour : {&look.diffuse, &look.specular, &look.emission}) *colour = {part(), part(), part()};
+    const auto material = ids.next<MaterialId>();
+    applied(world, CreateMaterial{material, look});
+    applied(world, ChooseMaterial{add_object(world, ids, "square", square()), material});
+  }
+  EXPECT_EQ(difference(world, through(world, "a.glb"), kAsGltf), "");
+}
+
 TEST(Gltf, MaterialsOfColouredMeshesStayOne) {
   World world;
   IdSource ids;

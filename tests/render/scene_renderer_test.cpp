@@ -88,6 +88,17 @@ TEST(SceneRenderer, TexturesCanBeSeenThrough) {
   EXPECT_GT(seen.green, 50);
 }
 
+TEST(SceneRenderer, ColoursShowAsTheyWereMeant) {
+  DrawnWorld it;
+  world::Material look = coloured({0.0F, 0.0F, 0.0F});
+  look.emission = {0.2F, 0.5F, 0.8F};  // of 255: 51, 127.5, 204
+  it.add(square(), at(0.0, 0.0, 0.0), look);
+  const Rgb seen = middle(drawn(it, camera_at({0.0, 0.0, 2.0})));
+  EXPECT_NEAR(seen.red, 51, 2);
+  EXPECT_NEAR(seen.green, 127, 2);
+  EXPECT_NEAR(seen.blue, 204, 2);
+}
+
 TEST(SceneRenderer, CornerColoursReplaceTheMaterials) {
   DrawnWorld it;
   auto shape = square();
