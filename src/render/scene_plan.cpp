@@ -64,10 +64,10 @@ double pixels_a_unit(const PlannedItem& planned, const Camera& camera, double he
 
 /// The coarsest that is fine enough.
 int level_for(const RenderShape& shape, double pixels, double cell) {
-  int level = kFullLevel;
-  while (level + 1 < int(shape.coarser.size()) && shape.coarser[std::size_t(level + 1)].cell * pixels <= cell)
-    ++level;
-  return level;
+  std::size_t fine_enough = 0;
+  while (fine_enough < shape.coarser.size() && shape.coarser[fine_enough].cell * pixels <= cell)
+    ++fine_enough;
+  return kFullLevel + int(fine_enough);
 }
 
 std::size_t triangles_of(const RenderShape& shape, int level) {

@@ -1,6 +1,7 @@
 #include "ui/object_menu.h"
 
 #include <QAction>
+#include <ranges>
 
 #include "interaction/object_edits.h"
 #include "interaction/object_move.h"
@@ -70,12 +71,13 @@ base::Result<void> duplicate_selected(session::Session& session, Duplicate how) 
   if (models.empty()) return {};
   world::EditGroup group;
   std::vector<ObjectId> made;
-  for (const ObjectId model : models) {
+  // Each becomes the last below its parent, as of now: the last is made first.
+  for (const ObjectId model : models | std::views::reverse) {
     const ObjectId parent = session.world().find(model)->parent;
     auto duplication = world::duplicate(session.world(), model, how, parent, session.ids());
     if (!duplication) return tl::unexpected(duplication.error());
     group.edits.push_back(std::move(duplication->edit));
-    made.push_back(duplication->object);
+    made.insert(made.begin(), duplication->object);
   }
   const auto done = session.perform(world::Edit(std::move(group)), action_on("Duplicate", session, models));
   if (done) session.select(made);

@@ -2,6 +2,7 @@
 
 #include <QKeyEvent>
 #include <QStyle>
+#include <QStyleOption>
 #include <QWheelEvent>
 #include <cmath>
 
@@ -42,11 +43,28 @@ void QuantityField::restore() {
   edited_ = false;
   mark(false);
   setPlaceholderText(mixed_ ? QString("mixed") : none_.value_or(QString()));
-  const QString text = value_ ? number_text(*value_, quantity_) : QString();
+  const QString text = value_ ? fitting_text(*value_) : QString();
   if (text == this->text()) return;
   setText(text);
   setCursorPosition(0);
   if (hasFocus()) selectAll();
+}
+
+/// All digits for who edits them; else as many decimals as there is room for.
+QString QuantityField::fitting_text(double value) const {
+  QString text = number_text(value, quantity_);
+  if (hasFocus()) return text;
+  QStyleOptionFrame frame;
+  initStyleOption(&frame);
+  constexpr int kBesideText = 4;  // QLineEdit's own margins, which it does not tell
+  const int room = style()->subElementRect(QStyle::SE_LineEditContents, &frame, this).width() -
+                   textMargins().left() - textMargins().right() - kBesideText;
+  const int decimals = int(text.size() - 1 - text.indexOf('.'));
+  for (int fewer = decimals - 1; fewer >= 0 && text.contains('.'); --fewer) {
+    if (fontMetrics().horizontalAdvance(text) <= room) break;
+    text = number_text(value, quantity_, fewer);
+  }
+  return text;
 }
 
 void QuantityField::mark(bool refused) {
@@ -129,10 +147,21 @@ void QuantityField::keyPressEvent(QKeyEvent* event) {
   QLineEdit::keyPressEvent(event);
 }
 
+void QuantityField::focusInEvent(QFocusEvent* event) {
+  if (!edited_) restore();
+  QLineEdit::focusInEvent(event);
+}
+
 void QuantityField::focusOutEvent(QFocusEvent* event) {
   commit_text();
   stepping_ = false;
   QLineEdit::focusOutEvent(event);
+  if (!edited_) restore();
+}
+
+void QuantityField::resizeEvent(QResizeEvent* event) {
+  QLineEdit::resizeEvent(event);
+  if (!edited_) restore();
 }
 
 void QuantityField::wheelEvent(QWheelEvent* event) {

@@ -30,7 +30,9 @@ class QuantityField final : public QLineEdit {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
 
  private:
@@ -38,6 +40,7 @@ class QuantityField final : public QLineEdit {
   void commit(std::optional<double> value, bool more);
   void step(double steps, Qt::KeyboardModifiers modifiers);
   void restore();
+  QString fitting_text(double value) const;
   void refuse(const std::string& why);
   void mark(bool refused);
 

@@ -85,13 +85,13 @@ base::Result<double> read_quantity(const QString& text, Quantity quantity) {
   return value;
 }
 
-QString number_text(double value, Quantity quantity) {
+QString number_text(double value, Quantity quantity, int most_decimals) {
   const double shown = value / units_of(quantity).front().size;
   if (!std::isfinite(shown)) return QString::number(shown);
   const double size = std::abs(shown);
   if (size < 1e-9) return "0";
   if (size >= 1e12) return QString::number(shown, 'g', 6);
-  const int decimals = std::clamp(5 - int(std::floor(std::log10(size))), 0, 9);
+  const int decimals = std::clamp(5 - int(std::floor(std::log10(size))), 0, most_decimals);
   QString text = QString::number(shown, 'f', decimals);
   if (text.contains('.')) {
     while (text.endsWith('0')) text.chop(1);

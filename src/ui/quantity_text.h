@@ -22,8 +22,8 @@ QString unit_of(Quantity quantity);
 /// Fails, saying what is understood, for anything else and for numbers beyond all use.
 base::Result<double> read_quantity(const QString& text, Quantity quantity);
 
-/// The number in the shown unit, to six figures, without the unit.
-QString number_text(double value, Quantity quantity);
+/// The number in the shown unit, to six figures and no more decimals than that, without the unit.
+QString number_text(double value, Quantity quantity, int most_decimals = 9);
 
 /// What one step of the arrow keys changes: one of the shown unit, or a hundredth for plain numbers.
 double step_of(Quantity quantity);

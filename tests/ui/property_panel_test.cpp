@@ -119,6 +119,23 @@ TEST_F(PropertyPanelTest, MovesAllThatIsSelectedInOneAction) {
   EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.02);
 }
 
+TEST_F(PropertyPanelTest, ShowsWhatThereIsRoomForAndAllToWhoEdits) {
+  select({one_});
+  QuantityField& x = field<QuantityField>("Position, mm x");
+  type(x, "118.948");
+  x.clearFocus();
+  x.setMinimumWidth(0);
+  x.resize(x.fontMetrics().horizontalAdvance("118.948") / 2 + 16, x.height());
+  const QString little = x.text();
+  EXPECT_TRUE(QString("118.948").startsWith(little) || little == "119") << little.toStdString();
+  EXPECT_LT(little.size(), 7);
+  QApplication::setActiveWindow(x.window());
+  x.setFocus();
+  EXPECT_EQ(x.text(), "118.948");
+  x.clearFocus();
+  EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.118948);
+}
+
 TEST_F(PropertyPanelTest, ASpunValueIsOneStepToUndo) {
   select({one_});
   QuantityField& x = field<QuantityField>("Position, mm x");

@@ -52,6 +52,8 @@ TEST(QuantityText, WritesSixFiguresWithoutNoise) {
   EXPECT_EQ(number_text(1234.567891, Quantity::Length), "1234568");
   EXPECT_EQ(number_text(std::numbers::pi, Quantity::Angle), "180");
   EXPECT_EQ(number_text(0.3, Quantity::Share), "30");
+  EXPECT_EQ(number_text(-0.118948, Quantity::Length, 1), "-118.9");
+  EXPECT_EQ(number_text(-0.0001, Quantity::Length, 0), "0");
 }
 
 TEST(QuantityText, ReadsWhatItWrites) {

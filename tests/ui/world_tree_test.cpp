@@ -95,6 +95,15 @@ TEST_F(WorldTreeTest, DeletesGroupsAndDuplicatesAsOneActionEach) {
   EXPECT_EQ(world().objects().size(), 3U);
 }
 
+TEST_F(WorldTreeTest, DuplicatesComeInTheOrderOfTheirModels) {
+  session().select({create("one"), create("two"), create("three")});
+  ASSERT_TRUE(duplicate_selected(session(), world::Duplicate::CloneObject));
+  const std::vector<ObjectId> made(world().roots().begin() + 3, world().roots().end());
+  EXPECT_EQ(session().selection(), made);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(world().find(made[i])->name, world().find(world().roots()[i])->name);
+}
+
 TEST_F(WorldTreeTest, OffersOnlyTheWaysToDuplicateThatDiffer) {
   const ObjectId table = create("table"), leg = create("leg", table);
   const auto ways = [this](ObjectId object) {

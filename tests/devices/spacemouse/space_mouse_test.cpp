@@ -18,7 +18,7 @@
 namespace icome::devices {
 namespace {
 
-enum SaidByDaemon : int { kMotion, kPress, kRelease, kDevice };  // as spacenavd numbers what it says
+enum SaidByDaemon : int { Motion, Press, Release, Device };  // as spacenavd numbers what it says
 
 /// What spacenavd does for a client, on a socket of its own: tells of motions and buttons, eight numbers
 /// each.
@@ -60,7 +60,7 @@ class FakeSpacenavd {
     while (client_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_EQ(send(client_, bytes, count, MSG_NOSIGNAL), ssize_t(count));
   }
-  void move(int x, int y, int z, int rx, int ry, int rz) const { say({kMotion, x, y, z, rx, ry, rz, 16}); }
+  void move(int x, int y, int z, int rx, int ry, int rz) const { say({Motion, x, y, z, rx, ry, rz, 16}); }
 
  private:
   /// Who only looks whether somebody listens says nothing and goes.
@@ -140,12 +140,12 @@ TEST(SpaceMouse, Buttons) {
   auto mouse = SpaceMouse::create();
   ASSERT_TRUE(mouse);
   NavigationState state;
-  daemon.say({kPress, 0});
-  daemon.say({kPress, 3});
-  daemon.say({kPress, 99});
-  daemon.say({kPress, -1});
+  daemon.say({Press, 0});
+  daemon.say({Press, 3});
+  daemon.say({Press, 99});
+  daemon.say({Press, -1});
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok && state.buttons == 0b1001; }));
-  daemon.say({kRelease, 0});
+  daemon.say({Release, 0});
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok && state.buttons == 0b1000; }));
 }
 
@@ -174,9 +174,9 @@ TEST(SpaceMouse, IsLostWhileItIsUnplugged) {
   ASSERT_TRUE(mouse);
   NavigationState state;
   daemon.move(350, 0, 0, 0, 0, 0);
-  daemon.say({kDevice, 1, 7});
+  daemon.say({Device, 1, 7});
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Lost; }));
-  daemon.say({kDevice, 0, 7});
+  daemon.say({Device, 0, 7});
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok; }));
   EXPECT_TRUE(state.push.isZero(0.0));
 }
@@ -209,7 +209,7 @@ TEST(SpaceMouse, RubbishAndHalfEventsDoNoHarm) {
   NavigationState state;
   daemon.say({77, 1, 2, 3, 4, 5, 6, 7});
   daemon.say({-1, 1, 2, 3, 4, 5, 6, 7});
-  const std::array<int, 8> motion = {kMotion, 350, 0, 0, 0, 0, 0, 16};
+  const std::array<int, 8> motion = {Motion, 350, 0, 0, 0, 0, 0, 16};
   daemon.say_bytes(motion.data(), 10);
   for (int i = 0; i < 20; ++i) EXPECT_EQ((*mouse)->read(state), DeviceStatus::Ok);  // and does not wait
   EXPECT_TRUE(state.push.isZero(0.0));
@@ -228,7 +228,7 @@ TEST(SpaceMouse, AnAnswerThatComesLateIsNoEvent) {
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok && state.push.x() == 1.0; }));
   // The rest of an event that was taken for the answer, and then the answer.
   daemon.say({0, 350, 350, 350, 350, 350, 350, answer});
-  daemon.say({kPress, 2});
+  daemon.say({Press, 2});
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok && state.buttons == 0b100; }));
   EXPECT_EQ(state.push.y(), 0.0);
 }

@@ -11,26 +11,26 @@
 namespace icome::haptics {
 namespace {
 
-constexpr double kTick = 1e-3;
+constexpr double kPeriod = 1e-3;
 
 TEST(Servo, BeginsAnewWhereADeviceHasJumpedTo) {
   ScriptedDevice device;
   Servo servo(device, {});
   servo.publish(box_scene());
   device.position.z() = 0.06;
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   device.position.z() = 0.049;
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   EXPECT_TRUE(servo.last().contact.touching);
   // Without a jump the SCP would stay on this side.
   device.position.z() = -0.06;
   device.jumped = true;
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   EXPECT_FALSE(servo.last().contact.touching);
   EXPECT_EQ(servo.last().contact.scp, servo.last().tip);
   device.jumped = false;
   device.position.z() = -0.049;
-  for (int i = 0; i < 10; ++i) servo.tick(kTick);
+  for (int i = 0; i < 10; ++i) servo.tick(kPeriod);
   EXPECT_NEAR(servo.last().contact.scp.z(), -0.05, 1e-9);
   EXPECT_LT(servo.last().force.z(), 0.0);
 }
@@ -40,14 +40,14 @@ TEST(ServoCarry, CarriesARestingTipThroughFreeSpaceWithoutForce) {
   device.position = {0.0, 0.01, 0.2};
   Servo servo(device, {});
   servo.publish(box_scene());
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   Pose goal = Pose::Identity();
   Vector3 last = servo.last().tip;
   for (int step = 1; step <= 20; ++step) {
     goal.translation().x() = 0.01 * step;
     servo.carry(goal);
     for (int i = 0; i < 16; ++i) {  // as often as a screen is drawn
-      servo.tick(kTick);
+      servo.tick(kPeriod);
       ASSERT_EQ(device.force, Vector3::Zero());
       ASSERT_FALSE(servo.last().contact.touching);
       const double moved = servo.last().tip.x() - last.x();
@@ -56,7 +56,7 @@ TEST(ServoCarry, CarriesARestingTipThroughFreeSpaceWithoutForce) {
       last = servo.last().tip;
     }
   }
-  for (int i = 0; i < 25; ++i) servo.tick(kTick);
+  for (int i = 0; i < 25; ++i) servo.tick(kPeriod);
   EXPECT_EQ(servo.world_from_device().matrix(), goal.matrix());
   EXPECT_EQ(servo.last().tip, Vector3(goal * device.position));
   EXPECT_EQ(device.force, Vector3::Zero());
@@ -79,7 +79,7 @@ TEST(ServoCarry, StopsAtAWallHoweverItIsCarried) {
       goal.linear() = Eigen::AngleAxisd(random.uniform(0.0, 1.0), random.direction()).toRotationMatrix();
       servo.carry(goal);
       for (int i = 0; i < 16; ++i) {
-        const TickReport& report = servo.tick(kTick);
+        const TickReport& report = servo.tick(kPeriod);
         judge.judge(report.tip, report.contact.scp, report.contact.touching);
         touched = touched || report.contact.touching;
         ASSERT_LE(device.force.norm(), device.info().max_force);
@@ -96,15 +96,15 @@ TEST(ServoCarry, GivesTheForceInTheDevicesOwnFrame) {
   device.position = {0.0, 0.0, 0.06};
   Servo servo(device, {});
   servo.publish(box_scene());
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   // About the box: what was its top, seen from the device, is a side of it.
   Pose goal = Pose::Identity();
   goal.linear() = Eigen::AngleAxisd(0.5 * 3.14159265358979, Vector3::UnitY()).toRotationMatrix();
   servo.carry(goal);
-  for (int i = 0; i < 25; ++i) servo.tick(kTick);
+  for (int i = 0; i < 25; ++i) servo.tick(kPeriod);
   for (int i = 0; i < 300; ++i) {
     device.position.z() = 0.06 - 0.0105 * std::min(1.0, i / 100.0);
-    servo.tick(kTick);
+    servo.tick(kPeriod);
   }
   EXPECT_NEAR(servo.last().contact.normal.x(), 1.0, 1e-9);
   EXPECT_NEAR(device.force.z(), 0.5, 1e-6);
@@ -116,20 +116,20 @@ TEST(ServoCarry, TakesALostDeviceAlongWithoutForce) {
   device.position = {0.0, 0.0, 0.0501};
   Servo servo(device, {});
   servo.publish(box_scene());
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   device.status = DeviceStatus::Lost;
   Pose goal = Pose::Identity();
   goal.translation().z() = -0.02;
   servo.carry(goal);
   for (int i = 0; i < 30; ++i) {
-    servo.tick(kTick);
+    servo.tick(kPeriod);
     ASSERT_EQ(device.force, Vector3::Zero());
   }
   EXPECT_NEAR(servo.last().contact.scp.z(), 0.05, 1e-6);  // it was swept there, and stays outside
   device.status = DeviceStatus::Ok;
   double last = 0.0;
   for (int i = 0; i < 1000; ++i) {
-    servo.tick(kTick);
+    servo.tick(kPeriod);
     ASSERT_LE(std::abs(device.force.norm() - last), 0.05 * device.info().max_force);
     last = device.force.norm();
   }
@@ -142,13 +142,13 @@ TEST(ServoCarry, TakesNoMemoryAndNoLocks) {
   device.position = {0.0, 0.0, 0.06};
   Servo servo(device, {});
   servo.publish(box_scene());
-  servo.tick(kTick);
+  servo.tick(kPeriod);
   realtime::RealtimeGuard guard;
   Pose goal = Pose::Identity();
   for (int i = 0; i < 500; ++i) {
     goal.translation().z() = i % 100 < 50 ? -0.03 : 0.0;
     servo.carry(goal);
-    servo.tick(kTick);
+    servo.tick(kPeriod);
   }
   guard.stop();
   EXPECT_EQ(guard.allocations(), 0U);
