@@ -2,10 +2,10 @@
 
 #include <QApplication>
 #include <QSettings>
-#include <QStandardPaths>
 #include <cstdio>
 #include <cstdlib>
 
+#include "session/autosave_files.h"
 #include "ui/icons.h"
 #include "ui/main_window.h"
 
@@ -58,10 +58,7 @@ int run_desktop(int argc, char** argv, const DesktopOptions& options, session::S
   QSettings kept("icome", "icome");
   const Theme theme = chosen_theme(options, kept);
   apply_theme(application, theme);
-  if (settings.autosave_folder.empty()) {
-    const QString data = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
-    settings.autosave_folder = path_of(data + "/autosave");
-  }
+  if (settings.autosave_folder.empty()) settings.autosave_folder = session::default_autosave_folder();
   const bool hand_in_sight = !settings.pointers.empty();
   auto session = session::Session::create(std::move(settings));
   if (!session) {

@@ -143,7 +143,7 @@ class DesktopUseTest(DesktopTest):
     def test_a_crash_loses_nothing(self):
         desktop = self.open_desk()
         self.move_knot(desktop)
-        kept = self.home / "data"
+        kept = self.home / "state" / "icome" / "autosave"
         sizes = []
 
         def is_on_disk():
