@@ -1,8 +1,5 @@
 #include "ui/match_model.h"
 
-#include <algorithm>
-#include <unordered_set>
-
 #include "ui/object_look.h"
 
 namespace icome::ui {
@@ -13,6 +10,7 @@ void MatchModel::search(const QString& text) {
   beginResetModel();
   text_ = text.simplified();
   collect();
+  number_rows();
   endResetModel();
 }
 
@@ -34,8 +32,14 @@ void MatchModel::collect() {
 }
 
 QModelIndex MatchModel::index_of(ObjectId object) {
-  const auto found = std::find(found_.begin(), found_.end(), object);
-  return found == found_.end() ? QModelIndex() : index(int(found - found_.begin()), 0);
+  const auto found = rows_.find(object);
+  return found == rows_.end() ? QModelIndex() : index(found->second, 0);
+}
+
+void MatchModel::number_rows() {
+  rows_.clear();
+  rows_.reserve(found_.size());
+  for (std::size_t row = 0; row < found_.size(); ++row) rows_.emplace(found_[row], int(row));
 }
 
 void MatchModel::follow(const world::Changes* changes) {
@@ -48,6 +52,7 @@ void MatchModel::follow(const world::Changes* changes) {
 }
 
 void MatchModel::remove_lost() {
+  const std::size_t before = found_.size();
   for (std::size_t end = found_.size(); end > 0; --end) {
     if (matches(found_[end - 1])) continue;
     std::size_t begin = end - 1;
@@ -57,18 +62,21 @@ void MatchModel::remove_lost() {
     endRemoveRows();
     end = begin + 1;
   }
+  if (found_.size() != before) number_rows();
 }
 
 /// What is found now comes behind what was found before.
 void MatchModel::add_found(const world::Changes& changes) {
-  const std::unordered_set<ObjectId> known(found_.begin(), found_.end());
   std::vector<ObjectId> fresh;
   for (const ObjectId id : changes.objects) {
-    if (!known.contains(id) && matches(id)) fresh.push_back(id);
+    if (!rows_.contains(id) && matches(id)) fresh.push_back(id);
   }
   if (fresh.empty()) return;
   beginInsertRows({}, int(found_.size()), int(found_.size() + fresh.size()) - 1);
-  found_.insert(found_.end(), fresh.begin(), fresh.end());
+  for (const ObjectId id : fresh) {
+    rows_.emplace(id, int(found_.size()));
+    found_.push_back(id);
+  }
   endInsertRows();
 }
 

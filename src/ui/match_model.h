@@ -1,4 +1,5 @@
 #pragma once
+#include <unordered_map>
 #include <vector>
 
 #include "ui/object_model.h"
@@ -30,9 +31,11 @@ class MatchModel final : public ObjectModel {
   void collect();
   void remove_lost();
   void add_found(const world::Changes& changes);
+  void number_rows();
 
   QString text_ = {};
   std::vector<world::ObjectId> found_ = {};
+  std::unordered_map<world::ObjectId, int> rows_ = {};  // of found_
 };
 
 }  // namespace icome::ui

@@ -1,6 +1,7 @@
 #include "ui/object_menu.h"
 
 #include <QAction>
+#include <algorithm>
 #include <ranges>
 
 #include "interaction/object_edits.h"
@@ -77,8 +78,9 @@ base::Result<void> duplicate_selected(session::Session& session, Duplicate how) 
     auto duplication = world::duplicate(session.world(), model, how, parent, session.ids());
     if (!duplication) return tl::unexpected(duplication.error());
     group.edits.push_back(std::move(duplication->edit));
-    made.insert(made.begin(), duplication->object);
+    made.push_back(duplication->object);
   }
+  std::ranges::reverse(made);
   const auto done = session.perform(world::Edit(std::move(group)), action_on("Duplicate", session, models));
   if (done) session.select(made);
   return done;

@@ -60,11 +60,8 @@ ObjectView::ObjectView(session::Session& session, ObjectModel& objects, QWidget*
 }
 
 void ObjectView::follow(const world::Changes* changes) {
-  {
-    const QScopedValueRollback<bool> busy(busy_, true);
-    objects_.follow(changes);
-  }
-  if (!changes || !changes->objects.empty()) show_selection();
+  const QScopedValueRollback<bool> busy(busy_, true);
+  objects_.follow(changes);
 }
 
 /// Keeps the order of selecting: what was selected before comes first.

@@ -14,7 +14,8 @@ class ObjectView final : public QTreeView {
 
   /// The session has selected something else, or rows have come and gone.
   void show_selection();
-  /// Selects nothing else in the session while the world's changes are followed.
+  /// Selects nothing else in the session while the world's changes are followed; what is selected then is for
+  /// show_selection() to show.
   void follow(const world::Changes* changes);
 
  private:

@@ -1,11 +1,10 @@
 #include "ui/property_binder.h"
 
 #include <QCheckBox>
-#include <QComboBox>
-#include <QWheelEvent>
 
 #include "ui/colour_button.h"
 #include "ui/object_look.h"
+#include "ui/quiet_combo_box.h"
 #include "ui/text_field.h"
 
 namespace icome::ui {
@@ -35,21 +34,6 @@ QString noun_of(PropertyBinder::Of of) {
 auto told_to(const PanelSection& section) {
   return [&note = section.note()](const QString& why) { note.say(why); };
 }
-
-/// Wheels scroll the panel, and do not change what they happen to be over.
-class QuietComboBox final : public QComboBox {
- public:
-  explicit QuietComboBox(QWidget* parent) : QComboBox(parent) {
-    setFocusPolicy(Qt::StrongFocus);
-    setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    setMinimumContentsLength(6);
-  }
-
- protected:
-  void wheelEvent(QWheelEvent* event) override {
-    hasFocus() ? QComboBox::wheelEvent(event) : event->ignore();
-  }
-};
 
 }  // namespace
 

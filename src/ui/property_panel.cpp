@@ -1,6 +1,5 @@
 #include "ui/property_panel.h"
 
-#include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -13,6 +12,7 @@
 #include "ui/object_look.h"
 #include "ui/object_properties.h"
 #include "ui/property_binder.h"
+#include "ui/quiet_combo_box.h"
 #include "ui/shape_properties.h"
 #include "ui/sharing_edits.h"
 #include "ui/theme.h"
@@ -234,11 +234,8 @@ void PropertyPanel::Parts::build_material() {
 }
 
 void PropertyPanel::Parts::build_material_choice(PanelSection& section) {
-  materials = new QComboBox(section.body());
-  materials->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  materials->setMinimumContentsLength(6);
+  materials = new QuietComboBox(section.body());
   materials->setPlaceholderText("mixed");
-  materials->setFocusPolicy(Qt::StrongFocus);
   section.add_row("Made of", "The material of the object; several may share one", {materials});
   QObject::connect(materials, &QComboBox::activated, materials, [this, &section](int row) {
     const world::MaterialId id{materials->itemData(row).toULongLong()};

@@ -1,8 +1,10 @@
 #include "ui/quantity_field.h"
 
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QStyle>
 #include <QStyleOption>
+#include <QToolTip>
 #include <QWheelEvent>
 #include <cmath>
 
@@ -50,7 +52,8 @@ void QuantityField::restore() {
   if (hasFocus()) selectAll();
 }
 
-/// All digits for who edits them; else as many decimals as there is room for.
+/// All digits for who edits them; else as many decimals as there is room for. Where even none fit, it is seen
+/// that digits are missing.
 QString QuantityField::fitting_text(double value) const {
   QString text = number_text(value, quantity_);
   if (hasFocus()) return text;
@@ -64,7 +67,20 @@ QString QuantityField::fitting_text(double value) const {
     if (fontMetrics().horizontalAdvance(text) <= room) break;
     text = number_text(value, quantity_, fewer);
   }
-  return text;
+  return fontMetrics().elidedText(text, Qt::ElideRight, room);
+}
+
+/// There is more to the number than is shown.
+bool QuantityField::shortened() const {
+  return value_ && !edited_ && text() != number_text(*value_, quantity_);
+}
+
+bool QuantityField::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip || !shortened()) return QLineEdit::event(event);
+  const QString number = number_text(*value_, quantity_);
+  const QString tip = toolTip().isEmpty() ? number : toolTip() + '\n' + number;
+  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), tip, this);
+  return true;
 }
 
 void QuantityField::mark(bool refused) {

@@ -29,6 +29,7 @@ class QuantityField final : public QLineEdit {
   void show_mixed();
 
  protected:
+  bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
@@ -41,6 +42,7 @@ class QuantityField final : public QLineEdit {
   void step(double steps, Qt::KeyboardModifiers modifiers);
   void restore();
   QString fitting_text(double value) const;
+  bool shortened() const;
   void refuse(const std::string& why);
   void mark(bool refused);
 

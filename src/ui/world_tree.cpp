@@ -1,7 +1,6 @@
 #include "ui/world_tree.h"
 
 #include <QAction>
-#include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -17,6 +16,7 @@
 #include "ui/object_menu.h"
 #include "ui/object_view.h"
 #include "ui/panel_note.h"
+#include "ui/quiet_combo_box.h"
 #include "ui/theme.h"
 #include "ui/world_model.h"
 
@@ -64,7 +64,7 @@ WorldTree::Parts::Parts(session::Session& of, WorldTree& panel)
       model(new WorldModel(of, &panel)),
       matches(new MatchModel(of, &panel)),
       field(new QLineEdit(&panel)),
-      scene(new QComboBox(&panel)),
+      scene(new QuietComboBox(&panel)),
       stack(new QStackedWidget(&panel)),
       tree(new ObjectView(of, *model, stack)),
       list(new ObjectView(of, *matches, stack)),
@@ -132,6 +132,8 @@ void WorldTree::Parts::connect_view(ObjectView& it) {
 void WorldTree::Parts::follow(const world::Changes* changes) {
   tree->follow(changes);
   list->follow(changes);
+  // The view that is not seen is told when it is.
+  if (!changes || !changes->objects.empty()) view().show_selection();
   if (!changes) unfold();
   if (!changes || !changes->scenes.empty()) show_scenes();
   if (!changes || !changes->objects.empty()) show_count();

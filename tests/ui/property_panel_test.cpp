@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTest>
+#include <QToolTip>
 #include <numbers>
 
 #include "base/random.h"
@@ -136,6 +137,26 @@ TEST_F(PropertyPanelTest, ShowsWhatThereIsRoomForAndAllToWhoEdits) {
   EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.118948);
 }
 
+TEST_F(PropertyPanelTest, ShowsThatDigitsAreMissing) {
+  select({one_});
+  QuantityField& x = field<QuantityField>("Position, mm x");
+  type(x, "-118948");
+  x.clearFocus();
+  x.setMinimumWidth(0);
+  x.resize(x.fontMetrics().horizontalAdvance("-11894"), x.height());
+  EXPECT_TRUE(x.text().endsWith(QChar(0x2026))) << x.text().toStdString();
+  QHelpEvent help(QEvent::ToolTip, {2, 2}, x.mapToGlobal(QPoint(2, 2)));
+  QCoreApplication::sendEvent(&x, &help);
+  EXPECT_TRUE(QToolTip::text().startsWith(x.toolTip())) << QToolTip::text().toStdString();
+  EXPECT_TRUE(QToolTip::text().endsWith("\n-118948")) << QToolTip::text().toStdString();
+  QToolTip::hideText();
+  QApplication::setActiveWindow(x.window());
+  x.setFocus();
+  EXPECT_EQ(x.text(), "-118948");
+  x.clearFocus();
+  EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), -118.948);
+}
+
 TEST_F(PropertyPanelTest, ASpunValueIsOneStepToUndo) {
   select({one_});
   QuantityField& x = field<QuantityField>("Position, mm x");
@@ -240,6 +261,17 @@ TEST_F(PropertyPanelTest, ChoosesAmongMaterials) {
   emit box.activated(row);
   EXPECT_EQ(world().find(two_)->material, steel);
   EXPECT_EQ(world().find(one_)->material, material_);
+}
+
+TEST_F(PropertyPanelTest, AWheelThatPassesOverTheMaterialChoosesNone) {
+  perform(world::CreateMaterial{session().ids().next<world::MaterialId>(), {.name = "Steel"}});
+  select({two_});
+  QComboBox& box = field<QComboBox>("Made of");
+  QWheelEvent wheel({5.0, 5.0}, box.mapToGlobal(QPoint(5, 5)), {}, {0, -120}, Qt::NoButton, {},
+                    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(&box, &wheel);
+  EXPECT_FALSE(wheel.isAccepted());
+  EXPECT_EQ(world().find(two_)->material, material_);
 }
 
 TEST_F(PropertyPanelTest, FollowsUndoAndSurvivesAnotherWorld) {

@@ -136,6 +136,35 @@ TEST_F(WorldTreeTest, ManyObjectsCostAnEditNoMoreThanTheirOwnRows) {
   EXPECT_EQ(rows.selectionModel()->selection().size(), 1);  // one range
 }
 
+TEST_F(WorldTreeTest, FindsManyAndShowsWhichAreSelected) {
+  world::EditGroup group;
+  std::vector<ObjectId> all;
+  for (std::size_t i = 0; i < 20'000; ++i) {
+    all.push_back(session().ids().next<ObjectId>());
+    group.edits.push_back(world::CreateObject{all.back(), i, {.name = i % 2 ? "odd" : "even"}});
+  }
+  perform(world::Edit(std::move(group)));
+  WorldTree tree(session(), nullptr);
+  QTest::keyClicks(tree.findChild<QLineEdit*>(), "odd");
+  QTreeView& found = view(tree);
+  session().select(all);
+  EXPECT_EQ(selected(found).size(), 10'000U);
+  EXPECT_EQ(session().selection().size(), 20'000U);
+  // Rows keep their numbers straight when some go and others come.
+  perform(world::RenameObject{all[1], "even now"});
+  perform(world::RenameObject{all[2], "odd now"});
+  EXPECT_FALSE(find(found, all[1]).isValid());
+  EXPECT_EQ(find(found, all[3]).row(), 0);
+  EXPECT_EQ(find(found, all[2]).row(), 9'999);
+  for (const std::size_t i : {3U, 5U, 19'999U, 2U})
+    EXPECT_EQ(ObjectModel::object(find(found, all[i])), all[i]) << i;
+  EXPECT_EQ(selected(found).size(), 10'000U);
+  // The tree was told nothing meanwhile; it is when it is seen again.
+  session().select({all[7]});
+  tree.findChild<QLineEdit*>()->clear();
+  EXPECT_EQ(selected(view(tree)), std::vector{all[7]});
+}
+
 TEST_F(WorldTreeTest, OutlivesNothingThatTheSessionTellsLater) {
   create("one");
   { const WorldTree tree(session(), nullptr); }
