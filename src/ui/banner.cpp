@@ -65,6 +65,8 @@ void Banner::arrange() {
 
 void Banner::show_progress(const QString& text, std::optional<double> part,
                            const std::function<void()>& cancel) {
+  // What goes on may have become something else, such as reading after saving.
+  if (progress_ && progress_->can_be_cancelled() != bool(cancel)) hide_progress();
   if (!progress_) {
     progress_ = new ProgressRow(cancel, this);
     rows_->insertWidget(0, progress_);

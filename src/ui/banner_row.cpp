@@ -105,7 +105,7 @@ void BannerRow::add_details() {
 }
 
 ProgressRow::ProgressRow(const std::function<void()>& cancel, QWidget* parent)
-    : BannerStrip(Note::Weight::Plain, parent) {
+    : BannerStrip(Note::Weight::Plain, parent), can_be_cancelled_(cancel != nullptr) {
   setObjectName("banner.progress");
   text_ = make_text("", this);
   bar_ = new QProgressBar(this);

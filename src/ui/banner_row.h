@@ -47,10 +47,12 @@ class ProgressRow final : public BannerStrip {
  public:
   ProgressRow(const std::function<void()>& cancel, QWidget* parent);
   void report(const QString& text, std::optional<double> part);
+  bool can_be_cancelled() const { return can_be_cancelled_; }
 
  private:
   QLabel* text_;
   QProgressBar* bar_;
+  bool can_be_cancelled_;
 };
 
 }  // namespace icome::ui

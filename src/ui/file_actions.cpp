@@ -17,7 +17,9 @@ FileActions::FileActions(session::Session& session, QSettings& settings, QWidget
     : session_(session), window_(window), recent_(settings) {
   // Who goes on with this design does not want it replaced when another has been read.
   session_.on_change([this](const world::Changes* changes) {
-    if (changes && !opened_.empty() && session_.opening()) session_.cancel_open();
+    if (!changes || !session_.opening()) return;
+    session_.cancel_open();
+    given_up_ = true;
   });
 }
 
@@ -80,6 +82,8 @@ void FileActions::start() {
 }
 
 void FileActions::make_new() {
+  given_up_ = false;
+  recovered_.reset();
   opened_.clear();
   session_.make_new();
 }
@@ -89,6 +93,8 @@ void FileActions::open(const std::filesystem::path& design) {
     std::error_code ignored;
     const auto whole = std::filesystem::absolute(design, ignored);
     opened_ = whole.empty() ? design : whole;
+    recovered_.reset();
+    given_up_ = false;
     session_.open(opened_);
   });
 }
@@ -99,6 +105,7 @@ void FileActions::recover(const std::filesystem::path& journal) {
     when_safe([this, work] {
       opened_ = work.design;
       recovered_ = work;
+      given_up_ = false;
       session_.recover(work);
     });
     return;
@@ -218,6 +225,16 @@ void FileActions::ask(const std::function<void()>& then) {
   box->open();
 }
 
+/// A person who gave it up without knowing gets it back with one click.
+Note FileActions::hear_of_cancelled(const SessionEvent& event) {
+  const std::filesystem::path design = std::exchange(opened_, {});
+  const auto work = std::exchange(recovered_, std::nullopt);
+  if (!std::exchange(given_up_, false)) return note_of(event);
+  const std::string other = design_name().toStdString();
+  if (work) return note_of_given_up(*work, other);
+  return design.empty() ? note_of(event) : note_of_given_up(design, other);
+}
+
 Note FileActions::hear(const SessionEvent& event) {
   switch (event.kind) {
     case SessionEvent::Kind::Opened:
@@ -227,18 +244,20 @@ Note FileActions::hear(const SessionEvent& event) {
       if (event.kind == SessionEvent::Kind::Opened) opened_.clear();
       break;
     case SessionEvent::Kind::OpenFailed:
-    case SessionEvent::Kind::OpenCancelled:
     case SessionEvent::Kind::Recovered:
       opened_.clear();
       break;
+    case SessionEvent::Kind::OpenCancelled:
+      return hear_of_cancelled(event);
     case SessionEvent::Kind::SaveFailed:
       then_ = nullptr;
       break;
     default:
       break;
   }
-  // Asks again if the work has gone on meanwhile.
-  if (event.kind == SessionEvent::Kind::Saved && then_) when_safe(std::exchange(then_, nullptr));
+  // Asks again if the work has gone on meanwhile. What waits to be written comes first.
+  if (event.kind == SessionEvent::Kind::Saved && then_ && !session_.saving())
+    when_safe(std::exchange(then_, nullptr));
   if (event.kind == SessionEvent::Kind::Recovered && recovered_)
     return note_of_recovered(*std::exchange(recovered_, std::nullopt), event.details);
   return note_of(event);

@@ -55,6 +55,7 @@ class FileActions {
   void make_new();
   void fill_recent();
   void begin_save(const std::filesystem::path& design);
+  Note hear_of_cancelled(const session::SessionEvent& event);
   void ask(const std::function<void()>& then);
 
   session::Session& session_;
@@ -67,6 +68,7 @@ class FileActions {
   std::filesystem::path opened_ = {};                       // is being read
   std::filesystem::path saved_ = {};                        // was, or is being, written
   std::optional<session::RecoverableWork> recovered_ = {};  // the last
+  bool given_up_ = false;                                   // reading, as a person went on with the design
   bool asking_ = false;
 };
 

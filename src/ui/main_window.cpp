@@ -201,6 +201,9 @@ void MainWindow::remedy(const Note& note, Note::Remedy what) {
     case Note::Remedy::DiscardJournal:
       discard(note.journal);
       break;
+    case Note::Remedy::Open:
+      files_.open(note.design);
+      break;
   }
 }
 

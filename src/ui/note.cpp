@@ -41,6 +41,8 @@ const char* label(Remedy remedy) {
       return "Recover";
     case Remedy::DiscardJournal:
       return "Discard";
+    case Remedy::Open:
+      return "Open";
   }
   return "";
 }
@@ -123,6 +125,23 @@ Note note_of_recovered(const session::RecoverableWork& work, const std::vector<s
             .remedies = {Remedy::Save}};
   if (!work.design.empty()) note.remedies.push_back(Remedy::RevertToSaved);
   return note;
+}
+
+Note note_of_given_up(const std::filesystem::path& design, const std::string& other) {
+  return {.text = fmt::format("{} was not opened, as you went on with {}. Open it again to have it.",
+                              design.filename().string(), other),
+          .topic = "file",
+          .remedies = {Remedy::Open},
+          .design = design};
+}
+
+Note note_of_given_up(const session::RecoverableWork& work, const std::string& other) {
+  return {
+      .text = fmt::format("Your work on {} was not recovered, as you went on with {}. Recover it to have it.",
+                          design_of(work), other),
+      .topic = work.journal.string(),
+      .remedies = {Remedy::Recover, Remedy::DiscardJournal},
+      .journal = work.journal};
 }
 
 std::string time_text(std::chrono::system_clock::time_point then, std::chrono::system_clock::time_point now) {

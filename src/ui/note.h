@@ -23,6 +23,7 @@ struct Note {
     RevertToSaved,   // the file as it was saved, instead of recovered work
     Recover,         // work of `journal`
     DiscardJournal,  // the same
+    Open,            // `design`
   };
   Weight weight = Weight::Plain;
   std::string text = {};
@@ -30,6 +31,7 @@ struct Note {
   std::vector<std::string> details = {};
   std::vector<Remedy> remedies = {};
   std::filesystem::path journal = {};
+  std::filesystem::path design = {};
 };
 
 /// What is written on the button.
@@ -43,6 +45,13 @@ Note note_of(const session::RecoverableWork& work);
 
 /// Of work that was recovered: "Recovered your work on tables.wrl from 22:14. Save it to keep it."
 Note note_of_recovered(const session::RecoverableWork& work, const std::vector<std::string>& details);
+
+/// Of a design that was not opened, as a person went on with another: "tables.wrl was not opened, as you went
+/// on with lamp.wrl. Open it again to have it."
+Note note_of_given_up(const std::filesystem::path& design, const std::string& other);
+
+/// The same of work that was to be recovered.
+Note note_of_given_up(const session::RecoverableWork& work, const std::string& other);
 
 /// When that was, as people say it where this is written: "22:14", "yesterday 22:14", "17 May, 22:14".
 std::string time_text(std::chrono::system_clock::time_point then, std::chrono::system_clock::time_point now);

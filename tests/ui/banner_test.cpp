@@ -93,5 +93,22 @@ TEST_F(BannerTest, ShowsProgressAboveAllAndCancels) {
   EXPECT_EQ(texts(), (QStringList{"B.", "A."}));
 }
 
+TEST_F(BannerTest, OffersToCancelOnlyWhatCanBe) {
+  int cancelled = 0;
+  const auto shown = [this] { return banner_.findChildren<QWidget*>("banner.progress").size(); };
+  banner_.show_progress("Saving a.wrl\u2026", std::nullopt, {});
+  EXPECT_FALSE(banner_.findChild<QPushButton*>("banner.cancel"));
+  banner_.show_progress("Reading b.wrl\u2026", 0.0, [&] { ++cancelled; });
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_EQ(shown(), 1);
+  press("banner.cancel");
+  EXPECT_EQ(cancelled, 1);
+  banner_.show_progress("Saving a.wrl\u2026", std::nullopt, {});
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_EQ(shown(), 1);
+  EXPECT_FALSE(banner_.findChild<QPushButton*>("banner.cancel"));
+  EXPECT_EQ(texts(), QStringList("Saving a.wrl\u2026"));
+}
+
 }  // namespace
 }  // namespace icome::ui

@@ -35,6 +35,13 @@ class FileActionsTest : public DesktopTest {
     session().settle();
     for (const auto& event : session().update()) files_.hear(event);
   }
+  /// What people are told when that is done.
+  std::vector<Note> notes() {
+    session().settle();
+    std::vector<Note> all;
+    for (const auto& event : session().update()) all.push_back(files_.hear(event));
+    return all;
+  }
   std::filesystem::path file(const char* name) { return path_of(folder_.filePath(name)); }
 
   QTemporaryDir folder_;
@@ -108,6 +115,66 @@ TEST_F(FileActionsTest, OpensAndRemembersWhatWasOpened) {
   EXPECT_EQ(files_.design_name(), "a.icome");
   EXPECT_EQ(world().objects().size(), 1U);
   EXPECT_EQ(RecentFiles(settings_).paths(), QStringList(folder_.filePath("a.icome")));
+}
+
+TEST_F(FileActionsTest, WhatWaitsToBeWrittenIsWrittenBeforeAnybodyIsAskedAgain) {
+  change();
+  session().save(file("a.icome"));
+  finish_files();
+  change();
+  session().save(file("a.icome"));
+  change();
+  bool done = false;
+  files_.when_safe([&] { done = true; });
+  EXPECT_TRUE(answer(QMessageBox::Save));
+  ASSERT_TRUE(session().saving());
+  files_.hear({.kind = session::SessionEvent::Kind::Saved, .text = "The first was saved."});
+  EXPECT_FALSE(window_.findChild<QMessageBox*>("save_changes"));
+  EXPECT_FALSE(done);
+  finish_files();
+  EXPECT_TRUE(done);
+  EXPECT_FALSE(session().modified());
+}
+
+TEST_F(FileActionsTest, WhoGoesOnMeanwhileIsToldAndCanOpenItAgain) {
+  change();
+  session().save(file("a.icome"));
+  finish_files();
+  session().make_new();
+  files_.open(file("a.icome"));
+  change();
+  EXPECT_FALSE(session().opening());
+  const std::vector<Note> told = notes();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].text, "a.icome was not opened, as you went on with Untitled. Open it again to have it.");
+  EXPECT_EQ(told[0].weight, Note::Weight::Plain);
+  EXPECT_EQ(told[0].remedies, std::vector{Note::Remedy::Open});
+  EXPECT_EQ(told[0].design, file("a.icome"));
+  EXPECT_EQ(world().objects().size(), 1U);
+  EXPECT_TRUE(session().modified());
+}
+
+TEST_F(FileActionsTest, WhoCancelsIsToldThatItWasCancelled) {
+  change();
+  session().save(file("a.icome"));
+  finish_files();
+  files_.open(file("a.icome"));
+  session().cancel_open();
+  const std::vector<Note> told = notes();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].text.find("cancelled"), std::string::npos);
+  EXPECT_TRUE(told[0].remedies.empty());
+}
+
+TEST_F(FileActionsTest, AnEditCountsMoreThanWorkWithoutANameThatIsBeingRead) {
+  change();
+  session().save(file("a.icome"));
+  finish_files();
+  session().open(file("a.icome"));  // as if it had no name: these actions know none
+  change();
+  finish_files();
+  EXPECT_EQ(world().objects().size(), 2U);
+  EXPECT_TRUE(session().modified());
 }
 
 TEST(FileFilters, OfferWhatCanBeReadAndWritten) {

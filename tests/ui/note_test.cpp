@@ -75,5 +75,19 @@ TEST(Note, OfRecoveredWorkNamesDesignAndTime) {
   EXPECT_EQ(note_of_recovered({.changed = now}, {}).remedies, std::vector{Note::Remedy::Save});
 }
 
+TEST(Note, OfWhatWasGivenUpOffersItAgain) {
+  const Note design = note_of_given_up("/b/tables.wrl", "lamp.wrl");
+  EXPECT_EQ(design.text,
+            "tables.wrl was not opened, as you went on with lamp.wrl. Open it again to have it.");
+  EXPECT_EQ(design.design, "/b/tables.wrl");
+  EXPECT_STREQ(label(design.remedies.at(0)), "Open");
+  const Note work = note_of_given_up({.journal = "/a/1.icome", .design = "/b/tables.wrl"}, "lamp.wrl");
+  EXPECT_EQ(
+      work.text,
+      "Your work on tables.wrl was not recovered, as you went on with lamp.wrl. Recover it to have it.");
+  EXPECT_EQ(work.journal, "/a/1.icome");
+  EXPECT_EQ(work.remedies.at(0), Note::Remedy::Recover);
+}
+
 }  // namespace
 }  // namespace icome::ui
