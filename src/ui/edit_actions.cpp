@@ -31,7 +31,7 @@ EditActions::EditActions(session::Session& session, Hooks hooks)
     : session_(session), hooks_(std::move(hooks)) {}
 
 void EditActions::perform(const std::function<base::Result<void>()>& act) {
-  hooks_.begin();
+  if (!hooks_.begin()) return;
   if (const auto done = act(); !done) hooks_.refused(done.error().message);
 }
 

@@ -15,7 +15,7 @@ void select_all(session::Session& session);
 class EditActions {
  public:
   struct Hooks {
-    std::function<void()> begin;                      // before the world is touched from here
+    std::function<bool()> begin;                      // before the world is touched from here; false: do not
     std::function<void(const std::string&)> refused;  // why something was not done
     std::function<void()> rename;                     // of the selected object, in the tree
     std::function<void()> search;                     // in the tree

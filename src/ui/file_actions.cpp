@@ -121,7 +121,7 @@ void FileActions::revert() {
 }
 
 void FileActions::choose_and_open() {
-  begin_();
+  if (!begin_()) return;
   auto* dialog = new QFileDialog(&window_, "Open a Design");
   dialog->setObjectName("open");
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -138,7 +138,7 @@ void FileActions::choose_and_open() {
 }
 
 void FileActions::save() {
-  begin_();
+  if (!begin_()) return;
   if (session_.path().empty()) {
     save_as();
   } else {
@@ -147,7 +147,7 @@ void FileActions::save() {
 }
 
 void FileActions::save_again() {
-  begin_();
+  if (!begin_()) return;
   if (saved_.empty()) {
     save();
   } else {
@@ -156,7 +156,7 @@ void FileActions::save_again() {
 }
 
 void FileActions::save_as() {
-  begin_();
+  if (!begin_()) return;
   auto* dialog = new QFileDialog(&window_, "Save the Design As");
   dialog->setObjectName("save_as");
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -191,7 +191,7 @@ void FileActions::begin_save(const std::filesystem::path& design) {
 }
 
 void FileActions::when_safe(const std::function<void()>& then) {
-  begin_();
+  if (!begin_()) return;
   if (session_.modified()) {
     ask(then);
   } else if (session_.saving()) {

@@ -25,8 +25,9 @@ class FileActions {
   QAction* open_design() const { return open_; }
   QAction* save_design() const { return save_; }
 
-  /// What else is to happen before the world is touched from here, such as ending a drag.
-  void on_begin(std::function<void()> begin) { begin_ = std::move(begin); }
+  /// What else is to happen before the design is touched from here, such as ending a drag; false: what is
+  /// asked for here is not to happen.
+  void on_begin(std::function<bool()> begin) { begin_ = std::move(begin); }
 
   /// Opens it, once what would be lost is saved or given up.
   void open(const std::filesystem::path& design);
@@ -63,7 +64,7 @@ class FileActions {
   RecentFiles recent_;
   QMenu* recent_menu_ = nullptr;
   QAction *new_ = nullptr, *open_ = nullptr, *save_ = nullptr, *save_as_ = nullptr;
-  std::function<void()> begin_ = [] {};
+  std::function<bool()> begin_ = [] { return true; };
   std::function<void()> then_ = {};                         // waits for the work to be saved
   std::filesystem::path opened_ = {};                       // is being read
   std::filesystem::path saved_ = {};                        // was, or is being, written

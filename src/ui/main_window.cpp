@@ -14,7 +14,6 @@
 #include <algorithm>
 
 #include "ui/icons.h"
-#include "ui/property_panel.h"
 #include "ui/status_strip.h"
 
 namespace icome::ui {
@@ -49,7 +48,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
                        .asked = [this](QPointF at) { show_scene_menu(at); },
                        .left = [] {}}),
       files_(session, settings, *this),
-      edits_(session, {.begin = [this] { tools_.finish(); },
+      edits_(session, {.begin = [this] { return finish_work(); },
                        .refused = [this](const std::string& why) { tell_error(why); },
                        .rename = [this] { tree_->rename(); },
                        .search = [this] { tree_->search(); }}),
@@ -62,7 +61,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
   make_menus();
   make_tool_bar();
   restore_layout();
-  files_.on_begin([this] { tools_.finish(); });
+  files_.on_begin([this] { return finish_work(); });
   views_.on_look([this] { show_look(); });
   views_.on_theme([this](Theme theme) { choose_theme(theme); });
   views_.show_theme(options_.theme);
@@ -250,6 +249,12 @@ void MainWindow::show_look() {
       wish.look.overlay.panels.push_back(std::move(*panel));
   }
   session_.set_look(wish);
+}
+
+/// Ends what the mouse is doing, and commits what is being typed: it counts as done. False: that was refused.
+bool MainWindow::finish_work() {
+  tools_.finish();
+  return properties_->finish_typing() && tree_->finish_typing();
 }
 
 void MainWindow::choose_theme(Theme theme) {

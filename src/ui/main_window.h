@@ -8,6 +8,7 @@
 #include "ui/banner.h"
 #include "ui/edit_actions.h"
 #include "ui/file_actions.h"
+#include "ui/property_panel.h"
 #include "ui/scene_label.h"
 #include "ui/scene_tools.h"
 #include "ui/scene_view.h"
@@ -65,6 +66,7 @@ class MainWindow final : public QMainWindow {
   void show_shortcuts();
   void next_part();
   bool offer_drop(QEvent& event);
+  bool finish_work();
 
   session::Session& session_;
   QSettings& settings_;
@@ -76,7 +78,7 @@ class MainWindow final : public QMainWindow {
   Banner* banner_ = nullptr;
   SceneView* scene_ = nullptr;
   WorldTree* tree_ = nullptr;
-  QWidget* properties_ = nullptr;
+  PropertyPanel* properties_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* count_ = nullptr;
   QAction* tool_actions_[3] = {};

@@ -64,6 +64,13 @@ void ObjectView::follow(const world::Changes* changes) {
   objects_.follow(changes);
 }
 
+void ObjectView::finish_editing() {
+  QWidget* const editor = state() == EditingState ? indexWidget(currentIndex()) : nullptr;
+  if (!editor) return;
+  commitData(editor);
+  closeEditor(editor, QAbstractItemDelegate::NoHint);
+}
+
 /// Keeps the order of selecting: what was selected before comes first.
 void ObjectView::select_in_session() {
   if (busy_) return;

@@ -17,6 +17,8 @@ class ObjectView final : public QTreeView {
   /// Selects nothing else in the session while the world's changes are followed; what is selected then is for
   /// show_selection() to show.
   void follow(const world::Changes* changes);
+  /// Renames the object whose name is being typed.
+  void finish_editing();
 
  private:
   void select_in_session();

@@ -15,6 +15,7 @@
 #include "ui/quiet_combo_box.h"
 #include "ui/shape_properties.h"
 #include "ui/sharing_edits.h"
+#include "ui/text_field.h"
 #include "ui/theme.h"
 #include "world/sharing.h"
 
@@ -361,6 +362,15 @@ PropertyPanel::PropertyPanel(session::Session& session, QWidget* parent)
 }
 
 PropertyPanel::~PropertyPanel() = default;
+
+bool PropertyPanel::finish_typing() {
+  // The window remembers who has the keyboard there, also while another window has it.
+  QWidget* const focus = window()->focusWidget();
+  if (!focus || !isAncestorOf(focus)) return true;
+  if (auto* number = dynamic_cast<QuantityField*>(focus)) return number->finish();
+  if (auto* text = dynamic_cast<TextField*>(focus)) return text->finish();
+  return true;
+}
 
 void PropertyPanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);

@@ -13,6 +13,9 @@ class PropertyPanel final : public QWidget {
   PropertyPanel(session::Session& session, QWidget* parent);
   ~PropertyPanel() override;
 
+  /// Commits what is being typed in a field; false: it was refused, which is shown.
+  bool finish_typing();
+
  protected:
   void showEvent(QShowEvent* event) override;
 

@@ -100,6 +100,12 @@ void QuantityField::commit_text() {
   refuse(value.error().message);
 }
 
+bool QuantityField::finish() {
+  commit_text();
+  stepping_ = false;
+  return !edited_;
+}
+
 void QuantityField::commit(std::optional<double> value, bool more) {
   if (!commit_) return;
   const bool typed = edited_;

@@ -27,6 +27,8 @@ class QuantityField final : public QLineEdit {
   void show_value(std::optional<double> value);
   /// Several objects, several values.
   void show_mixed();
+  /// Commits what is being typed; false: it was refused, and is still there.
+  bool finish();
 
  protected:
   bool event(QEvent* event) override;

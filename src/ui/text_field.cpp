@@ -51,6 +51,11 @@ void TextField::commit_text() {
   if (refused_) refused_(done ? QString() : QString::fromStdString(done.error().message));
 }
 
+bool TextField::finish() {
+  commit_text();
+  return !edited_;
+}
+
 void TextField::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return commit_text();
   if (event->key() == Qt::Key_Escape && edited_) return restore();

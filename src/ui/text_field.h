@@ -20,6 +20,8 @@ class TextField final : public QLineEdit {
   void on_refusal(std::function<void(const QString&)> hear) { refused_ = std::move(hear); }
   /// Nothing: several objects, several texts.
   void show_text(std::optional<std::string> text);
+  /// Commits what is being typed; false: it was refused, and is still there.
+  bool finish();
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

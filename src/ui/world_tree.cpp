@@ -46,6 +46,7 @@ struct WorldTree::Parts {
 
   session::Session& session;
   std::function<void()> zoom = {};
+  int refusals = 0;
   std::vector<world::SceneId> scenes = {};
   WorldModel* model;
   MatchModel* matches;
@@ -78,7 +79,10 @@ WorldTree::Parts::Parts(session::Session& of, WorldTree& panel)
     session.show_scene(row > 0 ? scenes[std::size_t(row) - 1] : world::SceneId{});
   });
   for (ObjectModel* objects : {static_cast<ObjectModel*>(model), static_cast<ObjectModel*>(matches)})
-    objects->on_refusal([this](const QString& why) { note->say(why); });
+    objects->on_refusal([this](const QString& why) {
+      ++refusals;
+      note->say(why);
+    });
   const std::weak_ptr<bool> guard = alive;
   session.on_change([this, guard](const world::Changes* changes) {
     if (!guard.expired()) follow(changes);
@@ -218,6 +222,12 @@ void WorldTree::rename() {
   ObjectView& view = parts_->view();
   view.setFocus();
   if (view.currentIndex().isValid()) view.edit(view.currentIndex());
+}
+
+bool WorldTree::finish_typing() {
+  const int before = parts_->refusals;
+  parts_->view().finish_editing();
+  return parts_->refusals == before;
 }
 
 void WorldTree::search() {

@@ -18,6 +18,8 @@ class WorldTree final : public QWidget {
   void on_zoom_to(std::function<void()> zoom);
   /// Edits the name of the current object in place.
   void rename();
+  /// Commits the name that is being typed; false: it was refused, which is shown.
+  bool finish_typing();
   /// Puts the keyboard into the search box.
   void search();
 

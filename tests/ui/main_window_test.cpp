@@ -3,11 +3,14 @@
 
 #include <QDropEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QTemporaryDir>
+#include <QTest>
+#include <QTreeView>
 #include <thread>
 
 #include "ui/desktop_test.h"
@@ -51,6 +54,21 @@ class MainWindowTest : public DesktopTest {
     perform(world::CreateObject{id, 0, {.name = name}}, std::string("Add ") + name);
     return id;
   }
+  /// A field of the properties, about to be typed into.
+  QLineEdit& field(const QString& name) {
+    QLineEdit* found = nullptr;
+    EXPECT_TRUE(until([&] {
+      for (QLineEdit* it : window_->findChildren<QLineEdit*>()) {
+        if (it->accessibleName() == name && it->isVisible()) found = it;
+      }
+      return found != nullptr;
+    }));
+    QApplication::setActiveWindow(window_.get());
+    found->setFocus();
+    found->selectAll();
+    return *found;
+  }
+  QLineEdit& name_field() { return field("Name"); }
   QString file(const char* name) { return folder_.filePath(name); }
 
   QTemporaryDir folder_;
@@ -139,6 +157,62 @@ TEST_F(MainWindowTest, AsksBeforeItClosesOverUnsavedWork) {
   EXPECT_FALSE(window_->close());
   window_->findChild<QMessageBox*>("save_changes")->button(QMessageBox::Discard)->click();
   EXPECT_TRUE(until([&] { return window_->isHidden(); }));
+}
+
+TEST_F(MainWindowTest, WhatIsBeingTypedIsSavedToo) {
+  const auto leg = add("leg");
+  session().save(path_of(file("a.icome")));
+  ASSERT_TRUE(until_title("a.icome - ICOME"));
+  session().select({leg});
+  QTest::keyClicks(&name_field(), "table leg");
+  EXPECT_EQ(world().find(leg)->name, "leg");
+  action("file.save")->trigger();
+  EXPECT_EQ(world().find(leg)->name, "table leg");
+  EXPECT_TRUE(until([&] { return !session().saving() && !session().modified(); }));
+}
+
+TEST_F(MainWindowTest, NothingGoesOnOverWhatWasRefused) {
+  const auto leg = add("leg");
+  session().select({leg});
+  ASSERT_TRUE(until([&] { return action("edit.delete")->isEnabled(); }));
+  QLineEdit& x = field("Position, mm x");
+  QTest::keyClicks(&x, "nonsense");
+  EXPECT_FALSE(window_->close());
+  EXPECT_FALSE(window_->findChild<QMessageBox*>());
+  EXPECT_EQ(x.text(), "nonsense");
+  EXPECT_TRUE(x.property("refused").toBool());
+  action("edit.delete")->trigger();
+  EXPECT_TRUE(world().find(leg));
+  QTest::keyClick(&x, Qt::Key_Escape);
+  action("edit.delete")->trigger();
+  EXPECT_FALSE(world().find(leg));
+}
+
+TEST_F(MainWindowTest, ClosingAsksAboutWhatIsBeingTyped) {
+  const auto leg = add("leg");
+  session().save(path_of(file("a.icome")));
+  ASSERT_TRUE(until_title("a.icome - ICOME"));
+  session().select({leg});
+  QTest::keyClicks(&name_field(), "table leg");
+  EXPECT_FALSE(window_->close());
+  EXPECT_TRUE(window_->findChild<QMessageBox*>("save_changes"));
+}
+
+TEST_F(MainWindowTest, ANameThatIsBeingTypedInTheTreeIsSavedToo) {
+  const auto leg = add("leg");
+  session().select({leg});
+  ASSERT_TRUE(until([&] { return action("edit.rename")->isEnabled(); }));
+  action("edit.rename")->trigger();
+  QLineEdit* editor = nullptr;
+  for (QTreeView* it : window_->findChildren<QTreeView*>()) {
+    if (auto* found = it->viewport()->findChild<QLineEdit*>()) editor = found;
+  }
+  ASSERT_TRUE(editor);
+  editor->selectAll();
+  QTest::keyClicks(editor, "foot");
+  action("edit.duplicate")->trigger();
+  EXPECT_EQ(world().find(leg)->name, "foot");
+  EXPECT_EQ(world().objects().size(), 2U);
 }
 
 TEST_F(MainWindowTest, NoTwoActionsHaveTheSameKeys) {
