@@ -2,16 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
+#include <span>
 
 namespace icome::world {
 namespace {
 
-/// Does the older one of two inverses undo both, as in the steps of a drag?
+/// Those of a group, or the edit itself.
+std::span<const Edit> steps_of(const Edit& edit) {
+  const auto* group = std::get_if<EditGroup>(&edit.what);
+  return group ? std::span(group->edits) : std::span(&edit, 1);
+}
+
+/// Does the older one of two inverses undo both, as in the steps of a drag of one object or many?
 bool covers_both(const Edit& older, const Edit& newer) {
-  const auto* one = std::get_if<PlaceObject>(&older.what);
-  const auto* other = std::get_if<PlaceObject>(&newer.what);
-  return one && other && one->id == other->id;
+  const auto places_the_same = [](const Edit& a, const Edit& b) {
+    const auto* one = std::get_if<PlaceObject>(&a.what);
+    const auto* other = std::get_if<PlaceObject>(&b.what);
+    return one && other && one->id == other->id;
+  };
+  return std::ranges::equal(steps_of(older), steps_of(newer), places_the_same);
 }
 
 }  // namespace

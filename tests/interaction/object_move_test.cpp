@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "world/edit_bytes.h"
+#include "world/history.h"
 
 namespace icome::interaction {
 namespace {
@@ -49,6 +51,27 @@ TEST(ObjectMove, GoesByTheOffsetWhateverTheParentsDo) {
     EXPECT_TRUE((room.at(room.foot) - foot).isApprox(offset, 1e-12));
     EXPECT_TRUE((room.at(room.lamp) - lamp).isApprox(offset, 1e-12));
     EXPECT_EQ(room.at(room.leg), leg);
+  }
+}
+
+TEST(ObjectMove, ADragIsOneStepBackHoweverManyItHad) {
+  const std::vector<std::vector<ObjectId>> selections = {{Room().foot}, {Room().foot, Room().lamp}};
+  for (const std::vector<ObjectId>& moved : selections) {
+    Room room;
+    const std::uint64_t before = hash(room.world);
+    const ObjectMove move(room.world, moved);
+    world::History history;
+    ASSERT_TRUE(history.perform(room.world, move.by({0.1, 0.0, 0.0}), "Move"));
+    base::Random random(2);
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(history.extend(room.world, move.by(random.direction())));
+    const std::uint64_t after = hash(room.world);
+    const auto undone = history.undo(room.world);
+    ASSERT_TRUE(undone);
+    EXPECT_EQ(hash(room.world), before);
+    // It took no more than a drag of one step does.
+    EXPECT_EQ(to_bytes(*undone)->size(), to_bytes(move.by({0.1, 0.0, 0.0}))->size());
+    ASSERT_TRUE(history.redo(room.world));
+    EXPECT_EQ(hash(room.world), after);
   }
 }
 

@@ -91,6 +91,30 @@ TEST(History, DoesNotGrowByUndoingAndRedoing) {
   }
 }
 
+TEST(History, KeepsOnlyWhatTakesAnActionBack) {
+  World world;
+  IdSource ids;
+  const ObjectId leg = add_object(world, ids, "leg", box(1.0));
+  const ObjectId lamp = add_object(world, ids, "lamp", box(1.0));
+  const auto bytes_of = [&](const std::vector<Edit>& steps) {
+    const std::uint64_t before = hash(world);
+    History history;
+    EXPECT_TRUE(history.perform(world, steps.front(), "Change"));
+    for (std::size_t i = 1; i < steps.size(); ++i) EXPECT_TRUE(history.extend(world, steps[i]));
+    const auto undone = history.undo(world);
+    EXPECT_EQ(hash(world), before);
+    return to_bytes(*undone)->size();
+  };
+  const Edit one = PlaceObject{leg, at(1.0, 0.0, 0.0)}, other = PlaceObject{lamp, at(1.0, 0.0, 0.0)};
+  const Edit group = EditGroup{{one}}, both = EditGroup{{one, other}};
+  EXPECT_EQ(bytes_of({one, group, one}), bytes_of({one}));
+  EXPECT_EQ(bytes_of({both, both, both}), bytes_of({both}));
+  // These are undone step by step.
+  EXPECT_GT(bytes_of({one, other}), bytes_of({one}));
+  EXPECT_GT(bytes_of({one, both}), bytes_of({both}));
+  EXPECT_GT(bytes_of({both, Edit(EditGroup{{one, RenameObject{lamp, "light"}}})}), bytes_of({both}));
+}
+
 TEST(History, GoesBackThroughRandomEdits) {
   for (int seed = 0; seed < 200; ++seed) {
     World world;
