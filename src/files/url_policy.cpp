@@ -94,12 +94,19 @@ base::Result<std::filesystem::path> find_installed_or_beside(const std::filesyst
   };
   const std::string decoded = percent_decoded(name);
   if (decoded.find('\0') != std::string::npos) return refused("it holds a zero byte");
-  // The name must lie there before links are looked at, so that nothing is learnt of other places.
-  if (!is_below(installed, std::filesystem::path(decoded).lexically_normal()))
-    return refused(fmt::format("of this machine only what lies below {} is", installed.string()));
+  // Both must lie there before links are looked at, and without ways up, so that nothing is learnt of other
+  // places: `..` behind a link leads to where no text says.
+  for (const std::string& meaning : {std::string(name), decoded}) {
+    const std::filesystem::path path(meaning);
+    if (std::find(path.begin(), path.end(), "..") != path.end())
+      return refused("of this machine only names without \"..\" are");
+    if (!is_below(installed, path.lexically_normal()))
+      return refused(fmt::format("of this machine only what lies below {} is", installed.string()));
+  }
   for (const std::string& meaning : {std::string(name), decoded}) {
     std::error_code error;
-    const std::filesystem::path found = std::filesystem::canonical(meaning, error);
+    const std::filesystem::path found =
+        std::filesystem::canonical(std::filesystem::path(meaning).lexically_normal(), error);
     if (error || !std::filesystem::is_regular_file(found, error)) continue;
     const std::filesystem::path folder = std::filesystem::canonical(installed, error);
     if (!error && is_below(folder, found)) return found;

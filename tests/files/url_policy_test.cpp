@@ -112,7 +112,7 @@ TEST_F(UrlPolicy, FindsWhatPackagesInstalled) {
   for (const std::string& url :
        {there + "/models/a b.obj", there + "/models/a%20b.obj", "file://" + there + "/models/a%20b.obj",
         "file:" + there + "/models/a b.obj", "file://localhost" + there + "/models/a b.obj",
-        there + "/models/../models//a b.obj", there + "/models/link.obj"}) {
+        there + "/models/.//a b.obj", there + "/models/link.obj"}) {
     const auto found = find(url);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(*found, installed / "models/a b.obj") << url;
@@ -125,6 +125,13 @@ TEST_F(UrlPolicy, FindsWhatPackagesInstalled) {
         "http://" + there + "/models/a b.obj", there + "/models/a b.obj%00", std::string("file:///"),
         there + std::string("/models/a b.obj\0", 16)})
     EXPECT_FALSE(find(url)) << url;
+  // Behind a link `..` leads elsewhere than the text says, so no such name is looked for.
+  for (const char* name : {"/models/../models/a b.obj", "/up/../design/main.wrl", "/up/../design/gone.wrl",
+                           "/up/%2e%2e/design/main.wrl", "/up/%2e%2e/design/gone.wrl"}) {
+    const auto found = find(there + name);
+    ASSERT_FALSE(found) << name;
+    EXPECT_TRUE(found.error().message.ends_with("only names without \"..\" are")) << found.error().message;
+  }
   // Nothing is learnt of what lies elsewhere.
   EXPECT_EQ(find("/etc/passwd").error().message.find("no such"), std::string::npos);
   EXPECT_EQ(find("/etc/passwd").error().message.substr(15), find("/etc/nosuch").error().message.substr(15));
