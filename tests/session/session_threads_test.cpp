@@ -1,6 +1,9 @@
 // Nobody waits for anybody (thesis 5.6.1): shown by what goes on while others are held up.
+#include <fmt/format.h>
+
 #include <atomic>
 
+#include "autosave_samples.h"
 #include "devices/simulated/simulated_device.h"
 #include "render/live_renderer.h"
 #include "session/held_shape.h"
@@ -143,14 +146,72 @@ TEST(SessionThreads, ARepresentationOfOnesOwnMayLagBehindForAsLongAsItLikes) {
   EXPECT_LT(gate.entered.load(), 20);  // all in few rounds
 }
 
+/// A plate of 320,000 triangles: reading takes longer than it takes to begin with something else.
+std::filesystem::path write_large_obj(const std::filesystem::path& file) {
+  constexpr int kSide = 400;
+  std::string text;
+  for (int y = 0; y <= kSide; ++y)
+    for (int x = 0; x <= kSide; ++x)
+      text += fmt::format("v {} {} {}\n", 0.001 * x, 0.001 * y, 1e-4 * (x % 7));
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 1; x <= kSide; ++x) {
+      const int a = y * (kSide + 1) + x, b = a + kSide + 1;
+      text += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + 1, b, a + 1, b + 1, b);
+    }
+  }
+  std::ofstream(file) << text;
+  return file;
+}
+
+void wait_until_reading(const Session& session) {
+  wait_until([&] { return session.opening().value() > 0.0; });
+}
+
+TEST(SessionThreads, EndWhileALargeDesignIsReadAndLoseNothing) {
+  for (const bool saves : {false, true}) {
+    const ScratchFolder folder;
+    const auto large = write_large_obj(folder.path() / "large.obj");
+    const auto saved = folder.path() / "saved.icome";
+    SessionSettings settings = quiet_settings();
+    settings.autosave_folder = folder.path() / "autosave";
+    auto session = start(std::move(settings));
+    for (int i = 0; i < 20; ++i) add_box(*session, at(2.0 * i, 0.0, -3.0));
+    const auto work = hash(session->world());
+    session->open(large);
+    wait_until_reading(*session);
+    if (saves) session->save(saved);
+    session.reset();
+    // One of them at least has the work, and what there is is whole.
+    const auto journals = journals_in(folder.path() / "autosave");
+    if (!saves) {
+      EXPECT_EQ(journals.size(), 1U);
+    }
+    bool kept = false;
+    for (const auto& journal : journals) {
+      EXPECT_EQ(hash(world_in(journal)), work);
+      kept = true;
+    }
+    if (std::filesystem::exists(saved)) {
+      EXPECT_EQ(hash(world_in(saved)), work);
+      kept = true;
+    }
+    EXPECT_TRUE(kept);
+  }
+}
+
 TEST(SessionThreads, EndWhateverIsUnderWay) {
+  const ScratchFolder folder;
+  const auto large = write_large_obj(folder.path() / "large.obj");
   for (int moment = 0; moment < 6; ++moment) {
     const auto big = std::make_shared<HeldShape>(geometry::bumpy_geodesic_sphere(20, 0.3, 0.1, 9));
     const auto file = std::filesystem::path(testing::TempDir()) / "icome-session-end.icome";
     auto session = start();
     if (moment >= 1) add_box(*session, at(0.0, 0.0, -3.0));
     if (moment >= 2) add_shape(*session, big, at(5.0, 0.0, 0.0));
-    if (moment >= 3) session->open("/dev/null/there-is-nothing.glb");
+    if (moment >= 3) {
+      session->open(large);
+      wait_until_reading(*session);
+    }
     if (moment >= 4) {
       while (big->at_work() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       session->save(file);  // of a shape that cannot be written
