@@ -6,12 +6,16 @@
 namespace icome::session {
 
 struct DesignLoader::Reading {
-  Reading(std::filesystem::path name, Read read, files::DesignReadOptions options)
-      : design(std::move(name)), task([this, read = std::move(read), options = std::move(options)]() mutable {
-          return run(read, options);
-        }) {}
+  Reading(std::filesystem::path name, Read how, files::DesignReadOptions its_options)
+      : design(std::move(name)), read(std::move(how)), options(std::move(its_options)) {}
 
-  base::Result<files::LoadedDesign> run(const Read& read, files::DesignReadOptions& options) {
+  void begin() {
+    task.emplace([this] { return run(); });
+  }
+  bool has_begun() const { return task.has_value(); }
+  bool has_ended() const { return task && task->is_done(); }
+
+  base::Result<files::LoadedDesign> run() {
     options.progress = [this](double done) {
       // Readers that go through a file in several ways may begin anew; people see it go on.
       part.store(std::clamp(done, part.load(std::memory_order_relaxed), 1.0), std::memory_order_relaxed);
@@ -24,9 +28,11 @@ struct DesignLoader::Reading {
   }
 
   std::filesystem::path design;
+  Read read;
+  files::DesignReadOptions options;
   std::atomic<double> part = 0.0;
   std::atomic<bool> stopped = false;
-  BackgroundTask<files::LoadedDesign> task;  // last: it uses what is above
+  std::optional<BackgroundTask<files::LoadedDesign>> task;  // last: it uses what is above
 };
 
 DesignLoader::DesignLoader() = default;
@@ -44,6 +50,7 @@ void DesignLoader::start(const std::filesystem::path& design, Read read,
   give_up();
   cancelled_.reset();
   reading_ = std::make_unique<Reading>(design, std::move(read), options);
+  begin_when_possible();
 }
 
 void DesignLoader::cancel() {
@@ -54,7 +61,13 @@ void DesignLoader::cancel() {
 void DesignLoader::give_up() {
   if (!reading_) return;
   reading_->stopped.store(true, std::memory_order_relaxed);
-  leaving_.push_back(std::move(reading_));
+  if (reading_->has_begun()) leaving_.push_back(std::move(reading_));
+  reading_.reset();
+}
+
+void DesignLoader::begin_when_possible() {
+  std::erase_if(leaving_, [](const auto& it) { return it->has_ended(); });
+  if (reading_ && !reading_->has_begun() && leaving_.size() < kMostLeaving) reading_->begin();
 }
 
 std::optional<double> DesignLoader::part() const {
@@ -63,15 +76,17 @@ std::optional<double> DesignLoader::part() const {
 }
 
 std::optional<DesignLoader::Outcome> DesignLoader::poll() {
-  std::erase_if(leaving_, [](const auto& it) { return it->task.is_done(); });
+  begin_when_possible();
   if (cancelled_) return std::exchange(cancelled_, std::nullopt);
-  if (!reading_ || !reading_->task.is_done()) return std::nullopt;
+  if (!reading_ || !reading_->has_ended()) return std::nullopt;
   const std::unique_ptr<Reading> ended = std::move(reading_);
-  return Outcome{ended->design, ended->task.take()};
+  return Outcome{ended->design, ended->task->take()};
 }
 
-void DesignLoader::wait() const {
-  if (reading_) reading_->task.wait();
+void DesignLoader::wait() {
+  for (begin_when_possible(); reading_ && !reading_->has_begun(); begin_when_possible())
+    leaving_.front()->task->wait();
+  if (reading_) reading_->task->wait();
 }
 
 }  // namespace icome::session

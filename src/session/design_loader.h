@@ -12,7 +12,8 @@
 namespace icome::session {
 
 /// Reads designs in the background, one at a time; who wants one asks now and then how far it is. One thread
-/// (main) uses it and never waits but in the destructor. Owns the threads that read.
+/// (main) uses it and never waits but in the destructor. Owns the threads that read: readings that were given
+/// up may take a moment to end, and as long as there are several of these, the newest waits for its turn.
 class DesignLoader {
  public:
   /// Reads a design, as told by the options: it calls their progress and ends soon when that says stop.
@@ -30,6 +31,10 @@ class DesignLoader {
   DesignLoader(const DesignLoader&) = delete;
   DesignLoader& operator=(const DesignLoader&) = delete;
 
+  /// Designs that are given up and not yet gone from memory, at most. One must not keep others from being
+  /// read: it may be on a disk that does not answer.
+  static constexpr std::size_t kMostLeaving = 2;
+
   /// Starts reading; a reading under way is given up, and nothing is told of it.
   void open(const std::filesystem::path& design, const files::DesignReadOptions& options = {});
   /// The same for what is read in another way, such as recovered work; `design` only comes back with it.
@@ -42,14 +47,15 @@ class DesignLoader {
   /// How the reading ended, once.
   std::optional<Outcome> poll();
   /// Waits until the reading under way has ended, so that poll() tells of it.
-  void wait() const;
+  void wait();
 
  private:
   struct Reading;
 
   void give_up();
+  void begin_when_possible();
 
-  std::unique_ptr<Reading> reading_;               // null: none is under way
+  std::unique_ptr<Reading> reading_;               // null: none is under way; it may not have begun
   std::vector<std::unique_ptr<Reading>> leaving_;  // given up, their threads about to end
   std::optional<Outcome> cancelled_;
 };

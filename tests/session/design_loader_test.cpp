@@ -120,6 +120,42 @@ TEST(DesignLoader, ANewerDesignReplacesTheOneBeingRead) {
   EXPECT_TRUE(outcome.result && *outcome.result);
 }
 
+TEST(DesignLoader, ReadsNoMoreAtATimeHoweverManyAreCancelled) {
+  std::atomic<int> begun = 0;
+  std::atomic<bool> may_end = false;
+  DesignLoader loader;
+  const auto deaf = [&](const DesignReadOptions&) -> LoadResult {
+    ++begun;
+    wait_until([&] { return may_end.load(); });
+    return base::fail("interrupted");
+  };
+  for (int i = 0; i < 50; ++i) {
+    loader.start("given up", deaf);
+    if (i % 3 == 0) loader.cancel();
+  }
+  loader.start("newest", [](const DesignReadOptions&) -> LoadResult { return LoadedDesign{}; });
+  wait_until([&] { return begun == int(DesignLoader::kMostLeaving); });
+  EXPECT_FALSE(loader.poll().has_value());
+  EXPECT_EQ(loader.part(), 0.0) << "it waits";
+  may_end = true;
+  const auto outcome = outcome_of(loader);
+  EXPECT_EQ(outcome.design, "newest");
+  EXPECT_TRUE(outcome.result && *outcome.result);
+  EXPECT_EQ(begun, int(DesignLoader::kMostLeaving)) << "others were never begun";
+}
+
+TEST(DesignLoader, IsNotHeldUpByOneThatDoesNotEnd) {
+  std::atomic<bool> may_end = false;
+  DesignLoader loader;
+  loader.start("stuck", [&](const DesignReadOptions&) -> LoadResult {
+    wait_until([&] { return may_end.load(); });
+    return base::fail("interrupted");
+  });
+  loader.start("other", [](const DesignReadOptions&) -> LoadResult { return LoadedDesign{}; });
+  EXPECT_EQ(outcome_of(loader).design, "other");
+  may_end = true;
+}
+
 TEST(DesignLoader, EndsWhileADesignIsBeingRead) {
   std::atomic<bool> ended = false;
   {
