@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "files/byte_watch.h"
 #include "files/csg_placement.h"
 #include "files/csg_shapes.h"
 
@@ -41,8 +42,8 @@ struct Tally {
 
 class PartGatherer {
  public:
-  PartGatherer(const CsgDocument& document, std::size_t max_primitives)
-      : document_(document), max_primitives_(max_primitives) {}
+  PartGatherer(const CsgDocument& document, std::size_t max_primitives, Patience& patience)
+      : document_(document), max_primitives_(max_primitives), patience_(patience) {}
 
   base::Result<CsgParts> run(std::vector<std::string>& notes);
 
@@ -61,6 +62,9 @@ class PartGatherer {
     std::optional<CsgTree::Colour> colour;
   };
 
+  bool lasts(Index index) {
+    return index % 1024 == 0 ? patience_.lasts(double(index) / double(result_.end)) : patience_.lasts();
+  }
   void choose_root();
   bool statement(Index index);
   bool left_out(Index index);
@@ -83,6 +87,7 @@ class PartGatherer {
 
   const CsgDocument& document_;
   std::size_t max_primitives_;
+  Patience& patience_;
   CsgShapes shapes_;
   CsgParts result_;
   std::vector<Operation> open_;
@@ -138,6 +143,7 @@ base::Result<CsgParts> PartGatherer::run(std::vector<std::string>& notes) {
   open_.push_back({0, result_.end, CsgKeyword::Union, CsgVolume::LeftOut});
   placements_.push_back({std::numeric_limits<Index>::max(), Affine3::Identity(), false, std::nullopt});
   for (Index i = result_.begin; i < result_.end;) {
+    if (!lasts(i)) return tl::unexpected(interruption());
     close_until(i);
     const bool skip = left_out(i);
     if (!skip && !statement(i)) return tl::unexpected(error_);
@@ -228,7 +234,7 @@ base::Result<CsgPart> PartGatherer::make(Index index, CsgKeyword keyword) {
     case CsgKeyword::Cylinder:
       return shapes_.cylinder(document_, index);
     default:
-      return read_polyhedron(document_, index);
+      return read_polyhedron(document_, index, patience_);
   }
 }
 
@@ -302,8 +308,8 @@ void PartGatherer::tell(std::vector<std::string>& notes) const {
 }  // namespace
 
 base::Result<CsgParts> gather_parts(const CsgDocument& document, std::size_t max_primitives,
-                                    std::vector<std::string>& notes) {
-  return PartGatherer(document, max_primitives).run(notes);
+                                    std::vector<std::string>& notes, Patience& patience) {
+  return PartGatherer(document, max_primitives, patience).run(notes);
 }
 
 }  // namespace icome::files

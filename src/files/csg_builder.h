@@ -36,11 +36,12 @@ struct CsgParts {
   std::vector<Leaf> leaves;               // in the order of their statements
 };
 
-/// Understands every statement that counts. Adds to `notes` what was left out or put right.
+/// Understands every statement that counts. Adds to `notes` what was left out or put right. Fails also when
+/// patience ends.
 base::Result<CsgParts> gather_parts(const CsgDocument& document, std::size_t max_primitives,
-                                    std::vector<std::string>& notes);
+                                    std::vector<std::string>& notes, Patience& patience);
 
-/// The tree of the parts; empty when they have no volume.
-geometry::CsgTree assemble(const CsgDocument& document, const CsgParts& parts);
+/// The tree of the parts; empty when they have no volume. It is not whole when patience ends.
+geometry::CsgTree assemble(const CsgDocument& document, const CsgParts& parts, Patience& patience);
 
 }  // namespace icome::files

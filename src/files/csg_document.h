@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "files/patience.h"
 
 namespace icome::files {
 
@@ -38,8 +39,9 @@ class CsgDocument {
     Index end = 0;               // past the last statement inside this one
   };
 
-  /// Takes the text apart. The error names `name`, line and column, and what was expected there.
-  static base::Result<CsgDocument> parse(std::string_view text, const std::string& name);
+  /// Takes the text apart. The error names `name`, line and column, and what was expected there. Fails also
+  /// when patience ends.
+  static base::Result<CsgDocument> parse(std::string_view text, const std::string& name, Patience& patience);
 
   const std::vector<Statement>& statements() const { return statements_; }
   const std::vector<Argument>& arguments() const { return arguments_; }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "files/byte_watch.h"
 #include "files/csg_document.h"
 #include "files/text_scanner.h"
 
@@ -22,8 +23,12 @@ bool in_name(char c) { return begins_name(c) || is_digit(c); }
 
 class CsgParser {
  public:
-  CsgParser(std::string_view text, const std::string& name)
-      : document_(text, name), begin_(text.data()), at_(begin_), end_(begin_ + text.size()) {
+  CsgParser(std::string_view text, const std::string& name, Patience& patience)
+      : document_(text, name),
+        begin_(text.data()),
+        at_(begin_),
+        end_(begin_ + text.size()),
+        watch_(text, &patience) {
     if (text.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
   }
 
@@ -54,7 +59,7 @@ class CsgParser {
   bool string();
   bool word_value();
 
-  /// Skips space and comments. False, with the error, when a comment does not end.
+  /// Skips space and comments. False, with the error, when a comment does not end or patience does.
   bool skip_space();
   bool skip_comment();
   /// Skips space, then takes the character if it comes next.
@@ -73,6 +78,7 @@ class CsgParser {
   const char* begin_;
   const char* at_;
   const char* end_;
+  ByteWatch watch_;
   std::vector<Open> open_;                        // statements whose brace is open
   std::vector<CsgDocument::Index> open_vectors_;  // of the value being read
   base::Error error_;
@@ -105,6 +111,11 @@ bool CsgParser::skip_comment() {
 }
 
 bool CsgParser::skip_space() {
+  if (!watch_.lasts(at_)) {
+    if (error_.message.empty()) error_ = interruption();
+    at_ = end_;
+    return false;
+  }
   while (at_ < end_) {
     if (*at_ == ' ' || (*at_ >= '\t' && *at_ <= '\r')) {
       ++at_;
@@ -304,10 +315,11 @@ bool CsgParser::word_value() {
   return true;
 }
 
-base::Result<CsgDocument> CsgDocument::parse(std::string_view text, const std::string& name) {
+base::Result<CsgDocument> CsgDocument::parse(std::string_view text, const std::string& name,
+                                             Patience& patience) {
   if (text.size() >= std::numeric_limits<Offset>::max())
     return base::fail(name + ": is too large: a .csg file of up to 4 GiB can be read");
-  return CsgParser(text, name).run();
+  return CsgParser(text, name, patience).run();
 }
 
 }  // namespace icome::files

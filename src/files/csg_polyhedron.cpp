@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "files/byte_watch.h"
 #include "files/csg_arguments.h"
 #include "files/csg_shapes.h"
 #include "files/face_collector.h"
@@ -24,8 +25,9 @@ constexpr double kNoVolume = 1e-14;
 
 class PolyhedronReader {
  public:
-  PolyhedronReader(const CsgDocument& document, Index statement)
+  PolyhedronReader(const CsgDocument& document, Index statement, Patience& patience)
       : document_(document),
+        patience_(patience),
         statement_(document.statements()[statement]),
         arguments_(document, statement, {"points", "faces", "convexity", "triangles"}) {}
 
@@ -35,7 +37,10 @@ class PolyhedronReader {
     if (points) read_points(*points);
     if (points && faces) read_faces(*faces);
     if (arguments_.failed()) return tl::unexpected(arguments_.error());
-    return solid(collector_.take());
+    TriangleMesh mesh = collector_.take(&patience_);
+    // Putting a mesh right takes long.
+    if (!patience_.lasts_now()) return tl::unexpected(interruption());
+    return solid(std::move(mesh));
   }
 
  private:
@@ -55,6 +60,7 @@ class PolyhedronReader {
   }
 
   const CsgDocument& document_;
+  Patience& patience_;
   const CsgDocument::Statement& statement_;
   CsgArguments arguments_;
   FaceCollector collector_;
@@ -63,7 +69,8 @@ class PolyhedronReader {
 
 void PolyhedronReader::read_points(Index points) {
   const Index end = document_.value_end(points);
-  for (Index i = points + 1; i < end && !arguments_.failed(); i = document_.value_end(i)) {
+  for (Index i = points + 1; i < end && !arguments_.failed() && patience_.lasts();
+       i = document_.value_end(i)) {
     const auto [x, y, z] = arguments_.numbers<3>(i, "a point");
     const geometry::Vector3 point(x, y, z);
     if (point.cwiseAbs().maxCoeff() > kLargestSize)
@@ -101,7 +108,8 @@ void PolyhedronReader::read_face(Index face) {
 
 void PolyhedronReader::read_faces(Index faces) {
   const Index end = document_.value_end(faces);
-  for (Index i = faces + 1; i < end && !arguments_.failed(); i = document_.value_end(i)) read_face(i);
+  for (Index i = faces + 1; i < end && !arguments_.failed() && patience_.lasts(); i = document_.value_end(i))
+    read_face(i);
 }
 
 /// Welding shared corners and dropping spare ones changes nothing that a person would want to know.
@@ -134,8 +142,8 @@ base::Result<CsgPart> PolyhedronReader::solid(TriangleMesh mesh) const {
 
 }  // namespace
 
-base::Result<CsgPart> read_polyhedron(const CsgDocument& document, Index statement) {
-  return PolyhedronReader(document, statement).run();
+base::Result<CsgPart> read_polyhedron(const CsgDocument& document, Index statement, Patience& patience) {
+  return PolyhedronReader(document, statement, patience).run();
 }
 
 }  // namespace icome::files

@@ -7,28 +7,45 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "files/byte_watch.h"
 #include "files/csg_builder.h"
 #include "files/csg_document.h"
 #include "files/file_bytes.h"
 #include "files/text_scanner.h"
 
 namespace icome::files {
+namespace {
 
-base::Result<LoadedCsg> parse_csg(std::string_view text, const std::string& name,
-                                  const CsgReadOptions& options) try {
+// Of the whole work, done when that is.
+constexpr double kCsgReadPart = 0.05, kCsgUnpackedPart = 0.2, kCsgParsedPart = 0.5, kCsgGatheredPart = 0.8;
+
+base::Result<LoadedCsg> make_csg(std::string_view text, const std::string& name,
+                                 const CsgReadOptions& options, double begin, Patience& patience) {
   const std::int64_t started = base::steady_nanoseconds();
-  const auto document = CsgDocument::parse(text, name);
+  patience.step(begin, kCsgParsedPart);
+  const auto document = CsgDocument::parse(text, name, patience);
   if (!document) return tl::unexpected(document.error());
   LoadedCsg loaded;
-  const auto parts = gather_parts(*document, options.max_primitives, loaded.notes);
+  patience.step(kCsgParsedPart, kCsgGatheredPart);
+  const auto parts = gather_parts(*document, options.max_primitives, loaded.notes, patience);
   if (!parts) return tl::unexpected(parts.error());
-  loaded.tree = assemble(*document, *parts);
+  patience.step(kCsgGatheredPart, 1.0);
+  loaded.tree = assemble(*document, *parts, patience);
+  if (!patience.lasts_now()) return tl::unexpected(interruption());
   if (loaded.tree.empty()) {
     return base::fail(fmt::format("{}: holds no solid{}{}", name, loaded.notes.empty() ? "" : ": ",
                                   fmt::join(loaded.notes, "; ")));
   }
   loaded.read_seconds = 1e-9 * static_cast<double>(base::steady_nanoseconds() - started);
   return loaded;
+}
+
+}  // namespace
+
+base::Result<LoadedCsg> parse_csg(std::string_view text, const std::string& name,
+                                  const CsgReadOptions& options) try {
+  Patience patience(options.progress);
+  return make_csg(text, name, options, 0.0, patience);
 } catch (const std::bad_alloc&) {
   return base::fail(name + ": there is not enough memory to read it");
 }
@@ -36,12 +53,16 @@ base::Result<LoadedCsg> parse_csg(std::string_view text, const std::string& name
 base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgReadOptions& options) try {
   const std::int64_t started = base::steady_nanoseconds();
   const std::string name = path.string();
-  base::Result<std::string> bytes = read_bytes(path, options.size_limit);
-  if (bytes && same_word(path.extension().string(), ".xz"))
-    bytes = unpack_xz(*bytes, options.size_limit, name);
+  const bool packed = same_word(path.extension().string(), ".xz");
+  Patience patience(options.progress);
+  patience.step(0.0, kCsgReadPart);
+  base::Result<std::string> bytes = read_bytes(path, options.size_limit, &patience);
+  patience.step(kCsgReadPart, kCsgUnpackedPart);
+  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, name, &patience);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
-  base::Result<LoadedCsg> loaded = parse_csg(*bytes, name, options);
+  base::Result<LoadedCsg> loaded =
+      make_csg(*bytes, name, options, packed ? kCsgUnpackedPart : kCsgReadPart, patience);
   if (loaded) loaded->read_seconds = 1e-9 * static_cast<double>(base::steady_nanoseconds() - started);
   return loaded;
 } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,9 @@ namespace icome::files {
 
 /// How much a .csg file may ask for; guards against files made to exhaust memory.
 struct CsgReadOptions {
-  std::uint64_t size_limit = 256ULL << 20U;  ///< bytes, packed and unpacked, below 4 GiB
-  std::size_t max_primitives = 1'000'000;    ///< about half a kilobyte each
+  std::uint64_t size_limit = 256ULL << 20U;        ///< bytes, packed and unpacked, below 4 GiB
+  std::size_t max_primitives = 1'000'000;          ///< about half a kilobyte each
+  std::function<bool(double part)> progress = {};  ///< called now and then with [0, 1]; false stops
 };
 
 /// A CSG tree that read_csg() brought in, in metres, with at least one primitive.
@@ -35,7 +37,8 @@ struct LoadedCsg {
 /// Fails with one sentence that names the file, line and column, and says what was expected, when the text
 /// is malformed; when it uses what has no exact form (hull, minkowski, extrusions, 2D shapes, text, import
 /// and so on) or an unknown name; when a polyhedron is open or not manifold; when a matrix is not affine;
-/// when sizes are below 1e-6 mm or coordinates beyond 1e9 mm; and when nothing with a volume is left.
+/// when sizes are below 1e-6 mm or coordinates beyond 1e9 mm; when nothing with a volume is left; and when it
+/// is stopped: "interrupted".
 base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgReadOptions& options = {});
 
 /// The same from a text that is in memory; `name` stands for the file in errors.

@@ -33,8 +33,9 @@ class CsgShapes {
   std::map<std::array<double, 4>, Facets> faceted_;  // by bottom and top radius, height (0: ball) and sides
 };
 
-/// The solid of a polyhedron statement (csg_polyhedron.cpp).
-base::Result<CsgPart> read_polyhedron(const CsgDocument& document, CsgDocument::Index statement);
+/// The solid of a polyhedron statement (csg_polyhedron.cpp). Fails also when patience ends.
+base::Result<CsgPart> read_polyhedron(const CsgDocument& document, CsgDocument::Index statement,
+                                      Patience& patience);
 
 /// What the unit of a .csg file is.
 constexpr double kMillimetresPerMetre = 1000.0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "files/patience.h"
 #include "geometry/triangle_mesh.h"
 
 namespace icome::files {
@@ -21,8 +22,8 @@ class FaceCollector {
   bool add_face(const std::vector<std::uint32_t>& corners);
 
   /// The mesh: triangular faces in their order, then the polygons cut into triangles. Every index must
-  /// be below positions(). Leaves the collector empty.
-  geometry::TriangleMesh take();
+  /// be below positions(). Leaves the collector empty. When patience (may be null) ends, so does the mesh.
+  geometry::TriangleMesh take(Patience* patience = nullptr);
 
   /// One sentence on each thing left out.
   std::vector<std::string> notes() const;

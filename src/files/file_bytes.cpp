@@ -10,12 +10,14 @@
 #include <cerrno>
 #include <cstring>
 
+#include "files/byte_watch.h"
+
 namespace icome::files {
 namespace {
 
 /// The largest table that xz's own presets need to unpack is 65 MiB.
 constexpr std::uint64_t kUnpackMemoryLimit = 256ULL << 20U;
-constexpr std::size_t kFirstOutput = 1U << 20U;
+constexpr std::size_t kPiece = 1U << 20U;  // that is read or unpacked before asking whether to go on
 
 /// An open file descriptor, closed when it goes.
 class Descriptor {
@@ -68,7 +70,8 @@ std::string unpack_error(lzma_ret code) {
 
 }  // namespace
 
-base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uint64_t limit) {
+base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uint64_t limit,
+                                     Patience* patience) {
   const Descriptor file(path);
   if (file.number() < 0) return fail_with_errno(path);
   struct stat status {};
@@ -78,9 +81,12 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size > limit)
     return base::fail(fmt::format("{}: is larger than the limit of {}", path.string(), limit_text(limit)));
-  std::string bytes(size, '\0');
+  std::string bytes;
+  bytes.reserve(size);
   std::size_t filled = 0;
-  while (filled < bytes.size()) {
+  while (filled < size) {
+    if (patience && !patience->lasts(double(filled) / double(size))) return tl::unexpected(interruption());
+    bytes.resize(std::min<std::uint64_t>(size, filled + kPiece));
     const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return fail_with_errno(path);
@@ -91,7 +97,8 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
   return bytes;
 }
 
-base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name) {
+base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name,
+                                    Patience* patience) {
   Decoder decoder;
   lzma_ret code = lzma_stream_decoder(&decoder.stream, kUnpackMemoryLimit, LZMA_CONCATENATED);
   decoder.stream.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
@@ -101,7 +108,9 @@ base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit
     const std::size_t filled = bytes.size();
     if (filled > limit)
       return base::fail(fmt::format("{}: unpacks to more than the limit of {}", name, limit_text(limit)));
-    bytes.resize(filled + std::max(kFirstOutput, filled / 2));
+    if (patience && !patience->lasts(double(decoder.stream.total_in) / double(packed.size())))
+      return tl::unexpected(interruption());
+    bytes.resize(filled + kPiece);  // what it has room for grows by factors
     decoder.stream.next_out = reinterpret_cast<std::uint8_t*>(bytes.data() + filled);
     decoder.stream.avail_out = bytes.size() - filled;
     while (code == LZMA_OK && decoder.stream.avail_out > 0) code = lzma_code(&decoder.stream, LZMA_FINISH);

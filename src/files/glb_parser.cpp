@@ -4,10 +4,12 @@
 
 namespace icome::files {
 
-base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name) {
+base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name, Patience* patience) {
   if (!bytes.starts_with("glTF"))
     return base::fail(name + ": does not begin with 'glTF', so it is not a GLB file");
-  const auto design = read_gltf_bytes(bytes, name, {});
+  DesignReadOptions options;
+  if (patience) options.progress = [&](double part) { return patience->lasts(part); };
+  const auto design = read_gltf_bytes(bytes, name, options);
   if (!design) return tl::unexpected(design.error());
   std::vector<Remark> losses;  // of the hierarchy, which a mesh has none of
   const auto objects = shown_objects(design->world, losses);

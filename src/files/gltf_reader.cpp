@@ -386,9 +386,11 @@ base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::fi
 }
 
 base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options) {
-  auto bytes = read_bytes(path, options.size_limit);
+  Patience patience(options.progress);
+  patience.step(0.0, 0.0);  // next to the rest, this is soon done
+  auto bytes = read_bytes(path, options.size_limit, &patience);
   const bool packed = ending_of(path).packed;
-  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, path.string());
+  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, path.string(), &patience);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(path.string() + ": the file is empty");
   auto design = read_gltf_bytes(*bytes, path, options);

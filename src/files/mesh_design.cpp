@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/byte_watch.h"
 #include "files/csg_reader.h"
 #include "files/design_builder.h"
 #include "files/file_ending.h"
@@ -16,11 +17,12 @@
 namespace icome::files {
 
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
-                                        std::uint64_t size_limit) {
-  auto parsed = parse_mesh_file(path, size_limit);
+                                        std::uint64_t size_limit, Patience& patience) {
+  auto parsed = parse_mesh_file(path, size_limit, &patience);
   if (!parsed) return tl::unexpected(parsed.error());
   MeshShape result{nullptr, std::move(parsed->format), {}};
   for (const std::string& note : parsed->notes) result.remarks.push_back(as_sentence(note));
+  patience.step(kParsedPart, 1.0);
   world::MeshGeometry shape(std::move(parsed->mesh));
   if (!parsed->colours.empty()) {
     for (const auto& [a, b, c] : shape.mesh.triangles)
@@ -28,19 +30,24 @@ base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, doubl
   }
   if (const auto scaled = scale(shape.mesh.positions, unit, path.string()); !scaled)
     return tl::unexpected(scaled.error());
+  if (!patience.lasts(0.1)) return tl::unexpected(interruption());
   if (std::string lost = drop_not_finite(shape); !lost.empty()) result.remarks.push_back(std::move(lost));
   // STL repeats every corner; what meets there is one vertex.
+  if (!patience.lasts(0.3)) return tl::unexpected(interruption());
   if (ending_of(path).type == ".stl") {
-    geometry::weld_equal(shape.mesh);
+    geometry::weld_equal(shape.mesh, [&] { return patience.lasts_now(); });
+    if (!patience.lasts(0.6)) return tl::unexpected(interruption());
     drop_unused(shape.mesh);
   }
+  if (!patience.lasts(0.8)) return tl::unexpected(interruption());
   result.shape = std::make_shared<const world::MeshGeometry>(std::move(shape));
   return result;
 }
 
 base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
                                             const DesignReadOptions& options) {
-  auto read = read_mesh_shape(path, options.unit, options.size_limit);
+  Patience patience(options.progress);
+  auto read = read_mesh_shape(path, options.unit, options.size_limit, patience);
   if (!read) return tl::unexpected(read.error());
   DesignBuilder builder;
   for (const std::string& remark : read->remarks) builder.remark(remark);
@@ -52,6 +59,7 @@ base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
 base::Result<LoadedDesign> read_csg_design(const std::filesystem::path& path,
                                            const DesignReadOptions& options) {
   CsgReadOptions limits;
+  limits.progress = options.progress;
   limits.size_limit = std::min(limits.size_limit, options.size_limit);
   auto loaded = read_csg(path, limits);
   if (!loaded) return tl::unexpected(loaded.error());

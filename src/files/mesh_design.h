@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/design.h"
+#include "files/patience.h"
 #include "world/mesh_geometry.h"
 
 namespace icome::files {
@@ -16,9 +17,10 @@ struct MeshShape {
   std::vector<std::string> remarks = {};  // sentences on what was left out or put right
 };
 
-/// Reads a file of any type that mesh_formats.h knows; `unit` is metres per unit of the file.
+/// Reads a file of any type that mesh_formats.h knows; `unit` is metres per unit of the file. Patience is
+/// told how far that is; when it ends, so does the reading, soon: "interrupted".
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
-                                        std::uint64_t size_limit);
+                                        std::uint64_t size_limit, Patience& patience);
 
 /// PLY, STL and OFF, also packed: a design of one object, named after the file.
 base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "files/patience.h"
 #include "geometry/triangle_mesh.h"
 
 namespace icome::files {
@@ -23,25 +24,37 @@ struct ParsedMesh {
 /// Coordinates further out than this are a mistake, and their products lose all meaning, m.
 inline constexpr double kFarthest = 1e15;
 
+/// Of the work that opening a mesh file is: reading and parsing.
+inline constexpr double kParsedPart = 0.8;
+
 /// Reads a file of any type below, also packed as `.xz`, by the ending of its name.
-base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit);
+/// When patience (may be null) ends, so does the reading, soon: "interrupted". It takes the first kParsedPart
+/// of the work that patience is told of.
+base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
+                                         Patience* patience = nullptr);
 
 // Each takes the whole file and the name to use in errors. Memory taken is bounded by the bytes that
 // are there, never by a count that they declare. Errors: one sentence, with the line in text formats.
+// Patience (may be null) is told how far they are; when it ends they fail, or what they give is not whole.
 
 /// Wavefront OBJ: `v` and `f` lines, negative indices, continued lines; everything else is left out.
-base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name);
+base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name,
+                                   Patience* patience = nullptr);
 
 /// PLY 1.0, ascii or binary of either byte order: x, y, z of `vertex`, the index list of `face`.
-base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name);
+base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name,
+                                   Patience* patience = nullptr);
 
 /// STL. Binary when the size is what a binary file's count says, whatever word the file begins with.
-base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name);
+base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name,
+                                   Patience* patience = nullptr);
 
 /// Ascii OFF, also with normals, colours or texture coordinates, which are left out.
-base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name);
+base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name,
+                                   Patience* patience = nullptr);
 
 /// Binary glTF 2.0 that holds its own buffers: the triangles of all nodes, in the scene's frame.
-base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name);
+base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name,
+                                   Patience* patience = nullptr);
 
 }  // namespace icome::files

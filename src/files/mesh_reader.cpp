@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "files/byte_watch.h"
 #include "files/file_bytes.h"
 #include "files/file_ending.h"
 #include "files/mesh_formats.h"
@@ -28,7 +29,7 @@ struct Unit {
 constexpr std::array<Unit, 6> kUnits{
     {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}}};
 
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, Patience*);
 struct FileType {
   std::string_view extension;
   Parser parse;
@@ -99,20 +100,26 @@ base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const R
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit) {
+base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
+                                         Patience* patience) {
+  constexpr double kReadPart = 0.1, kUnpackedPart = 0.4;
   const std::string name = path.string();
   const FileEnding ending = ending_of(path);
   const Parser parse = parser_of(ending.type);
-  base::Result<std::string> bytes = read_bytes(path, size_limit);
+  if (patience) patience->step(0.0, kReadPart);
+  base::Result<std::string> bytes = read_bytes(path, size_limit, patience);
   if (!bytes) return tl::unexpected(bytes.error());
   if (parse == nullptr)
     return base::fail(name +
                       ": is not of a known type; .obj, .ply, .stl, .off and .glb are, also with .xz after");
   if (bytes->empty()) return base::fail(name + ": the file is empty");
-  if (ending.packed) bytes = unpack_xz(*bytes, size_limit, name);
+  if (patience && ending.packed) patience->step(kReadPart, kUnpackedPart);
+  if (ending.packed) bytes = unpack_xz(*bytes, size_limit, name, patience);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty once unpacked");
-  base::Result<ParsedMesh> parsed = parse(*bytes, name);
+  if (patience) patience->step(ending.packed ? kUnpackedPart : kReadPart, kParsedPart);
+  base::Result<ParsedMesh> parsed = parse(*bytes, name, patience);
+  if (patience && !patience->lasts_now()) return tl::unexpected(interruption());
   if (parsed && ending.packed) parsed->format += ", xz";
   return parsed;
 }

@@ -23,8 +23,9 @@ constexpr std::size_t kMostLibraries = 100;
 /// range is known at the end only; `vertex_limit` then lets a second reading find the line.
 class ObjReading {
  public:
-  ObjReading(std::string_view text, const std::string& name, ObjContent content, std::int64_t vertex_limit)
-      : scanner_(text, name, TextScanner::Lines::Continue, '#'),
+  ObjReading(std::string_view text, const std::string& name, ObjContent content, std::int64_t vertex_limit,
+             Patience* patience)
+      : scanner_(text, name, TextScanner::Lines::Continue, '#', patience),
         all_(content == ObjContent::All),
         vertex_limit_(vertex_limit) {
     document_.parts.emplace_back();
@@ -163,16 +164,16 @@ class ObjReading {
 }  // namespace
 
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
-                                             ObjContent content) {
+                                             ObjContent content, Patience* patience) {
   if (bytes.find('\0') != std::string_view::npos)
     return base::fail(name + ": holds binary data, so it is not an OBJ file");
-  ObjReading reading(bytes, name, content, std::numeric_limits<std::uint32_t>::max());
+  ObjReading reading(bytes, name, content, std::numeric_limits<std::uint32_t>::max(), patience);
   reading.run();
   if (reading.scanner().failed()) return tl::unexpected(reading.scanner().error());
   const auto vertices = static_cast<std::int64_t>(reading.document().positions.size());
   if (vertices == 0) return base::fail(name + ": has no vertices ('v' lines), so it is not an OBJ model");
   if (reading.highest_index() > vertices) {
-    ObjReading search(bytes, name, content, vertices);
+    ObjReading search(bytes, name, content, vertices, patience);
     search.run();
     return tl::unexpected(search.scanner().error());
   }

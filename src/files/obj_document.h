@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "base/vector.h"
+#include "files/patience.h"
 #include "world/fixture.h"
 
 namespace icome::files {
@@ -47,8 +48,8 @@ struct ObjDocument {
 enum class ObjContent { Positions, All };
 
 /// `v` and `f` lines with negative indices and continued lines; with All also `vt`, `vn`, `o`, `g`,
-/// `usemtl`, `mtllib`. Errors name the line.
+/// `usemtl`, `mtllib`. Errors name the line. Fails also when patience (may be null) ends.
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
-                                             ObjContent content);
+                                             ObjContent content, Patience* patience = nullptr);
 
 }  // namespace icome::files

@@ -8,10 +8,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "files/byte_watch.h"
 #include "files/design_builder.h"
 #include "files/file_bytes.h"
 #include "files/file_ending.h"
 #include "files/mesh_cleaning.h"
+#include "files/mesh_formats.h"
 #include "files/mtl_library.h"
 #include "files/obj_design.h"
 #include "files/obj_document.h"
@@ -30,8 +32,9 @@ using world::ObjectId;
 /// Makes the faces of one part after the other a mesh.
 class ObjMeshes {
  public:
-  explicit ObjMeshes(const ObjDocument& document)
+  ObjMeshes(const ObjDocument& document, Patience& patience)
       : document_(document),
+        patience_(patience),
         place_(document.positions.size()),
         part_of_place_(document.positions.size(), ObjDocument::kNone),
         first_corner_(document.faces.size()),
@@ -46,10 +49,14 @@ class ObjMeshes {
 
   bool has_faces(std::uint32_t part) const { return !faces_[part].empty(); }
 
+  /// Not the whole mesh when patience ends.
   world::MeshGeometry mesh_of(std::uint32_t part) {
     world::MeshGeometry shape(geometry::TriangleMesh{});
     look_for_attributes(part);
-    for (const std::uint32_t face : faces_[part]) add_face(shape, face, part);
+    for (const std::uint32_t face : faces_[part]) {
+      if (!lasts_for(face)) break;
+      add_face(shape, face, part);
+    }
     return shape;
   }
 
@@ -70,6 +77,10 @@ class ObjMeshes {
  private:
   using Corner = ObjDocument::Corner;
 
+  bool lasts_for(std::uint32_t face) {
+    if (++done_ % 1024 == 0) return patience_.lasts(double(done_) / double(document_.faces.size()));
+    return patience_.lasts_for_polygon(document_.faces[face].corners);
+  }
   bool has_coordinate(const Corner& corner) const { return corner.coordinate < document_.coordinates.size(); }
   bool has_normal(const Corner& corner) const { return corner.normal < document_.normals.size(); }
 
@@ -139,6 +150,8 @@ class ObjMeshes {
   }
 
   const ObjDocument& document_;
+  Patience& patience_;
+  std::size_t done_ = 0;                           // faces
   std::vector<std::uint32_t> place_;               // of positions in the mesh of the part
   std::vector<std::uint32_t> part_of_place_;       // for which that was found
   std::vector<std::uint32_t> first_corner_;        // of faces
@@ -257,21 +270,28 @@ void add_parts(const ObjDocument& document, ObjMeshes& meshes, ObjLooks& looks,
 
 base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
                                            const DesignReadOptions& options) {
+  constexpr double kReadPart = 0.1, kUnpackedPart = 0.3;
   const std::string name = path.string();
-  auto bytes = read_bytes(path, options.size_limit);
   const bool packed = ending_of(path).packed;
-  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, name);
+  Patience patience(options.progress);
+  patience.step(0.0, kReadPart);
+  auto bytes = read_bytes(path, options.size_limit, &patience);
+  patience.step(kReadPart, kUnpackedPart);
+  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, name, &patience);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
-  auto document = parse_obj_document(*bytes, name, ObjContent::All);
+  patience.step(packed ? kUnpackedPart : kReadPart, kParsedPart);
+  auto document = parse_obj_document(*bytes, name, ObjContent::All, &patience);
   if (!document) return tl::unexpected(document.error());
+  patience.step(kParsedPart, 1.0);
   if (const auto scaled = scale(document->positions, options.unit, name); !scaled)
     return tl::unexpected(scaled.error());
   DesignBuilder builder;
   ObjLooks looks(path, options, builder);
   for (const ObjDocument::Library& library : document->libraries) looks.read(library);
-  ObjMeshes meshes(*document);
+  ObjMeshes meshes(*document, patience);
   add_parts(*document, meshes, looks, path, builder);
+  if (!patience.lasts_now()) return tl::unexpected(interruption());
   for (const std::string& note : meshes.notes()) builder.remark(note);
   if (document->others > 0) builder.remark("Points, lines and free-form curves and surfaces are left out.");
   return builder.take(packed ? "OBJ, xz" : "OBJ", name);

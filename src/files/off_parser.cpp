@@ -65,8 +65,8 @@ std::pair<std::int64_t, std::int64_t> read_header(TextScanner& scanner) {
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name) {
-  TextScanner scanner(bytes, name, TextScanner::Lines::Matter, '#');
+base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name, Patience* patience) {
+  TextScanner scanner(bytes, name, TextScanner::Lines::Matter, '#', patience);
   const auto [vertex_count, face_count] = read_header(scanner);
   FaceCollector faces;
   faces.reserve_positions(std::min<std::size_t>(vertex_count, bytes.size() / kShortestVertex));
@@ -75,7 +75,7 @@ base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& na
   std::vector<std::uint32_t> corners;
   for (std::int64_t i = 0; i < face_count && !scanner.failed(); ++i) read_face(scanner, faces, corners);
   if (scanner.failed()) return tl::unexpected(scanner.error());
-  return ParsedMesh{faces.take(), "OFF", faces.notes()};
+  return ParsedMesh{faces.take(patience), "OFF", faces.notes()};
 }
 
 }  // namespace icome::files

@@ -17,12 +17,21 @@ namespace {
 /// The numbers of a binary file, one after the other. The first failure sticks, as in TextScanner.
 class BinaryRows {
  public:
-  BinaryRows(std::string_view bytes, std::size_t begin, std::string name, ByteOrder order)
-      : at_(bytes.data() + begin), end_(bytes.data() + bytes.size()), name_(std::move(name)), order_(order) {}
+  BinaryRows(std::string_view bytes, std::size_t begin, std::string name, ByteOrder order, Patience* patience)
+      : at_(bytes.data() + begin),
+        end_(bytes.data() + bytes.size()),
+        name_(std::move(name)),
+        order_(order),
+        watch_(bytes, patience) {}
 
   double number(PlyType type) {
     if (left() < size_of(type)) {
       fail("the data ends too early: the file is cut short");
+      return 0.0;
+    }
+    if (!watch_.lasts(at_)) {
+      error_ = interruption();
+      at_ = end_;
       return 0.0;
     }
     const char* const bytes = at_;
@@ -65,14 +74,15 @@ class BinaryRows {
   const char* end_;
   std::string name_;
   ByteOrder order_;
+  ByteWatch watch_;
   base::Error error_;
 };
 
 /// The numbers of an ascii file. Line ends are mere space here, as for most readers.
 class AsciiRows {
  public:
-  AsciiRows(std::string_view bytes, const std::string& name)
-      : scanner_(bytes, name, TextScanner::Lines::AreSpace, '\0'), size_(bytes.size()) {}
+  AsciiRows(std::string_view bytes, const std::string& name, Patience* patience)
+      : scanner_(bytes, name, TextScanner::Lines::AreSpace, '\0', patience), size_(bytes.size()) {}
 
   void skip_header(std::size_t lines_end) {
     while (scanner_.position() < lines_end) scanner_.skip_line();
@@ -242,7 +252,7 @@ class PlyBody {
 
 template <typename Rows>
 base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const char* format,
-                                    const std::string& name) {
+                                    const std::string& name, Patience* patience) {
   FaceCollector faces;
   PlyBody<Rows> body(header, rows);
   body.run(faces);
@@ -250,24 +260,25 @@ base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const ch
   if (faces.positions() == 0) return base::fail(name + ": has no vertices");
   auto colours = body.take_colours();
   if (colours.size() != faces.positions()) colours.clear();
-  return ParsedMesh{faces.take(), format, faces.notes(), std::move(colours)};
+  return ParsedMesh{faces.take(patience), format, faces.notes(), std::move(colours)};
 }
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name) {
+base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name, Patience* patience) {
   const base::Result<PlyHeader> header = parse_ply_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
   if (const std::string missing = missing_from(*header); !missing.empty())
     return base::fail(name + ": " + missing);
   if (header->encoding == PlyEncoding::Ascii) {
-    AsciiRows rows(bytes, name);
+    AsciiRows rows(bytes, name, patience);
     rows.skip_header(header->size);
-    return parse_body(*header, std::move(rows), "ascii PLY", name);
+    return parse_body(*header, std::move(rows), "ascii PLY", name, patience);
   }
   const bool little = header->encoding == PlyEncoding::LittleEndian;
-  BinaryRows rows(bytes, header->size, name, little ? ByteOrder::LittleEndian : ByteOrder::BigEndian);
-  return parse_body(*header, std::move(rows), "binary PLY", name);
+  BinaryRows rows(bytes, header->size, name, little ? ByteOrder::LittleEndian : ByteOrder::BigEndian,
+                  patience);
+  return parse_body(*header, std::move(rows), "binary PLY", name, patience);
 }
 
 }  // namespace icome::files

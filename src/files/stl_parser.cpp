@@ -30,7 +30,7 @@ bool is_binary(std::string_view bytes) {
   return start.find('\0') != std::string_view::npos;
 }
 
-base::Result<ParsedMesh> parse_binary(std::string_view bytes, const std::string& name) {
+base::Result<ParsedMesh> parse_binary(std::string_view bytes, const std::string& name, Patience* patience) {
   if (bytes.size() < kBinaryBegin) return base::fail(name + ": is too short to be an STL file");
   const std::uint64_t count = declared_facets(bytes);
   const std::uint64_t present = (bytes.size() - kBinaryBegin) / kBinaryFacet;
@@ -40,8 +40,10 @@ base::Result<ParsedMesh> parse_binary(std::string_view bytes, const std::string&
   ParsedMesh parsed{{}, "binary STL", {}};
   parsed.mesh.positions.reserve(3 * count);
   parsed.mesh.triangles.reserve(count);
+  ByteWatch watch(bytes, patience);
   for (std::uint32_t t = 0; t < count; ++t) {
     const char* corner = bytes.data() + kBinaryBegin + kBinaryFacet * t + kCornersInFacet;
+    if (!watch.lasts(corner)) return tl::unexpected(interruption());
     for (int i = 0; i < 3; ++i, corner += 12)
       parsed.mesh.positions.emplace_back(load<float>(corner, ByteOrder::LittleEndian),
                                          load<float>(corner + 4, ByteOrder::LittleEndian),
@@ -81,8 +83,8 @@ void read_facet(TextScanner& scanner, FaceCollector& faces, std::vector<std::uin
   if (!scanner.failed() && !faces.add_face(corners)) scanner.fail(too_many_corners(corners.size()));
 }
 
-base::Result<ParsedMesh> parse_ascii(std::string_view bytes, const std::string& name) {
-  TextScanner scanner(bytes, name, TextScanner::Lines::AreSpace, '\0');
+base::Result<ParsedMesh> parse_ascii(std::string_view bytes, const std::string& name, Patience* patience) {
+  TextScanner scanner(bytes, name, TextScanner::Lines::AreSpace, '\0', patience);
   FaceCollector faces;
   std::vector<std::uint32_t> corners;
   bool within_solid = false;
@@ -101,13 +103,13 @@ base::Result<ParsedMesh> parse_ascii(std::string_view bytes, const std::string& 
   }
   if (within_solid) scanner.fail("the file ends without 'endsolid': it may be cut short");
   if (scanner.failed()) return tl::unexpected(scanner.error());
-  return ParsedMesh{faces.take(), "ascii STL", faces.notes()};
+  return ParsedMesh{faces.take(patience), "ascii STL", faces.notes()};
 }
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name) {
-  return is_binary(bytes) ? parse_binary(bytes, name) : parse_ascii(bytes, name);
+base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name, Patience* patience) {
+  return is_binary(bytes) ? parse_binary(bytes, name, patience) : parse_ascii(bytes, name, patience);
 }
 
 }  // namespace icome::files

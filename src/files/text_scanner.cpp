@@ -17,14 +17,22 @@ bool is_space(char c) { return is_blank(c) || is_line_end(c); }
 
 }  // namespace
 
-TextScanner::TextScanner(std::string_view text, std::string name, Lines lines, char comment)
+TextScanner::TextScanner(std::string_view text, std::string name, Lines lines, char comment,
+                         Patience* patience)
     : text_(text),
       name_(std::move(name)),
       lines_(lines),
       comment_(comment),
       at_(text.data()),
       end_(text.data() + text.size()),
-      word_begin_(at_) {}
+      word_begin_(at_),
+      watch_(text, patience) {}
+
+void TextScanner::ask_whether_to_go_on() {
+  if (watch_.lasts(at_) || failed()) return;
+  error_ = interruption();
+  at_ = end_;
+}
 
 void TextScanner::skip_blanks() {
   for (; at_ < end_; ++at_) {
@@ -43,6 +51,7 @@ bool TextScanner::more_on_line() {
 }
 
 void TextScanner::skip_line() {
+  ask_whether_to_go_on();
   while (at_ < end_ && !is_line_end(*at_)) {
     if (*at_ == '\\' && lines_ == Lines::Continue) {
       const char* before = at_;
@@ -63,6 +72,7 @@ bool TextScanner::at_end() {
 }
 
 std::string_view TextScanner::word() {
+  ask_whether_to_go_on();
   const bool found = lines_ == Lines::AreSpace ? !at_end() : more_on_line();
   word_begin_ = at_;
   if (!found) return {};

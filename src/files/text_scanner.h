@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "files/byte_watch.h"
 
 namespace icome::files {
 
@@ -19,8 +20,10 @@ class TextScanner {
     Continue   ///< as Matter, but a line that ends in a backslash goes on in the next
   };
 
-  /// `comment` begins a comment that lasts to the end of the line; '\0' for none.
-  TextScanner(std::string_view text, std::string name, Lines lines, char comment);
+  /// `comment` begins a comment that lasts to the end of the line; '\0' for none. When patience (may be
+  /// null) ends, the scanner fails.
+  TextScanner(std::string_view text, std::string name, Lines lines, char comment,
+              Patience* patience = nullptr);
 
   /// Skips space, line ends and comments; true when nothing is left.
   bool at_end();
@@ -49,6 +52,7 @@ class TextScanner {
 
  private:
   void skip_blanks();
+  void ask_whether_to_go_on();
   void fail_word(std::string_view word, const char* what);
 
   std::string_view text_;
@@ -58,6 +62,7 @@ class TextScanner {
   const char* at_;
   const char* end_;
   const char* word_begin_;
+  ByteWatch watch_;
   base::Error error_;
 };
 

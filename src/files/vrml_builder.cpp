@@ -58,7 +58,7 @@ class VrmlBuilder {
         reader_(reader),
         patience_(patience),
         pictures_(sources.fetch_picture, sources.picture_limit, findings_),
-        meshes_(sources.find_mesh, sources.picture_limit, findings_) {}
+        meshes_(sources.find_mesh, sources.picture_limit, findings_, patience_) {}
 
   Result<LoadedDesign> build() {
     add_notes();

@@ -60,7 +60,9 @@ base::Result<VrmlMeshes::Shape> VrmlMeshes::fetch(const VrmlMeshNode& node, cons
 
 base::Result<VrmlMeshes::Shape> VrmlMeshes::read(const FoundMesh& file, double unit) {
   const std::string name = file.path.string();
-  auto mesh = read_mesh_shape(file.path, unit, left_);
+  // How far a mesh is says nothing of how far the design is.
+  Patience patience([this](double) { return patience_.lasts_now(); });
+  auto mesh = read_mesh_shape(file.path, unit, left_, patience);
   // An error repeats what stands in the file, which may be someone else's.
   if (!mesh && !file.is_public) return base::fail(name + ": is not a mesh that can be read");
   if (!mesh) return tl::unexpected(mesh.error());

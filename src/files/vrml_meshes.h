@@ -33,9 +33,10 @@ struct VrmlMeshNode {
 /// Reads the mesh files that a design names, each once. Refers to what it is made of.
 class VrmlMeshes {
  public:
-  /// All files together may have `limit` bytes, and so may what they take in memory.
-  VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings)
-      : find_(find), left_(limit), findings_(findings) {}
+  /// All files together may have `limit` bytes, and so may what they take in memory. When patience ends, no
+  /// more is read.
+  VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings, Patience& patience)
+      : find_(find), left_(limit), findings_(findings), patience_(patience) {}
 
   /// The first of the urls that leads to a mesh; null, with a finding, when none does.
   world::GeometryPointer shape_of(const VrmlMeshNode& node);
@@ -49,6 +50,7 @@ class VrmlMeshes {
   const FindMesh& find_;
   std::uint64_t left_;  // bytes that may still be taken
   Findings& findings_;
+  Patience& patience_;
   std::map<std::pair<std::filesystem::path, double>, base::Result<Shape>> known_;
 };
 

@@ -28,12 +28,15 @@ std::uint64_t position_hash(const Vector3& position) {
 }
 
 /// For each vertex the first one at exactly its position (itself when it is the first). An
-/// open-addressing hash table: one probe a vertex on average.
-std::vector<std::uint32_t> first_at_position(const std::vector<Vector3>& positions) {
+/// open-addressing hash table: one probe a vertex on average. For none when it is not to last.
+std::vector<std::uint32_t> first_at_position(const std::vector<Vector3>& positions,
+                                             const std::function<bool()>& lasts) {
+  constexpr std::uint32_t kVerticesForOneQuestion = 1U << 16U;
   std::vector<std::uint32_t> first(positions.size());
   const std::size_t mask = std::bit_ceil(2 * positions.size() + 1) - 1;
   std::vector<std::uint32_t> slots(mask + 1, kNoVertex);
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    if (v % kVerticesForOneQuestion == 0 && lasts && !lasts()) return {};
     first[v] = v;
     if (!positions[v].allFinite()) continue;
     std::size_t slot = position_hash(positions[v]) & mask;
@@ -118,8 +121,8 @@ class SparsePoints {
 
 }  // namespace
 
-std::size_t weld_equal(TriangleMesh& mesh) {
-  return replace_vertices(mesh, first_at_position(mesh.positions));
+std::size_t weld_equal(TriangleMesh& mesh, const std::function<bool()>& lasts) {
+  return replace_vertices(mesh, first_at_position(mesh.positions, lasts));
 }
 
 std::size_t weld_cracks(TriangleMesh& mesh) {

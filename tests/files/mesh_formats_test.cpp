@@ -10,10 +10,10 @@
 namespace icome::files {
 namespace {
 
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, Patience*);
 
 std::string error_of(Parser parse, std::string_view bytes) {
-  const auto parsed = parse(bytes, "f");
+  const auto parsed = parse(bytes, "f", nullptr);
   return parsed ? "it was read" : parsed.error().message;
 }
 

@@ -31,7 +31,7 @@ void check_parsed(geometry::TriangleMesh mesh) {
     for (const std::uint32_t v : triangle) ASSERT_TRUE(mesh.positions[v].allFinite());
 }
 
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, Patience*);
 struct Sample {
   const char* name;
   Parser parse;
@@ -44,7 +44,7 @@ TEST_P(MeshFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
   base::Random random(20240229);
   int refused = 0;
   for (int i = 0; i < kVariants; ++i) {
-    const auto parsed = GetParam().parse(damaged(GetParam().bytes, kNastyWords, random), "f");
+    const auto parsed = GetParam().parse(damaged(GetParam().bytes, kNastyWords, random), "f", nullptr);
     if (parsed) {
       check_parsed(parsed->mesh);
     } else {

@@ -200,7 +200,8 @@ TEST(VrmlMeshes, TryOnlySoManyUrlsAndFiles) {
     return base::fail("there is no " + url);
   };
   Findings findings;
-  VrmlMeshes meshes(nowhere, 1000, findings);
+  Patience patience;
+  VrmlMeshes meshes(nowhere, 1000, findings, patience);
   VrmlMeshNode node;
   node.urls.assign(100'000, "u");
   EXPECT_EQ(meshes.shape_of(node), nullptr);
