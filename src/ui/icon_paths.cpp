@@ -168,13 +168,6 @@ IconPaths bin() {
   return it;
 }
 
-IconPaths add() {
-  IconPaths it;
-  add_line(it.accent, {{10.0, 3.5}, {10.0, 16.5}});
-  add_line(it.accent, {{3.5, 10.0}, {16.5, 10.0}});
-  return it;
-}
-
 IconPaths rename() {
   IconPaths it;
   add_line(it.ink, {{3.0, 17.0}, {3.6, 13.2}, {13.6, 3.2}, {16.8, 6.4}, {6.8, 16.4}}, true);
@@ -186,18 +179,6 @@ IconPaths search() {
   IconPaths it;
   add_oval(it.ink, {8.5, 8.5}, 5.5, 5.5);
   add_line(it.ink, {{12.6, 12.6}, {17.5, 17.5}});
-  return it;
-}
-
-/// Two sliders.
-IconPaths settings() {
-  IconPaths it;
-  add_line(it.ink, {{2.5, 6.5}, {9.5, 6.5}});
-  add_line(it.ink, {{14.5, 6.5}, {17.5, 6.5}});
-  add_line(it.ink, {{2.5, 13.5}, {5.5, 13.5}});
-  add_line(it.ink, {{10.5, 13.5}, {17.5, 13.5}});
-  add_oval(it.accent, {12.0, 6.5}, 2.4, 2.4);
-  add_oval(it.accent, {8.0, 13.5}, 2.4, 2.4);
   return it;
 }
 
@@ -425,14 +406,10 @@ IconPaths paths_of(Icon which) {
       return duplicate();
     case Icon::Delete:
       return bin();
-    case Icon::Add:
-      return add();
     case Icon::Rename:
       return rename();
     case Icon::Search:
       return search();
-    case Icon::Settings:
-      return settings();
     case Icon::Help:
       return help();
     case Icon::Warning:

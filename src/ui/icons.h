@@ -18,10 +18,8 @@ enum class Icon : std::uint8_t {
   ZoomToSelection,
   Duplicate,
   Delete,
-  Add,
   Rename,
   Search,
-  Settings,
   Help,
   Warning,
   // Kinds of objects.

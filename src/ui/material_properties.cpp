@@ -70,7 +70,6 @@ Property<std::string> material_name() { return plain(&Material::name); }
 Property<world::Colour> diffuse_colour() { return plain(&Material::diffuse); }
 Property<world::Colour> specular_colour() { return plain(&Material::specular); }
 Property<world::Colour> emission_colour() { return plain(&Material::emission); }
-Property<double> ambient_share() { return share(&Material::ambient); }
 Property<double> shininess() { return share(&Material::shininess); }
 Property<double> transparency() { return share(&Material::transparency); }
 

@@ -13,7 +13,6 @@ Property<std::string> material_name();
 Property<world::Colour> diffuse_colour();
 Property<world::Colour> specular_colour();
 Property<world::Colour> emission_colour();
-Property<double> ambient_share();
 Property<double> shininess();
 Property<double> transparency();
 

@@ -63,8 +63,6 @@ std::string hint(Quantity quantity) {
 
 }  // namespace
 
-QString unit_of(Quantity quantity) { return QString::fromUtf8(units_of(quantity).front().name); }
-
 base::Result<double> read_quantity(const QString& text, Quantity quantity) {
   static const QRegularExpression kNumber(R"(^([+\-−]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+\-]?\d+)?)\s*(.*)$)");
   const QRegularExpressionMatch match = kNumber.match(text.simplified());

@@ -15,9 +15,6 @@ enum class Quantity : std::uint8_t {
   Plain,
 };
 
-/// "mm", "°"; empty for plain numbers.
-QString unit_of(Quantity quantity);
-
 /// What a person typed: "3", "3 cm", "0.2m", "1,5 in", "0.5 rad". Without a unit it is the one that is shown.
 /// Fails, saying what is understood, for anything else and for numbers beyond all use.
 base::Result<double> read_quantity(const QString& text, Quantity quantity);

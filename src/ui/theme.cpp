@@ -172,7 +172,7 @@ const ThemeColours& colours() { return *applied; }
 
 bool is_dark() { return applied == &colours_of_dark(); }
 
-void apply_theme(QApplication& application, Theme theme) {
+void apply_theme(QApplication& /*the one there is*/, Theme theme) {
   platform_palette();
   applied = wants_dark(theme) ? &colours_of_dark() : &colours_of_light();
   static bool dressed = false;
@@ -181,7 +181,6 @@ void apply_theme(QApplication& application, Theme theme) {
   QApplication::setFont(panel_font());
   QApplication::setPalette(palette_of(*applied));
   QToolTip::setPalette(palette_of(*applied));
-  application.setProperty("icome_theme", QString(is_dark() ? "dark" : "light"));
 }
 
 SceneColours scene_colours() {
