@@ -7,6 +7,7 @@
 #include <QPushButton>
 #include <utility>
 
+#include "ui/actions.h"
 #include "ui/icons.h"
 
 namespace icome::ui {
@@ -23,27 +24,18 @@ FileActions::FileActions(session::Session& session, QSettings& settings, QWidget
   });
 }
 
-void FileActions::add(QMenu& menu, QAction*& action, const char* name, const QString& text,
-                      const QKeySequence& keys, void (FileActions::*act)()) {
-  action = menu.addAction(text);
-  action->setObjectName(name);
-  action->setShortcut(keys);
-  QObject::connect(action, &QAction::triggered, &window_, [this, act] { (this->*act)(); });
-}
-
 void FileActions::fill(QMenu& menu) {
-  add(menu, new_, "file.new", "&New", QKeySequence::New, &FileActions::start);
-  new_->setIcon(icon(Icon::New));
-  add(menu, open_, "file.open", "&Open\u2026", QKeySequence::Open, &FileActions::choose_and_open);
+  add_action(menu, "file.new", "&New", QKeySequence::New, [this] { start(); })->setIcon(icon(Icon::New));
+  open_ = add_action(menu, "file.open", "&Open\u2026", QKeySequence::Open, [this] { choose_and_open(); });
   open_->setIcon(icon(Icon::Open));
   recent_menu_ = menu.addMenu("Open &Recent");
   recent_menu_->setObjectName("file.recent");
   QObject::connect(recent_menu_, &QMenu::aboutToShow, &window_, [this] { fill_recent(); });
   recent_menu_->setEnabled(!recent_.paths().isEmpty());
   menu.addSeparator();
-  add(menu, save_, "file.save", "&Save", QKeySequence::Save, &FileActions::save);
+  save_ = add_action(menu, "file.save", "&Save", QKeySequence::Save, [this] { save(); });
   save_->setIcon(icon(Icon::Save));
-  add(menu, save_as_, "file.save_as", "Save &As\u2026", QKeySequence("Ctrl+Shift+S"), &FileActions::save_as);
+  add_action(menu, "file.save_as", "Save &As\u2026", QKeySequence("Ctrl+Shift+S"), [this] { save_as(); });
 }
 
 void FileActions::fill_recent() {
@@ -225,6 +217,15 @@ void FileActions::ask(const std::function<void()>& then) {
   box->open();
 }
 
+/// A design that is not there any more is not offered again.
+void FileActions::forget_missing() {
+  std::error_code error;
+  const bool there = opened_.empty() || std::filesystem::exists(opened_, error);
+  if (there || error) return;
+  recent_.remove(opened_);
+  if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
+}
+
 /// A person who gave it up without knowing gets it back with one click.
 Note FileActions::hear_of_cancelled(const SessionEvent& event) {
   const std::filesystem::path design = std::exchange(opened_, {});
@@ -244,6 +245,9 @@ Note FileActions::hear(const SessionEvent& event) {
       if (event.kind == SessionEvent::Kind::Opened) opened_.clear();
       break;
     case SessionEvent::Kind::OpenFailed:
+      forget_missing();
+      opened_.clear();
+      break;
     case SessionEvent::Kind::Recovered:
       opened_.clear();
       break;

@@ -19,9 +19,8 @@ class FileActions {
   FileActions(const FileActions&) = delete;
   FileActions& operator=(const FileActions&) = delete;
 
-  /// Puts them into the menu; those with an icon are `new_design`, `open_design` and `save_design`.
+  /// Puts them into the menu.
   void fill(QMenu& menu);
-  QAction* new_design() const { return new_; }
   QAction* open_design() const { return open_; }
   QAction* save_design() const { return save_; }
 
@@ -50,10 +49,9 @@ class FileActions {
   QString doing() const;
 
  private:
-  void add(QMenu& menu, QAction*& action, const char* name, const QString& text, const QKeySequence& keys,
-           void (FileActions::*act)());
   void start();
   void make_new();
+  void forget_missing();
   void fill_recent();
   void begin_save(const std::filesystem::path& design);
   Note hear_of_cancelled(const session::SessionEvent& event);
@@ -63,7 +61,7 @@ class FileActions {
   QWidget& window_;
   RecentFiles recent_;
   QMenu* recent_menu_ = nullptr;
-  QAction *new_ = nullptr, *open_ = nullptr, *save_ = nullptr, *save_as_ = nullptr;
+  QAction *open_ = nullptr, *save_ = nullptr;
   std::function<bool()> begin_ = [] { return true; };
   std::function<void()> then_ = {};                         // waits for the work to be saved
   std::filesystem::path opened_ = {};                       // is being read

@@ -10,6 +10,10 @@ namespace {
 
 const char* const kKey = "recent";
 
+QString kept_path(const std::filesystem::path& design) {
+  return QDir::cleanPath(QFileInfo(text_of(design)).absoluteFilePath());
+}
+
 }  // namespace
 
 QString text_of(const std::filesystem::path& path) {
@@ -25,15 +29,15 @@ RecentFiles::RecentFiles(QSettings& settings) : settings_(settings) {
 }
 
 void RecentFiles::add(const std::filesystem::path& design) {
-  const QString path = QDir::cleanPath(QFileInfo(text_of(design)).absoluteFilePath());
+  const QString path = kept_path(design);
   paths_.removeAll(path);
   paths_.prepend(path);
   paths_ = paths_.mid(0, kMost);
   keep();
 }
 
-void RecentFiles::remove(const QString& path) {
-  if (paths_.removeAll(path) > 0) keep();
+void RecentFiles::remove(const std::filesystem::path& design) {
+  if (paths_.removeAll(kept_path(design)) > 0) keep();
 }
 
 void RecentFiles::clear() {

@@ -16,7 +16,7 @@ class RecentFiles {
   /// Absolute paths.
   const QStringList& paths() const { return paths_; }
   void add(const std::filesystem::path& design);
-  void remove(const QString& path);
+  void remove(const std::filesystem::path& design);
   void clear();
   /// What to call them in a menu: the file's name, with its folder where two have the same.
   QStringList labels() const;

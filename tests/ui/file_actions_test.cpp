@@ -5,7 +5,7 @@
 #include <QMessageBox>
 #include <QSettings>
 #include <QTemporaryDir>
-#include <thread>
+#include <fstream>
 
 #include "ui/desktop_test.h"
 
@@ -175,6 +175,24 @@ TEST_F(FileActionsTest, AnEditCountsMoreThanWorkWithoutANameThatIsBeingRead) {
   finish_files();
   EXPECT_EQ(world().objects().size(), 2U);
   EXPECT_TRUE(session().modified());
+}
+
+TEST_F(FileActionsTest, WhatIsGoneIsNotOfferedAgain) {
+  change();
+  session().save(file("a.icome"));
+  finish_files();
+  session().save(file("b.icome"));
+  finish_files();
+  EXPECT_EQ(RecentFiles(settings_).paths().size(), 2);
+  std::filesystem::remove(file("a.icome"));
+  files_.open(file("a.icome"));
+  finish_files();
+  EXPECT_EQ(RecentFiles(settings_).paths(), QStringList(folder_.filePath("b.icome")));
+  // What is there and cannot be read may be put right.
+  std::ofstream(file("b.icome")) << "nonsense";
+  files_.open(file("b.icome"));
+  finish_files();
+  EXPECT_EQ(RecentFiles(settings_).paths(), QStringList(folder_.filePath("b.icome")));
 }
 
 TEST(FileFilters, OfferWhatCanBeReadAndWritten) {
