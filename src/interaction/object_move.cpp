@@ -1,7 +1,5 @@
 #include "interaction/object_move.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <unordered_set>
@@ -23,13 +21,6 @@ std::vector<ObjectId> topmost(const world::World& world, std::span<const ObjectI
     if (!below) found.push_back(id);
   }
   return found;
-}
-
-std::string action_name(const char* verb, const world::World& world, std::span<const ObjectId> objects) {
-  if (objects.size() != 1) return fmt::format("{} {} objects", verb, objects.size());
-  const world::PhysicalObject* object = world.find(objects.front());
-  return object && !object->name.empty() ? fmt::format("{} {}", verb, object->name)
-                                         : fmt::format("{} object", verb);
 }
 
 ObjectMove::ObjectMove(const world::World& world, std::span<const ObjectId> objects) {

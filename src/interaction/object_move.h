@@ -1,6 +1,5 @@
 #pragma once
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/vector.h"
@@ -11,10 +10,6 @@ namespace icome::interaction {
 /// Those of the objects that are there and not below another of them, each once and in the same order: what
 /// is done to them is done to all.
 std::vector<world::ObjectId> topmost(const world::World& world, std::span<const world::ObjectId> objects);
-
-/// What an action on these objects is called: "Move leg", "Move 3 objects".
-std::string action_name(const char* verb, const world::World& world,
-                        std::span<const world::ObjectId> objects);
 
 /// Objects that are moved together: where they stood when that began, so that the last of many steps leaves
 /// them where the hand is, without the rounding of those before it.

@@ -34,7 +34,7 @@ QLabel* make_text(const QString& text, QWidget* parent) {
   label->setTextFormat(Qt::PlainText);  // it may quote names from files
   label->setWordWrap(true);
   label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // no name widens the window
   policy.setHeightForWidth(true);
   label->setSizePolicy(policy);
   return label;

@@ -4,6 +4,7 @@
 
 #include "ui/actions.h"
 #include "ui/icons.h"
+#include "ui/object_look.h"
 #include "ui/object_menu.h"
 
 namespace icome::ui {
@@ -80,15 +81,18 @@ void EditActions::fill_duplicate_as() {
 }
 
 void EditActions::refresh() {
-  const auto named = [](const char* what, const std::string& name) {
-    const QString text = QString::fromStdString(name).replace('&', "&&");
-    return text.isEmpty() ? QString(what) : QString("%1 %2").arg(what, text);
+  // Actions of recovered work are called what a file says.
+  const auto name = [](QAction& action, const QString& what, const std::string& undone) {
+    constexpr qsizetype kMost = 80;
+    const QString line = shortened((what + ' ' + one_line(undone)).trimmed(), kMost);
+    action.setText('&' + QString(line).replace('&', "&&"));
+    action.setToolTip(tip_of(line));
   };
   const world::History& history = session_.history();
   undo_->setEnabled(history.can_undo());
-  undo_->setText(named("&Undo", history.undo_name()));
+  name(*undo_, "Undo", history.undo_name());
   redo_->setEnabled(history.can_redo());
-  redo_->setText(named("&Redo", history.redo_name()));
+  name(*redo_, "Redo", history.redo_name());
   const std::size_t selected = session_.selection().size();
   for (QAction* action : {duplicate_, delete_, group_, duplicate_as_->menuAction()})
     action->setEnabled(selected > 0);

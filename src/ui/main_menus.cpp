@@ -4,11 +4,14 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QToolBar>
+#include <algorithm>
+#include <array>
 
 #include "ui/about_box.h"
 #include "ui/actions.h"
 #include "ui/icons.h"
 #include "ui/main_window.h"
+#include "ui/object_look.h"
 #include "ui/object_menu.h"
 #include "ui/shortcut_sheet.h"
 
@@ -49,6 +52,25 @@ ShortcutSheet::Part mouse_part() {
            {"Touch", "Press the button, the pen or Space"},
            {"Next tool", "Tab"},
            {"Back out", "Esc"}}};
+}
+
+/// The first that Tab would reach there; null: nothing.
+QWidget* first_stop(const QWidget& part) {
+  if (QWidget* proxy = part.focusProxy(); proxy && proxy->isVisible()) return proxy;
+  for (QWidget* it = part.nextInFocusChain(); it != &part; it = it->nextInFocusChain()) {
+    const bool stops = (it->focusPolicy() & Qt::TabFocus) != 0 && it->isVisible() && it->isEnabled();
+    if (stops && part.isAncestorOf(it)) return it;
+  }
+  return nullptr;
+}
+
+/// The scene's own window gives the keyboard back, and a dock behind others comes to the front.
+void go_to(QWidget& stop) {
+  for (QWidget* it = &stop; it; it = it->parentWidget()) {
+    if (auto* dock = qobject_cast<QDockWidget*>(it)) dock->raise();
+  }
+  stop.activateWindow();
+  stop.setFocus(Qt::TabFocusReason);
 }
 
 QString millimetres(double metres) { return QString::number(1000.0 * metres, 'f', 1); }
@@ -138,10 +160,8 @@ void MainWindow::show_hint() {
   QString text = kTools[int(tools_.tool())].hint;
   if (tools_.tool() == Tool::Select && !selected.empty()) {
     const base::Bounds bounds = session_.selection_bounds();
-    const world::PhysicalObject* object = session_.world().find(selected.front());
-    text = selected.size() > 1               ? QString("%1 objects").arg(selected.size())
-           : object && !object->name.empty() ? QString::fromStdString(object->name)
-                                             : QString("An object without a name");
+    text = selected.size() > 1 ? QString("%1 objects").arg(selected.size())
+                               : shortened(shown_name(session_.world(), selected.front()));
     if (!bounds.isEmpty()) {
       const base::Vector3 size = bounds.sizes();
       text += QString(": %1 \u00d7 %2 \u00d7 %3 mm")
@@ -183,13 +203,19 @@ void MainWindow::show_scene_menu(QPointF at) {
 }
 
 void MainWindow::next_part() {
-  QWidget* focus = QApplication::focusWidget();
-  if (scene_->has_keyboard()) {
-    properties_->setFocus(Qt::TabFocusReason);
-  } else if (focus && properties_->isAncestorOf(focus)) {
-    tree_->setFocus(Qt::TabFocusReason);
-  } else {
-    scene_->take_keyboard();
+  const std::array<QWidget*, 5> parts{scene_, banner_, tree_, properties_, hand_};
+  const QWidget* const focus = QApplication::focusWidget();
+  auto found = std::find_if(parts.begin(), parts.end(),
+                            [&](const QWidget* it) { return focus && it->isAncestorOf(focus); });
+  // A widget that has the keyboard has it even where the scene's own window has not let go of it yet.
+  if (found == parts.end() && scene_->has_keyboard()) found = parts.begin();
+  // From nowhere it goes to the scene.
+  const auto now = std::size_t((found == parts.end() ? parts.end() - 1 : found) - parts.begin());
+  for (std::size_t step = 1; step <= parts.size(); ++step) {
+    QWidget* const part = parts[(now + step) % parts.size()];
+    if (!part->isVisible()) continue;
+    if (part == scene_) return scene_->take_keyboard();
+    if (QWidget* const stop = first_stop(*part)) return go_to(*stop);
   }
 }
 

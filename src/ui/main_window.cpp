@@ -12,7 +12,9 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
+#include "ui/elided_label.h"
 #include "ui/icons.h"
 #include "ui/status_strip.h"
 
@@ -45,8 +47,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
       options_(options),
       tools_(session, {.chosen = [this](Tool tool) { show_tool(tool); },
                        .refused = [this](const std::string& why) { tell_error(why); },
-                       .asked = [this](QPointF at) { show_scene_menu(at); },
-                       .left = [] {}}),
+                       .asked = [this](QPointF at) { show_scene_menu(at); }}),
       files_(session, settings, *this),
       edits_(session, {.begin = [this] { return finish_work(); },
                        .refused = [this](const std::string& why) { tell_error(why); },
@@ -92,7 +93,7 @@ void MainWindow::make_center() {
   rows->addWidget(banner_);
   rows->addWidget(scene_, 1);
   setCentralWidget(center);
-  hint_ = new QLabel(this);
+  hint_ = new ElidedLabel(this);
   hint_->setObjectName("status.hint");
   count_ = new QLabel(this);
   count_->setObjectName("status.count");
@@ -106,7 +107,8 @@ void MainWindow::make_docks() {
   properties_ = new PropertyPanel(session_, this);
   QDockWidget* properties =
       make_dock(this, "dock.properties", "Properties", properties_, Qt::RightDockWidgetArea);
-  make_dock(this, "dock.hand", "Hand", new StatusStrip(session_, this), Qt::BottomDockWidgetArea);
+  hand_ = new StatusStrip(session_, this);
+  make_dock(this, "dock.hand", "Hand", hand_, Qt::BottomDockWidgetArea);
   resizeDocks({world, properties}, {60 * kGrid, 80 * kGrid}, Qt::Horizontal);
 }
 
@@ -148,7 +150,7 @@ void MainWindow::tick() {
   show_count();
   const auto labelled = wanted_label();
   if (is_stale_) show_hint();
-  if (is_stale_ || labelled != labelled_) {
+  if (is_stale_ || labelled != labelled_ || devicePixelRatio() != pixel_ratio_) {
     labelled_ = labelled;
     show_look();
   }
@@ -235,17 +237,19 @@ std::optional<world::ObjectId> MainWindow::wanted_label() const {
 
 void MainWindow::show_look() {
   const SceneColours its = scene_colours();
+  pixel_ratio_ = devicePixelRatio();
   session::DisplayWish wish;
   wish.look.above = its.above;
   wish.look.below = its.below;
   wish.look.selection = its.selection;
+  wish.look.selection_width = int(std::lround(wish.look.selection_width * pixel_ratio_));
   wish.look.shadows = views_.shadows();
   wish.look.grid = views_.grid();
   wish.look.grid_colour = its.grid;
   wish.look.passes = 16;
   wish.pointers = options_.hand_in_sight || tools_.tool() == Tool::Touch;
   if (labelled_) {
-    if (auto panel = label_.panel(session_, *labelled_, devicePixelRatio()))
+    if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
       wish.look.overlay.panels.push_back(std::move(*panel));
   }
   session_.set_look(wish);

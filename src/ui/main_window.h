@@ -79,6 +79,7 @@ class MainWindow final : public QMainWindow {
   SceneView* scene_ = nullptr;
   WorldTree* tree_ = nullptr;
   PropertyPanel* properties_ = nullptr;
+  QWidget* hand_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* count_ = nullptr;
   QAction* tool_actions_[3] = {};
@@ -86,6 +87,7 @@ class MainWindow final : public QMainWindow {
   bool is_stale_ = true;  // what is said and drawn of the selection
   SceneLabel label_;
   std::optional<world::ObjectId> labelled_ = {};
+  double pixel_ratio_ = 0.0;  // as shown; another screen may have another
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // to close
   bool closing_ = false;      // within the event

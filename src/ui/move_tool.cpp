@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/object_look.h"
 #include "ui/view_moves.h"
 
 namespace icome::ui {
@@ -80,9 +81,8 @@ void MoveTool::step() {
   if (!offset || !offset->allFinite() || drag_->move.empty()) return;
   const world::Edit edit = drag_->move.by(*offset);
   const auto done =
-      drag_->performed
-          ? session_.extend(edit)
-          : session_.perform(edit, interaction::action_name("Move", session_.world(), drag_->move.objects()));
+      drag_->performed ? session_.extend(edit)
+                       : session_.perform(edit, action_name("Move", session_.world(), drag_->move.objects()));
   if (!done) {
     refused_(done.error().message);
     drop();
@@ -124,10 +124,9 @@ void MoveTool::nudge(const Vector3& in_view, bool more) {
   const Vector3 offset = std::copysign(in_view.norm(), wanted[axis]) * Vector3::Unit(axis);
   const interaction::ObjectMove move(session_.world(), session_.selection());
   if (move.empty()) return;
-  const auto done =
-      more && nudged_ ? session_.extend(move.by(offset))
-                      : session_.perform(move.by(offset),
-                                         interaction::action_name("Move", session_.world(), move.objects()));
+  const auto done = more && nudged_ ? session_.extend(move.by(offset))
+                                    : session_.perform(move.by(offset),
+                                                       action_name("Move", session_.world(), move.objects()));
   nudged_ = done.has_value();
   if (!done) refused_(done.error().message);
 }

@@ -1,6 +1,7 @@
 #include "ui/object_look.h"
 
 #include <QStringList>
+#include <QTextDocument>
 #include <variant>
 
 #include "world/sharing.h"
@@ -90,8 +91,26 @@ QString one_line(const std::string& text) {
   for (QChar& letter : line) {
     if (!letter.isPrint() && !letter.isSurrogate()) letter = ' ';
   }
-  line = line.simplified();
-  return line.size() <= kMost ? line : line.left(kMost - 1) + QStringLiteral("…");
+  return shortened(line.simplified(), kMost);
+}
+
+QString shortened(const QString& line, qsizetype most) {
+  if (line.size() <= most) return line;
+  QString begin = line.left(most - 1);
+  if (begin.back().isHighSurrogate()) begin.chop(1);  // no half of a letter
+  return begin + QStringLiteral("…");
+}
+
+QString tip_of(const QString& text) { return Qt::convertFromPlainText(text, Qt::WhiteSpaceNormal); }
+
+std::string action_name(const QString& verb, const QString& what) {
+  return QString("%1 %2").arg(verb, shortened(what)).toStdString();
+}
+
+std::string action_name(const QString& verb, const world::World& world,
+                        std::span<const world::ObjectId> objects) {
+  return action_name(verb, objects.size() == 1 ? shown_name(world, objects.front())
+                                               : QString("%1 objects").arg(objects.size()));
 }
 
 QString shown_name(const world::World& world, world::MaterialId material) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <QString>
+#include <span>
 
 #include "ui/icons.h"
 #include "world/world.h"
@@ -24,6 +25,18 @@ QString description(const world::World& world, world::ObjectId object);
 
 /// Text of a design on one line, and no longer than people read.
 QString one_line(const std::string& text);
+
+/// No more than so many characters of a line: by itself as many as suit a menu.
+QString shortened(const QString& line, qsizetype most = 40);
+
+/// A tooltip that shows the text as it is, whatever markup it seems to hold.
+QString tip_of(const QString& text);
+
+/// What an action is called in the list of what can be undone: "Rename leg". Short enough for a menu.
+std::string action_name(const QString& verb, const QString& what);
+/// "Move leg", "Move 3 objects".
+std::string action_name(const QString& verb, const world::World& world,
+                        std::span<const world::ObjectId> objects);
 
 /// "Beech"; for one without a name "Material 7"; for none "Default".
 QString shown_name(const world::World& world, world::MaterialId material);

@@ -16,12 +16,6 @@ using world::ObjectId;
 
 namespace {
 
-std::string action_on(const char* verb, const session::Session& session,
-                      const std::vector<ObjectId>& objects) {
-  if (objects.size() != 1) return QString("%1 %2 objects").arg(verb).arg(objects.size()).toStdString();
-  return QString("%1 %2").arg(verb, shown_name(session.world(), objects.front())).toStdString();
-}
-
 bool has_children(const session::Session& session) {
   for (const ObjectId id : session.selection()) {
     const world::PhysicalObject* object = session.world().find(id);
@@ -53,7 +47,7 @@ void add_duplicates(QMenu& menu, session::Session& session, const ObjectMenu& en
 base::Result<void> delete_selected(session::Session& session) {
   const std::vector<ObjectId> objects = interaction::topmost(session.world(), session.selection());
   if (objects.empty()) return {};
-  const std::string name = action_on("Delete", session, objects);
+  const std::string name = action_name("Delete", session.world(), objects);
   return session.perform(interaction::delete_objects(session.world(), objects), name);
 }
 
@@ -62,7 +56,7 @@ base::Result<void> group_selected(session::Session& session) {
   if (objects.empty()) return {};
   const auto grouping = interaction::group_objects(session.world(), objects, session.ids());
   if (!grouping) return tl::unexpected(grouping.error());
-  const auto done = session.perform(grouping->edit, action_on("Group", session, objects));
+  const auto done = session.perform(grouping->edit, action_name("Group", session.world(), objects));
   if (done) session.select({grouping->group});
   return done;
 }
@@ -81,7 +75,8 @@ base::Result<void> duplicate_selected(session::Session& session, Duplicate how) 
     made.push_back(duplication->object);
   }
   std::ranges::reverse(made);
-  const auto done = session.perform(world::Edit(std::move(group)), action_on("Duplicate", session, models));
+  const auto done =
+      session.perform(world::Edit(std::move(group)), action_name("Duplicate", session.world(), models));
   if (done) session.select(made);
   return done;
 }

@@ -40,6 +40,7 @@ QVariant ObjectModel::data(const QModelIndex& index, int role) const {
     case Qt::ForegroundRole:
       return it->name.empty() ? QVariant(QBrush(colours().faint)) : QVariant();
     case Qt::ToolTipRole:
+      return tip_of(description(world(), id));
     case Qt::AccessibleDescriptionRole:
       return description(world(), id);
     default:
@@ -52,9 +53,8 @@ bool ObjectModel::setData(const QModelIndex& index, const QVariant& value, int r
   if (!it || role != Qt::EditRole) return false;
   const std::string name = value.toString().simplified().toStdString();
   if (name == it->name) return true;
-  const QString before = shown_name(world(), object(index));
-  const auto done =
-      session_.perform(world::RenameObject{object(index), name}, "Rename " + before.toStdString());
+  const std::string action = action_name("Rename", shown_name(world(), object(index)));
+  const auto done = session_.perform(world::RenameObject{object(index), name}, action);
   if (!done) refuse(done.error().message);
   return done.has_value();
 }

@@ -55,11 +55,10 @@ const std::vector<ObjectId>& PropertyBinder::list(Of of) const {
 
 std::string PropertyBinder::action(const QString& verb, Of of) const {
   const std::vector<ObjectId>& all = list(of);
-  if (all.size() != 1) return QString("%1 %2 %3").arg(verb).arg(all.size()).arg(noun_of(of)).toStdString();
+  if (all.size() != 1) return action_name(verb, QString("%1 %2").arg(all.size()).arg(noun_of(of)));
   const world::World& world = session_.world();
-  const QString name = of == Of::Materials ? shown_name(world, world.find(all.front())->material)
-                                           : shown_name(world, all.front());
-  return QString("%1 %2").arg(verb, name).toStdString();
+  return action_name(verb, of == Of::Materials ? shown_name(world, world.find(all.front())->material)
+                                               : shown_name(world, all.front()));
 }
 
 void PropertyBinder::refresh() {

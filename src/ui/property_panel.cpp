@@ -26,11 +26,19 @@ using world::ObjectId;
 
 namespace {
 
+/// Plain words on several lines. A name without a space in it does not widen the panel.
+void wrap(QLabel& label) {
+  label.setTextFormat(Qt::PlainText);
+  label.setWordWrap(true);
+  QSizePolicy policy = label.sizePolicy();
+  policy.setHorizontalPolicy(QSizePolicy::Ignored);
+  label.setSizePolicy(policy);
+}
+
 /// What is said where there is nothing to change.
 QLabel* remark(PanelSection& section) {
   auto* label = new QLabel(section.body());
-  label->setWordWrap(true);
-  label->setTextFormat(Qt::PlainText);
+  wrap(*label);
   section.add_wide(label);
   return label;
 }
@@ -96,8 +104,7 @@ PropertyPanel::Parts::Parts(session::Session& session, PropertyPanel& of)
   large.setPointSizeF(large.pointSizeF() * 1.15);
   large.setWeight(QFont::DemiBold);
   title->setFont(large);
-  title->setTextFormat(Qt::PlainText);
-  title->setWordWrap(true);
+  wrap(*title);
   title->setContentsMargins(4 * kGrid, kGrid, 3 * kGrid, kGrid);
   hint->setText("Select an object, in the scene or in the tree, to see and change what it is made of.");
   hint->setWordWrap(true);

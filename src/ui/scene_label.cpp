@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <cmath>
 
+#include "ui/object_look.h"
 #include "ui/theme.h"
 
 namespace icome::ui {
@@ -48,11 +49,10 @@ std::shared_ptr<const render::Image> draw_text(const QString& text, double pixel
 std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Session& session,
                                                              world::ObjectId id, double pixel_ratio) {
   const world::PhysicalObject* object = session.world().find(id);
-  if (!object || object->name.empty()) return std::nullopt;
+  const QString text = object ? shortened(one_line(object->name), kLongestName) : QString();
+  if (text.isEmpty()) return std::nullopt;
   const base::Bounds bounds = world::bounds(session.world(), id);
   if (bounds.isEmpty()) return std::nullopt;
-  QString text = QString::fromStdString(object->name).simplified();
-  if (text.size() > kLongestName) text = text.left(kLongestName - 1) + QChar(0x2026);
   const Look look{text, pixel_ratio, is_dark()};
   if (!picture_ || look != drawn_) picture_ = draw_text(text, pixel_ratio);
   drawn_ = look;

@@ -106,8 +106,6 @@ bool SceneTools::escape() {
     choose(Tool::Select);
   } else if (!session_.selection().empty()) {
     session_.select({});
-  } else {
-    listener_.left();
   }
   return true;
 }

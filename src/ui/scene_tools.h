@@ -23,7 +23,6 @@ class SceneTools {
     std::function<void(const std::string&)> refused = [](const std::string&) {
     };                                                    // why something was not done
     std::function<void(QPointF)> asked = [](QPointF) {};  // for the menu of what is there: a right click
-    std::function<void()> left = [] {};                   // Escape, and nothing to leave here
   };
   SceneTools(session::Session& session, Listener listener);
   SceneTools(const SceneTools&) = delete;
@@ -56,8 +55,6 @@ class SceneTools {
 
   /// What the mouse is over, as of the last tick; nothing while it does something.
   std::optional<world::ObjectId> hovered() const { return hovered_; }
-  /// Where the mouse is.
-  const std::optional<SceneInput>& mouse() const { return mouse_; }
   bool dragging() const { return move_tool_.dragging(); }
   bool turning() const { return view_drag_.active(); }
   double aspect() const { return size_.width() / size_.height(); }

@@ -35,8 +35,9 @@ void SceneView::make_reason() {
   auto* page = new QWidget(this);
   auto* rows = new QVBoxLayout(page);
   rows->setSpacing(4 * kGrid);
-  auto* sign = new QLabel(page);
-  sign->setPixmap(icon(Icon::Warning).pixmap(12 * kGrid, 12 * kGrid));
+  sign_ = new QLabel(page);
+  sign_->setObjectName("scene.sign");
+  draw_sign();
   reason_ = new QLabel(page);
   reason_->setObjectName("scene.reason");
   reason_->setTextFormat(Qt::PlainText);
@@ -44,16 +45,16 @@ void SceneView::make_reason() {
   reason_->setAlignment(Qt::AlignCenter);
   reason_->setFixedWidth(kReasonWidth);
   reason_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  auto* again = new QPushButton("Try Again", page);
-  again->setObjectName("scene.retry");
-  connect(again, &QPushButton::clicked, this, [this] {
+  again_ = new QPushButton("Try Again", page);
+  again_->setObjectName("scene.retry");
+  connect(again_, &QPushButton::clicked, this, [this] {
     stack_->setCurrentWidget(container_);
     scene_->retry();
   });
   rows->addStretch();
-  rows->addWidget(sign, 0, Qt::AlignHCenter);
+  rows->addWidget(sign_, 0, Qt::AlignHCenter);
   rows->addWidget(reason_, 0, Qt::AlignHCenter);
-  rows->addWidget(again, 0, Qt::AlignHCenter);
+  rows->addWidget(again_, 0, Qt::AlignHCenter);
   rows->addStretch();
   stack_->addWidget(page);
 }
@@ -92,7 +93,16 @@ void SceneView::showEvent(QShowEvent* event) {
   window()->installEventFilter(this);
 }
 
+/// In the theme's colours, and as sharp as the screen.
+void SceneView::draw_sign() { sign_->setPixmap(icon(Icon::Warning).pixmap(12 * kGrid, 12 * kGrid)); }
+
+void SceneView::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && sign_) draw_sign();
+}
+
 void SceneView::take_keyboard() {
+  if (again_->isVisible()) return again_->setFocus(Qt::OtherFocusReason);
   container_->setFocus(Qt::OtherFocusReason);
   scene_->requestActivate();
 }

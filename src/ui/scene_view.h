@@ -4,6 +4,7 @@
 #include "ui/scene_window.h"
 
 class QLabel;
+class QPushButton;
 class QStackedLayout;
 
 namespace icome::ui {
@@ -16,7 +17,7 @@ class SceneView final : public QWidget {
 
   /// Once for each update of the session.
   void tick();
-  /// The keyboard goes to the scene.
+  /// The keyboard goes to the scene or, where it cannot be drawn, to what can be done about it.
   void take_keyboard();
   bool has_keyboard() const;
   SceneWindow& window_of_scene() { return *scene_; }
@@ -24,16 +25,20 @@ class SceneView final : public QWidget {
  protected:
   bool eventFilter(QObject* of, QEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void make_reason();
   void show_cursor();
+  void draw_sign();
 
   SceneTools& tools_;
   SceneWindow* scene_;  // the container's
   QWidget* container_;
   QStackedLayout* stack_;
+  QLabel* sign_ = nullptr;
   QLabel* reason_ = nullptr;
+  QPushButton* again_ = nullptr;
 };
 
 }  // namespace icome::ui

@@ -22,13 +22,6 @@ std::map<AnyId, std::vector<ObjectId>> users_by(const session::Session& session,
   return users;
 }
 
-std::string for_objects(const char* what, const session::Session& session) {
-  const std::vector<ObjectId>& objects = session.selection();
-  const QString whose = objects.size() == 1 ? shown_name(session.world(), objects.front())
-                                            : QString("%1 objects").arg(objects.size());
-  return QString("%1 %2").arg(what, whose).toStdString();
-}
-
 }  // namespace
 
 bool shares_shapes(const session::Session& session) {
@@ -47,7 +40,8 @@ base::Result<void> make_own_shapes(session::Session& session) {
     for (const ObjectId id : users) group.edits.emplace_back(world::ChooseGeometry{id, own});
   }
   if (group.edits.empty()) return {};
-  return session.perform(world::Edit(std::move(group)), for_objects("Make own shape for", session));
+  return session.perform(world::Edit(std::move(group)),
+                         action_name("Make own shape for", session.world(), session.selection()));
 }
 
 bool needs_own_materials(const session::Session& session) {
@@ -67,7 +61,8 @@ base::Result<void> make_own_materials(session::Session& session) {
     for (const ObjectId id : users) group.edits.emplace_back(world::ChooseMaterial{id, own});
   }
   if (group.edits.empty()) return {};
-  return session.perform(world::Edit(std::move(group)), for_objects("Make own material for", session));
+  return session.perform(world::Edit(std::move(group)),
+                         action_name("Make own material for", session.world(), session.selection()));
 }
 
 base::Result<void> choose_material(session::Session& session, world::MaterialId material) {
@@ -77,7 +72,8 @@ base::Result<void> choose_material(session::Session& session, world::MaterialId 
     if (object && object->material != material) group.edits.emplace_back(world::ChooseMaterial{id, material});
   }
   if (group.edits.empty()) return {};
-  return session.perform(world::Edit(std::move(group)), for_objects("Choose material of", session));
+  return session.perform(world::Edit(std::move(group)),
+                         action_name("Choose material of", session.world(), session.selection()));
 }
 
 }  // namespace icome::ui

@@ -6,6 +6,7 @@
 #include "render/views.h"
 #include "ui/actions.h"
 #include "ui/icons.h"
+#include "ui/object_look.h"
 
 namespace icome::ui {
 namespace {
@@ -25,8 +26,10 @@ constexpr DirectionEntry kDirections[] = {
     {"iso", "view.iso", "&Isometric", "0"},
 };
 
-QString plain(const std::string& name, const char* otherwise) {
-  return name.empty() ? QString(otherwise) : QString::fromStdString(name).replace('&', "&&");
+/// A name from a design, as an entry of a menu.
+QString entry_of(const std::string& name, const char* otherwise) {
+  const QString line = shortened(one_line(name));
+  return line.isEmpty() ? QString(otherwise) : QString(line).replace('&', "&&");
 }
 
 }  // namespace
@@ -92,7 +95,7 @@ void ViewActions::fill_viewpoints(QMenu& menu) {
     viewpoints->clear();
     const auto& there = session_.drawn()->viewpoints();
     for (std::size_t i = 0; i < there.size(); ++i) {
-      add_action(*viewpoints, "view.viewpoint", plain(there[i].name, "Viewpoint without a name"), {},
+      add_action(*viewpoints, "view.viewpoint", entry_of(there[i].name, "Viewpoint without a name"), {},
                  [this, viewpoint = there[i]] { look_from(session_, viewpoint); });
     }
     if (there.empty()) viewpoints->addAction("This design has none")->setEnabled(false);
@@ -117,7 +120,7 @@ void ViewActions::fill_scenes(QMenu& menu) {
     std::vector<std::pair<world::SceneId, std::string>> all;
     for (const auto& [id, scene] : session_.world().scenes()) all.emplace_back(id, scene.name);
     std::sort(all.begin(), all.end());  // in the order in which they were made
-    for (const auto& [id, name] : all) add(plain(name, "Scene without a name"), id);
+    for (const auto& [id, name] : all) add(entry_of(name, "Scene without a name"), id);
     if (all.empty()) scenes->addAction("This design has none of its own")->setEnabled(false);
   });
 }

@@ -126,11 +126,9 @@ bool WorldModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int 
     refuse(edit.error().message);
     return false;
   }
-  const QString what =
-      objects.size() == 1 ? shown_name(world(), objects.front()) : QString("%1 objects").arg(objects.size());
   const QString where =
-      target ? QString(" under %1").arg(shown_name(world(), target)) : QString(" to the top");
-  const auto done = session().perform(*edit, ("Move " + what + where).toStdString());
+      target ? QString(" under %1").arg(shortened(shown_name(world(), target))) : QString(" to the top");
+  const auto done = session().perform(*edit, action_name("Move", world(), objects) + where.toStdString());
   if (!done) refuse(done.error().message);
   return done.has_value();
 }

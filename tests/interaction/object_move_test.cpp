@@ -106,12 +106,5 @@ TEST(ObjectMove, LeavesOutWhatIsGone) {
   EXPECT_TRUE(ObjectMove(room.world, std::vector{room.leg, ObjectId{}}).empty());
 }
 
-TEST(ActionName, NamesOneAndCountsMany) {
-  Room room;
-  EXPECT_EQ(action_name("Move", room.world, std::vector{room.leg}), "Move leg");
-  EXPECT_EQ(action_name("Move", room.world, std::vector{room.lamp}), "Move object");
-  EXPECT_EQ(action_name("Delete", room.world, std::vector{room.leg, room.lamp}), "Delete 2 objects");
-}
-
 }  // namespace
 }  // namespace icome::interaction

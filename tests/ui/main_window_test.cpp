@@ -215,6 +215,73 @@ TEST_F(MainWindowTest, ANameThatIsBeingTypedInTheTreeIsSavedToo) {
   EXPECT_EQ(world().objects().size(), 2U);
 }
 
+TEST_F(MainWindowTest, NoNameOfADesignWidensItOrIsTakenForMarkup) {
+  QCoreApplication::processEvents();
+  const int before = window_->minimumSizeHint().width();
+  const std::string name = "<h1>big</h1>" + std::string(2000, 'w');
+  const auto id = add(name.c_str());
+  session().select({id});
+  auto* hint = window_->findChild<QLabel*>("status.hint");
+  ASSERT_TRUE(until([&] { return hint->text().startsWith("<h1>big</h1>ww"); }));
+  EXPECT_EQ(hint->textFormat(), Qt::PlainText);
+  EXPECT_LT(hint->text().size(), 100);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(window_->minimumSizeHint().width(), before);
+  ASSERT_TRUE(until([&] { return action("edit.undo")->isEnabled(); }));
+  EXPECT_LE(action("edit.undo")->text().size(), 81);
+  EXPECT_FALSE(action("edit.undo")->toolTip().contains("<h1>"));
+}
+
+TEST_F(MainWindowTest, TheSignOverTheReasonFollowsTheTheme) {
+  const auto sign = [this] { return window_->findChild<QLabel*>("scene.sign")->pixmap().toImage(); };
+  apply_theme(application(), Theme::Light);
+  QCoreApplication::processEvents();
+  const QImage light = sign();
+  apply_theme(application(), Theme::Dark);
+  QCoreApplication::processEvents();
+  EXPECT_NE(sign(), light);
+  apply_theme(application(), Theme::Light);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(sign(), light);
+}
+
+TEST_F(MainWindowTest, F6GoesRoundAllPartsThatAreSeen) {
+  auto* retry = window_->findChild<QPushButton*>("scene.retry");
+  ASSERT_TRUE(until([&] { return retry->isVisible(); }));
+  QApplication::setActiveWindow(window_.get());
+  const auto leg = add("leg");
+  session().select({leg});
+  field("Name").clearFocus();
+  retry->setFocus();
+  const auto part = [&]() -> QString {
+    const QWidget* focus = QApplication::focusWidget();
+    for (const QWidget* it = focus; it; it = it->parentWidget()) {
+      for (const char* name : {"scene", "banner", "dock.world", "dock.properties", "dock.hand"}) {
+        if (it->objectName() == name) return name;
+      }
+    }
+    return focus ? "elsewhere" : "nowhere";
+  };
+  const auto round = [&] {
+    QStringList parts;
+    do {
+      parts << part();
+      action("window.next_part")->trigger();
+    } while (part() != parts.front() && parts.size() < 6);
+    parts.removeAll("dock.hand");  // has a place for the keyboard or not
+    return parts;
+  };
+  EXPECT_EQ(round(), (QStringList{"scene", "dock.world", "dock.properties"}));
+  session().save(path_of(file("a.icome")));
+  ASSERT_TRUE(until_title("a.icome - ICOME"));
+  window_->begin(path_of(file("nothing.wrl")));
+  ASSERT_TRUE(until([&] { return window_->findChild<QWidget*>("banner")->isVisible(); }));
+  retry->setFocus();
+  EXPECT_EQ(round(), (QStringList{"scene", "banner", "dock.world", "dock.properties"}));
+  window_->findChild<QWidget*>("dock.world")->hide();
+  EXPECT_EQ(round(), (QStringList{"scene", "banner", "dock.properties"}));
+}
+
 TEST_F(MainWindowTest, NoTwoActionsHaveTheSameKeys) {
   QMap<QString, QString> users;
   for (const QAction* it : window_->findChildren<QAction*>()) {

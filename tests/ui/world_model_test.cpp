@@ -3,6 +3,7 @@
 #include <QAbstractItemModelTester>
 #include <QMimeData>
 #include <QSignalSpy>
+#include <QTextDocument>
 
 #include "desktop_test.h"
 #include "ui/object_look.h"
@@ -155,6 +156,38 @@ TEST(ObjectLook, PutsHostileNamesOnOneShortLine) {
   EXPECT_EQ(one_line("a\n\tb\x01 c"), "a b c");
   EXPECT_EQ(one_line(std::string(1'000'000, 'x')).size(), 200);
   EXPECT_EQ(one_line("\xff\xfe"), QString::fromUtf8("\xff\xfe"));
+}
+
+TEST(ObjectLook, ShortensWithoutHalvingLetters) {
+  EXPECT_EQ(shortened("table leg", 9), "table leg");
+  EXPECT_EQ(shortened("table leg", 6), QString::fromUtf8("table…"));
+  const QString faces = QString::fromUtf8("ab😀😀😀");
+  EXPECT_EQ(shortened(faces, 4), QString::fromUtf8("ab…"));
+  EXPECT_EQ(shortened(faces, 5), QString::fromUtf8("ab😀…"));
+}
+
+TEST(ObjectLook, NamesActionsAfterOneOrTheNumberOfMany) {
+  world::World world;
+  world::IdSource ids;
+  const auto make = [&](const std::string& name) {
+    const auto id = ids.next<ObjectId>();
+    EXPECT_TRUE(world::apply(world, world::CreateObject{id, 0, {.name = name}}));
+    return id;
+  };
+  const ObjectId leg = make("leg"), unnamed = make(""), hostile = make("a\n<h1>" + std::string(2000, 'x'));
+  EXPECT_EQ(action_name("Move", world, std::vector{leg}), "Move leg");
+  EXPECT_EQ(action_name("Move", world, std::vector{unnamed}),
+            "Move " + shown_name(world, unnamed).toStdString());
+  EXPECT_EQ(action_name("Delete", world, std::vector{leg, unnamed}), "Delete 2 objects");
+  const QString named = QString::fromStdString(action_name("Delete", world, std::vector{hostile}));
+  EXPECT_TRUE(named.startsWith("Delete a <h1>xxx")) << named.toStdString();
+  EXPECT_EQ(named.size(), 7 + 40);
+}
+
+TEST(ObjectLook, TipsShowMarkupAsItIs) {
+  QTextDocument page;
+  page.setHtml(tip_of("<h1>Box</h1> & \"co\"\nsecond line"));
+  EXPECT_EQ(page.toPlainText(), "<h1>Box</h1> & \"co\"\nsecond line");
 }
 
 }  // namespace
