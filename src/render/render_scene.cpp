@@ -74,11 +74,23 @@ void tally(RenderScene::Block& block) {
 RenderScenePointer ScenePublisher::publish(const World& world) {
   *this = ScenePublisher(scene_, stage_from_world_);
   make_shapes(world);
-  show_scene(world);
+  show_roots(world);
   return version(world);
 }
 
-void ScenePublisher::show_scene(const World& world) {
+RenderScenePointer ScenePublisher::show_scene(const World& world, world::SceneId scene) {
+  hide_all();
+  scene_ = scene;
+  show_roots(world);
+  return version(world);
+}
+
+void ScenePublisher::hide_all() {
+  for (const auto& [id, slot] : std::unordered_map(slots_)) hide(id);
+  for (const ObjectId id : std::unordered_set(fixed_)) hide(id);
+}
+
+void ScenePublisher::show_roots(const World& world) {
   const world::Scene* scene = scene_ ? world.find(scene_) : nullptr;
   if (scene_ && !scene) return;
   for (const ObjectId root : scene ? scene->roots : world.roots()) show(world, root);
@@ -87,9 +99,8 @@ void ScenePublisher::show_scene(const World& world) {
 RenderScenePointer ScenePublisher::update(const World& world, const world::Changes& changes) {
   forget(world, changes);
   if (std::find(changes.scenes.begin(), changes.scenes.end(), scene_) != changes.scenes.end()) {
-    for (const auto& [id, slot] : std::unordered_map(slots_)) hide(id);
-    for (const ObjectId id : std::unordered_set(fixed_)) hide(id);
-    show_scene(world);
+    hide_all();
+    show_roots(world);
   }
   for (const ObjectId id : changes.objects) {
     if (!world.find(id)) {

@@ -119,6 +119,8 @@ class ScenePublisher {
   RenderScenePointer publish(const world::World& world);
   /// Makes anew what has changed since the last version.
   RenderScenePointer update(const world::World& world, const world::Changes& changes);
+  /// Another scene of the same world (none: all objects), of the shapes that are made already.
+  RenderScenePointer show_scene(const world::World& world, world::SceneId scene);
 
  private:
   struct Made {
@@ -135,7 +137,8 @@ class ScenePublisher {
   const std::shared_ptr<const RenderMaterial>& material(const world::World& world, world::MaterialId id);
   const MadePicture& picture(const world::World& world, world::TextureId id);
   void forget(const world::World& world, const world::Changes& changes);
-  void show_scene(const world::World& world);
+  void hide_all();
+  void show_roots(const world::World& world);
   base::Affine3 stage_from_object(const world::World& world, world::ObjectId id) const;
   bool is_shown(const world::World& world, world::ObjectId id) const;
   void show(const world::World& world, world::ObjectId root);

@@ -326,10 +326,11 @@ base::Result<void> SceneRenderer::Parts::make_mean(const ScenePictureWish& wish)
 }
 
 base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish) {
-  const auto& selected = wish.look.selected;
+  std::vector<world::ObjectId> selected = wish.look.selected;
+  std::sort(selected.begin(), selected.end());
   std::vector<PlannedItem> items;
   wish.scene.for_each([&](const RenderItem& item) {
-    if (std::find(selected.begin(), selected.end(), item.object) != selected.end())
+    if (std::binary_search(selected.begin(), selected.end(), item.object))
       items.push_back(plan_item(item, wish.part));
   });
   if (items.empty()) return {};

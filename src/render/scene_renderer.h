@@ -72,7 +72,7 @@ struct SceneLook {
   /// shadows, light from all of the sky; for views at rest and pictures.
   int passes = 1;
   CsgWay csg = CsgWay::Automatic;
-  std::vector<world::ObjectId> selected = {};  ///< have a line around
+  std::vector<world::ObjectId> selected = {};  ///< have a line around; in any order
   Colour selection{1.0, 0.55, 0.10};
   int selection_width = 2;  ///< pixels, 1 ... 8
   SceneOverlay overlay = {};

@@ -28,13 +28,19 @@ bool same(const render::Colour& a, const render::Colour& b) {
   return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
 }
 
+bool same_grid(const render::SceneLook& a, const render::SceneLook& b) {
+  if (!a.grid && !b.grid) return true;
+  return a.grid == b.grid && same(a.grid_colour, b.grid_colour) && same(a.x_axis, b.x_axis) &&
+         same(a.z_axis, b.z_axis);
+}
+
 /// Does it give the same picture, but for what is drawn over it?
 bool same_picture(const DisplayWish& a, const DisplayWish& b) {
   const render::SceneLook &one = a.look, &other = b.look;
   return a.view.world_from_eye.matrix() == b.view.world_from_eye.matrix() && a.view.field == b.view.field &&
          same(one.above, other.above) && same(one.below, other.below) && one.lights == other.lights &&
          one.shadows == other.shadows && one.ground == other.ground && one.shadow_side == other.shadow_side &&
-         one.passes == other.passes;
+         one.passes == other.passes && one.csg == other.csg && same_grid(one, other);
 }
 
 }  // namespace
@@ -86,8 +92,12 @@ base::Result<void> DisplayFeed::draw(render::SceneRenderer& renderer, const rend
   if (shown_.pointers) add_markers(look.overlay);
   // Tiles of a picture have its shape in common.
   const double aspect = target.width * target.window.height / (target.height * target.window.width);
+  const render::Camera through = camera(aspect);
+  // A pointer that comes near moves the lens, and depths of another lens cannot be compared.
+  if (through.clip_from_camera != lens_) is_new_ = true;
+  lens_ = through.clip_from_camera;
   const int pass = is_new_ ? 0 : std::min(passes_, look.passes);
-  const auto drawn = renderer.draw_pass(*scene_.read(), camera(aspect), look, target, pass);
+  const auto drawn = renderer.draw_pass(*scene_.read(), through, look, target, pass);
   for (const auto& box : pointers_) box->drawn = box->newest.read();
   passes_ = pass + 1;
   is_new_ = has_moved_ = false;

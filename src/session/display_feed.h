@@ -73,6 +73,7 @@ class DisplayFeed {
   bool has_moved_ = false;                           // only what is drawn over the picture is another
   int passes_ = 0;                                   // of this picture, so far
   render::SceneTarget target_ = {};                  // the last
+  render::Matrix4 lens_ = render::Matrix4::Zero();   // of the last frame
   const render::SceneRenderer* renderer_ = nullptr;  // the last; only compared
 };
 

@@ -2,11 +2,13 @@
 
 namespace icome::session {
 
-void SeenWorld::open(const world::World& world, world::SceneId shown) { show(world, shown); }
-
-void SeenWorld::show(const world::World& world, world::SceneId shown) {
+void SeenWorld::open(const world::World& world, world::SceneId shown) {
   publisher_ = render::ScenePublisher(shown);
   publish(publisher_.publish(world));
+}
+
+void SeenWorld::show(const world::World& world, world::SceneId shown) {
+  publish(publisher_.show_scene(world, shown));
 }
 
 void SeenWorld::follow(const world::World& world, const world::Changes& changes) {

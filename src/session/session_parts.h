@@ -46,6 +46,7 @@ struct Session::Parts {
   void go_home(double aspect);
   void aim(const base::Vector3& position);
   void put(const base::Vector3& position);
+  void renew_outline();
   void publish_wish();
 
   // session.cpp
@@ -76,6 +77,8 @@ struct Session::Parts {
 
   DisplayWish look;  // as main wants it, without view and selection
   bool look_is_new = true;
+  std::vector<world::ObjectId> outlined;  // the selection, and all below it
+  bool outline_is_new = false;            // it may be
   UserInteraction user;
   std::int64_t moved_at = 0;  // ns, when the user moved last; 0: not yet
   interaction::View drawn_view;

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "interaction/object_move.h"
 #include "render/views.h"
 #include "session/picking.h"
 #include "session/session_parts.h"
@@ -30,7 +31,21 @@ void Session::Parts::put(const base::Vector3& position) {
   if (mouse_hand) mouse_hand->put(hands.stage_from_device(0).inverse() * position);
 }
 
+/// A group has no shape of its own: what is selected shows by all that moves along with it.
+void Session::Parts::renew_outline() {
+  if (!std::exchange(outline_is_new, false)) return;
+  std::vector<world::ObjectId> all;
+  for (const world::ObjectId root : interaction::topmost(world, selection)) {
+    const auto below = world::subtree(world, root);
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  if (all == outlined) return;
+  outlined = std::move(all);
+  look_is_new = true;
+}
+
 void Session::Parts::publish_wish() {
+  renew_outline();
   const interaction::View& now = user.drawn_view();
   if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
       now.distance != drawn_view.distance)
@@ -39,7 +54,7 @@ void Session::Parts::publish_wish() {
   drawn_view = now;
   DisplayWish wish = look;
   wish.view = now;
-  wish.look.selected = selection;
+  wish.look.selected = outlined;
   display.wish(wish);
 }
 

@@ -2,6 +2,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "interaction/object_move.h"
 #include "session/session_parts.h"
 #include "session/shared_edit.h"
 
@@ -35,7 +36,7 @@ void Session::Parts::tell_change(const world::Changes* changes) {
   const std::size_t before = selection.size();
   std::erase_if(selection, [this](ObjectId id) { return !world.find(id); });
   if (shown_scene && !world.find(shown_scene)) show({});
-  if (selection.size() != before) look_is_new = true;
+  if (!changes || !changes->objects.empty()) outline_is_new = true;
   notify_change(changes);
   if (selection.size() != before) notify_selection();
 }
@@ -71,7 +72,7 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
   edited.saved = std::make_shared<const SavedWork>(SavedWork{design, queue.posted() + 1, recovered});
   opened_number = queue.post(std::move(edited));
   const bool had_selection = !std::exchange(selection, {}).empty();
-  look_is_new = true;
+  outline_is_new = look_is_new = true;
   notify_change(nullptr);
   if (had_selection) notify_selection();
 }
@@ -132,7 +133,7 @@ void Session::select(std::vector<ObjectId> objects) {
   std::erase_if(objects, [&](ObjectId id) { return !parts_->world.find(id) || !met.insert(id).second; });
   if (objects == parts_->selection) return;
   parts_->selection = std::move(objects);
-  parts_->look_is_new = true;
+  parts_->outline_is_new = true;
   parts_->notify_selection();
 }
 
@@ -141,7 +142,7 @@ base::Bounds Session::selection_bounds() const {
   const world::Scene* scene = world.find(parts_->shown_scene);
   const auto& all = scene ? scene->roots : world.roots();
   base::Bounds bounds;
-  for (const ObjectId id : parts_->selection.empty() ? all : parts_->selection)
+  for (const ObjectId id : parts_->selection.empty() ? all : interaction::topmost(world, parts_->selection))
     bounds.extend(world::bounds(world, id));
   return bounds;
 }

@@ -74,7 +74,7 @@ struct DisplayThread::Parts {
 /// Waits until there is something to draw and the window is seen; false: it is over.
 bool DisplayThread::Parts::wait_for_turn(Clock::time_point last) {
   std::unique_lock hold(lock);
-  changed.wait_until(hold, last + shortest_frame, [this] { return ending; });
+  changed.wait_until(hold, last + shortest_frame, [this] { return ending || lost; });
   while (!ending) {
     if (seen) {
       const bool due = feed.is_due();

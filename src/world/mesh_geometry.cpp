@@ -100,6 +100,7 @@ base::Result<std::vector<Vector3>> move_vertices_of(Geometry& shape, std::span<c
   std::vector<Vector3> before;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     before.push_back(std::exchange(all[vertices[i]], positions[i]));
+  loop ? loop->forget_bounds() : mesh->forget_bounds();
   return before;
 }
 

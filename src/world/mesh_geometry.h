@@ -8,6 +8,7 @@
 #include "geometry/loop_surface.h"
 #include "world/fixture.h"
 #include "world/geometry.h"
+#include "world/kept_bounds.h"
 
 namespace icome::world {
 
@@ -24,11 +25,16 @@ struct MeshGeometry final : public Geometry, public std::enable_shared_from_this
   std::vector<std::array<Colour, 3>> colours;  // of every triangle, or none: the material's diffuse one
 
   std::string_view kind() const override { return "mesh"; }
-  Bounds bounds() const override { return geometry::bounds(mesh); }
+  Bounds bounds() const override { return bounds_.of(mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
+  /// After the positions have been changed in place.
+  void forget_bounds() { bounds_.forget(); }
+
+ private:
+  KeptBounds bounds_;
 };
 
 /// The control mesh of a Loop subdivision surface.
@@ -39,11 +45,16 @@ struct LoopGeometry final : public Geometry {
 
   std::string_view kind() const override { return "loop"; }
   /// Of the control mesh, within whose convex hull the surface lies.
-  Bounds bounds() const override { return geometry::bounds(control.mesh); }
+  Bounds bounds() const override { return bounds_.of(control.mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
+  /// After the positions have been changed in place.
+  void forget_bounds() { bounds_.forget(); }
+
+ private:
+  KeptBounds bounds_;
 };
 
 /// The shape with some vertices elsewhere, and where they were. Fails for shapes without vertices, for

@@ -127,6 +127,10 @@ class DesktopTroubleTest(DesktopTest):
     def test_without_opengl_the_rest_works(self):
         desktop = self.open_ball(environment={"LIBGL_DRIVERS_PATH": "/nonexistent", "LIBGL_ALWAYS_SOFTWARE": "1"})
         self.keep(desktop, "no-opengl")
+        window = desktop.whole()
+        self.assertEqual(window.share(is_rubber), 0.0, "nothing is drawn")
+        page = window.part(window.width // 4, window.height // 4, window.width // 2, window.height // 3)
+        self.assertGreater(page.share(lambda red, green, blue: min(red, green, blue) > 150), 0.002, "the reason")
         desktop.key("ctrl+a")
         desktop.key("Delete")
         desktop.wait_title(r"\*")

@@ -168,6 +168,23 @@ TEST(RenderScene, OneSceneOfAWorldCanBeShown) {
   EXPECT_EQ(publisher.update(it.world, changes_of(place))->object_count(), 1u);
 }
 
+TEST(RenderScene, AnotherSceneIsShownOfTheSameShapes) {
+  DrawnWorld it;
+  const auto in = it.add(box(1.0));
+  it.add(box(2.0));
+  const auto scene = it.ids.next<world::SceneId>();
+  world::applied(it.world, world::CreateScene{scene, "kitchen"});
+  world::applied(it.world, world::EnterScene{scene, in, 0});
+  ScenePublisher publisher;
+  const auto all = publisher.publish(it.world);
+  const auto one = publisher.show_scene(it.world, scene);
+  expect_equal(*one, *ScenePublisher(scene).publish(it.world));
+  EXPECT_EQ(items_of(*one)[0].shape, items_of(*all)[0].shape);
+  const auto again = publisher.show_scene(it.world, {});
+  expect_equal(*again, *all);
+  EXPECT_EQ(items_of(*again)[1].shape, items_of(*all)[1].shape);
+}
+
 TEST(RenderScene, WhatCannotBeDrawnIsToldAndTheRestDrawn) {
   DrawnWorld it;
   it.add(std::make_shared<world::PrimitiveGeometry>(geometry::Plane{}));

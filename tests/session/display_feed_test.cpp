@@ -105,7 +105,40 @@ TEST(DisplayFeed, DrawsTheHandAnewOnlyWhenItMovesToBeSeen) {
   PointerView lost = pointer_at({1.0, 0.0, 1.0});
   lost.status = devices::DeviceStatus::Lost;
   feed.publish(0, lost);
-  EXPECT_EQ(draw_all(feed, live), 1);
+  EXPECT_EQ(draw_all(feed, live), 4);  // the lens need not reach so near any more
+}
+
+TEST(DisplayFeed, BeginsAnewWithAnotherGround) {
+  REQUIRE_OPENGL();
+  LiveRenderer live;
+  DisplayFeed feed(0);
+  DisplayWish wish = plain_wish(4);
+  feed.publish(scene_with_box(at(0.0, 0.0, 0.0)));
+  feed.wish(wish);
+  EXPECT_EQ(draw_all(feed, live), 4);
+  wish.look.grid = true;
+  feed.wish(wish);
+  EXPECT_EQ(draw_all(feed, live), 4);
+  wish.look.x_axis.red += 0.1;
+  feed.wish(wish);
+  EXPECT_EQ(draw_all(feed, live), 4);
+}
+
+TEST(DisplayFeed, ShowsATipThatComesNearBeforeWhatIsBehindIt) {
+  REQUIRE_OPENGL();
+  LiveRenderer live;
+  DisplayFeed feed(1);
+  feed.publish(scene_with_box(at(0.0, 0.0, 0.0)));
+  DisplayWish wish = plain_wish(2);
+  wish.marker_size = 0.05;
+  feed.wish(wish);
+  feed.publish(0, pointer_at({0.0, 0.0, 1.0}));
+  draw_all(feed, live);
+  for (const double z : {3.1, 4.3, 2.0, 0.6}) {
+    feed.publish(0, pointer_at({0.0, 0.0, z}));
+    EXPECT_TRUE(feed.is_due());
+    EXPECT_GT(blue_pixels(picture(feed, live)), 0) << z;
+  }
 }
 
 TEST(DisplayFeed, ShowsTipsAlsoBeforeAndBehindTheScene) {
