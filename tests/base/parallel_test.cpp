@@ -1,12 +1,13 @@
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include <atomic>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+
+#include "base/no_threads.h"
 
 namespace icome::base {
 namespace {
@@ -19,28 +20,6 @@ std::vector<int> met_by_parts(std::size_t count, std::size_t grain) {
   });
   return met;
 }
-
-/// A system that has no thread to give: none is as small as their stacks should be.
-class NoThreads {
- public:
-  NoThreads() {
-    pthread_getattr_default_np(&before_);
-    pthread_attr_t huge;
-    pthread_getattr_default_np(&huge);
-    pthread_attr_setstacksize(&huge, std::size_t{1} << 50U);
-    pthread_setattr_default_np(&huge);
-    pthread_attr_destroy(&huge);
-  }
-  ~NoThreads() {
-    pthread_setattr_default_np(&before_);
-    pthread_attr_destroy(&before_);
-  }
-  NoThreads(const NoThreads&) = delete;
-  NoThreads& operator=(const NoThreads&) = delete;
-
- private:
-  pthread_attr_t before_;
-};
 
 TEST(ParallelFor, MeetsEveryItemOnce) {
   for (const std::size_t count : {0, 1, 2, 7, 1000})

@@ -13,12 +13,14 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace icome::devices {
 namespace {
 
 using EventNumbers = std::array<std::int32_t, 8>;
+constexpr int kMostUnknown = 64;  // in one call
 
 /// What spacenavd answers when it is greeted. libspnav waits for 0.3 s for it; comes it later, or after an
 /// event that libspnav took for it, it stands among the events.
@@ -122,9 +124,8 @@ SpnavLink::State SpnavLink::state() {
 
 void SpnavLink::open() {
   if (state() != State::Closed) return;
-  state_ = State::Opening;
   opened_ = succeeded_ = false;
-  opener_ = std::thread([this] {
+  const auto connect = [this] {
     // Writing to a spacenavd that has just ended must not end us.
     sigset_t pipe;
     sigemptyset(&pipe);
@@ -132,11 +133,18 @@ void SpnavLink::open() {
     pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
     succeeded_ = spnav_open() == 0;
     opened_ = true;
-  });
+  };
+  try {
+    opener_ = std::thread(connect);
+    state_ = State::Opening;
+  } catch (const std::system_error&) {
+    // There may be a thread to have when it is asked for again.
+  }
 }
 
 std::optional<SpnavEvent> SpnavLink::next() {
-  while (state() == State::Open) {
+  // Somebody may go on saying what nobody understands.
+  for (int i = 0; i < kMostUnknown && state() == State::Open; ++i) {
     // libspnav neither says that spacenavd has ended, nor can it take half an event.
     EventNumbers ahead = {};
     const ssize_t there = recv(spnav_fd(), ahead.data(), sizeof(ahead), MSG_PEEK | MSG_DONTWAIT);

@@ -30,9 +30,10 @@ class SpnavLink {
   enum class State : std::uint8_t { Closed, Opening, Open };
   /// Of a connection that is asked for; it ends by itself when spacenavd does.
   State state();
-  /// Begins to connect, from Closed.
+  /// Begins to connect, from Closed; stays so where the system has no thread to give.
   void open();
-  /// What was said next; nothing when all is taken, or the connection has ended.
+  /// What was said next; nothing when all is taken, the connection has ended, or much was said that is not
+  /// known here: what follows comes with later calls.
   std::optional<SpnavEvent> next();
 
  private:

@@ -15,6 +15,8 @@
 #include <string>
 #include <thread>
 
+#include "base/no_threads.h"
+
 namespace icome::devices {
 namespace {
 
@@ -215,6 +217,34 @@ TEST(SpaceMouse, RubbishAndHalfEventsDoNoHarm) {
   EXPECT_TRUE(state.push.isZero(0.0));
   daemon.say_bytes(reinterpret_cast<const char*>(motion.data()) + 10, sizeof(motion) - 10);
   EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok && state.push.x() == 1.0; }));
+}
+
+TEST(SpaceMouse, MuchRubbishDoesNotHideWhatFollows) {
+  FakeSpacenavd daemon;
+  auto mouse = SpaceMouse::create();
+  ASSERT_TRUE(mouse);
+  NavigationState state;
+  for (int i = 0; i < 200; ++i) daemon.say({77, 1, 2, 3, 4, 5, 6, 7});
+  daemon.move(350, 0, 0, 0, 0, 0);
+  EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok && state.push.x() == 1.0; }));
+}
+
+TEST(SpaceMouse, IsLookedForAgainWhereTheSystemHadNoThread) {
+  FakeSpacenavd daemon;
+  SpaceMouseSettings settings = impatient();
+  settings.wait = true;
+  NavigationState state;
+  base::Result<std::unique_ptr<SpaceMouse>> mouse;
+  {
+    const base::NoThreads none;
+    mouse = SpaceMouse::create(settings);
+    ASSERT_TRUE(mouse);
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_EQ((*mouse)->read(state), DeviceStatus::Lost);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  EXPECT_TRUE(soon([&] { return (*mouse)->read(state) == DeviceStatus::Ok; }));
 }
 
 TEST(SpaceMouse, AnAnswerThatComesLateIsNoEvent) {
