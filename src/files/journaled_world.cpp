@@ -136,11 +136,11 @@ base::Result<void> JournaledWorld::set_aside(std::uint64_t from) {
   return {};
 }
 
-base::Result<world::Edit> JournaledWorld::perform(const world::Edit& edit) {
+base::Result<world::Edit> JournaledWorld::perform(const world::Edit& edit, const world::Edit& same) {
   if (broken_) return tl::unexpected(*broken_);
   const auto bytes = world::to_bytes(edit);
   if (!bytes) return tl::unexpected(bytes.error());
-  auto inverse = world::apply(world_, edit);
+  auto inverse = world::apply(world_, same);
   if (!inverse) return inverse;
   if (const auto written = append(*bytes); !written) {
     [[maybe_unused]] const auto back = world::apply(world_, *inverse);

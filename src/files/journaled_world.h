@@ -42,7 +42,9 @@ class JournaledWorld {
   /// Applies an edit, writes it, and gives the edit that takes it back, as world::apply does. One that the
   /// world refuses or that cannot be written (a shape of one's own without bytes, a full disk) changes
   /// nothing. Now and then it compacts, which takes as long as writing the whole world.
-  base::Result<world::Edit> perform(const world::Edit& edit);
+  base::Result<world::Edit> perform(const world::Edit& edit) { return perform(edit, edit); }
+  /// Writes `edit`, and applies what does the same to the world: it may hold shapes that are made already.
+  base::Result<world::Edit> perform(const world::Edit& edit, const world::Edit& same);
   /// For a History. Refers to this, which stays where it is meanwhile.
   world::EditSink sink();
 

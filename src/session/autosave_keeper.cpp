@@ -8,6 +8,13 @@
 namespace icome::session {
 
 using files::JournaledWorld;
+namespace {
+
+const world::Edit& edit_for_replicas(const Edited& edited) {
+  return edited.for_replicas ? *edited.for_replicas : *edited.edit;
+}
+
+}  // namespace
 
 void AutosaveKeeper::follow(const Edited& edited, Time now) {
   if (edited.whole) {
@@ -19,11 +26,11 @@ void AutosaveKeeper::follow(const Edited& edited, Time now) {
 }
 
 void AutosaveKeeper::replace(const Edited& edited, Time now) {
+  lost_ = false;
   discard();
   apart_ = *edited.whole;
   whole_ = edited.number;
   last_edit_ = 0;
-  lost_ = false;
   design_.clear();
   if (!edited.saved) return;
   design_ = edited.saved->design;
@@ -49,13 +56,13 @@ void AutosaveKeeper::edit(const Edited& edited, Time now) {
   unsaved_ = true;
   if (lost_) return;
   if (follows_) {
-    if (journal_->perform(*edited.edit)) {
+    if (journal_->perform(*edited.edit, edit_for_replicas(edited))) {
       if (!sync_due_) sync_due_ = now + settings_.sync_period;
       return;
     }
     part();
   }
-  apply_apart(edited.for_replicas ? *edited.for_replicas : *edited.edit);
+  apply_apart(edit_for_replicas(edited));
   if (!lost_ && (!problem_ || now >= retry_due_)) try_to_keep(now);
 }
 
@@ -108,13 +115,16 @@ base::Result<void> AutosaveKeeper::make_journal() {
   constexpr int kTries = 3;  // who looks for work to recover may come between making a file and locking it
   base::Result<void> result;
   for (int i = 0; i < kTries; ++i) {
-    auto journal = JournaledWorld::open(new_autosave_journal(settings_.folder), world::GeometryFactory(),
-                                        {.create = true});
+    const std::filesystem::path path = new_autosave_journal(settings_.folder);
+    auto journal = JournaledWorld::open(path, world::GeometryFactory(), {.create = true});
     if (journal) {
       journal_.emplace(std::move(*journal));
       return {};
     }
     result = tl::unexpected(journal.error());
+    // It may have been made, and then there was no room for what belongs into it.
+    std::error_code error;
+    std::filesystem::remove(path, error);
   }
   return result;
 }
@@ -146,6 +156,10 @@ void AutosaveKeeper::discard() {
   follows_ = false;
   sync_due_.reset();
   unsaved_ = false;
+  // What kept the last work from being kept need not be in the way of the next.
+  retry_due_ = {};
+  failures_ = 0;
+  if (!lost_) problem_.reset();
   if (recovered_) std::exchange(recovered_, nullptr)->discard();
 }
 

@@ -74,6 +74,30 @@ TEST(JournaledWorld, WritesNoEditThatTheWorldOrTheBytesRefuse) {
                        "vertex that is not there");
 }
 
+TEST(JournaledWorld, TakesShapesThatAreMadeAlready) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "design.icome";
+  const world::GeometryId id{1};
+  world::World main;
+  world::applied(main, world::CreateGeometry{id, world::one_triangle()});
+  const Edit edit = world::MoveVertices{id, {0}, {{5.0, 0.0, 0.0}}};
+  {
+    JournaledWorld journal = opened(path, kCreate);
+    performed(journal, world::CreateGeometry{id, world::one_triangle()});
+    world::applied(main, edit);
+    const auto back = journal.perform(edit, world::ReplaceGeometry{id, main.find(id)->shape});
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(journal.world().find(id)->shape, main.find(id)->shape);
+  }
+  EXPECT_EQ(hash(read(path).world), hash(main));
+  const std::string bytes = content_of(path);
+  std::filesystem::remove(path);
+  JournaledWorld journal = opened(path, kCreate);
+  performed(journal, world::CreateGeometry{id, world::one_triangle()});
+  performed(journal, edit);
+  EXPECT_EQ(content_of(path), bytes) << "it is the edit that is written";
+}
+
 TEST(JournaledWorld, CarriesUndoAndRedo) {
   const ScratchFolder folder;
   const auto path = folder.path() / "design.icome";

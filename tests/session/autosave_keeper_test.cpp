@@ -251,6 +251,47 @@ TEST(AutosaveKeeper, GoesOnWhenTheDiskIsFullAndWhenItIsNotAnyMore) {
   }));
 }
 
+TEST(AutosaveKeeper, SavingEndsTheWaitForAnotherTry) {
+  const ScratchFolder folder;
+  const fs::path blocked = folder.write("file", "");
+  KeptWork work(blocked);
+  work.do_steps(2);
+  EXPECT_TRUE(work.keeper.problem().has_value());
+  work.post(saved("/designs/a.wrl", work.posted));
+  EXPECT_FALSE(work.keeper.problem().has_value()) << "there is nothing to keep";
+  work.do_steps(1);
+  EXPECT_TRUE(work.keeper.problem().has_value()) << "it was tried at once";
+  work.post(saved("/designs/a.wrl", work.posted));
+  fs::remove(blocked);
+  work.do_steps(1);
+  EXPECT_FALSE(work.keeper.problem().has_value());
+  EXPECT_EQ(hash(world_in(journals_in(blocked).at(0))), hash(world_after(work.steps)));
+}
+
+TEST(AutosaveKeeper, LeavesNothingBehindOnADiskThatIsFullFromTheStart) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(in_child([&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit = {};
+    ::getrlimit(RLIMIT_FSIZE, &limit);
+    limit.rlim_cur = 0;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    KeptWork work(folder.path());
+    for (int i = 0; i < 5; ++i) {
+      work.do_steps(1);
+      work.let_pass(1h);
+    }
+    if (!holds(work.keeper.problem().has_value(), "the disk is full")) return false;
+    if (!holds(names_in(folder.path()).empty(), "no empty journals")) return false;
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    work.let_pass(1h);
+    return holds(!work.keeper.problem(), "it is kept now") &&
+           holds(hash(world_in(journals_in(folder.path()).at(0))) == hash(world_after(work.steps)),
+                 "all of it");
+  }));
+}
+
 TEST(AutosaveKeeper, GoesOnWhereADiskHasNoRoom) {
   const ScratchFolder folder;
   if (!in_child([&] { return mount_little(folder.path()); }))
@@ -287,7 +328,10 @@ TEST(AutosaveKeeper, GivesUpAWorldThatItDoesNotKnowAnyMore) {
   EXPECT_EQ(steps_in(world_in(journals_in(folder.path()).at(0))), 3U);
   work.let_pass(1h);
   EXPECT_TRUE(work.keeper.problem().has_value());
+  work.post(saved("/designs/a.wrl", work.posted));
+  EXPECT_TRUE(work.keeper.problem().has_value()) << "saving does not bring back what the next edits build on";
   work.post(opened(world_after(5)));
+  EXPECT_FALSE(work.keeper.problem().has_value());
   work.steps = 5;
   work.do_steps(1);
   work.let_pass(1h);
