@@ -27,6 +27,7 @@ struct PointerState {
   Quaternion orientation = Quaternion::Identity();  // device_from_stylus
   std::uint32_t buttons = 0;                        // bit i: button i is down
   bool jumped = false;                              // it got there without a way: what it touched it left
+  bool parked = false;                              // it lies aside, touching nothing
 };
 
 /// How a read or write went.

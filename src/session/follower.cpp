@@ -1,25 +1,40 @@
 #include "session/follower.h"
 
+#include <fmt/format.h>
 #include <pthread.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
+#include <exception>
 #include <utility>
 
 namespace icome::session {
 
 Follower::Follower(EditedQueue& queue, std::unique_ptr<Representation> representation, std::string name)
-    : reader_(queue.add_reader()), representation_(std::move(representation)) {
-  thread_ = std::thread([this, name = std::move(name)] { run(name); });
+    : name_(std::move(name)), reader_(queue.add_reader()), representation_(std::move(representation)) {
+  thread_ = std::thread([this] { run(); });
 }
 
 Follower::~Follower() { thread_.join(); }
 
-void Follower::run(const std::string& name) {
+void Follower::run() {
   constexpr std::size_t kLongestName = 15;
-  pthread_setname_np(pthread_self(), name.substr(0, kLongestName).c_str());
+  pthread_setname_np(pthread_self(), name_.substr(0, kLongestName).c_str());
   while (reader_.wait() && !given_up_.load(std::memory_order_relaxed)) {
-    take_all();
-    bring_up_to_date();
+    try {
+      take_all();
+      bring_up_to_date();
+      if (!lost_) note("");
+    } catch (const std::exception& error) {
+      note(error.what());
+    } catch (...) {
+      note("for no known reason");
+    }
+    // They are in the replica, which is opened where this was not to be followed.
+    whole_.reset();
+    edits_.clear();
+    other_scene_ = false;
     rounds_.store(rounds_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     followed_.store(taken_, std::memory_order_release);
   }
@@ -41,13 +56,17 @@ void Follower::take(Edited& edited) {
     whole_ = std::move(edited.whole);
     edits_.clear();
     shown_ = {};
+    lost_ = true;  // until it is there
     replica_ = *whole_;
+    lost_ = false;
   }
-  if (edited.for_replicas) {
+  if (edited.for_replicas && !lost_) {
     // Held until the representation has followed: names of what has changed are read off them.
+    lost_ = true;
     edits_.push_back(std::move(edited.for_replicas));
     [[maybe_unused]] const auto done = world::apply(replica_, *edits_.back());
     assert(done);  // main has done the same
+    lost_ = false;
   }
   if (edited.shown) {
     shown_ = *edited.shown;
@@ -56,7 +75,10 @@ void Follower::take(Edited& edited) {
 }
 
 void Follower::bring_up_to_date() {
-  if (whole_) {
+  if (lost_) return;
+  const bool anew = whole_ || half_way_;
+  half_way_ = true;  // until it is there
+  if (anew) {
     representation_->open(replica_, shown_);
   } else {
     std::vector<const world::Edit*> edits;
@@ -64,9 +86,30 @@ void Follower::bring_up_to_date() {
     if (!edits.empty()) representation_->follow(replica_, world::changes_of(edits));
     if (other_scene_) representation_->show(replica_, shown_);
   }
-  whole_.reset();
-  edits_.clear();
-  other_scene_ = false;
+  half_way_ = false;
+}
+
+void Follower::note(const char* why) {
+  const bool troubled = *why != '\0';
+  if (troubled == troubled_) return;
+  troubled_ = troubled;
+  Trouble& trouble = trouble_.write_slot();
+  trouble.fill('\0');
+  std::copy_n(why, std::min(std::strlen(why), trouble.size() - 1), trouble.begin());
+  trouble_.publish();
+}
+
+std::optional<std::string> Follower::news() {
+  if (!trouble_.update()) return std::nullopt;
+  const std::string why = trouble_.read().data();
+  if (troubled_told_ == !why.empty()) return std::nullopt;
+  troubled_told_ = !why.empty();
+  if (why.empty()) return fmt::format("The {} follows the design again.", name_);
+  return fmt::format(
+      "The {} has fallen behind the design, as it could not be made ({}). It is made anew with your next "
+      "edit; "
+      "where that does not help, save your work, close other programs and open it again.",
+      name_, why);
 }
 
 }  // namespace icome::session

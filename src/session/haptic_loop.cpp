@@ -12,12 +12,7 @@ namespace {
 constexpr double kForceSamples = 200.0;       // a second
 constexpr std::size_t kForceRoom = 200 * 30;  // half a minute without main
 
-/// Adds to a counter that one thread alone changes.
-void count(std::atomic<std::uint64_t>& counter) {
-  counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_release);
-}
-
-PointerView view_of(const haptics::TickReport& report, std::uint32_t buttons, std::int64_t time) {
+PointerView view_of(const haptics::TickReport& report, std::uint64_t losses, std::int64_t time) {
   PointerView view;
   view.time = time;
   view.status = report.status;
@@ -26,7 +21,7 @@ PointerView view_of(const haptics::TickReport& report, std::uint32_t buttons, st
   view.scp = view.touching ? report.contact.scp : report.tip;
   view.force = report.force;
   if (view.touching) view.touched = report.object;
-  view.buttons = buttons;
+  view.losses = losses;
   return view;
 }
 
@@ -72,14 +67,14 @@ bool HapticLoop::tick(const realtime::TickInfo& info) {
     Hand& hand = *hands_[i];
     const haptics::TickReport& report = hand.servo->tick(info.dt);
     const bool lost = report.status == devices::DeviceStatus::Lost;
-    if (lost && hand.status != devices::DeviceStatus::Lost) count(hand.losses);
+    if (lost && hand.status != devices::DeviceStatus::Lost) ++hand.losses;
     hand.status = report.status;
-    const PointerView view = view_of(report, hand.servo->buttons(), time);
+    const PointerView view = view_of(report, hand.losses, time);
     hand.to_main.publish(view);
     display_.publish(i, view);
     if (i == 0) sample_force(report, time);
   }
-  count(ticks_);
+  ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   return true;
 }
 
@@ -95,10 +90,6 @@ void HapticLoop::sample_force(const haptics::TickReport& report, std::int64_t ti
 
 void HapticLoop::update() {
   for (const auto& hand : hands_) hand->to_main.update();
-}
-
-std::uint64_t HapticLoop::losses(std::size_t pointer) const {
-  return hands_[pointer]->losses.load(std::memory_order_acquire);
 }
 
 void HapticLoop::carry(std::size_t pointer, const base::Pose& stage_from_device) {

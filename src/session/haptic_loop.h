@@ -33,8 +33,6 @@ class HapticLoop {
   /// What the servo said last of a pointer that update() took in.
   const PointerView& view(std::size_t pointer) const { return hands_[pointer]->to_main.read(); }
   void update();
-  /// How often a pointer's device was lost since the start.
-  std::uint64_t losses(std::size_t pointer) const;
   /// Where the device's workspace lies on the stage from now on; a pose that is not finite is passed over.
   void carry(std::size_t pointer, const base::Pose& stage_from_device);
   /// Where it was carried to last.
@@ -55,9 +53,9 @@ class HapticLoop {
   struct Hand {
     std::unique_ptr<devices::PointerDevice> device;
     std::unique_ptr<haptics::Servo> servo;
-    base::Pose stage_from_device;                // main's
-    realtime::LatestValue<PointerView> to_main;  // from the servo
-    std::atomic<std::uint64_t> losses = 0;
+    base::Pose stage_from_device;                                   // main's
+    realtime::LatestValue<PointerView> to_main;                     // from the servo
+    std::uint64_t losses = 0;                                       // so far; the servo's
     devices::DeviceStatus status = devices::DeviceStatus::Stalled;  // at the last tick; the servo's
   };
   bool tick(const realtime::TickInfo& info);

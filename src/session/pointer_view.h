@@ -17,7 +17,7 @@ struct PointerView {
   base::Vector3 force = base::Vector3::Zero();  // N, on the hand
   bool touching = false;
   base::ObjectId touched = {};  // in the haptic scene, when touching
-  std::uint32_t buttons = 0;    // bit i: button i is down
+  std::uint64_t losses = 0;     // how often the device was lost since the start
 };
 
 /// One sample of force over time, for a plot.

@@ -54,6 +54,7 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
   devices::SimulatedDevice* mouse = nullptr;
   if (devices.empty()) {
     auto hand = make_mouse_hand(settings.servo.rate_hz);
+    hand->park(base::Vector3::Zero());  // as Parts has it, until there is an eye to be at
     mouse = hand.get();
     devices.push_back(std::move(hand));
   }
@@ -95,10 +96,16 @@ void Session::Parts::tell(SessionEvent::Kind kind, std::string text, std::vector
 void Session::Parts::take_in() {
   queue.pump();
   take_files();
+  take_followers();
   hands.update();
   felt.update();
   seen.update();
   notice_devices();
+}
+
+void Session::Parts::take_followers() {
+  for (const auto& follower : followers)
+    if (const auto news = follower->news()) tell(SessionEvent::Kind::Notice, *news);
 }
 
 void Session::Parts::notice_devices() {
@@ -108,7 +115,7 @@ void Session::Parts::notice_devices() {
     const bool is_lost = pointer.status == devices::DeviceStatus::Lost;
     const std::string& name = hands.info(i).name;
     // One that was lost and came back in between is told of, too.
-    if (hands.losses(i) > std::exchange(losses[i], hands.losses(i)) && !lost[i]) {
+    if (pointer.losses > std::exchange(losses[i], pointer.losses) && !lost[i]) {
       lost[i] = true;
       tell(SessionEvent::Kind::DeviceLost,
            fmt::format("The device \"{}\" does not answer: see that it is plugged in and switched on. It is "

@@ -148,7 +148,10 @@ class Session {
   void set_view(const interaction::View& view);
   /// On its way softly, over some tenths of a second.
   void fly_to(const interaction::View& view);
-  void home(double aspect);
+  /// Softly to where all that is shown is seen.
+  void home();
+  /// Width by height of the picture that it has to fit into. What is no such shape is passed over.
+  void set_aspect(double aspect);
   interaction::NavigationMode navigation_mode() const;
   void set_navigation_mode(interaction::NavigationMode mode);
   /// How main wants the world to look; view and selection are put in by the session.

@@ -43,9 +43,10 @@ struct Session::Parts {
 
   // session_view.cpp
   void move_user();
-  void go_home(double aspect);
+  void go_home();
   void aim(const base::Vector3& position);
   void put(const base::Vector3& position);
+  void park();
   void renew_outline();
   void publish_wish();
 
@@ -53,6 +54,7 @@ struct Session::Parts {
   void take_in();
   void notice_devices();
   void tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details = {});
+  void take_followers();
   bool is_settled() const;
   void start_followers();
 
@@ -82,8 +84,10 @@ struct Session::Parts {
   UserInteraction user;
   std::int64_t moved_at = 0;  // ns, when the user moved last; 0: not yet
   interaction::View drawn_view;
-  double aspect = 1.5;         // of the picture, when it was asked for last
+  double aspect = 1.5;         // of the picture
   bool hand_is_aimed = false;  // by the mouse
+  /// Where the mouse's hand lies aside, m, in its device's frame; none while it is aimed.
+  std::optional<base::Vector3> parked_at = base::Vector3(base::Vector3::Zero());
 
   EditedQueue queue;
   DisplayFeed display;

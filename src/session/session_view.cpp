@@ -1,3 +1,4 @@
+#include <cmath>
 #include <utility>
 
 #include "base/clock.h"
@@ -16,19 +17,32 @@ void Session::Parts::move_user() {
   const UserInteraction::News news = user.update(dt);
   for (const auto& it : news.devices)
     tell(it.lost ? SessionEvent::Kind::DeviceLost : SessionEvent::Kind::DeviceBack, it.text);
-  if (news.home) go_home(aspect);
+  if (news.home) go_home();
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
-  // Put, not led: something may stand in the way.
-  if (!hand_is_aimed) put(user.view().world_from_eye.translation());
+  if (!hand_is_aimed) park();
 }
 
 void Session::Parts::aim(const base::Vector3& position) {
-  if (mouse_hand) mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
+  if (!mouse_hand) return;
+  hand_is_aimed = true;
+  // It is taken up where it lies.
+  if (parked_at) mouse_hand->put(*std::exchange(parked_at, std::nullopt));
+  mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
 }
 
 void Session::Parts::put(const base::Vector3& position) {
   aim(position);
   if (mouse_hand) mouse_hand->put(hands.stage_from_device(0).inverse() * position);
+}
+
+/// Put, not led: something may stand in the way.
+void Session::Parts::park() {
+  if (!mouse_hand) return;
+  const base::Vector3 eye = hands.stage_from_device(0).inverse() * user.view().world_from_eye.translation();
+  if (parked_at == eye) return;
+  parked_at = eye;
+  mouse_hand->set_target(eye);
+  mouse_hand->park(eye);
 }
 
 /// A group has no shape of its own: what is selected shows by all that moves along with it.
@@ -58,13 +72,13 @@ void Session::Parts::publish_wish() {
   display.wish(wish);
 }
 
-void Session::Parts::go_home(double shape) {
+void Session::Parts::go_home() {
   const render::ViewDirection iso = *render::view_direction("iso");
   const world::Scene* scene = world.find(shown_scene);
   base::Bounds bounds;
   for (const world::ObjectId id : scene ? scene->roots : world.roots())
     bounds.extend(world::bounds(world, id));
-  user.fly_to(interaction::fitted(user.view(), bounds, iso.toward_eye, iso.up, shape));
+  user.fly_to(interaction::fitted(user.view(), bounds, iso.toward_eye, iso.up, aspect));
 }
 
 const interaction::View& Session::view() const { return parts_->user.view(); }
@@ -73,9 +87,10 @@ void Session::set_view(const interaction::View& view) { parts_->user.set_view(vi
 
 void Session::fly_to(const interaction::View& view) { parts_->user.fly_to(view); }
 
-void Session::home(double aspect) {
-  parts_->aspect = aspect;
-  parts_->go_home(aspect);
+void Session::home() { parts_->go_home(); }
+
+void Session::set_aspect(double aspect) {
+  if (aspect > 0.0 && std::isfinite(aspect)) parts_->aspect = aspect;
 }
 
 interaction::NavigationMode Session::navigation_mode() const { return parts_->user.mode(); }
@@ -103,13 +118,11 @@ std::optional<world::ObjectId> Session::touched(std::size_t index) const {
 
 void Session::aim_hand(const base::Vector3& position) {
   if (!position.allFinite()) return;
-  parts_->hand_is_aimed = true;
   parts_->aim(position);
 }
 
 void Session::put_hand(const base::Vector3& position) {
   if (!position.allFinite()) return;
-  parts_->hand_is_aimed = true;
   parts_->put(position);
 }
 

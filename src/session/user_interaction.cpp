@@ -107,12 +107,10 @@ void UserInteraction::read_navigation(double dt, News& news) {
     state.push = state.turn = Vector3::Zero();
   // Who plugs it in with a button down has not pressed it.
   const std::uint32_t pressed = was_there ? state.buttons & ~steering_.buttons : 0U;
-  if (status == DeviceStatus::Ok) {
-    news.mode = (pressed & kModeButton) != 0;
-    news.home = (pressed & kHomeButton) != 0;
-  }
+  const bool other_mode = status == DeviceStatus::Ok && (pressed & kModeButton) != 0;
+  news.home = status == DeviceStatus::Ok && (pressed & kHomeButton) != 0;
   steering_ = state;
-  if (news.mode) mode_ = mode_ == NavigationMode::Camera ? NavigationMode::Hand : NavigationMode::Camera;
+  if (other_mode) mode_ = mode_ == NavigationMode::Camera ? NavigationMode::Hand : NavigationMode::Camera;
   if (news.home) recall_hands();
 }
 

@@ -25,10 +25,9 @@ class UserInteraction {
     bool lost = false;
     std::string text = {};  // a sentence or two: what happened, and what to do
   };
-  /// What update() found that others have to act on.
+  /// What update() found that others have to act on; button 0 exchanges camera and hand mode by itself.
   struct News {
     bool home = false;  // the user wants to see everything: button 1 of the navigation device
-    bool mode = false;  // camera and hand mode were exchanged: button 0
     std::vector<DeviceNews> devices = {};
   };
   /// Reads the devices and moves on by `dt` seconds (what is more than a tenth is not made up for). Call it
@@ -46,7 +45,6 @@ class UserInteraction {
   void set_view(const interaction::View& view);
   /// Softly, within that time (s). Pushing the navigation device ends the flight where it is.
   void fly_to(const interaction::View& view, double seconds = 0.35);
-  bool flying() const { return flight_.has_value(); }
 
   interaction::NavigationMode mode() const { return mode_; }
   void set_mode(interaction::NavigationMode mode) { mode_ = mode; }

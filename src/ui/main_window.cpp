@@ -139,6 +139,7 @@ void MainWindow::begin(const std::filesystem::path& design) {
 
 void MainWindow::tick() {
   tools_.tick();
+  session_.set_aspect(tools_.aspect());
   for (const session::SessionEvent& event : session_.update()) {
     hear(event);
   }
@@ -163,7 +164,7 @@ void MainWindow::hear(const session::SessionEvent& event) {
   // What came last is seen, and nothing that was said of the one before is of use.
   if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
     banner_->forget("edit");
-    session_.home(tools_.aspect());
+    session_.home();
   }
 }
 

@@ -38,7 +38,7 @@ ViewActions::ViewActions(session::Session& session, SceneTools& tools, QSettings
     : session_(session), tools_(tools), settings_(settings) {}
 
 void ViewActions::fill(QMenu& menu) {
-  home_ = add_action(menu, "view.home", "&Home", {}, [this] { session_.home(tools_.aspect()); });
+  home_ = add_action(menu, "view.home", "&Home", {}, [this] { session_.home(); });
   home_->setShortcuts({QKeySequence("H"), QKeySequence("Home")});
   home_->setIcon(icon(Icon::Home));
   zoom_ = add_action(menu, "view.zoom", "&Zoom to Selection", QKeySequence("F"),

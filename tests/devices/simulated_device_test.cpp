@@ -192,6 +192,25 @@ TEST(SimulatedDevice, IsPutElsewhereAtRestAndSaysSoOnce) {
   EXPECT_FALSE(state.jumped);
 }
 
+TEST(SimulatedDevice, LiesAsideUntilItIsPutAgain) {
+  SimulatedDevice device;
+  PointerState state;
+  ASSERT_EQ(device.read(state), DeviceStatus::Ok);
+  EXPECT_FALSE(state.parked);
+  const Vector3 aside(0.0, 0.0, 3.0);
+  device.set_target(aside);
+  device.park(aside);
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(device.read(state), DeviceStatus::Ok);
+    EXPECT_TRUE(state.parked);
+    EXPECT_LT((state.position - aside).norm(), 1e-12);
+  }
+  device.put(aside);
+  ASSERT_EQ(device.read(state), DeviceStatus::Ok);
+  EXPECT_FALSE(state.parked);
+  EXPECT_TRUE(state.jumped);
+}
+
 TEST(SimulatedDevice, TargetMayBeSetFromAnotherThread) {
   SimulatedDevice device;
   std::thread person([&device] {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <semaphore>
 
 #include "session/shared_edit.h"
@@ -204,6 +205,59 @@ TEST(Follower, LeavesWhatIsLeftWhenItIsGivenUp) {
     go_on.release();
   }
   EXPECT_EQ(diary.changed, std::vector<std::size_t>{1});
+}
+
+/// Has no memory for some time.
+class Starved final : public Noting {
+ public:
+  Starved(Diary& diary, std::atomic<bool>& hungry) : Noting(diary), hungry_(hungry) {}
+  void open(const World& world, world::SceneId shown) override {
+    if (hungry_) throw std::bad_alloc();
+    Noting::open(world, shown);
+  }
+  void follow(const World& world, const world::Changes& changes) override {
+    if (hungry_) throw 1;
+    Noting::follow(world, changes);
+  }
+
+ private:
+  std::atomic<bool>& hungry_;
+};
+
+TEST(Follower, GoesOnWhenTheRepresentationThrows) {
+  Main main;
+  Diary diary;
+  std::atomic<bool> hungry = true;
+  Follower follower(main.queue, std::make_unique<Starved>(diary, hungry), "felt world");
+  const Closing closing{main.queue};
+  world::IdSource ids;
+  const auto grow = [&] {
+    EXPECT_TRUE(main.perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
+    wait_for(follower, main.queue);
+  };
+  EXPECT_FALSE(follower.news());
+  main.open({});
+  wait_for(follower, main.queue);
+  const auto told = follower.news();
+  ASSERT_TRUE(told);
+  EXPECT_NE(told->find("felt world"), std::string::npos);
+  EXPECT_NE(told->find(std::bad_alloc().what()), std::string::npos);
+  grow();
+  EXPECT_FALSE(follower.news()) << "it is told once";
+  hungry = false;
+  const std::size_t before = diary.scenes.size();
+  grow();
+  EXPECT_EQ(diary.scenes.size(), before + 1) << "what may be half-way is opened anew";
+  EXPECT_EQ(diary.hashes.back(), world::hash(main.world)) << "what it missed is there";
+  const auto again = follower.news();
+  ASSERT_TRUE(again);
+  EXPECT_NE(again->find("follows the design again"), std::string::npos);
+  grow();
+  EXPECT_EQ(diary.changed.size(), 1U) << "and from there it is followed";
+  EXPECT_FALSE(follower.news());
+  hungry = true;
+  grow();
+  EXPECT_TRUE(follower.news());
 }
 
 TEST(SharedEdit, GroupsDoTheSameToReplicasStepByStep) {

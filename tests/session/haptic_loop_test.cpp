@@ -76,7 +76,7 @@ TEST(HapticLoop, SamplesTheForceSome200TimesASecond) {
   EXPECT_EQ(samples.front().force, 0.0F);
 }
 
-TEST(HapticLoop, CountsHowOftenADeviceWasLost) {
+TEST(HapticLoop, CountsHowOftenADeviceWasLostInTheViewItself) {
   auto devices = list(hand_at({0.0, 0.0, 0.0}));
   auto* hand = static_cast<devices::SimulatedDevice*>(devices[0].get());
   hand->inject(devices::SimulatedFailure::Unplugged);  // from the first tick on
@@ -84,12 +84,17 @@ TEST(HapticLoop, CountsHowOftenADeviceWasLost) {
   HapticLoop loop(std::move(devices), {}, display);
   ASSERT_TRUE(loop.start(false));
   for (std::uint64_t i = 1; i <= 3; ++i) {
-    wait_until([&] { return loop.losses(0) == i; });
+    wait_until([&] {
+      loop.update();
+      return loop.view(0).losses == i;
+    });
+    EXPECT_EQ(loop.view(0).status, devices::DeviceStatus::Lost);  // of the same tick
     hand->inject(devices::SimulatedFailure::None);
     wait_until([&] {
       loop.update();
       return loop.view(0).status == devices::DeviceStatus::Ok;
     });
+    EXPECT_EQ(loop.view(0).losses, i);
     hand->inject(devices::SimulatedFailure::Unplugged);
   }
 }

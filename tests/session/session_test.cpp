@@ -1,10 +1,14 @@
 // A session as the desktop, tools and studies drive it.
 #include "session/session.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 
+#include "devices/simulated/simulated_navigation.h"
+#include "render/views.h"
 #include "session/sessions.h"
 
 namespace icome::session {
@@ -297,6 +301,82 @@ TEST(Session, ParksTheHandAtTheEyeWhateverStandsInTheWay) {
   session->aim_hand({0.0, 0.0, 0.49});
   run_until(*session, [&] { return session->touched(0).has_value(); });
   EXPECT_NEAR(session->pointer(0).scp.z(), -0.5, 1e-6);
+}
+
+TEST(Session, AHandThatIsParkedWithinASolidFeelsNothing) {
+  const auto session = start();
+  look_at_origin(*session);
+  add_box(*session, at(0.0, 0.0, 0.0));
+  session->settle();
+  interaction::View inside = session->view();
+  session->park_hand();
+  for (int i = 0; i < 20; ++i) {
+    const base::Vector3 eye(0.02 * i, 0.0, 0.4);
+    inside.world_from_eye.translation() = eye;
+    session->set_view(inside);
+    run_until(*session, [&] {
+      EXPECT_EQ(session->pointer(0).force, base::Vector3::Zero());
+      EXPECT_FALSE(session->touched(0));
+      return (session->pointer(0).tip - eye).norm() < 1e-6;
+    });
+    EXPECT_EQ(session->pointer(0).scp, session->pointer(0).tip);
+  }
+  for (const ForceSample& sample : session->take_forces()) EXPECT_EQ(sample.force, 0.0F);
+  // Aimed again, it is a hand within a solid, which puts it at its surface.
+  session->aim_hand({0.38, 0.0, 0.4});
+  run_until(*session, [&] { return session->touched(0).has_value(); });
+}
+
+TEST(Session, HomeFitsThePictureAsItIsNow) {
+  SessionSettings settings = quiet_settings();
+  auto device = std::make_unique<devices::SimulatedNavigation>();
+  devices::SimulatedNavigation* const navigation = device.get();
+  settings.navigation = std::move(device);
+  const auto session = start(std::move(settings));
+  add_box(*session, at(0.0, 0.0, 0.0));
+  add_box(*session, at(9.0, 0.0, 9.0));
+  const render::ViewDirection iso = *render::view_direction("iso");
+  const auto distance_for = [&](double aspect) {
+    return interaction::fitted(session->view(), session->selection_bounds(), iso.toward_eye, iso.up, aspect)
+        .distance;
+  };
+  EXPECT_GT(std::abs(distance_for(0.5) - distance_for(3.0)), 0.1 * distance_for(3.0));
+  devices::NavigationState home;
+  home.buttons = 2;
+  session->update();
+  for (const double aspect : {3.0, 0.5, 1.0}) {
+    session->set_aspect(aspect);
+    for (const double no_shape : {0.0, -1.0, std::nan(""), HUGE_VAL}) session->set_aspect(no_shape);
+    const double there = distance_for(aspect);
+    navigation->hold(home);
+    run_until(*session, [&] { return std::abs(session->view().distance - there) < 1e-9 * there; });
+    navigation->hold({});
+    session->update();
+  }
+}
+
+/// Finds no memory for any edit.
+class NeverFollowing final : public Representation {
+ public:
+  void open(const world::World&, world::SceneId) override {}
+  void show(const world::World&, world::SceneId) override {}
+  void follow(const world::World&, const world::Changes&) override { throw std::bad_alloc(); }
+};
+
+TEST(Session, TellsWhenARepresentationFallsBehindAndGoesOn) {
+  SessionSettings settings = quiet_settings();
+  settings.representations.push_back(std::make_unique<NeverFollowing>());
+  const auto session = start(std::move(settings));
+  session->settle();
+  session->update();
+  add_box(*session, at(0.0, 0.0, 0.0));
+  session->settle();
+  const auto events = session->update();
+  ASSERT_EQ(count(events, SessionEvent::Kind::Notice), 1U);
+  EXPECT_NE(events[0].text.find("has fallen behind"), std::string::npos);
+  add_box(*session, at(2.0, 0.0, 0.0));
+  session->settle();
+  EXPECT_EQ(session->drawn()->object_count(), 2U);
 }
 
 TEST(Session, CarriesTheHandWithTheView) {

@@ -49,6 +49,7 @@ DeviceStatus SimulatedDevice::read(PointerState& state) {
   state.position = reading;
   state.velocity = settings_.encoder_resolution > 0.0 ? difference : velocity_;
   state.jumped = std::exchange(jumped_, false);
+  state.parked = parked_;
   if (failure == SimulatedFailure::NotANumber) state.position.setConstant(std::nan(""));
   return DeviceStatus::Ok;
 }
@@ -59,8 +60,9 @@ DeviceStatus SimulatedDevice::write(const Vector3& force) {
   return DeviceStatus::Ok;
 }
 
-void SimulatedDevice::set_down(const Vector3& position) {
-  position_ = position;
+void SimulatedDevice::set_down(const Put& put) {
+  position_ = put.position;
+  parked_ = put.parked;
   velocity_ = force_ = Vector3::Zero();
   encoder_ = rounded_to(position_, settings_.encoder_resolution);
   jumped_ = true;

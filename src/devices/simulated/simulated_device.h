@@ -61,7 +61,10 @@ class SimulatedDevice final : public PointerDevice {
   /// Puts the tip there at rest, m, without a way in between, as a pen is lifted and set down elsewhere. The
   /// hand still wants to be where it was told. One other thread, that of set_target(), may call this.
   /// Real-time safe.
-  void put(const Vector3& position) { put_.publish(position); }
+  void put(const Vector3& position) { put_.publish({position, false}); }
+  /// Lays it aside there, where it touches nothing until it is put again. The same thread as put().
+  /// Real-time safe.
+  void park(const Vector3& position) { put_.publish({position, true}); }
   /// Makes the device fail from the next tick on, or work again. Any thread. Real-time safe.
   void inject(SimulatedFailure failure) { failure_.store(failure, std::memory_order_relaxed); }
 
@@ -73,7 +76,11 @@ class SimulatedDevice final : public PointerDevice {
 
  private:
   void advance();
-  void set_down(const Vector3& position);
+  struct Put {
+    Vector3 position = Vector3::Zero();  // m
+    bool parked = false;
+  };
+  void set_down(const Put& put);
   Vector3 target_at(double time) const;
 
   SimulatedSettings settings_;
@@ -81,8 +88,9 @@ class SimulatedDevice final : public PointerDevice {
   // [position; velocity] after a sub-step = these times [position; velocity; push/mass].
   std::array<std::array<double, 3>, 2> step_{};
   realtime::LatestValue<Vector3> target_;
-  realtime::LatestValue<Vector3> put_{Vector3(Vector3::Zero())};
+  realtime::LatestValue<Put> put_;
   bool jumped_ = false;  // since the last reading that was Ok
+  bool parked_ = false;
   std::atomic<SimulatedFailure> failure_ = SimulatedFailure::None;
   Vector3 position_;                    // m
   Vector3 velocity_ = Vector3::Zero();  // m/s

@@ -58,7 +58,7 @@ const TickReport& Servo::tick(double dt) {
   clock.ends(Stage::Read);
   follow_scene(dt);
   clock.ends(Stage::Scene);
-  if (fresh || (carried && has_state_)) find_contact();
+  if (fresh || (has_state_ && (carried || state_.parked))) find_contact();
   clock.ends(Stage::Contact);
   Vector3 wanted = surface_force();
   clock.ends(Stage::Force);
@@ -84,9 +84,10 @@ bool Servo::read() {
     report_.status = devices::DeviceStatus::Stalled;
     return false;
   }
+  const bool laid_aside = state.parked && !state_.parked;
   state_ = state;
   has_state_ = true;
-  if (state.jumped) {
+  if (laid_aside || (state.jumped && !state.parked)) {
     solver_->reset();
     if (effects_ != nullptr) effects_->reset();
   }
@@ -128,6 +129,11 @@ void Servo::follow_scene(double dt) {
 }
 
 void Servo::find_contact() {
+  if (state_.parked) {
+    report_.contact = {};
+    report_.contact.scp = report_.tip;
+    return;
+  }
   report_.contact = solver_->step(report_.tip, elapsed_);
   if (report_.contact.touching) report_.object = scene_->scene->objects()[report_.contact.object].id;
 }
@@ -162,7 +168,7 @@ Vector3 Servo::shaded(const Vector3& force) const {
 }
 
 Vector3 Servo::effect_force(double dt) {
-  if (effects_ == nullptr) return Vector3::Zero();
+  if (effects_ == nullptr || state_.parked) return Vector3::Zero();
   EffectInput input;
   input.time = time_;
   input.dt = dt;

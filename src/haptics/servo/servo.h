@@ -59,10 +59,6 @@ class Servo {
   const TickReport& tick(double dt);
 
   const TickReport& last() const { return report_; }
-  /// Those of the device that are down, at its last good reading. Real-time safe.
-  std::uint32_t buttons() const { return state_.buttons; }
-  /// Where the device's workspace lies. The thread that ticks. Real-time safe.
-  const Pose& world_from_device() const { return world_from_device_; }
   const ForceLimiter& limiter() const { return limiter_; }
 
  private:

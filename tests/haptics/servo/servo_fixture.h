@@ -15,6 +15,7 @@ class ScriptedDevice final : public devices::PointerDevice {
     if (status != DeviceStatus::Ok) return status;
     state.position = position;
     state.jumped = jumped;
+    state.parked = parked;
     return status;
   }
   DeviceStatus write(const Vector3& written) override {
@@ -25,6 +26,7 @@ class ScriptedDevice final : public devices::PointerDevice {
   Vector3 position = Vector3::Zero();
   Vector3 force = Vector3::Zero();
   bool jumped = false;
+  bool parked = false;
   DeviceStatus status = DeviceStatus::Ok;
 
  private:
