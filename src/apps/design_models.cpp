@@ -115,7 +115,7 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
   model.name = text;
   model.read_seconds = reading.seconds();
   session::HapticRepresentationSettings settings;
-  settings.felt = {options.radius, options.smooth_shading};
+  settings.felt = {options.radius, options.smooth_shading, true};
   settings.world_from_design = placing(design->world, options);
   const Stopwatch building;
   session::HapticRepresentation felt(settings);

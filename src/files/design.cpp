@@ -17,6 +17,7 @@
 #include "files/stl_writer.h"
 #include "files/vrml_reader.h"
 #include "files/vrml_writer.h"
+#include "world/solid_geometry.h"
 
 namespace icome::files {
 namespace {
@@ -111,6 +112,20 @@ tl::unexpected<base::Error> cannot_read(const std::filesystem::path& path, const
   return base::fail(fmt::format("{}: {}", path.string(), why));
 }
 
+void tell_of_moving_shapes(LoadedDesign& design) {
+  std::size_t moving = 0;
+  for (const auto& [id, geometry] : design.world.geometries()) {
+    const auto* const implicit = dynamic_cast<const world::ImplicitGeometry*>(geometry.shape.get());
+    moving += implicit && implicit->surface()->changes() ? 1 : 0;
+  }
+  if (moving == 0) return;
+  design.remarks.push_back(
+      {{},
+       0,
+       fmt::format("{} with time: shown, and touched in the window, as at t = 0.",
+                   moving == 1 ? "1 shape moves" : fmt::format("{} shapes move", moving))});
+}
+
 }  // namespace
 
 std::string sentence(const Remark& remark, const std::string& file) {
@@ -130,7 +145,9 @@ base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
   if (ending.packed && !format->may_be_packed)
     return cannot_read(path, fmt::format("{} files cannot be read packed: unpack it first", format->ending));
   if (options.progress && !options.progress(0.0)) return base::fail("interrupted");
-  return format->read(path, options);
+  auto design = format->read(path, options);
+  if (design) tell_of_moving_shapes(*design);
+  return design;
 } catch (const std::bad_alloc&) {
   return base::fail(path.string() + ": there is not enough memory to read it");
 }

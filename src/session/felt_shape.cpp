@@ -9,6 +9,7 @@
 #include "haptics/mesh_shape.h"
 #include "haptics/primitive_shape.h"
 #include "haptics/smooth_shape.h"
+#include "session/still_surface.h"
 #include "session/stretched.h"
 #include "world/geometry_check.h"
 #include "world/mesh_geometry.h"
@@ -145,8 +146,12 @@ class FeltShapeMaker {
     if (sphere_tip()) return of_triangles(shape, "an implicit surface and the tip has a radius", kCellOfSize);
     if (map_ != Matrix3::Identity()) return of_triangles(shape, "a stretched implicit surface", kCellOfSize);
     auto felt = std::make_shared<FeltShape>();
-    felt->shape = std::make_shared<haptics::SmoothShape>(shape.surface());
-    felt->inside = [it = shape.surface()](const Vector3& point, double time) {
+    std::shared_ptr<const geometry::SmoothSurface> surface = shape.surface();
+    const bool stilled = surface->changes() && !settings_.with_time;
+    if (stilled) surface = std::make_shared<const StillSurface>(std::move(surface));
+    felt->shape = std::make_shared<haptics::SmoothShape>(std::move(surface));
+    felt->inside = [it = shape.surface(), stilled](const Vector3& point, double time) {
+      if (stilled) time = 0.0;
       return it->bounds().contains(point) && it->value(point, time).value < 0.0;
     };
     return felt;

@@ -15,6 +15,9 @@ namespace icome::session {
 struct FeltSettings {
   double tip_radius = 0.0;           // m; 0 is a point, which alone touches smooth surfaces as what they are
   bool interpolate_normals = false;  // of meshes, for force shading
+  /// Surfaces that change with time do so under the hand; else they are felt as they are at t = 0, as which
+  /// they are seen and picked.
+  bool with_time = false;
 };
 
 /// A shape of the world as it is touched, stretched as its object is. Immutable; clones share it.

@@ -177,6 +177,29 @@ TEST(FeltShape, OfAnImplicitSurfaceIsExactUntilItIsStretched) {
     EXPECT_NEAR((flat.inverse() * position).norm(), 1.0, 4.0 / 2000.0);
 }
 
+TEST(FeltShape, ThatMovesWithTimeIsFeltAsItIsSeen) {
+  // A floor that rises by a tenth of a metre a second.
+  const auto shape =
+      *world::ImplicitGeometry::create("z - 0.1*t", base::Bounds(Vector3(-1, -1, -1), Vector3(1, 1, 1)));
+  const auto height_at = [](const FeltShape& felt, double time) {
+    const auto hit = felt.shape->cast(Vector3(0.1, 0.2, 0.9), Vector3(0, 0, -1.5), time);
+    return hit ? hit->point.z() : -1.0;
+  };
+  const auto still = make_felt_shape(*shape, Matrix3::Identity(), {});
+  const auto moving = make_felt_shape(*shape, Matrix3::Identity(), {.with_time = true});
+  EXPECT_FALSE(still->shape->changes());
+  EXPECT_TRUE(moving->shape->changes());
+  for (const double time : {0.0, 1.0, 5.0}) {
+    EXPECT_NEAR(height_at(*still, time), 0.0, 1e-12);
+    EXPECT_NEAR(height_at(*moving, time), 0.1 * time, 1e-12);
+    EXPECT_FALSE(still->inside(Vector3(0, 0, 0.05), time));
+    EXPECT_EQ(moving->inside(Vector3(0, 0, 0.05), time), time > 0.5);
+    const auto out = still->shape->way_out(Vector3(0, 0, -0.01), time);
+    ASSERT_TRUE(out);
+    EXPECT_NEAR(out->point.z(), 0.0, 1e-12);
+  }
+}
+
 TEST(FeltShape, SaysWhatCannotBeTouched) {
   const Matrix3 one = Matrix3::Identity();
   const auto expect = [](const FeltShapePointer& felt, const std::string& why) {
