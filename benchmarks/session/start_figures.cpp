@@ -20,7 +20,8 @@ SessionSection start_figures(const SessionExtent& extent) {
     if (!turn_until(*session, [&] { return session->drawn()->object_count() > 0; })) break;
     opened.push_back(since(base::steady_nanoseconds()));
     const std::uint64_t before = display.frames();
-    session->home(1.6);
+    session->set_aspect(1.6);
+    session->home();
     if (!turn_until(*session, [&] { return display.frames() > before + 1; })) break;
     seen.push_back(since(display.last_done()));
   }
