@@ -146,7 +146,7 @@ struct Sample {
   const char* name;
   std::string (*bytes)();
 };
-void PrintTo(const Sample& sample, std::ostream* out) { *out << sample.name; }
+std::ostream& operator<<(std::ostream& out, const Sample& sample) { return out << sample.name; }
 
 class ReadingStops : public testing::TestWithParam<Sample> {};
 
