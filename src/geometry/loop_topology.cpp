@@ -90,9 +90,11 @@ void recut_pillow(TriangleMesh& mesh, std::span<const SideOfEdge> sides) {
   std::array<std::size_t, 2> count{};
   for (const SideOfEdge& side : sides) {
     const auto& t = mesh.triangles[side.side / 3];
-    const bool back = t[side.side % 3] != a;
-    if (count[back] == 2) return;
-    thirds[back][count[back]] = *third_after(t, back ? b : a, back ? a : b);
+    auto third = third_after(t, a, b);
+    const bool back = !third;
+    if (back) third = third_after(t, b, a);
+    if (!third || count[back] == 2) return;  // cut otherwise already, or none
+    thirds[back][count[back]] = *third;
     triangles[back][count[back]++] = side.side / 3;
   }
   for (int i = 0; i < 2; ++i) {
