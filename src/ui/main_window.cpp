@@ -69,7 +69,10 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
   banner_->on_remedy([this](const Note& note, Note::Remedy what) { remedy(note, what); });
   tree_->on_zoom_to([this] { zoom_to_selection(session_, tools_.aspect()); });
   session_.on_change([this](const world::Changes*) { is_stale_ = true; });
-  session_.on_selection([this] { is_stale_ = true; });
+  session_.on_selection([this] {
+    edits_.refresh();  // a key that is pressed at once after it finds its action
+    is_stale_ = true;
+  });
   show_tool(tools_.tool());
   show_title();
   timer_.setTimerType(Qt::PreciseTimer);

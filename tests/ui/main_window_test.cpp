@@ -99,6 +99,12 @@ TEST_F(MainWindowTest, NamesWhatCanBeUndone) {
   EXPECT_EQ(world().objects().size(), 1U);
 }
 
+TEST_F(MainWindowTest, WhatIsSelectedCanBeDeletedAtOnce) {
+  session().select({add("one")});
+  action("edit.delete")->trigger();
+  EXPECT_TRUE(world().objects().empty());
+}
+
 TEST_F(MainWindowTest, DeletesAndDuplicatesAsOneAction) {
   const auto table = add("table"), lamp = add("lamp");
   session().select({table, lamp});
