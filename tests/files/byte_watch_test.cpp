@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <lzma.h>
 
 #include <functional>
 #include <vector>
 
 #include "files/design.h"
 #include "geometry/weld.h"
+#include "packed_xz.h"
 #include "sample_files.h"
 
 namespace icome::files {
@@ -131,17 +131,6 @@ std::string csg() {
   return text + "}\n";
 }
 
-std::string in_xz(const std::string& bytes) {
-  std::string result(lzma_stream_buffer_bound(bytes.size()), '\0');
-  std::size_t size = 0;
-  EXPECT_EQ(lzma_easy_buffer_encode(0, LZMA_CHECK_CRC64, nullptr,
-                                    reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
-                                    reinterpret_cast<std::uint8_t*>(result.data()), &size, result.size()),
-            LZMA_OK);
-  result.resize(size);
-  return result;
-}
-
 struct Sample {
   const char* name;
   std::string (*bytes)();
@@ -180,9 +169,9 @@ INSTANTIATE_TEST_SUITE_P(OfEveryFormat, ReadingStops,
                                          Sample{"ascii.ply", ascii_ply}, Sample{"binary.ply", binary_ply},
                                          Sample{"ascii.stl", ascii_stl}, Sample{"binary.stl", binary_stl},
                                          Sample{"cubes.csg", csg},
-                                         Sample{"plate.obj.xz", [] { return in_xz(obj()); }},
-                                         Sample{"binary.stl.xz", [] { return in_xz(binary_stl()); }},
-                                         Sample{"cubes.csg.xz", [] { return in_xz(csg()); }}));
+                                         Sample{"plate.obj.xz", [] { return packed_xz(obj()); }},
+                                         Sample{"binary.stl.xz", [] { return packed_xz(binary_stl()); }},
+                                         Sample{"cubes.csg.xz", [] { return packed_xz(csg()); }}));
 
 TEST(ByteWatch, AsksAsOftenAsThereAreBytes) {
   const std::string bytes(10 << 20, ' ');

@@ -1,13 +1,13 @@
 #include "files/csg_reader.h"
 
 #include <gtest/gtest.h>
-#include <lzma.h>
 
 #include <cmath>
 #include <numbers>
 #include <variant>
 
 #include "geometry/mesh_topology.h"
+#include "packed_xz.h"
 #include "sample_files.h"
 
 namespace icome::files {
@@ -460,13 +460,7 @@ TEST(CsgReader, FilesAreReadPackedOrNot) {
   const ScratchFolder folder;
   const std::string text = "cube(2);";
   EXPECT_TRUE(read_csg(folder.write("a.csg", text)));
-  std::string packed(lzma_stream_buffer_bound(text.size()), '\0');
-  std::size_t size = 0;
-  ASSERT_EQ(lzma_easy_buffer_encode(6, LZMA_CHECK_CRC64, nullptr,
-                                    reinterpret_cast<const std::uint8_t*>(text.data()), text.size(),
-                                    reinterpret_cast<std::uint8_t*>(packed.data()), &size, packed.size()),
-            LZMA_OK);
-  packed.resize(size);
+  const std::string packed = packed_xz(text);
   const auto loaded = read_csg(folder.write("a.csg.XZ", packed));
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_GT(loaded->read_seconds, 0.0);

@@ -1,28 +1,17 @@
 #include "files/mesh_reader.h"
 
 #include <gtest/gtest.h>
-#include <lzma.h>
 #include <sys/stat.h>
 
 #include <cmath>
 #include <tuple>
 
 #include "geometry/triangle_mesh.h"
+#include "packed_xz.h"
 #include "sample_files.h"
 
 namespace icome::files {
 namespace {
-
-std::string packed(const std::string& bytes) {
-  std::string result(lzma_stream_buffer_bound(bytes.size()), '\0');
-  std::size_t size = 0;
-  EXPECT_EQ(lzma_easy_buffer_encode(6, LZMA_CHECK_CRC64, nullptr,
-                                    reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
-                                    reinterpret_cast<std::uint8_t*>(result.data()), &size, result.size()),
-            LZMA_OK);
-  result.resize(size);
-  return result;
-}
 
 /// What read_mesh() says after the folder's name.
 std::string error_of(const ScratchFolder& folder, const std::filesystem::path& file,
@@ -46,7 +35,7 @@ TEST_P(EveryFormat, GivesAClosedTetrahedronPackedOrNot) {
   const ScratchFolder folder;
   for (const bool pack : {false, true}) {
     const auto loaded =
-        read_mesh(folder.write(name + std::string(pack ? ".XZ" : ""), pack ? packed(bytes) : bytes));
+        read_mesh(folder.write(name + std::string(pack ? ".XZ" : ""), pack ? packed_xz(bytes) : bytes));
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->format, format + std::string(pack ? ", xz" : ""));
     EXPECT_EQ(loaded->mesh.positions.size(), 4U);
@@ -125,12 +114,12 @@ TEST(MeshReader, ContentThatIsNotWhatTheNameSaysIsRefused) {
 
 TEST(MeshReader, PackedFilesThatAreDamagedOrTooLargeAreRefused) {
   const ScratchFolder folder;
-  std::string bytes = packed(sample_obj());
+  std::string bytes = packed_xz(sample_obj());
   EXPECT_EQ(error_of(folder, folder.write("a.obj.xz", bytes.substr(0, bytes.size() / 2))),
             "a.obj.xz: the xz data is cut short");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] + 1);
   EXPECT_EQ(error_of(folder, folder.write("a.obj.xz", bytes)), "a.obj.xz: the xz data is damaged");
-  const auto bomb = folder.write("bomb.obj.xz", packed(std::string(8'000'000, ' ')));
+  const auto bomb = folder.write("bomb.obj.xz", packed_xz(std::string(8'000'000, ' ')));
   EXPECT_LT(std::filesystem::file_size(bomb), 10'000U);
   EXPECT_EQ(error_of(folder, bomb, {.size_limit = 1U << 22U}),
             "bomb.obj.xz: unpacks to more than the limit of 4 MiB");
