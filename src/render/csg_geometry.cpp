@@ -109,22 +109,12 @@ void grow(TriangleMesh& mesh, double distance) {
   for (std::size_t i = 0; i < planes.size(); ++i) mesh.positions[i] += distance * step_outward(planes[i]);
 }
 
-/// Into the frame that all operands share, rounded to single precision last.
-void move_to_frame(ShadingMesh& mesh, const Ball& ball) {
-  for (ShadingMesh::Vertex& vertex : mesh.vertices) {
-    const Vector3 at = mesh.centre + mesh.radius * vertex.position.cast<double>();
-    vertex.position = ((at - ball.centre) / ball.radius).cast<float>();
-  }
-  mesh.centre = ball.centre;
-  mesh.radius = ball.radius;
-}
-
 CsgOperand make_operand(const CsgFactor& factor, TriangleMesh mesh, double growth, const Ball& ball,
                         const CsgGeometryOptions& options) {
   grow(mesh, growth);
   CsgOperand operand;
   operand.mesh = make_shading_mesh(mesh, options.crease_angle);
-  move_to_frame(operand.mesh, ball);
+  change_frame(operand.mesh, ball.centre, ball.radius);
   for (const ShadingMesh::Vertex& vertex : operand.mesh.vertices) {
     operand.bounds.extend(vertex.position.cast<double>());
   }

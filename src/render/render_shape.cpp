@@ -176,16 +176,6 @@ std::shared_ptr<RenderShape> make_from_surface(const MeshGeometry& surface, doub
   return shape;
 }
 
-/// Vertices in the frame of another mesh's buffers.
-void change_frame(ShadingMesh& mesh, const ShadingMesh& to) {
-  for (ShadingMesh::Vertex& it : mesh.vertices) {
-    const Vector3 at = mesh.centre + mesh.radius * it.position.cast<double>();
-    it.position = ((at - to.centre) / to.radius).cast<float>();
-  }
-  mesh.centre = to.centre;
-  mesh.radius = to.radius;
-}
-
 /// Exact shapes are made of fewer triangles anew, which keeps their normals exact.
 std::vector<ShapeLevel> coarser_primitives(const world::PrimitiveGeometry& primitive, const RenderShape& full,
                                            double tolerance) {
@@ -195,7 +185,7 @@ std::vector<ShapeLevel> coarser_primitives(const world::PrimitiveGeometry& primi
     const auto surface = primitive.triangles(coarser);
     if (!surface || 3 * (*surface)->mesh.triangles.size() > 2 * triangles) break;
     ShapeLevel level{make_from_surface(**surface, kSolidCrease)->mesh, {}, 2.0 * coarser / full.mesh.radius};
-    change_frame(level.mesh, full.mesh);
+    change_frame(level.mesh, full.mesh.centre, full.mesh.radius);
     triangles = level.mesh.indices.size() / 3;
     levels.push_back(std::move(level));
   }

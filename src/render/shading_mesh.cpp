@@ -122,6 +122,15 @@ void split_vertex(ShadingMesh& out, std::vector<std::uint32_t>& index_of_slot, c
 
 }  // namespace
 
+void change_frame(ShadingMesh& mesh, const base::Vector3& centre, double radius) {
+  for (ShadingMesh::Vertex& vertex : mesh.vertices) {
+    const base::Vector3 at = mesh.centre + mesh.radius * vertex.position.cast<double>();
+    vertex.position = ((at - centre) / radius).cast<float>();  // rounded to single precision last
+  }
+  mesh.centre = centre;
+  mesh.radius = radius;
+}
+
 ShadingMesh make_shading_mesh(const TriangleMesh& mesh, double crease_angle) {
   constexpr std::uint32_t kUnused = 0xffffffff;
   ShadingMesh out;

@@ -28,6 +28,9 @@ struct ShadingMesh {
 /// indices out of range are left out.
 ShadingMesh make_shading_mesh(const geometry::TriangleMesh& mesh, double crease_angle);
 
+/// Gives the vertices in another frame, such as one that several meshes share.
+void change_frame(ShadingMesh& mesh, const base::Vector3& centre, double radius);
+
 /// The normals that make_shading_mesh would give to each corner of each triangle; zero for those that it
 /// leaves out.
 std::vector<std::array<Eigen::Vector3f, 3>> crease_normals(const geometry::TriangleMesh& mesh,
