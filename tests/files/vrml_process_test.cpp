@@ -179,7 +179,7 @@ TEST(VrmlProcess, LeavesNothingBehind) {
   ask_about("Group {");
   failure_with("exit 3");
   failure_with("exec sleep 1000", {.seconds_limit = 0.05});
-  failure_with("echo 'this is no frame of any kind'; sleep 1000");
+  failure_with("echo 'this is no frame of any kind'; exec sleep 1000");
   failure_with("exec sleep 1000", {.progress = [](double) { return false; }});
   ::setenv("ICOME_VRML_WORKER", "/nowhere/worker", 1);
   ask_about("Group {}");
