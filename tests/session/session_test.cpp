@@ -7,6 +7,7 @@
 #include <limits>
 #include <new>
 
+#include "autosave_samples.h"
 #include "devices/simulated/simulated_navigation.h"
 #include "render/views.h"
 #include "session/sessions.h"
@@ -17,22 +18,6 @@ namespace {
 using base::Vector3;
 using world::at;
 using Kind = SessionEvent::Kind;
-
-/// A folder of its own for a test, gone afterwards.
-class Folder {
- public:
-  explicit Folder(const std::string& name)
-      : path_(std::filesystem::path(testing::TempDir()) / ("icome-session-" + name)) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Looks at the origin from a metre away: workspaces lie as in the world.
 void look_at_origin(Session& session) { session.set_view({}); }
@@ -138,22 +123,22 @@ TEST(Session, ShowsOneSceneAndAllAgainWhenItGoes) {
 }
 
 TEST(Session, OpensAndSavesInTheBackground) {
-  const Folder folder("files");
+  const ScratchFolder folder;
   const auto session = start();
   add_box(*session, at(0.0, 0.0, -3.0), "kept");
   const std::uint64_t hash = world::hash(session->world());
-  session->save(folder / "a.icome");
+  session->save(folder.path() / "a.icome");
   ASSERT_TRUE(session->undo());  // what was saved is what was there
   auto events = run_until(*session, [&] { return !session->saving(); });
   EXPECT_EQ(count(events, Kind::Saved) + count(session->update(), Kind::Saved), 1U);
-  EXPECT_EQ(session->path(), folder / "a.icome");
+  EXPECT_EQ(session->path(), folder.path() / "a.icome");
   EXPECT_TRUE(session->modified());
   ASSERT_TRUE(session->redo());
   EXPECT_FALSE(session->modified());
 
   session->make_new();
   EXPECT_TRUE(session->world().objects().empty());
-  session->open(folder / "a.icome");
+  session->open(folder.path() / "a.icome");
   events = run_until(*session, [&] { return !session->world().objects().empty(); });
   EXPECT_EQ(count(events, Kind::Opened), 1U);
   EXPECT_EQ(world::hash(session->world()), hash);
@@ -165,19 +150,19 @@ TEST(Session, OpensAndSavesInTheBackground) {
 }
 
 TEST(Session, KeepsTheWorldWhenADesignCannotBeOpenedOrSaved) {
-  const Folder folder("failures");
+  const ScratchFolder folder;
   const auto session = start();
   add_box(*session, at(0.0, 0.0, -3.0));
   const std::uint64_t hash = world::hash(session->world());
-  std::ofstream(folder / "broken.glb") << "glTF, or so it says";
-  for (const auto& design : {folder / "missing.glb", folder / "broken.glb"}) {
+  std::ofstream(folder.path() / "broken.glb") << "glTF, or so it says";
+  for (const auto& design : {folder.path() / "missing.glb", folder.path() / "broken.glb"}) {
     session->open(design);
     session->settle();
     const auto events = session->update();
     EXPECT_EQ(count(events, Kind::OpenFailed), 1U) << design;
     EXPECT_EQ(world::hash(session->world()), hash);
   }
-  session->save(folder / "no/such/folder/a.icome");
+  session->save(folder.path() / "no/such/folder/a.icome");
   auto events = run_until(*session, [&] { return !session->saving(); });
   EXPECT_EQ(count(events, Kind::SaveFailed) + count(session->update(), Kind::SaveFailed), 1U);
   EXPECT_TRUE(session->modified());
@@ -185,20 +170,21 @@ TEST(Session, KeepsTheWorldWhenADesignCannotBeOpenedOrSaved) {
 }
 
 TEST(Session, TurnsDesignsWithZUpAndBack) {
-  const Folder folder("upright");
+  const ScratchFolder folder;
   // One facet that stands at z = 1 ... 2.
-  std::ofstream(folder / "up.stl") << "solid s\nfacet normal 0 1 0\nouter loop\nvertex 0 0 1\nvertex 0 0 2\n"
-                                      "vertex 1 0 1\nendloop\nendfacet\nendsolid s\n";
+  std::ofstream(folder.path() / "up.stl")
+      << "solid s\nfacet normal 0 1 0\nouter loop\nvertex 0 0 1\nvertex 0 0 2\n"
+         "vertex 1 0 1\nendloop\nendfacet\nendsolid s\n";
   const auto session = start();
-  session->open(folder / "up.stl");
+  session->open(folder.path() / "up.stl");
   run_until(*session, [&] { return !session->world().objects().empty(); });
   EXPECT_EQ(session->selection_bounds().max(), Vector3(1.0, 2.0, 0.0));
-  session->save(folder / "again.stl");
-  session->save(folder / "other.glb");
+  session->save(folder.path() / "again.stl");
+  session->save(folder.path() / "other.glb");
   run_until(*session, [&] { return !session->saving(); });
   for (const char* name : {"again.stl", "other.glb"}) {
     session->make_new();
-    session->open(folder / name);
+    session->open(folder.path() / name);
     run_until(*session, [&] { return !session->world().objects().empty(); });
     EXPECT_NEAR((session->selection_bounds().max() - Vector3(1.0, 2.0, 0.0)).norm(), 0.0, 1e-6) << name;
   }
@@ -393,7 +379,7 @@ TEST(Session, CarriesTheHandWithTheView) {
 }
 
 TEST(Session, RecoversWorkOfASessionThatWasNotClosed) {
-  const Folder folder("recovery");
+  const ScratchFolder folder;
   SessionSettings settings = quiet_settings();
   settings.autosave_folder = folder.path();
   std::uint64_t hash = 0;
@@ -422,16 +408,16 @@ TEST(Session, RecoversWorkOfASessionThatWasNotClosed) {
 }
 
 TEST(Session, WhatWasSavedInTheEndIsNotRecovered) {
-  const Folder folder("saved");
+  const ScratchFolder folder;
   SessionSettings settings = quiet_settings();
-  settings.autosave_folder = folder / "autosave";
+  settings.autosave_folder = folder.path() / "autosave";
   {
     const auto session = start(std::move(settings));
     add_box(*session, at(0.0, 0.0, -3.0));
-    session->save(folder / "a.icome");
+    session->save(folder.path() / "a.icome");
   }
-  EXPECT_TRUE(std::filesystem::exists(folder / "a.icome"));
-  EXPECT_TRUE(find_recoverable_work(folder / "autosave").empty());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.icome"));
+  EXPECT_TRUE(find_recoverable_work(folder.path() / "autosave").empty());
 }
 
 TEST(Session, RefusesARateThatNoLoopHas) {

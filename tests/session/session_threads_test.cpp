@@ -204,7 +204,6 @@ TEST(SessionThreads, EndWhateverIsUnderWay) {
   const auto large = write_large_obj(folder.path() / "large.obj");
   for (int moment = 0; moment < 6; ++moment) {
     const auto big = std::make_shared<HeldShape>(geometry::bumpy_geodesic_sphere(20, 0.3, 0.1, 9));
-    const auto file = std::filesystem::path(testing::TempDir()) / "icome-session-end.icome";
     auto session = start();
     if (moment >= 1) add_box(*session, at(0.0, 0.0, -3.0));
     if (moment >= 2) add_shape(*session, big, at(5.0, 0.0, 0.0));
@@ -214,7 +213,7 @@ TEST(SessionThreads, EndWhateverIsUnderWay) {
     }
     if (moment >= 4) {
       while (big->at_work() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      session->save(file);  // of a shape that cannot be written
+      session->save(folder.path() / "end.icome");  // of a shape that cannot be written
     }
     std::thread helper;
     if (moment >= 5) {
@@ -224,15 +223,13 @@ TEST(SessionThreads, EndWhateverIsUnderWay) {
     }
     session.reset();
     if (helper.joinable()) helper.join();
-    std::filesystem::remove(file);
   }
 }
 
 TEST(SessionThreads, AreAllBusyAtOnce) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "icome-session-busy";
-  std::filesystem::remove_all(folder);
+  const ScratchFolder folder;  // goes after the session, the threads of which write there
   SessionSettings settings = quiet_settings();
-  settings.autosave_folder = folder / "autosave";
+  settings.autosave_folder = folder.path() / "autosave";
   std::vector<devices::SimulatedDevice*> hands;
   for (int i = 0; i < 2; ++i) {
     auto hand = std::make_unique<devices::SimulatedDevice>();
@@ -267,8 +264,8 @@ TEST(SessionThreads, AreAllBusyAtOnce) {
       ASSERT_TRUE(session->undo());
     }
     if (round % 10 == 0) session->show_scene(round % 20 == 0 ? scene : world::SceneId{});
-    if (round % 30 == 7) session->save(folder / "busy.icome");
-    if (round == 100) session->open(folder / "busy.icome");
+    if (round % 30 == 7) session->save(folder.path() / "busy.icome");
+    if (round == 100) session->open(folder.path() / "busy.icome");
     if (round == 101) session->cancel_open();
     if (round % 25 == 5) hands[0]->inject(devices::SimulatedFailure::Unplugged);
     if (round % 25 == 8) hands[0]->inject(devices::SimulatedFailure::None);
@@ -284,7 +281,6 @@ TEST(SessionThreads, AreAllBusyAtOnce) {
   if (eye) eye->wait_for_frames(1);
   eye.reset();
   session->close();
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
