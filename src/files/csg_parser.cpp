@@ -12,8 +12,8 @@
 namespace icome::files {
 namespace {
 
-constexpr std::size_t kLongestName = 255;
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::size_t kLongestCsgName = 255;
+constexpr std::string_view kCsgByteOrderMark = "\xef\xbb\xbf";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$'; }
@@ -29,7 +29,7 @@ class CsgParser {
         at_(begin_),
         end_(begin_ + text.size()),
         watch_(text, &patience) {
-    if (text.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
+    if (text.starts_with(kCsgByteOrderMark)) at_ += kCsgByteOrderMark.size();
   }
 
   base::Result<CsgDocument> run() {
@@ -140,8 +140,8 @@ std::string_view CsgParser::take_name() {
     while (at_ < end_ && in_name(*at_)) ++at_;
   }
   const std::string_view name(first, static_cast<std::size_t>(at_ - first));
-  if (name.size() <= kLongestName) return name;
-  fail(first, fmt::format("the name {} is longer than {} characters", quoted(name), kLongestName));
+  if (name.size() <= kLongestCsgName) return name;
+  fail(first, fmt::format("the name {} is longer than {} characters", quoted(name), kLongestCsgName));
   return {};
 }
 

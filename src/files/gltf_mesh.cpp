@@ -196,12 +196,12 @@ bool has_triangles(const tinygltf::Primitive& primitive) {
          primitive.attributes.count("POSITION") > 0;
 }
 
-std::shared_ptr<const world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
-                                                     const tinygltf::Primitive& primitive,
-                                                     const GltfSurface& surface, std::string& lost) {
+std::shared_ptr<world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
+                                               const tinygltf::Primitive& primitive,
+                                               const GltfSurface& surface, std::string& lost) {
   world::MeshGeometry shape = PrimitiveReading(model, primitive, surface).run();
   lost = drop_not_finite(shape);
-  return std::make_shared<const world::MeshGeometry>(std::move(shape));
+  return std::make_shared<world::MeshGeometry>(std::move(shape));
 }
 
 }  // namespace icome::files

@@ -26,9 +26,9 @@ struct GltfSurface {
 
 /// The triangles of a primitive, whose mode is triangles, a strip or a fan. Vertices that only differ in
 /// what belongs to corners become one. Throws GltfError. `lost`: a sentence, if anything was left out.
-std::shared_ptr<const world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
-                                                     const tinygltf::Primitive& primitive,
-                                                     const GltfSurface& surface, std::string& lost);
+std::shared_ptr<world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
+                                               const tinygltf::Primitive& primitive,
+                                               const GltfSurface& surface, std::string& lost);
 
 /// Are its elements triangles?
 bool has_triangles(const tinygltf::Primitive& primitive);

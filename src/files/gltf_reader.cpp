@@ -218,6 +218,10 @@ class GltfReading {
     ask_whether_to_go_on();
     std::string lost;
     const auto shape = gltf_mesh(model_, primitive, surface, lost);
+    std::string recipe = text_in(extras, "recipe");
+    // One that cannot be written again, or that tells of more than this part, is no good.
+    if (recipe.size() <= world::kMostRecipeBytes && mesh.primitives.size() == 1)
+      shape->recipe = std::move(recipe);
     if (!lost.empty()) builder_.remark(mesh.name.empty() ? lost : fmt::format("\"{}\": {}", mesh.name, lost));
     return found->second = keep(shape);
   }

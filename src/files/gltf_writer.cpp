@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/srgb.h"
+#include "base/utf8.h"
 #include "files/file_ending.h"
 #include "files/gltf_buffer.h"
 #include "files/gltf_node.h"
@@ -22,7 +23,6 @@
 #include "files/gltf_vertices.h"
 #include "files/new_file.h"
 #include "files/shown_world.h"
-#include "files/utf8.h"
 
 namespace icome::files {
 namespace {
@@ -95,7 +95,7 @@ class GltfMaking {
   void add_texture(TextureId id) {
     const world::Texture& it = *world_.find(id);
     tinygltf::Image image;
-    image.name = as_utf8(it.name);
+    image.name = base::as_utf8(it.name);
     image.mimeType = it.media_type;
     image.bufferView = buffer_.add_view(it.bytes->data(), it.bytes->size(), 0);
     if (it.media_type != "image/png" && it.media_type != "image/jpeg")
@@ -116,7 +116,7 @@ class GltfMaking {
   void add_material(MaterialId id) {
     const world::Material& it = *world_.find(id);
     tinygltf::Material material;
-    material.name = as_utf8(it.name);
+    material.name = base::as_utf8(it.name);
     material.doubleSided = true;  // what is seen from behind is seen
     material.emissiveFactor = numbers_of(it.emission);
     auto& pbr = material.pbrMetallicRoughness;
@@ -168,7 +168,7 @@ class GltfMaking {
       remark("A shape is written as triangles only: " + text.error().message);
     } else if (*text) {
       found->second = int(shapes_.size());
-      for (auto& [name, words] : **text) words = as_utf8(words);
+      for (auto& [name, words] : **text) words = base::as_utf8(words);
       shapes_.push_back(value_of(**text));
     }
     return found->second;
@@ -207,6 +207,8 @@ class GltfMaking {
     Value::Object extras;
     if (exact >= 0) extras["shape"] = Value(exact);
     if (smooth_.count(geometry) > 0) extras["smooth"] = Value(true);
+    const std::string_view recipe = world::recipe_of(*world_.find(geometry)->shape);
+    if (!recipe.empty()) extras["recipe"] = Value(base::as_utf8(recipe));
     if (!extras.empty()) mesh.extras = extras_with(Value(std::move(extras)));
     found->second = int(model_.meshes.size());
     model_.meshes.push_back(std::move(mesh));
@@ -242,7 +244,7 @@ class GltfMaking {
 
   tinygltf::Node node_of(const PhysicalObject& object) {
     tinygltf::Node node;
-    node.name = as_utf8(object.name);
+    node.name = base::as_utf8(object.name);
     const base::Affine3& frame = object.parent_from_object;
     if (!frame.matrix().isIdentity(0.0)) {
       node.matrix.assign(frame.matrix().data(), frame.matrix().data() + 16);
@@ -294,8 +296,8 @@ class GltfMaking {
 
   static void add_fixture(const world::Inert& it, tinygltf::Node&, Value::Object& extras) {
     Value::Object inert;
-    inert["type"] = Value(as_utf8(it.type));
-    inert["source"] = Value(as_utf8(it.source));
+    inert["type"] = Value(base::as_utf8(it.type));
+    inert["source"] = Value(base::as_utf8(it.source));
     extras["inert"] = Value(std::move(inert));
   }
 
@@ -308,7 +310,7 @@ class GltfMaking {
       Value::Array nodes;
       for (const ObjectId root : it.roots) nodes.emplace_back(nodes_.at(root));
       Value::Object scene;
-      scene["name"] = Value(as_utf8(it.name));
+      scene["name"] = Value(base::as_utf8(it.name));
       scene["nodes"] = Value(std::move(nodes));
       scenes.emplace_back(std::move(scene));
     }

@@ -103,6 +103,7 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   std::size_t fixtures = 0;
   std::size_t clones = 0;
   std::size_t exact = 0;
+  std::size_t made = 0;
   bool nested = false;
   for (const auto& [id, object] : world.objects()) {
     fixtures += object.fixture ? 1 : 0;
@@ -111,6 +112,7 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   for (const auto& [id, geometry] : world.geometries()) {
     clones += geometry.users > 1 ? geometry.users - 1 : 0;
     exact += geometry.users > 0 && geometry.shape->kind() != "mesh" ? 1 : 0;
+    made += geometry.users > 0 && !world::recipe_of(*geometry.shape).empty() ? 1 : 0;
   }
   const auto tell = [&](std::string text) { remarks.push_back({{}, 0, std::move(text)}); };
   if (nested) tell("This format knows no hierarchy: all objects are written where they stand in the world.");
@@ -120,6 +122,9 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   if (exact > 0)
     tell(fmt::format("{} written as triangles.",
                      exact == 1 ? "1 exact shape is" : fmt::format("{} exact shapes are", exact)));
+  if (made > 0)
+    tell(fmt::format("This format knows no parameters of shapes: {} as triangles.",
+                     made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made)));
   if (fixtures > 0) tell("This format knows no lights, viewpoints or scripts: they are left out.");
   if (!world.scenes().empty()) tell("This format knows no scenes: they are left out.");
 }

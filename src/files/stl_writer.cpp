@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kWriteAtOnce = 1U << 20U;
 // Not beginning with "solid": that is how ascii files begin.
-constexpr std::string_view kHeader = "binary STL, made by ICOME";
+constexpr std::string_view kStlHeader = "binary STL, made by ICOME";
 
 template <typename Number>
 void append(std::string& bytes, Number number) {
@@ -29,7 +29,7 @@ void append(std::string& bytes, const Eigen::Vector3f& vector) {
 base::Result<void> write_stl(const geometry::TriangleMesh& mesh, double unit, NewFile& file) {
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
     return base::fail(file.path().string() + ": the mesh has more triangles than an STL file can hold");
-  std::string bytes(kHeader);
+  std::string bytes(kStlHeader);
   bytes.resize(kHeaderBytes, ' ');
   append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -20,10 +20,10 @@ std::string url_text(std::string_view url) {
 }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_url_digit(char c) { return c >= '0' && c <= '9'; }
 
 int hexadecimal(char c) {
-  if (is_digit(c)) return c - '0';
+  if (is_url_digit(c)) return c - '0';
   const char lower = static_cast<char>(c | 0x20);
   return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
@@ -31,7 +31,7 @@ int hexadecimal(char c) {
 /// The length of `http` in `http:...`, of `C` in `C:\`; 0: there is none.
 std::size_t scheme_length(std::string_view url) {
   std::size_t length = 0;
-  while (length < url.size() && (is_letter(url[length]) || is_digit(url[length]) ||
+  while (length < url.size() && (is_letter(url[length]) || is_url_digit(url[length]) ||
                                  std::string_view("+-.").find(url[length]) != std::string_view::npos))
     ++length;
   return length < url.size() && url[length] == ':' && length > 0 && is_letter(url[0]) ? length : 0;

@@ -66,7 +66,7 @@ constexpr std::array<std::string_view, 54> kNodes = {"Anchor",
                                                      "VisibilitySensor",
                                                      "WorldInfo"};
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_vrml_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 std::string_view without_mark(std::string_view bytes) {
   return bytes.substr(bytes.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
@@ -74,7 +74,7 @@ std::string_view without_mark(std::string_view bytes) {
 
 /// What may stand between two words.
 std::string_view after_space(std::string_view text) {
-  while (!text.empty() && (is_space(text[0]) || text[0] == ',' || text[0] == '#')) {
+  while (!text.empty() && (is_vrml_space(text[0]) || text[0] == ',' || text[0] == '#')) {
     const std::size_t end = text[0] == '#' ? text.find_first_of("\r\n") : 1;
     text.remove_prefix(std::min(end, text.size()));
   }
@@ -93,7 +93,7 @@ std::string first_line(std::string_view text) {
 
 base::Result<std::size_t> find_vrml_header(std::string_view bytes) {
   const std::string_view text = without_mark(bytes);
-  if (text.starts_with(kHeader) && (text.size() == kHeader.size() || is_space(text[kHeader.size()])))
+  if (text.starts_with(kHeader) && (text.size() == kHeader.size() || is_vrml_space(text[kHeader.size()])))
     return bytes.size() - text.size();
   if (text.starts_with("#VRML V1.0"))
     return base::fail("is VRML 1.0, which is not read; have a program convert it to VRML 2.0");

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kReadPart = 0.1;    // of the whole work, done when the file is read
-constexpr double kParsedPart = 0.6;  // and parsed
+constexpr double kReadPart = 0.1;        // of the whole work, done when the file is read
+constexpr double kVrmlParsedPart = 0.6;  // and parsed
 
 base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, bool& packed) {
   auto bytes = read_bytes(path, limit);
@@ -31,7 +31,7 @@ DesignReadOptions options_of_worker(const DesignReadOptions& options, bool& stop
   DesignReadOptions result = options;
   if (options.progress) {
     result.progress = [&](double part) {
-      stopped = !options.progress(kReadPart + part * (kParsedPart - kReadPart));
+      stopped = !options.progress(kReadPart + part * (kVrmlParsedPart - kReadPart));
       return !stopped;
     };
   }
@@ -96,7 +96,7 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   add_remarks_of_others(answer->files, options, remarks);
   const VrmlSources sources = {path.string(), beside(path, answer->files), mesh_finder(path, answer->files),
                                options.size_limit, std::move(left_out->scripts)};
-  Patience patience(options.seconds_limit, options.progress, kParsedPart);
+  Patience patience(options.seconds_limit, options.progress, kVrmlParsedPart);
   auto design = build_vrml(answer->bytes, sources, patience);
   if (!design) return design;
   if (packed) design->format += ", gzip";

@@ -27,7 +27,7 @@ struct RefinedPoint {
   void AddWithWeight(const RefinedPoint& from, double weight) { position += weight * from.position; }
 };
 
-base::Result<void> check_mesh(const TriangleMesh& mesh) {
+base::Result<void> check_control_mesh(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return fail("the control mesh has no triangles");
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (!(mesh.positions[v].array().abs() <= kFarthest).all())
@@ -261,7 +261,7 @@ std::size_t LoopLevel::bytes() const {
 
 base::Result<std::shared_ptr<const LoopLevels>> LoopLevels::create(const ControlMesh& control,
                                                                    const LoopLevelsSettings& settings) {
-  if (const auto checked = check_mesh(control.mesh); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = check_control_mesh(control.mesh); !checked) return tl::unexpected(checked.error());
   const MeshReport report = analyse_topology(control.mesh).report;
   if (const auto checked = check_surface(report); !checked) return tl::unexpected(checked.error());
   if (const auto checked = check_sharp(control); !checked) return tl::unexpected(checked.error());

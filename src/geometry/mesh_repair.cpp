@@ -32,22 +32,6 @@ std::size_t drop_triangles(TriangleMesh& mesh, Predicate unwanted) {
   return dropped;
 }
 
-/// Removes vertices that no triangle uses, keeping the order of the others.
-void drop_unused_vertices(TriangleMesh& mesh) {
-  std::vector<std::uint32_t> renamed(mesh.positions.size(), kNoTriangle);
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t index : triangle) renamed[index] = 0;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] == kNoTriangle) continue;
-    mesh.positions[kept] = mesh.positions[v];
-    renamed[v] = kept++;
-  }
-  mesh.positions.resize(kept);
-  for (Triangle& triangle : mesh.triangles)
-    for (std::uint32_t& index : triangle) index = renamed[index];
-}
-
 void drop_non_finite(TriangleMesh& mesh, RepairReport& report) {
   for (const Vector3& position : mesh.positions) report.non_finite_vertices += !position.allFinite();
   if (report.non_finite_vertices == 0) return;
@@ -300,6 +284,21 @@ void describe_surface(const RepairReport& report, std::vector<std::string>& line
 }
 
 }  // namespace
+
+void drop_unused_vertices(TriangleMesh& mesh) {
+  std::vector<std::uint32_t> renamed(mesh.positions.size(), kNoTriangle);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t index : triangle) renamed[index] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < renamed.size(); ++v) {
+    if (renamed[v] == kNoTriangle) continue;
+    mesh.positions[kept] = mesh.positions[v];
+    renamed[v] = kept++;
+  }
+  mesh.positions.resize(kept);
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& index : triangle) index = renamed[index];
+}
 
 bool RepairReport::changed() const {
   return non_finite_vertices + non_finite_faces + welded_vertices + crack_vertices + degenerate_faces +

@@ -45,4 +45,7 @@ struct RepairReport {
 /// Precondition: indices in range, coordinates below 1e70. The mesh may come out empty.
 RepairReport repair(TriangleMesh& mesh);
 
+/// Removes vertices that no triangle uses, keeping the order of the others. Indices must be in range.
+void drop_unused_vertices(TriangleMesh& mesh);
+
 }  // namespace icome::geometry

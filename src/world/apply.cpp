@@ -150,14 +150,17 @@ class EditApplier {
     const auto found = world_.geometries_.find(it.id);
     if (found == world_.geometries_.end()) return gone("shape");
     GeometryPointer& shape = found->second.shape;
-    if (alone_ && shape.use_count() == 1) {
+    const bool made = !recipe_of(*shape).empty();
+    if (alone_ && !made && shape.use_count() == 1) {
       auto before = move_vertices_of(const_cast<Geometry&>(*shape), it.vertices, it.positions);
       if (!before) return tl::unexpected(before.error());
       return Edit(MoveVertices{it.id, it.vertices, std::move(*before)});
     }
     auto moved = move_vertices(*shape, it.vertices, it.positions);
     if (!moved) return tl::unexpected(moved.error());
-    shape = std::move(moved->shape);
+    GeometryPointer before = std::exchange(shape, std::move(moved->shape));
+    // Moving the vertices back would not bring the recipe back.
+    if (made) return Edit(ReplaceGeometry{it.id, std::move(before)});
     return Edit(MoveVertices{it.id, it.vertices, std::move(moved->before)});
   }
 

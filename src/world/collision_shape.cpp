@@ -115,6 +115,20 @@ void CollisionShape::Solid::find_probes(const TriangleMesh& mesh) {
   }
 }
 
+std::optional<CollisionShape::Ball> CollisionShape::ball(const Affine3& world_from_shape) const {
+  if (kind_ != Kind::Sphere) return std::nullopt;
+  const std::optional<double> stretch = even_stretch(world_from_shape.linear());
+  if (!stretch) return std::nullopt;
+  return Ball{world_from_shape.translation(), *stretch * radius_};
+}
+
+std::optional<CollisionShape::HalfSpace> CollisionShape::half_space(const Affine3& world_from_shape) const {
+  if (kind_ != Kind::HalfSpace) return std::nullopt;
+  const base::Matrix3 linear = world_from_shape.linear() * shape_from_primitive_;
+  return HalfSpace{world_from_shape.translation(),
+                   (linear.inverse().transpose() * Vector3::UnitZ()).normalized()};
+}
+
 /// The question for two placed shapes, neither of which is nothing.
 class CollisionShape::Pair {
  public:
@@ -128,7 +142,8 @@ class CollisionShape::Pair {
   }
 
   Meeting meeting() const {
-    const std::optional<Ball> one = ball(one_), other = ball(other_);
+    const std::optional<Ball> one = one_.shape.ball(one_.world_from_shape);
+    const std::optional<Ball> other = other_.shape.ball(other_.world_from_shape);
     if (one_.shape.unlimited()) return with_half_space(one_, other_, other);
     if (other_.shape.unlimited()) return with_half_space(other_, one_, one);
     if (one && other)
@@ -139,32 +154,11 @@ class CollisionShape::Pair {
   }
 
  private:
-  struct Ball {
-    Vector3 centre;
-    double radius;
-  };
-  struct HalfSpace {
-    Vector3 foot, normal;
-  };
-
-  static std::optional<Ball> ball(const Placed& it) {
-    if (it.shape.kind_ != Kind::Sphere) return std::nullopt;
-    const std::optional<double> stretch = even_stretch(it.world_from_shape.linear());
-    if (!stretch) return std::nullopt;
-    return Ball{it.world_from_shape.translation(), *stretch * it.shape.radius_};
-  }
-
-  static HalfSpace half_space(const Placed& it) {
-    const base::Matrix3 linear = it.world_from_shape.linear() * it.shape.shape_from_primitive_;
-    return {it.world_from_shape.translation(),
-            (linear.inverse().transpose() * Vector3::UnitZ()).normalized()};
-  }
-
   Meeting with_half_space(const Placed& space, const Placed& other, const std::optional<Ball>& ball) const {
-    const HalfSpace plane = half_space(space);
+    const HalfSpace plane = *space.shape.half_space(space.world_from_shape);
     const auto height = [&](const Vector3& point) { return plane.normal.dot(point - plane.foot); };
     if (other.shape.unlimited()) {
-      const HalfSpace facing = half_space(other);
+      const HalfSpace facing = *other.shape.half_space(other.world_from_shape);
       // Only those that face away from each other can be apart.
       const bool parallel = (plane.normal + facing.normal).cwiseAbs().maxCoeff() < 1e-12;
       return parallel ? by_gap(height(facing.foot), rounding_) : Meeting::Overlapping;

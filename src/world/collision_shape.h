@@ -27,6 +27,25 @@ class CollisionShape {
   /// Own frame; infinite for a half-space, empty for what can meet nothing.
   const Bounds& bounds() const { return bounds_; }
   bool unlimited() const { return kind_ == Kind::HalfSpace; }
+  bool nothing() const { return kind_ == Kind::Nothing; }
+
+  struct Ball {
+    Vector3 centre;
+    double radius;  // m
+  };
+  /// The placed shape as a ball, where it is asked as one.
+  std::optional<Ball> ball(const Affine3& world_from_shape) const;
+
+  struct HalfSpace {
+    Vector3 foot;    // on its surface
+    Vector3 normal;  // unit, out of it
+  };
+  /// The placed shape as a half-space; nothing for other shapes.
+  std::optional<HalfSpace> half_space(const Affine3& world_from_shape) const;
+
+  /// Its triangles, in its own frame, made when they are first asked for. Of a shape that is neither nothing
+  /// nor a half-space.
+  const geometry::TriangleTree& triangle_tree() { return *solid().tree; }
 
   struct Placed {
     CollisionShape& shape;

@@ -203,4 +203,35 @@ std::vector<Collision> CollisionIndex::collisions_within(ObjectId root) {
   return result;
 }
 
+std::vector<CollisionIndex::Standing> CollisionIndex::standing_below(Slot root, const Bounds& box) {
+  std::vector<Standing> result;
+  std::vector<Slot> below{root};
+  while (!below.empty()) {
+    const Slot slot = below.back();
+    below.pop_back();
+    Node& node = nodes_[slot];
+    if (node.geometry && node.own.intersects(box))
+      result.push_back({node.id, &shapes_.at(node.geometry).shape, node.world_from_object});
+    node.children.meeting(box, [&](Slot child) { below.push_back(child); });
+  }
+  for (const Slot slot : unlimited_) {
+    if (is_below(slot, root))
+      result.push_back(
+          {nodes_[slot].id, &shapes_.at(nodes_[slot].geometry).shape, nodes_[slot].world_from_object});
+  }
+  std::sort(result.begin(), result.end(), [](const Standing& a, const Standing& b) { return a.id < b.id; });
+  return result;
+}
+
+std::vector<CollisionIndex::Standing> CollisionIndex::standing(ObjectId root) {
+  const auto found = slots_.find(root);
+  if (root && found == slots_.end()) return {};
+  const Slot slot = root ? found->second : kWorld;
+  return standing_below(slot, nodes_[slot].all);
+}
+
+std::vector<CollisionIndex::Standing> CollisionIndex::standing_in(const Bounds& box) {
+  return standing_below(kWorld, box);
+}
+
 }  // namespace icome::world

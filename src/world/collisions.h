@@ -39,6 +39,17 @@ class CollisionIndex {
   /// Which objects of the subtree meet each other: `one` has the smaller id. No id: of the whole world.
   std::vector<Collision> collisions_within(ObjectId root = {});
 
+  /// An object that has a shape, as it stands; its shape until the next follow().
+  struct Standing {
+    ObjectId id;
+    CollisionShape* shape;  // never null
+    Affine3 world_from_object;
+  };
+  /// The objects of a subtree that can meet others, in the order of ids. No id: of the whole world.
+  std::vector<Standing> standing(ObjectId root = {});
+  /// Those of the world whose boxes meet `box`, and all without an end, in the order of ids.
+  std::vector<Standing> standing_in(const Bounds& box);
+
   /// Around the shapes of a subtree as it stands; those without an end are left out.
   Bounds bounds(ObjectId root) const;
 
@@ -85,6 +96,7 @@ class CollisionIndex {
   bool renew_bounds(Slot slot);
   void renew_upwards(Slot slot);
   bool is_below(Slot slot, Slot above) const;
+  std::vector<Standing> standing_below(Slot root, const Bounds& box);
 
   std::vector<Node> nodes_;
   std::vector<Slot> free_;

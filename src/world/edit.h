@@ -70,7 +70,8 @@ struct ReplaceGeometry {
   GeometryId id;
   GeometryPointer shape;
 };
-/// Moves vertices of a mesh or of a control mesh, for all objects that share it.
+/// Moves vertices of a mesh or of a control mesh, for all objects that share it. A mesh loses its recipe;
+/// what takes that back is a ReplaceGeometry.
 struct MoveVertices {
   GeometryId id;
   std::vector<std::uint32_t> vertices;

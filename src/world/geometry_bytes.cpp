@@ -232,8 +232,9 @@ Result<std::string> MeshGeometry::write() const {
   const auto coordinates = written<double>(builder, texture_coordinates);
   const auto corner_normals = written<double>(builder, normals);
   const auto corner_colours = written<float>(builder, colours);
-  return finished(
-      builder, flat::CreateMesh(builder, positions, triangles, coordinates, corner_normals, corner_colours));
+  const Offset<flatbuffers::String> parameters = recipe.empty() ? 0 : builder.CreateString(recipe);
+  return finished(builder, flat::CreateMesh(builder, positions, triangles, coordinates, corner_normals,
+                                            corner_colours, parameters));
 }
 
 Result<GeometryPointer> read_mesh(std::string_view bytes) {
@@ -244,6 +245,7 @@ Result<GeometryPointer> read_mesh(std::string_view bytes) {
   shape.texture_coordinates = reader.items<std::array<Vector2, 3>>(from->texture_coordinates());
   shape.normals = reader.items<std::array<Vector3, 3>>(from->normals());
   shape.colours = reader.items<std::array<Colour, 3>>(from->colours());
+  shape.recipe = reader.text(from->recipe());
   return checked(reader, std::move(shape));
 }
 

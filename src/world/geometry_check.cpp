@@ -66,6 +66,8 @@ std::string complaint(const MeshGeometry& shape) {
     if (count != 0 && count != triangles)
       return "A mesh needs texture coordinates, normals and colours for all of its triangles or for none.";
   }
+  if (shape.recipe.size() > kMostRecipeBytes)
+    return "A shape's parameters can take 1 MiB at most: make it in several parts.";
   if (!all_finite(shape.texture_coordinates) || !all_finite(shape.normals) || !all_finite(shape.colours))
     return kNotFinite;
   return complaint(shape.mesh);

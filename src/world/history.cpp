@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <span>
+#include <utility>
 
 namespace icome::world {
 namespace {
@@ -15,14 +16,24 @@ std::span<const Edit> steps_of(const Edit& edit) {
   return group ? std::span(group->edits) : std::span(&edit, 1);
 }
 
-/// Does the older one of two inverses undo both, as in the steps of a drag of one object or many?
+/// Does the older one of two inverses undo both? Whole shapes and places do, whatever was done to them.
+bool covers(const Edit& older, const Edit& newer) {
+  if (const auto* place = std::get_if<PlaceObject>(&older.what)) {
+    const auto* other = std::get_if<PlaceObject>(&newer.what);
+    return other && other->id == place->id;
+  }
+  const auto* moved = std::get_if<MoveVertices>(&newer.what);
+  if (const auto* shape = std::get_if<ReplaceGeometry>(&older.what)) {
+    const auto* other = std::get_if<ReplaceGeometry>(&newer.what);
+    return (other && other->id == shape->id) || (moved && moved->id == shape->id);
+  }
+  const auto* vertices = std::get_if<MoveVertices>(&older.what);
+  return vertices && moved && vertices->id == moved->id && vertices->vertices == moved->vertices;
+}
+
+/// The same for the steps of a drag of one thing or many.
 bool covers_both(const Edit& older, const Edit& newer) {
-  const auto places_the_same = [](const Edit& a, const Edit& b) {
-    const auto* one = std::get_if<PlaceObject>(&a.what);
-    const auto* other = std::get_if<PlaceObject>(&b.what);
-    return one && other && one->id == other->id;
-  };
-  return std::ranges::equal(steps_of(older), steps_of(newer), places_the_same);
+  return std::ranges::equal(steps_of(older), steps_of(newer), covers);
 }
 
 }  // namespace
@@ -30,8 +41,27 @@ bool covers_both(const Edit& older, const Edit& newer) {
 base::Result<void> History::perform(const EditSink& sink, const Edit& edit, const std::string& name) {
   auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
+  keep();
   undone_.clear();
   done_.push_back({name, {std::move(*inverse)}});
+  return {};
+}
+
+base::Result<void> History::try_out(const EditSink& sink, const Edit& edit, const std::string& name) {
+  assert(!trying());
+  auto inverse = sink(edit);
+  if (!inverse) return tl::unexpected(inverse.error());
+  aside_ = std::exchange(undone_, {});
+  done_.push_back({name, {std::move(*inverse)}});
+  return {};
+}
+
+base::Result<void> History::take_back(const EditSink& sink) {
+  assert(trying());
+  std::vector<Action> redoable = *std::exchange(aside_, std::nullopt);
+  const auto undone = undo(sink);
+  if (!undone) return tl::unexpected(undone.error());
+  undone_ = std::move(redoable);
   return {};
 }
 
@@ -39,12 +69,14 @@ base::Result<void> History::extend(const EditSink& sink, const Edit& edit) {
   assert(can_undo() && !can_redo());
   auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
+  keep();
   std::vector<Edit>& inverses = done_.back().inverses;
   if (!covers_both(inverses.back(), *inverse)) inverses.push_back(std::move(*inverse));
   return {};
 }
 
 base::Result<Edit> History::undo(const EditSink& sink) {
+  keep();
   return turn(sink, done_, undone_, "There is nothing to undo.");
 }
 

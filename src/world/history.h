@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,16 @@ class History {
   base::Result<void> perform(const EditSink& sink, const Edit& edit, const std::string& name);
   /// The same for more of the last action, such as the next step of a drag, which must not be undone.
   base::Result<void> extend(const EditSink& sink, const Edit& edit);
+
+  /// Performs an action that is only tried out: as long as nothing else is done, take_back() leaves no trace
+  /// of it. Precondition: not trying().
+  base::Result<void> try_out(const EditSink& sink, const Edit& edit, const std::string& name);
+  /// Precondition: trying(). Fails, changing nothing, when somebody else's edits are in its way; it is then
+  /// an action like any other.
+  base::Result<void> take_back(const EditSink& sink);
+  /// Makes what is tried out an action like any other. So does whatever else is done.
+  void keep() { aside_.reset(); }
+  bool trying() const { return aside_.has_value(); }
 
   bool can_undo() const { return !done_.empty(); }
   bool can_redo() const { return !undone_.empty(); }
@@ -35,6 +46,7 @@ class History {
                                  const char* nothing);
 
   std::vector<Action> done_, undone_;
+  std::optional<std::vector<Action>> aside_;  // what can be redone once what is tried out was taken back
 };
 
 }  // namespace icome::world

@@ -62,12 +62,19 @@ std::uint64_t MeshGeometry::hash() const {
       for (const float part : corner) hasher.add(double(part));
     }
   }
+  // Shapes made by hand keep the number that they had before there were recipes.
+  if (!recipe.empty()) hasher.add(std::string_view(recipe));
   return hasher.value();
 }
 
 std::size_t MeshGeometry::bytes() const {
   return sizeof(*this) + mesh_bytes(mesh) + texture_coordinates.capacity() * sizeof(texture_coordinates[0]) +
-         normals.capacity() * sizeof(normals[0]) + colours.capacity() * sizeof(colours[0]);
+         normals.capacity() * sizeof(normals[0]) + colours.capacity() * sizeof(colours[0]) + recipe.size();
+}
+
+std::string_view recipe_of(const Geometry& shape) {
+  const auto* const mesh = dynamic_cast<const MeshGeometry*>(&shape);
+  return mesh ? std::string_view(mesh->recipe) : std::string_view();
 }
 
 std::uint64_t LoopGeometry::hash() const {
@@ -101,6 +108,7 @@ base::Result<std::vector<Vector3>> move_vertices_of(Geometry& shape, std::span<c
   for (std::size_t i = 0; i < vertices.size(); ++i)
     before.push_back(std::exchange(all[vertices[i]], positions[i]));
   loop ? loop->forget_bounds() : mesh->forget_bounds();
+  if (mesh) mesh->recipe.clear();
   return before;
 }
 

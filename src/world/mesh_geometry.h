@@ -2,6 +2,8 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -14,6 +16,9 @@ namespace icome::world {
 
 using base::Vector2;
 
+/// The longest recipe of a shape that can be written, bytes.
+inline constexpr std::size_t kMostRecipeBytes = std::size_t{1} << 20;
+
 /// A triangle mesh. Texture coordinates belong to corners of triangles, as one vertex may lie in several
 /// textures (2.4.1); so do normals, which say where edges look sharp, and colours.
 struct MeshGeometry final : public Geometry, public std::enable_shared_from_this<MeshGeometry> {
@@ -23,6 +28,7 @@ struct MeshGeometry final : public Geometry, public std::enable_shared_from_this
   std::vector<std::array<Vector2, 3>> texture_coordinates;  // of every triangle, or none
   std::vector<std::array<Vector3, 3>> normals;              // unit, of every triangle, or none: smooth
   std::vector<std::array<Colour, 3>> colours;  // of every triangle, or none: the material's diffuse one
+  std::string recipe;  // how it was made, as JSON text of named parameters; empty: by hand
 
   std::string_view kind() const override { return "mesh"; }
   Bounds bounds() const override { return bounds_.of(mesh); }
@@ -57,9 +63,12 @@ struct LoopGeometry final : public Geometry {
   KeptBounds bounds_;
 };
 
+/// The recipe of a mesh; empty for shapes of other kinds. Valid as long as the shape is there and stays.
+std::string_view recipe_of(const Geometry& shape);
+
 /// The shape with some vertices elsewhere, and where they were. Fails for shapes without vertices, for
 /// vertices that are not there or named twice, and for positions that are not finite. Corner normals stay:
-/// who bends a shape replaces them with it.
+/// who bends a shape replaces them with it. A recipe is dropped, as it would make another shape.
 struct MovedVertices {
   GeometryPointer shape;
   std::vector<Vector3> before;  // m, in the order asked for

@@ -122,7 +122,7 @@ std::string binary_stl() {
   return bytes;
 }
 
-std::string csg() {
+std::string cubes_csg() {
   std::string text = "union() {\n";
   for (int i = 0; i < 10000; ++i) {
     text +=
@@ -131,13 +131,13 @@ std::string csg() {
   return text + "}\n";
 }
 
-struct Sample {
+struct WatchedSample {
   const char* name;
   std::string (*bytes)();
 };
-std::ostream& operator<<(std::ostream& out, const Sample& sample) { return out << sample.name; }
+std::ostream& operator<<(std::ostream& out, const WatchedSample& sample) { return out << sample.name; }
 
-class ReadingStops : public testing::TestWithParam<Sample> {};
+class ReadingStops : public testing::TestWithParam<WatchedSample> {};
 
 TEST_P(ReadingStops, WheneverItIsAskedTo) {
   const ScratchFolder folder;
@@ -164,14 +164,15 @@ TEST_P(ReadingStops, WheneverItIsAskedTo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEveryFormat, ReadingStops,
-                         testing::Values(Sample{"plate.obj", obj}, Sample{"plate.off", off},
-                                         Sample{"ascii.ply", ascii_ply}, Sample{"binary.ply", binary_ply},
-                                         Sample{"ascii.stl", ascii_stl}, Sample{"binary.stl", binary_stl},
-                                         Sample{"cubes.csg", csg},
-                                         Sample{"plate.obj.xz", [] { return packed_xz(obj()); }},
-                                         Sample{"binary.stl.xz", [] { return packed_xz(binary_stl()); }},
-                                         Sample{"cubes.csg.xz", [] { return packed_xz(csg()); }}));
+INSTANTIATE_TEST_SUITE_P(
+    OfEveryFormat, ReadingStops,
+    testing::Values(WatchedSample{"plate.obj", obj}, WatchedSample{"plate.off", off},
+                    WatchedSample{"ascii.ply", ascii_ply}, WatchedSample{"binary.ply", binary_ply},
+                    WatchedSample{"ascii.stl", ascii_stl}, WatchedSample{"binary.stl", binary_stl},
+                    WatchedSample{"cubes.csg", cubes_csg},
+                    WatchedSample{"plate.obj.xz", [] { return packed_xz(obj()); }},
+                    WatchedSample{"binary.stl.xz", [] { return packed_xz(binary_stl()); }},
+                    WatchedSample{"cubes.csg.xz", [] { return packed_xz(cubes_csg()); }}));
 
 TEST(ByteWatch, AsksAsOftenAsThereAreBytes) {
   const std::string bytes(10 << 20, ' ');

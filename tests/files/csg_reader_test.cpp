@@ -476,12 +476,6 @@ TEST(CsgReader, FilesAreReadPackedOrNot) {
 
 // ---- Hostile texts --------------------------------------------------------------------------------
 
-std::string repeated(std::string_view text, int times) {
-  std::string result;
-  for (int i = 0; i < times; ++i) result += text;
-  return result;
-}
-
 TEST(CsgReader, DeepNestingIsReadWithoutRecursion) {
   constexpr int kDepth = 1'000'000;
   const std::string open = repeated("group(){", kDepth);

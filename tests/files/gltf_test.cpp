@@ -97,6 +97,46 @@ TEST(Gltf, WhatBelongsToCornersComesBack) {
   }
 }
 
+TEST(Gltf, RecipesComeBack) {
+  World world;
+  IdSource ids;
+  const auto material = ids.next<MaterialId>();
+  applied(world, CreateMaterial{material, Material{.name = "oak"}});
+  const std::string text = "{\"op\":\"text\",\"words\":\"\\\"\xc3\xa4\\n\"}";
+  const ObjectId one = add_object(world, ids, "one", made_mesh(text));
+  applied(world, ChooseMaterial{duplicated(world, ids, one, Duplicate::CloneObject), material});
+  add_object(world, ids, "other", made_mesh("{\"side\":1}"));
+  add_object(world, ids, "by hand", one_triangle());
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    const World back = through(world, name);
+    EXPECT_EQ(back.geometries().size(), 3U);
+    EXPECT_EQ(difference(world, back, kAsGltf), "");
+  }
+}
+
+TEST(Gltf, RecipesOfOtherPeopleAreTakenIfTheyFit) {
+  const auto recipe_from = [](const std::string& extras, const std::string& more) {
+    const std::string primitive = R"({"attributes":{"POSITION":0}})";
+    const ScratchFolder folder;
+    const auto path = folder.write(
+        "a.gltf",
+        R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"buffers":[{"byteLength":36,"uri":)"
+        R"("data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+        R"("componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[)" +
+            primitive + more + R"(],"extras":{"icome":{"recipe":)" + extras + "}}}]}");
+    const auto design = read_design(path);
+    if (!design) throw std::runtime_error(design.error().message);
+    return std::string(recipe_of(*design->world.geometries().begin()->second.shape));
+  };
+  EXPECT_EQ(recipe_from(R"("{\"side\":2}")", ""), R"({"side":2})");
+  EXPECT_EQ(recipe_from("17", ""), "");
+  EXPECT_EQ(recipe_from(R"({"side":2})", ""), "");
+  EXPECT_EQ(recipe_from(R"("{}")", R"(,{"attributes":{"POSITION":0},"mode":5})"), "");
+  EXPECT_EQ(recipe_from('"' + std::string(kMostRecipeBytes, 'x') + '"', "").size(), kMostRecipeBytes);
+  EXPECT_EQ(recipe_from('"' + std::string(kMostRecipeBytes + 1, 'x') + '"', ""), "");
+}
+
 TEST(Gltf, ColoursAreLinearInTheFileAndAsDisplayedInTheWorld) {
   const ScratchFolder folder;
   const auto path =

@@ -188,6 +188,7 @@ class Comparison {
       compare(mesh->mesh, same_mesh.mesh);
       near(flat(mesh->texture_coordinates), flat(same_mesh.texture_coordinates), "texture coordinates");
       near(flat(mesh->normals), flat(same_mesh.normals), "normals");
+      if (likeness_.recipes) same(mesh->recipe, same_mesh.recipe, "recipes");
       if (!same(mesh->colours.size(), same_mesh.colours.size(), "colours")) return;
       for (std::size_t t = 0; t < mesh->colours.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) near(mesh->colours[t][i], same_mesh.colours[t][i], "colours");

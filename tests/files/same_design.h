@@ -16,6 +16,7 @@ struct Likeness {
   bool scenes = true;
   bool fixtures = true;
   bool texture_names = true;
+  bool recipes = true;
 };
 
 /// What is different first, for people; empty when the designs are the same. What no object has (shapes,

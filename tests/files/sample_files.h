@@ -12,6 +12,13 @@
 
 namespace icome::files {
 
+inline std::string repeated(std::string_view text, int times) {
+  std::string all;
+  all.reserve(text.size() * std::size_t(times));
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
 /// A folder of its own for one test, removed with the object.
 class ScratchFolder {
  public:

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "damage.h"
 #include "files/file_bytes.h"
+#include "sample_files.h"
 #include "vrml_seen.h"
 
 namespace icome::files {
@@ -25,13 +26,6 @@ constexpr int kSlowness = 1;
 #endif
 
 DesignReadOptions bounds() { return {.memory_limit = 2ULL << 30U, .seconds_limit = 60.0 * kSlowness}; }
-
-std::string repeated(const std::string& text, int times) {
-  std::string all;
-  all.reserve(text.size() * static_cast<std::size_t>(times));
-  for (int i = 0; i < times; ++i) all += text;
-  return all;
-}
 
 SeenAnswer answer_to(const std::string& text) { return ask_about(text, bounds()); }
 

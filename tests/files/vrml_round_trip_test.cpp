@@ -40,7 +40,7 @@ void expect_stays(const World& once, const fs::path& path) {
 }
 
 /// The design after it went through a file.
-World through_file(const World& world, const Likeness& likeness = {.tolerance = 3e-6}) {
+World through_file(const World& world, const Likeness& likeness = {.tolerance = 3e-6, .recipes = false}) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "design.wrl";
   text_of_file(path, world);

@@ -140,6 +140,19 @@ TEST(VrmlWriter, WritesEveryKindOfShapeForOtherProgramsToo) {
       "The shape of \"one\" is not seen by other programs: A plane has no end: it cannot be made triangles.");
 }
 
+TEST(VrmlWriter, TellsThatParametersAreNotKept) {
+  const ScratchFolder folder;
+  DesignMaker design;
+  design.add("by hand", one_triangle());
+  EXPECT_TRUE(write_out(design.world, folder).remarks.empty());
+  design.add("made", made_mesh());
+  const std::vector<std::string> one{"VRML 2.0 knows no parameters of shapes: 1 shape stays as triangles."};
+  EXPECT_EQ(write_out(design.world, folder).remarks, one);
+  design.add("made", made_mesh());
+  const std::vector<std::string> two{"VRML 2.0 knows no parameters of shapes: 2 shapes stay as triangles."};
+  EXPECT_EQ(write_out(design.world, folder).remarks, two);
+}
+
 class OwnShape final : public Geometry {
  public:
   std::string_view kind() const override { return "egg"; }

@@ -17,7 +17,7 @@ namespace icome::geometry {
 namespace csg_leaf_test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLeafInfinity = std::numeric_limits<double>::infinity();
 
 bool is_plane(const CsgShape& shape) {
   const auto* primitive = std::get_if<Primitive>(&shape);
@@ -92,12 +92,12 @@ TEST(CsgLeaf, BoundsOfAPlaneEndWhereItIsAlignedWithAnAxis) {
   Affine3 turned = moved(0.25, 0, 0);  // its free side along +x
   turned.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   const Bounds box = CsgLeaf(Primitive(Plane{}), turned).bounds();
-  EXPECT_EQ(box.max(), Vector3(0.25, kInfinity, kInfinity));
-  EXPECT_EQ(box.min(), Vector3::Constant(-kInfinity));
+  EXPECT_EQ(box.max(), Vector3(0.25, kLeafInfinity, kLeafInfinity));
+  EXPECT_EQ(box.min(), Vector3::Constant(-kLeafInfinity));
 
   Affine3 tilted = Affine3::Identity();
   tilted.linear() = Eigen::AngleAxisd(0.5, Vector3(1, 1, 1).normalized()).toRotationMatrix();
-  EXPECT_EQ(CsgLeaf(Primitive(Plane{}), tilted).bounds().max(), Vector3::Constant(kInfinity));
+  EXPECT_EQ(CsgLeaf(Primitive(Plane{}), tilted).bounds().max(), Vector3::Constant(kLeafInfinity));
 }
 
 TEST(CsgLeaf, BoundsOfOwnPrimitiveAreThoseOfItsBox) {

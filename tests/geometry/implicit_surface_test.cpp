@@ -17,7 +17,7 @@ namespace {
 
 using Surface = std::shared_ptr<const ImplicitSurface>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFieldInfinity = std::numeric_limits<double>::infinity();
 
 Bounds cube(double half) { return {Vector3::Constant(-half), Vector3::Constant(half)}; }
 
@@ -27,7 +27,7 @@ Surface surface_of(const std::string& formula, const Bounds& box = cube(0.1)) {
   return surface ? *surface : nullptr;
 }
 
-std::string error_of(const std::string& formula, const Bounds& box = cube(0.1)) {
+std::string surface_error(const std::string& formula, const Bounds& box = cube(0.1)) {
   const auto surface = ImplicitSurface::create(formula, box);
   return surface ? "" : surface.error().message;
 }
@@ -48,29 +48,29 @@ const std::string kTorus = "(sqrt(x^2 + y^2) - 0.05)^2 + z^2 - 0.02^2";
 const std::string kGyroid = "sin(80*x)*cos(80*y) + sin(80*y)*cos(80*z) + sin(80*z)*cos(80*x)";
 const std::string kWaves = "z - 0.005*sin(60*x + 3*t)*cos(60*y)";
 const std::string kEllipsoid = "(x/0.08)^2 + (y/0.05)^2 + (z/0.03)^2 - 1";
-constexpr double kSlack = 2e-12;  // 1e-11 of the cube's edge
+constexpr double kFieldSlack = 2e-12;  // 1e-11 of the cube's edge
 
 // ---- Creation ----------------------------------------------------------------------------------------
 
 TEST(ImplicitSurface, RefusesBoxesThatAreNone) {
-  EXPECT_NE(error_of(kSphere, Bounds()), "");
-  EXPECT_NE(error_of(kSphere, cube(0.0)), "");
-  EXPECT_NE(error_of(kSphere, cube(-1.0)), "");
-  EXPECT_NE(error_of(kSphere, cube(kInfinity)), "");
-  EXPECT_NE(error_of(kSphere, cube(std::nan(""))), "");
-  EXPECT_NE(error_of(kSphere, cube(1e300)), "");
-  EXPECT_NE(error_of(kSphere, {Vector3(-1, -1, 0), Vector3(1, 1, 1e-12)}), "");
+  EXPECT_NE(surface_error(kSphere, Bounds()), "");
+  EXPECT_NE(surface_error(kSphere, cube(0.0)), "");
+  EXPECT_NE(surface_error(kSphere, cube(-1.0)), "");
+  EXPECT_NE(surface_error(kSphere, cube(kFieldInfinity)), "");
+  EXPECT_NE(surface_error(kSphere, cube(std::nan(""))), "");
+  EXPECT_NE(surface_error(kSphere, cube(1e300)), "");
+  EXPECT_NE(surface_error(kSphere, {Vector3(-1, -1, 0), Vector3(1, 1, 1e-12)}), "");
 }
 
 TEST(ImplicitSurface, RefusesFormulasWithoutSurface) {
-  EXPECT_NE(error_of("x^2 + y^2 + 0.1").find("positive"), std::string::npos);
-  EXPECT_NE(error_of("x - 1").find("negative"), std::string::npos);
-  EXPECT_NE(error_of("z - 0.2 - 0.05*sin(60*x + 3*t)").find("negative"), std::string::npos);
-  EXPECT_NE(error_of("log(x - 5)").find("undefined"), std::string::npos);
-  EXPECT_NE(error_of("3").find("depend"), std::string::npos);
-  EXPECT_NE(error_of("sin(t)").find("depend"), std::string::npos);
-  EXPECT_NE(error_of("x + foo").find("column 5"), std::string::npos);
-  EXPECT_NE(error_of(""), "");
+  EXPECT_NE(surface_error("x^2 + y^2 + 0.1").find("positive"), std::string::npos);
+  EXPECT_NE(surface_error("x - 1").find("negative"), std::string::npos);
+  EXPECT_NE(surface_error("z - 0.2 - 0.05*sin(60*x + 3*t)").find("negative"), std::string::npos);
+  EXPECT_NE(surface_error("log(x - 5)").find("undefined"), std::string::npos);
+  EXPECT_NE(surface_error("3").find("depend"), std::string::npos);
+  EXPECT_NE(surface_error("sin(t)").find("depend"), std::string::npos);
+  EXPECT_NE(surface_error("x + foo").find("column 5"), std::string::npos);
+  EXPECT_NE(surface_error(""), "");
 }
 
 TEST(ImplicitSurface, KnowsItsBoundsAndWhetherItChanges) {
@@ -121,7 +121,7 @@ void compare_with_samples(const std::string& formula, int segments, double time)
   int found = 0;
   for (int i = 0; i < segments; ++i) {
     const auto [start, step] = random_segment(surface->box(), random);
-    const auto entry = surface->entry(0, start, step, false, time, kSlack);
+    const auto entry = surface->entry(0, start, step, false, time, kFieldSlack);
     constexpr int kSamples = 40;
     double before = surface->value(start, time).value;
     for (int k = 1; k <= kSamples; ++k) {
@@ -136,7 +136,7 @@ void compare_with_samples(const std::string& formula, int segments, double time)
     }
     if (!entry) continue;
     ++found;
-    ASSERT_LE(distance_to(*surface, entry->place.point, time), kSlack);
+    ASSERT_LE(distance_to(*surface, entry->place.point, time), kFieldSlack);
     ASSERT_NEAR((entry->place.point - start - entry->t * step).norm(), 0.0, 1e-15);
     const double falls = surface->value(entry->place.point, time).gradient.dot(step);
     ASSERT_LE(falls, 1e-4 * surface->value(entry->place.point, time).gradient.norm() * step.norm());
@@ -162,15 +162,15 @@ TEST(ImplicitSurface, EntersASphereWhereTheQuadraticEquationSays) {
     const Vector3 start = nearest - random.uniform(0.03, 0.1) * ahead;
     if (!sphere->box().contains(start)) continue;
     const Vector3 step = random.uniform(0.11, 0.2) * ahead;
-    const auto entry = sphere->entry(0, start, step, false, 0.0, kSlack);
+    const auto entry = sphere->entry(0, start, step, false, 0.0, kFieldSlack);
     const double half_chord_square = 0.05 * 0.05 - nearest.squaredNorm();
-    if (depth > kSlack) {
+    if (depth > kFieldSlack) {
       ASSERT_TRUE(entry.has_value()) << depth;
       const double t = ((nearest - start).dot(ahead) - std::sqrt(half_chord_square)) / step.norm();
       // Across the surface it is exact; along a grazing way that is a longer length.
       const double angle = std::sqrt(half_chord_square) / 0.05;
-      ASSERT_NEAR(entry->t, t, (0.1 * kSlack / angle + 1e-13) / step.norm()) << depth;
-    } else if (depth < -kSlack) {
+      ASSERT_NEAR(entry->t, t, (0.1 * kFieldSlack / angle + 1e-13) / step.norm()) << depth;
+    } else if (depth < -kFieldSlack) {
       ASSERT_FALSE(entry.has_value()) << depth;
     }
   }
@@ -192,7 +192,7 @@ TEST(ImplicitSurface, MissesNoThinSheet) {
       const double before = side(way.start), after = side(way.start + way.step);
       if ((before > 0.0) == (after > 0.0) || std::abs(before) < 6e-7 || std::abs(after) < 6e-7) continue;
       ++crossings;
-      const auto entry = sheet->entry(0, way.start, way.step, false, 0.0, kSlack);
+      const auto entry = sheet->entry(0, way.start, way.step, false, 0.0, kFieldSlack);
       ASSERT_TRUE(entry.has_value());
       ASSERT_NEAR(std::abs(side(entry->place.point)), 5e-7, 1e-9);
       ASSERT_GT(side(entry->place.point) * before, 0.0);
@@ -202,16 +202,16 @@ TEST(ImplicitSurface, MissesNoThinSheet) {
 }
 
 TEST(ImplicitSurface, SlidesAtTheGapWithoutEntering) {
-  const double gap = 10 * kSlack;
+  const double gap = 10 * kFieldSlack;
   const Surface plane = surface_of("3*z - x");
   const Vector3 normal = Vector3(-1, 0, 3).normalized();
-  EXPECT_FALSE(plane->entry(0, gap * normal, 0.05 * Vector3(3, 0, 1).normalized(), false, 0.0, kSlack));
+  EXPECT_FALSE(plane->entry(0, gap * normal, 0.05 * Vector3(3, 0, 1).normalized(), false, 0.0, kFieldSlack));
   base::Random random(14);
   const Surface sphere = surface_of(kSphere);
   for (int i = 0; i < 2000; ++i) {
     const Vector3 up = random.direction();
     const Vector3 along = up.unitOrthogonal();
-    EXPECT_FALSE(sphere->entry(0, (0.05 + gap) * up, 0.04 * along, false, 0.0, kSlack));
+    EXPECT_FALSE(sphere->entry(0, (0.05 + gap) * up, 0.04 * along, false, 0.0, kFieldSlack));
   }
 }
 
@@ -219,23 +219,24 @@ TEST(ImplicitSurface, CountsAStartWithinSlackAsInFront) {
   const Surface sphere = surface_of(kSphere);
   const Vector3 up = Vector3(1, 2, 3).normalized();
   for (const double height : {-0.9, 0.0, 0.9}) {
-    const Vector3 start = (0.05 + height * kSlack) * up;
-    const auto moving_in = sphere->entry(0, start, -0.01 * up, false, 0.0, kSlack);
+    const Vector3 start = (0.05 + height * kFieldSlack) * up;
+    const auto moving_in = sphere->entry(0, start, -0.01 * up, false, 0.0, kFieldSlack);
     ASSERT_TRUE(moving_in.has_value()) << height;
     EXPECT_EQ(moving_in->t, 0.0);
     EXPECT_GT(moving_in->place.normal.dot(up), 0.999999);
-    const auto slanted = sphere->entry(0, start, 0.01 * up.unitOrthogonal() - 0.001 * up, false, 0.0, kSlack);
+    const auto slanted =
+        sphere->entry(0, start, 0.01 * up.unitOrthogonal() - 0.001 * up, false, 0.0, kFieldSlack);
     ASSERT_TRUE(slanted.has_value()) << height;
     EXPECT_EQ(slanted->t, 0.0);
-    EXPECT_FALSE(sphere->entry(0, start, 0.01 * up, false, 0.0, kSlack)) << height;
-    const auto from_behind = sphere->entry(0, start, 0.01 * up, true, 0.0, kSlack);
+    EXPECT_FALSE(sphere->entry(0, start, 0.01 * up, false, 0.0, kFieldSlack)) << height;
+    const auto from_behind = sphere->entry(0, start, 0.01 * up, true, 0.0, kFieldSlack);
     ASSERT_TRUE(from_behind.has_value()) << height;
     EXPECT_EQ(from_behind->t, 0.0);
-    EXPECT_FALSE(sphere->entry(0, start, -0.01 * up, true, 0.0, kSlack)) << height;
+    EXPECT_FALSE(sphere->entry(0, start, -0.01 * up, true, 0.0, kFieldSlack)) << height;
   }
   // Deeper, it is behind: through to the other side it only leaves.
-  EXPECT_FALSE(sphere->entry(0, (0.05 - 3 * kSlack) * up, -0.12 * up, false, 0.0, kSlack));
-  const auto leaves = sphere->entry(0, 0.04 * up, 0.04 * up, true, 0.0, kSlack);
+  EXPECT_FALSE(sphere->entry(0, (0.05 - 3 * kFieldSlack) * up, -0.12 * up, false, 0.0, kFieldSlack));
+  const auto leaves = sphere->entry(0, 0.04 * up, 0.04 * up, true, 0.0, kFieldSlack);
   ASSERT_TRUE(leaves.has_value());
   EXPECT_NEAR(leaves->t, 0.25, 1e-10);
 }
@@ -243,26 +244,26 @@ TEST(ImplicitSurface, CountsAStartWithinSlackAsInFront) {
 TEST(ImplicitSurface, EntersAgainAfterMovingOut) {
   const Surface slabs = surface_of("cos(300*z)");
   const double slab = std::numbers::pi / 600;  // solid below -slab ... and between slab and 3 slab
-  const auto entry = slabs->entry(0, {0, 0, -slab}, {0, 0, 4 * slab}, false, 0.0, kSlack);
+  const auto entry = slabs->entry(0, {0, 0, -slab}, {0, 0, 4 * slab}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(entry.has_value());
   EXPECT_NEAR(entry->t, 0.5, 1e-9);
 }
 
 TEST(ImplicitSurface, EntersTheSolidWhereTheFormulaBeginsToHaveValues) {
   const Surface half = surface_of("sqrt(x) - 1");  // solid for x >= 0, nothing for x < 0
-  const auto entry = half->entry(0, {-0.05, 0, 0}, {0.1, 0, 0}, false, 0.0, kSlack);
+  const auto entry = half->entry(0, {-0.05, 0, 0}, {0.1, 0, 0}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(entry.has_value());
   EXPECT_NEAR(entry->t, 0.5, 1e-9);
   EXPECT_TRUE(entry->place.normal.allFinite());
   const Surface pole = surface_of("-1/x");  // solid for x > 0, its surface a pole
-  const auto through = pole->entry(0, {-0.05, 0.01, 0}, {0.1, 0, 0}, false, 0.0, kSlack);
+  const auto through = pole->entry(0, {-0.05, 0.01, 0}, {0.1, 0, 0}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(through.has_value());
   EXPECT_NEAR(through->t, 0.5, 1e-9);
 }
 
 TEST(ImplicitSurface, AnswersEarlyWhenThereIsTooMuchToLookAt) {
   const Surface wild = surface_of("z - 0.001*sin(1e7*x)*sin(1e7*y + 1e9*x)");
-  const auto entry = wild->entry(0, {-0.09, -0.08, 0.0015}, {0.18, 0.16, -0.002}, false, 0.0, kSlack);
+  const auto entry = wild->entry(0, {-0.09, -0.08, 0.0015}, {0.18, 0.16, -0.002}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(entry.has_value());
   EXPECT_LT(entry->t, 0.76);
   EXPECT_TRUE(entry->place.normal.allFinite());
@@ -270,19 +271,20 @@ TEST(ImplicitSurface, AnswersEarlyWhenThereIsTooMuchToLookAt) {
 
 TEST(ImplicitSurface, EntersThroughTheSidesOfTheBox) {
   const Surface waves = surface_of(kWaves);
-  const auto floor = waves->entry(5, {0.01, 0.02, -0.2}, {0, 0, 0.2}, false, 0.0, kSlack);
+  const auto floor = waves->entry(5, {0.01, 0.02, -0.2}, {0, 0, 0.2}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(floor.has_value());
   EXPECT_NEAR(floor->t, 0.5, 1e-12);
   EXPECT_EQ(floor->place.piece, 5U);
   EXPECT_EQ(floor->place.point.z(), -0.1);
   EXPECT_EQ(floor->place.normal, Vector3(0, 0, -1));
-  EXPECT_FALSE(waves->entry(6, {0.01, 0.02, 0.2}, {0, 0, -0.2}, false, 0.0, kSlack));  // air above
-  EXPECT_TRUE(waves->entry(2, {0.2, 0.0, -0.05}, {-0.2, 0, 0}, false, 0.0, kSlack));
-  EXPECT_FALSE(waves->entry(2, {0.2, 0.0, 0.05}, {-0.2, 0, 0}, false, 0.0, kSlack));
-  EXPECT_FALSE(waves->entry(2, {0.2, 0.0, -0.15}, {-0.2, 0, 0}, false, 0.0, kSlack));  // beside it
-  EXPECT_FALSE(waves->entry(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, false, 0.0, kSlack));
-  EXPECT_TRUE(waves->entry(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, true, 0.0, kSlack));
-  const auto resting = waves->entry(5, {0.01, 0.02, -0.1 + 0.5 * kSlack}, {0, 0, 0.2}, false, 0.0, kSlack);
+  EXPECT_FALSE(waves->entry(6, {0.01, 0.02, 0.2}, {0, 0, -0.2}, false, 0.0, kFieldSlack));  // air above
+  EXPECT_TRUE(waves->entry(2, {0.2, 0.0, -0.05}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->entry(2, {0.2, 0.0, 0.05}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->entry(2, {0.2, 0.0, -0.15}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));  // beside it
+  EXPECT_FALSE(waves->entry(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, false, 0.0, kFieldSlack));
+  EXPECT_TRUE(waves->entry(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, true, 0.0, kFieldSlack));
+  const auto resting =
+      waves->entry(5, {0.01, 0.02, -0.1 + 0.5 * kFieldSlack}, {0, 0, 0.2}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(resting.has_value());
   EXPECT_EQ(resting->t, 0.0);
 }
@@ -297,16 +299,16 @@ TEST(ImplicitSurface, LeavesNoCrackBetweenFormulaAndSides) {
       Vector3 start = random_in(around, random), end = random_in(surface->box(), random);
       if (i % 2 == 0) {  // aimed at an edge between a side and the formula's surface
         end.x() = 0.1 * (1 - 1e-9 * random.uniform());
-        const auto down = surface->entry(0, {end.x(), end.y(), 0.1}, {0, 0, -0.2}, false, 0.0, kSlack);
+        const auto down = surface->entry(0, {end.x(), end.y(), 0.1}, {0, 0, -0.2}, false, 0.0, kFieldSlack);
         if (!down) continue;
         end = down->place.point - 1e-11 * random.uniform() * down->place.normal;
       }
       if (surface->inside(start, 0.0) || !surface->inside(end, 0.0)) continue;
       bool met = false;
       for (std::uint32_t piece = 0; piece <= 6 && !met; ++piece) {
-        met = surface->entry(piece, start, end - start, false, 0.0, kSlack).has_value();
+        met = surface->entry(piece, start, end - start, false, 0.0, kFieldSlack).has_value();
       }
-      ASSERT_TRUE(met || distance_to(*surface, end) < 2 * kSlack) << formula << " segment " << i;
+      ASSERT_TRUE(met || distance_to(*surface, end) < 2 * kFieldSlack) << formula << " segment " << i;
     }
   }
 }
@@ -351,12 +353,12 @@ TEST(ImplicitSurface, StandsUprightUnderItsGoalOnEllipsoidGyroidAndWaves) {
     int tried = 0;
     for (int i = 0; i < 3000; ++i) {
       const auto [start, step] = random_segment(surface->box(), random);
-      const auto entry = surface->entry(0, start, step, false, 0.5, kSlack);
+      const auto entry = surface->entry(0, start, step, false, 0.5, kFieldSlack);
       if (!entry) continue;
       ++tried;
       const Vector3 goal = entry->place.point + random.uniform(0.0, 0.008) * random.direction();
       const SurfacePlace foot = surface->foot(entry->place, goal, 0.5);
-      ASSERT_LT(distance_to(*surface, foot.point, 0.5), 0.1 * kSlack) << formula << i;
+      ASSERT_LT(distance_to(*surface, foot.point, 0.5), 0.1 * kFieldSlack) << formula << i;
       ASSERT_LE((foot.point - goal).norm(), (entry->place.point - goal).norm() * (1 + 1e-12)) << formula;
       const Vector3 pull = goal - foot.point;
       const Vector3 sideways = pull - pull.dot(foot.normal) * foot.normal;
@@ -390,7 +392,7 @@ TEST(ImplicitSurface, FollowsAWaveThatHasMoved) {
   for (int tick = 1; tick <= 500; ++tick) {
     const double time = 0.001 * tick;
     place = waves->foot(place, {0.01, 0.02, -0.02}, time);
-    ASSERT_LT(distance_to(*waves, place.point, time), 0.1 * kSlack);
+    ASSERT_LT(distance_to(*waves, place.point, time), 0.1 * kFieldSlack);
   }
   EXPECT_NEAR(place.point.x(), 0.01, 0.012);
 }
@@ -401,7 +403,7 @@ TEST(ImplicitSurface, WalksOverTheSidesAsPlanes) {
   EXPECT_EQ(foot.point, Vector3(0.1, 0.03, -0.2));
   EXPECT_EQ(foot.normal, Vector3(1, 0, 0));
   EXPECT_EQ(foot.piece, 2U);
-  EXPECT_FALSE(waves->covers(foot, {}, 0.0, kSlack));
+  EXPECT_FALSE(waves->covers(foot, {}, 0.0, kFieldSlack));
 }
 
 TEST(ImplicitSurface, WalksAroundTheEdgesOfABoxMadeOfFormula) {
@@ -458,11 +460,11 @@ TEST(ImplicitSurface, LeadsOutOfTheSolid) {
 
 TEST(ImplicitSurface, CoversItsPiecesToTheirCommonEdges) {
   const Surface waves = surface_of("z");
-  EXPECT_TRUE(waves->covers({{0.1, 0.0, 0.0}, Vector3::UnitZ()}, {}, 0.0, kSlack));
-  EXPECT_TRUE(waves->covers({{0.1 + 0.9 * kSlack, 0.0, 0.0}, Vector3::UnitZ()}, {}, 0.0, kSlack));
-  EXPECT_FALSE(waves->covers({{0.1 + 2 * kSlack, 0.0, 0.0}, Vector3::UnitZ()}, {}, 0.0, kSlack));
-  EXPECT_TRUE(waves->covers({{0.1, 0.0, 0.9 * kSlack}, Vector3::UnitX(), 2}, {}, 0.0, kSlack));
-  EXPECT_FALSE(waves->covers({{0.1, 0.0, 2 * kSlack}, Vector3::UnitX(), 2}, {}, 0.0, kSlack));
+  EXPECT_TRUE(waves->covers({{0.1, 0.0, 0.0}, Vector3::UnitZ()}, {}, 0.0, kFieldSlack));
+  EXPECT_TRUE(waves->covers({{0.1 + 0.9 * kFieldSlack, 0.0, 0.0}, Vector3::UnitZ()}, {}, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->covers({{0.1 + 2 * kFieldSlack, 0.0, 0.0}, Vector3::UnitZ()}, {}, 0.0, kFieldSlack));
+  EXPECT_TRUE(waves->covers({{0.1, 0.0, 0.9 * kFieldSlack}, Vector3::UnitX(), 2}, {}, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->covers({{0.1, 0.0, 2 * kFieldSlack}, Vector3::UnitX(), 2}, {}, 0.0, kFieldSlack));
 }
 
 TEST(ImplicitSurface, NamesEveryPieceThatIsNear) {
@@ -472,11 +474,11 @@ TEST(ImplicitSurface, NamesEveryPieceThatIsNear) {
     for (int i = 0; i < 2000; ++i) {
       const auto [start, step] = random_segment(surface->box(), random);
       const double time = random.uniform(-5.0, 5.0);
-      const auto entry = surface->entry(0, start, step, false, time, kSlack);
+      const auto entry = surface->entry(0, start, step, false, time, kFieldSlack);
       if (!entry) continue;
       bool named = false;
-      surface->near(start, start + step, kSlack, time, [&](std::uint32_t piece, const Bounds& box) {
-        named |= piece == 0 && box.exteriorDistance(entry->place.point) <= kSlack;
+      surface->near(start, start + step, kFieldSlack, time, [&](std::uint32_t piece, const Bounds& box) {
+        named |= piece == 0 && box.exteriorDistance(entry->place.point) <= kFieldSlack;
         return !named;
       });
       ASSERT_TRUE(named) << formula;
@@ -503,8 +505,8 @@ TEST(ImplicitSurface, AnswersAlikeInMetresAndMillimetres) {
   base::Random random(22);
   for (int i = 0; i < 2000; ++i) {
     const auto [start, step] = random_segment(cube(0.125), random);
-    const auto one = metres->entry(0, start, step, false, 0.0, kSlack);
-    const auto other = millimetres->entry(0, 1000 * start, 1000 * step, false, 0.0, 1000 * kSlack);
+    const auto one = metres->entry(0, start, step, false, 0.0, kFieldSlack);
+    const auto other = millimetres->entry(0, 1000 * start, 1000 * step, false, 0.0, 1000 * kFieldSlack);
     ASSERT_EQ(one.has_value(), other.has_value());
     if (!one) continue;
     ASSERT_NEAR(one->t * step.norm(), other->t * step.norm(), 1e-11);
@@ -524,7 +526,7 @@ TEST(ImplicitSurface, SurvivesPlacesWhereTheFormulaHasNoGradient) {
     for (int i = 0; i < 200; ++i) {
       auto [start, step] = random_segment(surface->box(), random);
       if (i % 4 == 0) step = -start;
-      const auto entry = surface->entry(0, start, step, i % 2 == 0, 0.0, kSlack);
+      const auto entry = surface->entry(0, start, step, i % 2 == 0, 0.0, kFieldSlack);
       const SurfacePlace from = entry ? entry->place : SurfacePlace{Vector3::Zero(), Vector3::UnitZ()};
       const SurfacePlace foot = surface->foot(from, random_in(surface->box(), random), 0.0);
       ASSERT_TRUE(foot.point.allFinite() && foot.normal.allFinite()) << formula;
@@ -537,14 +539,14 @@ TEST(ImplicitSurface, SurvivesPlacesWhereTheFormulaHasNoGradient) {
 TEST(ImplicitSurface, SurvivesArgumentsThatAreNoNumbers) {
   const Surface sphere = surface_of(kSphere);
   const Vector3 nothing = Vector3::Constant(std::nan("")), good(0, 0, 0.06);
-  EXPECT_FALSE(sphere->entry(0, nothing, good, false, 0.0, kSlack));
-  EXPECT_FALSE(sphere->entry(0, good, nothing, false, 0.0, kSlack));
-  EXPECT_FALSE(sphere->entry(0, good, Vector3::Zero(), false, 0.0, kSlack));
-  EXPECT_FALSE(sphere->entry(3, nothing, good, false, 0.0, kSlack));
+  EXPECT_FALSE(sphere->entry(0, nothing, good, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->entry(0, good, nothing, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->entry(0, good, Vector3::Zero(), false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->entry(3, nothing, good, false, 0.0, kFieldSlack));
   EXPECT_FALSE(sphere->inside(nothing));
   EXPECT_FALSE(sphere->way_out(nothing, 0.0));
   (void)sphere->foot({good, {}}, nothing, 0.0);
-  (void)surface_of(kWaves)->entry(0, good, -good, false, std::nan(""), kSlack);
+  (void)surface_of(kWaves)->entry(0, good, -good, false, std::nan(""), kFieldSlack);
 }
 
 TEST(ImplicitSurface, CanBeSampledForMeshing) {

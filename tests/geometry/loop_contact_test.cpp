@@ -19,7 +19,7 @@ namespace ref = loop_reference;
 
 constexpr double kSlack = 1e-11;
 
-std::shared_ptr<const LoopSurface> make(const ControlMesh& control) {
+std::shared_ptr<const LoopSurface> touchable(const ControlMesh& control) {
   auto surface = LoopSurface::create(control);
   EXPECT_TRUE(surface.has_value()) << (surface ? "" : surface.error().message);
   return surface ? *surface : nullptr;
@@ -76,7 +76,7 @@ TEST(LoopContact, NearestPlaceIsTheOneThatLookingFinds) {
   const ref::Index count[] = {3, 5, 12, 30};
   for (const ref::Index valence : count) {
     const ControlMesh control{ref::bipyramid(valence, 0.1, valence), {}, {}};
-    const auto surface = make(control);
+    const auto surface = touchable(control);
     base::Random random(valence);
     for (int trial = 0; trial < 25; ++trial) {
       const auto face = std::uint32_t(random.index(control.mesh.triangles.size()));
@@ -95,7 +95,7 @@ TEST(LoopContact, NearestPlaceIsTheOneThatLookingFinds) {
 TEST(LoopContact, FootIsPerpendicularOrAtTheRim) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const ControlMesh control = ref::torn(ref::wild_ball(2, 100, 0.04, seed), 0.05, 0.05, 0.0, seed);
-    const auto surface = make(control);
+    const auto surface = touchable(control);
     base::Random random(seed);
     int inner = 0, rim = 0;
     for (int trial = 0; trial < 3000; ++trial) {
@@ -134,7 +134,7 @@ TEST(LoopContact, FootIsPerpendicularOrAtTheRim) {
 
 TEST(LoopContact, FootGoesOverEdgesToAPlaceFarAway) {
   const ControlMesh control{ref::wild_ball(2, 60, 0.02, 5), {}, {}};
-  const auto surface = make(control);
+  const auto surface = touchable(control);
   base::Random random(5);
   for (int trial = 0; trial < 300; ++trial) {
     const auto face = std::uint32_t(random.index(control.mesh.triangles.size()));
@@ -149,7 +149,7 @@ TEST(LoopContact, FootGoesOverEdgesToAPlaceFarAway) {
 TEST(LoopContact, FootAtExtraordinaryVerticesEndsThere) {
   for (const ref::Index valence : {3u, 4u, 5u, 7u, 12u, 40u}) {
     const ControlMesh control{ref::bipyramid(valence, 0.0, 1), {}, {}};
-    const auto surface = make(control);
+    const auto surface = touchable(control);
     const auto pole = surface->sample(0, 0.0, 0.0);
     const auto next = surface->sample(0, 0.25, 0.2);
     const auto entry = first_entry(*surface, next.point + 0.1 * next.normal, -0.2 * next.normal, false);
@@ -163,7 +163,7 @@ TEST(LoopContact, FootAtExtraordinaryVerticesEndsThere) {
 
 /// Segments between random places around and on the surface.
 void compare_with_mesh(const ControlMesh& control, int level, int trials, std::uint64_t seed) {
-  const auto surface = make(control);
+  const auto surface = touchable(control);
   const auto mesh = surface->tessellate(level);
   ASSERT_TRUE(mesh.has_value());
   const TriangleTree tree(*mesh);
@@ -202,7 +202,7 @@ TEST(LoopContact, EntriesAreThoseOfAFineMesh) {
 TEST(LoopContact, NothingSlipsThroughVerticesAndEdges) {
   for (const std::uint64_t seed : {1u, 2u}) {
     const ControlMesh control{ref::wild_ball(1, 30, 0.15, seed), {}, {}};
-    const auto surface = make(control);
+    const auto surface = touchable(control);
     base::Random random(seed);
     for (int trial = 0; trial < 1500; ++trial) {
       const auto face = std::uint32_t(random.index(control.mesh.triangles.size()));
@@ -224,7 +224,7 @@ TEST(LoopContact, NothingSlipsThroughVerticesAndEdges) {
 TEST(LoopContact, GrazingSegmentsAreCaught) {
   // Chords that dip below the surface by as little as ten times what counts.
   const ControlMesh control{ref::wild_ball(1, 30, 0.02, 4), {}, {}};
-  const auto surface = make(control);
+  const auto surface = touchable(control);
   base::Random random(4);
   int caught = 0;
   for (int trial = 0; trial < 3000; ++trial) {
@@ -244,7 +244,7 @@ TEST(LoopContact, GrazingSegmentsAreCaught) {
 
 TEST(LoopContact, StartsOnTheSurfaceEnterOnlyWhenTheyMoveIn) {
   const ControlMesh control{ref::wild_ball(1, 30, 0.1, 6), {}, {}};
-  const auto surface = make(control);
+  const auto surface = touchable(control);
   base::Random random(6);
   for (int trial = 0; trial < 2000; ++trial) {
     const auto face = std::uint32_t(random.index(control.mesh.triangles.size()));
@@ -267,7 +267,7 @@ TEST(LoopContact, StartsOnTheSurfaceEnterOnlyWhenTheyMoveIn) {
 TEST(LoopContact, InsideIsToldNextToTheSurface) {
   for (const std::uint64_t seed : {1u, 2u}) {
     const ControlMesh control = ref::torn(ref::wild_ball(1, 30, 0.15, seed), 0.0, 0.1, 0.05, seed);
-    const auto surface = make(control);
+    const auto surface = touchable(control);
     ASSERT_TRUE(surface->closed());
     base::Random random(seed);
     for (int trial = 0; trial < 2000; ++trial) {
@@ -287,7 +287,7 @@ TEST(LoopContact, InsideIsToldNextToTheSurface) {
 
 TEST(LoopContact, TessellationsLieOnTheSurfaceAndStayClosed) {
   const ControlMesh control = ref::torn(ref::wild_ball(1, 30, 0.1, 6), 0.0, 0.1, 0.05, 6);
-  const auto surface = make(control);
+  const auto surface = touchable(control);
   for (const int level : {0, 1, 2, 3}) {
     const auto mesh = surface->tessellate(level);
     ASSERT_TRUE(mesh.has_value());
@@ -302,9 +302,9 @@ TEST(LoopContact, TessellationsLieOnTheSurfaceAndStayClosed) {
 
 TEST(LoopContact, SamePiecesShareASmoothVertex) {
   ControlMesh control{ref::wild_ball(1, 30, 0.1, 6), {}, {}};
-  const auto round = make(control);
+  const auto round = touchable(control);
   for (const auto& t : control.mesh.triangles) control.creases.push_back({t[0], t[1]});
-  const auto creased = make(control);
+  const auto creased = touchable(control);
   const auto pieces = std::uint32_t(4 * control.mesh.triangles.size());
   std::size_t round_pairs = 0, creased_pairs = 0;
   for (std::uint32_t a = 0; a < pieces; ++a) {

@@ -206,41 +206,41 @@ TEST(LoopLevels, LeavesOutUnusedVertices) {
   EXPECT_EQ(levels->bounds().max(), Vector3(1, 1, 1));
 }
 
-std::string refusal(const ControlMesh& control, const LoopLevelsSettings& settings = {}) {
+std::string levels_refusal(const ControlMesh& control, const LoopLevelsSettings& settings = {}) {
   const auto levels = LoopLevels::create(control, settings);
   return levels ? "accepted" : levels.error().message;
 }
 
 TEST(LoopLevels, RefusesWhatIsNoSurface) {
-  EXPECT_EQ(refusal({}), "the control mesh has no triangles");
+  EXPECT_EQ(levels_refusal({}), "the control mesh has no triangles");
   ControlMesh control{octahedron(), {}, {}};
   control.mesh.positions[2].y() = std::nan("");
-  EXPECT_NE(refusal(control).find("vertex 2"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("vertex 2"), std::string::npos);
   control.mesh = octahedron();
   control.mesh.positions[2].y() = -1e300;
-  EXPECT_NE(refusal(control).find("vertex 2"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("vertex 2"), std::string::npos);
   control.mesh = octahedron();
   control.mesh.triangles[3] = {0, 0, 1};
-  EXPECT_NE(refusal(control).find("triangle 3"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("triangle 3"), std::string::npos);
   control.mesh.triangles[3] = {0, 77, 1};
-  EXPECT_NE(refusal(control).find("triangle 3"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("triangle 3"), std::string::npos);
   control.mesh = octahedron();
   control.mesh.triangles.push_back({0, 2, 3});
-  EXPECT_NE(refusal(control).find("three triangles"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("three triangles"), std::string::npos);
   control.mesh = octahedron();
   std::swap(control.mesh.triangles[0][0], control.mesh.triangles[0][1]);
-  EXPECT_NE(refusal(control).find("turn them"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("turn them"), std::string::npos);
   control = {octahedron(), {{0, 1}}, {}};
-  EXPECT_NE(refusal(control).find("crease from vertex 0 to 1"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("crease from vertex 0 to 1"), std::string::npos);
   control = {octahedron(), {}, {6}};
-  EXPECT_NE(refusal(control).find("corner 6"), std::string::npos);
+  EXPECT_NE(levels_refusal(control).find("corner 6"), std::string::npos);
 }
 
 TEST(LoopLevels, KeepsToItsMemory) {
-  EXPECT_NE(refusal({octahedron(), {}, {}}, {.finest = 11}).find("0 to 10"), std::string::npos);
-  EXPECT_NE(refusal({octahedron(), {}, {}}, {.finest = -1}).find("0 to 10"), std::string::npos);
+  EXPECT_NE(levels_refusal({octahedron(), {}, {}}, {.finest = 11}).find("0 to 10"), std::string::npos);
+  EXPECT_NE(levels_refusal({octahedron(), {}, {}}, {.finest = -1}).find("0 to 10"), std::string::npos);
   const LoopLevelsSettings tight{.finest = 8, .max_bytes = 1'000'000};
-  const std::string message = refusal({octahedron(), {}, {}}, tight);
+  const std::string message = levels_refusal({octahedron(), {}, {}}, tight);
   EXPECT_NE(message.find("use level 5"), std::string::npos) << message;
   const LevelsPointer fits =
       *LoopLevels::create({octahedron(), {}, {}}, {.finest = 5, .max_bytes = 1'000'000});

@@ -374,5 +374,30 @@ TEST(Collisions, OfVeryManyObjectsLookAtFew) {
   EXPECT_EQ(index.collisions(middle).size(), 4U);
 }
 
+TEST(Collisions, KnowWhatStandsWhere) {
+  World world;
+  IdSource ids;
+  const ObjectId group = add_object(world, ids, "", nullptr, {}, at(10.0, 0.0, 0.0));
+  const ObjectId near = add_object(world, ids, "", box(1.0), group);
+  const ObjectId far = add_object(world, ids, "", box(1.0), group, at(5.0, 0.0, 0.0));
+  const ObjectId ground = add_object(world, ids, "", solid(geometry::Plane{}));
+  add_object(world, ids, "", std::make_shared<MeshGeometry>(geometry::TriangleMesh{}));
+  CollisionIndex index(world);
+  const auto named = [](const std::vector<CollisionIndex::Standing>& standing) {
+    std::vector<ObjectId> found;
+    for (const auto& it : standing) found.push_back(it.id);
+    return found;
+  };
+  EXPECT_EQ(named(index.standing()), (std::vector{near, far, ground}));
+  EXPECT_EQ(named(index.standing(group)), (std::vector{near, far}));
+  EXPECT_EQ(named(index.standing(far)), std::vector{far});
+  EXPECT_TRUE(index.standing(ObjectId{12345}).empty());
+  EXPECT_EQ(index.standing(near).at(0).world_from_object.translation(), Vector3(10.0, 0.0, 0.0));
+  EXPECT_EQ(named(index.standing_in({Vector3(9.0, -1.0, 0.4), Vector3(9.6, 1.0, 0.5)})),
+            (std::vector{near, ground}));
+  EXPECT_EQ(named(index.standing_in({Vector3::Constant(100.0), Vector3::Constant(101.0)})),
+            std::vector{ground});
+}
+
 }  // namespace
 }  // namespace icome::world

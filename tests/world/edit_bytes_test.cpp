@@ -6,6 +6,7 @@
 
 #include "every_edit.h"
 #include "random_edits.h"
+#include "world/geometry_bytes.h"
 
 namespace icome::world {
 namespace {
@@ -81,6 +82,41 @@ TEST(EditBytes, GiveBackWhatAWorldRefuses) {
     EXPECT_EQ(refused.error().message, refused_too.error().message);
     EXPECT_EQ(written(read_back(written(edit))), written(edit));
   }
+}
+
+std::string recipe_read_back(const GeometryPointer& shape) {
+  const Edit back = read_back(written(CreateGeometry{{1}, shape}));
+  return std::string(recipe_of(*std::get<CreateGeometry>(back.what).shape));
+}
+
+TEST(EditBytes, GiveBackRecipes) {
+  EXPECT_EQ(recipe_read_back(made_mesh()), recipe_of(*made_mesh()));
+  EXPECT_EQ(recipe_read_back(made_mesh(std::string("\0{}\n", 4))), std::string("\0{}\n", 4));
+  const std::string longest(kMostRecipeBytes, 'x');
+  EXPECT_EQ(recipe_read_back(made_mesh(longest)), longest);
+  expect_not_written(CreateGeometry{{1}, made_mesh(longest + "x")}, "1 MiB at most");
+}
+
+TEST(EditBytes, OfRecipesThatAreTooLongAreRefused) {
+  std::string bytes = written(CreateGeometry{{1}, made_mesh(std::string(kMostRecipeBytes, 'x'))});
+  const std::size_t text = bytes.find("xxxx");
+  // Its length, and one letter more than it had: the zero behind the text.
+  ASSERT_EQ(bytes.substr(text - 4, 4), std::string("\0\0\x10\0", 4));
+  bytes[text - 4] = 1;
+  bytes[text + kMostRecipeBytes] = 'x';
+  const auto edit = edit_from_bytes(bytes, GeometryFactory());
+  ASSERT_FALSE(edit);
+  EXPECT_FALSE(edit.error().message.empty());
+}
+
+/// Bytes of a triangle as they were written before there were recipes.
+TEST(EditBytes, OfMeshesWithoutRecipesStayWhatTheyWere) {
+  const std::string bytes = *one_triangle()->write();
+  EXPECT_EQ(bytes, *made_mesh("")->write());
+  const auto back = read_mesh(bytes);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(recipe_of(**back), "");
+  EXPECT_EQ((*back)->hash(), one_triangle()->hash());
 }
 
 TEST(EditBytes, ReplayRandomEdits) {

@@ -69,6 +69,50 @@ TEST(Edits, MoveVerticesOfMeshesAndControlMeshes) {
   expect_taken_back(it.world, MoveVertices{roof, {1}, {{3.0, 2.0, 0.0}}});
 }
 
+/// That of a shape in the world.
+std::string recipe(const World& world, GeometryId id) {
+  return std::string(recipe_of(*world.find(id)->shape));
+}
+
+TEST(Edits, ThatMoveVerticesTakeTheRecipeAndUndoBringsItBack) {
+  World world;
+  IdSource ids;
+  const GeometryId id = world.find(add_object(world, ids, "sign", made_mesh("{\"a\":1}")))->geometry;
+  const GeometryId copy = ids.next<GeometryId>();
+  applied(world, CopyGeometry{copy, id});
+  expect_taken_back(world, MoveVertices{id, {1}, {{3.0, 2.0, 0.0}}});
+  EXPECT_EQ(recipe(world, id), "");
+  EXPECT_EQ(recipe(world, copy), "{\"a\":1}");
+  // Even where the vertex was put to where it is: a person took hold of it.
+  expect_taken_back(world, MoveVertices{copy, {0}, {{0.0, 0.0, 0.0}}});
+  expect_taken_back(world, MoveVertices{id, {1}, {{4.0, 2.0, 0.0}}});
+}
+
+TEST(Edits, OfAGroupThatIsRefusedLeaveTheRecipe) {
+  for (const bool alone : {false, true}) {
+    World world;
+    applied(world, CreateGeometry{{7}, made_mesh("{}")});
+    const std::uint64_t before = hash(world);
+    const EditGroup group{{MoveVertices{{7}, {1}, {{2.0, 0.0, 0.0}}},
+                           MoveVertices{{7}, {2}, {{2.0, 0.0, 1.0}}}, DeleteGeometry{{99}}}};
+    EXPECT_FALSE(alone ? replay(world, group).has_value() : apply(world, group).has_value());
+    EXPECT_EQ(hash(world), before);
+    EXPECT_EQ(recipe(world, {7}), "{}");
+    ASSERT_TRUE(replay(world, group.edits[0]));
+    EXPECT_EQ(recipe(world, {7}), "");
+  }
+}
+
+TEST(MeshGeometry, CountsItsRecipeInItsHashAndItsBytes) {
+  const GeometryPointer by_hand = one_triangle(), made = made_mesh("{}"), other = made_mesh("{ }");
+  EXPECT_EQ(made_mesh("")->hash(), by_hand->hash());
+  EXPECT_NE(made->hash(), by_hand->hash());
+  EXPECT_NE(made->hash(), other->hash());
+  EXPECT_EQ(made->hash(), made_mesh("{}")->hash());
+  EXPECT_EQ(made_mesh(std::string(1000, ' '))->bytes(), by_hand->bytes() + 1000);
+  EXPECT_EQ(recipe_of(*box(1.0)), "");
+}
+
 TEST(Edits, CopyShapesThatGoTheirOwnWay) {
   House it;
   const GeometryId roof = it.world.find(it.roof)->geometry, copy = it.ids.next<GeometryId>();

@@ -111,6 +111,7 @@ inline std::vector<Edit> every_edit() {
   std::uint64_t id = 100;
   for (const GeometryPointer& shape : every_shape()) edits.push_back(CreateGeometry{{++id}, shape});
   edits.push_back(CopyGeometry{{++id}, {101}});
+  edits.push_back(CreateGeometry{{++id}, made_mesh()});
   const std::vector<Edit> rest{
       CreateObject{
           table, 0, {.name = "table", .parent_from_object = turned, .geometry = {101}, .material = wood}},

@@ -115,6 +115,49 @@ TEST(History, KeepsOnlyWhatTakesAnActionBack) {
   EXPECT_GT(bytes_of({both, Edit(EditGroup{{one, RenameObject{lamp, "light"}}})}), bytes_of({both}));
 }
 
+/// A world with a shape of one triangle, and drags of its vertices.
+struct DraggedTriangle {
+  World world;
+  IdSource ids;
+  GeometryId shape = ids.next<GeometryId>();
+
+  explicit DraggedTriangle(const std::string& recipe = "") {
+    auto mesh = std::make_shared<MeshGeometry>(
+        geometry::TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+    mesh->recipe = recipe;
+    EXPECT_TRUE(apply(world, CreateGeometry{shape, mesh}));
+  }
+  Edit drag(std::vector<std::uint32_t> vertices, double way) const {
+    const std::vector<Vector3> positions(vertices.size(), Vector3(way, way, 1.0));
+    return MoveVertices{shape, std::move(vertices), positions};
+  }
+  /// The bytes of what takes all of it back, which it must do.
+  std::size_t taken_back(const std::vector<Edit>& steps) {
+    const std::uint64_t before = hash(world);
+    History history;
+    EXPECT_TRUE(history.perform(world, steps.front(), "Drag"));
+    for (std::size_t i = 1; i < steps.size(); ++i) EXPECT_TRUE(history.extend(world, steps[i]));
+    const std::uint64_t after = hash(world);
+    const auto undone = history.undo(world);
+    EXPECT_EQ(hash(world), before);
+    EXPECT_TRUE(history.redo(world));
+    EXPECT_EQ(hash(world), after);
+    EXPECT_TRUE(history.undo(world));
+    return to_bytes(*undone)->size();
+  }
+};
+
+TEST(History, KeepsOfADragOfVerticesWhereTheyWereAtFirst) {
+  DraggedTriangle it;
+  const std::size_t once = it.taken_back({it.drag({0, 2}, 1.0)});
+  EXPECT_EQ(it.taken_back({it.drag({0, 2}, 1.0), it.drag({0, 2}, 2.0), it.drag({0, 2}, 3.0)}), once);
+  EXPECT_GT(it.taken_back({it.drag({0, 2}, 1.0), it.drag({0, 1}, 2.0)}), once) << "others move";
+  // The first step of a shape with a recipe is taken back by all of the shape.
+  DraggedTriangle made("{}");
+  EXPECT_EQ(made.taken_back({made.drag({1}, 1.0), made.drag({2}, 2.0)}),
+            made.taken_back({made.drag({1}, 1.0)}));
+}
+
 TEST(History, GoesBackThroughRandomEdits) {
   for (int seed = 0; seed < 200; ++seed) {
     World world;

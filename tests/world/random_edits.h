@@ -72,7 +72,11 @@ class RandomEdits {
            Eigen::AngleAxisd(random_.uniform(0.0, 3.0), random_.direction()) *
            Eigen::Scaling(random_.uniform(0.5, 2.0));
   }
-  GeometryPointer shape() { return random_.index(2) == 0 ? box(random_.uniform(0.1, 1.0)) : one_triangle(); }
+  GeometryPointer shape() {
+    const std::uint64_t kind = random_.index(4);
+    if (kind % 2 == 0) return box(random_.uniform(0.1, 1.0));
+    return kind == 1 ? one_triangle() : made_mesh();
+  }
   Material material(const World& world) {
     return {
         .name = "material", .shininess = float(random_.uniform()), .texture = any_or_none(world.textures())};

@@ -19,6 +19,13 @@ inline GeometryPointer one_triangle() {
   return std::make_shared<MeshGeometry>(std::move(mesh));
 }
 
+/// A triangle that was made of parameters.
+inline GeometryPointer made_mesh(const std::string& recipe = "{\"shape\":\"Dreieck \xc3\xa4\",\"side\":1}") {
+  auto shape = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
+  shape->recipe = recipe;
+  return shape;
+}
+
 inline Affine3 at(double x, double y, double z) { return Affine3(Eigen::Translation3d(x, y, z)); }
 
 /// Applies what must work.

@@ -14,7 +14,7 @@ namespace {
 template <typename Field>
 std::span<const float> floats_of(const Field& field) {
   using Value = std::remove_cvref_t<decltype(*field.getValues(0))>;
-  constexpr std::size_t kWidth = sizeof(Value) / sizeof(float);  // NOLINT(bugprone-sizeof-expression)
+  constexpr std::size_t kWidth = sizeof(Value) / sizeof(float);
   static_assert(sizeof(Value) == kWidth * sizeof(float));
   const auto count = static_cast<std::size_t>(field.getNum());
   if (count == 0) return {};

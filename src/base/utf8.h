@@ -1,10 +1,11 @@
-#include "files/utf8.h"
+#pragma once
+#include <string>
+#include <string_view>
 
-namespace icome::files {
-namespace {
+namespace icome::base {
 
 /// Bytes of the character that begins a text; 0: it is none.
-std::size_t character_length(std::string_view text) {
+inline std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
   const unsigned first = byte(0);
@@ -23,12 +24,11 @@ std::size_t character_length(std::string_view text) {
   return 0;
 }
 
-}  // namespace
-
-std::string as_utf8(std::string_view text) {
+/// The text with a question mark for every byte that is no UTF-8, as JSON must be.
+inline std::string as_utf8(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = utf8_length(text);
     if (length > 0) {
       result += text.substr(0, length);
     } else {
@@ -39,4 +39,4 @@ std::string as_utf8(std::string_view text) {
   return result;
 }
 
-}  // namespace icome::files
+}  // namespace icome::base
