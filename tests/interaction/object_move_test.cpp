@@ -14,7 +14,7 @@ using base::Vector3;
 using world::ObjectId;
 
 /// A table with a leg (turned, stretched and mirrored in it) that has a foot; and a lamp.
-struct Room {
+struct TwoThings {
   world::World world;
   world::IdSource ids{1};
   ObjectId table = make("table", {}, place(1.0));
@@ -40,7 +40,7 @@ struct Room {
 };
 
 TEST(ObjectMove, GoesByTheOffsetWhateverTheParentsDo) {
-  Room room;
+  TwoThings room;
   const std::vector<ObjectId> moved = {room.foot, room.lamp};
   const ObjectMove move(room.world, moved);
   const Vector3 foot = room.at(room.foot), lamp = room.at(room.lamp), leg = room.at(room.leg);
@@ -55,9 +55,10 @@ TEST(ObjectMove, GoesByTheOffsetWhateverTheParentsDo) {
 }
 
 TEST(ObjectMove, ADragIsOneStepBackHoweverManyItHad) {
-  const std::vector<std::vector<ObjectId>> selections = {{Room().foot}, {Room().foot, Room().lamp}};
+  const std::vector<std::vector<ObjectId>> selections = {{TwoThings().foot},
+                                                         {TwoThings().foot, TwoThings().lamp}};
   for (const std::vector<ObjectId>& moved : selections) {
-    Room room;
+    TwoThings room;
     const std::uint64_t before = hash(room.world);
     const ObjectMove move(room.world, moved);
     world::History history;
@@ -76,7 +77,7 @@ TEST(ObjectMove, ADragIsOneStepBackHoweverManyItHad) {
 }
 
 TEST(ObjectMove, LeavesTurnAndStretchAlone) {
-  Room room;
+  TwoThings room;
   const auto before = world_from_object(room.world, room.foot).linear().eval();
   const ObjectMove move(room.world, std::vector{room.foot});
   ASSERT_TRUE(apply(room.world, move.by({0.1, 0.2, 0.3})));
@@ -84,7 +85,7 @@ TEST(ObjectMove, LeavesTurnAndStretchAlone) {
 }
 
 TEST(ObjectMove, MovesWhatIsSelectedAlongWithItsParentOnce) {
-  Room room;
+  TwoThings room;
   const std::vector<ObjectId> all = {room.foot, room.table, room.lamp, room.table};
   const ObjectMove move(room.world, all);
   EXPECT_EQ(move.objects(), (std::vector<ObjectId>{room.table, room.lamp}));
@@ -94,14 +95,14 @@ TEST(ObjectMove, MovesWhatIsSelectedAlongWithItsParentOnce) {
 }
 
 TEST(ObjectMove, LeavesWhatParentsShrinkToNothing) {
-  Room room;
+  TwoThings room;
   ObjectId parent = {};
   for (int i = 0; i < 5; ++i) parent = room.make("", parent, Affine3(Eigen::Scaling(1e-100)));
   EXPECT_TRUE(ObjectMove(room.world, std::vector{parent}).empty());
 }
 
 TEST(ObjectMove, LeavesOutWhatIsGone) {
-  Room room;
+  TwoThings room;
   ASSERT_TRUE(apply(room.world, delete_subtree(room.world, room.table)));
   EXPECT_TRUE(ObjectMove(room.world, std::vector{room.leg, ObjectId{}}).empty());
 }

@@ -28,6 +28,7 @@ SimulatedDevice::SimulatedDevice(SimulatedSettings settings)
     : settings_(std::move(settings)),
       substep_(1.0 / (settings_.rate * settings_.substeps)),
       target_(settings_.start),
+      turned_(Quaternion::Identity()),
       position_(settings_.start),
       encoder_(rounded_to(settings_.start, settings_.encoder_resolution)) {
   assert(settings_.rate > 0.0 && settings_.substeps > 0 && settings_.info.effective_mass > 0.0);
@@ -48,6 +49,9 @@ DeviceStatus SimulatedDevice::read(PointerState& state) {
   state = PointerState{};
   state.position = reading;
   state.velocity = settings_.encoder_resolution > 0.0 ? difference : velocity_;
+  turned_.update();
+  state.orientation = turned_.read();
+  state.buttons = buttons_.load(std::memory_order_relaxed);
   state.jumped = std::exchange(jumped_, false);
   state.parked = parked_;
   if (failure == SimulatedFailure::NotANumber) state.position.setConstant(std::nan(""));

@@ -65,6 +65,10 @@ class SimulatedDevice final : public PointerDevice {
   /// Lays it aside there, where it touches nothing until it is put again. The same thread as put().
   /// Real-time safe.
   void park(const Vector3& position) { put_.publish({position, true}); }
+  /// Turns the stylus so, from the next tick on. The same thread as set_target(). Real-time safe.
+  void turn(const Quaternion& device_from_stylus) { turned_.publish(device_from_stylus); }
+  /// Holds these buttons down (bit i: button i) from the next tick on. Any thread. Real-time safe.
+  void hold_buttons(std::uint32_t buttons) { buttons_.store(buttons, std::memory_order_relaxed); }
   /// Makes the device fail from the next tick on, or work again. Any thread. Real-time safe.
   void inject(SimulatedFailure failure) { failure_.store(failure, std::memory_order_relaxed); }
 
@@ -89,8 +93,10 @@ class SimulatedDevice final : public PointerDevice {
   std::array<std::array<double, 3>, 2> step_{};
   realtime::LatestValue<Vector3> target_;
   realtime::LatestValue<Put> put_;
+  realtime::LatestValue<Quaternion> turned_;
   bool jumped_ = false;  // since the last reading that was Ok
   bool parked_ = false;
+  std::atomic<std::uint32_t> buttons_ = 0;
   std::atomic<SimulatedFailure> failure_ = SimulatedFailure::None;
   Vector3 position_;                    // m
   Vector3 velocity_ = Vector3::Zero();  // m/s

@@ -54,9 +54,10 @@ const TickReport& Servo::tick(double dt) {
   StageClock clock(report_.stage_ns);
   const bool fresh = read();
   const bool carried = move_workspace(dt);
-  if (has_state_) report_.tip = world_from_device_ * state_.position;
+  if (has_state_) report_stylus();
   clock.ends(Stage::Read);
   follow_scene(dt);
+  follow_grip();
   clock.ends(Stage::Scene);
   if (fresh || (has_state_ && (carried || state_.parked))) find_contact();
   clock.ends(Stage::Contact);
@@ -97,6 +98,13 @@ bool Servo::read() {
   return true;
 }
 
+void Servo::report_stylus() {
+  report_.tip = world_from_device_ * state_.position;
+  report_.orientation = devices::Quaternion(world_from_device_.linear()) * state_.orientation;
+  report_.device_from_stylus = Eigen::Translation3d(state_.position) * state_.orientation;
+  report_.buttons = state_.buttons;
+}
+
 /// True when the workspace lies elsewhere than in the last tick.
 bool Servo::move_workspace(double dt) {
   if (carried_.update()) carry_seconds_ = kCarrySeconds;
@@ -128,8 +136,14 @@ void Servo::follow_scene(double dt) {
   feed_.done_before(*newer);
 }
 
+/// What was let go of is touched afresh from where the tip is.
+void Servo::follow_grip() {
+  const bool held = grip_.read().holds;
+  if (grip_.update() && held && !grip_.read().holds) solver_->reset();
+}
+
 void Servo::find_contact() {
-  if (state_.parked) {
+  if (state_.parked || grip_.read().holds) {
     report_.contact = {};
     report_.contact.scp = report_.tip;
     return;
@@ -167,8 +181,7 @@ Vector3 Servo::shaded(const Vector3& force) const {
   return force + press * (normal - contact.normal);
 }
 
-Vector3 Servo::effect_force(double dt) {
-  if (effects_ == nullptr || state_.parked) return Vector3::Zero();
+EffectInput Servo::effect_input(double dt) const {
   EffectInput input;
   input.time = time_;
   input.dt = dt;
@@ -177,7 +190,14 @@ Vector3 Servo::effect_force(double dt) {
   input.scp = report_.contact.touching ? report_.contact.scp : report_.tip;
   input.touching = report_.contact.touching;
   input.device_mass = device_.info().effective_mass;
-  return effects_->force(input);
+  return input;
+}
+
+Vector3 Servo::effect_force(double dt) {
+  if (state_.parked) return Vector3::Zero();
+  const EffectInput input = effect_input(dt);
+  const Vector3 force = grip_force(grip_.read(), input);
+  return effects_ == nullptr ? force : force + effects_->force(input);
 }
 
 }  // namespace icome::haptics

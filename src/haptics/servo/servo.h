@@ -5,6 +5,7 @@
 
 #include "devices/pointer_device.h"
 #include "haptics/effects/effect.h"
+#include "haptics/effects/grip.h"
 #include "haptics/force_limiter.h"
 #include "haptics/renderer.h"
 #include "haptics/servo/scene_feed.h"
@@ -28,8 +29,11 @@ constexpr std::size_t kStages = 7;
 /// What happened in a tick; world frame.
 struct TickReport {
   devices::DeviceStatus status = devices::DeviceStatus::Stalled;
-  Vector3 tip = Vector3::Zero();    // m
-  Vector3 force = Vector3::Zero();  // N, as written, in the world frame
+  Vector3 tip = Vector3::Zero();                                // m
+  base::Quaternion orientation = base::Quaternion::Identity();  // world_from_stylus
+  Pose device_from_stylus = Pose::Identity();                   // m, as the device said it last
+  std::uint32_t buttons = 0;                                    // bit i: button i is down
+  Vector3 force = Vector3::Zero();                              // N, as written, in the world frame
   ScpState contact;
   ObjectId object;                               // what is touched, when contact.touching
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
@@ -41,7 +45,7 @@ struct TickReport {
 /// The servo's tick: reads the device, goes over to the newest scene, finds the surface contact point,
 /// makes a force of it, adds effects, limits, writes. Owns the solver and the limiter; device and
 /// effects are the caller's and outlive it. One thread calls tick(), a loop or a test; another may
-/// call publish(), and one carry().
+/// call publish(), one carry() and one grip().
 class Servo {
  public:
   /// `effects` may be null.
@@ -55,6 +59,10 @@ class Servo {
   /// sweeping the tip along as a hand would. The pose is finite. From one thread, the main one.
   void carry(const Pose& world_from_device) { carried_.publish(world_from_device); }
 
+  /// What the hand feels of what it holds, from now on. While it holds something it touches nothing: what is
+  /// held goes along with the tip. From one thread, the main one.
+  void grip(const GripFeel& feel) { grip_.publish(feel); }
+
   /// One turn of the servo loop, `dt` seconds after the last. Real-time safe.
   const TickReport& tick(double dt);
 
@@ -63,11 +71,14 @@ class Servo {
 
  private:
   bool read();
+  void report_stylus();
   bool move_workspace(double dt);
   void follow_scene(double dt);
+  void follow_grip();
   void find_contact();
   Vector3 surface_force() const;
   Vector3 shaded(const Vector3& force) const;
+  EffectInput effect_input(double dt) const;
   Vector3 effect_force(double dt);
 
   devices::PointerDevice& device_;
@@ -80,6 +91,7 @@ class Servo {
   double elapsed_ = 0.0;                   // s since the scene was taken
   double time_ = 0.0;                      // s since the first tick
   realtime::LatestValue<Pose> carried_;
+  realtime::LatestValue<GripFeel> grip_;
   Pose world_from_device_;
   double carry_seconds_ = 0.0;  // until it is where it was carried to
   devices::PointerState state_;

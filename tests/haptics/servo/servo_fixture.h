@@ -14,6 +14,8 @@ class ScriptedDevice final : public devices::PointerDevice {
   DeviceStatus read(devices::PointerState& state) override {
     if (status != DeviceStatus::Ok) return status;
     state.position = position;
+    state.orientation = orientation;
+    state.buttons = buttons;
     state.jumped = jumped;
     state.parked = parked;
     return status;
@@ -25,6 +27,8 @@ class ScriptedDevice final : public devices::PointerDevice {
 
   Vector3 position = Vector3::Zero();
   Vector3 force = Vector3::Zero();
+  devices::Quaternion orientation = devices::Quaternion::Identity();
+  std::uint32_t buttons = 0;
   bool jumped = false;
   bool parked = false;
   DeviceStatus status = DeviceStatus::Ok;

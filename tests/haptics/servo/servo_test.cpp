@@ -79,6 +79,43 @@ TEST(Servo, LetsGoWhenTheTouchedObjectGoes) {
   EXPECT_EQ(device.force, Vector3::Zero());
 }
 
+TEST(Servo, TouchesNothingWhileItHoldsSomething) {
+  ScriptedDevice device;
+  Servo servo(device, {});
+  servo.publish(box_scene());
+  press(servo, device, 0.0005);
+  GripFeel feel;
+  feel.holds = true;
+  feel.start = device.position;
+  feel.weight = {0.0, 0.0, -0.5};
+  servo.grip(feel);
+  for (int i = 0; i < 500; ++i) servo.tick(1e-3);
+  EXPECT_FALSE(servo.last().contact.touching);
+  EXPECT_NEAR((device.force - feel.weight).norm(), 0.0, 1e-9) << device.force.transpose();
+  // The way that it was taken is felt as well: 0.2 N and more.
+  device.position.x() += 0.01;
+  for (int i = 0; i < 500; ++i) servo.tick(1e-3);
+  EXPECT_NEAR(device.force.x(), -pull_back(feel, 0.01), 1e-9);
+  device.position = {0.0, 0.0, 0.06};
+  servo.grip({});
+  for (int i = 0; i < 500; ++i) servo.tick(1e-3);
+  EXPECT_EQ(device.force, Vector3::Zero());
+  press(servo, device, 0.0005);
+  EXPECT_TRUE(servo.last().contact.touching) << "it feels again what it does not hold";
+}
+
+TEST(Servo, TellsButtonsAndHowTheStylusIsHeld) {
+  ScriptedDevice device;
+  ServoSettings settings;
+  settings.world_from_device = Pose(Eigen::AngleAxisd(0.5, Vector3::UnitY()));
+  Servo servo(device, settings);
+  device.buttons = 5;
+  device.orientation = devices::Quaternion(Eigen::AngleAxisd(0.25, Vector3::UnitY()));
+  servo.tick(1e-3);
+  EXPECT_EQ(servo.last().buttons, 5U);
+  EXPECT_NEAR(Eigen::AngleAxisd(servo.last().orientation).angle(), 0.75, 1e-12);
+}
+
 TEST(Servo, KnowsTheObjectInTheSceneThatItHasTaken) {
   for (const Renderer renderer : {Renderer::Exact, Renderer::Thesis}) {
     ScriptedDevice device;

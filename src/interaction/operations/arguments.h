@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vector.h"
+#include "interaction/operations/parameter.h"
+#include "world/world.h"
+
+namespace icome::interaction {
+
+using base::Vector2;
+using base::Vector3;
+
+/// What an operation was told, held to its parameters: every value is there or has none to fall back to, and
+/// is of its kind and in range. Refers to the parameters and to the world.
+class Arguments {
+ public:
+  /// Fails with a sentence that names the parameter: one that nobody knows (and what may have been meant),
+  /// that is missing, of another kind, out of range, or names an object that is not there or not alone.
+  static base::Result<Arguments> check(const std::vector<Parameter>& parameters, const Value::Fields& fields,
+                                       const world::World& world);
+
+  /// Has something been said, or is there something to fall back to?
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+
+  // Precondition of all: there is such a parameter of that kind, and has(name).
+  bool flag(std::string_view name) const;
+  double number(std::string_view name) const;
+  std::int64_t count(std::string_view name) const;
+  const std::string& text(std::string_view name) const;  // of a Choice too
+  world::Colour colour(std::string_view name) const;
+  Vector3 vector(std::string_view name) const;
+  std::vector<double> numbers(std::string_view name) const;
+  std::vector<std::uint32_t> counts(std::string_view name) const;  // `least` must be 0 or more
+  std::vector<Vector2> points2(std::string_view name) const;
+  std::vector<Vector3> points3(std::string_view name) const;
+  world::ObjectId object(std::string_view name) const;
+  std::vector<world::ObjectId> objects(std::string_view name) const;
+  std::vector<Arguments> records(std::string_view name) const;
+
+  /// All values that have been said, for recipes (MeshGeometry::recipe) and reports.
+  const Value::Fields& said() const { return *said_; }
+
+ private:
+  Arguments() = default;
+  const Value* find(std::string_view name) const;
+  const Value& at(std::string_view name) const;
+
+  const std::vector<Parameter>* parameters_ = nullptr;
+  const Value::Fields* said_ = nullptr;
+  const world::World* world_ = nullptr;
+};
+
+/// The object that a person names: by its name where it is the only one, by a path of names from above
+/// ("table/leg") where it is not, or by "#" and its number. Fails saying what there is instead.
+base::Result<world::ObjectId> named_object(const world::World& world, std::string_view name);
+
+}  // namespace icome::interaction

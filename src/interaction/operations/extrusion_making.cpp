@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include "geometry/extrusion.h"
+#include "interaction/operations/placement.h"
+#include "interaction/operations/shape_making.h"
+#include "world/mesh_geometry.h"
+
+namespace icome::interaction {
+namespace {
+
+using base::Result;
+
+constexpr double kRadiansPerDegree = 0.017453292519943295;
+constexpr double kMostRepeats = 1e7;
+
+std::vector<Parameter> step_parameters() {
+  std::vector<Parameter> fields = {place_parameter("move", "how far it goes on, m"),
+                                   turn_parameter("an axis, as long as the angle in degrees")};
+  for (Parameter& scale : scale_parameters(0.0)) fields.push_back(std::move(scale));
+  fields.push_back(place_parameter("centre", "what stays in place when it turns and scales, m"));
+  fields.push_back({.name = "repeat",
+                    .kind = ParameterKind::Count,
+                    .meaning = "how many times this is done",
+                    .fallback = 1,
+                    .least = 1,
+                    .most = kMostRepeats});
+  return fields;
+}
+
+std::vector<Parameter> all_extrusion_parameters() {
+  return {{.name = "points",
+           .kind = ParameterKind::Points,
+           .meaning = "the corners of the profile that is swept, m; z comes out of the drawing",
+           .required = true,
+           .least = -geometry::kLargestProfile,
+           .most = geometry::kLargestProfile,
+           .components = 2},
+          {.name = "open",
+           .kind = ParameterKind::Flag,
+           .meaning = "the profile is a line from the first point to the last, not an outline",
+           .fallback = false},
+          {.name = "steps",
+           .kind = ParameterKind::Records,
+           .meaning = "what is done to the profile one after the other: scaled, turned, then moved",
+           .required = true,
+           .fields = step_parameters()},
+          {.name = "ends",
+           .kind = ParameterKind::Choice,
+           .meaning = "what becomes of the first and the last place of the profile: filled, left open, or "
+                      "joined to a ring",
+           .fallback = "capped",
+           .choices = {"capped", "open", "joined"}}};
+}
+
+Result<geometry::SweepStep> step_of(const Arguments& record) {
+  const auto scale = scale_of(record);
+  if (!scale) return tl::unexpected(scale.error());
+  const Vector3 turn = record.vector("turn");
+  geometry::SweepStep step;
+  step.scaling = *scale;
+  step.angle = kRadiansPerDegree * turn.stableNorm();
+  step.axis = turn;
+  step.centre = record.vector("centre");
+  step.translation = record.vector("move");
+  step.repeat = int(record.count("repeat"));
+  return step;
+}
+
+Result<std::vector<geometry::SweepStep>> steps_of(const Arguments& arguments) {
+  std::vector<geometry::SweepStep> steps;
+  for (const Arguments& record : arguments.records("steps")) {
+    const auto step = step_of(record);
+    if (!step) return base::fail(fmt::format("step {}: {}", steps.size() + 1, step.error().message));
+    steps.push_back(*step);
+  }
+  return steps;
+}
+
+geometry::ExtrusionEnds ends_of(const std::string& name) {
+  if (name == "open") return geometry::ExtrusionEnds::Open;
+  return name == "joined" ? geometry::ExtrusionEnds::Joined : geometry::ExtrusionEnds::Capped;
+}
+
+}  // namespace
+
+const std::vector<Parameter>& extrusion_parameters() {
+  static const std::vector<Parameter> kAll = all_extrusion_parameters();
+  return kAll;
+}
+
+Result<world::GeometryPointer> make_extrusion(const Arguments& arguments) {
+  const auto steps = steps_of(arguments);
+  if (!steps) return tl::unexpected(steps.error());
+  auto mesh = geometry::extrude({arguments.points2("points"), arguments.flag("open")}, *steps,
+                                ends_of(arguments.text("ends")));
+  if (!mesh) return tl::unexpected(mesh.error());
+  auto shape = std::make_shared<world::MeshGeometry>(std::move(*mesh));
+  Value::Fields making = said_of(extrusion_parameters(), arguments, {});
+  making.emplace(making.begin(), "op", "extrude");
+  std::string recipe = json_from_value(making);
+  // A drawing beyond that size is as good as made by hand.
+  if (recipe.size() <= world::kMostRecipeBytes) shape->recipe = std::move(recipe);
+  return shape;
+}
+
+}  // namespace icome::interaction

@@ -1,0 +1,53 @@
+#include "interaction/operations/near_names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace icome::interaction {
+namespace {
+
+constexpr std::size_t kMostListed = 24;
+/// Longer ones are not compared: nobody mistypes them by a letter, and comparing takes their product.
+constexpr std::size_t kLongestCompared = 64;
+
+/// Letters to be put in, left out or changed (Levenshtein 1966).
+std::size_t edit_distance(std::string_view one, std::string_view other) {
+  std::vector<std::size_t> row(other.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      const std::size_t changed = diagonal + (one[i] == other[k] ? 0 : 1);
+      diagonal = row[k + 1];
+      row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string suggestion(std::string_view said, std::vector<std::string> names) {
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::erase(names, "");
+  const std::string* nearest = nullptr;
+  std::size_t least = 1 + (said.size() < 4 ? 1 : std::max<std::size_t>(2, said.size() / 3));
+  for (const std::string& name : names) {
+    if (said.size() > kLongestCompared || name.size() > kLongestCompared) continue;
+    const std::size_t distance = edit_distance(said, name);
+    const bool all_changed = distance == std::max(said.size(), name.size());
+    if (distance >= least || all_changed) continue;
+    least = distance;
+    nearest = &name;
+  }
+  if (nearest) return fmt::format("; did you mean '{}'?", *nearest);
+  if (names.empty() || names.size() > kMostListed) return {};
+  return fmt::format("; there are {}", fmt::join(names, ", "));
+}
+
+}  // namespace icome::interaction

@@ -1,0 +1,42 @@
+#pragma once
+#include <string_view>
+
+#include "interaction/operations/operation.h"
+#include "world/history.h"
+
+namespace icome::interaction {
+
+/// What performing an operation came to.
+struct Performed {
+  const Operation* operation;
+  std::vector<world::ObjectId> objects;  // that were made or changed, and are there
+  std::string note = {};                 // what people should know of it
+};
+
+/// Performs operations on a world that it owns, one action each, as a person at the desktop would: `icome
+/// edit` and tests drive it, and it undoes and redoes.
+class OperationRunner {
+ public:
+  explicit OperationRunner(world::World world);
+
+  const world::World& world() const { return world_; }
+  const world::History& history() const { return history_; }
+
+  /// Performs {"op": NAME, parameters...}. A failed one changes nothing; the sentence begins with the
+  /// operation's name where there is one.
+  base::Result<Performed> perform(const Value& command);
+
+ private:
+  base::Result<Performed> turn(const Operation& operation);
+
+  world::World world_;
+  world::History history_;
+  world::IdSource ids_;
+};
+
+/// The edit that an operation of that name and these arguments makes of a world, for who performs it
+/// elsewhere (a session, a colleague's world). Fails for undo and redo, which are no edits.
+base::Result<Plan> plan_operation(const Operation& operation, const Value::Fields& fields,
+                                  const world::World& world, world::IdSource& ids);
+
+}  // namespace icome::interaction

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "geometry/texture_projection.h"
+#include "interaction/operations/near_names.h"
+#include "interaction/operations/placement.h"
+#include "interaction/operations/shape_change.h"
+
+namespace icome::interaction {
+namespace {
+
+using base::Affine3;
+using base::Bounds;
+using base::fail;
+using base::Matrix3;
+using base::Result;
+using geometry::TextureProjection;
+using world::TextureId;
+
+constexpr double kLeastSize = 1e-9, kMostSize = 1e9;  // m
+
+TextureProjection projection_of(const std::string& name) {
+  if (name == "box") return TextureProjection::Box;
+  if (name == "cylindrical") return TextureProjection::Cylindrical;
+  if (name == "spherical") return TextureProjection::Spherical;
+  return TextureProjection::Planar;
+}
+
+/// How a projector, whose own axis is z, stands in an object, whose y is up, while it is not turned. A plane
+/// lies across the side along which the object is thinnest; all others stand upright.
+Matrix3 untilted(TextureProjection projection, const Vector3& sizes) {
+  Matrix3 lying, facing_x;
+  lying << Vector3::UnitX(), -Vector3::UnitZ(), Vector3::UnitY();  // columns: seen from above
+  facing_x << -Vector3::UnitZ(), Vector3::UnitY(), Vector3::UnitX();
+  if (projection != TextureProjection::Planar) return lying;
+  const double thinnest = sizes.minCoeff();
+  if (sizes.z() == thinnest) return Matrix3::Identity();
+  return sizes.y() == thinnest ? lying : facing_x;
+}
+
+/// Round the shape, unless something else is said.
+Result<geometry::TextureProjector> projector_of(const Bounds& box, const Arguments& arguments) {
+  if (box.isEmpty()) return fail("there is nothing to project on: the shape has no triangles");
+  geometry::TextureProjector projector;
+  projector.projection = projection_of(arguments.text("projection"));
+  const Matrix3 turn = turn_of(arguments.vector("turn"));
+  const Affine3 fitted = geometry::fitted_projector(box);
+  const Vector3 size = arguments.has("size") ? arguments.vector("size") : Vector3(fitted.linear().diagonal());
+  Affine3& frame = projector.mesh_from_projector;
+  frame.linear() = turn * size.asDiagonal() * untilted(projector.projection, box.sizes());
+  frame.translation() = arguments.has("at") ? arguments.vector("at") : Vector3(fitted.translation());
+  return projector;
+}
+
+/// What comes behind the folders of a file's name.
+std::string_view last_part(std::string_view path) { return path.substr(path.find_last_of("/\\") + 1); }
+
+Result<TextureId> named_picture(const world::World& world, const std::string& name) {
+  std::vector<TextureId> found;
+  std::vector<std::string> names;
+  for (const auto& [id, texture] : world.textures()) {
+    if (fmt::format("#{}", id.value) == name) return id;
+    if (texture.name == name || last_part(texture.name) == name) found.push_back(id);
+    names.emplace_back(last_part(texture.name));
+  }
+  if (found.empty())
+    return fail(
+        fmt::format("the design has no picture named '{}'{}", name, suggestion(name, std::move(names))));
+  std::ranges::sort(found);
+  if (found.size() > 1)
+    return fail(fmt::format("there are {} pictures named '{}'; name one by its number, such as '#{}'",
+                            found.size(), name, found.front().value));
+  return found.front();
+}
+
+/// The picture's name, with a number behind it where a material is called so.
+std::string unused_material_name(const world::World& world, std::string_view picture) {
+  std::set<std::string_view> taken;
+  for (const auto& [id, material] : world.materials()) taken.insert(material.name);
+  std::string name(picture);
+  for (int number = 2; taken.contains(name); ++number) name = fmt::format("{} {}", picture, number);
+  return name;
+}
+
+/// Makes the object show the picture. A material that others have stays as it is for them.
+void show(const world::World& world, world::ObjectId object, TextureId picture, world::IdSource& ids,
+          world::EditGroup& group) {
+  const world::MaterialId id = world.find(object)->material;
+  const world::Material* now = world.find(id);
+  if (now && now->texture == picture) return;
+  world::Material material = now ? *now : world::Material();
+  material.texture = picture;
+  if (now && now->users == 1) {
+    group.edits.push_back(world::ChangeMaterial{id, std::move(material)});
+    return;
+  }
+  material.name = unused_material_name(world, last_part(world.find(picture)->name));
+  const auto own = ids.next<world::MaterialId>();
+  group.edits.push_back(world::CreateMaterial{own, std::move(material)});
+  group.edits.push_back(world::ChooseMaterial{object, own});
+}
+
+Result<Plan> plan_texture(const world::World& world, const Arguments& arguments, world::IdSource& ids) {
+  auto change = shape_change(world, arguments);
+  if (!change) return tl::unexpected(change.error());
+  TextureId picture;
+  if (arguments.has("picture")) {
+    const auto named = named_picture(world, arguments.text("picture"));
+    if (!named) return tl::unexpected(named.error());
+    picture = *named;
+  }
+  const auto shape = mesh_to_change(*change, arguments);
+  if (!shape) return tl::unexpected(shape.error());
+  const auto projector = projector_of((*shape)->bounds(), arguments);
+  if (!projector) return tl::unexpected(projector.error());
+  auto coordinates = geometry::project_texture((*shape)->mesh, *projector);
+  if (!coordinates) return tl::unexpected(coordinates.error());
+  auto textured = std::make_shared<world::MeshGeometry>((*shape)->mesh);
+  textured->texture_coordinates = std::move(*coordinates);
+  textured->normals = (*shape)->normals;
+  textured->colours = (*shape)->colours;
+  auto plan = plan_of_shape(*change, textured, ids);
+  if (!plan || !picture) return plan;
+  world::EditGroup group;
+  group.edits.push_back(std::move(plan->edit));
+  show(world, change->object, picture, ids, group);
+  plan->edit = std::move(group);
+  return plan;
+}
+
+std::vector<Parameter> texture_parameters() {
+  return {
+      object_parameter("what gets texture coordinates"),
+      {.name = "projection",
+       .kind = ParameterKind::Choice,
+       .meaning = "how the picture is thrown on it",
+       .fallback = "planar",
+       .choices = {"planar", "box", "cylindrical", "spherical"}},
+      optional_place_parameter("at",
+                               "the middle of what the picture is thrown from, in the object's frame, "
+                               "m; else the object's"),
+      turn_parameter("how that is turned: an axis, as long as the angle in degrees; untouched it is upright, "
+                     "and planar along the object's thinnest side"),
+      {.name = "size",
+       .kind = ParameterKind::Vector,
+       .meaning = "how wide, high and deep the picture reaches once, m; else as the object",
+       .least = kLeastSize,
+       .most = kMostSize},
+      {.name = "picture",
+       .kind = ParameterKind::Text,
+       .meaning = "one of the design's pictures, for this object to show; else its material says"},
+      alone_parameter(),
+      as_mesh_parameter()};
+}
+
+}  // namespace
+
+std::vector<Operation> texture_operations() {
+  return {{"texture", "Project Texture", "Look",
+           "Lays a picture on a mesh by projection: each triangle's corners get texture coordinates.",
+           texture_parameters(), plan_texture}};
+}
+
+}  // namespace icome::interaction

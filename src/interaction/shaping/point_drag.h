@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "geometry/soft_selection.h"
+#include "interaction/shaping/mesh_part.h"
+#include "world/edit.h"
+
+namespace icome::interaction {
+
+/// Vertices that are dragged together, of one shape or of several, and where they were when that began: so
+/// the last of many steps leaves them where the hand is, without the rounding of those before it. All objects
+/// that share a shape change with it (thesis 2.4.1).
+class PointDrag {
+ public:
+  /// Those of one shape.
+  struct Followers {
+    world::GeometryId geometry = {};
+    world::GeometryPointer before = {};
+    std::vector<std::uint32_t> vertices = {};
+    std::vector<Vector3> starts = {};                            // m, shape frame; as many
+    std::vector<double> weights = {};                            // how much of the way they go along; as many
+    base::Matrix3 shape_from_world = base::Matrix3::Identity();  // of directions
+  };
+  /// `name`: of the action, as in "Drag vertex of leg".
+  PointDrag(std::vector<Followers> followers, std::string name)
+      : followers_(std::move(followers)), name_(std::move(name)) {}
+
+  const std::string& name() const { return name_; }
+  const std::vector<Followers>& followers() const { return followers_; }
+  /// Puts all of them where they were, moved by their share of that much (m, world frame).
+  world::Edit by(const Vector3& offset) const;
+  /// For meshes that are too big for it at every step: the same, but their corner normals bend with the
+  /// surface. It is the last step then; nothing where by() has done all.
+  std::optional<world::Edit> last(const Vector3& offset) const;
+
+ private:
+  std::vector<Followers> followers_;
+  std::string name_;
+};
+
+/// Takes hold of a vertex, an edge or a face. Others within the soft selection's radius, which is measured in
+/// the world's frame (m) whatever the object's size, follow; and vertices at one place stay together, so that
+/// no crack opens. Takes time by the size of the mesh. Fails for what is not there, radii that are not finite
+/// or negative, and objects that are squashed flat.
+base::Result<PointDrag> drag_part(const world::World& world, world::ObjectId object, const MeshPart& part,
+                                  const geometry::SoftSelection& soft);
+
+}  // namespace icome::interaction

@@ -1,0 +1,66 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "interaction/snapping/passage.h"
+#include "world/collisions.h"
+
+namespace icome::interaction {
+
+/// What keeps objects from going on.
+struct Contact {
+  world::ObjectId moved;
+  world::ObjectId other;  // none: an obstacle that is not of the world
+  Vector3 normal;         // unit, against the way; world frame
+};
+
+/// Objects that move together, with all below them, among all others of a world. The index must not follow
+/// an edit while it lives, nor the world's frame be left: `at` is how far they are off where they stand (m,
+/// world frame).
+class MovingObjects {
+ public:
+  /// Objects that the index does not hold are passed over.
+  MovingObjects(world::CollisionIndex& index, std::span<const world::ObjectId> objects);
+
+  /// Something that stands besides what the world holds, such as a floor. The shape must live on.
+  void add_obstacle(world::CollisionShape& shape, const Affine3& world_from_shape);
+
+  /// Around those of them that have an end, as they stand.
+  const base::Bounds& bounds() const { return bounds_; }
+  /// The diagonal of that, m; 1 where nothing has an end.
+  double size() const { return bounds_.isEmpty() ? 1.0 : bounds_.diagonal().norm(); }
+  bool empty() const { return moved_.empty(); }
+
+  /// The share of `step` that they can go from `at`; 1: all of it. They stop before what they would come to
+  /// overlap; see stop() for what they overlap already. `tolerance` in m.
+  double free_share(const Vector3& at, const Vector3& step, double tolerance) const;
+
+  /// What they touch at `at`, or within a few tolerances (m), that is in the way of `step`: of each direction
+  /// one, 16 at most.
+  std::vector<Contact> contacts(const Vector3& at, const Vector3& step, double tolerance) const;
+
+  /// Do they overlap anything at `at`?
+  bool overlap(const Vector3& at) const;
+
+  /// How far they can surely not fall along `direction` (unit) without leaving all others behind, m; zero
+  /// where there are none.
+  double way_past_all(const Vector3& direction) const;
+
+ private:
+  using Standing = world::CollisionIndex::Standing;
+  struct Pair {
+    Passing passing;
+    world::ObjectId moved, other;
+  };
+
+  /// All that they may meet on the way, or come within `reach` of.
+  std::vector<Pair> pairs(const Vector3& at, const Vector3& step, double reach) const;
+  bool moves(world::ObjectId id) const;
+
+  world::CollisionIndex& index_;
+  std::vector<Standing> moved_;      // in the order of ids
+  std::vector<Standing> obstacles_;  // without ids
+  base::Bounds bounds_;
+};
+
+}  // namespace icome::interaction

@@ -1,0 +1,105 @@
+#include "interaction/snapping/snapped_move.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace icome::interaction {
+namespace {
+
+using world::ObjectId;
+
+constexpr std::size_t kMostTries = 8;  // of snaps that something is in the way of
+constexpr double kOffLine = 1e-12;     // of the objects' size: rounding
+
+Vector3 part_along(const Vector3& axis, const Vector3& way) { return axis.dot(way) * axis; }
+
+/// On the line, what they must go by to snap: to where it meets a face, or next to anything else.
+std::optional<Vector3> snap_along(const Vector3& axis, const ObjectSnap& found, double radius) {
+  constexpr double kFlat = 0.1;  // sine: lines that lie flatter meet a face nowhere near
+  Vector3 way = part_along(axis, found.offset());
+  if (found.snap.kind == SnapKind::Face) {
+    const double climb = found.snap.direction.dot(axis);
+    if (std::abs(climb) < kFlat) return std::nullopt;
+    way = found.snap.direction.dot(found.offset()) / climb * axis;
+  }
+  if (!(way.norm() <= radius)) return std::nullopt;
+  return way;
+}
+
+/// As snapped_move, of objects that are `from` off where they stand.
+base::Result<SnappedMove> snapped_from(const world::World& world, world::CollisionIndex& index,
+                                       SnapFinder& finder, std::span<const ObjectId> objects,
+                                       const Vector3& from, const Vector3& wanted, const DragRules& rules) {
+  const MovingObjects moving(index, objects);
+  StopSettings stops = rules.stops;
+  if (rules.axis) stops.slide = false;
+  const auto plain = stopped_move(moving, from, wanted, stops);
+  if (!plain) return tl::unexpected(plain.error());
+  SnappedMove move{*plain, plain->offset, std::nullopt, plain->contacts};
+  const std::vector<ObjectSnap> found =
+      finder.of_objects(world, index, objects, move.free, rules.snaps, rules.handles);
+  for (std::size_t i = 0; i < std::min(found.size(), kMostTries); ++i) {
+    const auto way = rules.axis ? snap_along(*rules.axis, found[i], rules.snaps.radius)
+                                : std::optional<Vector3>(found[i].offset());
+    if (!way) continue;
+    const auto there = stopped_move(moving, move.free, move.free + *way, stops);
+    if (!there || there->stopped) continue;
+    move.move = *there;
+    move.snap = found[i];
+    break;
+  }
+  return move;
+}
+
+}  // namespace
+
+base::Result<SnappedMove> snapped_move(const world::World& world, world::CollisionIndex& index,
+                                       SnapFinder& finder, std::span<const ObjectId> objects,
+                                       const Vector3& wanted, const DragRules& rules) {
+  return snapped_from(world, index, finder, objects, Vector3::Zero(), wanted, rules);
+}
+
+base::Result<world::Edit> land_objects(const world::World& world, world::CollisionIndex& index,
+                                       std::span<const ObjectId> objects, const LandSettings& settings) {
+  const auto landed = landing(index, objects, settings);
+  if (!landed) return tl::unexpected(landed.error());
+  return ObjectMove(world, objects).by(landed->offset);
+}
+
+base::Result<world::Edit> StoppedDrag::to(const world::World& world, world::CollisionIndex& index,
+                                          SnapFinder& finder, const Vector3& wanted, const DragRules& rules) {
+  const Vector3 there = rules.axis ? part_along(*rules.axis, wanted) : wanted;
+  Vector3 from = Vector3::Zero();
+  if (rules.axis) {
+    const auto back = back_to_line(index, rules);
+    if (!back) return tl::unexpected(back.error());
+    if (back->stopped) return take({*back, back->offset, std::nullopt, back->contacts}, wanted, there);
+    from = back->offset;
+  }
+  const auto move = snapped_from(world, index, finder, move_.objects(), from, there - offset_, rules);
+  if (!move) return tl::unexpected(move.error());
+  return take(*move, wanted, there);
+}
+
+/// From wherever they were dragged before they were to keep to a line.
+base::Result<StoppedMove> StoppedDrag::back_to_line(world::CollisionIndex& index,
+                                                    const DragRules& rules) const {
+  const Vector3 back = part_along(*rules.axis, offset_) - offset_;
+  const MovingObjects moving(index, move_.objects());
+  if (back.norm() <= kOffLine * moving.size()) return StoppedMove{};
+  return stopped_move(moving, Vector3::Zero(), back, rules.stops);
+}
+
+world::Edit StoppedDrag::take(const SnappedMove& move, const Vector3& wanted, const Vector3& there) {
+  const bool arrives = !move.snap && move.move.offset == there - offset_;
+  wanted_ = wanted;
+  free_ = offset_ + move.free;
+  offset_ += move.move.offset;
+  // What gets where it is wanted is there to the last bit: each edit counts from the beginning.
+  if (arrives) offset_ = free_ = there;
+  contacts_ = move.contacts;
+  snap_ = move.snap;
+  return move_.by(offset_);
+}
+
+}  // namespace icome::interaction

@@ -1,0 +1,48 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "interaction/snapping/moving_objects.h"
+
+namespace icome::interaction {
+
+/// How objects that are moved meet the others (thesis 2.4.4: a vase does not pop through the table).
+struct StopSettings {
+  bool stop = true;         // else they go through everything
+  bool slide = true;        // along what they meet, as near as they come to where they are wanted
+  int most_slides = 16;     // turns of the way, usually 4 to 32
+  double tolerance = 1e-6;  // of their size: how far before a surface they may stop, usually 1e-7 to 1e-4
+};
+
+struct StoppedMove {
+  Vector3 offset = Vector3::Zero();    // m, world frame: how far they go from where they stand
+  bool stopped = false;                // before they are where they are wanted
+  std::vector<Contact> contacts = {};  // where they end, with what is in the way
+};
+
+/// How far objects go that are wanted `wanted` (m, world frame) off where they stand: they stop at the first
+/// surface, however far the way and however thin what stands in it, and never come to overlap anything.
+/// Touching is allowed. What overlaps something already may go where it comes out of it, but no deeper.
+/// Objects go along with those above them; what the index does not hold is passed over. Fails for ways that
+/// are not finite or longer than 1e6 times what moves, and for settings out of range.
+base::Result<StoppedMove> stopped_move(world::CollisionIndex& index, std::span<const world::ObjectId> objects,
+                                       const Vector3& wanted, const StopSettings& settings = {});
+
+/// The same for objects that stand `from` off where they stand: the offset counts from where they stand.
+base::Result<StoppedMove> stopped_move(const MovingObjects& objects, const Vector3& from,
+                                       const Vector3& wanted, const StopSettings& settings = {});
+
+/// What objects fall on.
+struct LandSettings {
+  Vector3 direction = -Vector3::UnitY();  // world frame, any length but 0
+  bool floor = false;                     // also on the plane y = 0, where the direction leads down
+  double tolerance = 1e-6;                // of their size, as in StopSettings
+};
+
+/// How far objects go (m, world frame) that fall until they rest on something. Fails where there is nothing
+/// below, where they overlap something before they fall, and as stopped_move does.
+base::Result<StoppedMove> landing(world::CollisionIndex& index, std::span<const world::ObjectId> objects,
+                                  const LandSettings& settings = {});
+
+}  // namespace icome::interaction

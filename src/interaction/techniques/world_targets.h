@@ -1,0 +1,46 @@
+#pragma once
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "interaction/techniques/technique.h"
+#include "world/changes.h"
+
+namespace icome::interaction {
+
+/// The objects of a world that are made of something, in the order of their ids, which are the targets'
+/// numbers. They are met as the triangles of their shapes, 1/1000 of their size off at most where these are
+/// exact solids; objects of one shape share them. Shapes without an end, such as planes, and those of which
+/// there are no triangles are left out.
+TechniqueScene targets_of(const world::World& world);
+
+/// The targets of a world that changes: what targets_of gives, to the last bit, at the cost of what has
+/// changed. Owns the shapes.
+class WorldTargets {
+ public:
+  /// Of the world as it is. It is the same at each call, but for changes that changed() was told of.
+  const TechniqueScene& of(const world::World& world);
+  /// Null: it is another world.
+  void changed(const world::Changes* changes);
+
+ private:
+  struct Made {
+    world::GeometryPointer of;
+    std::shared_ptr<const TargetShape> shape;  // null: there is nothing to meet
+  };
+  void read(const world::World& world);
+  bool follow(const world::World& world);
+  bool follow(const world::World& world, world::ObjectId id);
+
+  TechniqueScene scene_;
+  std::unordered_map<world::GeometryId, Made> shapes_;
+  std::unordered_map<world::ObjectId, world::GeometryId> made_of_;  // those objects that have a shape
+  std::vector<world::ObjectId> moved_;                              // or otherwise another
+  bool is_stale_ = true;
+};
+
+/// Puts an object where a technique moved it. Fails where the object is gone or a parent above it has shrunk
+/// to nothing.
+base::Result<world::Edit> edit_of(const world::World& world, const MovedTarget& moved);
+
+}  // namespace icome::interaction

@@ -1,0 +1,58 @@
+#pragma once
+#include "interaction/techniques/world_targets.h"
+
+namespace icome::interaction {
+
+/// A technique at work on a world: what a session does at every update, and what replays a recording of it.
+/// It changes nothing by itself but says which edit would. The same inputs on the same world, each edit
+/// performed before the next step, give the same edits to the last bit. Owns its targets.
+class WorldTechnique {
+ public:
+  /// `world_from_room` is a similarity; the technique has to pass check().
+  explicit WorldTechnique(const Technique& technique,
+                          const base::Affine3& world_from_room = base::Affine3::Identity());
+
+  struct Step {
+    TechniqueOutcome outcome;
+    /// Puts what is held where it is now. A press without a way only selects: there is none until the hand
+    /// has moved.
+    std::optional<world::Edit> edit = {};
+    bool is_first = false;  // edit of what is held: another action than those before
+    std::string refused;    // why what is held cannot go there; it was let go
+  };
+  Step step(const world::World& world, const TechniqueInput& input);
+
+  /// Lets go of what is held, until the button is pressed anew.
+  void let_go();
+  /// The world was changed, by a step or otherwise; null: it is another one.
+  void changed(const world::Changes* changes) { targets_.changed(changes); }
+  /// Everything as before the first step, but for where the room stands.
+  void begin_anew();
+  /// The room stands there from now on. What is held would go along: place it while resting().
+  void place_room(const base::Affine3& world_from_room) { state_.world_from_room = world_from_room; }
+  /// Nothing is held, and nobody is on the way.
+  bool resting() const;
+
+  const Technique& technique() const { return technique_; }
+  const TechniqueState& state() const { return state_; }
+  bool holds() const { return state_.hold.has_value(); }
+  /// Of the world as it is.
+  const TechniqueScene& scene(const world::World& world) { return targets_.of(world); }
+
+ private:
+  struct Taken {
+    TechniqueInput input;
+    base::Affine3 world_from_room;
+  };
+  bool has_moved(const TechniqueInput& input);
+  std::optional<world::Edit> edit_for(const world::World& world, const MovedTarget& moved, Step& result);
+
+  Technique technique_;
+  TechniqueState state_;
+  WorldTargets targets_;
+  TechniqueInput last_ = {};
+  std::optional<Taken> taken_ = {};  // what is held, until the hand has moved
+  bool performed_ = false;           // an edit of what is held
+};
+
+}  // namespace icome::interaction

@@ -1,0 +1,277 @@
+#include "interaction/snapping/stopped_move.h"
+
+#include "clutter.h"
+#include "interaction/object_move.h"
+
+namespace icome::interaction {
+namespace {
+
+using world::World;
+
+StoppedMove moved(CollisionIndex& index, const std::vector<ObjectId>& objects, const Vector3& wanted,
+                  const StopSettings& settings = {}) {
+  const auto found = stopped_move(index, objects, wanted, settings);
+  if (!found) throw std::runtime_error(found.error().message);
+  return *found;
+}
+
+/// Moves the objects and tells the index.
+void go(World& world, CollisionIndex& index, const std::vector<ObjectId>& objects, const Vector3& offset) {
+  const world::Edit edit = ObjectMove(world, objects).by(offset);
+  applied(world, edit);
+  index.follow(world, changes_of(edit));
+}
+
+/// A table whose top is 0.7 m above y = 0, and a vase above it.
+struct Room {
+  Clutter clutter;
+  ObjectId table = clutter.add(nullptr, at(0.2, 0.0, 0.1) * turned(0.4, Vector3::UnitY()));
+  ObjectId top = clutter.add(solid(geometry::Box{{0.6, 0.02, 0.4}}), at(0.0, 0.68, 0.0), table);
+  ObjectId leg = clutter.add(solid(geometry::Box{{0.03, 0.33, 0.03}}), at(0.5, 0.33, 0.3), table);
+  ObjectId vase_on = clutter.add(vase(), at(0.25, 1.1, 0.05) * turned(1.0, Vector3::UnitY()));
+  CollisionIndex index{clutter.world};
+};
+
+TEST(StoppedMove, PutsTheVaseOnTheTableAndNotThroughIt) {
+  Room room;
+  for (const double below : {0.5, 1.0, 1000.0}) {
+    const StoppedMove move = moved(room.index, {room.vase_on}, {0.0, -below, 0.0});
+    EXPECT_TRUE(move.stopped);
+    EXPECT_NEAR(move.offset.y(), -0.4, 1e-9);
+    EXPECT_EQ(move.offset.x(), 0.0);
+    ASSERT_EQ(move.contacts.size(), 1U);
+    EXPECT_EQ(move.contacts[0].moved, room.vase_on);
+    EXPECT_EQ(move.contacts[0].other, room.top);
+    EXPECT_LT((move.contacts[0].normal - Vector3::UnitY()).norm(), 1e-9);
+  }
+  const StoppedMove free = moved(room.index, {room.vase_on}, {0.0, -0.3, 0.0});
+  EXPECT_FALSE(free.stopped);
+  EXPECT_EQ(free.offset, Vector3(0.0, -0.3, 0.0));
+  EXPECT_TRUE(free.contacts.empty());
+}
+
+TEST(StoppedMove, LeavesWhatIsMovedTouchingAndFreeToGoOn) {
+  Room room;
+  const auto landed = landing(room.index, std::vector{room.vase_on});
+  ASSERT_TRUE(landed);
+  EXPECT_NEAR(landed->offset.y(), -0.4, 1e-9);
+  go(room.clutter.world, room.index, {room.vase_on}, landed->offset);
+  EXPECT_FALSE(room.index.overlaps(room.vase_on));
+  EXPECT_FALSE(room.index.collisions(room.vase_on).empty());  // it touches
+  // Along the table as far as one likes, up, but not down; over the edge, and down beside it.
+  EXPECT_EQ(moved(room.index, {room.vase_on}, {0.1, 0.0, 0.1}).offset, Vector3(0.1, 0.0, 0.1));
+  EXPECT_EQ(moved(room.index, {room.vase_on}, {0.0, 0.2, 0.0}).offset, Vector3(0.0, 0.2, 0.0));
+  EXPECT_LT(moved(room.index, {room.vase_on}, {0.0, -0.2, 0.0}).offset.norm(), 1e-9);
+  EXPECT_EQ(moved(room.index, {room.vase_on}, {2.0, 0.0, 0.0}).offset, Vector3(2.0, 0.0, 0.0));
+  go(room.clutter.world, room.index, {room.vase_on}, {2.0, 0.0, 0.0});
+  EXPECT_FALSE(moved(room.index, {room.vase_on}, {0.0, -1.0, 0.0}).stopped);
+  // Sideways into the table top's side.
+  go(room.clutter.world, room.index, {room.vase_on}, {0.0, -0.15, 0.0});
+  EXPECT_TRUE(moved(room.index, {room.vase_on}, {-2.0, 0.0, 0.0}, {.slide = false}).stopped);
+}
+
+TEST(StoppedMove, SlidesAlongAnInclinedPlane) {
+  for (const bool endless : {true, false}) {
+    Clutter clutter;
+    const Affine3 frame = turned(0.5, {1.0, 0.3, 0.2});
+    const Vector3 normal = frame * Vector3::UnitZ();
+    clutter.add(endless ? solid(geometry::Plane{}) : solid(geometry::Box{{5.0, 5.0, 0.5}}),
+                endless ? frame : Affine3(frame * at(0.0, 0.0, -0.5)));
+    for (const auto& shape : {solid(geometry::Sphere{0.1}), mesh_of(geometry::Box{{0.1, 0.2, 0.3}})}) {
+      const ObjectId thing = clutter.add(shape, at(0.1, 0.9, 0.9) * turned(0.3, {1.0, 2.0, 3.0}));
+      CollisionIndex index(clutter.world);
+      const Vector3 wanted(0.3, -0.2, -1.7);
+      const StoppedMove sliding = moved(index, {thing}, wanted);
+      const StoppedMove stopping = moved(index, {thing}, wanted, {.slide = false});
+      EXPECT_TRUE(sliding.stopped && stopping.stopped);
+      EXPECT_LT(stopping.offset.normalized().cross(wanted.normalized()).norm(), 1e-9);
+      // From where it stops it goes along the plane, to next to where it is wanted.
+      const Vector3 along = sliding.offset - stopping.offset;
+      EXPECT_GT(along.norm(), 0.1);
+      EXPECT_LT(std::abs(normal.dot(along)), 2e-6);
+      const Vector3 missing = wanted - sliding.offset;
+      EXPECT_LT(missing.normalized().cross(normal).norm(), 1e-5);
+      ASSERT_EQ(sliding.contacts.size(), 1U);
+      EXPECT_LT((sliding.contacts[0].normal - normal).norm(), 1e-9);
+      applied(clutter.world, world::DeleteObject{thing});
+    }
+  }
+}
+
+TEST(StoppedMove, SlidesAlongTheGrooveBetweenTwoSlopes) {
+  Clutter clutter;
+  clutter.add(solid(geometry::Plane{}), turned(1.0, Vector3::UnitX()));
+  clutter.add(solid(geometry::Plane{}), turned(-1.0, Vector3::UnitX()));
+  const ObjectId ball = clutter.add(solid(geometry::Sphere{0.1}), at(0.0, 0.05, 1.0));
+  CollisionIndex index(clutter.world);
+  const StoppedMove move = moved(index, {ball}, {0.7, 0.1, -3.0});
+  // It ends at the bottom of the groove, whose sides are as far from it as it is large.
+  EXPECT_NEAR(move.offset.x(), 0.7, 1e-5);
+  EXPECT_NEAR(0.05 + move.offset.y(), 0.0, 1e-5);
+  EXPECT_NEAR(1.0 + move.offset.z(), 0.1 / std::cos(1.0), 1e-5);
+  EXPECT_EQ(move.contacts.size(), 2U);
+}
+
+TEST(StoppedMove, LetsWhatIsStuckComeOutButNotGoDeeper) {
+  Clutter clutter;
+  clutter.add(solid(geometry::Box{{1.0, 1.0, 1.0}}), Affine3::Identity());
+  const ObjectId wall = clutter.add(solid(geometry::Box{{0.1, 5.0, 5.0}}), at(3.0, 0.0, 0.0));
+  (void)wall;
+  for (const auto& shape : {solid(geometry::Box{{0.2, 0.2, 0.2}}), solid(geometry::Sphere{0.2}),
+                            mesh_of(geometry::Sphere{0.2})}) {
+    const ObjectId stuck = clutter.add(shape, at(0.9, 0.05, 0.02));
+    CollisionIndex index(clutter.world);
+    EXPECT_EQ(moved(index, {stuck}, {0.1, 0.0, 0.0}).offset, Vector3(0.1, 0.0, 0.0));  // still in it
+    EXPECT_EQ(moved(index, {stuck}, {1.0, 0.0, 0.0}).offset, Vector3(1.0, 0.0, 0.0));
+    EXPECT_TRUE(moved(index, {stuck}, {-0.1, 0.0, 0.0}).offset.isZero(0.0));
+    EXPECT_TRUE(moved(index, {stuck}, {-0.1, 0.0, 0.0}).stopped);
+    // Out, and then up to the wall.
+    EXPECT_NEAR(moved(index, {stuck}, {9.0, 0.0, 0.0}).offset.x(), 2.9 - 0.2 - 0.9, 1e-3);
+    applied(clutter.world, world::DeleteObject{stuck});
+  }
+  const ObjectId floor = clutter.add(solid(geometry::Plane{}), at(0.0, 0.0, -1.5));
+  (void)floor;
+  const ObjectId sunk = clutter.add(solid(geometry::Sphere{0.2}), at(-3.0, 0.0, -1.5));
+  CollisionIndex index(clutter.world);
+  EXPECT_FALSE(moved(index, {sunk}, {0.0, 0.0, 1.0}).stopped);
+  EXPECT_FALSE(moved(index, {sunk}, {0.0, 0.5, 0.0}).stopped);
+  EXPECT_TRUE(moved(index, {sunk}, {0.0, 0.0, -1.0}).stopped);
+}
+
+TEST(StoppedMove, MovesObjectsTogether) {
+  Room room;
+  const ObjectId lamp = room.clutter.add(solid(geometry::Sphere{0.05}), at(0.25, 1.05, 0.05));
+  const ObjectId shade = room.clutter.add(solid(geometry::Sphere{0.05}), at(0.0, -0.07, 0.0), lamp);
+  CollisionIndex index(room.clutter.world);
+  // The lamp stands in the vase: both go until the shade below it meets the table.
+  const StoppedMove move = moved(index, {room.vase_on, lamp, shade}, {0.0, -1.0, 0.0});
+  EXPECT_NEAR(move.offset.y(), 0.7 - (1.05 - 0.07 - 0.05), 1e-9);
+  ASSERT_EQ(move.contacts.size(), 1U);
+  EXPECT_EQ(move.contacts[0].moved, shade);
+}
+
+TEST(StoppedMove, NeverEndsOverlappingInRandomClutter) {
+  base::Random random(6);
+  int stops = 0, tried = 0;
+  while (tried < 200) {
+    Clutter clutter;
+    clutter.fill(random, 30);
+    if (random.index(4) == 0) clutter.add(solid(geometry::Plane{}), at(0.0, 0.0, -1.2));
+    const ObjectId thing =
+        clutter.add(random.index(3) == 0 ? vase() : Clutter::any_shape(random), Clutter::anywhere(random));
+    CollisionIndex index(clutter.world);
+    for (int i = 0; i < 25; ++i) {
+      const Affine3 place = Clutter::anywhere(random);
+      const world::Edit edit = world::PlaceObject{thing, place};
+      applied(clutter.world, edit);
+      index.follow(clutter.world, changes_of(edit));
+      if (index.overlaps(thing)) continue;
+      ++tried;
+      const double far = std::pow(10.0, random.uniform(-2.0, 4.0));
+      const Vector3 inwards = (random.direction() - 2.0 * place.translation()).normalized();
+      const StoppedMove move = moved(index, {thing}, far * inwards, {.slide = i % 2 == 0});
+      stops += int(move.stopped);
+      go(clutter.world, index, {thing}, move.offset);
+      ASSERT_FALSE(index.overlaps(thing)) << tried;
+    }
+  }
+  EXPECT_GT(stops, 60);
+}
+
+TEST(StoppedMove, MissesNothingThatFineStepsFind) {
+  base::Random random(7);
+  int stops = 0;
+  for (int round = 0; round < 150; ++round) {
+    Clutter clutter;
+    clutter.fill(random, 8);
+    const ObjectId thing = clutter.add(Clutter::any_shape(random), Clutter::anywhere(random));
+    CollisionIndex index(clutter.world);
+    if (index.overlaps(thing)) continue;
+    const Affine3 place = world_from_object(clutter.world, thing);
+    const Vector3 wanted = 1.5 * (0.3 * random.direction() - place.translation());
+    const StoppedMove move = moved(index, {thing}, wanted, {.slide = false});
+    stops += int(move.stopped);
+    const double share = move.offset.norm() / wanted.norm();
+    constexpr int kSteps = 200;
+    for (int i = 0; i <= kSteps; ++i) {
+      const Affine3 there = Eigen::Translation3d(share * i / kSteps * wanted) * place;
+      ASSERT_FALSE(index.overlaps(thing, there)) << round << " at " << i;
+    }
+    if (!move.stopped) continue;
+    // And it has not stopped early: a little further on it is in something, unless it only grazes.
+    const double size = index.bounds(thing).diagonal().norm();
+    bool in = false;
+    for (const double on : {1e-5, 1e-4, 1e-3})
+      in = in ||
+           index.overlaps(thing, Eigen::Translation3d((share + on * size / wanted.norm()) * wanted) * place);
+    EXPECT_TRUE(in) << round;
+  }
+  EXPECT_GT(stops, 30);
+}
+
+TEST(StoppedMove, DoesNotPassSheetsOfNoThickness) {
+  Clutter clutter;
+  clutter.add(world::one_triangle(), at(-0.3, -0.3, 0.0) * turned(0.2, Vector3::UnitX()));
+  for (const auto& shape : {solid(geometry::Sphere{1e-4}), mesh_of(geometry::Box{Vector3::Constant(1e-4)})}) {
+    const ObjectId thing = clutter.add(shape, at(0.0, 0.0, 50.0));
+    CollisionIndex index(clutter.world);
+    const StoppedMove move = moved(index, {thing}, {0.0, 0.0, -90.0}, {.slide = false});
+    EXPECT_TRUE(move.stopped);
+    EXPECT_GT(move.offset.z(), -50.1);
+    applied(clutter.world, world::DeleteObject{thing});
+  }
+}
+
+TEST(StoppedMove, GivesTheSameTwice) {
+  for (int run = 0; run < 2; ++run) {
+    static Vector3 before;
+    base::Random random(11);
+    Clutter clutter;
+    clutter.fill(random, 30);
+    const ObjectId thing = clutter.add(vase(), at(0.0, 3.0, 0.0));
+    CollisionIndex index(clutter.world);
+    const Vector3 offset = moved(index, {thing}, {0.2, -4.0, 0.1}).offset;
+    if (run == 0) before = offset;
+    EXPECT_EQ(offset, before);
+  }
+}
+
+TEST(StoppedMove, RefusesWhatCannotBe) {
+  Room room;
+  const std::vector<ObjectId> thing = {room.vase_on};
+  for (const double bad : {double(NAN), double(INFINITY), 1e300})
+    EXPECT_FALSE(stopped_move(room.index, thing, {bad, 0.0, 0.0}));
+  EXPECT_FALSE(stopped_move(room.index, thing, {1.0, 0.0, 0.0}, {.tolerance = 0.0}));
+  EXPECT_FALSE(stopped_move(room.index, thing, {1.0, 0.0, 0.0}, {.tolerance = std::nan("")}));
+  // Nobody is there: nothing is in the way.
+  EXPECT_EQ(moved(room.index, {ObjectId{}, ObjectId{77}}, {1.0, -2.0, 0.0}).offset, Vector3(1.0, -2.0, 0.0));
+  EXPECT_EQ(moved(room.index, {}, Vector3::Zero()).offset, Vector3::Zero());
+}
+
+TEST(Landing, FallsAlongAnyDirectionAndToTheFloor) {
+  Room room;
+  const std::vector<ObjectId> thing = {room.vase_on};
+  EXPECT_FALSE(landing(room.index, thing, {.direction = Vector3::UnitY()}));
+  EXPECT_FALSE(landing(room.index, thing, {.direction = Vector3::Zero()}));
+  EXPECT_FALSE(landing(room.index, thing, {.direction = {std::nan(""), 0.0, 0.0}}));
+  EXPECT_FALSE(landing(room.index, std::vector<ObjectId>{}));
+  go(room.clutter.world, room.index, thing, {3.0, 0.0, 0.0});
+  const auto nothing = landing(room.index, thing);
+  ASSERT_FALSE(nothing);
+  EXPECT_NE(nothing.error().message.find("nothing below"), std::string::npos);
+  const auto floor = landing(room.index, thing, {.floor = true});
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->offset.y(), -1.1, 1e-9);
+  EXPECT_FALSE(floor->contacts.at(0).other);
+  // Already there: it stays.
+  go(room.clutter.world, room.index, thing, floor->offset);
+  EXPECT_LT(landing(room.index, thing, {.floor = true})->offset.norm(), 1e-6);
+  // Below the floor, or in the table, it cannot fall.
+  go(room.clutter.world, room.index, thing, {0.0, -0.1, 0.0});
+  EXPECT_FALSE(landing(room.index, thing, {.floor = true}));
+  go(room.clutter.world, room.index, thing, {-3.0, 0.7, 0.0});
+  EXPECT_FALSE(landing(room.index, thing));
+}
+
+}  // namespace
+}  // namespace icome::interaction

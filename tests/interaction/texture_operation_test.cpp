@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include "mesh_samples.h"
+
+namespace icome::interaction {
+namespace {
+
+using world::MeshGeometry;
+
+/// The texture coordinates of a corner at that place; all triangles there must agree.
+Vector2 coordinates_at(const MeshGeometry& shape, const Vector3& place) {
+  for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (shape.mesh.corner(t, int(i)) == place) return shape.texture_coordinates[t][i];
+  throw std::runtime_error("there is no such vertex");
+}
+
+TEST(TextureOperation, LaysThePictureOverASquareOnTheFloorAsSeenFromAbove) {
+  auto shape = std::make_shared<MeshGeometry>(square_mesh(0.3));
+  shape->normals = flat_normals(shape->mesh);
+  OperationRunner runner(world_of(shape));
+  performed_both_ways(runner, R"({"op": "texture", "object": "thing"})");
+  const MeshGeometry& now = mesh_of(runner);
+  EXPECT_LT((coordinates_at(now, {0, 0, 0}) - Vector2(0, 0)).norm(), 1e-15);
+  EXPECT_LT((coordinates_at(now, {0.3, 0, 0}) - Vector2(1, 0)).norm(), 1e-15);
+  EXPECT_LT((coordinates_at(now, {0.3, 0, -0.3}) - Vector2(1, 1)).norm(), 1e-15);
+  EXPECT_EQ(now.mesh.positions, shape->mesh.positions);
+  EXPECT_EQ(now.normals, shape->normals);
+}
+
+TEST(TextureOperation, ThrowsItFromWhereItIsSaid) {
+  OperationRunner runner(world_of(square_mesh()));
+  // Twice as large a picture about the corner; turned a quarter about y, which takes +x to -z.
+  performed_both_ways(
+      runner,
+      R"({"op": "texture", "object": "thing", "at": [0, 0, 0], "size": [2, 1, 2], "turn": [0, 90, 0]})");
+  EXPECT_LT((coordinates_at(mesh_of(runner), {0, 0, 0}) - Vector2(0.5, 0.5)).norm(), 1e-15);
+  EXPECT_LT((coordinates_at(mesh_of(runner), {0, 0, -1}) - Vector2(1, 0.5)).norm(), 1e-15);
+  EXPECT_LT((coordinates_at(mesh_of(runner), {1, 0, 0}) - Vector2(0.5, 0)).norm(), 1e-15);
+}
+
+TEST(TextureOperation, StandsUprightRoundAnObject) {
+  for (const char* projection : {"box", "cylindrical", "spherical"}) {
+    OperationRunner runner(world_of(world::box(1.0)));
+    const std::string command =
+        fmt::format(R"({{"op": "texture", "object": "thing", "projection": "{}"}})", projection);
+    EXPECT_NE(refusal(runner, command).find("perform 'mesh' first"), std::string::npos);
+    performed_both_ways(runner, command.substr(0, command.size() - 1) + R"(, "as_mesh": true})");
+    const MeshGeometry& shape = mesh_of(runner);
+    for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        // On the sides v rises with y.
+        const Vector3& one = shape.mesh.corner(t, int(i));
+        const Vector3& next = shape.mesh.corner(t, int((i + 1) % 3));
+        if (next.y() <= one.y()) continue;
+        EXPECT_GT(shape.texture_coordinates[t][(i + 1) % 3].y(), shape.texture_coordinates[t][i].y())
+            << projection;
+      }
+    }
+  }
+}
+
+TEST(TextureOperation, ShowsAPictureOfTheDesign) {
+  world::World world = world_of(square_mesh());
+  world::IdSource ids(0, world.next_number(0));
+  const auto picture = ids.next<world::TextureId>();
+  world::applied(world, world::CreateTexture{picture,
+                                             {.name = "pictures/brick.png",
+                                              .media_type = "image/png",
+                                              .bytes = std::make_shared<const std::string>("brick")}});
+  OperationRunner runner(world);
+  performed_both_ways(runner, R"({"op": "texture", "object": "thing", "picture": "brick.png"})");
+  const auto* object = runner.world().find(named_object(runner.world(), "thing").value());
+  ASSERT_TRUE(runner.world().find(object->material));
+  EXPECT_EQ(runner.world().find(object->material)->texture, picture);
+  EXPECT_EQ(refusal(runner, R"({"op": "texture", "object": "thing", "picture": "brik.png"})"),
+            "texture: the design has no picture named 'brik.png'; did you mean 'brick.png'?");
+}
+
+TEST(TextureOperation, RefusesProjectorsThatMakeNoSense) {
+  OperationRunner runner(world_of(square_mesh()));
+  for (const char* said : {R"("size": [0, 1, 1])", R"("size": [1, 1])", R"("at": [1e300, 0, 0])",
+                           R"("projection": "conical")", R"("turn": "left")"})
+    EXPECT_NE(refusal(runner, fmt::format(R"({{"op": "texture", "object": "thing", {}}})", said)), "")
+        << said;
+  OperationRunner empty(world_of(geometry::TriangleMesh()));
+  EXPECT_NE(refusal(empty, R"({"op": "texture", "object": "thing"})"), "");
+}
+
+}  // namespace
+}  // namespace icome::interaction
