@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxSide = 32767;  // what Cairo's image surface takes
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using CairoImage = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
 /// Cairo's pixel: premultiplied, one native-endian 32-bit word.
 std::uint32_t premultiplied(const std::uint8_t* pixel) {
@@ -24,9 +24,9 @@ std::uint32_t premultiplied(const std::uint8_t* pixel) {
   return alpha << 24 | times_alpha(pixel[0]) << 16 | times_alpha(pixel[1]) << 8 | times_alpha(pixel[2]);
 }
 
-Surface surface_of(const Image& image) {
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height),
-                  cairo_surface_destroy);
+CairoImage surface_of(const Image& image) {
+  CairoImage surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height),
+                     cairo_surface_destroy);
   if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) return surface;
   unsigned char* data = cairo_image_surface_get_data(surface.get());
   const int stride = cairo_image_surface_get_stride(surface.get());
@@ -88,7 +88,7 @@ base::Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
     return base::fail(fmt::format("a PNG picture of {}x{} cannot be made; sides go from 1 to {} pixels",
                                   image.width, image.height, kMaxSide));
   }
-  const Surface surface = surface_of(image);
+  const CairoImage surface = surface_of(image);
   std::vector<std::uint8_t> bytes;
   const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
   if (status != CAIRO_STATUS_SUCCESS) {

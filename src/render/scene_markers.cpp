@@ -50,6 +50,18 @@ Affine3 stretched(const Vector3& from, const Vector3& to, double radius) {
   return place;
 }
 
+std::vector<RenderItem> copied_items(const std::vector<SceneOverlay::Copy>& copies) {
+  std::vector<RenderItem> items;
+  for (const SceneOverlay::Copy& copy : copies) {
+    if (!copy.scene || !copy.world_from_scene.matrix().allFinite()) continue;
+    copy.scene->for_each([&](const RenderItem& item) {
+      const Affine3 place = copy.world_from_scene * item.world_from_object;
+      items.push_back({{}, item.shape, item.material, place, item.shape->bounds.transformed(place)});
+    });
+  }
+  return items;
+}
+
 std::vector<PlannedItem> plan_all(const std::vector<RenderItem>& items, const Camera& camera) {
   std::vector<PlannedItem> planned;
   planned.reserve(items.size());
@@ -57,22 +69,48 @@ std::vector<PlannedItem> plan_all(const std::vector<RenderItem>& items, const Ca
   return planned;
 }
 
-/// Four corners a stretch, as the line shader wants them: the place and the other end.
-ShadingMesh line_mesh(const std::vector<Vector3>& points) {
-  ShadingMesh mesh;
+/// A frame for buffers in single precision round the points; false: there is none that is finite.
+bool frame_points(const std::vector<Vector3>& points, ShadingMesh& mesh) {
   base::Bounds box;
   for (const Vector3& it : points) {
     if (it.allFinite()) box.extend(it);
   }
-  if (box.isEmpty()) return mesh;
+  if (box.isEmpty()) return false;
   mesh.centre = 0.5 * (box.min() + box.max());
   mesh.radius = std::max(0.5 * box.sizes().norm(), 1e-300);
-  const auto local = [&](const Vector3& p) {
-    return Eigen::Vector3f(((p - mesh.centre) / mesh.radius).cast<float>());
-  };
+  return true;
+}
+
+Eigen::Vector3f in_frame(const ShadingMesh& mesh, const Vector3& point) {
+  return ((point - mesh.centre) / mesh.radius).cast<float>();
+}
+
+/// Four corners a dot, as the dot shader wants them: the place and which corner. Nearer to the eye than they
+/// are, so that what they lie on does not cut them.
+ShadingMesh dot_mesh(std::vector<Vector3> points, const Vector3& eye) {
+  constexpr double kNearer = 0.004;  // of the distance
+  for (Vector3& it : points) it += kNearer * (eye - it);
+  ShadingMesh mesh;
+  if (!frame_points(points, mesh)) return mesh;
+  for (const Vector3& it : points) {
+    if (!it.allFinite()) continue;
+    const Eigen::Vector3f at = in_frame(mesh, it);
+    const auto first = std::uint32_t(mesh.vertices.size());
+    for (const float x : {-1.0F, 1.0F}) {
+      for (const float y : {-1.0F, 1.0F}) mesh.vertices.push_back({at, Eigen::Vector3f(x, y, 0.0F)});
+    }
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
+  }
+  return mesh;
+}
+
+/// Four corners a stretch, as the line shader wants them: the place and the other end.
+ShadingMesh line_mesh(const std::vector<Vector3>& points) {
+  ShadingMesh mesh;
+  if (!frame_points(points, mesh)) return mesh;
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (!points[i - 1].allFinite() || !points[i].allFinite()) continue;
-    const Eigen::Vector3f from = local(points[i - 1]), to = local(points[i]);
+    const Eigen::Vector3f from = in_frame(mesh, points[i - 1]), to = in_frame(mesh, points[i]);
     const auto first = std::uint32_t(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), {{from, to}, {from, to}, {to, from}, {to, from}});
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
@@ -131,22 +169,56 @@ base::Result<void> SceneMarkers::draw_lines(const SceneOverlay& overlay, const C
   return {};
 }
 
+base::Result<void> SceneMarkers::draw_dots(const SceneOverlay& overlay, const Camera& camera,
+                                           ScenePrograms& programs, const SceneTarget& target, float alpha) {
+  if (overlay.dots.empty()) return {};
+  const auto program = programs.dot();
+  if (!program) return tl::unexpected(program.error());
+  glUseProgram((*program)->program.name());
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const Vector3 eye = camera.eye();
+  for (const SceneOverlay::Dots& dots : overlay.dots) {
+    const ShadingMesh mesh = dot_mesh(dots.points, eye);
+    if (mesh.indices.empty()) continue;
+    const MeshView view(mesh);
+    set_uniform((*program)->program, "clip_from_buffer",
+                Matrix4(camera.clip_from_world() * view.mesh_from_buffer()));
+    glUniform2f(glGetUniformLocation((*program)->program.name(), "half_width"),
+                float(dots.width / target.width), float(dots.width / target.height));
+    const float shown = alpha * float(dots.colour.alpha);
+    const Eigen::Vector3f colour = shown * linear_colour(dots.colour);
+    glUniform4f((*program)->diffuse, colour.x(), colour.y(), colour.z(), shown);
+    view.draw();
+  }
+  glDisable(GL_BLEND);
+  return {};
+}
+
 base::Result<void> SceneMarkers::draw(const SceneOverlay& overlay, const Camera& camera, ScenePass& pass,
                                       ScenePrograms& programs, const SceneTarget& target) {
-  if (overlay.balls.empty() && overlay.arrows.empty() && overlay.lines.empty()) return {};
+  if (overlay.balls.empty() && overlay.arrows.empty() && overlay.lines.empty() && overlay.dots.empty() &&
+      overlay.copies.empty())
+    return {};
   make_shapes();
+  if (!overlay.copies.empty()) {
+    const std::vector<RenderItem> copied = copied_items(overlay.copies);
+    if (auto drawn = pass.opaque(plan_all(copied, camera)); !drawn) return drawn;
+  }
   // What is behind something first, before markers hide each other.
   glDepthFunc(GL_GREATER);
   const std::vector<RenderItem> faint = items_of(overlay, kHiddenAlpha);
   auto done = pass.blended(plan_all(faint, camera));
   glDepthMask(GL_FALSE);
   if (done) done = draw_lines(overlay, camera, programs, target, kHiddenAlpha);
+  if (done) done = draw_dots(overlay, camera, programs, target, kHiddenAlpha);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
   if (!done) return done;
   const std::vector<RenderItem> items = items_of(overlay, 1.0F);
   done = pass.opaque(plan_all(items, camera));
   if (done) done = draw_lines(overlay, camera, programs, target, 1.0F);
+  if (done) done = draw_dots(overlay, camera, programs, target, 1.0F);
   return done;
 }
 

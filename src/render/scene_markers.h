@@ -18,6 +18,8 @@ class SceneMarkers {
   std::vector<RenderItem> items_of(const SceneOverlay& overlay, float alpha) const;
   base::Result<void> draw_lines(const SceneOverlay& overlay, const Camera& camera, ScenePrograms& programs,
                                 const SceneTarget& target, float alpha);
+  base::Result<void> draw_dots(const SceneOverlay& overlay, const Camera& camera, ScenePrograms& programs,
+                               const SceneTarget& target, float alpha);
 
   RenderShapePointer ball_, shaft_, head_;
 };

@@ -70,6 +70,8 @@ base::Result<SceneProgram*> ScenePrograms::line() {
   return variant(kLineVertexShader, kFlatFragmentShader, "");
 }
 
+base::Result<SceneProgram*> ScenePrograms::dot() { return variant(kDotVertexShader, kDotFragmentShader, ""); }
+
 base::Result<SceneProgram*> ScenePrograms::depth_copy() {
   return variant(kWholeVertexShader, kDepthCopyFragmentShader, "");
 }

@@ -38,6 +38,7 @@ class ScenePrograms {
   base::Result<SceneProgram*> ground(const LightKinds& lights);
   base::Result<SceneProgram*> flat(bool cut_out);  ///< depth or one colour
   base::Result<SceneProgram*> line();
+  base::Result<SceneProgram*> dot();
   base::Result<SceneProgram*> depth_copy();  ///< of a picture of depths
   base::Result<SceneProgram*> cover();       ///< one colour where a picture of depths has something
   base::Result<SceneProgram*> sum();

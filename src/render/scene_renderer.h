@@ -28,9 +28,16 @@ struct SceneOverlay {
     Colour colour;
   };
   struct Line {
-    std::vector<base::Vector3> points;
+    std::vector<base::Vector3> points;  ///< those that are not finite part it
     Colour colour;
     double width = 2.0;  ///< pixels
+  };
+
+  /// Round dots, of one size however far they are; a little before what they lie on.
+  struct Dots {
+    std::vector<base::Vector3> points;  ///< those that are not finite are passed over
+    Colour colour;
+    double width = 7.0;  ///< pixels
   };
 
   /// Text and other pictures, which whoever writes them draws: they face the eye and are never hidden.
@@ -45,12 +52,24 @@ struct SceneOverlay {
     double alpha = 1.0;                           ///< 0 ... 1, of all of it
   };
 
+  /// A scene once more, elsewhere and of another size: a world in miniature. What is seen through is drawn
+  /// opaque.
+  struct Copy {
+    RenderScenePointer scene;  ///< null: nothing
+    base::Affine3 world_from_scene = base::Affine3::Identity();
+  };
+
   std::vector<Ball> balls = {};
   std::vector<Arrow> arrows = {};
   std::vector<Line> lines = {};
+  std::vector<Dots> dots = {};
   std::vector<Panel> panels = {};
+  std::vector<Copy> copies = {};
 
-  bool empty() const { return balls.empty() && arrows.empty() && lines.empty() && panels.empty(); }
+  bool empty() const {
+    return balls.empty() && arrows.empty() && lines.empty() && dots.empty() && panels.empty() &&
+           copies.empty();
+  }
 };
 
 /// How a scene is drawn.

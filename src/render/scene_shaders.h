@@ -489,4 +489,30 @@ void main() {
 }
 )";
 
+// A square that faces the eye round each place: `normal` says which corner. In it a disc with a smooth rim.
+constexpr char kDotVertexShader[] = R"(
+in vec3 position;
+in vec3 normal;
+uniform mat4 clip_from_buffer;
+uniform vec2 half_width;
+out vec2 place;
+void main() {
+  place = normal.xy;
+  gl_Position = clip_from_buffer * vec4(position, 1.0);
+  gl_Position.xy += place * half_width * gl_Position.w;
+}
+)";
+
+constexpr char kDotFragmentShader[] = R"(
+in vec2 place;
+uniform vec4 diffuse;
+out vec4 result;
+void main() {
+  float away = length(place);
+  float cover = clamp((1.0 - away) / max(fwidth(away), 1e-6) + 0.5, 0.0, 1.0);
+  if (cover <= 0.0) discard;
+  result = cover * diffuse;
+}
+)";
+
 }  // namespace icome::render

@@ -90,6 +90,7 @@ base::Result<void> DisplayFeed::draw(render::SceneRenderer& renderer, const rend
   note_target(renderer, target);
   render::SceneLook look = shown_.look;
   if (shown_.pointers) add_markers(look.overlay);
+  if (shown_.miniature) look.overlay.copies.push_back({scene_.read(), *shown_.miniature});
   // Tiles of a picture have its shape in common.
   const double aspect = target.width * target.window.height / (target.height * target.window.width);
   const render::Camera through = camera(aspect);
@@ -132,14 +133,24 @@ render::Camera DisplayFeed::camera(double aspect) const {
   render::Camera camera;
   camera.camera_from_world = world_from_eye.inverse();
   base::Bounds bounds = scene_.read()->bounds();
-  for (const auto& box : pointers_) {
-    if (!is_shown(box->newest.read())) continue;
-    // Pointers before and behind the scene are to be seen too. In steps, so that the lens, and with it the
-    // picture, rarely changes with the hand.
-    const double depth = -(camera.camera_from_world * box->newest.read().tip).z();
-    if (!(depth > 0.0)) continue;
+  // Pointers and handles before and behind the scene are to be seen too. In steps, so that the lens, and with
+  // it the picture, rarely changes with the hand.
+  const auto reach = [&](const Vector3& place) {
+    const double depth = -(camera.camera_from_world * place).z();
+    if (!(depth > 0.0) || !std::isfinite(depth)) return;
     for (const double step : {std::floor(std::log2(depth)), std::ceil(std::log2(depth))})
       bounds.extend(world_from_eye * Vector3(0.0, 0.0, -std::exp2(step)));
+  };
+  for (const auto& box : pointers_) {
+    if (is_shown(box->newest.read())) reach(box->newest.read().tip);
+  }
+  const base::Bounds scene = scene_.read()->bounds();
+  for (int corner = 0; shown_.miniature && !scene.isEmpty() && corner < 8; ++corner)
+    reach(*shown_.miniature * scene.corner(base::Bounds::CornerType(corner)));
+  for (const render::SceneOverlay::Dots& dots : shown_.look.overlay.dots) {
+    for (const Vector3& place : dots.points) {
+      if (!scene.contains(place)) reach(place);
+    }
   }
   camera.clip_from_camera = render::lens_for(camera.camera_from_world, bounds, shown_.view.field, aspect);
   return camera;

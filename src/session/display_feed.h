@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "interaction/navigation.h"
@@ -17,7 +18,9 @@ struct DisplayWish {
   interaction::View view = {};
   render::SceneLook look = {};  // its passes: how many a view at rest is refined to
   bool pointers = true;         // tips, surface contact points and forces are shown
-  double marker_size = 0.004;   // share of the distance to the eye: radius of the tip's ball
+  /// From the scene to a copy of it that is drawn over it, when there is one.
+  std::optional<base::Affine3> miniature = {};
+  double marker_size = 0.004;  // share of the distance to the eye: radius of the tip's ball
 };
 
 /// What brings the world to the eye: the display thread asks it what to draw, and never waits for anybody.

@@ -17,6 +17,9 @@ PointerView view_of(const haptics::TickReport& report, std::uint64_t losses, std
   view.time = time;
   view.status = report.status;
   view.tip = report.tip;
+  view.orientation = report.orientation;
+  view.device_from_stylus = report.device_from_stylus;
+  view.buttons = report.buttons;
   view.touching = report.contact.touching;
   view.scp = view.touching ? report.contact.scp : report.tip;
   view.force = report.force;
@@ -98,6 +101,10 @@ void HapticLoop::carry(std::size_t pointer, const base::Pose& stage_from_device)
   if (stage_from_device.matrix() == hand.stage_from_device.matrix()) return;
   hand.stage_from_device = stage_from_device;
   hand.servo->carry(stage_from_device);
+}
+
+void HapticLoop::grip(std::size_t pointer, const haptics::GripFeel& feel) {
+  hands_[pointer]->servo->grip(feel);
 }
 
 std::vector<ForceSample> HapticLoop::take_forces() {

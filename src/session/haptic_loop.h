@@ -35,6 +35,8 @@ class HapticLoop {
   void update();
   /// Where the device's workspace lies on the stage from now on; a pose that is not finite is passed over.
   void carry(std::size_t pointer, const base::Pose& stage_from_device);
+  /// What the hand feels of what it holds, from now on.
+  void grip(std::size_t pointer, const haptics::GripFeel& feel);
   /// Where it was carried to last.
   const base::Pose& stage_from_device(std::size_t pointer) const {
     return hands_[pointer]->stage_from_device;

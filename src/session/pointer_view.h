@@ -14,7 +14,11 @@ struct PointerView {
   devices::DeviceStatus status = devices::DeviceStatus::Lost;
   base::Vector3 tip = base::Vector3::Zero();  // m, the device's own
   base::Vector3 scp = base::Vector3::Zero();  // m, the surface contact point; the tip when nothing is touched
-  base::Vector3 force = base::Vector3::Zero();  // N, on the hand
+  base::Vector3 force = base::Vector3::Zero();                  // N, on the hand
+  base::Quaternion orientation = base::Quaternion::Identity();  // stage_from_stylus
+  /// m, in the device's own frame, wherever its workspace is being carried to.
+  base::Pose device_from_stylus = base::Pose::Identity();
+  std::uint32_t buttons = 0;  // bit i: button i is down
   bool touching = false;
   base::ObjectId touched = {};  // in the haptic scene, when touching
   std::uint64_t losses = 0;     // how often the device was lost since the start

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace icome::session {
@@ -11,6 +12,15 @@ class Revisions {
   void performed() {
     undone_.clear();
     done_.push_back(++last_);
+  }
+  /// What is tried out, and what becomes of it when nothing else was done before it is taken back.
+  void tried() {
+    aside_ = std::exchange(undone_, {});
+    done_.push_back(++last_);
+  }
+  void took_back() {
+    done_.pop_back();
+    undone_ = std::exchange(aside_, {});
   }
   void extended() { done_.back() = ++last_; }
   void undid() {
@@ -35,6 +45,7 @@ class Revisions {
   std::uint64_t last_ = 0;   // given
   std::uint64_t first_ = 0;  // before anything was done
   std::vector<std::uint64_t> done_, undone_;
+  std::vector<std::uint64_t> aside_;  // undone when something was tried out
 };
 
 }  // namespace icome::session

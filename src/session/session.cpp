@@ -37,6 +37,9 @@ Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices
       display(devices.size()),
       mouse_hand(mouse),
       hands(std::move(devices), settings.servo, display),
+      grabs(hands.pointers()),
+      point_grabs(hands.pointers()),
+      ungrabbed(hands.pointers(), false),
       lost(hands.pointers(), false),
       losses(hands.pointers(), 0),
       felt({haptics::HapticScene::compile({}), std::make_shared<const TouchedNames>()}),
@@ -132,8 +135,78 @@ void Session::Parts::notice_devices() {
 std::vector<SessionEvent> Session::update() {
   parts_->take_in();
   parts_->move_user();
+  parts_->shaping ? move_points() : move_held();
+  parts_->renew_marks(*this);
   parts_->publish_wish();
   return std::exchange(parts_->events, {});
+}
+
+void Session::move_held() {
+  if (parts_->technique) {
+    parts_->hold_by_technique(*this);
+  } else {
+    move_held_by_touch();
+  }
+}
+
+void Session::move_held_by_touch() {
+  for (std::size_t i = 0; i < pointers(); ++i) {
+    if (parts_->ungrabbed[i] && (pointer(i).buttons & 1U) != 0) continue;
+    parts_->ungrabbed[i] = false;
+    std::string refused;
+    const auto feel = parts_->grabs[i].update(*this, i, parts_->revisions, refused);
+    if (feel) parts_->hands.grip(i, *feel);
+    if (!refused.empty()) parts_->tell(SessionEvent::Kind::Notice, refused);
+  }
+}
+
+void Session::set_grab(const GrabSettings& settings) { parts_->grab_settings = settings; }
+
+const GrabSettings& Session::grab() const { return parts_->grab_settings; }
+
+Surroundings& Session::surroundings() { return parts_->surroundings; }
+
+bool Session::holds(std::size_t index) const {
+  const bool by_technique = index == 0 && parts_->technique && parts_->technique->holds();
+  return by_technique || parts_->grabs[index].holds() || parts_->point_grabs[index].holds();
+}
+
+void Session::move_points() {
+  parts_->shaping->follow(world(), selection());
+  for (std::size_t i = 0; i < pointers(); ++i) {
+    if (i == 0 && parts_->mouse_hand && !parts_->hand_is_aimed) continue;  // it lies aside
+    std::string refused;
+    const auto feel =
+        parts_->point_grabs[i].update(*this, i, parts_->revisions, parts_->grab_settings, refused);
+    if (feel) parts_->hands.grip(i, *feel);
+    if (!refused.empty()) parts_->tell(SessionEvent::Kind::Notice, refused);
+  }
+}
+
+base::Result<void> Session::set_shaping(const std::optional<interaction::ShapingSettings>& settings) {
+  if (settings) {
+    interaction::Shaping fresh;
+    if (const auto good = fresh.set(*settings); !good) return good;
+    if (!parts_->shaping) parts_->shaping = std::move(fresh);
+    (void)parts_->shaping->set(*settings);  // what it knows of shapes it keeps
+  } else {
+    parts_->shaping.reset();
+  }
+  // What is held is let go: it may not be there to be held any more.
+  for (std::size_t i = 0; i < pointers(); ++i) {
+    if (holds(i)) parts_->hands.grip(i, {});
+    parts_->grabs[i] = {};
+    parts_->point_grabs[i] = {};
+  }
+  if (parts_->technique) parts_->technique->let_go();
+  parts_->mouse_marks.reset();
+  return {};
+}
+
+interaction::Shaping* Session::shaping() { return parts_->shaping ? &*parts_->shaping : nullptr; }
+
+void Session::mark_handle(const std::optional<interaction::MarkedHandle>& marked) {
+  parts_->mouse_marks = marked;
 }
 
 bool Session::Parts::is_settled() const {

@@ -15,12 +15,16 @@
 #include "haptics/servo/servo.h"
 #include "interaction/mouse_hand.h"
 #include "interaction/navigation.h"
+#include "interaction/shaping/shaping.h"
 #include "realtime/loop.h"
 #include "render/render_scene.h"
 #include "session/display_feed.h"
+#include "session/hand_grab.h"
 #include "session/pointer_view.h"
 #include "session/recovery.h"
 #include "session/representation.h"
+#include "session/surroundings.h"
+#include "session/technique_hand.h"
 #include "world/changes.h"
 #include "world/history.h"
 
@@ -102,6 +106,14 @@ class Session {
   base::Result<void> perform(const world::Edit& edit, const std::string& name);
   /// More of the last action, such as the next step of a drag.
   base::Result<void> extend(const world::Edit& edit);
+  /// Performs an action that is only tried out, such as a preview: as long as nothing else is done,
+  /// take_back() leaves no trace of it (History::trying). Trying another takes its place, at once and without
+  /// a moment between them; the edit is then one of the world without what was tried before. A failed one
+  /// leaves nothing tried.
+  base::Result<void> try_out(const world::Edit& edit, const std::string& name);
+  base::Result<void> take_back();
+  /// It is an action like any other from now on.
+  void keep_tried();
   base::Result<void> undo();
   base::Result<void> redo();
   const world::History& history() const;
@@ -167,11 +179,39 @@ class Session {
   const devices::DeviceInfo& pointer_info(std::size_t index) const;
   /// The object that a pointer touches.
   std::optional<world::ObjectId> touched(std::size_t index) const;
+  /// Is something held by it? While button 0 is down, what it touched goes along with it (HandGrab), or what
+  /// the technique holds, as the first pointer's.
+  bool holds(std::size_t index) const;
+  /// From now on hands take hold of points of shapes, not of objects (PointGrab), and these are shown; or not
+  /// any more. Fails as Shaping::set() does, changing nothing.
+  base::Result<void> set_shaping(const std::optional<interaction::ShapingSettings>& settings);
+  /// Null while points are not what is dragged.
+  interaction::Shaping* shaping();
+  /// Points out what the mouse is over or holds; each hand points out its own.
+  void mark_handle(const std::optional<interaction::MarkedHandle>& marked);
+  /// How things are moved from now on, and felt then.
+  void set_grab(const GrabSettings& settings);
+  const GrabSettings& grab() const;
+  /// What they stop at and snap to.
+  Surroundings& surroundings();
+  /// Selects, holds and travels with the first two pointers by this technique (thesis chapter 2) from now on,
+  /// as TechniqueHand says; without one, by touch. Fails, and changes nothing, for sizes that cannot be.
+  base::Result<void> set_technique(const std::optional<interaction::Technique>& technique);
+  /// Null while it is by touch. What it points at, holds and shows.
+  const TechniqueHand* technique() const;
+  /// From the world to the technique's miniature, where it shows one, stage frame.
+  std::optional<base::Affine3> miniature() const;
+  /// Records what the technique is fed from now on, from its beginning. Fails without a technique.
+  base::Result<void> record_technique();
+  /// Nothing unless it records.
+  std::optional<TechniqueHand::Recorded> stop_recording();
   /// Where the hand of the mouse-driven pointer wants to be, stage frame; surfaces may keep it away. Without
   /// effect on other devices.
   void aim_hand(const base::Vector3& position);
   /// Puts that hand there without a way in between, as a pen is lifted and set down elsewhere.
   void put_hand(const base::Vector3& position);
+  /// Holds these buttons of that hand down (bit i: button i).
+  void hold_hand_buttons(std::uint32_t buttons);
   /// Puts it at the eye, out of sight and touching nothing, and keeps it there until it is aimed or put
   /// again.
   void park_hand();
@@ -187,6 +227,9 @@ class Session {
 
  private:
   struct Parts;
+  void move_held();
+  void move_points();
+  void move_held_by_touch();
   explicit Session(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };

@@ -11,7 +11,9 @@
 #include "session/design_loader.h"
 #include "session/design_saver.h"
 #include "session/felt_world.h"
+#include "session/hand_grab.h"
 #include "session/haptic_loop.h"
+#include "session/point_grab.h"
 #include "session/revisions.h"
 #include "session/seen_world.h"
 #include "session/session.h"
@@ -27,10 +29,11 @@ struct Session::Parts {
 
   // session_world.cpp
   base::Result<void> done(base::Result<void> result);
+  base::Result<void> take_back();
   void open_world(world::World opened, const std::filesystem::path& design,
                   const std::shared_ptr<ClaimedWork>& recovered = nullptr);
   void tell_change(const world::Changes* changes);
-  void notify_change(const world::Changes* changes) const;
+  void notify_change(const world::Changes* changes);
   void notify_selection() const;
   void show(world::SceneId scene);
   world::EditSink sink();
@@ -48,7 +51,17 @@ struct Session::Parts {
   void put(const base::Vector3& position);
   void park();
   void renew_outline();
+  void renew_handles();
   void publish_wish();
+
+  // session_techniques.cpp
+  TechniqueMoment technique_moment() const;
+  base::Pose stage_from_hand(std::size_t pointer) const;
+  bool is_hand_there(std::size_t pointer) const;
+  void carry_user(const base::Pose& by);
+  void feel_held(bool held);
+  void hold_by_technique(Session& session);
+  void renew_marks(const Session& session);
 
   // session.cpp
   void take_in();
@@ -64,6 +77,7 @@ struct Session::Parts {
   world::History history;
   world::IdSource ids;
   Revisions revisions;
+  Surroundings surroundings{world};
   std::uint64_t saved_revision = 0;
   std::deque<std::uint64_t> saving_revisions;  // on their way to disk
   std::uint64_t opened_number = 0;             // of the post with this world
@@ -79,10 +93,14 @@ struct Session::Parts {
 
   DisplayWish look;  // as main wants it, without view and selection
   bool look_is_new = true;
-  std::vector<world::ObjectId> outlined;  // the selection, and all below it
-  bool outline_is_new = false;            // it may be
+  std::vector<world::ObjectId> outlined;           // the selection, and all below it
+  bool outline_is_new = false;                     // it may be
+  std::optional<render::SceneOverlay> marks = {};  // of the technique
+  std::uint64_t marks_of = 0;                      // what they show
+  std::optional<base::Affine3> miniature = {};     // of the technique, from the stage
   UserInteraction user;
-  std::int64_t moved_at = 0;  // ns, when the user moved last; 0: not yet
+  std::int64_t technique_since = 0;  // ns, when the technique was chosen
+  std::int64_t moved_at = 0;         // ns, when the user moved last; 0: not yet
   interaction::View drawn_view;
   double aspect = 1.5;         // of the picture
   bool hand_is_aimed = false;  // by the mouse
@@ -93,6 +111,14 @@ struct Session::Parts {
   DisplayFeed display;
   devices::SimulatedDevice* mouse_hand;  // null: no pointer is driven by the mouse
   HapticLoop hands;
+  std::vector<HandGrab> grabs;  // of each pointer
+  GrabSettings grab_settings;
+  std::optional<interaction::Shaping> shaping;           // nothing: objects are what is dragged
+  std::vector<PointGrab> point_grabs;                    // of each pointer
+  std::optional<interaction::MarkedHandle> mouse_marks;  // as the mouse's tool says
+  interaction::ShapingPicture handles;                   // as they are drawn
+  std::shared_ptr<TechniqueHand> technique;              // null: by touch
+  std::vector<bool> ungrabbed;        // pointers that begin to grab when their button has come up
   std::vector<bool> lost;             // the pointer's device, as a person was told last
   std::vector<std::uint64_t> losses;  // that a person was told of
   realtime::LatestValue<FeltVersion> felt;

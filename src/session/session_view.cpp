@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "base/clock.h"
@@ -8,6 +9,39 @@
 #include "session/session_parts.h"
 
 namespace icome::session {
+namespace {
+
+constexpr render::Colour kHandleColour{0.10, 0.35, 0.80};
+constexpr render::Colour kHandleLineColour{0.30, 0.40, 0.60, 0.7};
+constexpr render::Colour kMarkedHandleColour{1.0, 0.55, 0.10};
+constexpr std::size_t kMostHandledObjects = 32;
+
+/// Bit by bit: places that are not finite equal themselves.
+bool same_bits(const std::vector<base::Vector3>& one, const std::vector<base::Vector3>& other) {
+  return one.size() == other.size() &&
+         (one.empty() || std::memcmp(one.data(), other.data(), one.size() * sizeof(base::Vector3)) == 0);
+}
+
+bool same_handles(const interaction::ShapingPicture& one, const interaction::ShapingPicture& other) {
+  return same_bits(one.dots, other.dots) && same_bits(one.lines, other.lines) &&
+         same_bits(one.marked_dots, other.marked_dots) && same_bits(one.marked_lines, other.marked_lines);
+}
+
+/// `line`: how many pixels thick.
+void add_handles(const interaction::ShapingPicture& handles, double line, render::SceneOverlay& overlay) {
+  overlay.lines.push_back({handles.lines, kHandleLineColour, 0.75 * line});
+  overlay.lines.push_back({handles.marked_lines, kMarkedHandleColour, 1.5 * line});
+  overlay.dots.push_back({handles.dots, kHandleColour, 3.5 * line});
+  overlay.dots.push_back({handles.marked_dots, kMarkedHandleColour, 5.5 * line});
+}
+
+void add_marks(render::SceneOverlay& overlay, const render::SceneOverlay& more) {
+  overlay.balls.insert(overlay.balls.end(), more.balls.begin(), more.balls.end());
+  overlay.arrows.insert(overlay.arrows.end(), more.arrows.begin(), more.arrows.end());
+  overlay.lines.insert(overlay.lines.end(), more.lines.begin(), more.lines.end());
+}
+
+}  // namespace
 
 /// Moves the user on, with the workspaces of all pointers.
 void Session::Parts::move_user() {
@@ -58,8 +92,26 @@ void Session::Parts::renew_outline() {
   look_is_new = true;
 }
 
+/// What shapes can be dragged by, where it is now.
+void Session::Parts::renew_handles() {
+  interaction::ShapingPicture now;
+  if (shaping) {
+    std::vector<interaction::MarkedHandle> marked;
+    if (mouse_marks) marked.push_back(*mouse_marks);
+    for (const PointGrab& it : point_grabs) {
+      if (it.marked()) marked.push_back(*it.marked());
+    }
+    const auto objects = interaction::draggable_objects(world, selection, kMostHandledObjects);
+    now = shaping->picture(world, objects, marked);
+  }
+  if (same_handles(now, handles)) return;
+  handles = std::move(now);
+  look_is_new = true;
+}
+
 void Session::Parts::publish_wish() {
   renew_outline();
+  renew_handles();
   const interaction::View& now = user.drawn_view();
   if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
       now.distance != drawn_view.distance)
@@ -69,6 +121,9 @@ void Session::Parts::publish_wish() {
   DisplayWish wish = look;
   wish.view = now;
   wish.look.selected = outlined;
+  if (shaping) add_handles(handles, wish.look.selection_width, wish.look.overlay);
+  wish.miniature = marks ? miniature : std::nullopt;
+  if (marks) add_marks(wish.look.overlay, *marks);
   display.wish(wish);
 }
 

@@ -10,6 +10,20 @@ namespace icome::session {
 
 using world::ObjectId;
 
+namespace {
+
+Edited one_after_the_other(const Edited& first, const Edited& then) {
+  const auto both = [](const auto& one, const auto& other) {
+    return std::make_shared<const world::Edit>(world::EditGroup{{*one, *other}});
+  };
+  Edited edited;
+  edited.edit = both(first.edit, then.edit);
+  edited.for_replicas = both(first.for_replicas, then.for_replicas);
+  return edited;
+}
+
+}  // namespace
+
 /// Performs on main's world, and keeps what is to be posted.
 world::EditSink Session::Parts::sink() {
   return world::EditSink([this](const world::Edit& edit) -> base::Result<world::Edit> {
@@ -33,6 +47,7 @@ base::Result<void> Session::Parts::done(base::Result<void> result) {
 }
 
 void Session::Parts::tell_change(const world::Changes* changes) {
+  surroundings.follow(changes);
   const std::size_t before = selection.size();
   std::erase_if(selection, [this](ObjectId id) { return !world.find(id); });
   if (shown_scene && !world.find(shown_scene)) show({});
@@ -41,7 +56,8 @@ void Session::Parts::tell_change(const world::Changes* changes) {
   if (selection.size() != before) notify_selection();
 }
 
-void Session::Parts::notify_change(const world::Changes* changes) const {
+void Session::Parts::notify_change(const world::Changes* changes) {
+  if (technique) technique->changed(changes);
   for (std::size_t i = 0; i < change_listeners.size(); ++i) change_listeners[i](changes);
 }
 
@@ -73,6 +89,7 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
   opened_number = queue.post(std::move(edited));
   const bool had_selection = !std::exchange(selection, {}).empty();
   outline_is_new = look_is_new = true;
+  surroundings.follow(nullptr);
   notify_change(nullptr);
   if (had_selection) notify_selection();
 }
@@ -105,6 +122,34 @@ base::Result<void> Session::extend(const world::Edit& edit) {
   if (extended) parts_->revisions.extended();
   return parts_->done(extended);
 }
+
+/// Takes back what is being tried out, without posting it yet.
+base::Result<void> Session::Parts::take_back() {
+  const auto taken = history.take_back(sink());
+  if (taken) revisions.took_back();
+  return taken;
+}
+
+base::Result<void> Session::take_back() {
+  if (!parts_->history.trying()) return base::fail("There is nothing that is only tried out.");
+  return parts_->done(parts_->take_back());
+}
+
+base::Result<void> Session::try_out(const world::Edit& edit, const std::string& name) {
+  std::optional<Edited> before;
+  if (parts_->history.trying()) {
+    if (const auto taken = parts_->take_back(); !taken) return taken;
+    before = std::exchange(parts_->performed, std::nullopt);
+  }
+  const auto tried = parts_->history.try_out(parts_->sink(), edit, name);
+  if (tried) parts_->revisions.tried();
+  if (!before) return parts_->done(tried);
+  parts_->performed = tried ? one_after_the_other(*before, *parts_->performed) : std::move(before);
+  (void)parts_->done({});
+  return tried;
+}
+
+void Session::keep_tried() { parts_->history.keep(); }
 
 base::Result<void> Session::undo() {
   const auto undone = parts_->history.undo(parts_->sink());

@@ -65,6 +65,32 @@ void UserInteraction::fly_to(const View& view, double seconds) {
   flown_for_ = 0.0;
 }
 
+void UserInteraction::carry(const Pose& by) {
+  if (!is_rigid(by)) return;
+  flight_.reset();
+  View view = view_;
+  view.world_from_eye = by * view.world_from_eye;
+  view_ = interaction::usable(view);
+  const Pose there = by * stage_from_device_;
+  const Pose heading = heading_of(view_);
+  const Vector3 offset = there.translation() - interaction::looked_at(view_);
+  hand_offset_ = heading.linear().transpose() * offset / view_.distance;
+  const Pose upright = heading * Eigen::AngleAxisd(hand_turn_, Vector3::UnitY());
+  hand_tilt_ = Quaternion(upright.linear().transpose() * there.linear()).normalized();
+  carried_ = true;
+  place();
+}
+
+/// Brings workspaces that were tilted back upright.
+void UserInteraction::right_hands(double dt) {
+  if (std::exchange(carried_, false)) return;
+  constexpr double kUpright = 1e-4;  // rad: cannot be seen
+  const double left = hand_tilt_.angularDistance(Quaternion::Identity());
+  if (left == 0.0) return;
+  hand_tilt_ = left < kUpright ? Quaternion::Identity()
+                               : hand_tilt_.slerp(1.0 - std::exp(-dt / kRecall), Quaternion::Identity());
+}
+
 UserInteraction::News UserInteraction::update(double dt) {
   const double step = std::isfinite(dt) ? std::clamp(dt, 0.0, kLongestStep) : 0.0;
   News news;
@@ -77,6 +103,7 @@ UserInteraction::News UserInteraction::update(double dt) {
     if (flight_->over(flown_for_)) flight_.reset();
   }
   move_hands(step);
+  right_hands(step);
   place();
   return news;
 }
@@ -159,7 +186,7 @@ void UserInteraction::move_hands(double dt) {
 
 void UserInteraction::place() {
   const Pose heading = heading_of(view_);
-  stage_from_device_ = heading * Eigen::AngleAxisd(hand_turn_, Vector3::UnitY());
+  stage_from_device_ = heading * Eigen::AngleAxisd(hand_turn_, Vector3::UnitY()) * hand_tilt_;
   stage_from_device_.translation() =
       interaction::looked_at(view_) + view_.distance * (heading.linear() * hand_offset_);
   drawn_ = view_;

@@ -46,6 +46,12 @@ class UserInteraction {
   /// Softly, within that time (s). Pushing the navigation device ends the flight where it is.
   void fly_to(const interaction::View& view, double seconds = 0.35);
 
+  /// Moves the view by that (stage frame) with all workspaces, as one rigid thing; a flight ends. Workspaces
+  /// that were tilted so get upright again by themselves, softly, once neither this nor keep_hands() is
+  /// called at every update.
+  void carry(const base::Pose& by);
+  void keep_hands() { carried_ = true; }
+
   interaction::NavigationMode mode() const { return mode_; }
   void set_mode(interaction::NavigationMode mode) { mode_ = mode; }
 
@@ -67,6 +73,7 @@ class UserInteraction {
   void read_head(double dt, News& news);
   void steer(double dt);
   void move_hands(double dt);
+  void right_hands(double dt);
   void place();
 
   std::unique_ptr<devices::NavigationDevice> navigation_;  // may be null
@@ -81,6 +88,9 @@ class UserInteraction {
   base::Vector3 hand_offset_ = base::Vector3::Zero();
   double hand_turn_ = 0.0;
   bool recalled_ = false;
+  // From upright and turned to how carry() left the workspaces.
+  base::Quaternion hand_tilt_ = base::Quaternion::Identity();
+  bool carried_ = false;  // since the last update
   base::Pose user_from_head_ = base::Pose::Identity();
   base::Pose stage_from_device_ = base::Pose::Identity();
 };

@@ -1,5 +1,7 @@
 #include "render/scene_renderer.h"
 
+#include <limits>
+
 #include "render/drawn_world.h"
 
 namespace icome::render {
@@ -245,6 +247,32 @@ TEST(SceneRenderer, MarkersAreSeenAndFaintBehindThings) {
   EXPECT_GT(hidden.green, 25);
   EXPECT_TRUE(is_red(colour_at({-0.5, -1.5, 0.0})));
   EXPECT_TRUE(is_red(colour_at({-1.5, 0.7, 0.0})));
+}
+
+TEST(SceneRenderer, DotsAreRoundOfOneSizeAndFaintBehindThings) {
+  DrawnWorld it;
+  it.add(square(), at(1.0, 0.0, 0.0), coloured(kBlue));
+  SceneLook look = plain_look();
+  const double bad = std::numeric_limits<double>::quiet_NaN();
+  // On the square, before it, behind it; beside it far away.
+  const Vector3 on(0.8, 0.0, 0.0), before(0.5, 0.4, 1.0), behind(0.9, -0.4, -1.0), far(-2.0, 0.0, -4.0);
+  look.overlay.dots.push_back({{on, before, Vector3(bad, 0, 0), behind, far}, {0.0, 1.0, 0.0}, 9.0});
+  look.overlay.dots.push_back({{}, {1.0, 0.0, 0.0}, 9.0});
+  const Camera camera = camera_at({0.0, 0.0, 4.0});
+  const Image image = drawn(it, camera, look);
+  const auto colour_at = [&](const Vector3& p, double right = 0.0, double up = 0.0) {
+    const auto seen = project(camera, p);
+    return at_share(image, seen->x + right / kSide, seen->y + up / kSide);
+  };
+  for (const Vector3& dot : {on, before, far}) {
+    EXPECT_TRUE(is_green(colour_at(dot)));
+    EXPECT_TRUE(is_green(colour_at(dot, 3.0, 0.0)));
+    EXPECT_FALSE(is_green(colour_at(dot, 4.0, 4.0))) << "a square has corners";
+    EXPECT_FALSE(is_green(colour_at(dot, 6.0, 0.0)));
+  }
+  const Rgb hidden = colour_at(behind);
+  EXPECT_GT(hidden.blue, 60);
+  EXPECT_GT(hidden.green, 25);
 }
 
 TEST(SceneRenderer, AnEmptySceneIsBackground) {

@@ -1,6 +1,8 @@
 // What the display thread is given to draw, without a session.
 #include "session/display_feed.h"
 
+#include <limits>
+
 #include "render/live_renderer.h"
 
 namespace icome::session {
@@ -158,6 +160,23 @@ TEST(DisplayFeed, ShowsTipsAlsoBeforeAndBehindTheScene) {
     wish.pointers = false;
     feed.wish(wish);
     EXPECT_EQ(blue_pixels(picture(feed, live)), 0) << z;
+  }
+}
+
+TEST(DisplayFeed, ShowsDotsAlsoBeforeAndBehindTheScene) {
+  REQUIRE_OPENGL();
+  LiveRenderer live;
+  for (const double z : {4.9, 3.0, 0.0, -20.0, -500.0}) {
+    DisplayFeed feed(0);
+    feed.publish(scene_with_box(at(0.0, 0.0, 0.0)));
+    DisplayWish wish = plain_wish();
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    wish.look.overlay.dots.push_back(
+        {{Vector3(0.2 * (5.0 - z), 0.0, z), Vector3::Constant(nowhere)}, {0.16, 0.47, 0.90}, 9.0});
+    feed.wish(wish);
+    const int shown = blue_pixels(picture(feed, live));
+    EXPECT_GT(shown, 20) << z;
+    EXPECT_LT(shown, 120) << z;
   }
 }
 

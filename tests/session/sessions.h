@@ -62,6 +62,22 @@ std::vector<SessionEvent> run_until(Session& session, const IsSo& is_so) {
   }
 }
 
+/// How far the stage's frame is off that of device 0, the hand of which rests at `start`: where the view has
+/// put its workspace. The hand itself is the servo's to ask.
+inline base::Vector3 stage_offset(Session& session, const base::Vector3& start) {
+  constexpr std::int64_t kApart = 30'000'000;  // ns
+  session.update();
+  PointerView before = session.pointer(0);
+  run_until(session, [&] {
+    const PointerView& now = session.pointer(0);
+    if (now.time < before.time + kApart) return false;
+    const bool rests = before.time > 0 && now.tip == before.tip;
+    before = now;
+    return rests;
+  });
+  return before.tip - start;
+}
+
 /// How many events of a kind there are.
 inline std::size_t count(const std::vector<SessionEvent>& events, SessionEvent::Kind kind) {
   std::size_t result = 0;

@@ -299,5 +299,29 @@ TEST(UserInteraction, NothingMakesAPoseUnusable) {
   }
 }
 
+TEST(UserInteraction, CarriesViewAndHandsAsOneAndRightsThemSoftly) {
+  User user;
+  user->set_view(View{});
+  user.frames(1);
+  const Pose eye = user->view().world_from_eye, hands = user->stage_from_device();
+  const Pose by = Eigen::Translation3d(1.0, -2.0, 3.0) * Eigen::AngleAxisd(0.4, Vector3(0.6, 0.0, 0.8)) *
+                  Eigen::AngleAxisd(1.1, Vector3::UnitY());
+  user->carry(by);
+  EXPECT_NEAR((user->view().world_from_eye.matrix() - (by * eye).matrix()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((user->stage_from_device().matrix() - (by * hands).matrix()).norm(), 0.0, 1e-12);
+  user.frames(1);
+  EXPECT_NEAR((user->stage_from_device().matrix() - (by * hands).matrix()).norm(), 0.0, 1e-12)
+      << "it may be carried on";
+  user.frames(120);
+  EXPECT_NEAR((user->stage_from_device().linear().col(1) - Vector3::UnitY()).norm(), 0.0, 1e-12) << "upright";
+  EXPECT_NEAR((user->stage_from_device().translation() - (by * hands).translation()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((user->view().world_from_eye.matrix() - (by * eye).matrix()).norm(), 0.0, 1e-12);
+  const Pose there = user->view().world_from_eye;
+  Pose no_way = Pose::Identity();
+  no_way.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  user->carry(no_way);
+  EXPECT_EQ(user->view().world_from_eye.matrix(), there.matrix());
+}
+
 }  // namespace
 }  // namespace icome::session
