@@ -23,7 +23,7 @@ QSize ColourButton::sizeHint() const {
 
 void ColourButton::show_colour(std::optional<world::Colour> colour) {
   colour_ = colour;
-  const QString words = colour ? screen_colour(*colour).name() : QString("mixed");
+  const QString words = colour ? screen_colour(*colour).name() : none_;
   setToolTip(words);
   setAccessibleDescription(words);
   update();
@@ -40,7 +40,7 @@ void ColourButton::paintEvent(QPaintEvent* /*event*/) {
   painter.fillPath(swatch, colour_ ? screen_colour(*colour_) : theme.base);
   if (!colour_) {
     painter.setPen(theme.faint);
-    painter.drawText(rect(), Qt::AlignCenter, "mixed");
+    painter.drawText(rect(), Qt::AlignCenter, none_);
   }
   painter.setPen(QPen(hasFocus() ? theme.accent : marked ? theme.faint : theme.line, width));
   painter.drawPath(swatch);

@@ -16,6 +16,8 @@ class ColourButton final : public QAbstractButton {
   void on_choice(std::function<void(const world::Colour&)> choose) { choose_ = std::move(choose); }
   /// Nothing: several objects, several colours.
   void show_colour(std::optional<world::Colour> colour);
+  /// What stands there where there is no colour to be shown.
+  void set_none(const QString& none) { none_ = none; }
 
   QSize sizeHint() const override;
 
@@ -26,6 +28,7 @@ class ColourButton final : public QAbstractButton {
   void open_dialog();
 
   QString what_;
+  QString none_ = "mixed";
   std::function<void(const world::Colour&)> choose_ = {};
   std::optional<world::Colour> colour_ = {};
 };

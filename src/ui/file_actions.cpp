@@ -179,11 +179,13 @@ void FileActions::save_as() {
 
 void FileActions::begin_save(const std::filesystem::path& design) {
   saved_ = design;
+  saving_();
   session_.save(design);
 }
 
 void FileActions::when_safe(const std::function<void()>& then) {
   if (!begin_()) return;
+  leaving_();
   if (session_.modified()) {
     ask(then);
   } else if (session_.saving()) {

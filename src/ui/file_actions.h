@@ -28,6 +28,10 @@ class FileActions {
   /// asked for here is not to happen.
   void on_begin(std::function<bool()> begin) { begin_ = std::move(begin); }
 
+  /// What else is to happen when the design is written, and before it is left.
+  void on_save(std::function<void()> saving) { saving_ = std::move(saving); }
+  void on_leave(std::function<void()> leaving) { leaving_ = std::move(leaving); }
+
   /// Opens it, once what would be lost is saved or given up.
   void open(const std::filesystem::path& design);
   void recover(const std::filesystem::path& journal);
@@ -63,6 +67,7 @@ class FileActions {
   QMenu* recent_menu_ = nullptr;
   QAction *open_ = nullptr, *save_ = nullptr;
   std::function<bool()> begin_ = [] { return true; };
+  std::function<void()> saving_ = [] {}, leaving_ = [] {};
   std::function<void()> then_ = {};                         // waits for the work to be saved
   std::filesystem::path opened_ = {};                       // is being read
   std::filesystem::path saved_ = {};                        // was, or is being, written

@@ -130,6 +130,18 @@ IconPaths orbit() {
   return it;
 }
 
+/// A surface that is pulled up by a point.
+IconPaths drag_point() {
+  IconPaths it;
+  it.ink.moveTo(1.5, 16.5);
+  it.ink.cubicTo(7.0, 16.5, 7.5, 8.5, 10.0, 8.5);
+  it.ink.cubicTo(12.5, 8.5, 13.0, 16.5, 18.5, 16.5);
+  it.wash = it.ink;
+  it.wash.closeSubpath();
+  add_oval(it.accent, {10.0, 5.6}, 2.4, 2.4);
+  return it;
+}
+
 IconPaths home() {
   IconPaths it;
   add_line(it.ink, {{2.5, 10.0}, {10.0, 3.0}, {17.5, 10.0}});
@@ -398,6 +410,8 @@ IconPaths paths_of(Icon which) {
       return touch();
     case Icon::View:
       return orbit();
+    case Icon::DragPoint:
+      return drag_point();
     case Icon::Home:
       return home();
     case Icon::ZoomToSelection:

@@ -14,6 +14,7 @@ enum class Icon : std::uint8_t {
   Select,
   Touch,
   View,
+  DragPoint,
   Home,
   ZoomToSelection,
   Duplicate,

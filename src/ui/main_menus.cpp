@@ -9,6 +9,7 @@
 
 #include "ui/about_box.h"
 #include "ui/actions.h"
+#include "ui/command_palette.h"
 #include "ui/icons.h"
 #include "ui/main_window.h"
 #include "ui/object_look.h"
@@ -33,6 +34,8 @@ constexpr ToolEntry kTools[] = {
      "Press to touch, turn the wheel to press harder or softer"},
     {Tool::View, Icon::View, "tool.view", "Orbit and &View", "V",
      "Drag to turn, Shift and drag to shift, Ctrl and drag to look around"},
+    {Tool::Shape, Icon::DragPoint, "tool.shape", "Sha&pe by Points", "P",
+     "Drag vertices, edges, faces or a lattice's points (hold X, Y or Z to keep to an axis)"},
 };
 
 /// What is no action of a menu.
@@ -46,6 +49,7 @@ ShortcutSheet::Part mouse_part() {
            {"Select more", "Shift or Ctrl and click"},
            {"Move what is selected", "Drag"},
            {"\u2026 along x, y or z", "hold X, Y or Z"},
+           {"\u2026 without snapping", "hold Shift or Alt"},
            {"Move by 1 mm, by 10 mm", "Arrow keys, with Shift"},
            {"\u2026 away, nearer", "Page Up, Page Down"},
            {"Turn the view (nothing selected)", "Arrow keys"},
@@ -82,7 +86,12 @@ void MainWindow::make_menus() {
   QMenu* file = menuBar()->actions().front()->menu();
   file->addSeparator();
   add_action(*file, "file.quit", "&Quit", QKeySequence("Ctrl+Q"), [this] { close(); });
-  edits_.fill(*menuBar()->addMenu("&Edit"));
+  QMenu* edit = menuBar()->addMenu("&Edit");
+  edits_.fill(*edit);
+  QMenu* model = menuBar()->addMenu("&Model");
+  operations_.fill(*model, *edit);
+  model->addSeparator();
+  moves_.fill(*model->addMenu("&Moving"), *this);
   views_.fill(*menuBar()->addMenu("&View"));
   make_tool_menu(*menuBar()->addMenu("&Tools"));
   QMenu* window = menuBar()->addMenu("&Window");
@@ -102,6 +111,8 @@ void MainWindow::make_tool_menu(QMenu& menu) {
     group->addAction(action);
     tool_actions_[int(it.tool)] = action;
   }
+  menu.addSeparator();
+  techniques_.fill(menu);
 }
 
 void MainWindow::make_help_menu(QMenu& menu) {
@@ -131,6 +142,24 @@ void MainWindow::show_shortcuts() {
   sheet->open();
 }
 
+void MainWindow::find_command() {
+  auto* palette = new CommandPalette(commands_of(*menuBar()), this);
+  palette->setAttribute(Qt::WA_DeleteOnClose);
+  palette->open();
+}
+
+void MainWindow::ask(const interaction::Operation& operation) {
+  operation_->ask(operation);
+  operation_dock_->show();
+  operation_dock_->raise();
+  go_to(*operation_->first_field());
+}
+
+void MainWindow::stop_asking() {
+  operation_dock_->hide();
+  scene_->take_keyboard();
+}
+
 void MainWindow::make_tool_bar() {
   QToolBar* bar = addToolBar("Tools");
   bar->setObjectName("toolbar");
@@ -151,6 +180,7 @@ void MainWindow::make_tool_bar() {
 
 void MainWindow::show_tool(Tool tool) {
   tool_actions_[int(tool)]->setChecked(true);
+  shaping_->setVisible(tool == Tool::Shape);
   is_stale_ = true;
   show_look();
 }
@@ -168,6 +198,8 @@ void MainWindow::show_hint() {
                   .arg(millimetres(size.x()), millimetres(size.y()), millimetres(size.z()));
     }
   }
+  drag_words_ = tools_.drag_words();
+  if (!drag_words_.empty()) text = one_line(drag_words_);
   hint_->setText(text);
 }
 
@@ -203,7 +235,7 @@ void MainWindow::show_scene_menu(QPointF at) {
 }
 
 void MainWindow::next_part() {
-  const std::array<QWidget*, 5> parts{scene_, banner_, tree_, properties_, hand_};
+  const std::array<QWidget*, 7> parts{scene_, banner_, shaping_, tree_, properties_, operation_, hand_};
   const QWidget* const focus = QApplication::focusWidget();
   auto found = std::find_if(parts.begin(), parts.end(),
                             [&](const QWidget* it) { return focus && it->isAncestorOf(focus); });

@@ -21,7 +21,7 @@
 namespace icome::ui {
 namespace {
 
-constexpr int kLayout = 1;  // counts up when docks and bars change, so that old layouts are not restored
+constexpr int kLayout = 2;  // counts up when docks and bars change, so that old layouts are not restored
 
 bool same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
   std::error_code error;
@@ -53,7 +53,15 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
                        .refused = [this](const std::string& why) { tell_error(why); },
                        .rename = [this] { tree_->rename(); },
                        .search = [this] { tree_->search(); }}),
-      views_(session, tools_, settings) {
+      operations_(session,
+                  {.begin = [this] { return finish_work(); },
+                   .refused = [this](const std::string& why) { tell_error(why); },
+                   .told = [this](const std::string& what) { tell({.text = what, .topic = "edit"}); },
+                   .ask = [this](const interaction::Operation& it) { ask(it); },
+                   .find = [this] { find_command(); }}),
+      views_(session, tools_, settings),
+      techniques_(session, settings, *this, [this](const Note& note) { tell(note); }),
+      moves_(session, settings) {
   setObjectName("icome");
   setWindowIcon(app_icon());
   setAcceptDrops(true);
@@ -63,6 +71,11 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
   make_tool_bar();
   restore_layout();
   files_.on_begin([this] { return finish_work(); });
+  files_.on_save([this] { operation_->keep(); });
+  files_.on_leave([this] {
+    operation_->leave();
+    techniques_.end_recording();
+  });
   views_.on_look([this] { show_look(); });
   views_.on_theme([this](Theme theme) { choose_theme(theme); });
   views_.show_theme(options_.theme);
@@ -91,9 +104,11 @@ void MainWindow::make_center() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(0);
   banner_ = new Banner(center);
+  shaping_ = new ShapeOptions(session_, tools_.shape_tool(), center);
   scene_ = new SceneView(session_, tools_, center);
   scene_->window_of_scene().send_drops_to(this);
   rows->addWidget(banner_);
+  rows->addWidget(shaping_);
   rows->addWidget(scene_, 1);
   setCentralWidget(center);
   hint_ = new ElidedLabel(this);
@@ -112,6 +127,13 @@ void MainWindow::make_docks() {
       make_dock(this, "dock.properties", "Properties", properties_, Qt::RightDockWidgetArea);
   hand_ = new StatusStrip(session_, this);
   make_dock(this, "dock.hand", "Hand", hand_, Qt::BottomDockWidgetArea);
+  operation_ = new OperationPanel(
+      session_, {.begin = [this] { return finish_work(); }, .closed = [this] { stop_asking(); }}, this);
+  operation_dock_ = make_dock(this, "dock.operation", "Operation", operation_, Qt::RightDockWidgetArea);
+  connect(operation_dock_->toggleViewAction(), &QAction::toggled, operation_, [this] {
+    if (operation_dock_->isHidden()) operation_->leave();
+  });
+  tabifyDockWidget(properties, operation_dock_);
   resizeDocks({world, properties}, {60 * kGrid, 80 * kGrid}, Qt::Horizontal);
 }
 
@@ -120,6 +142,7 @@ void MainWindow::restore_layout() {
   resize(std::min(1240, room.width() * 31 / 32), std::min(740, room.height() * 15 / 16));
   restoreGeometry(settings_.value("window/geometry").toByteArray());
   restoreState(settings_.value("window/state").toByteArray(), kLayout);
+  operation_dock_->hide();  // nothing is asked yet
 }
 
 void MainWindow::begin(const std::filesystem::path& design) {
@@ -147,13 +170,14 @@ void MainWindow::tick() {
     hear(event);
   }
   scene_->tick();
+  shaping_->tick();
   edits_.refresh();
   views_.refresh();
   show_progress();
   show_title();
   show_count();
   const auto labelled = wanted_label();
-  if (is_stale_) show_hint();
+  if (is_stale_ || tools_.drag_words() != drag_words_) show_hint();
   if (is_stale_ || labelled != labelled_ || devicePixelRatio() != pixel_ratio_) {
     labelled_ = labelled;
     show_look();
@@ -262,7 +286,7 @@ void MainWindow::show_look() {
 /// Ends what the mouse is doing, and commits what is being typed: it counts as done. False: that was refused.
 bool MainWindow::finish_work() {
   tools_.finish();
-  return properties_->finish_typing() && tree_->finish_typing();
+  return shaping_->finish_typing() && properties_->finish_typing() && tree_->finish_typing();
 }
 
 void MainWindow::choose_theme(Theme theme) {

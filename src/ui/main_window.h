@@ -8,14 +8,20 @@
 #include "ui/banner.h"
 #include "ui/edit_actions.h"
 #include "ui/file_actions.h"
+#include "ui/move_actions.h"
+#include "ui/operation_actions.h"
+#include "ui/operation_panel.h"
 #include "ui/property_panel.h"
 #include "ui/scene_label.h"
 #include "ui/scene_tools.h"
 #include "ui/scene_view.h"
+#include "ui/shape_options.h"
+#include "ui/technique_actions.h"
 #include "ui/theme.h"
 #include "ui/view_actions.h"
 #include "ui/world_tree.h"
 
+class QDockWidget;
 class QLabel;
 
 namespace icome::ui {
@@ -65,6 +71,9 @@ class MainWindow final : public QMainWindow {
   void show_scene_menu(QPointF at);
   void show_shortcuts();
   void next_part();
+  void ask(const interaction::Operation& operation);
+  void stop_asking();
+  void find_command();
   bool offer_drop(QEvent& event);
   bool finish_work();
 
@@ -74,19 +83,26 @@ class MainWindow final : public QMainWindow {
   SceneTools tools_;
   FileActions files_;
   EditActions edits_;
+  OperationActions operations_;
   ViewActions views_;
+  TechniqueActions techniques_;
+  MoveActions moves_;
   Banner* banner_ = nullptr;
+  ShapeOptions* shaping_ = nullptr;  // shown with its tool
   SceneView* scene_ = nullptr;
   WorldTree* tree_ = nullptr;
   PropertyPanel* properties_ = nullptr;
+  OperationPanel* operation_ = nullptr;
+  QDockWidget* operation_dock_ = nullptr;  // closed while nothing is asked
   QWidget* hand_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* count_ = nullptr;
-  QAction* tool_actions_[3] = {};
+  QAction* tool_actions_[kToolCount] = {};
   QTimer timer_;
   bool is_stale_ = true;  // what is said and drawn of the selection
   SceneLabel label_;
   std::optional<world::ObjectId> labelled_ = {};
+  std::string drag_words_;    // as shown
   double pixel_ratio_ = 0.0;  // as shown; another screen may have another
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // to close

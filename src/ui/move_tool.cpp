@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interaction/object_move.h"
 #include "ui/object_look.h"
 #include "ui/view_moves.h"
 
@@ -59,8 +60,9 @@ void MoveTool::begin_drag() {
   });
   if (!grasped) select(*press_);
   const Vector3 toward_eye = session_.view().world_from_eye.linear().col(2);
-  drag_ = Drag{.move = {session_.world(), session_.selection()},
-               .plane = {press_->picked->place.point, toward_eye}};
+  const auto objects = interaction::topmost(session_.world(), session_.selection());
+  drag_.emplace(Drag{.objects = {session_, objects, action_name("Move", session_.world(), objects)},
+                     .plane = {press_->picked->place.point, toward_eye}});
   keep_to(axis_);
 }
 
@@ -77,25 +79,25 @@ void MoveTool::tick() {
 void MoveTool::step() {
   if (!due_) return;
   const auto offset = drag_->plane.moved(due_->ray(session_.view()));
+  const bool snaps = !(due_->modifiers & (Qt::ShiftModifier | Qt::AltModifier));
   due_.reset();
-  if (!offset || !offset->allFinite() || drag_->move.empty()) return;
-  const world::Edit edit = drag_->move.by(*offset);
-  const auto done =
-      drag_->performed ? session_.extend(edit)
-                       : session_.perform(edit, action_name("Move", session_.world(), drag_->move.objects()));
+  if (!offset || !offset->allFinite() || drag_->objects.empty()) return;
+  const auto line = axis_ ? std::optional<Vector3>(Vector3::Unit(*axis_)) : std::nullopt;
+  const auto done = drag_->objects.to(session_, {.offset = *offset, .axis = line, .snap = snaps});
   if (!done) {
     refused_(done.error().message);
     drop();
     return;
   }
-  drag_->performed = true;
   nudged_ = false;
 }
 
+std::string MoveTool::words() const { return drag_ ? drag_->objects.words(session_) : std::string(); }
+
 void MoveTool::cancel() {
-  const bool performed = drag_ && drag_->performed;
+  const bool moved = drag_ && drag_->objects.moved();
   drop();
-  if (!performed) return;
+  if (!moved) return;
   const auto undone = session_.undo();
   if (!undone) refused_(undone.error().message);
 }
@@ -122,13 +124,15 @@ void MoveTool::nudge(const Vector3& in_view, bool more) {
     wanted.cwiseAbs().maxCoeff(&axis);
   }
   const Vector3 offset = std::copysign(in_view.norm(), wanted[axis]) * Vector3::Unit(axis);
-  const interaction::ObjectMove move(session_.world(), session_.selection());
-  if (move.empty()) return;
-  const auto done = more && nudged_ ? session_.extend(move.by(offset))
-                                    : session_.perform(move.by(offset),
-                                                       action_name("Move", session_.world(), move.objects()));
-  nudged_ = done.has_value();
-  if (!done) refused_(done.error().message);
+  const auto objects = interaction::topmost(session_.world(), session_.selection());
+  session::ObjectDrag drag(session_, objects, action_name("Move", session_.world(), objects),
+                           more && nudged_);
+  if (drag.empty()) return;
+  const auto done = drag.to(session_, {.offset = offset, .axis = Vector3::Unit(axis), .snap = false});
+  nudged_ = (more && nudged_) || drag.moved();
+  if (done) return;
+  nudged_ = false;
+  refused_(done.error().message);
 }
 
 }  // namespace icome::ui

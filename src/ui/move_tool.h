@@ -3,14 +3,14 @@
 #include <optional>
 
 #include "interaction/mouse_hand.h"
-#include "interaction/object_move.h"
 #include "session/session.h"
 #include "ui/scene_input.h"
 
 namespace icome::ui {
 
-/// Selects with a click and moves what is selected with a drag: one action to undo, whatever its steps.
-/// The session outlives it.
+/// Selects with a click and moves what is selected with a drag: one action to undo, whatever its steps. It
+/// stops at surfaces and snaps as the session's settings say; with Shift or Alt it does not snap. The session
+/// outlives it.
 class MoveTool {
  public:
   /// `refused` hears why something could not be moved.
@@ -30,6 +30,8 @@ class MoveTool {
   void drop();
   bool busy() const { return press_.has_value(); }
   bool dragging() const { return drag_.has_value(); }
+  /// What has stopped what is dragged, or what it snaps to; or empty.
+  std::string words() const;
 
   /// Movement keeps to the stage's x, y or z (0, 1, 2) from now on, or is free.
   void keep_to(std::optional<int> axis);
@@ -45,9 +47,8 @@ class MoveTool {
     std::optional<session::Session::Picked> picked;
   };
   struct Drag {
-    interaction::ObjectMove move;
+    session::ObjectDrag objects;
     interaction::DragPlane plane;
-    bool performed = false;  // as an action, which further steps extend
   };
   void begin_drag();
   void select(const Press& press);

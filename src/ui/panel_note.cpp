@@ -15,23 +15,29 @@ PanelNote::PanelNote(QWidget* parent) : QLabel(parent) {
   setWordWrap(true);
   setTextFormat(Qt::PlainText);
   setContentsMargins(kGrid, kGrid, kGrid, kGrid);
-  setAccessibleName("Why something was refused");
   timer_.setSingleShot(true);
   connect(&timer_, &QTimer::timeout, this, [this] { clear(); });
-  dress();
   clear();
 }
 
 void PanelNote::say(const QString& why) {
-  setText(why);
-  setVisible(!why.isEmpty());
+  keep(why);
   timer_.start(kShownFor);
 }
 
-void PanelNote::clear() {
+void PanelNote::keep(const QString& why) { put(why, true); }
+
+void PanelNote::remark(const QString& what) { put(what, false); }
+
+void PanelNote::clear() { put({}, true); }
+
+void PanelNote::put(const QString& text, bool refusal) {
   timer_.stop();
-  setText({});
-  hide();
+  refusal_ = refusal;
+  setAccessibleName(refusal ? "Why something was refused" : "What is to be known");
+  dress();
+  setText(text);
+  setVisible(!text.isEmpty());
 }
 
 void PanelNote::changeEvent(QEvent* event) {
@@ -40,9 +46,10 @@ void PanelNote::changeEvent(QEvent* event) {
 }
 
 void PanelNote::dress() {
-  if (palette().color(QPalette::WindowText) == colours().bad_text) return;
+  const QColor& wanted = refusal_ ? colours().bad_text : colours().faint;
+  if (palette().color(QPalette::WindowText) == wanted) return;
   QPalette words = palette();
-  words.setColor(QPalette::WindowText, colours().bad_text);
+  words.setColor(QPalette::WindowText, wanted);
   setPalette(words);
 }
 

@@ -19,6 +19,7 @@ PanelSection::PanelSection(const QString& title, QWidget* parent)
       grid_(new QGridLayout(body_)),
       note_(new PanelNote(this)) {
   heading_->setText(title);
+  heading_->setVisible(!title.isEmpty());
   heading_->setAccessibleName(title);
   heading_->setCheckable(false);
   heading_->setAutoRaise(true);
@@ -70,6 +71,10 @@ PanelSection::Row PanelSection::add_row(const QString& text, const QString& tip,
 }
 
 void PanelSection::add_wide(QWidget* widget) { grid_->addWidget(widget, grid_->rowCount(), 0, 1, kColumns); }
+
+void PanelSection::add_below(QWidget* widget) {
+  grid_->addWidget(widget, grid_->rowCount(), 1, 1, kColumns - 1);
+}
 
 void PanelSection::fold(bool open) {
   body_->setVisible(open);

@@ -10,6 +10,7 @@
 namespace icome::ui {
 
 /// A part of a panel under a heading that folds it away: rows of a label and what belongs to it, and a note.
+/// Without a title it has no heading.
 class PanelSection final : public QWidget {
  public:
   PanelSection(const QString& title, QWidget* parent);
@@ -23,6 +24,8 @@ class PanelSection final : public QWidget {
   Row add_row(const QString& label, const QString& tip, std::vector<QWidget*> fields);
   /// Something as wide as the section.
   void add_wide(QWidget* widget);
+  /// Something as wide as the fields, under those of the last row.
+  void add_below(QWidget* widget);
 
   QWidget* body() const { return body_; }
   PanelNote& note() const { return *note_; }

@@ -19,6 +19,7 @@ QuantityField::QuantityField(Quantity quantity, QWidget* parent) : QLineEdit(par
   connect(this, &QLineEdit::textEdited, this, [this] {
     edited_ = true;
     mark(false);
+    if (typing_) typing_();
   });
 }
 
@@ -87,6 +88,14 @@ void QuantityField::mark(bool refused) {
   if (property("refused").toBool() == refused) return;
   setProperty("refused", refused);
   update();
+}
+
+base::Result<std::optional<double>> QuantityField::typed_value() const {
+  if (!edited_) return value_;
+  const QString typed = text().simplified();
+  if (typed.isEmpty()) return none_ ? std::nullopt : value_;
+  const auto value = read_quantity(typed, quantity_);
+  return value ? base::Result<std::optional<double>>(*value) : tl::unexpected(value.error());
 }
 
 void QuantityField::commit_text() {
@@ -162,6 +171,7 @@ void QuantityField::keyPressEvent(QKeyEvent* event) {
       if (!edited_) break;
       restore();
       selectAll();
+      if (typing_) typing_();
       return;
     default:
       break;

@@ -21,6 +21,10 @@ class QuantityField final : public QLineEdit {
   void on_commit(Commit commit) { commit_ = std::move(commit); }
   /// Hears why something was refused, and nothing (empty) when the next value is fine.
   void on_refusal(std::function<void(const QString&)> hear) { refused_ = std::move(hear); }
+  /// Hears of what is typed before it is committed.
+  void on_typing(std::function<void()> typing) { typing_ = std::move(typing); }
+  /// The value with what is typed and not committed yet. Fails for what is none.
+  base::Result<std::optional<double>> typed_value() const;
   /// Allows nothing as a value, and says what that means: "device's best".
   void allow_none(const QString& meaning);
   /// Nothing is what allow_none() says.
@@ -51,6 +55,7 @@ class QuantityField final : public QLineEdit {
   Quantity quantity_;
   Commit commit_ = {};
   std::function<void(const QString&)> refused_ = {};
+  std::function<void()> typing_ = {};
   std::optional<QString> none_ = {};
   std::optional<double> value_ = {};
   bool mixed_ = false;

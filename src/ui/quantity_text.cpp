@@ -20,8 +20,10 @@ constexpr Typed kLengths[] = {{"mm", 1e-3},     {"µm", 1e-6},   {"um", 1e-6},  
                               {"dm", 1e-1},     {"m", 1.0},     {"km", 1e3},    {"in", 0.0254},
                               {"inch", 0.0254}, {"\"", 0.0254}, {"ft", 0.3048}, {"'", 0.3048}};
 constexpr Typed kAngles[] = {{"°", kDegree}, {"deg", kDegree}, {"degrees", kDegree}, {"rad", 1.0}};
+constexpr Typed kDegrees[] = {{"°", 1.0}, {"deg", 1.0}, {"degrees", 1.0}, {"rad", 1.0 / kDegree}};
 constexpr Typed kStiffnesses[] = {{"N/m", 1.0}, {"N/mm", 1e3}, {"kN/m", 1e3}};
 constexpr Typed kDampings[] = {{"N s/m", 1.0}, {"Ns/m", 1.0}, {"N·s/m", 1.0}};
+constexpr Typed kForces[] = {{"N", 1.0}, {"mN", 1e-3}};
 constexpr Typed kShares[] = {{"%", 1e-2}};
 constexpr Typed kPlains[] = {{"", 1.0}};
 
@@ -35,8 +37,13 @@ std::span<const Typed> units_of(Quantity quantity) {
       return kStiffnesses;
     case Quantity::Damping:
       return kDampings;
+    case Quantity::Force:
+      return kForces;
     case Quantity::Share:
       return kShares;
+    case Quantity::Degrees:
+      return kDegrees;
+    case Quantity::Whole:
     case Quantity::Plain:
       break;
   }
@@ -48,13 +55,18 @@ std::string hint(Quantity quantity) {
     case Quantity::Length:
       return "Type a length such as 12.5, 3 cm or 0.2 m; a number alone is in mm.";
     case Quantity::Angle:
+    case Quantity::Degrees:
       return "Type an angle such as 45 or 0.5 rad; a number alone is in degrees.";
     case Quantity::Stiffness:
       return "Type a stiffness such as 800 or 0.8 N/mm; a number alone is in N/m.";
     case Quantity::Damping:
       return "Type a damping such as 2.5; it is in N s/m.";
+    case Quantity::Force:
+      return "Type a force such as 0.5; it is in N.";
     case Quantity::Share:
       return "Type a share such as 40; it is in percent.";
+    case Quantity::Whole:
+      return "Type a whole number such as 3.";
     case Quantity::Plain:
       break;
   }
@@ -80,6 +92,7 @@ base::Result<double> read_quantity(const QString& text, Quantity quantity) {
   constexpr double kMost = 1e9;  // SI: nothing that anybody touches is larger
   if (!std::isfinite(value) || std::abs(value) > kMost)
     return base::fail("That is too large. " + hint(quantity));
+  if (quantity == Quantity::Whole && value != std::round(value)) return base::fail(hint(quantity));
   return value;
 }
 
@@ -98,11 +111,15 @@ QString number_text(double value, Quantity quantity, int most_decimals) {
   return text == "-0" ? "0" : text;
 }
 
+QString unit_of(Quantity quantity) { return QString::fromUtf8(units_of(quantity).front().name); }
+
 double step_of(Quantity quantity) {
   const double unit = units_of(quantity).front().size;
   switch (quantity) {
     case Quantity::Stiffness:
       return 10.0 * unit;
+    case Quantity::Force:
+      return 0.1;
     case Quantity::Plain:
       return 0.01;
     default:

@@ -11,7 +11,10 @@ enum class Quantity : std::uint8_t {
   Angle,      // shown in degrees
   Stiffness,  // N/m
   Damping,    // N s/m
+  Force,      // N
   Share,      // of 1, shown in percent
+  Degrees,    // an angle that is kept in degrees, so that quarter turns stay exact
+  Whole,      // a whole number
   Plain,
 };
 
@@ -21,6 +24,9 @@ base::Result<double> read_quantity(const QString& text, Quantity quantity);
 
 /// The number in the shown unit, to six figures and no more decimals than that, without the unit.
 QString number_text(double value, Quantity quantity, int most_decimals = 9);
+
+/// The shown unit: "mm"; empty for plain numbers.
+QString unit_of(Quantity quantity);
 
 /// What one step of the arrow keys changes: one of the shown unit, or a hundredth for plain numbers.
 double step_of(Quantity quantity);

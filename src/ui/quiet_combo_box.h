@@ -1,11 +1,12 @@
 #pragma once
 #include <QComboBox>
+#include <QKeyEvent>
 #include <QWheelEvent>
 
 namespace icome::ui {
 
 /// Wheels scroll the panel, and do not change what they happen to be over; with the keyboard's focus they
-/// choose. Long items do not widen the panel.
+/// choose. Letters choose an item, whatever else they are keys for. Long items do not widen the panel.
 class QuietComboBox final : public QComboBox {
  public:
   explicit QuietComboBox(QWidget* parent) : QComboBox(parent) {
@@ -15,6 +16,14 @@ class QuietComboBox final : public QComboBox {
   }
 
  protected:
+  bool event(QEvent* event) override {
+    if (event->type() == QEvent::ShortcutOverride) {
+      const auto& key = static_cast<const QKeyEvent&>(*event);
+      const bool plain = (key.modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier)) == 0;
+      if (plain && !key.text().isEmpty() && key.text()[0].isPrint()) event->accept();
+    }
+    return QComboBox::event(event);
+  }
   void wheelEvent(QWheelEvent* event) override {
     hasFocus() ? QComboBox::wheelEvent(event) : event->ignore();
   }

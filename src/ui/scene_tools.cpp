@@ -11,9 +11,12 @@ SceneTools::SceneTools(session::Session& session, Listener listener)
       listener_(std::move(listener)),
       move_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
       touch_tool_(session),
+      shape_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
       view_drag_(session) {
   session_.on_change([this](const world::Changes* changes) {
-    if (!changes) move_tool_.drop();
+    if (changes) return;
+    move_tool_.drop();
+    shape_tool_.drop();
   });
 }
 
@@ -26,6 +29,7 @@ void SceneTools::choose(Tool tool) {
   } else {
     touch_tool_.leave();
   }
+  tool_ == Tool::Shape ? shape_tool_.enter() : shape_tool_.leave();
   listener_.chosen(tool_);
 }
 
@@ -40,12 +44,14 @@ std::optional<ViewMove> SceneTools::view_move(const SceneInput& input) const {
 
 void SceneTools::press(const SceneInput& input) {
   mouse_ = input;
-  if (view_drag_.active() || move_tool_.busy()) return;  // a second button does not disturb the first
+  if (view_drag_.active() || busy()) return;  // a second button does not disturb the first
   if (const auto how = view_move(input)) {
     view_drag_.begin(*how, input);
     view_button_ = input.button;
   } else if (input.button == Qt::LeftButton && tool_ == Tool::Select) {
     move_tool_.press(input);
+  } else if (input.button == Qt::LeftButton && tool_ == Tool::Shape) {
+    shape_tool_.press(input);
   } else if (input.button == Qt::LeftButton) {
     touch_tool_.follow(input);
     touch_tool_.press(TouchTool::kButton);
@@ -56,6 +62,7 @@ void SceneTools::move(const SceneInput& input) {
   mouse_ = input;
   view_drag_.follow(input);
   move_tool_.follow(input);
+  if (tool_ == Tool::Shape) shape_tool_.follow(input);
   if (!view_drag_.active()) touch_tool_.follow(input);
 }
 
@@ -67,6 +74,7 @@ void SceneTools::release(const SceneInput& input) {
     if (view_button_ == Qt::RightButton && !view_drag_.moved()) listener_.asked(input.at);
   } else if (input.button == Qt::LeftButton) {
     move_tool_.release(input);
+    shape_tool_.release(input);
     touch_tool_.press(0.0);
   }
 }
@@ -100,6 +108,8 @@ bool SceneTools::pen(const SceneInput& input, double pressure) {
 bool SceneTools::escape() {
   if (move_tool_.busy()) {
     move_tool_.cancel();
+  } else if (shape_tool_.busy()) {
+    shape_tool_.cancel();
   } else if (view_drag_.active()) {
     view_drag_.end();
   } else if (tool_ != Tool::Select) {
@@ -150,19 +160,19 @@ bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeat
     case Qt::Key_Escape:
       return escape();
     case Qt::Key_X:
-      move_tool_.keep_to(0);
+      keep_to(0);
       return true;
     case Qt::Key_Y:
-      move_tool_.keep_to(1);
+      keep_to(1);
       return true;
     case Qt::Key_Z:
-      move_tool_.keep_to(2);
+      keep_to(2);
       return true;
     case Qt::Key_Tab:
-      choose(Tool((int(tool_) + 1) % 3));
+      choose(Tool((int(tool_) + 1) % kToolCount));
       return true;
     case Qt::Key_Backtab:
-      choose(Tool((int(tool_) + 2) % 3));
+      choose(Tool((int(tool_) + kToolCount - 1) % kToolCount));
       return true;
     case Qt::Key_Space:
       if (tool_ == Tool::Touch) touch_tool_.press(TouchTool::kButton);
@@ -177,7 +187,7 @@ bool SceneTools::key_release(int key) {
     case Qt::Key_X:
     case Qt::Key_Y:
     case Qt::Key_Z:
-      if (move_tool_.axis() == key - Qt::Key_X) move_tool_.keep_to(std::nullopt);
+      if (move_tool_.axis() == key - Qt::Key_X) keep_to(std::nullopt);
       return true;
     case Qt::Key_Space:
       touch_tool_.press(0.0);
@@ -187,14 +197,20 @@ bool SceneTools::key_release(int key) {
   }
 }
 
+void SceneTools::keep_to(std::optional<int> axis) {
+  move_tool_.keep_to(axis);
+  shape_tool_.keep_to(axis);
+}
+
 void SceneTools::forget_keys() {
-  move_tool_.keep_to(std::nullopt);
+  keep_to(std::nullopt);
   touch_tool_.press(0.0);
 }
 
 void SceneTools::leave() {
   mouse_.reset();
   hovered_.reset();
+  shape_tool_.forget_mouse();
 }
 
 void SceneTools::resize(const QSizeF& size) {
@@ -203,7 +219,7 @@ void SceneTools::resize(const QSizeF& size) {
 
 void SceneTools::look_for_hovered() {
   hovered_.reset();
-  if (!mouse_ || view_drag_.active() || move_tool_.busy()) return;
+  if (!mouse_ || view_drag_.active() || busy()) return;
   if (tool_ == Tool::Touch) {
     if (session_.pointers() > 0) hovered_ = session_.touched(0);
   } else if (const auto picked = session_.pick(mouse_->ray(session_.view()))) {
@@ -214,11 +230,13 @@ void SceneTools::look_for_hovered() {
 void SceneTools::tick() {
   move_tool_.tick();
   touch_tool_.tick();
+  shape_tool_.tick();
   look_for_hovered();
 }
 
 void SceneTools::finish() {
   move_tool_.finish();
+  shape_tool_.finish();
   view_drag_.end();
   touch_tool_.press(0.0);
 }

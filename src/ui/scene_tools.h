@@ -5,13 +5,15 @@
 #include "session/session.h"
 #include "ui/move_tool.h"
 #include "ui/scene_input.h"
+#include "ui/shape_tool.h"
 #include "ui/touch_tool.h"
 #include "ui/view_moves.h"
 
 namespace icome::ui {
 
 /// What the left button does.
-enum class Tool : std::uint8_t { Select, Touch, View };
+enum class Tool : std::uint8_t { Select, Touch, View, Shape };
+constexpr int kToolCount = 4;
 
 /// Turns what mouse, pen and keyboard do over the scene into what the session does. The left button is the
 /// chosen tool's; right turns and middle (or Shift and right) shifts the view, the wheel zooms. The session
@@ -55,7 +57,10 @@ class SceneTools {
 
   /// What the mouse is over, as of the last tick; nothing while it does something.
   std::optional<world::ObjectId> hovered() const { return hovered_; }
-  bool dragging() const { return move_tool_.dragging(); }
+  bool dragging() const { return move_tool_.dragging() || shape_tool_.dragging(); }
+  ShapeTool& shape_tool() { return shape_tool_; }
+  /// What has stopped what is dragged, or what it snaps to; or empty.
+  std::string drag_words() const { return move_tool_.words(); }
   bool turning() const { return view_drag_.active(); }
   double aspect() const { return size_.width() / size_.height(); }
 
@@ -64,11 +69,14 @@ class SceneTools {
   bool arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats);
   std::optional<ViewMove> view_move(const SceneInput& input) const;
   void look_for_hovered();
+  bool busy() const { return move_tool_.busy() || shape_tool_.busy(); }
+  void keep_to(std::optional<int> axis);
 
   session::Session& session_;
   Listener listener_;
   MoveTool move_tool_;
   TouchTool touch_tool_;
+  ShapeTool shape_tool_;
   ViewDrag view_drag_;
   Qt::MouseButton view_button_ = {};  // what the view is dragged with
   Tool tool_ = Tool::Select;

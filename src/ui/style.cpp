@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <QPainterPath>
+#include <QPlainTextEdit>
 #include <QStyleOption>
 #include <QWidget>
 
@@ -171,6 +172,7 @@ void DesktopStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* o
         draw_chevron(*painter, option->rect, option->state & State_Open ? 0.0 : -90.0, colours().faint);
       return;
     case PE_Frame:
+      if (qobject_cast<const QPlainTextEdit*>(widget)) return draw_field(*painter, *option, widget);
       painter->save();
       painter->setPen(colours().line);
       painter->drawRect(option->rect.adjusted(0, 0, -1, -1));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/user_interaction.h"
+
 namespace icome::ui {
 
 void TouchTool::enter(const QSizeF& scene) {
@@ -18,6 +20,7 @@ void TouchTool::leave() {
   if (!active_) return;
   active_ = false;
   pressure_ = wheel_ = 0.0;
+  session_.hold_hand_buttons(0);
   session_.park_hand();
 }
 
@@ -31,8 +34,51 @@ bool TouchTool::step(int key, bool fine) {
   return true;
 }
 
+/// m along the ray, where the hand has to be to be at what is under the mouse; nothing: anywhere.
+std::optional<double> TouchTool::depth_under(const session::TechniqueHand& hand,
+                                             const interaction::Ray& ray) const {
+  const interaction::Technique& technique = hand.technique();
+  if (technique.selecting == interaction::Selecting::Miniature) {
+    const auto copy = session_.miniature();
+    if (!copy) return std::nullopt;
+    const base::Affine3 world_from_copy = copy->inverse();
+    const base::Vector3 direction = world_from_copy.linear() * ray.direction;
+    const auto picked = session_.pick({world_from_copy * ray.origin, direction.normalized()});
+    if (!picked) return std::nullopt;
+    return (*copy * picked->place.point - ray.origin).norm();
+  }
+  const bool grows = technique.selecting == interaction::Selecting::GoGo;
+  if (!grows && technique.selecting != interaction::Selecting::VirtualHand) return std::nullopt;
+  const auto picked = session_.pick(ray);
+  if (!picked) return std::nullopt;
+  if (!grows) return picked->place.distance;
+  const double scale = session_.view().distance / session::UserInteraction::kScreenDistance;
+  return scale *
+         interaction::go_go_distance(technique.selecting_settings.go_go, picked->place.distance / scale);
+}
+
+/// While the button is down the hand stays as far from the eye, but for the wheel.
+void TouchTool::tick_technique(const session::TechniqueHand& hand) {
+  constexpr double kReach = 0.6;  // of the view's distance, where any will do
+  constexpr double kNotch = 0.05;
+  const interaction::View& view = session_.view();
+  const interaction::Ray ray = input_.ray(view);
+  reach_ = std::clamp(reach_ * std::exp(kNotch * wheel_), 0.05, 20.0);
+  wheel_ = 0.0;
+  if (!pressing()) {
+    const auto depth = depth_under(hand, ray);
+    reach_ = depth ? *depth / view.distance : kReach;
+  }
+  session_.put_hand(ray.origin + reach_ * view.distance * ray.direction);
+  const bool travels = input_.modifiers & Qt::ControlModifier;
+  session_.hold_hand_buttons(pressing() ? (travels ? 2U : 1U) : 0U);
+}
+
 void TouchTool::tick() {
   if (!active_) return;
+  if (const session::TechniqueHand* hand = session_.technique(); hand && !session_.shaping())
+    return tick_technique(*hand);
+  session_.hold_hand_buttons(0);
   const interaction::View& view = session_.view();
   interaction::MouseHand::Input input;
   input.ray = input_.ray(view);

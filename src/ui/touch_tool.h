@@ -6,7 +6,9 @@
 namespace icome::ui {
 
 /// Drives the hand with the mouse, a pen or the keyboard: it follows what is under the mouse, and presses
-/// while the button is down. The session outlives it.
+/// while the button is down. While a technique is chosen, the hand is on the line from the eye to the mouse,
+/// where that technique can use it, and the button is the hand's button 0, or 1 with Ctrl. The session
+/// outlives it.
 class TouchTool {
  public:
   explicit TouchTool(session::Session& session) : session_(session) {}
@@ -31,12 +33,16 @@ class TouchTool {
   static constexpr double kButton = 0.5;
 
  private:
+  void tick_technique(const session::TechniqueHand& hand);
+  std::optional<double> depth_under(const session::TechniqueHand& hand, const interaction::Ray& ray) const;
+
   session::Session& session_;
   interaction::MouseHand hand_ = interaction::MouseHand();
   bool active_ = false;
   SceneInput input_ = {};
   double pressure_ = 0.0;
   double wheel_ = 0.0;
+  double reach_ = 0.6;  // of the view's distance: how far the hand of a technique is from the eye
 };
 
 }  // namespace icome::ui

@@ -1,6 +1,7 @@
 // The whole window, where there is no OpenGL: all but the picture of the scene.
 #include "ui/main_window.h"
 
+#include <QComboBox>
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -120,6 +121,36 @@ TEST_F(MainWindowTest, DeletesAndDuplicatesAsOneAction) {
   EXPECT_TRUE(world().objects().empty());
   ASSERT_TRUE(session().undo());
   EXPECT_EQ(world().objects().size(), 2U);
+}
+
+TEST_F(MainWindowTest, EveryOperationIsInAMenuOnce) {
+  for (const interaction::Operation& operation : interaction::operations()) {
+    int found = 0;
+    for (const QAction* it : window_->findChildren<QAction*>()) {
+      const QString name = QString::fromStdString(operation.name);
+      found += int(it->objectName() == "model." + name || it->objectName() == "edit." + name);
+    }
+    EXPECT_EQ(found, 1) << operation.name;
+  }
+}
+
+TEST_F(MainWindowTest, AnOperationIsAskedForAndPerformed) {
+  auto* dock = window_->findChild<QWidget*>("dock.operation");
+  EXPECT_FALSE(dock->isVisible());
+  action("model.create")->trigger();
+  EXPECT_TRUE(dock->isVisible());
+  auto* name = window_->findChild<QLineEdit*>("parameter.name");
+  ASSERT_TRUE(name);
+  auto* shape = window_->findChild<QComboBox*>("parameter.shape");
+  ASSERT_TRUE(shape);
+  shape->setCurrentIndex(shape->findData("box"));
+  QTest::keyClicks(name, "seat");
+  window_->findChild<QPushButton*>("operation.apply")->click();
+  ASSERT_EQ(world().objects().size(), 1U);
+  EXPECT_EQ(world().objects().begin()->second.name, "seat");
+  EXPECT_EQ(session().history().undo_name(), "Create");
+  window_->findChild<QPushButton*>("operation.close")->click();
+  EXPECT_FALSE(dock->isVisible());
 }
 
 TEST_F(MainWindowTest, OpensWhatIsDroppedOnIt) {
@@ -262,7 +293,8 @@ TEST_F(MainWindowTest, F6GoesRoundAllPartsThatAreSeen) {
   const auto part = [&]() -> QString {
     const QWidget* focus = QApplication::focusWidget();
     for (const QWidget* it = focus; it; it = it->parentWidget()) {
-      for (const char* name : {"scene", "banner", "dock.world", "dock.properties", "dock.hand"}) {
+      for (const char* name :
+           {"scene", "banner", "dock.world", "dock.properties", "dock.operation", "dock.hand"}) {
         if (it->objectName() == name) return name;
       }
     }

@@ -141,6 +141,50 @@ TEST_F(SceneToolsTest, AHeldKeyKeepsADragToItsAxis) {
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.1, 0.2, 0.0), 1e-9));
 }
 
+TEST_F(SceneToolsTest, ADragStopsAtWhatIsInTheWay) {
+  mouse(QEvent::MouseButtonPress, face(left_));
+  mouse(QEvent::MouseMove, pixel(Vector3(0.25, 0.05, 0.1)));
+  tools_.tick();
+  EXPECT_NEAR(at(left_).x(), 0.1, 1e-5);
+  EXPECT_NEAR(at(left_).y(), 0.05, 1e-5) << "it slides along";
+  EXPECT_EQ(tools_.drag_words(), "Stopped at right");
+  key(QEvent::KeyPress, Qt::Key_X);
+  mouse(QEvent::MouseMove, pixel(Vector3(0.9, 0.1, 0.1)));
+  mouse(QEvent::MouseButtonRelease, pixel(Vector3(0.9, 0.1, 0.1)));
+  EXPECT_NEAR(at(left_).x(), 0.1, 1e-5);
+  EXPECT_NEAR(at(left_).y(), 0.0, 1e-9);
+  EXPECT_EQ(tools_.drag_words(), "");
+  key(QEvent::KeyRelease, Qt::Key_X);
+  session().select({left_});
+  key(QEvent::KeyPress, Qt::Key_Right);
+  EXPECT_NEAR(at(left_).x(), 0.1, 1e-5) << "nor by the keyboard";
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
+  session().set_grab({.stop = false});
+  settle();
+  drag(face(left_), pixel(Vector3(0.25, 0.05, 0.1)));
+  EXPECT_NEAR(at(left_).x(), 0.25, 1e-9);
+  EXPECT_EQ(refused_, "");
+}
+
+TEST_F(SceneToolsTest, ADragSnapsUnlessAltIsHeld) {
+  session::GrabSettings settings;
+  settings.snaps.grid = true;
+  settings.snaps.spacing = settings.snaps.radius = 0.05;
+  session().set_grab(settings);
+  mouse(QEvent::MouseButtonPress, face(left_));
+  const QPointF there = pixel(Vector3(-0.21, 0.12, 0.1));
+  mouse(QEvent::MouseMove, there);
+  tools_.tick();
+  EXPECT_TRUE(at(left_).isApprox(Vector3(-0.2, 0.1, 0.0), 1e-9)) << at(left_).transpose();
+  EXPECT_EQ(tools_.drag_words(), "Snapped to the grid");
+  mouse(QEvent::MouseMove, there, Qt::LeftButton, Qt::AltModifier);
+  tools_.tick();
+  EXPECT_TRUE(at(left_).isApprox(Vector3(-0.21, 0.12, 0.0), 1e-9));
+  mouse(QEvent::MouseButtonRelease, there, Qt::LeftButton, Qt::AltModifier);
+  EXPECT_TRUE(at(left_).isApprox(Vector3(-0.21, 0.12, 0.0), 1e-9));
+}
+
 TEST_F(SceneToolsTest, EscapeTakesADragBack) {
   mouse(QEvent::MouseButtonPress, face(left_));
   mouse(QEvent::MouseMove, pixel(Vector3(0.0, 0.3, 0.1)));
@@ -214,7 +258,11 @@ TEST_F(SceneToolsTest, KeysChooseTheTool) {
   EXPECT_EQ(tools_.tool(), Tool::Touch);
   key(QEvent::KeyPress, Qt::Key_Tab);
   EXPECT_EQ(tools_.tool(), Tool::View);
+  key(QEvent::KeyPress, Qt::Key_Tab);
+  EXPECT_EQ(tools_.tool(), Tool::Shape);
+  EXPECT_TRUE(session().shaping());
   key(QEvent::KeyPress, Qt::Key_Escape);
+  EXPECT_FALSE(session().shaping());
   EXPECT_EQ(tools_.tool(), Tool::Select);
 }
 
