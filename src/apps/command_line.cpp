@@ -21,9 +21,11 @@ struct Entries {
   std::string form = "tree";
   InfoOptions info;
   ConvertOptions convert;
+  EditOptions edit;
   ShotOptions shot;
   std::string shot_size;
   std::string shot_background;
+  TechniquesOptions techniques;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -168,6 +170,36 @@ void add_convert_options(CLI::App& convert, ConvertOptions& options) {
   convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
 }
 
+void add_edit_options(CLI::App& edit, EditOptions& options) {
+  const CLI::Option* const in = edit.add_option("IN", options.in, kEditInHelp)->type_name("");
+  const CLI::Option* const apply =
+      edit.add_option("--apply", options.apply, "Operations, one JSON object a line; - is standard input")
+          ->type_name("EDITS.jsonl");
+  const CLI::Option* const replay =
+      edit.add_option("--replay", options.replay,
+                      "In their place: what Tools > Technique > Record of the window has recorded, on the "
+                      "design that was kept beside it")
+          ->type_name("FILE.recording");
+  const CLI::Option* const out = edit.add_option("--out", options.out, kDesignOutHelp)->type_name("OUT");
+  edit.add_flag("--keep-going", options.keep_going,
+                "Go on after lines that are wrong, to tell of all of them; nothing is written then, too");
+  const CLI::Option* const help =
+      edit.add_option("--help-ops", options.operation,
+                      "List every operation with its parameters, or only OP; goes without the others")
+          ->type_name("[OP]")
+          ->expected(0, 1);
+  add_design_unit(edit, options.unit);
+  edit.add_flag("--json", options.json, "Print what was done, or the operations, as JSON (fields below)");
+  edit.callback([&options, help, in, apply, replay, out] {
+    options.help_ops = help->count() > 0;
+    if (options.help_ops) return;
+    if (apply->count() > 0 && replay->count() > 0) throw CLI::ExcludesError("--apply", "--replay");
+    const CLI::Option* const what = replay->count() > 0 ? replay : apply;
+    for (const auto& [option, name] : {std::pair(in, "IN"), {what, "--apply"}, {out, "--out"}})
+      if (option->count() == 0) throw CLI::RequiredError(name);
+  });
+}
+
 void add_shot_options(CLI::App& shot, Entries& entries) {
   ShotOptions& options = entries.shot;
   shot.add_option("FILE", options.file, kDesignFileHelp)->required()->type_name("");
@@ -189,6 +221,19 @@ void add_shot_options(CLI::App& shot, Entries& entries) {
       ->type_name("COLOR");
   add_design_unit(shot, options.unit);
   shot.add_flag("--json", options.json, "Print what was drawn as JSON (fields below)");
+}
+
+void add_techniques_options(CLI::App& techniques, TechniquesOptions& options) {
+  techniques.add_option("--users", options.bench.users, "Simulated people, 1 to 1000 (default 12)")
+      ->type_name("N");
+  techniques
+      .add_option("--trials", options.bench.trials,
+                  "Movements of each in each condition, 2 to 1000 (default 9: once round the ring)")
+      ->type_name("N");
+  techniques.add_option("--seed", options.seed, "Of all that is random (default 1)")->type_name("N");
+  techniques.add_option("--picture", options.picture, "Draw the result into a PNG file")
+      ->type_name("OUT.png");
+  techniques.add_flag("--json", options.json, "Print the result as JSON (fields below)");
 }
 
 void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
@@ -251,6 +296,16 @@ base::Result<TouchOptions> understood(Entries entries) {
   return options;
 }
 
+base::Result<TechniquesOptions> understood_techniques(const Entries& entries) {
+  TechniquesOptions options = entries.techniques;
+  if (options.seed < 0)
+    return base::fail(fmt::format("--seed is {}; choose 0 or a number above it.", options.seed));
+  options.bench.seed = std::uint64_t(options.seed);
+  if (const auto checked = interaction::check(options.bench); !checked)
+    return tl::unexpected(checked.error());
+  return options;
+}
+
 CommandLine bad_usage(const std::string& sentence, const std::string& help) {
   fmt::print(stderr, "icome: {}\nSee {}.\n", sentence, help);
   CommandLine command_line;
@@ -301,9 +356,15 @@ CommandLine parse_command_line(int argc, char** argv) {
   CLI::App& convert = *app.add_subcommand("convert", kConvertSummary);
   convert.footer(kConvertExamples);
   add_convert_options(convert, entries.convert);
+  CLI::App& edit = *app.add_subcommand("edit", kEditSummary);
+  edit.footer(kEditExamples);
+  add_edit_options(edit, entries.edit);
   CLI::App& shot = *app.add_subcommand("shot", kShotSummary);
   shot.footer(kShotExamples);
   add_shot_options(shot, entries);
+  CLI::App& techniques = *app.add_subcommand("techniques", kTechniquesSummary);
+  techniques.footer(kTechniquesExamples);
+  add_techniques_options(techniques, entries.techniques);
   const CLI::App* const named = named_subcommand(app, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -332,10 +393,16 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.info = std::move(entries.info);
   } else if (convert.parsed()) {
     command_line.convert = std::move(entries.convert);
+  } else if (edit.parsed()) {
+    command_line.edit = std::move(entries.edit);
   } else if (shot.parsed()) {
     auto options = understood_shot(entries);
     if (!options) return bad_usage(options.error().message, help);
     command_line.shot = std::move(*options);
+  } else if (techniques.parsed()) {
+    auto options = understood_techniques(entries);
+    if (!options) return bad_usage(options.error().message, help);
+    command_line.techniques = std::move(*options);
   } else {
     command_line.desktop = *desktop;
   }

@@ -20,4 +20,20 @@ struct ConvertOptions {
   bool json = false;
 };
 
+/// What a person asked `icome edit` for.
+struct EditOptions {
+  std::string in;                // a design's file, or kNewDesign
+  std::filesystem::path apply;   // operations, one a line; "-": standard input
+  std::filesystem::path replay;  // a recorded technique, in place of them
+  std::filesystem::path out;
+  std::string unit = "m";
+  bool keep_going = false;
+  bool help_ops = false;  // only tell what operations there are
+  std::string operation;  // then: only this one; empty: all
+  bool json = false;
+};
+
+/// What begins with an empty design, in place of a file.
+constexpr const char* kNewDesign = "new";
+
 }  // namespace icome::apps

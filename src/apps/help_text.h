@@ -28,12 +28,16 @@ constexpr const char* kProgramExamples =
     "                                              a solid from OpenSCAD: its normal form, and a mesh of it\n"
     "  icome info house.glb                        what is in a design: its objects, shapes and materials\n"
     "  icome convert part.ply part.obj             the same design in another format\n"
+    "  icome edit new --apply table.jsonl --out table.wrl\n"
+    "                                              model by script: every tool is an operation\n"
     "  icome shot house.wrl house.png --view iso   a picture of a design\n"
+    "  icome techniques --picture techniques.png   which way of selecting is quick, by simulated people\n"
     "\n"
     "The window needs a display. Without one, icome touch touches a design and icome shot draws it.\n"
     "\n"
     "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
-    "icome convert --help about designs, icome shot --help about pictures.";
+    "icome convert --help about designs, icome edit --help about changing them, icome shot --help about\n"
+    "pictures, icome techniques --help about ways of interaction.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
@@ -187,6 +191,48 @@ constexpr const char* kConvertExamples =
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 
+constexpr const char* kEditInHelp =
+    "The design to begin with: new for an empty one, or a file (see icome info --help for its types)";
+
+constexpr const char* kEditSummary =
+    "Change a design by a script: each line is an operation with its parameters";
+
+constexpr const char* kEditExamples =
+    "Examples:\n"
+    "  icome edit new --apply table.jsonl --out table.wrl\n"
+    "  icome edit table.wrl --apply longer-legs.jsonl --out table.wrl --json\n"
+    "  icome edit lamp.recording.icome --replay lamp.recording --out lamp.icome\n"
+    "  icome edit --help-ops                       all operations with their parameters\n"
+    "  icome edit --help-ops extrude               one of them\n"
+    "\n"
+    "table.jsonl may be:\n"
+    "  {\"op\": \"create\", \"shape\": \"box\", \"size\": [0.8, 0.03, 0.5], \"at\": [0, 0.7, 0], \"name\": "
+    "\"top\"}\n"
+    "  {\"op\": \"create\", \"shape\": \"cylinder\", \"radius\": 0.02, \"height\": 0.7, \"name\": \"leg\"}\n"
+    "  {\"op\": \"clone\", \"object\": \"leg\", \"name\": \"leg 2\"}\n"
+    "\n"
+    "Operations are what the window's tools are, by the same names. Lengths are metres, y is up. Objects "
+    "are\n"
+    "named by name; where several have it, by a path such as table/leg, or by # and their number. Empty "
+    "lines\n"
+    "and lines that begin with # are skipped. undo and redo are operations, too.\n"
+    "\n"
+    "--unit is that of IN's numbers; what is written is always in metres.\n"
+    "\n"
+    "A line that is wrong ends the run with its number, and nothing is written. OUT takes its place when it "
+    "is\n"
+    "complete; it may be the same file as IN.\n"
+    "\n"
+    "JSON: in, out (null when nothing was written), operations (how many were done), errors (a list of "
+    "{line,\n"
+    "  op, message}), objects, triangles (as icome info counts them), bytes (of the file), warnings (what "
+    "was\n"
+    "  skipped in reading and lost in writing), seconds (for the operations). With --help-ops: operations, "
+    "a\n"
+    "  list of {name, title, group, summary, parameters}.\n"
+    "\n"
+    "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
+
 constexpr const char* kShotSummary = "Draw a design into a picture, without a window";
 
 constexpr const char* kShotExamples =
@@ -208,6 +254,41 @@ constexpr const char* kShotExamples =
     "  what is not shown; icome info tells what could not be read). It goes to standard output, all "
     "messages\n"
     "  to standard error.\n"
+    "\n"
+    "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
+
+constexpr const char* kTechniquesSummary =
+    "Rank ways of selecting (virtual hand, ray, spotlight and others) by simulated people";
+
+constexpr const char* kTechniquesExamples =
+    "Examples:\n"
+    "  icome techniques                            a ranking\n"
+    "  icome techniques --picture techniques.png   and a page that shows all of it\n"
+    "  icome techniques --users 100 --seed 7 --json > techniques.json\n"
+    "\n"
+    "Simulated people select one ball after the other on a ring before them, as in ISO 9241-411, with "
+    "targets\n"
+    "of three sizes at three distances among none, few and many other balls. The techniques are the real\n"
+    "ones: virtual hand, Go-Go, ray pointer, spotlight, world in miniature and look-at get hands and head\n"
+    "step by step as from trackers. The people are not: they move by minimum jerk, with noise that grows "
+    "with\n"
+    "speed, with tremor, a time to react and corrections, and their numbers are partly from the literature\n"
+    "and partly chosen; --json lists each with its source. The result ranks techniques under these\n"
+    "assumptions. It is no study of people.\n"
+    "\n"
+    "Throughput is that of ISO 9241-411: log2(Ae / We + 1) over the movement time, for each person and\n"
+    "condition, with We = 4.133 deviations of the endpoints along the way. What an arm cannot reach counts\n"
+    "nothing in the score. The same options give the same result, to the last digit.\n"
+    "\n"
+    "JSON: assumptions {notice, users, trials_per_condition, seed, sizes_m, distances_m,\n"
+    "  distractors_per_target, person [{name, value, unit, source}], left_out, room_m (what the miniature\n"
+    "  shows)}, techniques, the highest score first:\n"
+    "  [{name, movement_time_s and movement_time_sd_s, error_rate (a share), throughput_bits_per_s (mean of\n"
+    "  the conditions within reach), score_bits_per_s (mean of all), conditions_reached, regression {a_s,\n"
+    "  b_s_per_bit, r_squared} of times on indices of difficulty, conditions [{size_m, distance_m,\n"
+    "  distractors_per_target, distractors (all in the scene), id_bits, reachable, movement_time_s,\n"
+    "  movement_time_sd_s, error_rate, movements (with corrections), effective_width_m,\n"
+    "  throughput_bits_per_s}]}]. Figures of what is out of reach are null.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

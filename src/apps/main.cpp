@@ -8,8 +8,10 @@
 #include "apps/convert_command.h"
 #include "apps/csg_command.h"
 #include "apps/desktop_command.h"
+#include "apps/edit_command.h"
 #include "apps/info_command.h"
 #include "apps/shot_command.h"
+#include "apps/techniques_command.h"
 #include "apps/touch_command.h"
 
 int main(int argc, char** argv) {
@@ -19,7 +21,9 @@ int main(int argc, char** argv) {
     if (command_line.csg) return icome::apps::run_csg(*command_line.csg);
     if (command_line.info) return icome::apps::run_info(*command_line.info);
     if (command_line.convert) return icome::apps::run_convert(*command_line.convert);
+    if (command_line.edit) return icome::apps::run_edit(*command_line.edit);
     if (command_line.shot) return icome::apps::run_shot(*command_line.shot);
+    if (command_line.techniques) return icome::apps::run_techniques(*command_line.techniques);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {

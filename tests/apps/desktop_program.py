@@ -167,7 +167,7 @@ class Desktop:
             self.screen.ask("key", key)
 
     def type(self, text):
-        self.screen.ask("type", "--delay", "5", text)
+        self.screen.ask("type", "--delay", "5", "--", text)
 
     def _at(self, place):
         left, top, _, _ = self.scene_place()

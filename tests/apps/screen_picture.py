@@ -94,11 +94,15 @@ class Picture:
         pixels = bytearray(3 * len(self.planes[0]))
         for i, plane in enumerate(self.planes):
             pixels[i::3] = plane
+        above = bytes(3 * self.width)
         for y in range(self.height):
-            rows += b"\0" + pixels[3 * y * self.width:3 * (y + 1) * self.width]
+            row = pixels[3 * y * self.width:3 * (y + 1) * self.width]
+            # As the difference to the row above, which packs well.
+            rows += b"\2" + bytes((a - b) & 255 for a, b in zip(row, above))
+            above = row
         with open(path, "wb") as file:
             file.write(b"\x89PNG\r\n\x1a\n")
             for kind, body in ((b"IHDR", struct.pack(">IIBBBBB", self.width, self.height, 8, 2, 0, 0, 0)),
-                               (b"IDAT", zlib.compress(bytes(rows), 6)), (b"IEND", b"")):
+                               (b"IDAT", zlib.compress(bytes(rows), 9)), (b"IEND", b"")):
                 checked = kind + body
                 file.write(struct.pack(">I", len(body)) + checked + struct.pack(">I", zlib.crc32(checked)))

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interaction/operations/operation_runner.h"
+
+namespace icome::apps {
+
+/// A line of a script that could not be done, and why.
+struct EditError {
+  std::size_t line;       // from 1
+  std::string operation;  // its name; empty where there is none
+  std::string message;    // a sentence
+};
+
+/// What a script came to.
+struct EditOutcome {
+  std::size_t operations = 0;  // that were done
+  std::vector<EditError> errors = {};
+  bool stopped = false;  // on request, before the end
+};
+
+/// Performs the operations of a text, one JSON object a line; empty lines and those that begin with # are
+/// skipped. Ends with the first that is wrong, or goes on to the end. `progress` hears which part is done, in
+/// [0, 1], before every line; false stops.
+EditOutcome perform_script(interaction::OperationRunner& runner, std::string_view text, bool keep_going,
+                           const std::function<bool(double part)>& progress);
+
+}  // namespace icome::apps

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+
+#include "interaction/techniques/bench/technique_bench.h"
+
+namespace icome::apps {
+
+/// What a person asked `icome techniques` for, as the command line says it.
+struct TechniquesOptions {
+  interaction::BenchSettings bench;
+  std::int64_t seed = 1;          // of bench; not below 0
+  std::filesystem::path picture;  // empty: none
+  bool json = false;
+};
+
+}  // namespace icome::apps
