@@ -1,4 +1,5 @@
 // From an edit to the first tick that feels it: a hand rests on a plate, which an edit then takes away.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -34,17 +35,44 @@ std::vector<double> ticks_to_feel(session::Session& session, int edits,
   return ticks;
 }
 
-/// The vertices of the large plate within 3 cm of its middle, far below.
-world::MoveVertices dent(const session::Session& session, world::GeometryId geometry) {
+/// The vertices of the large plate within 3 cm of its middle, that much lower than now.
+world::MoveVertices dent(const session::Session& session, world::GeometryId geometry, double depth) {
   const auto& mesh = dynamic_cast<const world::MeshGeometry&>(*session.world().find(geometry)->shape).mesh;
   world::MoveVertices edit{geometry, {}, {}};
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
     const base::Vector3& at = mesh.positions[i];
     if (std::hypot(at.x(), at.z()) > 0.03) continue;
     edit.vertices.push_back(i);
-    edit.positions.push_back(at - base::Vector3(0.0, kFar, 0.0));
+    edit.positions.push_back(at - base::Vector3(0.0, depth, 0.0));
   }
   return edit;
+}
+
+/// Ticks until the hand that presses on the middle of the plate sinks with it, for each step of a drag that
+/// takes the middle down by 1 mm at a time.
+std::vector<double> ticks_to_sink(session::Session& session, const Added& plate, int steps) {
+  constexpr double kStep = 0.001;              // m
+  constexpr std::int64_t kRest = 300'000'000;  // ns, in which a hand comes to rest
+  std::vector<double> ticks;
+  bool dragged = false;
+  session.put_hand(kAbove);  // from wherever it is: it may be below
+  for (int i = 0; i < steps; ++i) {
+    session.aim_hand(kWithin - base::Vector3(0.0, kStep * i, 0.0));
+    const std::int64_t rested = base::steady_nanoseconds() + kRest;
+    const auto rests = [&] { return base::steady_nanoseconds() > rested && session.pointer(0).touching; };
+    if (!turn_until(session, rests)) break;
+    const double ground = session.pointer(0).scp.y();
+    const world::MoveVertices edit = dent(session, plate.geometry, kStep);
+    const std::int64_t begin = base::steady_nanoseconds();
+    must(i == 0 ? session.perform(edit, "Drag") : session.extend(edit));
+    dragged = true;
+    if (!turn_until(session, [&] { return session.pointer(0).scp.y() < ground - 0.5 * kStep; })) break;
+    const double seconds = 1e-9 * double(session.pointer(0).time - begin);
+    ticks.push_back(std::ceil(std::max(0.0, seconds * session.servo().rate_hz)));
+  }
+  if (dragged) must(session.undo());
+  session.settle();
+  return ticks;
 }
 
 }  // namespace
@@ -72,11 +100,13 @@ SessionSection felt_figures(const SessionExtent& extent) {
                              must(session->perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
                            }),
              "ticks"));
-  const world::MoveVertices edit = dent(*session, plate.geometry);
+  const world::MoveVertices edit = dent(*session, plate.geometry, kFar);
   section.rows.push_back(row_of(
       "the middle of that mesh is dented (" + std::to_string(edit.vertices.size()) + " vertices)",
       ticks_to_feel(*session, std::max(1, extent.edits / 10), [&] { must(session->perform(edit, "Dent")); }),
       "ticks"));
+  section.rows.push_back(row_of("that middle is dragged down, each step of 1 mm",
+                                ticks_to_sink(*session, plate, std::min(extent.edits, 30)), "ticks"));
   return section;
 }
 
