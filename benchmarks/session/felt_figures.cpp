@@ -100,12 +100,7 @@ SessionSection felt_figures(const SessionExtent& extent) {
                              must(session->perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
                            }),
              "ticks"));
-  const world::MoveVertices edit = dent(*session, plate.geometry, kFar);
-  section.rows.push_back(row_of(
-      "the middle of that mesh is dented (" + std::to_string(edit.vertices.size()) + " vertices)",
-      ticks_to_feel(*session, std::max(1, extent.edits / 10), [&] { must(session->perform(edit, "Dent")); }),
-      "ticks"));
-  section.rows.push_back(row_of("that middle is dragged down, each step of 1 mm",
+  section.rows.push_back(row_of("the middle of that mesh is dragged down, each step of 1 mm",
                                 ticks_to_sink(*session, plate, std::min(extent.edits, 30)), "ticks"));
   return section;
 }

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "geometry/enclosure.h"
 #include "geometry/weld.h"
 
@@ -19,6 +21,8 @@ using Triangle = TriangleMesh::Triangle;
 
 /// Height of a triangle over its longest edge, as a share of that edge, below which it has no area.
 constexpr double kFlatness = 1e-12;
+
+constexpr std::size_t kFlatGrain = std::size_t{1} << 15U;  // triangles
 
 /// Turning an edge can leave a flat triangle on the next one; chains longer than this are rare.
 constexpr int kMaximumFlipRounds = 16;
@@ -284,6 +288,15 @@ void describe_surface(const RepairReport& report, std::vector<std::string>& line
 }
 
 }  // namespace
+
+bool has_flat_triangle(const TriangleMesh& mesh) {
+  std::atomic<bool> found = false;
+  base::parallel_for(mesh.triangles.size(), kFlatGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end && !found; ++t)
+      if (flat(mesh, mesh.triangles[t])) found = true;
+  });
+  return found;
+}
 
 void drop_unused_vertices(TriangleMesh& mesh) {
   std::vector<std::uint32_t> renamed(mesh.positions.size(), kNoTriangle);

@@ -45,6 +45,9 @@ struct RepairReport {
 /// Precondition: indices in range, coordinates below 1e70. The mesh may come out empty.
 RepairReport repair(TriangleMesh& mesh);
 
+/// Is there a triangle without area, which repair() would take away? Indices must be in range.
+bool has_flat_triangle(const TriangleMesh& mesh);
+
 /// Removes vertices that no triangle uses, keeping the order of the others. Indices must be in range.
 void drop_unused_vertices(TriangleMesh& mesh);
 

@@ -85,6 +85,11 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh)
   boxes_ = boxes_around([this](std::uint32_t slot) { return triangle_bounds(slot); });
 }
 
+TriangleTree::TriangleTree(const TriangleTree& other, const TriangleMesh& mesh)
+    : order_(other.order_), corners_(other.corners_.size()), boxes_(other.boxes_) {
+  refit(mesh);
+}
+
 void TriangleTree::refit(const TriangleMesh& mesh) {
   assert(mesh.triangles.size() == corners_.size());
   copy_corners(mesh);

@@ -85,6 +85,15 @@ class TriangleElements {
 
 MeshShape::MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, const MeshShapeSettings& settings)
     : mesh_(std::move(mesh)), tree_(*mesh_), settings_(settings) {
+  prepare();
+}
+
+MeshShape::MeshShape(const MeshShape& other, std::shared_ptr<const geometry::TriangleMesh> mesh)
+    : mesh_(std::move(mesh)), tree_(other.tree_, *mesh_), settings_(other.settings_) {
+  prepare();
+}
+
+void MeshShape::prepare() {
   if (settings_.closed && settings_.tip_radius > 0.0) thicken();
   if (settings_.interpolate_normals) normals_ = geometry::vertex_normals(*mesh_);
 }

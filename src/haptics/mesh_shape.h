@@ -22,6 +22,9 @@ class MeshShape final : public Shape {
  public:
   MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, const MeshShapeSettings& settings);
 
+  /// `other` with vertices elsewhere: the mesh has the same triangles. Much sooner there than one made anew.
+  MeshShape(const MeshShape& other, std::shared_ptr<const geometry::TriangleMesh> mesh);
+
   Bounds bounds() const override { return tree_.bounds(); }
   void gather(const GatherRequest& request, ElementSink& sink) const override;
   void expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const override;
@@ -37,6 +40,7 @@ class MeshShape final : public Shape {
  private:
   bool narrow(std::uint32_t slot, TouchableSides sides) const;
   Bounds tip_bounds(std::uint32_t slot, double tip, TouchableSides sides) const;
+  void prepare();
   void thicken();
 
   std::shared_ptr<const geometry::TriangleMesh> mesh_;

@@ -29,8 +29,8 @@ constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
 /// Makes what is felt of the kinds of shapes, one after the other.
 class FeltShapeMaker {
  public:
-  FeltShapeMaker(const Matrix3& felt_from_geometry, const FeltSettings& settings)
-      : map_(felt_from_geometry), settings_(settings) {}
+  FeltShapeMaker(const Matrix3& felt_from_geometry, const FeltSettings& settings, const FeltShape* before)
+      : map_(felt_from_geometry), settings_(settings), before_(before) {}
 
   Felt make(const world::Geometry& shape) const {
     if (map_.determinant() == 0.0) return untouchable("is too flat or too far away to be touched");
@@ -68,16 +68,33 @@ class FeltShapeMaker {
     const base::Bounds box = geometry::bounds(mesh);
     if (!(box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() < kLargestCoordinate))
       return untouchable("is too large to be touched");
+    if (can_follow(mesh)) return following(std::move(mesh));
     const geometry::RepairReport report = geometry::repair(mesh);
     if (mesh.triangles.empty()) return untouchable("has no triangle with an area: there is nothing to touch");
     auto felt = std::make_shared<FeltShape>();
     felt->closed = report.surface.closed;
+    felt->sound = !report.changed();
     felt->mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
     haptics::MeshShapeSettings settings;
     settings.closed = felt->closed;
     settings.interpolate_normals = settings_.interpolate_normals;
     settings.tip_radius = settings_.tip_radius;
     felt->shape = std::make_shared<haptics::MeshShape>(felt->mesh, settings);
+    return felt;
+  }
+
+  /// Is the mesh that of before, with vertices elsewhere?
+  bool can_follow(const geometry::TriangleMesh& mesh) const {
+    return before_ && before_->sound && before_->felt_from_geometry == map_ &&
+           before_->mesh->positions.size() == mesh.positions.size() &&
+           before_->mesh->triangles == mesh.triangles && !geometry::has_flat_triangle(mesh);
+  }
+
+  Felt following(geometry::TriangleMesh mesh) const {
+    auto felt = std::make_shared<FeltShape>(*before_);
+    felt->mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+    const auto& shape = static_cast<const haptics::MeshShape&>(*before_->shape);
+    felt->shape = std::make_shared<haptics::MeshShape>(shape, felt->mesh);
     return felt;
   }
 
@@ -159,6 +176,7 @@ class FeltShapeMaker {
 
   Matrix3 map_;
   const FeltSettings& settings_;
+  const FeltShape* before_;  // null: nothing
 };
 
 /// The pose of the half-space that a half-space becomes.
@@ -191,8 +209,8 @@ FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_fr
 }
 
 FeltShapePointer make_felt_shape(const world::Geometry& shape, const Matrix3& felt_from_geometry,
-                                 const FeltSettings& settings) {
-  return FeltShapeMaker(felt_from_geometry, settings).make(shape);
+                                 const FeltSettings& settings, const FeltShape* before) {
+  return FeltShapeMaker(felt_from_geometry, settings, before).make(shape);
 }
 
 }  // namespace icome::session

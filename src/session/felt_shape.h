@@ -31,6 +31,7 @@ struct FeltShape {
   std::shared_ptr<const geometry::TriangleMesh> mesh = nullptr;
   std::optional<geometry::Primitive> primitive = {};
   std::shared_ptr<const geometry::CsgTree> solid = nullptr;
+  bool sound = false;  // the mesh is just the shape's own, which needed no repair
   std::function<bool(const base::Vector3& point, double time)> inside = {};  // of a closed smooth surface
   base::Matrix3 felt_from_geometry = base::Matrix3::Identity();              // the shape's own frame to that
 };
@@ -49,7 +50,11 @@ FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_fr
 /// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and smooth surfaces under
 /// a tip with a radius are felt as triangles: 1/2000 of their size off at most, or sampled at 100 places
 /// along their longest side.
+///
+/// `before`, where given, is what was made of it with the same settings before an edit. A sound mesh whose
+/// vertices alone have moved follows it, many times as soon as one made anew: its surface stays as it was
+/// connected, and is repaired again when a triangle has lost its area.
 FeltShapePointer make_felt_shape(const world::Geometry& shape, const base::Matrix3& felt_from_geometry,
-                                 const FeltSettings& settings);
+                                 const FeltSettings& settings, const FeltShape* before = nullptr);
 
 }  // namespace icome::session

@@ -52,6 +52,7 @@ class HapticRepresentation::Update {
     ShapeKey key;
     const world::Geometry* shape;
     base::Matrix3 felt_from_geometry;
+    FeltShapePointer before;  // null: new
     FeltShapePointer made = nullptr;
   };
 
@@ -67,16 +68,23 @@ class HapticRepresentation::Update {
       need.place = felt_place(*geometry->shape, it.world_from_object);
       need.key = key_of(need.object->geometry, need.place.felt_from_geometry);
       const auto [found, fresh] = owner_.shapes_.try_emplace(*need.key);
-      if (fresh) jobs_.push_back({*need.key, geometry->shape.get(), need.place.felt_from_geometry});
+      if (fresh)
+        jobs_.push_back({*need.key, geometry->shape.get(), need.place.felt_from_geometry, before(*need.key)});
     }
     needs_.push_back(need);
+  }
+
+  FeltShapePointer before(const ShapeKey& key) const {
+    const auto found = owner_.outdated_.find(key);
+    return found == owner_.outdated_.end() ? nullptr : found->second;
   }
 
   void make_missing() {
     base::parallel_for(jobs_.size(), 1, [this](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         Job& job = jobs_[i];
-        job.made = make_felt_shape(*job.shape, job.felt_from_geometry, owner_.settings_.felt);
+        job.made =
+            make_felt_shape(*job.shape, job.felt_from_geometry, owner_.settings_.felt, job.before.get());
       }
     });
     for (Job& job : jobs_) owner_.shapes_[job.key] = std::move(job.made);
@@ -242,7 +250,7 @@ bool HapticRepresentation::in_scene(const World& world, world::ObjectId id) cons
 }
 
 void HapticRepresentation::follow(const World& world, const world::Changes& changes) {
-  for (const world::GeometryId geometry : changes.geometries) forget_shapes(geometry);
+  for (const world::GeometryId geometry : changes.geometries) outdate_shapes(geometry);
   const bool other_roots = shown_ && std::binary_search(changes.scenes.begin(), changes.scenes.end(), shown_);
   if (other_roots) survey(world);
   std::vector<Due> due;
@@ -262,6 +270,7 @@ void HapticRepresentation::follow(const World& world, const world::Changes& chan
   due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
             due.end());
   Update(*this, world).bring(due);
+  outdated_.clear();
   forget_unused();
   publish();
 }
@@ -298,11 +307,12 @@ void HapticRepresentation::forget(world::ObjectId id) {
   members_.erase(found);
 }
 
-void HapticRepresentation::forget_shapes(world::GeometryId geometry) {
+/// Puts aside what was made of a shape that has changed.
+void HapticRepresentation::outdate_shapes(world::GeometryId geometry) {
   auto it = shapes_.lower_bound({geometry, {}});
   // Entries of a stretch may be below zero.
   while (it != shapes_.begin() && std::prev(it)->first.geometry == geometry) --it;
-  while (it != shapes_.end() && it->first.geometry == geometry) it = shapes_.erase(it);
+  while (it != shapes_.end() && it->first.geometry == geometry) outdated_.insert(shapes_.extract(it++));
 }
 
 /// An object that is stretched by hand leaves a shape behind with every step.

@@ -110,7 +110,7 @@ class HapticRepresentation {
   bool in_scene(const world::World& world, world::ObjectId id) const;
   void note_object(const world::World& world, world::ObjectId id, std::vector<Due>& due);
   void forget(world::ObjectId id);
-  void forget_shapes(world::GeometryId geometry);
+  void outdate_shapes(world::GeometryId geometry);
   void forget_unused();
   std::shared_ptr<const haptics::HapticTexture> texture(const std::string& name);
   haptics::Surface surface_of(const world::World& world, const Member& member);
@@ -120,7 +120,8 @@ class HapticRepresentation {
   world::SceneId shown_ = {};  // none: the whole world
   std::unordered_map<world::ObjectId, Member> members_;
   std::map<ShapeKey, FeltShapePointer> shapes_;
-  std::vector<ShapeKey> released_;  // may have lost their last user
+  std::map<ShapeKey, FeltShapePointer> outdated_;  // by the edits that are being followed
+  std::vector<ShapeKey> released_;                 // may have lost their last user
   std::map<std::string, std::shared_ptr<const haptics::HapticTexture>> textures_;  // null: not known
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;

@@ -133,13 +133,16 @@ TEST(TriangleTree, RefitFollowsMovedVertices) {
   TriangleTree tree(mesh);
   for (Vector3& position : mesh.positions)
     position = Vector3(position.y(), 3.0 + position.z(), -position.x());
+  const TriangleTree other(tree, mesh);
   tree.refit(mesh);
   Random random(8);
   for (int i = 0; i < 100; ++i) {
     const Vector3 point = Vector3(0, 3, 0) + random.direction();
     EXPECT_NEAR(tree.nearest(point)->parameter, brute_distance(mesh, point), 1e-12);
+    EXPECT_EQ(other.nearest(point)->parameter, tree.nearest(point)->parameter);
   }
   EXPECT_TRUE(tree.bounds().contains(mesh.positions[5]));
+  EXPECT_EQ(other.bounds().max(), tree.bounds().max());
 }
 
 TEST(TriangleTree, HoldsEveryTriangleOnceInAtMostAHundredBytesEach) {

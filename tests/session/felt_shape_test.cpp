@@ -1,6 +1,7 @@
 #include "session/felt_shape.h"
 
 #include "base/random.h"
+#include "haptics/mesh_shape.h"
 #include "session/stretched.h"
 #include "world/sample_world.h"
 
@@ -240,6 +241,83 @@ TEST(FeltShape, OfAnOpenMeshIsTouchedFromBothSides) {
   const auto felt = make_felt_shape(*world::one_triangle(), Matrix3::Identity(), {});
   EXPECT_FALSE(felt->closed);
   EXPECT_EQ(felt->remark, "");
+}
+
+/// A ball of triangles, and what becomes of it when each of its vertices moves.
+template <typename Move>
+world::MeshGeometry ball(Move&& move) {
+  geometry::TriangleMesh mesh = geometry::tessellate(geometry::Primitive(geometry::Sphere{0.5}), 0.002);
+  for (Vector3& position : mesh.positions) position = move(position);
+  return world::MeshGeometry(std::move(mesh));
+}
+
+const geometry::TriangleTree& tree_of(const FeltShapePointer& felt) {
+  return dynamic_cast<const haptics::MeshShape&>(*felt->shape).tree();
+}
+
+/// Is the one made of the other? Made anew, it would have another order, as it lies otherwise.
+bool follows(const FeltShapePointer& felt, const FeltShapePointer& before) {
+  bool same = tree_of(felt).size() == tree_of(before).size();
+  for (std::uint32_t slot = 0; same && slot < tree_of(felt).size(); ++slot)
+    same = tree_of(felt).triangle(slot) == tree_of(before).triangle(slot);
+  return same;
+}
+
+const auto stays = [](const Vector3& place) { return place; };
+const auto turns_over = [](const Vector3& place) {
+  return Vector3(place.y(), 3.0 + place.z(), (1.0 + 0.2 * place.y()) * place.x());
+};
+
+TEST(FeltShape, FollowsItsVerticesToWhereItWouldBeMadeAnew) {
+  const Matrix3 stretch = Vector3(1.0, 2.0, -1.5).asDiagonal();
+  for (const double tip : {0.0, 0.01}) {
+    const FeltSettings settings{.tip_radius = tip, .interpolate_normals = true};
+    const auto before = make_felt_shape(ball(stays), stretch, settings);
+    const auto moved = ball(turns_over);
+    const auto felt = make_felt_shape(moved, stretch, settings, before.get());
+    const auto anew = make_felt_shape(moved, stretch, settings);
+    EXPECT_TRUE(follows(felt, before));
+    EXPECT_FALSE(follows(anew, before));
+    EXPECT_TRUE(felt->closed);
+    EXPECT_EQ(felt->mesh->positions, anew->mesh->positions);
+    base::Random random(9);
+    int hits = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Vector3 start = stretch * (Vector3(0.0, 3.0, 0.0) + 0.7 * random.direction());
+      const Vector3 step = 2.0 * random.direction();
+      const auto hit = felt->shape->cast(start, step, 0.0), same_hit = anew->shape->cast(start, step, 0.0);
+      ASSERT_EQ(hit.has_value(), same_hit.has_value());
+      if (hit) {
+        EXPECT_TRUE(hit->point.isApprox(same_hit->point, 1e-12));
+        ++hits;
+      }
+      const auto out = felt->shape->way_out(start, 0.0), same_out = anew->shape->way_out(start, 0.0);
+      ASSERT_EQ(out.has_value(), same_out.has_value());
+      if (out) {
+        EXPECT_NEAR((out->point - start).norm(), (same_out->point - start).norm(), 1e-12);
+      }
+    }
+    EXPECT_GT(hits, 50);
+  }
+}
+
+TEST(FeltShape, IsMadeAnewWhereFollowingIsNotEnough) {
+  const Matrix3 one = Matrix3::Identity();
+  const auto before = make_felt_shape(ball(stays), one, {});
+  auto moved = ball(turns_over);
+  EXPECT_TRUE(follows(make_felt_shape(moved, one, {}, before.get()), before));
+  EXPECT_FALSE(follows(make_felt_shape(moved, 2.0 * one, {}, before.get()), before));
+  // Another surface over as many vertices.
+  auto turned_face = moved;
+  std::swap(turned_face.mesh.triangles[5][0], turned_face.mesh.triangles[5][1]);
+  EXPECT_FALSE(follows(make_felt_shape(turned_face, one, {}, before.get()), before));
+  // A triangle that has lost its area is repaired, and what comes out is not the shape's own mesh.
+  const auto& corners = moved.mesh.triangles[7];
+  moved.mesh.positions[corners[0]] = moved.mesh.positions[corners[1]];
+  const auto repaired = make_felt_shape(moved, one, {}, before.get());
+  EXPECT_LT(repaired->mesh->triangles.size(), moved.mesh.triangles.size());
+  EXPECT_FALSE(repaired->sound);
+  EXPECT_FALSE(follows(make_felt_shape(ball(turns_over), one, {}, repaired.get()), repaired));
 }
 
 }  // namespace
