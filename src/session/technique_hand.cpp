@@ -154,9 +154,10 @@ interaction::Technique desk_technique(interaction::Selecting selecting, interact
   technique.holding = holding;
   technique.travelling = travelling;
   interaction::SelectingSettings& sizes = technique.selecting_settings;
-  sizes.miniature.size = 0.12;
+  sizes.miniature.size = 0.1;
   sizes.miniature.before = 0.5;
-  sizes.miniature.below = 0.12;
+  sizes.miniature.below = 0.05;
+  sizes.miniature.keeps_in_sight = true;
   sizes.hand_radius = 0.01;
   interaction::GoGoSettings& arm = sizes.go_go;
   arm.chest_below_eyes = 0.0;

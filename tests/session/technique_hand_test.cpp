@@ -456,5 +456,33 @@ TEST(MouseTechnique, PointsFromTheEyeThroughTheHand) {
   EXPECT_FALSE(session->holds(0)) << "a hand that is laid aside holds nothing";
 }
 
+TEST(MouseTechnique, KeepsTheMiniatureInSightWhereverTheViewTurns) {
+  const auto session = start();
+  add_shape(*session, world::box(2.0), world::at(1.0, 0.5, -3.0));
+  session->settle();
+  ASSERT_TRUE(session->set_technique(
+      desk_technique(Selecting::Miniature, Holding::Miniature, Travelling::None, 0.1, 1.0)));
+  const base::Bounds all(Vector3(0.0, -0.5, -4.0), Vector3(2.0, 1.5, -2.0));
+  for (const double pitch : {0.0, -0.6, -1.5, 0.9}) {
+    for (const double distance : {0.3, 4.0}) {
+      interaction::View view;
+      view.distance = distance;
+      view.world_from_eye =
+          Pose(Eigen::Translation3d(3.0, 4.0, 5.0)) *
+          Pose(Eigen::AngleAxisd(0.7, Vector3::UnitY()) * Eigen::AngleAxisd(pitch, Vector3::UnitX()));
+      session->set_view(view);
+      session->update();
+      const auto copy = session->miniature();
+      ASSERT_TRUE(copy);
+      for (int i = 0; i < 8; ++i) {
+        const Vector3 seen =
+            view.world_from_eye.inverse() * (*copy * all.corner(base::Bounds::CornerType(i)));
+        EXPECT_LT(std::hypot(seen.x(), seen.y()), -seen.z() * std::tan(0.5 * view.field))
+            << pitch << ' ' << distance << ' ' << seen.transpose();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace icome::session

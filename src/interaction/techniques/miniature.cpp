@@ -15,6 +15,14 @@ Vector3 level_ahead(const Pose& room_from_head) {
   return ahead.normalized();
 }
 
+/// Where the copy floats, in the room.
+Vector3 floating_place(const MiniatureSettings& settings, const Pose& room_from_head) {
+  const bool level = !settings.keeps_in_sight;
+  const Vector3 ahead = level ? level_ahead(room_from_head) : Vector3(-room_from_head.linear().col(2));
+  const Vector3 up = level ? Vector3(Vector3::UnitY()) : Vector3(room_from_head.linear().col(1));
+  return room_from_head.translation() + settings.before * ahead - settings.below * up;
+}
+
 }  // namespace
 
 base::Affine3 copy_from_world(const MiniatureSettings& settings, const base::Bounds& all,
@@ -24,20 +32,17 @@ base::Affine3 copy_from_world(const MiniatureSettings& settings, const base::Bou
     box = base::Bounds(Vector3::Constant(-0.5), Vector3::Constant(0.5));
   const double room_scale = scale_of(world_from_room);
   const double factor = room_scale * settings.size / box.sizes().maxCoeff();
-  Vector3 floor = box.center();
-  floor.y() = box.min().y();
   const HandInput& other = input.hands[1];
-  base::Affine3 copy_from_floor = base::Affine3::Identity();
+  Vector3 foot = box.center();
+  if (other.tracked || !settings.keeps_in_sight) foot.y() = box.min().y();
+  base::Affine3 copy_from_foot = base::Affine3::Identity();
   if (other.tracked) {
-    copy_from_floor = carried_by(world_from_room, other.room_from_hand);
-    copy_from_floor.translate(Vector3(0.0, room_scale * settings.above_hand, 0.0));
+    copy_from_foot = carried_by(world_from_room, other.room_from_hand);
+    copy_from_foot.translate(Vector3(0.0, room_scale * settings.above_hand, 0.0));
   } else {
-    const Vector3 eyes = input.room_from_head.translation();
-    const Vector3 at =
-        eyes + settings.before * level_ahead(input.room_from_head) - settings.below * Vector3::UnitY();
-    copy_from_floor.translation() = world_from_room * at;
+    copy_from_foot.translation() = world_from_room * floating_place(settings, input.room_from_head);
   }
-  return copy_from_floor * Eigen::Scaling(factor) * Eigen::Translation3d(-floor);
+  return copy_from_foot * Eigen::Scaling(factor) * Eigen::Translation3d(-foot);
 }
 
 }  // namespace icome::interaction

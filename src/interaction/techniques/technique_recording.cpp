@@ -26,13 +26,14 @@ void visit_sizes(Sizes& technique, Visit&& visit) {
   visit(sizes.look_angle), visit(sizes.go_go.arm), visit(sizes.go_go.near_share), visit(sizes.go_go.gain);
   visit(sizes.go_go.chest_below_eyes), visit(sizes.miniature.size), visit(sizes.miniature.above_hand);
   visit(sizes.miniature.before), visit(sizes.miniature.below);
+  visit(sizes.miniature.keeps_in_sight);
   visit(hold.reel_speed), visit(hold.nearest), visit(hold.farthest);
   visit(hold.two_hands.moves), visit(hold.two_hands.turns), visit(hold.two_hands.scales);
   visit(hold.two_hands.closest);
   visit(travel.fly_speed), visit(travel.floor), visit(travel.stand_off), visit(travel.farthest);
   visit(travel.flight_seconds), visit(travel.likeness_radius);
 }
-constexpr std::size_t kSizes = 26;
+constexpr std::size_t kSizes = 27;
 constexpr std::size_t kBox = 6;     // of what the miniature shows, after them: least and greatest corner
 constexpr std::size_t kPlace = 12;  // three rows
 
