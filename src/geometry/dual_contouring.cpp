@@ -66,6 +66,7 @@ base::Result<ContourMesh> contour(const SampledSolid& solid, const ContourOption
                                    split.triangles.end());
     }
   }
+  if (!options.measures) return result;
   const auto error = measure_contour_error(solid, grid->cell, result.mesh, progress.stage(0.15));
   if (!error) return interrupted();
   result.error = *error;

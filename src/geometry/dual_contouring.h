@@ -25,6 +25,7 @@ struct SampledSolid {
 struct ContourOptions {
   double cell = 0.0;  // m, edge of the grid's cells
   std::size_t max_triangles = 20'000'000;
+  bool measures = true;                            // ContourMesh::error, which may take longer than the mesh
   std::function<bool(double part)> progress = {};  // called now and then by the calling thread; false stops
 };
 
@@ -33,8 +34,8 @@ struct ContourMesh {
   /// m, measured: the largest distance from the mesh's vertices, edge midpoints and triangle centres to the
   /// surface. Looked for along the mesh's normal there, both ways, up to two cells, and where it is not near
   /// in other directions too; so each is an upper bound of the point's true distance. Where nothing is found,
-  /// the cell's diagonal counts. How far the surface is from the mesh, where it has parts that the mesh lacks
-  /// (those thinner than a cell), is not in it.
+  /// the cell's diagonal counts. 0 where it is not to be measured. How far the surface is from the mesh,
+  /// where it has parts that the mesh lacks (those thinner than a cell), is not in it.
   double error = 0.0;
 };
 

@@ -10,6 +10,7 @@
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
 #include "world/triangle_meeting.h"
+#include "world/usual_tolerance.h"
 
 namespace icome::world {
 namespace {
@@ -17,8 +18,6 @@ namespace {
 using geometry::Corners;
 using geometry::TriangleMesh;
 
-constexpr double kFacetsOff = 1e-3;          // of the size
-constexpr double kSampledCell = 1.0 / 100;   // of the size, of solids that are sampled
 constexpr double kRounding = 1e-10;          // of the largest coordinate
 constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
 
@@ -69,8 +68,7 @@ CollisionShape::CollisionShape(GeometryPointer shape) : shape_(std::move(shape))
 }
 
 TriangleMesh CollisionShape::triangles() const {
-  const bool sampled = shape_->kind() == "csg" || shape_->kind() == "implicit";
-  const auto made = shape_->triangles((sampled ? kSampledCell : kFacetsOff) * bounds_.sizes().maxCoeff());
+  const auto made = shape_->triangles(usual_tolerance(*shape_));
   if (!made || !complaint((*made)->mesh).empty()) return box_mesh(bounds_);
   return (*made)->mesh;
 }

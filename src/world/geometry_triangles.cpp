@@ -5,6 +5,7 @@
 #include "geometry/csg_mesh.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
+#include "world/usual_tolerance.h"
 
 namespace icome::world {
 namespace {
@@ -22,7 +23,7 @@ double cell_for(double tolerance, const Bounds& bounds) {
 Triangles share(geometry::TriangleMesh mesh) { return std::make_shared<MeshGeometry>(std::move(mesh)); }
 
 geometry::ContourOptions options_for(double tolerance, const Bounds& bounds) {
-  return {.cell = cell_for(tolerance, bounds), .max_triangles = Geometry::kMostTriangles};
+  return {.cell = cell_for(tolerance, bounds), .max_triangles = Geometry::kMostTriangles, .measures = false};
 }
 
 /// Halving edges brings a smooth surface's facets four times nearer to it.
@@ -40,6 +41,16 @@ int level_for(const geometry::TriangleMesh& control, double tolerance) {
 }
 
 }  // namespace
+
+double usual_tolerance(const Geometry& shape) {
+  constexpr double kSmoothTolerance = 1e-3;   // of the size
+  constexpr double kSampledTolerance = 1e-2;  // of the size, of solids that are sampled
+  const Bounds box = shape.bounds();
+  const double size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (!(size > 0.0) || !std::isfinite(size)) return 1.0;
+  const bool sampled = shape.kind() == "csg" || shape.kind() == "implicit";
+  return (sampled ? kSampledTolerance : kSmoothTolerance) * size;
+}
 
 base::Result<Triangles> MeshGeometry::triangles(double) const {
   if (const auto self = weak_from_this().lock()) return self;

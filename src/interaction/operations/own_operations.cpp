@@ -2,6 +2,7 @@
 
 #include "interaction/operations/shape_change.h"
 #include "interaction/operations/vertex_operations.h"
+#include "world/usual_tolerance.h"
 
 namespace icome::interaction {
 namespace {
@@ -15,7 +16,7 @@ Result<Plan> plan_mesh(const world::World& world, const Arguments& arguments, wo
   if (dynamic_cast<const world::MeshGeometry*>(change->shape.get()))
     return fail(fmt::format("'{}' is a mesh already", arguments.text("object")));
   const double tolerance =
-      arguments.has("tolerance") ? arguments.number("tolerance") : usual_tolerance(*change->shape);
+      arguments.has("tolerance") ? arguments.number("tolerance") : world::usual_tolerance(*change->shape);
   const auto triangles = change->shape->triangles(tolerance);
   if (!triangles) return tl::unexpected(triangles.error());
   return plan_of_shape(*change, *triangles, ids);

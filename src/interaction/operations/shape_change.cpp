@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/bent_normals.h"
 #include "world/geometry_check.h"
+#include "world/usual_tolerance.h"
 
 namespace icome::interaction {
 namespace {
@@ -16,9 +16,6 @@ using base::Result;
 using geometry::TriangleMesh;
 using world::LoopGeometry;
 using world::MeshGeometry;
-
-constexpr double kSmoothTolerance = 1e-3;   // of the size
-constexpr double kSampledTolerance = 1e-2;  // of the size, of solids that are sampled
 
 Result<void> check_shape(const world::Geometry& shape) {
   std::string wrong;
@@ -35,7 +32,7 @@ Result<void> make_triangles(ShapeChange& change, const Arguments& arguments, std
         fmt::format("'{}' is {} and {}: perform 'mesh' first, which makes triangles of it, or say "
                     "\"as_mesh\": true to do so in the same step",
                     name, kind_in_words(*change.shape), wanted));
-  auto triangles = change.shape->triangles(usual_tolerance(*change.shape));
+  auto triangles = change.shape->triangles(world::usual_tolerance(*change.shape));
   if (!triangles) return tl::unexpected(triangles.error());
   change.shape = std::move(*triangles);
   change.made_triangles = true;
@@ -118,14 +115,6 @@ world::GeometryPointer with_positions(const MeshGeometry& shape, std::vector<Vec
   if (!shape.normals.empty()) moved->normals = geometry::bent_normals(shape.mesh, positions, shape.normals);
   moved->mesh.positions = std::move(positions);
   return moved;
-}
-
-double usual_tolerance(const world::Geometry& shape) {
-  const world::Bounds box = shape.bounds();
-  const double size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
-  if (!(size > 0.0) || !std::isfinite(size)) return 1.0;
-  const bool sampled = shape.kind() == "csg" || shape.kind() == "implicit";
-  return (sampled ? kSampledTolerance : kSmoothTolerance) * size;
 }
 
 Result<Plan> plan_of_shape(const ShapeChange& change, const world::GeometryPointer& shape,

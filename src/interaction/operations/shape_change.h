@@ -41,9 +41,6 @@ base::Result<const geometry::TriangleMesh*> vertices_to_change(ShapeChange& chan
 /// "a mesh", "a Loop surface", "an exact shape", for sentences.
 std::string kind_in_words(const world::Geometry& shape);
 
-/// How far triangles may be off a shape that is made of them, where nobody says it, m.
-double usual_tolerance(const world::Geometry& shape);
-
 /// The mesh with its vertices elsewhere (m, as many). All else stays, but for normals, which bend with the
 /// surface, and the recipe, which does not make this.
 world::GeometryPointer with_positions(const world::MeshGeometry& shape, std::vector<Vector3> positions);

@@ -8,6 +8,7 @@
 #include "geometry/mesh_repair.h"
 #include "geometry/triangle_tree.h"
 #include "world/mesh_geometry.h"
+#include "world/usual_tolerance.h"
 
 namespace icome::interaction {
 namespace {
@@ -84,10 +85,9 @@ bool MeshTarget::meets(const base::Affine3& world_from_target, const SelectionCo
 
 /// Null where there are no triangles to meet.
 std::shared_ptr<const TargetShape> mesh_target(const world::Geometry& shape) {
-  constexpr double kShareOff = 1e-3;  // of the size
   const base::Bounds box = shape.bounds();
   if (box.isEmpty() || !box.sizes().allFinite() || !(box.sizes().maxCoeff() > 0.0)) return nullptr;
-  const auto triangles = shape.triangles(kShareOff * box.sizes().maxCoeff());
+  const auto triangles = shape.triangles(world::usual_tolerance(shape));
   if (!triangles || (*triangles)->mesh.triangles.empty()) return nullptr;
   return std::make_shared<const MeshTarget>((*triangles)->mesh);
 }

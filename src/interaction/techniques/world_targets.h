@@ -9,9 +9,9 @@
 namespace icome::interaction {
 
 /// The objects of a world that are made of something, in the order of their ids, which are the targets'
-/// numbers. They are met as the triangles of their shapes, 1/1000 of their size off at most where these are
-/// exact solids; objects of one shape share them. Shapes without an end, such as planes, and those of which
-/// there are no triangles are left out.
+/// numbers. They are met as the triangles of their shapes, as near as world::usual_tolerance says where these
+/// are exact solids; objects of one shape share them. Shapes without an end, such as planes, and those of
+/// which there are no triangles are left out.
 TechniqueScene targets_of(const world::World& world);
 
 /// The targets of a world that changes: what targets_of gives, to the last bit, at the cost of what has

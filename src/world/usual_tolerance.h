@@ -1,0 +1,10 @@
+#pragma once
+#include "world/geometry.h"
+
+namespace icome::world {
+
+/// How far triangles may be off a shape that is made of them, where nobody says it, m: 1/1000 of its size, or
+/// 1/100 where it is sampled, which takes time by its volume.
+double usual_tolerance(const Geometry& shape);
+
+}  // namespace icome::world
