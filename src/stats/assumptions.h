@@ -1,0 +1,33 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+
+namespace icome::stats {
+
+/// A test that variances are equal. It speaks against that when p is small.
+struct VarianceTest {
+  double statistic = 0.0;  // F, or Bartlett's K squared
+  double df = 0.0;         // groups less 1
+  double error_df = 0.0;   // of F; 0 for Bartlett's
+  double p = 1.0;
+};
+
+/// Analysis of variance of the distances from each group's mean (Levene 1960). At least two groups of two
+/// finite values, not all of the same distance.
+base::Result<VarianceTest> levene_test(const std::vector<std::vector<double>>& groups);
+/// The same from each group's median (Brown and Forsythe 1974): keeps its level for skewed data.
+base::Result<VarianceTest> brown_forsythe_test(const std::vector<std::vector<double>>& groups);
+/// Bartlett's (1937): for normal data only. Each group with some variance.
+base::Result<VarianceTest> bartlett_test(const std::vector<std::vector<double>>& groups);
+
+struct ShapiroWilk {
+  double w = 1.0;  // near 1 for normal data
+  double p = 1.0;
+};
+/// Are values normally distributed? (Shapiro and Wilk 1965; coefficients and p by Royston 1995, AS R94.)
+/// 3 to 5000 finite values, not all the same.
+base::Result<ShapiroWilk> shapiro_wilk(std::span<const double> values);
+
+}  // namespace icome::stats
