@@ -1,8 +1,10 @@
 #include "render/canvas.h"
 
+#include <cairo-svg.h>
 #include <cairo.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -73,6 +75,11 @@ std::size_t character_length(std::string_view text) {
   return code < kSmallest[length] || code > 0x10ffff || surrogate ? 0 : length;
 }
 
+cairo_status_t append_to_text(void* text, const unsigned char* bytes, unsigned int count) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
 }  // namespace
 
 std::string printable(std::string_view text) {
@@ -89,12 +96,12 @@ std::string printable(std::string_view text) {
 struct Canvas::Page {
   cairo_surface_t* surface;
   cairo_t* cairo;
-  double scale;
+  double width;                      // page units
+  double height;                     // page units
+  std::unique_ptr<std::string> svg;  // where the surface writes; null of a page with pixels
 
-  Page(int width, int height, double pixels_a_unit)
-      : surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height)),
-        cairo(cairo_create(surface)),
-        scale(pixels_a_unit) {}
+  Page(cairo_surface_t* made, double wide, double high, std::unique_ptr<std::string> text)
+      : surface(made), cairo(cairo_create(surface)), width(wide), height(high), svg(std::move(text)) {}
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
   ~Page() {
@@ -103,8 +110,7 @@ struct Canvas::Page {
   }
 };
 
-Canvas::Canvas(int width, int height, double scale) : page_(std::make_unique<Page>(width, height, scale)) {
-  cairo_scale(page_->cairo, scale, scale);
+Canvas::Canvas(std::unique_ptr<Page> page) : page_(std::move(page)) {
   cairo_set_line_join(page_->cairo, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(page_->cairo, CAIRO_LINE_CAP_ROUND);
   // Letters keep their shape at any scale, so that a picture of twice the size is the same picture.
@@ -114,13 +120,29 @@ Canvas::Canvas(int width, int height, double scale) : page_(std::make_unique<Pag
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_set_font_options(page_->cairo, options);
   cairo_font_options_destroy(options);
+}
+
+Canvas::Canvas(int width, int height, double scale)
+    : Canvas(std::make_unique<Page>(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height),
+                                    width / scale, height / scale, nullptr)) {
+  cairo_scale(page_->cairo, scale, scale);
   fill({0.0, 0.0, width / scale, height / scale}, {1.0, 1.0, 1.0});
 }
 
+Canvas Canvas::of_lines(double width, double height) {
+  auto text = std::make_unique<std::string>();
+  cairo_surface_t* surface = cairo_svg_surface_create_for_stream(append_to_text, text.get(), width, height);
+  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  Canvas canvas(std::make_unique<Page>(surface, width, height, std::move(text)));
+  canvas.fill({0.0, 0.0, width, height}, {1.0, 1.0, 1.0});
+  return canvas;
+}
+
+Canvas::Canvas(Canvas&&) noexcept = default;
 Canvas::~Canvas() = default;
 
-double Canvas::width() const { return cairo_image_surface_get_width(page_->surface) / page_->scale; }
-double Canvas::height() const { return cairo_image_surface_get_height(page_->surface) / page_->scale; }
+double Canvas::width() const { return page_->width; }
+double Canvas::height() const { return page_->height; }
 
 void Canvas::fill(const Area& area, const Colour& colour) {
   set_colour(page_->cairo, colour);
@@ -221,6 +243,7 @@ void Canvas::clip(const Area& area) {
 void Canvas::unclip() { cairo_restore(page_->cairo); }
 
 Image Canvas::snapshot() const {
+  assert(!page_->svg);
   cairo_surface_flush(page_->surface);
   Image out{
       cairo_image_surface_get_width(page_->surface), cairo_image_surface_get_height(page_->surface), {}};
@@ -237,6 +260,12 @@ Image Canvas::snapshot() const {
     }
   }
   return out;
+}
+
+std::string Canvas::svg() {
+  assert(page_->svg);
+  cairo_surface_finish(page_->surface);
+  return *page_->svg;
 }
 
 std::string fitted(const Canvas& canvas, std::string_view text, const TextStyle& style, double width) {

@@ -35,11 +35,15 @@ struct TextStyle {
   double turn = 0.0;   ///< rad, counter-clockwise
 };
 
-/// A white page to draw and write on. Owns its pixels; `scale` pixels make one page unit.
+/// A white page to draw and write on. Owns its pixels, or what was drawn where it has none; `scale` pixels
+/// make one page unit.
 class Canvas {
  public:
   /// Sides in pixels, 1 ... 32767 each; scale > 0.
   Canvas(int width, int height, double scale);
+  /// A page without pixels, which svg() gives; sides in page units.
+  static Canvas of_lines(double width, double height);
+  Canvas(Canvas&&) noexcept;
   ~Canvas();
 
   double width() const;   ///< page units
@@ -67,11 +71,16 @@ class Canvas {
   void clip(const Area& area);
   void unclip();
 
-  /// What was drawn so far.
+  /// What was drawn so far. Of a page with pixels only.
   Image snapshot() const;
+  /// What was drawn as an SVG file in which letters are shapes, so that it needs no font; a page unit is a
+  /// pixel of CSS. Of a page without pixels only, which takes nothing more then.
+  std::string svg();
 
  private:
   struct Page;
+  explicit Canvas(std::unique_ptr<Page> page);
+
   std::unique_ptr<Page> page_;
 };
 

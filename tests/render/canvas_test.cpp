@@ -51,6 +51,21 @@ TEST(Canvas, SurvivesLinesThatLeaveThePageByFar) {
   EXPECT_EQ(canvas.snapshot().pixel(50, 50)[0], 0);
 }
 
+TEST(Canvas, WritesWhatWasDrawnAsSvg) {
+  Canvas canvas = Canvas::of_lines(200, 100);
+  EXPECT_EQ(canvas.width(), 200);
+  EXPECT_EQ(canvas.height(), 100);
+  canvas.fill({10, 20, 30, 40}, {1, 0, 0});
+  canvas.text({10, 90}, "time (s)", {});
+  const std::string svg = canvas.svg();
+  EXPECT_TRUE(svg.starts_with("<?xml")) << svg.substr(0, 60);
+  EXPECT_NE(svg.find("viewBox=\"0 0 200 100\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_NE(svg.find("width=\"200px\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_NE(svg.find("fill:rgb(100%,0%,0%)"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_EQ(svg.find("font-family"), std::string::npos);
+}
+
 TEST(Fitted, CutsLongTextWithAnEllipsis) {
   const Canvas canvas(100, 100, 1.0);
   const TextStyle style;
