@@ -8,6 +8,8 @@
 
 #include "apps/desktop_command.h"
 #include "apps/help_text.h"
+#include "apps/stats_command.h"
+#include "apps/stats_help.h"
 #include "base/version.h"
 
 namespace icome::apps {
@@ -25,6 +27,7 @@ struct Entries {
   ShotOptions shot;
   std::string shot_size;
   std::string shot_background;
+  StatsOptions stats;
   TechniquesOptions techniques;
   DesktopCommandOptions desktop;
   TouchOptions touch;
@@ -324,11 +327,29 @@ base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptio
   return options;
 }
 
-/// The subcommand that the first word names; null when it names none.
-const CLI::App* named_subcommand(const CLI::App& app, int argc, char** argv) {
-  const auto named =
-      app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->check_name(argv[1]); });
+/// The subcommand that the word at `place` names; null when it names none.
+const CLI::App* named_subcommand(const CLI::App& app, int place, int argc, char** argv) {
+  const auto named = app.get_subcommands(
+      [&](const CLI::App* command) { return argc > place && command->check_name(argv[place]); });
   return named.empty() ? nullptr : named.front();
+}
+
+/// "stats anova ": the words that name the subcommand, and its own subcommand where it has such.
+std::string path_of(const CLI::App& named, int argc, char** argv) {
+  const CLI::App* const within = named_subcommand(named, 2, argc, argv);
+  return named.get_name() + " " + (within != nullptr ? within->get_name() + " " : "");
+}
+
+/// "choose from describe, anova, ...": why a command with commands of its own goes no further; empty where
+/// one of these, or an option, is named.
+std::string no_such_test(const CLI::App& named, int argc, char** argv) {
+  const auto all = named.get_subcommands([](const CLI::App*) { return true; });
+  if (all.empty() || named_subcommand(named, 2, argc, argv) != nullptr) return {};
+  if (argc > 2 && argv[2][0] == '-') return {};
+  std::string names;
+  for (const CLI::App* const command : all) names += (names.empty() ? "" : ", ") + command->get_name();
+  return argc > 2 ? fmt::format("there is no test \"{}\"; choose from {}.", argv[2], names)
+                  : fmt::format("say which test: {}.", names);
 }
 
 }  // namespace
@@ -365,11 +386,15 @@ CommandLine parse_command_line(int argc, char** argv) {
   CLI::App& techniques = *app.add_subcommand("techniques", kTechniquesSummary);
   techniques.footer(kTechniquesExamples);
   add_techniques_options(techniques, entries.techniques);
-  const CLI::App* const named = named_subcommand(app, argc, argv);
+  CLI::App& stats = *app.add_subcommand("stats", kStatsSummary);
+  add_stats_options(stats, entries.stats);
+  const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
     return bad_usage(fmt::format("there is no command and no file \"{}\".", argv[1]), "icome --help");
-  const std::string help = named != nullptr ? "icome " + named->get_name() + " --help" : "icome --help";
+  const std::string help = fmt::format("icome {}--help", named != nullptr ? path_of(*named, argc, argv) : "");
+  if (named != nullptr)
+    if (const std::string why = no_such_test(*named, argc, argv); !why.empty()) return bad_usage(why, help);
   CommandLine command_line;
   try {
     app.parse(argc, argv);
@@ -399,6 +424,9 @@ CommandLine parse_command_line(int argc, char** argv) {
     auto options = understood_shot(entries);
     if (!options) return bad_usage(options.error().message, help);
     command_line.shot = std::move(*options);
+  } else if (stats.parsed()) {
+    if (const std::string why = misfit(entries.stats); !why.empty()) return bad_usage(why, help);
+    command_line.stats = std::move(entries.stats);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

@@ -32,12 +32,14 @@ constexpr const char* kProgramExamples =
     "                                              model by script: every tool is an operation\n"
     "  icome shot house.wrl house.png --view iso   a picture of a design\n"
     "  icome techniques --picture techniques.png   which way of selecting is quick, by simulated people\n"
+    "  icome stats anova times.csv --response time --factor interface\n"
+    "                                              whether a difference between interfaces is chance\n"
     "\n"
     "The window needs a display. Without one, icome touch touches a design and icome shot draws it.\n"
     "\n"
     "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
     "icome convert --help about designs, icome edit --help about changing them, icome shot --help about\n"
-    "pictures, icome techniques --help about ways of interaction.";
+    "pictures, icome techniques --help about ways of interaction, icome stats --help about statistics.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";

@@ -1,0 +1,50 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vector.h"
+
+namespace icome::apps {
+
+/// How a result is drawn.
+enum class ChartKind {
+  Box,          // quartiles, values and means of groups
+  Bars,         // means of groups with confidence intervals
+  Interaction,  // means joined by lines, a line a series
+  Scatter,      // two quantities, with the line of least squares and its confidence band
+  Matrix,       // correlations of each with each
+  Shares,       // counts as shares, a bar a group
+  Curve,        // power over sample size
+};
+
+/// What a chart shows, in the words and units of the data.
+struct StatsChart {
+  ChartKind kind = ChartKind::Box;
+  std::string title;
+  std::string x_label, y_label;
+  std::string series_label;                              // over the legend
+  std::vector<std::string> groups;                       // along x
+  std::vector<std::string> series;                       // by colour; one of them: no legend
+  std::vector<std::vector<std::vector<double>>> values;  // [series][group]; of Shares one count each
+  std::vector<base::Vector2> points;                     // of Scatter and Curve
+  bool line = true;                                      // of Scatter
+  std::vector<base::Vector2> marks;                      // of Curve, ringed
+  Eigen::MatrixXd matrix, p;                             // of Matrix; named by `groups`
+  double confidence = 0.95;                              // of intervals and bands
+};
+
+/// What may follow --plot-kind, in the order of ChartKind.
+inline constexpr const char* kChartKinds[] = {"box",    "bars",   "interaction", "scatter",
+                                              "matrix", "shares", "curve"};
+
+/// Writes the chart: .svg, or .png of 1920 x 1280 pixels. Fails for another ending, for more groups or series
+/// than a page can show, and when the file cannot be written.
+base::Result<void> write_chart(const StatsChart& chart, const std::filesystem::path& out);
+
+/// Whether the path ends in .svg or .png.
+bool is_chart_name(const std::filesystem::path& out);
+
+}  // namespace icome::apps

@@ -1,0 +1,71 @@
+#include "apps/stats_command.h"
+
+#include <fmt/format.h>
+
+#include "apps/design_work.h"
+#include "apps/stats_report.h"
+#include "apps/stats_text.h"
+#include "base/utf8.h"
+
+namespace icome::apps {
+namespace {
+
+using Reporter = base::Result<StatsReport> (*)(const StatsOptions&);
+
+/// A subcommand and what answers it.
+struct StatsTest {
+  const char* name;
+  Reporter report;
+};
+
+constexpr StatsTest kStatsTests[] = {
+    {"describe", report_describe},   {"anova", report_anova},          {"ttest", report_t_test},
+    {"wilcoxon", report_wilcoxon},   {"kruskal", report_kruskal},      {"friedman", report_friedman},
+    {"chisq", report_chi_squared},   {"fisher", report_fisher},        {"mcnemar", report_mcnemar},
+    {"pearson", report_correlation}, {"spearman", report_correlation}, {"tukey", report_post_hoc},
+    {"power", report_power},
+};
+
+base::Result<StatsReport> answered(const StatsOptions& options) {
+  for (const StatsTest& test : kStatsTests)
+    if (options.test == test.name) return test.report(options);
+  return base::fail(fmt::format("there is no test \"{}\".", options.test));
+}
+
+std::string whole_answer(StatsReport& report, bool json) {
+  if (!json) return base::as_utf8(report.text + notes_text(report.warnings));
+  report.json["warnings"] = StatsJson::array();
+  for (const std::string& warning : report.warnings)
+    report.json["warnings"].push_back(base::as_utf8(warning));
+  return report.json.text();
+}
+
+}  // namespace
+
+std::string misfit(const StatsOptions& options) {
+  if (!options.plot.empty() && !is_chart_name(options.plot))
+    return fmt::format("--plot {} ends neither in .svg nor in .png.", options.plot.string());
+  if (options.plot.empty() && !options.plot_kind.empty()) return "--plot-kind goes with --plot.";
+  if (!options.plot.empty() && options.plot == options.data)
+    return "the plot would replace the data; give another name.";
+  if (!(options.confidence > 0.0 && options.confidence < 1.0))
+    return fmt::format("--confidence is {:g}; choose a number between 0 and 1, such as 0.95.",
+                       options.confidence);
+  if (options.test != "power" && options.data.empty() == options.counts.empty())
+    return options.data.empty() ? "give a table of data, as icome stats anova data.csv."
+                                : "--counts goes without a table of data.";
+  return {};
+}
+
+int run_stats(const StatsOptions& options) {
+  StatusLine status;
+  auto report = answered(options);
+  if (!report) return end_without_result(report.error(), status);
+  if (report->chart) {
+    const auto written = write_chart(*report->chart, options.plot);
+    if (!written) return end_without_result(written.error(), status);
+  }
+  return print_answer(whole_answer(*report, options.json));
+}
+
+}  // namespace icome::apps

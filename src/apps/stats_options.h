@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace icome::apps {
+
+/// What a person asked `icome stats` for, as the command line says it; each test takes what concerns it.
+struct StatsOptions {
+  std::string test;  // the subcommand: "anova"
+  std::filesystem::path data;
+  std::string response;
+  std::vector<std::string> factors, within, measured, columns;
+  std::string subject, weight;
+  std::string counts;            // "63,180/16,180": in place of data
+  std::vector<double> expected;  // shares
+  int type = 2;                  // of sums of squares
+  bool no_interactions = false;
+  bool paired = false;
+  bool pooled = false;
+  bool yates = false;
+  std::string method;  // "tukey", "holm"
+  std::string alternative = "two-sided";
+  double mean = 0.0;
+  double confidence = 0.95;
+
+  // Of power.
+  std::string of;
+  double effect = 0.0;
+  double count = 0.0;
+  double power = 0.0;
+  double alpha = 0.05;
+  double groups = 2.0;
+  double df = 1.0;
+
+  std::filesystem::path plot;
+  std::string plot_kind;
+  bool json = false;
+};
+
+}  // namespace icome::apps

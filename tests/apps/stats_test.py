@@ -1,0 +1,376 @@
+"""`icome stats` describes tables, tests them and draws the results. Expected numbers are R 4.2's where not said otherwise."""
+import json
+import math
+import re
+import struct
+import unittest
+
+from icome_program import SHARED_MESHES, ProgramTest, run
+
+SHARED = SHARED_MESHES.parent / "stats"
+NIST = SHARED / "nist-strd-anova"
+R_DATA = SHARED / "r-datasets"
+
+# R's PlantGrowth: weight by group.
+PLANTS = {
+    "ctrl": (4.17, 5.58, 5.18, 6.11, 4.50, 4.61, 5.17, 4.53, 5.33, 5.14),
+    "trt1": (4.81, 4.17, 4.41, 3.59, 5.87, 3.83, 6.03, 4.89, 4.32, 4.69),
+    "trt2": (6.31, 5.12, 5.54, 5.50, 5.37, 5.29, 4.92, 6.15, 5.80, 5.26),
+}
+# R's sleep: hours more of sleep of ten people with two drugs (Student 1908).
+SLEEP = ((0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0), (1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4))
+
+
+def png_size(data):
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", data[16:24])
+
+
+class StatsTest(ProgramTest):
+    def plants(self, extra=""):
+        rows = "".join(f"{value},{group}\n" for group, values in PLANTS.items() for value in values)
+        return self.write("plants.csv", "weight (g),group\n" + rows + extra)
+
+    def sleep(self):
+        rows = (f"{value},{drug + 1},{person}\n" for drug in (0, 1) for person, value in enumerate(SLEEP[drug]))
+        return self.write("sleep.csv", "extra,drug,person\n" + "".join(rows))
+
+    def answer(self, *arguments):
+        return json.loads(self.succeeds("stats", *arguments, "--json").stdout)
+
+    def close(self, actual, expected, digits=9):
+        self.assertTrue(math.isclose(actual, expected, rel_tol=10.0 ** -digits, abs_tol=1e-300), f"{actual} {expected}")
+
+    # ------------------------------------------------------------ analysis of variance
+
+    def test_anova_keeps_its_contract(self):
+        report = self.answer("anova", self.plants(), "--response", "weight (g)", "--factor", "group")
+        (term,) = report["table"]
+        self.assertEqual(term["term"], "group")
+        self.assertEqual(term["df"], 2)
+        self.close(term["f"], 4.8460878623801333)
+        self.close(term["p"], 0.0159099583256229)
+        self.close(term["ss"], 3.7663399999999969)
+        self.close(term["ms"], 3.76634 / 2)
+        self.close(report["residual"]["ss"], 10.49209)
+        self.assertEqual(report["residual"]["df"], 27)
+        self.close(report["residual"]["ms"], 10.49209 / 27)
+        share = 3.76634 / (3.76634 + 10.49209)
+        self.close(term["eta_sq"], share)
+        self.close(term["partial_eta_sq"], share)
+        self.close(term["omega_sq"], (3.76634 - 2 * 10.49209 / 27) / (3.76634 + 10.49209 + 10.49209 / 27))
+        self.assertEqual(report["n"], 30)
+        self.assertEqual(report["warnings"], [])
+        self.close(report["assumptions"]["shapiro_wilk"]["p"], 0.437898595506217, 6)  # shapiro.test of residuals
+        self.close(report["assumptions"]["brown_forsythe"]["f"], 1.11918569487039)  # anova(lm(|x - median| ~ group))
+        self.assertEqual([it["levels"]["group"] for it in report["cells"]], list(PLANTS))
+
+    def test_anova_reads_like_a_paper(self):
+        text = self.succeeds("stats", "anova", self.plants(), "--response", "weight (g)", "--factor", "group").stdout
+        self.assertIn("group: F(2, 27) = 4.85, p = .016, η² = .26, 90 % CI [.03, .43]\n", text)
+        self.assertRegex(text, r"\n +df +SS +MS +F +p +η² +ω²\n  group +2 +3\.766 +1\.883 +4\.85 +\.016 +\.26 +\.20\n")
+        self.assertRegex(text, r"\n  Residual +27 +10\.492 +0\.389\n")
+        self.assertIn("Brown-Forsythe: F(2, 27) = 1.12, p = .341", text)
+        self.assertIn("Shapiro-Wilk: W = .966, p = .438", text)
+
+    def test_missing_values_are_left_out_and_told(self):
+        table = self.plants(extra="NA,ctrl\n,trt1\n5.0,\n")
+        report = self.answer("anova", table, "--response", "weight (g)", "--factor", "group")
+        self.close(report["table"][0]["f"], 4.8460878623801333)
+        self.assertEqual((report["n"], report["missing"]), (30, 3))
+        self.assertTrue(any("3" in warning for warning in report["warnings"]), report["warnings"])
+
+    @unittest.skipUnless(NIST.is_dir(), f"{NIST} is not there")
+    def test_nist_reference_sets_need_no_option(self):
+        files = sorted(NIST.glob("*.dat"))
+        self.assertGreaterEqual(len(files), 5)
+        for file in files:
+            certified = re.search(r"^Between.*?(\d+) +\S+ +\S+ +(\S+)\s*$", file.read_text(), re.M)
+            (term,) = self.answer("anova", file)["table"]
+            self.assertEqual(term["df"], int(certified[1]))
+            self.close(term["f"], float(certified[2]), 9)
+
+    @unittest.skipUnless(R_DATA.is_dir(), f"{R_DATA} is not there")
+    def test_factorial_as_r_has_it(self):
+        table = R_DATA / "warpbreaks.csv"
+        arguments = ("--response", "breaks", "--factor", "wool", "--factor", "tension")
+        terms = {it["term"]: it for it in self.answer("anova", table, *arguments)["table"]}
+        for name, f, p in (("wool", 3.76528836111864162, 0.05821297595955957),
+                           ("tension", 8.49804664835805035, 0.00069262093671343),
+                           ("wool:tension", 4.18906896685105501, 0.02104419072786278)):
+            self.close(terms[name]["f"], f)
+            self.close(terms[name]["p"], p, 8)
+
+    @unittest.skipUnless(R_DATA.is_dir(), f"{R_DATA} is not there")
+    def test_types_of_sums_of_squares_in_unequal_cells(self):
+        lines = (R_DATA / "warpbreaks.csv").read_text().splitlines()
+        without = {1, 2, 20, 33, 34, 35}
+        table = self.write("u.csv", "\n".join(line for i, line in enumerate(lines) if i not in without) + "\n")
+        # Type I by anova(lm), III by drop1 with contr.sum; II of wool against the model of tension alone.
+        for kind, wool in (("1", 609.1875), ("2", 493.593790664308)):
+            terms = self.answer("anova", table, "--response", "breaks", "--factor", "wool", "--factor", "tension",
+                                "--type", kind)["table"]
+            self.close(terms[0]["ss"], wool)
+        terms = self.answer("anova", table, "--response", "breaks", "--factor", "wool", "--factor", "tension",
+                            "--type", "3")["table"]
+        for term, f in zip(terms, (6.45658147128347, 8.84300372231808, 6.06454404917691)):
+            self.close(term["f"], f)
+
+    @unittest.skipUnless(SHARED.is_dir(), f"{SHARED} is not there")
+    def test_repeated_measures_as_ez_anova_has_them(self):
+        table = SHARED / "anova-rm-test-data.csv"
+        terms = self.answer("anova", table, "--response", "DV", "--within", "A", "--within", "B", "--within", "D",
+                            "--subject", "id")["table"]
+        # DATA.md, from the statsmodels test suite, of all rows.
+        expected = {"A": (8.7650709, 0.021087505), "B": (8.4985785, 0.003833921), "D": (20.5076546, 0.002704428),
+                    "A:B": (0.8457797, 0.450021759), "A:D": (21.7593382, 0.002301792),
+                    "B:D": (6.2416695, 0.011536846), "A:B:D": (5.4253359, 0.018010647)}
+        self.assertEqual({it["term"] for it in terms}, set(expected))
+        for it in terms:
+            self.close(it["f"], expected[it["term"]][0], 7)
+            self.close(it["p"], expected[it["term"]][1], 6)
+            self.assertEqual(it["sphericity"] is None, it["df"] == 1)
+            self.assertEqual(set(it["error"]), {"df", "ss", "ms"})
+
+    # ------------------------------------------------------------ two groups, ranks
+
+    def test_t_tests(self):
+        table = self.sleep()
+        asked = (table, "--response", "extra", "--factor", "drug")
+        welch = self.answer("ttest", *asked)
+        self.close(welch["t"], -1.8608134674868531)
+        self.close(welch["df"], 17.7764735161784984)
+        self.close(welch["p"], 0.0793941401873582)
+        self.close(welch["interval"][0], -3.3654832307117104)
+        self.close(welch["interval"][1], 0.2054832307117102)
+        self.close(self.answer("ttest", *asked, "--pooled")["p"], 0.0791867142159382)
+        paired = self.answer("ttest", *asked, "--paired", "--subject", "person")
+        self.close(paired["t"], -4.06212768338203656)
+        self.close(paired["p"], 0.00283289019738427)
+        wide = self.write("wide.csv", "a;b\n" + "".join(f"{a};{b}\n" for a, b in zip(*SLEEP)).replace(".", ","))
+        self.close(self.answer("ttest", wide, "--column", "a", "--column", "b", "--paired")["t"], -4.06212768338203656)
+        one = self.answer("ttest", wide, "--column", "a", "--mean", "0.75")
+        self.assertAlmostEqual(one["t"], 0.0, places=12)  # 0.75 is the mean
+
+    def test_rank_tests(self):
+        report = self.answer("wilcoxon", self.sleep(), "--response", "extra", "--factor", "drug")
+        self.assertEqual((report["u"], report["exact"]), (25.5, False))
+        self.close(report["p"], 0.0693275754336266)
+        report = self.answer("kruskal", self.plants(), "--response", "weight (g)", "--factor", "group")
+        self.close(report["h"], 7.988228749443715)
+        self.close(report["p"], 0.018423755731472)
+        self.assertEqual(len(report["groups"]), 3)
+
+    @unittest.skipUnless(R_DATA.is_dir(), f"{R_DATA} is not there")
+    def test_friedman(self):
+        report = self.answer("friedman", R_DATA / "MASS_immer.csv", "--column", "Y1", "--column", "Y2")
+        self.close(report["chi_squared"], 10.8)
+        self.close(report["p"], 0.00101500094711307)
+
+    # ------------------------------------------------------------ counts
+
+    def test_counts_of_the_thesis(self):
+        # 63 of 243 clicks wrong against 16 of 196: P < .001 (thesis, case study of chapter 6).
+        report = self.answer("chisq", "--counts", "63,180/16,180")
+        self.close(report["chi_squared"], 23.1960111752155)
+        self.close(report["p"], 1.46300471280975e-06)
+        # Depth perception: 14 better, 7 the same, 1 worse of 22: significant at 5 %.
+        report = self.answer("chisq", "--counts", "14,7,1")
+        self.close(report["chi_squared"], 11.54545454545454675)
+        self.close(report["p"], 0.00311126067644443)
+        # Preference: 16 against 6 of 22: significant at 5 %.
+        self.assertLess(self.answer("chisq", "--counts", "16,6")["p"], 0.05)
+        fisher = self.answer("fisher", "--counts", "63,180/16,180")
+        self.close(fisher["p"], 8.35139245511913e-07, 7)
+        self.close(fisher["odds_ratio"], 3.92611837823395, 5)
+        mcnemar = self.answer("mcnemar", "--counts", "794,86/150,570")
+        self.close(mcnemar["chi_squared"], 16.8177966101695)
+        self.close(mcnemar["p"], 4.11456228134594e-05)
+
+    @unittest.skipUnless(R_DATA.is_dir(), f"{R_DATA} is not there")
+    def test_counts_of_a_table(self):
+        report = self.answer("chisq", R_DATA / "HairEyeColor.csv", "--factor", "Hair", "--factor", "Eye", "--weight",
+                             "Freq")
+        self.close(report["chi_squared"], 138.289841626008)
+        self.close(report["p"], 2.32528678709881e-25, 7)
+        self.assertEqual(report["columns"], ["Brown", "Blue", "Hazel", "Green"])
+        self.assertEqual(report["n"], 592)
+
+    def test_before_and_after_may_stand_in_any_order(self):
+        table = self.write("change.csv", "before,after\n" + "yes,no\n" * 6 + "no,yes\n" * 2 + "yes,yes\n" * 3)
+        report = self.answer("mcnemar", table, "--factor", "before", "--factor", "after")
+        self.assertEqual(report["rows"], ["yes", "no"])
+        self.assertEqual(report["observed"], [[3, 6], [2, 0]])
+        self.close(report["exact_p"], 0.2890625)  # binom.test(2, 8)
+
+    # ------------------------------------------------------------ similarities, pairs, power
+
+    @unittest.skipUnless(R_DATA.is_dir(), f"{R_DATA} is not there")
+    def test_correlations(self):
+        table = R_DATA / "mtcars.csv"
+        report = self.answer("pearson", table, "--column", "mpg", "--column", "wt")
+        self.close(report["r"], -8.67659376517228e-01)
+        self.close(report["p"], 1.29395870135052e-10, 8)
+        self.close(report["interval"][0], -9.33826413284994e-01)
+        self.close(report["interval"][1], -7.44087196460113e-01)
+        self.close(report["critical_r"], 0.34937, 4)  # qt(.975, 30) / sqrt(30 + qt(.975, 30)^2)
+        report = self.answer("spearman", table, "--column", "mpg", "--column", "wt")
+        self.close(report["rho"], -8.86422033270298e-01)
+        self.close(report["p"], 1.48759485812743e-11, 7)
+        matrix = self.answer("pearson", table)
+        self.assertEqual(matrix["columns"][:2], ["mpg", "cyl"])
+        place = matrix["columns"].index("wt")
+        self.close(matrix["r"][0][place], -8.67659376517228e-01)
+        self.close(matrix["r"][place][0], -8.67659376517228e-01)
+        self.assertEqual(matrix["n"][0][place], 32)
+
+    def test_pairs_after_tukey_and_holm(self):
+        asked = (self.plants(), "--response", "weight (g)", "--factor", "group")
+        pairs = self.answer("tukey", *asked)["comparisons"]
+        self.assertEqual([(it["first"], it["second"]) for it in pairs],
+                         [("ctrl", "trt1"), ("ctrl", "trt2"), ("trt1", "trt2")])
+        for it, difference, low, high, p in zip(pairs, (-0.371, 0.494, 0.865),
+                                                (-1.062216051410459, -0.197216051410460, 0.173783948589541),
+                                                (0.320216051410458, 1.185216051410457, 1.556216051410458),
+                                                (0.3908711442021247, 0.1979959912997094, 0.0120064239794528)):
+            self.close(it["difference"], difference)
+            self.close(it["interval"][0], low, 7)
+            self.close(it["interval"][1], high, 7)
+            self.close(it["p_adjusted"], p, 7)
+        pairs = self.answer("tukey", *asked, "--method", "holm")["comparisons"]
+        for it, p in zip(pairs, (0.194387880054301, 0.175363350125367, 0.0133777078146164)):
+            self.close(it["p_adjusted"], p)
+
+    def test_power(self):
+        self.close(self.answer("power", "ttest", "--effect", "1", "--n", "20")["power"], 0.868953027724586, 8)
+        report = self.answer("power", "ttest", "--effect", "1", "--power", "0.9")
+        self.assertEqual(report["n"], 23)  # power.t.test: 22.02
+        self.assertGreaterEqual(report["power"], 0.9)
+        self.fails("stats", "power", "ttest", "--effect", "1", code=1, saying="--n")
+
+    def test_describes_with_and_without_outliers(self):
+        table = self.write("t.csv", "time\n" + "\n".join(map(str, (4, 5, 5, 6, 6, 6, 7, 7, 8, 30))) + "\n")
+        (column,) = self.answer("describe", table)["columns"]
+        self.assertEqual((column["n"], column["mean"], column["median"], column["modes"]), (10, 8.4, 6, [6]))
+        self.assertEqual([(it["line"], it["value"]) for it in column["outliers"]], [(11, 30)])
+        self.assertEqual(column["without_outliers"]["mean"], 6)
+        text = self.succeeds("stats", "describe", table).stdout
+        self.assertIn("30.00 (line 11, z = 2.8", text)
+        self.assertIn("without: n = 9, mean 6.00", text)
+
+    # ------------------------------------------------------------ drawings
+
+    def test_every_kind_of_drawing(self):
+        plants = (self.plants(), "--response", "weight (g)", "--factor", "group")
+        two = self.write("two.csv", "x,y,a,b,c\n" + "".join(
+            f"{i},{i * i},{'uvw'[i % 3]},{'pq'[i // 3 % 2]},{(i * 7) % 5}\n" for i in range(24)))
+        factorial = (two, "--response", "x", "--factor", "a", "--factor", "b")
+        drawings = [("anova", *plants), ("anova", *plants, "--plot-kind", "bars"), ("anova", *factorial),
+                    ("anova", *factorial, "--plot-kind", "box"), ("describe", two), ("ttest", two, "--column", "x",
+                    "--column", "y"), ("kruskal", *plants), ("tukey", *plants),
+                    ("chisq", two, "--factor", "a", "--factor", "b"), ("chisq", "--counts", "3,4,5"),
+                    ("pearson", two, "--column", "x", "--column", "y"), ("spearman", two),
+                    ("power", "anova", "--effect", "0.3", "--n", "20", "--groups", "3")]
+        for i, arguments in enumerate(drawings):
+            out = self.folder / f"{i}.png"
+            self.succeeds("stats", *arguments, "--plot", out)
+            self.assertEqual(png_size(out.read_bytes()), (1920, 1280))
+            self.assertGreater(out.stat().st_size, 15_000, arguments)
+        out = self.folder / "plants.svg"
+        self.succeeds("stats", "anova", *plants, "--plot", out)
+        svg = out.read_text()
+        self.assertTrue(svg.startswith("<?xml"))
+        self.assertIn('viewBox="0 0 960 640"', svg)
+        self.assertTrue(svg.rstrip().endswith("</svg>"))
+
+    def test_drawings_that_cannot_be(self):
+        plants = (self.plants(), "--response", "weight (g)", "--factor", "group")
+        self.fails("stats", "anova", *plants, "--plot", self.folder / "a.pdf", code=2, saying=".svg")
+        self.fails("stats", "anova", *plants, "--plot", self.folder / "no" / "a.png", code=1, saying="a.png")
+        self.fails("stats", "anova", *plants, "--plot", self.folder / "a.png", "--plot-kind", "scatter", code=1,
+                   saying="box, interaction, bars")
+        many = self.write("many.csv", "y,g\n" + "".join(f"{i},{i % 70}\n" for i in range(700)))
+        self.fails("stats", "anova", many, "--response", "y", "--factor", "g", "--plot", self.folder / "a.svg", code=1,
+                   saying="60 groups")
+
+    # ------------------------------------------------------------ what goes wrong
+
+    def test_errors_name_what_is_wrong(self):
+        plants = self.plants()
+        anova = ("stats", "anova")
+        self.fails(*anova, plants, "--response", "height", "--factor", "group", code=1,
+                   saying='there is no column "height"; there are "weight (g)", "group"')
+        self.fails(*anova, plants, "--factor", "group", code=1, saying='give --response by name; the columns are')
+        self.fails(*anova, plants, "--response", "weight (g)", code=1, saying="--factor")
+        self.fails(*anova, plants, "--response", "group", "--factor", "weight (g)", code=1, saying='plants.csv:2: "ctrl"')
+        self.fails(*anova, plants, "--response", "weight (g)", "--factor", "weight (g)", code=1, saying="two roles")
+        self.fails(*anova, plants, "--response", "weight (g)", "--within", "group", code=1, saying="--subject")
+        self.fails(*anova, self.folder / "no.csv", code=1, saying="no.csv")
+        self.fails(*anova, self.folder, code=1, saying=str(self.folder))
+        self.fails(*anova, self.write("empty.csv", ""), code=1, saying="empty.csv is empty")
+        self.fails(*anova, self.write("ragged.csv", "a,b\n1,2\n3\n"), code=1, saying="ragged.csv:3: the row has 1 cell")
+        bad = self.write("bad.csv", "y,g\n1,a\ninf,b\n2,b\n")
+        self.fails(*anova, bad, "--response", "y", "--factor", "g", code=1, saying='bad.csv:3: "inf" in the column "y"')
+        one = self.write("one.csv", "y,g\n1,a\n2,a\n")
+        self.fails(*anova, one, "--response", "y", "--factor", "g", code=1, saying="one.csv: ")
+        self.fails("stats", "ttest", plants, "--response", "weight (g)", "--factor", "group", code=1, saying="icome stats anova")
+        self.fails("stats", "ttest", self.sleep(), "--response", "extra", "--factor", "drug", "--paired", code=1, saying="--subject")
+        self.fails("stats", "chisq", "--counts", "3,x", code=1, saying='"x"')
+        self.fails("stats", "chisq", "--counts", "3,4/5", code=1, saying="as many counts")
+
+    def test_wrong_usage(self):
+        done = self.fails("stats", code=2, saying="say which test: describe, anova")
+        self.assertIn("icome stats --help", done.stderr)
+        done = self.fails("stats", "anova", code=2, saying="DATA")
+        self.assertIn("icome stats anova --help", done.stderr)
+        self.fails("stats", "manova", code=2, saying='no test "manova"; choose from describe')
+        self.fails("stats", "anova", self.plants(), "--type", "4", code=2, saying="--type")
+        self.fails("stats", "chisq", code=2, saying="give a table")
+        self.fails("stats", "describe", self.plants(), "--confidence", "95", code=2, saying="0.95")
+        self.fails("stats", "describe", self.plants(), "--plot-kind", "box", code=2, saying="--plot")
+
+    def test_values_without_spread_do_not_end_it(self):
+        table = self.write("flat.csv", "y,g\n1,a\n1,a\n2,b\n2,b\n")
+        report = self.answer("anova", table, "--response", "y", "--factor", "g")
+        self.assertTrue(report["warnings"])
+        self.assertEqual(report["residual"]["ss"], 0)
+
+    def test_nothing_but_missing_values(self):
+        table = self.write("none.csv", "y,g,s\nNA,,\n,NA,1\n.,.,.\n")
+        for test in ("anova", "ttest", "wilcoxon", "kruskal", "tukey"):
+            self.fails("stats", test, table, "--response", "y", "--factor", "g", code=1, saying="none.csv: ")
+        for test in ("friedman", "ttest", "wilcoxon", "pearson"):
+            paired = () if test in ("friedman", "pearson") else ("--paired",)
+            self.fails("stats", test, table, "--column", "y", "--column", "s", *paired, code=1, saying="none.csv: ")
+        self.fails("stats", "anova", table, "--response", "y", "--within", "g", "--subject", "s", code=1,
+                   saying="none.csv: ")
+        for test in ("chisq", "fisher", "mcnemar"):
+            self.fails("stats", test, table, "--factor", "g", code=1, saying="none.csv: ")
+        self.fails("stats", "describe", table, "--column", "y", code=1, saying="none.csv: ")
+
+    def test_text_of_any_kind_is_told_as_it_can_be(self):
+        file = self.folder / "bytes.csv"
+        file.write_bytes(b"y,g\n1,\xff\x1b[31m\n2,\xff\x1b[31m\n4,b\n5,b\n")
+        done = run("stats", "anova", file, "--response", "y", "--factor", "g")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("\x1b", done.stdout)
+        self.answer("anova", file, "--response", "y", "--factor", "g")
+
+    def test_a_million_rows(self):
+        rows = "".join(f"{i * 7919 % 10007},{'abc'[i % 3]}\n" for i in range(1_000_000))
+        report = self.answer("anova", self.write("big.csv", "y,g\n" + rows), "--response", "y", "--factor", "g")
+        self.assertEqual(report["n"], 1_000_000)
+
+    def test_help_names_every_test_and_option(self):
+        text = self.succeeds("stats", "--help").stdout
+        for word in ("describe", "anova", "ttest", "wilcoxon", "kruskal", "friedman", "chisq", "fisher", "mcnemar",
+                     "pearson", "spearman", "tukey", "power", "Exit code", "eta_sq"):
+            self.assertIn(word, text)
+        text = self.succeeds("stats", "anova", "--help").stdout
+        for word in ("--response ", "--factor ", "--within ", "--subject ", "--type ", "--json", "--plot ", "--plot-kind "):
+            self.assertIn(word, text)
+        self.assertRegex(run("--help").stdout, r"\n  stats +\S")
+
+
+if __name__ == "__main__":
+    unittest.main()
