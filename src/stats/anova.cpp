@@ -5,8 +5,8 @@
 #include <array>
 
 #include "stats/anova_table.h"
-#include "stats/f_distribution.h"
 #include "stats/sums.h"
+#include "stats/tails.h"
 
 namespace icome::stats {
 
@@ -60,7 +60,7 @@ base::Result<WelchAnova> welch_anova(std::span<const double> values, const Facto
   WelchAnova result{
       0.0, levels - 1.0, 1.0 / (3.0 * doubt), 0.0, cases->values.size(), cases->missing, cases->warnings};
   result.f = sum(between) / (levels - 1.0) / (1.0 + 2.0 * (levels - 2.0) * doubt);
-  result.p = f_upper_tail(result.f, result.df, result.error_df);
+  result.p = f_above(result.f, result.df, result.error_df);
   return result;
 }
 

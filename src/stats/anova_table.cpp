@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "stats/f_distribution.h"
 #include "stats/sums.h"
+#include "stats/tails.h"
 
 namespace icome::stats {
 namespace {
@@ -26,7 +26,7 @@ void complete_row(AnovaTerm& term, const Anova& anova) {
   const double df = term.df;
   term.ms = term.df > 0 ? term.ss / df : kNone;
   term.f = residual.df > 0 && term.df > 0 ? quotient(term.ms, residual.ms) : kNone;
-  term.p = f_upper_tail(term.f, df, residual.df);
+  term.p = f_above(term.f, df, residual.df);
   term.eta_sq = term.df > 0 ? quotient(term.ss, anova.total_ss) : kNone;
   term.partial_eta_sq = term.df > 0 ? quotient(term.ss, term.ss + residual.ss) : kNone;
   const double excess = term.df > 0 ? term.ss - df * residual.ms : kNone;  // df (F - 1) MSE

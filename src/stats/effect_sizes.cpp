@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "stats/f_distribution.h"
+#include "stats/tails.h"
 
 namespace icome::stats {
 namespace {
@@ -12,9 +12,7 @@ namespace {
 /// The noncentrality at which f or less has the probability; it falls as noncentrality grows. NaN where the
 /// distribution cannot be computed.
 double noncentrality_at(double f, double df, double error_df, double probability) {
-  const auto tail = [&](double noncentrality) {
-    return noncentral_f_lower_tail(f, df, error_df, noncentrality);
-  };
+  const auto tail = [&](double noncentrality) { return noncentral_f_below(f, df, error_df, noncentrality); };
   if (tail(0.0) <= probability) return 0.0;
   double low = 0.0, high = df * f + 1.0;
   while (tail(high) > probability) {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "stats/f_distribution.h"
 #include "stats/model_terms.h"
 #include "stats/subject_table.h"
+#include "stats/tails.h"
 
 namespace icome::stats {
 namespace {
@@ -90,15 +90,15 @@ void complete_repeated_row(RepeatedMeasuresTerm& row, double nothing) {
   row.ms = row.df > 0 ? row.ss / row.df : kNone;
   row.error_ms = row.error_ss / row.error_df;
   row.f = row.ms / row.error_ms;  // infinite over zero, NaN where both are
-  row.p = f_upper_tail(row.f, row.df, row.error_df);
+  row.p = f_above(row.f, row.df, row.error_df);
   row.partial_eta_sq = row.df > 0 ? row.ss / (row.ss + row.error_ss) : kNone;
   row.p_greenhouse_geisser = row.p_huynh_feldt = row.p;
   if (!row.sphericity) return;
   const double gg = row.sphericity->greenhouse_geisser;
-  row.p_greenhouse_geisser = f_upper_tail(row.f, gg * row.df, gg * row.error_df);
+  row.p_greenhouse_geisser = f_above(row.f, gg * row.df, gg * row.error_df);
   // Not std::min, which would take 1 for a NaN.
   const double hf = row.sphericity->huynh_feldt > 1.0 ? 1.0 : row.sphericity->huynh_feldt;
-  row.p_huynh_feldt = f_upper_tail(row.f, hf * row.df, hf * row.error_df);
+  row.p_huynh_feldt = f_above(row.f, hf * row.df, hf * row.error_df);
 }
 
 std::string repeated_term_name(const SubjectTable& table, const Term& between, const Term& within) {

@@ -8,6 +8,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 namespace icome::stats {
 namespace {
@@ -47,8 +48,9 @@ double chi_squared_quantile(double probability, double df) {
 }
 
 double f_above(double f, double df, double error_df) {
-  if (std::isinf(f)) return 0.0;
-  return tail_above(QuietF(df, error_df), f);
+  if (std::isnan(f) || !(df > 0.0) || !(error_df > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (std::isinf(f)) return f > 0.0 ? 0.0 : 1.0;
+  return f > 0.0 ? tail_above(QuietF(df, error_df), f) : 1.0;
 }
 double f_quantile(double probability, double df, double error_df) {
   return quantile(QuietF(df, error_df), probability);
@@ -58,6 +60,12 @@ double beta_quantile(double probability, double a, double b) {
   return quantile(QuietBeta(a, b), probability);
 }
 
+double noncentral_f_below(double f, double df, double error_df, double lambda) {
+  if (!(f >= 0.0) || std::isinf(f) || !(df > 0.0) || !(error_df > 0.0))
+    return std::numeric_limits<double>::quiet_NaN();
+  if (lambda == 0.0) return 1.0 - f_above(f, df, error_df);
+  return cdf(QuietNoncentralF(df, error_df, lambda), f);
+}
 double noncentral_f_above(double f, double df, double error_df, double lambda) {
   if (lambda == 0.0) return f_above(f, df, error_df);
   return tail_above(QuietNoncentralF(df, error_df, lambda), f);

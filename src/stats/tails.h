@@ -12,9 +12,11 @@ double t_above(double t, double df);
 double t_quantile(double probability, double df);
 double chi_squared_above(double x, double df);
 double chi_squared_quantile(double probability, double df);
+/// 0 for infinite f; NaN for a NaN or when a number of degrees of freedom is not above 0.
 double f_above(double f, double df, double error_df);
 double f_quantile(double probability, double df, double error_df);
 double beta_quantile(double probability, double a, double b);
+double noncentral_f_below(double f, double df, double error_df, double lambda);
 double noncentral_f_above(double f, double df, double error_df, double lambda);
 double noncentral_chi_squared_above(double x, double df, double lambda);
 

@@ -4,7 +4,7 @@
 
 #include "anova_test_data.h"
 #include "stats/anova.h"
-#include "stats/f_distribution.h"
+#include "stats/tails.h"
 
 namespace icome::stats {
 namespace {
@@ -15,7 +15,7 @@ using anova_data::expect_digits;
 // P <- function(f, a, b, l) { k <- 0:3000; x <- a*f/(a*f + b); sum(dpois(k, l/2) * pbeta(x, a/2 + k, b/2)) }
 // uniroot(function(l) P(f, a, b, l) - c(.95, .05), c(0, 2000), tol = 1e-13)
 TEST(EffectSizes, IntervalOfNoncentrality) {
-  expect_digits(noncentral_f_lower_tail(4.0, 3.0, 20.0, 10.0), 0.4806192091948, 12);
+  expect_digits(noncentral_f_below(4.0, 3.0, 20.0, 10.0), 0.4806192091948, 12);
   const auto small = noncentrality_interval(4.0, 3.0, 10.0);
   ASSERT_TRUE(small);
   expect_digits(small->low, 0.2394470069615, 9);
@@ -41,7 +41,7 @@ TEST(EffectSizes, ZeroIsInTheIntervalUnlessSignificant) {
   for (const double f : {0.0, 0.3, 2.0, 3.3, 3.4, 10.0}) {
     const auto interval = partial_eta_sq_interval(f, 2.0, 27.0);
     ASSERT_TRUE(interval);
-    EXPECT_EQ(interval->low > 0.0, f_upper_tail(f, 2.0, 27.0) < 0.05) << f;
+    EXPECT_EQ(interval->low > 0.0, f_above(f, 2.0, 27.0) < 0.05) << f;
     EXPECT_LE(interval->low, interval->high);
   }
   EXPECT_EQ(partial_eta_sq_interval(0.0, 2.0, 27.0)->high, 0.0);
@@ -89,12 +89,12 @@ TEST(EffectSizes, TheIntervalHoldsTheShareAsOftenAsItSays) {
 
 TEST(FDistribution, FarTailsAndWhatIsNotThere) {
   // R 4.2: pf(1e4, 3, 20, lower.tail = FALSE), pf(5.2, 2, 1e6, lower.tail = FALSE)
-  expect_digits(f_upper_tail(1e4, 3.0, 20.0), 6.37205408584167e-32, 10);
-  expect_digits(f_upper_tail(5.2, 2.0, 1e6), 0.00551671358964523, 10);
-  EXPECT_EQ(f_upper_tail(0.0, 3.0, 20.0), 1.0);
-  EXPECT_EQ(f_upper_tail(INFINITY, 3.0, 20.0), 0.0);
-  EXPECT_TRUE(std::isnan(f_upper_tail(NAN, 3.0, 20.0)));
-  EXPECT_TRUE(std::isnan(f_upper_tail(2.0, 0.0, 20.0)));
+  expect_digits(f_above(1e4, 3.0, 20.0), 6.37205408584167e-32, 10);
+  expect_digits(f_above(5.2, 2.0, 1e6), 0.00551671358964523, 10);
+  EXPECT_EQ(f_above(0.0, 3.0, 20.0), 1.0);
+  EXPECT_EQ(f_above(INFINITY, 3.0, 20.0), 0.0);
+  EXPECT_TRUE(std::isnan(f_above(NAN, 3.0, 20.0)));
+  EXPECT_TRUE(std::isnan(f_above(2.0, 0.0, 20.0)));
 }
 
 }  // namespace
