@@ -67,7 +67,7 @@ function(icome_script_tests name)
   foreach(script IN LISTS scripts)
     get_filename_component(test ${script} NAME_WE)
     add_test(NAME ${name}/${test} COMMAND python3 -B ${script})
-    set_tests_properties(${name}/${test} PROPERTIES TIMEOUT 300 ENVIRONMENT
+    set_tests_properties(${name}/${test} PROPERTIES TIMEOUT 600 ENVIRONMENT
       "ICOME_PROGRAM=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/icome;ICOME_VERSION=${PROJECT_VERSION}")
   endforeach()
 endfunction()

@@ -5,7 +5,7 @@ import pathlib
 import unittest
 
 from desktop_form import Form, perform
-from desktop_program import DesktopTest, shows_banner, wait_for
+from desktop_program import DEMO, DesktopTest, is_clay, shows_banner, wait_for
 from icome_program import run
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
@@ -97,7 +97,7 @@ class DesktopModelTest(ModelTest):
         self.assertEqual(desktop.wait_end(), 0, desktop.said())
 
 
-class RecordingTest(ModelTest):
+class TechniqueTest(ModelTest):
     @staticmethod
     def command(desktop, words):
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
@@ -105,6 +105,25 @@ class RecordingTest(ModelTest):
         desktop.find_window("Find a Command")
         desktop.type(words)
         desktop.key("Return")
+
+    def test_the_miniature_is_seen(self):
+        desktop = self.start("--theme", "dark", DEMO).open()
+        desktop.wait_title(r"^demo\.wrl - ICOME")
+        desktop.wait_scene("the demo", lambda it: it.share(is_clay) > 0.005)
+        desktop.key("t")
+
+        def low_clay(picture):
+            """How much of the scan's colour is in the lower half, where not the scan is but its copy."""
+            return sum(y > 0.53 * picture.height for _, y in picture.places(is_clay))
+        before = low_clay(desktop.settled_scene())
+        self.command(desktop, "world in miniature")
+        desktop.screen.ask("windowactivate", "--sync", desktop.window)
+        _, _, width, height = desktop.scene_place()
+        desktop.point((0.5 * width, 0.7 * height))
+        desktop.wait_scene("the copy of the scan", lambda it: low_clay(it) > before + 100)
+        self.keep(desktop, "technique-miniature")
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.said())
 
     def test_what_was_recorded_is_done_once_more(self):
         begun, recording, saved = (self.folder / it for it in ("begun.icome", "lamp.recording", "saved.icome"))

@@ -7,6 +7,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -223,6 +224,23 @@ class DesktopTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.screen.close()
+
+    def run(self, result=None):
+        """Once more, on another screen, where it fails: keys and clicks of a hand that runs on a clock of its own now
+        and then meet a window that a busy machine has stopped. What is wrong with the program fails twice."""
+        tried = unittest.TestResult()
+        super().run(tried)
+        if tried.wasSuccessful() and not tried.skipped:
+            result.startTest(self)
+            result.addSuccess(self)
+            result.stopTest(self)
+            return result
+        for _, what in tried.failures + tried.errors:
+            print(f"{self.id()} failed and is tried once more:\n{what}", file=sys.stderr)
+        if not tried.skipped:
+            self.tearDownClass()
+            self.setUpClass()
+        return super().run(result)
 
     def setUp(self):
         holder = tempfile.TemporaryDirectory(prefix="icome-", ignore_cleanup_errors=True)
