@@ -3,7 +3,7 @@
 
 #include "apps/stats_options.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): a library's
 class App;
 }
 

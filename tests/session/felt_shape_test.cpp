@@ -263,10 +263,10 @@ bool follows(const FeltShapePointer& felt, const FeltShapePointer& before) {
   return same;
 }
 
-const auto stays = [](const Vector3& place) { return place; };
-const auto turns_over = [](const Vector3& place) {
-  return Vector3(place.y(), 3.0 + place.z(), (1.0 + 0.2 * place.y()) * place.x());
-};
+Vector3 stays(const Vector3& place) { return place; }
+Vector3 turns_over(const Vector3& place) {
+  return {place.y(), 3.0 + place.z(), (1.0 + 0.2 * place.y()) * place.x()};
+}
 
 TEST(FeltShape, FollowsItsVerticesToWhereItWouldBeMadeAnew) {
   const Matrix3 stretch = Vector3(1.0, 2.0, -1.5).asDiagonal();
