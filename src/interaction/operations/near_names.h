@@ -1,12 +1,8 @@
 #pragma once
-#include <string>
-#include <string_view>
-#include <vector>
+#include "base/near_names.h"
 
 namespace icome::interaction {
 
-/// "; did you mean 'extrude'?" for the name that differs from what was said by the fewest letters, or ";
-/// there are a, b, c" where none comes near and they are few. Empty where neither helps.
-std::string suggestion(std::string_view said, std::vector<std::string> names);
+using base::suggestion;
 
 }  // namespace icome::interaction

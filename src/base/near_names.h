@@ -1,20 +1,14 @@
-#include "interaction/operations/near_names.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#pragma once
 #include <algorithm>
 #include <numeric>
+#include <string>
+#include <string_view>
+#include <vector>
 
-namespace icome::interaction {
-namespace {
-
-constexpr std::size_t kMostListed = 24;
-/// Longer ones are not compared: nobody mistypes them by a letter, and comparing takes their product.
-constexpr std::size_t kLongestCompared = 64;
+namespace icome::base {
 
 /// Letters to be put in, left out or changed (Levenshtein 1966).
-std::size_t edit_distance(std::string_view one, std::string_view other) {
+inline std::size_t edit_distance(std::string_view one, std::string_view other) {
   std::vector<std::size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -29,9 +23,12 @@ std::size_t edit_distance(std::string_view one, std::string_view other) {
   return row.back();
 }
 
-}  // namespace
-
-std::string suggestion(std::string_view said, std::vector<std::string> names) {
+/// "; did you mean 'extrude'?" for the name that differs from what was said by the fewest letters, or ";
+/// there are a, b, c" where none is near and they are few; else empty.
+inline std::string suggestion(std::string_view said, std::vector<std::string> names) {
+  constexpr std::size_t kMostListed = 24;
+  // Longer ones are not compared: nobody mistypes them by a letter, and comparing takes their product.
+  constexpr std::size_t kLongestCompared = 64;
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   std::erase(names, "");
@@ -45,9 +42,11 @@ std::string suggestion(std::string_view said, std::vector<std::string> names) {
     least = distance;
     nearest = &name;
   }
-  if (nearest) return fmt::format("; did you mean '{}'?", *nearest);
+  if (nearest != nullptr) return std::string("; did you mean '").append(*nearest).append("'?");
   if (names.empty() || names.size() > kMostListed) return {};
-  return fmt::format("; there are {}", fmt::join(names, ", "));
+  std::string list;
+  for (const std::string& name : names) list.append(list.empty() ? "; there are " : ", ").append(name);
+  return list;
 }
 
-}  // namespace icome::interaction
+}  // namespace icome::base
