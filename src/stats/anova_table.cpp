@@ -1,5 +1,7 @@
 #include "stats/anova_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -49,8 +51,9 @@ void add_generalised_eta(Anova& anova, std::span<const Factor> factors) {
 void warn_of_error(Anova& anova) {
   if (anova.residual.df == 0) {
     anova.warnings.push_back(
-        "No degrees of freedom are left for the error, so that there is no F: leave out the highest "
-        "interaction.");
+        fmt::format("No degrees of freedom are left for the error, so that there is no F: {}.",
+                    anova.terms.size() > 1 ? "leave out the highest interaction"
+                                           : "each level has one observation only"));
   } else if (!(anova.total_ss > 0.0)) {
     anova.warnings.push_back("All values are equal: there is nothing to explain.");
   } else if (anova.residual.ss < 1e-10 * anova.total_ss) {

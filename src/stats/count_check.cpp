@@ -9,7 +9,8 @@ namespace icome::stats {
 std::optional<base::Error> count_complaint(std::string_view test, std::span<const double> counts) {
   for (const double count : counts)
     if (!(count >= 0.0 && count <= 1e15) || count != std::floor(count))
-      return base::Error{fmt::format("{}: a count of {} cannot be; give whole numbers from 0", test, count)};
+      return base::Error{
+          fmt::format("{}: a count of {} cannot be; give whole numbers from 0 to 1e15", test, count)};
   return std::nullopt;
 }
 

@@ -52,7 +52,10 @@ base::Result<MeansToCompare> within_groups(std::string_view test,
   design.residual_ms = squares / design.residual_df;
   // Not more than rounding leaves of equal values.
   constexpr double kRounding = 10.0 * std::numeric_limits<double>::epsilon();
-  if (!(std::sqrt(design.residual_ms) > kRounding * largest_mean) || !std::isfinite(squares))
+  if (!std::isfinite(squares))
+    return base::fail(
+        fmt::format("{}: the values are too large to square; give them in a larger unit", test));
+  if (!(std::sqrt(design.residual_ms) > kRounding * largest_mean))
     return base::fail(
         fmt::format("{}: there is no variance within the groups; look at the means instead", test));
   return design;

@@ -108,9 +108,9 @@ std::string repeated_term_name(const SubjectTable& table, const Term& between, c
 }
 
 /// Appends the rows that share the error of one within term (none of them: of subjects) and returns that
-/// error's sum of squares.
-double append_stratum(RepeatedMeasures& result, const SubjectTable& table, const ModelDirections& model,
-                      const Term& within) {
+/// error.
+AnovaResidual append_stratum(RepeatedMeasures& result, const SubjectTable& table,
+                             const ModelDirections& model, const Term& within) {
   const Eigen::MatrixXd scores = table.means * within_contrasts(table.within, within);
   const Eigen::MatrixXd residuals = model.all.without(scores);
   const int error_df = static_cast<int>(scores.rows() - model.all.size());
@@ -145,7 +145,8 @@ double append_stratum(RepeatedMeasures& result, const SubjectTable& table, const
     complete_repeated_row(row, nothing);
     result.terms.push_back(std::move(row));
   }
-  return error_ss;
+  const int df = error_df * static_cast<int>(scores.cols());
+  return {df, error_ss, error_ss / df};
 }
 
 bool is_row_measured(const RepeatedMeasuresTerm& row, const SubjectTable& table) {
@@ -168,6 +169,22 @@ void add_generalised_etas(RepeatedMeasures& result, const SubjectTable& table, d
   }
 }
 
+/// Shares of the variance of all cells, the differences between subjects included (Olejnik and Algina 2003;
+/// omega: Lakens 2013, partial omega: R's MOTE).
+void add_shares_of_total(RepeatedMeasures& result, const SubjectTable& table) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  result.total_ss = (table.means.array() - table.means.mean()).matrix().squaredNorm();
+  const AnovaResidual& subjects = result.between_subjects;
+  for (RepeatedMeasuresTerm& row : result.terms) {
+    const bool has_share = row.df > 0 && result.total_ss > 0.0;
+    const double excess = has_share ? row.ss - row.df * row.error_ms : kNone;
+    const double other_ss = row.within.empty() ? 0.0 : row.error_ss;  // subjects' is its error otherwise
+    row.eta_sq = has_share ? row.ss / result.total_ss : kNone;
+    row.omega_sq = excess / (result.total_ss + subjects.ms);
+    row.partial_omega_sq = excess / (row.ss + other_ss + subjects.ss + subjects.ms);
+  }
+}
+
 }  // namespace
 
 base::Result<RepeatedMeasures> repeated_measures_anova(std::span<const double> values, const Factor& subject,
@@ -185,12 +202,14 @@ base::Result<RepeatedMeasures> repeated_measures_anova(std::span<const double> v
   result.left_out = table->left_out;
   result.warnings = table->warnings;
   warn_of_groups(result, *table, *model);
-  double error_ss = append_stratum(result, *table, *model, {});
+  result.between_subjects = append_stratum(result, *table, *model, {});
+  double error_ss = result.between_subjects.ss;
   const int factors = static_cast<int>(within.size());
   for (const Term& term : model_terms(factors, factors)) {
-    error_ss += append_stratum(result, *table, *model, term);
+    error_ss += append_stratum(result, *table, *model, term).ss;
   }
   add_generalised_etas(result, *table, error_ss);
+  add_shares_of_total(result, *table);
   return result;
 }
 

@@ -20,8 +20,11 @@ struct RepeatedMeasuresTerm {
   int error_df = 0;  // its own error: of subjects, or of subjects by the within factors in it
   double error_ss = 0.0, error_ms = 0.0;
   double f = 0.0, p = 0.0;               // p: as if spherical
+  double eta_sq = 0.0;                   // SS / total SS
   double partial_eta_sq = 0.0;           // SS / (SS + error SS)
   double generalised_eta_sq = 0.0;       // Olejnik and Algina (2003)
+  double omega_sq = 0.0;                 // (SS - df error MS) / (total SS + subjects' MS)
+  double partial_omega_sq = 0.0;         // the same over SS + error SS + subjects' SS and MS, each once
   std::optional<Sphericity> sphericity;  // of a within part with more than one degree of freedom
   double p_greenhouse_geisser = 0.0;     // with both degrees of freedom times epsilon; p where there is none
   double p_huynh_feldt = 0.0;            // the same, epsilon at most 1
@@ -31,6 +34,8 @@ struct RepeatedMeasuresTerm {
 struct RepeatedMeasures {
   SumsOfSquares type = SumsOfSquares::TypeII;
   std::vector<RepeatedMeasuresTerm> terms;  // between-subjects terms first
+  AnovaResidual between_subjects;           // what groups leave of the differences between subjects
+  double total_ss = 0.0;                    // of the cells of all subjects about their grand mean
   std::size_t subjects = 0;                 // that count
   std::size_t observations = 0;             // that count, before averaging
   std::size_t missing = 0;                  // left out: NaN, without a level, or of a subject left out

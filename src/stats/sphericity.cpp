@@ -1,6 +1,7 @@
 #include "stats/sphericity.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
@@ -18,7 +19,8 @@ double mauchly_p(double log_w, double d, double n) {
   const double z = -n * rho * log_w;
   if (!(z >= 0.0) || std::isinf(z)) return std::numeric_limits<double>::quiet_NaN();
   const double p = cdf(complement(boost::math::chi_squared(df), z));
-  return p + second * (cdf(complement(boost::math::chi_squared(df + 4.0), z)) - p);
+  const double corrected = p + second * (cdf(complement(boost::math::chi_squared(df + 4.0), z)) - p);
+  return std::clamp(corrected, 0.0, 1.0);  // with hardly more subjects than d the second term is too large
 }
 
 }  // namespace

@@ -132,6 +132,8 @@ TEST(OneWayAnova, NoErrorOrNoDifferenceAtAll) {
   const Anova single = of({1, 2, 3}, {0, 1, 2});
   EXPECT_TRUE(std::isnan(single.terms[0].f));
   EXPECT_EQ(anova_data::warnings_with(single.warnings, "No degrees of freedom"), 1);
+  EXPECT_EQ(anova_data::warnings_with(single.warnings, "each level has one observation only"), 1);
+  EXPECT_EQ(anova_data::warnings_with(single.warnings, "interaction"), 0);
 }
 
 TEST(OneWayAnova, ErrsAsOftenAsItSays) {

@@ -102,6 +102,7 @@ TEST(PostHoc, RefusesWhatCannotBeCompared) {
   expect_refused(tukey_hsd(Groups{{1, 2}, {}}), "group 2");
   expect_refused(tukey_hsd(Groups{{1}, {2}}), "single value");
   expect_refused(tukey_hsd(Groups{{1, 1}, {2, 2}}), "no variance");
+  expect_refused(tukey_hsd(Groups{{1e308, 2e307}, {2, 3}}), "too large to square");
   expect_refused(tukey_hsd(Groups{{1, 2}, {2, kNotANumber}}), "group 2");
   expect_refused(tukey_hsd(Groups{{1, 2}, {2, 4}}, 1.0), "confidence");
   expect_refused(tukey_hsd({{1, 2}, {3}, 1, 5}), "a count for each");

@@ -137,12 +137,68 @@ RepeatedData every_cell(std::vector<double> values, const std::vector<int>& leve
   return data;
 }
 
+TEST(RepeatedMeasures, SharesOfAllVariance) {
+  // Rows are subjects. By hand: df 3 of subjects, 2 of conditions and 6 of the error.
+  const auto table = analysed(every_cell({1, 2, 5, 3, 4, 6, 4, 6, 7, 6, 6, 8}, {3}));
+  ASSERT_TRUE(table);
+  const double subjects = 27.0, conditions = 56.0 / 3.0, error = 2.0;
+  const double total = subjects + conditions + error;
+  expect_digits(table->total_ss, total, 13);
+  EXPECT_EQ(table->between_subjects.df, 3);
+  expect_digits(table->between_subjects.ss, subjects, 13);
+  const RepeatedMeasuresTerm& row = table->terms[0];
+  expect_digits(row.eta_sq, conditions / total, 13);
+  // Lakens (2013) and R's MOTE (omega.partial.SS.rm), which agree for one factor.
+  const double omega = (conditions - 2.0 * error / 6.0) / (total + subjects / 3.0);
+  expect_digits(row.omega_sq, omega, 13);
+  expect_digits(row.partial_omega_sq, omega, 13);
+}
+
+TEST(RepeatedMeasures, SharesOfNothingAreNone) {
+  const auto table = analysed(every_cell({5, 5, 5, 5, 5, 5}, {2}));
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->total_ss, 0.0);
+  EXPECT_TRUE(std::isnan(table->terms[0].eta_sq));
+  EXPECT_TRUE(std::isnan(table->terms[0].omega_sq));
+  EXPECT_TRUE(std::isnan(table->terms[0].partial_omega_sq));
+}
+
+TEST(Sphericity, PStaysAProbability) {
+  // Hardly more subjects than contrasts, where the second term of Box's series is as large as the first.
+  base::Random random(7);
+  for (int round = 0; round < 200; ++round) {
+    Eigen::MatrixXd residuals(11, 10);
+    for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+      residuals.data()[i] = anova_data::normal_value(random);
+    }
+    residuals.rowwise() -= residuals.colwise().mean().eval();
+    const Sphericity it = sphericity_of(residuals, 10);
+    EXPECT_GE(it.p, 0.0);
+    EXPECT_LE(it.p, 1.0);
+  }
+}
+
 // 9 people, 2 x 3 cells each.
 const std::vector<double> kMixed = {12, 15, 19, 11, 14, 23, 10, 13, 14, 9,  15, 18, 14, 14, 20, 15, 13, 25,
                                     11, 16, 17, 12, 17, 20, 9,  10, 12, 8,  12, 11, 7,  11, 10, 9,  10, 14,
                                     10, 9,  13, 10, 12, 12, 15, 20, 28, 13, 22, 25, 13, 17, 24, 16, 18, 29};
 const std::vector<int> kMixedGroups = {0, 0, 0, 0, 1, 1, 1, 2, 2};
 const std::vector<int> kMixedOtherGroups = {0, 1, 1, 0, 0, 1, 0, 1, 0};
+
+TEST(RepeatedMeasures, PartialOmegaAsMoteHasIt) {
+  // df (MS - error MS) / (SS + error SS + subjects' SS and MS); between subjects these are the error.
+  const auto table = analysed(every_cell(kMixed, {2, 3}, {kMixedGroups}));
+  ASSERT_TRUE(table);
+  const AnovaResidual& people = table->between_subjects;
+  const RepeatedMeasuresTerm& within = row_of(table->terms, "T");
+  expect_digits(
+      within.partial_omega_sq,
+      within.df * (within.ms - within.error_ms) / (within.ss + within.error_ss + people.ss + people.ms), 13);
+  const RepeatedMeasuresTerm& between = row_of(table->terms, "g");
+  EXPECT_EQ(between.error_ss, people.ss);
+  expect_digits(between.partial_omega_sq,
+                between.df * (between.ms - people.ms) / (between.ss + people.ss + people.ms), 13);
+}
 
 TEST(RepeatedMeasures, MixedWithUnequalGroups) {
   const auto table = analysed(every_cell(kMixed, {2, 3}, {kMixedGroups}), SumsOfSquares::TypeI);
