@@ -1,0 +1,50 @@
+#include "study/needs.h"
+
+#include <algorithm>
+#include <array>
+
+namespace icome::study {
+namespace {
+
+// A row becomes available when the program can do it in a trial.
+constexpr std::array kCapabilities = {
+    Capability{"pointer", "a device that points in three dimensions, or the simulated hand", true},
+    Capability{"force-feedback", "a device that gives forces, or the simulated hand", true},
+    Capability{"head-tracking", "a device that tells where the head is", false},
+    Capability{"haptic-menu", "menus in the scene that are clicked or pushed", false},
+    Capability{"stereo", "a picture for each eye", false},
+    Capability{"speech", "commands that are spoken", false},
+};
+
+constexpr std::array<std::string_view, 5> kQuantities = {"time", "approach-time", "homing-time", "distance",
+                                                         "errors"};
+
+void add_unmet(const std::vector<std::string>& needs, const std::string& of, Place place,
+               std::vector<UnmetNeed>& unmet) {
+  for (const std::string& need : needs) {
+    const auto found = std::ranges::find(kCapabilities, need, &Capability::id);
+    if (found != kCapabilities.end() && found->available) continue;
+    const std::string_view what = found == kCapabilities.end() ? "what nobody knows" : found->what;
+    unmet.push_back({need, std::string(what), of, place});
+  }
+}
+
+}  // namespace
+
+std::span<const Capability> capabilities() { return kCapabilities; }
+
+std::span<const std::string_view> measured_quantities() { return kQuantities; }
+
+std::vector<UnmetNeed> unmet_needs(const Study& study) {
+  std::vector<UnmetNeed> unmet;
+  add_unmet(study.needs, "the study", study.needs_place, unmet);
+  for (const IndependentVariable& factor : study.independent)
+    for (const Level& level : factor.levels)
+      add_unmet(level.needs, std::string("level '").append(level.id).append("' of '") + factor.id + "'",
+                level.place, unmet);
+  for (const TrialScene& scene : study.trials.scenes)
+    add_unmet(scene.needs, std::string("scene '").append(scene.id).append("'"), scene.place, unmet);
+  return unmet;
+}
+
+}  // namespace icome::study

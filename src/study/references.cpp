@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "study/conditions.h"
+#include "study/counterbalancing.h"
+#include "study/needs.h"
+#include "study/study_parts.h"
+
+namespace icome::study {
+namespace {
+
+/// Ids that must differ from each other.
+class IdSet {
+ public:
+  IdSet(std::string what, Problems& problems) : what_(std::move(what)), problems_(problems) {}
+  void add(const std::string& id, Place place) {
+    if (id.empty()) return;  // told already
+    if (!seen_.insert(id).second)
+      problems_.add(place, fmt::format("{} '{}' is there twice; name them apart.", what_, id));
+  }
+
+ private:
+  std::string what_;
+  Problems& problems_;
+  std::set<std::string> seen_;
+};
+
+template <typename Part>
+std::vector<std::string> ids_of(const std::vector<Part>& parts) {
+  std::vector<std::string> ids;
+  for (const Part& part : parts) ids.push_back(part.id);
+  return ids;
+}
+
+/// Adds a problem unless `said` is one of the names.
+void check_named(const std::string& said, const std::vector<std::string>& names, const std::string& what,
+                 Place place, Problems& problems) {
+  if (std::ranges::find(names, said) != names.end()) return;
+  const std::string near = base::suggestion(said, names);
+  problems.add(place, fmt::format("{} '{}'{}{}", what, said, near, near.ends_with('?') ? "" : "."));
+}
+
+template <typename Part>
+void check_distinct(const std::vector<Part>& parts, const std::string& what, Problems& problems) {
+  IdSet ids(what, problems);
+  for (const Part& part : parts) ids.add(part.id, part.place);
+}
+
+void check_ids(const Study& study, Problems& problems) {
+  IdSet variables("variable", problems);  // all are columns of one log
+  const auto add_variables = [&](const auto& parts) {
+    for (const auto& part : parts) variables.add(part.id, part.place);
+  };
+  add_variables(study.independent);
+  add_variables(study.dependent);
+  add_variables(study.control);
+  add_variables(study.trials.variables);
+  for (const IndependentVariable& factor : study.independent)
+    check_distinct(factor.levels, "level", problems);
+  for (const ControlVariable& control : study.control) check_distinct(control.levels, "level", problems);
+  for (const TrialVariable& variable : study.trials.variables)
+    check_distinct(variable.values, "value", problems);
+  check_distinct(study.hypotheses, "hypothesis", problems);
+  check_distinct(study.trials.scenes, "scene", problems);
+  check_distinct(study.questionnaires, "questionnaire", problems);
+  for (const Questionnaire& questionnaire : study.questionnaires) {
+    check_distinct(questionnaire.items, "question", problems);
+    for (const Item& item : questionnaire.items) check_distinct(item.choices, "choice", problems);
+  }
+}
+
+void check_hypothesis(const Study& study, const Hypothesis& hypothesis, Problems& problems) {
+  const std::string of = fmt::format("hypothesis '{}': ", hypothesis.id);
+  if (!hypothesis.dependent.empty())
+    check_named(hypothesis.dependent, ids_of(study.dependent), of + "there is no dependent variable",
+                hypothesis.place, problems);
+  if (hypothesis.factor.empty()) {
+    if (hypothesis.direction != Direction::Differ)
+      problems.add(hypothesis.place, of + "expected compares levels; write the factor that has them.");
+    return;
+  }
+  check_named(hypothesis.factor, ids_of(study.independent), of + "there is no independent variable",
+              hypothesis.place, problems);
+  const auto factor = std::ranges::find(study.independent, hypothesis.factor, &IndependentVariable::id);
+  if (factor == study.independent.end() || hypothesis.direction == Direction::Differ) return;
+  for (const std::string& level : {hypothesis.first, hypothesis.second})
+    if (!level.empty())
+      check_named(level, ids_of(factor->levels), fmt::format("{}'{}' has no level", of, factor->id),
+                  hypothesis.place, problems);
+  if (hypothesis.first == hypothesis.second && !hypothesis.first.empty())
+    problems.add(hypothesis.place, of + "expected compares a level with itself.");
+}
+
+void check_source(const Study& study, const DependentVariable& variable, Problems& problems) {
+  if (variable.from.empty()) return;
+  std::vector<std::string> sources;
+  for (const std::string_view quantity : measured_quantities()) sources.emplace_back(quantity);
+  for (const Questionnaire& questionnaire : study.questionnaires)
+    for (const Item& item : questionnaire.items)
+      sources.push_back(fmt::format("{}.{}", questionnaire.id, item.id));
+  check_named(variable.from, sources, fmt::format("dependent variable '{}': nothing measures", variable.id),
+              variable.place, problems);
+}
+
+void check_counts(const Study& study, Problems& problems) {
+  if (study.independent.empty())
+    problems.add({1, 1}, "the study: nothing is varied; write at least one [[independent]] variable.");
+  if (study.dependent.empty())
+    problems.add({1, 1}, "the study: nothing is measured; write at least one [[dependent]] variable.");
+  if (study.independent.empty()) return;
+  const Place place = study.independent.front().place;
+  const std::size_t conditions = crossing_count(study, false, kMostConditions);
+  if (conditions > kMostConditions)
+    problems.add(place, fmt::format("the within factors have more than {} conditions; vary less at once.",
+                                    kMostConditions));
+  if (crossing_count(study, true, kMostConditions) > kMostConditions)
+    problems.add(place, fmt::format("the between factors have more than {} groups; vary less at once.",
+                                    kMostConditions));
+  if (study.order == OrderMethod::Full && conditions > kMostFullConditions && conditions <= kMostConditions)
+    problems.add(place, fmt::format("{} conditions have too many orders for order = \"full\" (at most {} "
+                                    "conditions); write order = \"latin-square\".",
+                                    conditions, kMostFullConditions));
+}
+
+}  // namespace
+
+void check_references(const Study& study, Problems& problems) {
+  check_ids(study, problems);
+  check_counts(study, problems);
+  for (const DependentVariable& variable : study.dependent) check_source(study, variable, problems);
+  for (const Hypothesis& hypothesis : study.hypotheses) check_hypothesis(study, hypothesis, problems);
+}
+
+}  // namespace icome::study

@@ -1,0 +1,48 @@
+#include "study/templates.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "base/near_names.h"
+#include "study/key_reader.h"
+#include "study/study_texts.h"
+
+namespace icome::study {
+namespace {
+
+struct StudyTemplate {
+  std::string_view name;
+  std::string_view text;
+};
+
+constexpr std::array kTemplates = {
+    StudyTemplate{"blank", kBlankStudy},
+    StudyTemplate{"head-tracking", kHeadTrackingStudy},
+    StudyTemplate{"menu", kMenuSelectionStudy},
+};
+
+/// The text with the first value of `name = "..."` replaced.
+std::string renamed(std::string_view text, const std::string& name) {
+  constexpr std::string_view kBefore = "\nname = \"";
+  const std::size_t begin = text.find(kBefore) + kBefore.size();
+  const std::size_t end = text.find('"', begin);
+  return std::string(text.substr(0, begin)).append(name).append(text.substr(end));
+}
+
+}  // namespace
+
+std::vector<std::string> template_names() {
+  std::vector<std::string> names;
+  for (const StudyTemplate& study : kTemplates) names.emplace_back(study.name);
+  return names;
+}
+
+base::Result<std::string> study_template(std::string_view template_name, const std::string& name) {
+  for (const StudyTemplate& study : kTemplates)
+    if (study.name == template_name) return is_id(name) ? renamed(study.text, name) : std::string(study.text);
+  return base::fail(fmt::format("there is no template '{}'{}", template_name,
+                                base::suggestion(template_name, template_names())));
+}
+
+}  // namespace icome::study

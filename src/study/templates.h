@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace icome::study {
+
+/// What `icome study new` can begin with: "blank", "head-tracking", "menu".
+std::vector<std::string> template_names();
+
+/// The study file of a template, with `name` as the study's name where that is an id. Fails where there is no
+/// such template.
+base::Result<std::string> study_template(std::string_view template_name, const std::string& name);
+
+}  // namespace icome::study

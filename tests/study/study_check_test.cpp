@@ -1,0 +1,113 @@
+#include "study/study_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "study/conditions.h"
+#include "study/needs.h"
+#include "study/study_reader.h"
+#include "study/templates.h"
+
+namespace icome::study {
+namespace {
+
+Study study_of(const char* name) { return read_study(study_template(name, "test").value(), name).value(); }
+
+bool says(const std::vector<Finding>& findings, const std::string& words) {
+  return std::ranges::any_of(
+      findings, [&](const Finding& one) { return one.sentence.find(words) != std::string::npos; });
+}
+
+TEST(StudyCheck, HeadTrackingLacksItsDevice) {
+  const StudyCheck check = check_study(study_of("head-tracking"));
+  EXPECT_EQ(check.conditions, 2U);
+  EXPECT_EQ(check.groups, 1U);
+  EXPECT_EQ(check.balanced_by, 2U);
+  EXPECT_EQ(check.trials, 16U);  // 4 scenes, twice, in both conditions
+  ASSERT_EQ(check.reasons.size(), 1U);
+  EXPECT_TRUE(says(check.reasons, "level 'tracked' of 'viewpoint' needs head-tracking"));
+  EXPECT_GT(check.reasons[0].place.line, 0U);
+  EXPECT_TRUE(
+      says(check.warnings, "no file shows what these scenes are: 'room-1', 'room-2', 'room-3', 'room-4'"));
+  // power.t.test(n = 22, delta = 0.5, sd = 1, type = "paired", strict = TRUE) in R 4.2.
+  ASSERT_EQ(check.powers.size(), 3U);
+  EXPECT_NEAR(check.powers[0].power, 0.609184804184, 1e-9);
+  EXPECT_EQ(check.powers[0].needed, 34U);
+  EXPECT_TRUE(says(check.warnings, "power 0.61, 34 would with 0.8: 'time', 'distance', 'touches'"));
+}
+
+TEST(StudyCheck, MenusAreNotThereYet) {
+  const StudyCheck check = check_study(study_of("menu"));
+  EXPECT_EQ(check.groups, 2U);
+  EXPECT_EQ(check.conditions, 2U);
+  EXPECT_EQ(check.balanced_by, 4U);
+  EXPECT_EQ(check.trials, 30U);
+  EXPECT_TRUE(says(check.reasons, "the study needs haptic-menu"));
+  EXPECT_FALSE(says(check.warnings, "do not balance"));
+}
+
+TEST(StudyCheck, BlankCanBeRun) {
+  const StudyCheck check = check_study(study_of("blank"));
+  EXPECT_TRUE(check.reasons.empty());
+  // 2 conditions of 13 trials of 9 s, a minute between them, and questions.
+  EXPECT_GT(check.session, 294.0);
+  EXPECT_LT(check.session, 600.0);
+}
+
+TEST(StudyCheck, WeakDesignsAreTold) {
+  Study study = study_of("blank");
+  study.participants = 15;
+  study.order = OrderMethod::LatinSquare;
+  study.consent.clear();
+  study.dependent[0].from.clear();
+  study.trials.practice = 0;
+  study.trials.criterion.reset();
+  study.hypotheses.pop_back();
+  const StudyCheck check = check_study(study);
+  EXPECT_TRUE(says(check.warnings, "15 people do not balance the design: choose a multiple of 2"));
+  EXPECT_TRUE(says(check.warnings, "no consent text"));
+  EXPECT_TRUE(says(check.warnings, "nothing measures 'time'"));
+  EXPECT_TRUE(says(check.warnings, "hypothesis 'faster' is about 'time', which nothing measures"));
+  EXPECT_TRUE(says(check.warnings, "nobody practises"));
+  EXPECT_TRUE(says(check.warnings, "no hypothesis is about 'preference'"));
+  EXPECT_TRUE(check.reasons.empty());
+}
+
+TEST(StudyCheck, TestsMustSuitTheirVariables) {
+  Study study = study_of("blank");
+  study.dependent[0].scale = Scale::Ordinal;
+  study.hypotheses[1].test = study::Test::Anova;
+  EXPECT_TRUE(says(check_study(study).warnings, "compares means of an ordinal variable"));
+  EXPECT_TRUE(says(check_study(study).warnings, "is about a nominal variable"));
+  study.hypotheses[0].test = study::Test::Kruskal;
+  EXPECT_TRUE(says(check_study(study).warnings, "'technique' is within; use friedman"));
+  study.hypotheses[0].test = study::Test::None;
+  EXPECT_TRUE(says(check_study(study).warnings, "has no test"));
+}
+
+TEST(StudyCheck, ConditionsAreCrossedTheLastFactorFastest) {
+  Study study = study_of("blank");
+  study.independent.push_back(study.independent[0]);
+  study.independent[1].levels.push_back({"third", {"Third"}, {}, {}});
+  const auto all = crossings(study, false);
+  ASSERT_EQ(all.size(), 6U);
+  EXPECT_EQ(all[1], (Crossing{0, 1}));
+  EXPECT_EQ(all[3], (Crossing{1, 0}));
+  EXPECT_EQ(crossing_name(study, false, all[5]), "new, third");
+  EXPECT_EQ(crossings(study, true), (std::vector<Crossing>{{}}));
+  EXPECT_EQ(crossing_name(study, true, {}), "all");
+  EXPECT_EQ(crossing_count(study, false, 64), 6U);
+  EXPECT_EQ(crossing_count(study, false, 5), 6U);
+}
+
+TEST(Templates, AreFoundByName) {
+  EXPECT_EQ(template_names().size(), 3U);
+  EXPECT_EQ(study_template("menus", "x").error().message,
+            "there is no template 'menus'; did you mean 'menu'?");
+  EXPECT_NE(study_template("blank", "mine")->find("\nname = \"mine\""), std::string::npos);
+  EXPECT_NE(study_template("blank", "not an id")->find("\nname = \"blank\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace icome::study
