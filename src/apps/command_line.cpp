@@ -10,6 +10,8 @@
 #include "apps/help_text.h"
 #include "apps/stats_command.h"
 #include "apps/stats_help.h"
+#include "apps/study_command.h"
+#include "apps/study_help.h"
 #include "base/version.h"
 
 namespace icome::apps {
@@ -28,6 +30,7 @@ struct Entries {
   std::string shot_size;
   std::string shot_background;
   StatsOptions stats;
+  StudyOptions study;
   TechniquesOptions techniques;
   DesktopCommandOptions desktop;
   TouchOptions touch;
@@ -342,14 +345,15 @@ std::string path_of(const CLI::App& named, int argc, char** argv) {
 
 /// "choose from describe, anova, ...": why a command with commands of its own goes no further; empty where
 /// one of these, or an option, is named.
-std::string no_such_test(const CLI::App& named, int argc, char** argv) {
+std::string no_such_part(const CLI::App& named, int argc, char** argv) {
   const auto all = named.get_subcommands([](const CLI::App*) { return true; });
   if (all.empty() || named_subcommand(named, 2, argc, argv) != nullptr) return {};
   if (argc > 2 && argv[2][0] == '-') return {};
   std::string names;
   for (const CLI::App* const command : all) names += (names.empty() ? "" : ", ") + command->get_name();
-  return argc > 2 ? fmt::format("there is no test \"{}\"; choose from {}.", argv[2], names)
-                  : fmt::format("say which test: {}.", names);
+  const char* const part = named.get_name() == "stats" ? "test" : "command";
+  return argc > 2 ? fmt::format("there is no {} \"{}\"; choose from {}.", part, argv[2], names)
+                  : fmt::format("say which {}: {}.", part, names);
 }
 
 }  // namespace
@@ -388,13 +392,15 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_techniques_options(techniques, entries.techniques);
   CLI::App& stats = *app.add_subcommand("stats", kStatsSummary);
   add_stats_options(stats, entries.stats);
+  CLI::App& study = *app.add_subcommand("study", kStudySummary);
+  add_study_options(study, entries.study);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
     return bad_usage(fmt::format("there is no command and no file \"{}\".", argv[1]), "icome --help");
   const std::string help = fmt::format("icome {}--help", named != nullptr ? path_of(*named, argc, argv) : "");
   if (named != nullptr)
-    if (const std::string why = no_such_test(*named, argc, argv); !why.empty()) return bad_usage(why, help);
+    if (const std::string why = no_such_part(*named, argc, argv); !why.empty()) return bad_usage(why, help);
   CommandLine command_line;
   try {
     app.parse(argc, argv);
@@ -427,6 +433,8 @@ CommandLine parse_command_line(int argc, char** argv) {
   } else if (stats.parsed()) {
     if (const std::string why = misfit(entries.stats); !why.empty()) return bad_usage(why, help);
     command_line.stats = std::move(entries.stats);
+  } else if (study.parsed()) {
+    command_line.study = std::move(entries.study);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

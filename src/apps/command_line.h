@@ -6,6 +6,7 @@
 #include "apps/desktop_options.h"
 #include "apps/shot_options.h"
 #include "apps/stats_options.h"
+#include "apps/study_options.h"
 #include "apps/techniques_options.h"
 #include "apps/touch_options.h"
 
@@ -21,6 +22,7 @@ struct CommandLine {
   std::optional<EditOptions> edit;
   std::optional<ShotOptions> shot;
   std::optional<StatsOptions> stats;
+  std::optional<StudyOptions> study;
   std::optional<TechniquesOptions> techniques;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // what to return when none is: help and version were printed, or an error

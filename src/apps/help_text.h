@@ -34,12 +34,14 @@ constexpr const char* kProgramExamples =
     "  icome techniques --picture techniques.png   which way of selecting is quick, by simulated people\n"
     "  icome stats anova times.csv --response time --factor interface\n"
     "                                              whether a difference between interfaces is chance\n"
+    "  icome study new pointing.toml               begin a user study\n"
     "\n"
     "The window needs a display. Without one, icome touch touches a design and icome shot draws it.\n"
     "\n"
     "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
     "icome convert --help about designs, icome edit --help about changing them, icome shot --help about\n"
-    "pictures, icome techniques --help about ways of interaction, icome stats --help about statistics.";
+    "pictures, icome techniques --help about ways of interaction, icome stats --help about statistics,\n"
+    "icome study --help about user studies.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";

@@ -89,6 +89,21 @@ std::string anova_title(const Anova& anova) {
   return fmt::format("{}: {}", term.term, anova_sentence(term, anova, several));
 }
 
+/// Welch's test beside the table.
+struct WelchPart {
+  StatsJson json;
+  std::string sentence;
+};
+
+base::Result<WelchPart> welch_part(const FactorialData& data) {
+  if (data.factors.size() != 1) return base::fail("--welch is of one --factor.");
+  const auto test = stats::welch_anova(data.values, data.factors.front());
+  if (!test) return tl::unexpected(test.error());
+  return WelchPart{{{"f", test->f}, {"df", test->df}, {"error_df", test->error_df}, {"p", test->p}},
+                   fmt::format("Welch's F({}, {}) = {}, {}", df_text(test->df), df_text(test->error_df),
+                               fixed_text(test->f, 2), p_text(test->p))};
+}
+
 base::Result<Anova> analysed(const FactorialData& data, const StatsOptions& options) {
   if (data.factors.size() == 1) return stats::one_way_anova(data.values, data.factors.front());
   stats::AnovaSettings settings;
@@ -121,13 +136,21 @@ base::Result<StatsReport> report_anova(const StatsOptions& asked) {
   report.text += anova_table_text(*anova) + "\n";
   for (const AnovaTerm& term : anova->terms)
     report.text += fmt::format("  {}: {}\n", term.term, anova_sentence(term, *anova, several));
+  std::string title = anova_title(*anova);
+  if (options.welch) {
+    auto welch = welch_part(*data);
+    if (!welch) return base::fail(fmt::format("{}: {}", table->source(), welch.error().message));
+    title = fmt::format("{}: {}", anova->terms.front().term, welch->sentence);
+    report.text += fmt::format("  {}, whatever the variances\n", title);
+    report.json["welch"] = std::move(welch->json);
+  }
   const bool full_model = !several || !options.no_interactions;
   add_cells(report, *data, options.confidence);
   add_assumptions(report, *data, full_model);
   if (!options.plot.empty()) {
     auto chart = factorial_chart(*data, options);
     if (!chart) return tl::unexpected(chart.error());
-    chart->title = anova_title(*anova);
+    chart->title = std::move(title);
     report.chart = std::move(*chart);
   }
   return report;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/design_work.h"
 #include "apps/stats_report.h"
 #include "apps/stats_text.h"
@@ -23,7 +25,7 @@ constexpr StatsTest kStatsTests[] = {
     {"wilcoxon", report_wilcoxon},   {"kruskal", report_kruskal},      {"friedman", report_friedman},
     {"chisq", report_chi_squared},   {"fisher", report_fisher},        {"mcnemar", report_mcnemar},
     {"pearson", report_correlation}, {"spearman", report_correlation}, {"tukey", report_post_hoc},
-    {"power", report_power},
+    {"binomial", report_binomial},   {"power", report_power},
 };
 
 base::Result<StatsReport> answered(const StatsOptions& options) {
@@ -32,8 +34,21 @@ base::Result<StatsReport> answered(const StatsOptions& options) {
   return base::fail(fmt::format("there is no test \"{}\".", options.test));
 }
 
+/// Whether values of one person are taken for such.
+bool pairs_people(const StatsOptions& options) {
+  if (options.test == "anova") return !options.within.empty();
+  return options.paired || options.test == "friedman";
+}
+
+/// Control characters of headings and levels do not reach the terminal from sentences either.
+std::string without_control_characters(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) < 0x20U && c != '\n') || c == 0x7f; }, ' ');
+  return text;
+}
+
 std::string whole_answer(StatsReport& report, bool json) {
-  if (!json) return base::as_utf8(report.text + notes_text(report.warnings));
+  if (!json) return without_control_characters(base::as_utf8(report.text + notes_text(report.warnings)));
   report.json["warnings"] = StatsJson::array();
   for (const std::string& warning : report.warnings)
     report.json["warnings"].push_back(base::as_utf8(warning));
@@ -48,6 +63,11 @@ std::string misfit(const StatsOptions& options) {
   if (options.plot.empty() && !options.plot_kind.empty()) return "--plot-kind goes with --plot.";
   if (!options.plot.empty() && options.plot == options.data)
     return "the plot would replace the data; give another name.";
+  if (!options.subject.empty() && !pairs_people(options))
+    return fmt::format("--subject goes with {}; without that, each row is taken for another person.",
+                       options.test == "anova" ? "--within" : "--paired");
+  if (!options.within.empty() && (options.no_interactions || options.welch))
+    return fmt::format("{} goes without --within.", options.welch ? "--welch" : "--no-interactions");
   if (!(options.confidence > 0.0 && options.confidence < 1.0))
     return fmt::format("--confidence is {:g}; choose a number between 0 and 1, such as 0.95.",
                        options.confidence);
@@ -60,7 +80,8 @@ std::string misfit(const StatsOptions& options) {
 int run_stats(const StatsOptions& options) {
   StatusLine status;
   auto report = answered(options);
-  if (!report) return end_without_result(report.error(), status);
+  if (!report)
+    return end_without_result({without_control_characters(base::as_utf8(report.error().message))}, status);
   if (report->chart) {
     const auto written = write_chart(*report->chart, options.plot);
     if (!written) return end_without_result(written.error(), status);

@@ -81,6 +81,7 @@ void add_anova(CLI::App& stats, StatsOptions& options) {
       ->type_name("1|2|3")
       ->check(CLI::IsMember({1, 2, 3}));
   command.add_flag("--no-interactions", options.no_interactions, "Main effects of --factor only");
+  command.add_flag("--welch", options.welch, "Of one factor: Welch's test beside it, for unequal variances");
   add_confidence(command, options);
   add_output(command, options, "box|interaction|bars");
 }
@@ -138,6 +139,15 @@ void add_count_tests(CLI::App& stats, StatsOptions& options) {
   add_alternative(fisher, options);
   add_confidence(fisher, options);
   add_output(fisher, options, "shares");
+  CLI::App& binomial = add_test(stats, options, "binomial", kBinomialSummary);
+  add_counts(binomial, options);
+  binomial
+      .add_option("--share", options.share,
+                  "What the share of the first kind is tested against (default 0.5)")
+      ->type_name("SHARE");
+  add_alternative(binomial, options);
+  add_confidence(binomial, options);
+  add_output(binomial, options, "shares");
   CLI::App& mcnemar = add_test(stats, options, "mcnemar", kMcNemarSummary);
   add_counts(mcnemar, options);
   add_output(mcnemar, options, "shares");

@@ -7,6 +7,7 @@
 #include "apps/stats_report.h"
 #include "apps/stats_text.h"
 #include "base/utf8.h"
+#include "stats/binomial_test.h"
 #include "stats/contingency.h"
 #include "stats/fisher_exact.h"
 
@@ -186,6 +187,11 @@ void make_square(Counted& counted) {
   counted.counts = std::move(counts);
 }
 
+stats::Alternative counts_alternative(const StatsOptions& options) {
+  if (options.alternative == "less") return stats::Alternative::Less;
+  return options.alternative == "greater" ? stats::Alternative::Greater : stats::Alternative::TwoSided;
+}
+
 void add_expected(StatsJson& json, const stats::ChiSquared& test) {
   json["w"] = test.w;
   json["expected"] = test.expected;
@@ -193,6 +199,33 @@ void add_expected(StatsJson& json, const stats::ChiSquared& test) {
 }
 
 }  // namespace
+
+base::Result<StatsReport> report_binomial(const StatsOptions& options) {
+  const auto counted = read_counts(options);
+  if (!counted) return tl::unexpected(counted.error());
+  if (counted->counts.size() != 1 || counted->counts.front().size() != 2)
+    return base::fail(fmt::format("{}: a binomial test counts two kinds of one --factor, and there are {}.",
+                                  counted->source, counted->counts.size() * counted->counts.front().size()));
+  stats::BinomialTestSettings settings;
+  settings.probability = options.share;
+  settings.confidence = options.confidence;
+  settings.alternative = counts_alternative(options);
+  const double first = counted->counts[0][0], total = first + counted->counts[0][1];
+  const auto test = stats::binomial_test(first, total, settings);
+  if (!test) return base::fail(fmt::format("{}: {}", counted->source, test.error().message));
+  StatsJson json = {{"test", "binomial"},
+                    {"alternative", options.alternative},
+                    {"share", test->share},
+                    {"null_share", options.share},
+                    {"p", test->p},
+                    {"confidence", options.confidence},
+                    {"interval", {test->interval.low, test->interval.high}}};
+  const std::string sentence = fmt::format(
+      "{:.10g} of {:.10g} are {}: share {}, {} CI [{}, {}], against {:g} {}", first, total,
+      counted->columns.front(), share_text(test->share), percent_text(options.confidence),
+      share_text(test->interval.low), share_text(test->interval.high), options.share, p_text(test->p));
+  return counts_report(*counted, std::move(json), "Binomial test", sentence, options);
+}
 
 base::Result<StatsReport> report_chi_squared(const StatsOptions& options) {
   auto counted = read_counts(options);
@@ -238,9 +271,7 @@ base::Result<StatsReport> report_fisher(const StatsOptions& options) {
   if (two_by_two) {
     stats::FisherExactSettings settings;
     settings.confidence = options.confidence;
-    settings.alternative = options.alternative == "less"      ? stats::Alternative::Less
-                           : options.alternative == "greater" ? stats::Alternative::Greater
-                                                              : stats::Alternative::TwoSided;
+    settings.alternative = counts_alternative(options);
     const auto test = stats::fisher_exact_2x2(counted->counts, settings);
     if (!test) return base::fail(fmt::format("{}: {}", counted->source, test.error().message));
     json["alternative"] = options.alternative;

@@ -21,6 +21,8 @@ constexpr const char* kChiSquaredSummary =
 constexpr const char* kFisherSummary = "The same of two factors, exact, for small counts";
 constexpr const char* kMcNemarSummary =
     "Counts before and after of the same people: do as many change each way?";
+constexpr const char* kBinomialSummary =
+    "Counts of two kinds: is the first one's share as said? Of better and worse it is the sign test";
 constexpr const char* kPearsonSummary =
     "Correlation of two columns with its critical value, or of each with each";
 constexpr const char* kSpearmanSummary = "The same of ranks";
@@ -50,7 +52,8 @@ constexpr const char* kStatsExamples =
     "  anova     table [{term, df, ss, ms, f, p, eta_sq, partial_eta_sq, partial_eta_sq_interval (90 %),\n"
     "            generalised_eta_sq, omega_sq, partial_omega_sq}], residual {df, ss, ms}, total_ss, n,\n"
     "            missing, type, response, cells [{levels, n, mean, sd, mean_interval}], assumptions\n"
-    "            {brown_forsythe and levene {f, df, error_df, p}, shapiro_wilk {w, p, n}}. With --within "
+    "            {brown_forsythe and levene {f, df, error_df, p}, shapiro_wilk {w, p, n}}; with --welch\n"
+    "            welch {f, df, error_df, p}. With --within between_subjects {df, ss, ms}, subjects, and "
     "each\n"
     "            term has error {df, ss, ms}, sphericity {mauchly_w, p, greenhouse_geisser, huynh_feldt,\n"
     "            lower_bound}, p_greenhouse_geisser and p_huynh_feldt, and residual is the last term's "
@@ -63,6 +66,7 @@ constexpr const char* kStatsExamples =
     "  kruskal   h, df, p, epsilon_squared, groups;  friedman  chi_squared, df, p, kendall_w, groups\n"
     "  chisq     chi_squared, df, p, w, cramers_v, observed, expected, residuals\n"
     "  fisher    p, odds_ratio, interval;  mcnemar  chi_squared, df, p, exact_p, odds_ratio\n"
+    "  binomial  share, interval, null_share, p\n"
     "  pearson   r, t, df, p, interval, critical_r;  spearman  rho, s, p, exact; of more than two columns\n"
     "            matrices r (or rho), p and n\n"
     "  tukey     comparisons [{first, second, difference, q or t, df, interval, p_adjusted}]\n"

@@ -20,6 +20,8 @@ struct StatsOptions {
   bool paired = false;
   bool pooled = false;
   bool yates = false;
+  bool welch = false;
+  double share = 0.5;  // of the first kind, under the null hypothesis
   std::string method;  // "tukey", "holm"
   std::string alternative = "two-sided";
   double mean = 0.0;

@@ -95,6 +95,8 @@ StatsChart power_curve(const PowerQuestion& question, double count, double power
 base::Result<StatsReport> report_power(const StatsOptions& options) {
   if ((options.count > 0.0) == (options.power > 0.0))
     return base::fail("give either --n, to learn the power, or --power, to learn how many are needed.");
+  if (!(options.groups >= 0.0 && options.groups <= 1e9) || options.groups != std::floor(options.groups))
+    return base::fail(fmt::format("--groups {:g} is no number of groups; give 2 to 1000.", options.groups));
   const PowerQuestion question = question_of(options);
   double count = options.count;
   if (options.power > 0.0) {

@@ -17,19 +17,6 @@ namespace {
 using stats::RepeatedMeasures;
 using stats::RepeatedMeasuresTerm;
 
-/// The sum of squares of all effects and of their errors, each of these once.
-double all_squares(const RepeatedMeasures& analysis) {
-  double total = 0.0;
-  std::vector<std::vector<int>> strata;
-  for (const RepeatedMeasuresTerm& term : analysis.terms) {
-    total += term.ss;
-    if (std::ranges::find(strata, term.within) != strata.end()) continue;
-    strata.push_back(term.within);
-    total += term.error_ss;
-  }
-  return total;
-}
-
 StatsJson sphericity_json(const RepeatedMeasuresTerm& term) {
   if (!term.sphericity) return nullptr;
   const stats::Sphericity& it = *term.sphericity;
@@ -40,17 +27,18 @@ StatsJson sphericity_json(const RepeatedMeasuresTerm& term) {
           {"lower_bound", it.lower_bound}};
 }
 
-StatsJson repeated_term_json(const RepeatedMeasuresTerm& term, double total) {
+StatsJson repeated_term_json(const RepeatedMeasuresTerm& term) {
   return {{"term", term.term},
           {"df", term.df},
           {"ss", term.ss},
           {"ms", term.ms},
           {"f", term.f},
           {"p", term.p},
-          {"eta_sq", term.ss / total},
+          {"eta_sq", term.eta_sq},
           {"partial_eta_sq", term.partial_eta_sq},
           {"generalised_eta_sq", term.generalised_eta_sq},
-          {"omega_sq", nullptr},
+          {"omega_sq", term.omega_sq},
+          {"partial_omega_sq", term.partial_omega_sq},
           {"error", {{"df", term.error_df}, {"ss", term.error_ss}, {"ms", term.error_ms}}},
           {"sphericity", sphericity_json(term)},
           {"p_greenhouse_geisser", term.p_greenhouse_geisser},
@@ -63,11 +51,12 @@ StatsJson repeated_json(const RepeatedMeasures& analysis, const FactorialData& d
   json["response"] = data.response;
   json["type"] = int(analysis.type) + 1;
   json["table"] = StatsJson::array();
-  const double total = all_squares(analysis);
-  for (const RepeatedMeasuresTerm& term : analysis.terms)
-    json["table"].push_back(repeated_term_json(term, total));
+  for (const RepeatedMeasuresTerm& term : analysis.terms) json["table"].push_back(repeated_term_json(term));
   const RepeatedMeasuresTerm& last = analysis.terms.back();
   json["residual"] = {{"df", last.error_df}, {"ss", last.error_ss}, {"ms", last.error_ms}};
+  const stats::AnovaResidual& people = analysis.between_subjects;
+  json["between_subjects"] = {{"df", people.df}, {"ss", people.ss}, {"ms", people.ms}};
+  json["total_ss"] = analysis.total_ss;
   json["n"] = analysis.observations;
   json["subjects"] = analysis.subjects;
   json["missing"] = analysis.missing;

@@ -28,6 +28,7 @@ base::Result<StatsReport> report_kruskal(const StatsOptions& options);
 base::Result<StatsReport> report_friedman(const StatsOptions& options);
 base::Result<StatsReport> report_chi_squared(const StatsOptions& options);
 base::Result<StatsReport> report_fisher(const StatsOptions& options);
+base::Result<StatsReport> report_binomial(const StatsOptions& options);
 base::Result<StatsReport> report_mcnemar(const StatsOptions& options);
 base::Result<StatsReport> report_correlation(const StatsOptions& options);
 base::Result<StatsReport> report_post_hoc(const StatsOptions& options);

@@ -11,10 +11,23 @@ namespace icome::apps {
 namespace {
 
 const std::string kNoFigure = "-";
+constexpr double kWrittenOut = 1e15;     // numbers below it: digits beyond are not the value's
+constexpr std::size_t kWidestCell = 60;  // letters of a heading or level that the table still bears
 
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
+}
+
+/// Its first letters, with a mark where there are more.
+std::string cut_to_width(std::string text) {
+  if (letters(text) <= kWidestCell) return text;
+  std::size_t end = 0;
+  for (std::size_t count = 0; end < text.size(); ++end) {
+    const bool begins_letter = (static_cast<unsigned char>(text[end]) & 0xc0U) != 0x80U;
+    if (begins_letter && ++count == kWidestCell) break;
+  }
+  return text.substr(0, end) + "\u2026";
 }
 
 /// Control characters of a table's headings and levels do not reach the terminal.
@@ -32,7 +45,7 @@ std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (std::vector<std::string>& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      row[i] = terminal_safe(row[i]);
+      row[i] = cut_to_width(terminal_safe(row[i]));
       widths[i] = std::max(widths[i], letters(row[i]));
     }
   }
@@ -50,6 +63,7 @@ std::string TextTable::text() const {
 
 std::string fixed_text(double value, int decimals) {
   if (std::isnan(value)) return kNoFigure;
+  if (std::isfinite(value) && std::abs(value) >= kWrittenOut) return fmt::format("{:.6g}", value);
   const std::string text = fmt::format("{:.{}f}", value, decimals);
   const bool negative_zero = text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos;
   return negative_zero ? text.substr(1) : text;

@@ -132,6 +132,29 @@ class StatsTest(ProgramTest):
             self.assertEqual(it["sphericity"] is None, it["df"] == 1)
             self.assertEqual(set(it["error"]), {"df", "ss", "ms"})
 
+    def test_welch_beside_the_table(self):
+        # oneway.test(weight ~ group, PlantGrowth)
+        asked = ("anova", self.plants(), "--response", "weight (g)", "--factor", "group", "--welch")
+        report = self.answer(*asked)
+        self.close(report["welch"]["f"], 5.180972408113189)
+        self.close(report["welch"]["error_df"], 17.128418616644129)
+        self.close(report["welch"]["p"], 0.017392821490170001)
+        self.assertEqual(len(report["table"]), 1)
+        self.assertIn("  group: Welch's F(2, 17.13) = 5.18, p = .017", self.succeeds("stats", *asked).stdout)
+
+    def test_shares_of_repeated_measures_count_subjects_too(self):
+        report = self.answer("anova", self.sleep(), "--response", "extra", "--within", "drug", "--subject", "person")
+        (term,) = report["table"]
+        # R's aov(extra ~ drug + Error(person / drug)): 58.078 between people, 12.482 drug, 6.808 error.
+        people = report["between_subjects"]
+        self.close(people["ss"], 58.078)
+        self.assertEqual(people["df"], 9)
+        self.close(report["total_ss"], 77.368)
+        self.close(term["eta_sq"], 12.482 / 77.368)
+        omega = (12.482 - 6.808 / 9) / (77.368 + 58.078 / 9)
+        self.close(term["omega_sq"], omega)
+        self.close(term["partial_omega_sq"], omega)
+
     # ------------------------------------------------------------ two groups, ranks
 
     def test_t_tests(self):
@@ -180,6 +203,13 @@ class StatsTest(ProgramTest):
         self.close(report["p"], 0.00311126067644443)
         # Preference: 16 against 6 of 22: significant at 5 %.
         self.assertLess(self.answer("chisq", "--counts", "16,6")["p"], 0.05)
+        # The same exact, by binom.test(16, 22): also the sign test of 16 better and 6 worse.
+        report = self.answer("binomial", "--counts", "16,6")
+        self.close(report["p"], 0.0524787902832031597)
+        self.close(report["interval"][0], 0.4977787987336510511)
+        self.close(report["share"], 16 / 22)
+        greater = self.answer("binomial", "--counts", "14,6", "--share", "0.4", "--alternative", "greater")
+        self.close(greater["p"], 0.0064658753520349978)
         fisher = self.answer("fisher", "--counts", "63,180/16,180")
         self.close(fisher["p"], 8.35139245511913e-07, 7)
         self.close(fisher["odds_ratio"], 3.92611837823395, 5)
@@ -195,6 +225,14 @@ class StatsTest(ProgramTest):
         self.close(report["p"], 2.32528678709881e-25, 7)
         self.assertEqual(report["columns"], ["Brown", "Blue", "Hazel", "Green"])
         self.assertEqual(report["n"], 592)
+
+    def test_binomial_counts_of_a_table(self):
+        table = self.write("asked.csv", "better\n" + "yes\n" * 14 + "no\n" * 6 + "NA\n")
+        text = self.succeeds("stats", "binomial", table, "--factor", "better").stdout
+        self.assertIn("14 of 20 are yes: share .70, 95 % CI [.46, .88], against 0.5 p = .115\n", text)
+        self.fails("stats", "binomial", "--counts", "1,2,3", code=1, saying="two kinds")
+        self.fails("stats", "binomial", "--counts", "0,0", code=1, saying="trials")
+        self.fails("stats", "binomial", "--counts", "1,2", "--share", "2", code=1, saying="0 to 1")
 
     def test_before_and_after_may_stand_in_any_order(self):
         table = self.write("change.csv", "before,after\n" + "yes,no\n" * 6 + "no,yes\n" * 2 + "yes,yes\n" * 3)
@@ -325,6 +363,18 @@ class StatsTest(ProgramTest):
         self.assertIn("icome stats anova --help", done.stderr)
         self.fails("stats", "manova", code=2, saying='no test "manova"; choose from describe')
         self.fails("stats", "anova", self.plants(), "--type", "4", code=2, saying="--type")
+        sleep = ("stats", "anova", self.sleep(), "--response", "extra")
+        # What one person did twice is not from two people: not silently.
+        self.fails(*sleep, "--factor", "drug", "--subject", "person", code=2, saying="--subject goes with --within")
+        for test in ("ttest", "wilcoxon", "tukey"):
+            self.fails("stats", test, self.sleep(), "--response", "extra", "--factor", "drug", "--subject", "person",
+                       code=2, saying="--subject goes with --paired")
+        for groups in ("2.5", "1e30", "nan", "-1"):
+            self.fails("stats", "power", "anova", "--effect", "0.5", "--n", "9", "--groups", groups, code=1,
+                       saying="groups")
+        for option in ("--welch", "--no-interactions"):
+            self.fails(*sleep, "--within", "drug", "--subject", "person", option, code=2, saying="without --within")
+        self.fails(*sleep, "--factor", "drug", "--factor", "person", "--welch", code=1, saying="one --factor")
         self.fails("stats", "chisq", code=2, saying="give a table")
         self.fails("stats", "describe", self.plants(), "--confidence", "95", code=2, saying="0.95")
         self.fails("stats", "describe", self.plants(), "--plot-kind", "box", code=2, saying="--plot")
@@ -348,6 +398,14 @@ class StatsTest(ProgramTest):
             self.fails("stats", test, table, "--factor", "g", code=1, saying="none.csv: ")
         self.fails("stats", "describe", table, "--column", "y", code=1, saying="none.csv: ")
 
+    def test_tables_stay_readable(self):
+        long = self.write("long.csv", "y,g\n" + "".join(f"{y}e20,{g * 70000}\n" for y, g in ((1, "ä"), (2, "b"), (4, "ä"), (8, "b"))))
+        text = self.succeeds("stats", "anova", long, "--response", "y", "--factor", "g").stdout
+        self.assertLess(max(map(len, text.splitlines())), 200)
+        self.assertIn("ä…", text)
+        text = self.succeeds("stats", "ttest", long, "--response", "y", "--factor", "g").stdout
+        self.assertIn("difference -2.5e+20", text)
+
     def test_text_of_any_kind_is_told_as_it_can_be(self):
         file = self.folder / "bytes.csv"
         file.write_bytes(b"y,g\n1,\xff\x1b[31m\n2,\xff\x1b[31m\n4,b\n5,b\n")
@@ -355,6 +413,14 @@ class StatsTest(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("\x1b", done.stdout)
         self.answer("anova", file, "--response", "y", "--factor", "g")
+        heading = self.write("heading.csv", 'y\x1b[31m,g\n1,\x1b[1mx\n2,\x1b[1mx\n4,b\n5,b\n')
+        for test in ("anova", "ttest", "kruskal", "tukey"):
+            done = run("stats", test, heading, "--response", "y\x1b[31m", "--factor", "g")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("\x1b", done.stdout)
+        level = self.write("level.csv", "y,g\n1,\x1b[31mx\n2,\x1b[31mx\n")
+        done = self.fails("stats", "anova", level, "--response", "y", "--factor", "g", code=1, saying="only the level")
+        self.assertNotIn("\x1b", done.stderr)
 
     def test_a_million_rows(self):
         rows = "".join(f"{i * 7919 % 10007},{'abc'[i % 3]}\n" for i in range(1_000_000))
@@ -364,7 +430,7 @@ class StatsTest(ProgramTest):
     def test_help_names_every_test_and_option(self):
         text = self.succeeds("stats", "--help").stdout
         for word in ("describe", "anova", "ttest", "wilcoxon", "kruskal", "friedman", "chisq", "fisher", "mcnemar",
-                     "pearson", "spearman", "tukey", "power", "Exit code", "eta_sq"):
+                     "binomial", "pearson", "spearman", "tukey", "power", "Exit code", "eta_sq"):
             self.assertIn(word, text)
         text = self.succeeds("stats", "anova", "--help").stdout
         for word in ("--response ", "--factor ", "--within ", "--subject ", "--type ", "--json", "--plot ", "--plot-kind "):

@@ -1,0 +1,106 @@
+"""`icome study` writes study files, says what they mean and what they lack."""
+import json
+import pathlib
+import re
+import unittest
+
+from icome_program import ProgramTest, run
+
+STUDIES = pathlib.Path(__file__).resolve().parents[2] / "data" / "studies"
+
+
+class StudyTest(ProgramTest):
+    def new(self, name, *arguments):
+        file = self.folder / name
+        self.succeeds("study", "new", file, *arguments)
+        return file
+
+    def check(self, file, code=0):
+        done = run("study", "check", file, "--json")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_a_new_study_can_be_run_as_it_is(self):
+        file = self.new("pointing.toml")
+        report = self.check(file)
+        self.assertEqual(report["name"], "pointing")
+        self.assertTrue(report["runnable"])
+        self.assertEqual(report["orders"], [[0, 1], [1, 0]])
+        self.assertEqual(report["conditions"], [{"technique": "old"}, {"technique": "new"}])
+        text = self.succeeds("study", "check", file).stdout
+        self.assertIn("2. person: new | old", text)
+        self.assertTrue(text.endswith("It can be run.\n"))
+
+    def test_nothing_is_overwritten(self):
+        file = self.write("mine.toml", "precious")
+        self.fails("study", "new", file, code=1, saying="is there already")
+        self.assertEqual(file.read_text(), "precious")
+        self.fails("study", "new", self.folder / "no" / "x.toml", code=1, saying="cannot be written")
+        self.fails("study", "new", self.folder / "study.txt", code=1, saying=".toml")
+
+    def test_templates_are_the_files_of_data(self):
+        for template, name in (("head-tracking", "head-tracking"), ("menu", "menu-selection"), ("blank", "blank")):
+            file = self.new(name + ".toml", "--template", template)
+            self.assertEqual(file.read_text(), (STUDIES / (name + ".toml")).read_text())
+        self.fails("study", "new", "x.toml", "--template", "menus", code=2, saying="--template")
+
+    def test_head_tracking_says_what_it_needs(self):
+        report = self.check(STUDIES / "head-tracking.toml", code=1)
+        self.assertFalse(report["runnable"])
+        self.assertEqual([reason["line"] > 0 for reason in report["reasons"]], [True])
+        self.assertIn("head-tracking", report["reasons"][0]["sentence"])
+        self.assertEqual(report["participants"], 22)
+        self.assertEqual(report["trials"], 16)
+        self.assertEqual(report["languages"], ["en", "nl"])
+
+    def test_menu_selection_says_what_it_needs(self):
+        report = self.check(STUDIES / "menu-selection.toml", code=1)
+        self.assertIn("haptic-menu", report["reasons"][0]["sentence"])
+        self.assertEqual(report["groups"], [{"interaction": "click"}, {"interaction": "push"}])
+        self.assertEqual(report["balanced_by"], 4)
+        self.assertEqual(report["trials"], 30)
+        self.assertEqual([c["id"] for c in report["control"] if c["balanced"]], ["sex", "age", "experience"])
+        done = run("study", "check", STUDIES / "menu-selection.toml")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("It cannot be run as it is", done.stdout)
+
+    def test_all_mistakes_are_told_with_file_line_and_column(self):
+        file = self.new("bad.toml")
+        file.write_text(file.read_text().replace("measured = 10 ", "measured = 0 ").replace('kind = "within"', 'kind = "inside"')
+                        .replace("participants = 16", "participant = 16"))
+        done = self.fails("study", "check", file, code=1, saying="bad.toml:")
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 3, done.stderr)
+        for line in lines:
+            self.assertRegex(line, r"bad\.toml:\d+:\d+: ")
+        self.assertIn("did you mean 'participants'?", lines[0])
+        self.assertIn("kind cannot be 'inside'", lines[1])
+        self.assertIn("measured is 0", lines[2])
+
+    def test_scenes_must_be_there(self):
+        file = self.new("rooms.toml")
+        file.write_text(file.read_text().replace("[trials]\n", '[trials]\nscenes = [{ id = "a", file = "a.wrl" }, { id = "b", file = "b.wrl" }]\n'))
+        self.write("a.wrl", "#VRML V2.0 utf8\n")
+        (reason,) = self.check(file, code=1)["reasons"]
+        self.assertEqual(reason["sentence"], "scene 'b': there is no file b.wrl beside the study.")
+
+    def test_what_is_no_study_is_told(self):
+        self.fails("study", "check", self.write("a.toml", "[="), code=1, saying="a.toml:1:2")
+        self.fails("study", "check", self.folder / "none.toml", code=1, saying="none.toml")
+        self.fails("study", "check", self.folder, code=1, saying=str(self.folder))
+        self.fails("study", "run", code=2, saying='there is no command "run"; choose from new, check')
+        self.fails("study", code=2, saying="say which command")
+
+    def test_the_hash_is_of_what_is_said(self):
+        file = self.new("one.toml")
+        before = self.check(file)["hash"]
+        self.assertRegex(before, r"^[0-9a-f]{16}$")
+        text = file.read_text()
+        file.write_text(re.sub(r"#.*", "", text))
+        self.assertEqual(self.check(file)["hash"], before)
+        file.write_text(text.replace("seed = 1", "seed = 2"))
+        self.assertNotEqual(self.check(file)["hash"], before)
+
+
+if __name__ == "__main__":
+    unittest.main()
