@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/stats_data.h"
+#include "apps/stats_effects.h"
 #include "apps/stats_factors.h"
 #include "apps/stats_report.h"
 #include "apps/stats_text.h"
@@ -25,18 +26,9 @@ StatsJson effect_interval_json(const AnovaTerm& term, const Anova& anova) {
 }
 
 StatsJson anova_term_json(const AnovaTerm& term, const Anova& anova) {
-  return {{"term", term.term},
-          {"df", term.df},
-          {"ss", term.ss},
-          {"ms", term.ms},
-          {"f", term.f},
-          {"p", term.p},
-          {"eta_sq", term.eta_sq},
-          {"partial_eta_sq", term.partial_eta_sq},
-          {"partial_eta_sq_interval", effect_interval_json(term, anova)},
-          {"generalised_eta_sq", term.generalised_eta_sq},
-          {"omega_sq", term.omega_sq},
-          {"partial_omega_sq", term.partial_omega_sq}};
+  StatsJson json = effect_json(term);
+  json["partial_eta_sq_interval"] = effect_interval_json(term, anova);
+  return json;
 }
 
 StatsJson anova_json(const Anova& anova, const FactorialData& data) {
@@ -46,7 +38,7 @@ StatsJson anova_json(const Anova& anova, const FactorialData& data) {
   json["type"] = int(anova.type) + 1;
   json["table"] = StatsJson::array();
   for (const AnovaTerm& term : anova.terms) json["table"].push_back(anova_term_json(term, anova));
-  json["residual"] = {{"df", anova.residual.df}, {"ss", anova.residual.ss}, {"ms", anova.residual.ms}};
+  json["residual"] = squares_json(anova.residual.df, anova.residual.ss, anova.residual.ms);
   json["total_ss"] = anova.total_ss;
   json["n"] = anova.n;
   json["missing"] = anova.missing;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/stats_data.h"
+#include "apps/stats_effects.h"
 #include "apps/stats_factors.h"
 #include "apps/stats_report.h"
 #include "apps/stats_text.h"
@@ -28,21 +29,12 @@ StatsJson sphericity_json(const RepeatedMeasuresTerm& term) {
 }
 
 StatsJson repeated_term_json(const RepeatedMeasuresTerm& term) {
-  return {{"term", term.term},
-          {"df", term.df},
-          {"ss", term.ss},
-          {"ms", term.ms},
-          {"f", term.f},
-          {"p", term.p},
-          {"eta_sq", term.eta_sq},
-          {"partial_eta_sq", term.partial_eta_sq},
-          {"generalised_eta_sq", term.generalised_eta_sq},
-          {"omega_sq", term.omega_sq},
-          {"partial_omega_sq", term.partial_omega_sq},
-          {"error", {{"df", term.error_df}, {"ss", term.error_ss}, {"ms", term.error_ms}}},
-          {"sphericity", sphericity_json(term)},
-          {"p_greenhouse_geisser", term.p_greenhouse_geisser},
-          {"p_huynh_feldt", term.p_huynh_feldt}};
+  StatsJson json = effect_json(term);
+  json["error"] = squares_json(term.error_df, term.error_ss, term.error_ms);
+  json["sphericity"] = sphericity_json(term);
+  json["p_greenhouse_geisser"] = term.p_greenhouse_geisser;
+  json["p_huynh_feldt"] = term.p_huynh_feldt;
+  return json;
 }
 
 StatsJson repeated_json(const RepeatedMeasures& analysis, const FactorialData& data) {
@@ -53,9 +45,9 @@ StatsJson repeated_json(const RepeatedMeasures& analysis, const FactorialData& d
   json["table"] = StatsJson::array();
   for (const RepeatedMeasuresTerm& term : analysis.terms) json["table"].push_back(repeated_term_json(term));
   const RepeatedMeasuresTerm& last = analysis.terms.back();
-  json["residual"] = {{"df", last.error_df}, {"ss", last.error_ss}, {"ms", last.error_ms}};
+  json["residual"] = squares_json(last.error_df, last.error_ss, last.error_ms);
   const stats::AnovaResidual& people = analysis.between_subjects;
-  json["between_subjects"] = {{"df", people.df}, {"ss", people.ss}, {"ms", people.ms}};
+  json["between_subjects"] = squares_json(people.df, people.ss, people.ms);
   json["total_ss"] = analysis.total_ss;
   json["n"] = analysis.observations;
   json["subjects"] = analysis.subjects;

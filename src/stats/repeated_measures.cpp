@@ -169,8 +169,9 @@ void add_generalised_etas(RepeatedMeasures& result, const SubjectTable& table, d
   }
 }
 
-/// Shares of the variance of all cells, the differences between subjects included (Olejnik and Algina 2003;
-/// omega: Lakens 2013, partial omega: R's MOTE).
+/// Shares of the variance of all cells, the differences between subjects included (Olejnik and Algina 2003).
+/// Partial omega as R's MOTE has it; with one within factor alone, omega is the same, and with several it is
+/// held against all of their variance in the same way.
 void add_shares_of_total(RepeatedMeasures& result, const SubjectTable& table) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   result.total_ss = (table.means.array() - table.means.mean()).matrix().squaredNorm();

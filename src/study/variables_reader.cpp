@@ -54,14 +54,20 @@ IndependentVariable read_independent(KeyReader& keys) {
   return factor;
 }
 
-DependentVariable read_dependent(KeyReader& keys) {
-  DependentVariable variable;
+/// What is asked of everything that is measured, of trials or of people.
+template <typename Variable>
+void read_measured(KeyReader& keys, Variable& variable) {
   variable.place = keys.place();
   variable.id = keys.id();
   variable.name = keys.text("name", true);
   variable.scale = read_scale(keys);
   variable.discrete = read_discrete(keys, variable.scale);
   variable.unit = keys.plain("unit");
+}
+
+DependentVariable read_dependent(KeyReader& keys) {
+  DependentVariable variable;
+  read_measured(keys, variable);
   variable.better =
       keys.word<Better>("better", {{"lower", Better::Lower}, {"higher", Better::Higher}}, Better::Neither);
   variable.from = keys.plain("from");
@@ -71,12 +77,7 @@ DependentVariable read_dependent(KeyReader& keys) {
 
 ControlVariable read_control(KeyReader& keys) {
   ControlVariable variable;
-  variable.place = keys.place();
-  variable.id = keys.id();
-  variable.name = keys.text("name", true);
-  variable.scale = read_scale(keys);
-  variable.discrete = read_discrete(keys, variable.scale);
-  variable.unit = keys.plain("unit");
+  read_measured(keys, variable);
   variable.levels = read_levels(keys, "levels", "level");
   variable.balanced = keys.flag("balanced", false);
   variable.split = keys.rising_numbers("split");
