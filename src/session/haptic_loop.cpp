@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kForceSamples = 200.0;       // a second
 constexpr std::size_t kForceRoom = 200 * 30;  // half a minute without main
+constexpr double kTraceRoom = 4.0;            // s of ticks without main
 
 PointerView view_of(const haptics::TickReport& report, std::uint64_t losses, std::int64_t time) {
   PointerView view;
@@ -35,7 +36,8 @@ HapticLoop::HapticLoop(std::vector<std::unique_ptr<devices::PointerDevice>> devi
     : rate_hz_(settings.rate_hz),
       display_(display),
       forces_(kForceRoom),
-      ticks_a_sample_(std::max(1, int(std::lround(settings.rate_hz / kForceSamples)))) {
+      ticks_a_sample_(std::max(1, int(std::lround(settings.rate_hz / kForceSamples)))),
+      trace_(std::size_t(std::ceil(settings.rate_hz * kTraceRoom))) {
   for (auto& device : devices) {
     auto hand = std::make_unique<Hand>();
     hand->servo = std::make_unique<haptics::Servo>(*device, settings);
@@ -75,7 +77,10 @@ bool HapticLoop::tick(const realtime::TickInfo& info) {
     const PointerView view = view_of(report, hand.losses, time);
     hand.to_main.publish(view);
     display_.publish(i, view);
-    if (i == 0) sample_force(report, time);
+    if (i != 0) continue;
+    sample_force(report, time);
+    if (traces_.load(std::memory_order_relaxed) && !trace_.try_push(view))
+      lost_ticks_.fetch_add(1, std::memory_order_relaxed);
   }
   ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   return true;
@@ -105,6 +110,14 @@ void HapticLoop::carry(std::size_t pointer, const base::Pose& stage_from_device)
 
 void HapticLoop::grip(std::size_t pointer, const haptics::GripFeel& feel) {
   hands_[pointer]->servo->grip(feel);
+}
+
+void HapticLoop::give_forces(std::size_t pointer, bool given) { hands_[pointer]->servo->give_forces(given); }
+
+std::vector<PointerView> HapticLoop::take_trace() {
+  std::vector<PointerView> ticks;
+  while (const auto tick = trace_.try_pop()) ticks.push_back(*tick);
+  return ticks;
 }
 
 std::vector<ForceSample> HapticLoop::take_forces() {

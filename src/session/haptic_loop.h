@@ -41,8 +41,16 @@ class HapticLoop {
   const base::Pose& stage_from_device(std::size_t pointer) const {
     return hands_[pointer]->stage_from_device;
   }
+  /// As Servo::give_forces().
+  void give_forces(std::size_t pointer, bool given);
   /// Force over time of the first pointer since the last call, some 200 a second.
   std::vector<ForceSample> take_forces();
+  /// Keeps every tick of the first pointer from now on, or none any more.
+  void trace(bool on) { traces_.store(on, std::memory_order_relaxed); }
+  /// What was kept since the last call, oldest first.
+  std::vector<PointerView> take_trace();
+  /// Ticks that found no room, so far, as main had not called for seconds.
+  std::uint64_t lost_ticks() const { return lost_ticks_.load(std::memory_order_relaxed); }
   /// Null before the start.
   const realtime::LoopRunner* loop() const { return loop_.get(); }
   /// Ticks so far.
@@ -70,6 +78,9 @@ class HapticLoop {
   ForceSample sample_ = {};  // being gathered; the servo's, as the next two
   int ticks_of_sample_ = 0;
   int ticks_a_sample_;
+  realtime::MessagePipe<PointerView> trace_;
+  std::atomic<bool> traces_ = false;
+  std::atomic<std::uint64_t> lost_ticks_ = 0;
   std::atomic<std::uint64_t> ticks_ = 0;
   std::unique_ptr<realtime::LoopRunner> loop_;  // last: stops before the rest goes
 };

@@ -12,9 +12,10 @@ class Session;
 
 /// How things are moved by hand or mouse, and how a hand feels them then.
 struct GrabSettings {
-  bool pull_back = true;  // they resist being taken away, the more the farther (thesis equation 4.14)
-  double weight = 0.0;    // N, downwards; usually 0 to 2
-  bool stop = true;       // at surfaces, and slide along them
+  bool takes_hold = true;  // hands do; otherwise their buttons do nothing by themselves
+  bool pull_back = true;   // they resist being taken away, the more the farther (thesis equation 4.14)
+  double weight = 0.0;     // N, downwards; usually 0 to 2
+  bool stop = true;        // at surfaces, and slide along them
   interaction::SnapSettings snaps = interaction::SnapSettings::none();
   double snap_strength = 0.6;  // N, the strongest pull of what they snap to; usually 0.3 to 2
 };

@@ -135,7 +135,7 @@ void Session::Parts::notice_devices() {
 std::vector<SessionEvent> Session::update() {
   parts_->take_in();
   parts_->move_user();
-  parts_->shaping ? move_points() : move_held();
+  if (parts_->grab_settings.takes_hold) parts_->shaping ? move_points() : move_held();
   parts_->renew_marks(*this);
   parts_->publish_wish();
   return std::exchange(parts_->events, {});
@@ -181,6 +181,28 @@ void Session::move_points() {
     if (feel) parts_->hands.grip(i, *feel);
     if (!refused.empty()) parts_->tell(SessionEvent::Kind::Notice, refused);
   }
+}
+
+bool Session::is_mouse_driven() const { return parts_->mouse_hand != nullptr; }
+
+void Session::hold_pointer(const std::optional<base::Vector3>& place) {
+  haptics::GripFeel feel;
+  if (place) {
+    feel.holds = true;
+    feel.start = *place;
+    feel.freedom.setZero();
+  }
+  parts_->hands.grip(0, feel);
+}
+
+void Session::give_forces(bool given) {
+  for (std::size_t i = 0; i < pointers(); ++i) parts_->hands.give_forces(i, given);
+}
+
+void Session::trace(bool on) { parts_->hands.trace(on); }
+
+Session::Ticks Session::take_trace() {
+  return {parts_->hands.take_trace(), parts_->hands.lost_ticks(), parts_->felt.read().names};
 }
 
 base::Result<void> Session::set_shaping(const std::optional<interaction::ShapingSettings>& settings) {

@@ -20,6 +20,7 @@
 #include "render/render_scene.h"
 #include "session/display_feed.h"
 #include "session/hand_grab.h"
+#include "session/haptic_representation.h"
 #include "session/pointer_view.h"
 #include "session/recovery.h"
 #include "session/representation.h"
@@ -164,6 +165,7 @@ class Session {
   void home();
   /// Width by height of the picture that it has to fit into. What is no such shape is passed over.
   void set_aspect(double aspect);
+  double aspect() const;
   interaction::NavigationMode navigation_mode() const;
   void set_navigation_mode(interaction::NavigationMode mode);
   /// How main wants the world to look; view and selection are put in by the session.
@@ -194,6 +196,22 @@ class Session {
   const GrabSettings& grab() const;
   /// What they stop at and snap to.
   Surroundings& surroundings();
+  /// Is the first pointer the simulated hand that the mouse drives?
+  bool is_mouse_driven() const;
+  /// Keeps the first pointer at a place of the stage by springs, where it touches nothing, or lets it go. For
+  /// who has set GrabSettings::takes_hold to false; hands that take hold have springs of their own.
+  void hold_pointer(const std::optional<base::Vector3>& place);
+  /// As Servo::give_forces(), of all pointers.
+  void give_forces(bool given);
+  /// Every tick of the first pointer is kept from now on, or none any more.
+  void trace(bool on);
+  /// Ticks since the last call, oldest first, of which some seconds are kept.
+  struct Ticks {
+    std::vector<PointerView> ticks;
+    std::uint64_t lost = 0;                     // ticks in all that found no room
+    std::shared_ptr<const TouchedNames> names;  // what PointerView::touched names; null before the first
+  };
+  Ticks take_trace();
   /// Selects, holds and travels with the first two pointers by this technique (thesis chapter 2) from now on,
   /// as TechniqueHand says; without one, by touch. Fails, and changes nothing, for sizes that cannot be.
   base::Result<void> set_technique(const std::optional<interaction::Technique>& technique);

@@ -148,6 +148,8 @@ void Session::set_aspect(double aspect) {
   if (aspect > 0.0 && std::isfinite(aspect)) parts_->aspect = aspect;
 }
 
+double Session::aspect() const { return parts_->aspect; }
+
 interaction::NavigationMode Session::navigation_mode() const { return parts_->user.mode(); }
 
 void Session::set_navigation_mode(interaction::NavigationMode mode) { parts_->user.set_mode(mode); }

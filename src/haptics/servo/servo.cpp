@@ -64,6 +64,7 @@ const TickReport& Servo::tick(double dt) {
   Vector3 wanted = surface_force();
   clock.ends(Stage::Force);
   wanted += effect_force(dt);
+  if (!gives_forces_.load(std::memory_order_relaxed)) wanted.setZero();
   clock.ends(Stage::Effects);
   report_.force = limiter_.limit(
       wanted, dt, {fresh, report_.status != devices::DeviceStatus::Lost, report_.contact.started_inside});

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 
@@ -63,6 +64,10 @@ class Servo {
   /// held goes along with the tip. From one thread, the main one.
   void grip(const GripFeel& feel) { grip_.publish(feel); }
 
+  /// Whether the hand feels anything from now on; what is touched is found and told all the same. A force
+  /// comes and goes as fast as the limiter lets it. Any thread. Real-time safe.
+  void give_forces(bool given) { gives_forces_.store(given, std::memory_order_relaxed); }
+
   /// One turn of the servo loop, `dt` seconds after the last. Real-time safe.
   const TickReport& tick(double dt);
 
@@ -92,6 +97,7 @@ class Servo {
   double time_ = 0.0;                      // s since the first tick
   realtime::LatestValue<Pose> carried_;
   realtime::LatestValue<GripFeel> grip_;
+  std::atomic<bool> gives_forces_ = true;
   Pose world_from_device_;
   double carry_seconds_ = 0.0;  // until it is where it was carried to
   devices::PointerState state_;
