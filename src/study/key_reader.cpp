@@ -204,6 +204,19 @@ std::vector<double> KeyReader::rising_numbers(const std::string& key) {
   return numbers;
 }
 
+std::optional<base::Vector3> KeyReader::point(const std::string& key, double farthest) {
+  const TomlNode* const node = take(key, TomlNode::Kind::Array, "three numbers: [0.0, 0.05, 0.1]");
+  if (node == nullptr) return {};
+  const bool fits = node->elements.size() == 3 && std::ranges::all_of(node->elements, [&](const auto& it) {
+                      return it.kind == TomlNode::Kind::Number && std::abs(it.number) <= farthest;
+                    });
+  if (fits)
+    return base::Vector3(node->elements[0].number, node->elements[1].number, node->elements[2].number);
+  add_problem(node->place, key,
+              fmt::format("must be three numbers of at most {:g} m, such as [0.0, 0.05, 0.1]", farthest));
+  return {};
+}
+
 std::vector<KeyReader> KeyReader::tables(const std::string& key, const std::string& what) {
   std::vector<KeyReader> readers;
   const TomlNode* const node = take(key, TomlNode::Kind::Array, "an array of tables: [{ ... }, { ... }]");

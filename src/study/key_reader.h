@@ -1,10 +1,12 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/near_names.h"
+#include "base/vector.h"
 #include "study/toml_tree.h"
 
 namespace icome::study {
@@ -58,6 +60,8 @@ class KeyReader {
   bool flag(const std::string& key, bool otherwise);
   std::vector<std::string> strings(const std::string& key);
   std::vector<double> rising_numbers(const std::string& key);
+  /// Three numbers, each at most `farthest` from 0; nothing where the key is not there.
+  std::optional<base::Vector3> point(const std::string& key, double farthest);
   /// The tables of an array.
   std::vector<KeyReader> tables(const std::string& key, const std::string& what);
   /// The table of a key; null where it is not there.

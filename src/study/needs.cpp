@@ -1,5 +1,7 @@
 #include "study/needs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -18,6 +20,16 @@ constexpr std::array kCapabilities = {
 
 constexpr std::array<std::string_view, 5> kQuantities = {"time", "approach-time", "homing-time", "distance",
                                                          "errors"};
+
+bool has_any(const std::vector<std::string>& needs, const std::vector<std::string>& of) {
+  return std::ranges::any_of(
+      needs, [&](const std::string& need) { return std::ranges::find(of, need) != of.end(); });
+}
+
+template <typename Part>
+void leave_out(std::vector<Part>& parts, const std::vector<std::string>& needs) {
+  std::erase_if(parts, [&](const Part& part) { return has_any(part.needs, needs); });
+}
 
 void add_unmet(const std::vector<std::string>& needs, const std::string& of, Place place,
                std::vector<UnmetNeed>& unmet) {
@@ -45,6 +57,25 @@ std::vector<UnmetNeed> unmet_needs(const Study& study) {
   for (const TrialScene& scene : study.trials.scenes)
     add_unmet(scene.needs, std::string("scene '").append(scene.id).append("'"), scene.place, unmet);
   return unmet;
+}
+
+base::Result<Study> without_needs(const Study& study, const std::vector<std::string>& needs) {
+  Study rest = study;
+  rest.without = needs;
+  for (const std::string& need : needs) {
+    std::erase(rest.needs, need);
+    for (const char letter : need) rest.hash = rest.hash * 0x100000001b3ULL ^ std::uint64_t(letter);
+  }
+  for (IndependentVariable& factor : rest.independent) {
+    leave_out(factor.levels, needs);
+    if (factor.levels.empty())
+      return base::fail(
+          fmt::format("no level of '{}' can be run without {}.", factor.id, fmt::join(needs, ", ")));
+  }
+  leave_out(rest.trials.scenes, needs);
+  if (rest.trials.scenes.empty() && !study.trials.scenes.empty())
+    return base::fail(fmt::format("no scene of the study can be run without {}.", fmt::join(needs, ", ")));
+  return rest;
 }
 
 }  // namespace icome::study

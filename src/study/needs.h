@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.h"
 #include "study/study.h"
 
 namespace icome::study {
@@ -28,6 +29,11 @@ struct UnmetNeed {
 
 /// In the order of the file.
 std::vector<UnmetNeed> unmet_needs(const Study& study);
+
+/// The study without these needs and without the levels and scenes that have them: what is left can be run
+/// where they cannot be met, such as by the pointer alone. Its hash is another one, so that such data are
+/// kept apart. Fails when nothing is left of a factor or of the scenes. Without needs it is the same study.
+base::Result<Study> without_needs(const Study& study, const std::vector<std::string>& needs);
 
 /// What the program measures in a trial: "time", "distance", ...; dependent variables may be `from` one.
 std::span<const std::string_view> measured_quantities();

@@ -17,6 +17,7 @@ TrialScene read_scene(KeyReader& keys) {
   scene.id = keys.id();
   scene.file = keys.plain("file");
   scene.needs = read_needs(keys);
+  scene.start = read_start(keys);
   keys.finish();
   return scene;
 }

@@ -104,6 +104,18 @@ void check_source(const Study& study, const DependentVariable& variable, Problem
               variable.place, problems);
 }
 
+/// Names of things may hold trial variables only.
+void check_task(const Study& study, const Task& task, Problems& problems) {
+  std::vector<std::string> names = task.shown;
+  names.push_back(task.target);
+  names.push_back(task.wrong);
+  for (const std::string& name : names)
+    for (const std::string& variable : variables_in(name))
+      check_named(variable, ids_of(study.trials.variables),
+                  fmt::format("task: '{}' names a trial variable that is not there:", name), task.place,
+                  problems);
+}
+
 void check_counts(const Study& study, Problems& problems) {
   if (study.independent.empty())
     problems.add({1, 1}, "the study: nothing is varied; write at least one [[independent]] variable.");
@@ -131,6 +143,7 @@ void check_references(const Study& study, Problems& problems) {
   check_counts(study, problems);
   for (const DependentVariable& variable : study.dependent) check_source(study, variable, problems);
   for (const Hypothesis& hypothesis : study.hypotheses) check_hypothesis(study, hypothesis, problems);
+  if (study.task) check_task(study, *study.task, problems);
 }
 
 }  // namespace icome::study

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/vector.h"
+
 namespace icome::study {
 
 /// Where something stands in the study file, both counted from 1; 0: nowhere.
@@ -19,12 +21,22 @@ using Text = std::vector<std::string>;
 /// The four types of variables (thesis 6.3.1, after Dillon 2001).
 enum class Scale : std::uint8_t { Nominal, Ordinal, Interval, Ratio };
 
+/// How a thing in a scene is chosen (thesis 5.7.2 and 6.6).
+enum class Choosing : std::uint8_t {
+  Touch,  // the pointer comes against it
+  Click,  // the button goes down while the pointer is near it
+  Push,   // the pointer is pushed into it
+};
+
 /// One of the values that a variable can have.
 struct Level {
   std::string id;
   Text name;
   std::vector<std::string> needs;  // capabilities beyond those of the study
-  Place place;
+  // What it changes in a trial; of levels of independent variables.
+  std::optional<Choosing> choosing = {};
+  std::optional<bool> forces = {};
+  Place place = {};
 };
 
 /// What is varied by the experimenter: a factor. (The thesis exchanges "dependent" and "independent".)
@@ -98,9 +110,26 @@ enum class OrderMethod : std::uint8_t { Full, LatinSquare, Random, Fixed };
 /// Where a trial takes place.
 struct TrialScene {
   std::string id;
-  std::string file;  // a design, beside the study file; empty: the task brings its own
+  std::string file;  // a design, beside the study file; empty: nothing says what it is
   std::vector<std::string> needs;
-  Place place;
+  std::optional<base::Vector3> start = {};  // m, stage frame; none: that of the task
+  Place place = {};
+};
+
+/// What is to be done in a trial. Things are the objects of the scene, by name; * stands for any letters, and
+/// a trial variable in braces for its value: "item-{colour}".
+struct Task {
+  std::string target = "target";   // choosing it ends the trial
+  std::string wrong = "*";         // choosing any of these, but for the target, is an error
+  std::vector<std::string> shown;  // of the things named alike but for the value only this one is there
+  Choosing choosing = Choosing::Touch;
+  bool forces = true;
+  base::Vector3 start = base::Vector3(0.0, 0.0, 0.1);  // m, stage frame: where the pointer starts
+  double near = 0.01;                                  // m, from the tip to what a click chooses
+  double depth = 0.002;                                // m, that the tip is pushed in for a push to count
+  double vicinity = 0.03;  // m, from the target (or what is chosen from), where approach becomes homing
+  double limit = 60.0;     // s, after which a trial is ended
+  Place place = {};
 };
 
 /// What is drawn anew for each trial, such as the colour that is to be chosen.
@@ -178,9 +207,11 @@ struct Study {
   std::vector<ControlVariable> control;
   std::vector<Hypothesis> hypotheses;
   OrderMethod order = OrderMethod::LatinSquare;
+  std::optional<Task> task;  // none: trials cannot be run
   Trials trials;
   std::vector<Questionnaire> questionnaires;
-  std::uint64_t hash = 0;  // of what the file says, not of how it is laid out
+  std::uint64_t hash = 0;            // of what the file says, not of how it is laid out
+  std::vector<std::string> without;  // needs that were left out, with what has them (without_needs())
 };
 
 }  // namespace icome::study

@@ -42,11 +42,14 @@ std::string test_misfit(const Hypothesis& hypothesis, const DependentVariable& d
   if (dependent.scale == Scale::Ordinal && compares_means(hypothesis.test))
     return "compares means of an ordinal variable; its test should be one of ranks: wilcoxon, kruskal, "
            "friedman";
+  if (compares_counts(hypothesis.test) && hypothesis.direction != Direction::Differ)
+    return "expects less or more of counts of answers, which have no direction; leave `expected` out";
   if (factor == nullptr)
     return hypothesis.test == Test::ChiSquared ? "" : "names no factor, which only chisq goes without";
   const bool pairs = hypothesis.test == Test::TTest || hypothesis.test == Test::Wilcoxon;
-  if (pairs && factor->levels.size() != 2)
-    return fmt::format("compares two groups, and '{}' has {} levels", factor->id, factor->levels.size());
+  if (pairs && factor->levels.size() != 2 && hypothesis.direction == Direction::Differ)
+    return fmt::format("compares two levels, and '{}' has {}; write which in `expected`", factor->id,
+                       factor->levels.size());
   if (hypothesis.test == Test::Friedman && factor->between)
     return fmt::format("needs the same people under all levels, and '{}' is between; use kruskal",
                        factor->id);
@@ -83,6 +86,7 @@ class Checker {
   StudyCheck check() {
     count();
     check_needs();
+    check_task();
     check_variables();
     check_hypotheses();
     check_people();
@@ -108,6 +112,23 @@ class Checker {
       result_.reasons.push_back(
           {need.place, fmt::format("{} needs {} ({}), which this program does not have yet.", need.of,
                                    need.id, need.what)});
+  }
+
+  void check_task() {
+    const Trials& trials = study_.trials;
+    if (!study_.task)
+      result_.reasons.push_back(
+          {{}, "there is no [task]: nothing says what is to be done in a trial, as target = \"target\"."});
+    std::string bare;
+    for (const TrialScene& scene : trials.scenes)
+      if (scene.file.empty()) bare.append(bare.empty() ? "'" : ", '").append(scene.id).append("'");
+    if (!bare.empty())
+      result_.reasons.push_back(
+          {trials.scenes.front().place, fmt::format("no file shows what these scenes are: {}.", bare)});
+    if (trials.scenes.empty())
+      result_.reasons.push_back({{},
+                                 "there are no scenes: nothing says where trials take place, as scenes = "
+                                 "[{ id = \"room\", file = \"room.wrl\" }]."});
   }
 
   void check_variables() {
@@ -179,11 +200,6 @@ class Checker {
       warn({}, "there are no written instructions, so not all people will be told the same.");
     if (study_.trials.practice == 0 && !study_.trials.criterion)
       warn({}, "nobody practises, so the first trials will measure how people learn the task.");
-    std::string bare;
-    for (const TrialScene& scene : study_.trials.scenes)
-      if (scene.file.empty()) bare.append(bare.empty() ? "'" : ", '").append(scene.id).append("'");
-    if (!bare.empty())
-      warn(study_.trials.scenes.front().place, fmt::format("no file shows what these scenes are: {}.", bare));
     if (result_.session > kLongSession)
       warn({},
            fmt::format("a session takes about {:.0f} minutes, which tires people.", result_.session / 60));

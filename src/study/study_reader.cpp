@@ -68,6 +68,7 @@ base::Result<Study> read_study(std::string_view text, const std::string& source)
   keys.strings("languages");  // known, and read above
   read_head(keys, study);
   read_variables(keys, study);
+  study.task = read_task(keys, study.languages);
   read_trials(keys, study.languages, study.trials);
   read_questionnaires(keys, study);
   keys.finish();

@@ -45,4 +45,15 @@ base::Result<std::string> study_template(std::string_view template_name, const s
                                 base::suggestion(template_name, template_names())));
 }
 
+std::vector<TemplateScene> template_scenes(std::string_view template_name) {
+  if (template_name == "blank") return {{"scenes/pointing-room.wrl", kPointingRoom}};
+  if (template_name == "menu") return {{"scenes/menu-room.wrl", kMenuRoom}};
+  if (template_name != "head-tracking") return {};
+  return {{"scenes/practice-room.wrl", kPracticeRoom},
+          {"scenes/room-1.wrl", kRoom1},
+          {"scenes/room-2.wrl", kRoom2},
+          {"scenes/room-3.wrl", kRoom3},
+          {"scenes/room-4.wrl", kRoom4}};
+}
+
 }  // namespace icome::study

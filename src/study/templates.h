@@ -14,4 +14,13 @@ std::vector<std::string> template_names();
 /// such template.
 base::Result<std::string> study_template(std::string_view template_name, const std::string& name);
 
+/// A design that a template's trials take place in.
+struct TemplateScene {
+  std::string file;  // "scenes/room-1.wrl", beside the study file
+  std::string_view text;
+};
+
+/// The scenes of a template; none where there is no such template.
+std::vector<TemplateScene> template_scenes(std::string_view template_name);
+
 }  // namespace icome::study

@@ -39,6 +39,32 @@ Scale read_scale(KeyReader& keys) {
   return keys.word<Scale>("type", kScales, Scale::Ratio);
 }
 
+/// Of what can be read for each table of an array.
+template <typename ReadMore>
+std::vector<Level> read_levels_with(KeyReader& keys, const std::string& key, const std::string& what,
+                                    const ReadMore& read_more) {
+  std::vector<Level> levels;
+  for (KeyReader& level_keys : keys.tables(key, what)) {
+    Level level;
+    level.place = level_keys.place();
+    level.id = level_keys.id();
+    level.name = level_keys.text("name", true);
+    level.needs = read_needs(level_keys);
+    read_more(level_keys, level);
+    level_keys.finish();
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+/// Levels of a factor say what they change in a trial.
+std::vector<Level> read_factor_levels(KeyReader& keys) {
+  return read_levels_with(keys, "levels", "level", [](KeyReader& level_keys, Level& level) {
+    if (level_keys.has("select")) level.choosing = read_choosing(level_keys, Choosing::Touch);
+    if (level_keys.has("forces")) level.forces = level_keys.flag("forces", true);
+  });
+}
+
 IndependentVariable read_independent(KeyReader& keys) {
   IndependentVariable factor;
   factor.place = keys.place();
@@ -46,7 +72,7 @@ IndependentVariable read_independent(KeyReader& keys) {
   factor.name = keys.text("name", true);
   keys.require("kind", "within or between");
   factor.between = keys.word<bool>("kind", {{"within", false}, {"between", true}}, false);
-  factor.levels = read_levels(keys, "levels", "level");
+  factor.levels = read_factor_levels(keys);
   if (factor.levels.size() < 2)
     keys.problems().add(keys.place_of("levels"),
                         fmt::format("independent variable '{}': give at least two levels.", factor.id));
@@ -134,17 +160,7 @@ Hypothesis read_hypothesis(KeyReader& keys) {
 }  // namespace
 
 std::vector<Level> read_levels(KeyReader& keys, const std::string& key, const std::string& what) {
-  std::vector<Level> levels;
-  for (KeyReader& level_keys : keys.tables(key, what)) {
-    Level level;
-    level.place = level_keys.place();
-    level.id = level_keys.id();
-    level.name = level_keys.text("name", true);
-    level.needs = read_needs(level_keys);
-    level_keys.finish();
-    levels.push_back(std::move(level));
-  }
-  return levels;
+  return read_levels_with(keys, key, what, [](KeyReader&, Level&) {});
 }
 
 std::vector<std::string> read_needs(KeyReader& keys) {

@@ -28,13 +28,44 @@ TEST(StudyCheck, HeadTrackingLacksItsDevice) {
   ASSERT_EQ(check.reasons.size(), 1U);
   EXPECT_TRUE(says(check.reasons, "level 'tracked' of 'viewpoint' needs head-tracking"));
   EXPECT_GT(check.reasons[0].place.line, 0U);
-  EXPECT_TRUE(
-      says(check.warnings, "no file shows what these scenes are: 'room-1', 'room-2', 'room-3', 'room-4'"));
   // power.t.test(n = 22, delta = 0.5, sd = 1, type = "paired", strict = TRUE) in R 4.2.
   ASSERT_EQ(check.powers.size(), 3U);
   EXPECT_NEAR(check.powers[0].power, 0.609184804184, 1e-9);
   EXPECT_EQ(check.powers[0].needed, 34U);
   EXPECT_TRUE(says(check.warnings, "power 0.61, 34 would with 0.8: 'time', 'distance', 'touches'"));
+}
+
+TEST(StudyCheck, TrialsNeedATaskAndScenesWithFiles) {
+  Study study = study_of("blank");
+  EXPECT_TRUE(check_study(study).reasons.empty());
+  study.trials.scenes[0].file.clear();
+  EXPECT_TRUE(says(check_study(study).reasons, "no file shows what these scenes are: 'room'"));
+  study.trials.scenes.clear();
+  EXPECT_TRUE(says(check_study(study).reasons, "there are no scenes"));
+  study.task.reset();
+  EXPECT_TRUE(says(check_study(study).reasons, "there is no [task]"));
+}
+
+TEST(Needs, AreLeftOutWithTheLevelsThatHaveThem) {
+  const Study whole = study_of("head-tracking");
+  const auto rest = without_needs(whole, {"head-tracking"});
+  ASSERT_TRUE(rest);
+  ASSERT_EQ(rest->independent[0].levels.size(), 1U);
+  EXPECT_EQ(rest->independent[0].levels[0].id, "fixed");
+  EXPECT_TRUE(check_study(*rest).reasons.empty());
+  EXPECT_NE(rest->hash, whole.hash);
+  EXPECT_EQ(without_needs(whole, {})->hash, whole.hash);
+  const auto menus = without_needs(study_of("menu"), {"haptic-menu"});
+  EXPECT_EQ(menus->independent[1].levels.size(), 2U);  // the items are things of the scene
+  EXPECT_TRUE(check_study(*menus).reasons.empty());
+}
+
+TEST(Needs, SomethingMustBeLeft) {
+  Study study = study_of("head-tracking");
+  study.independent[0].levels[1].needs = {"head-tracking"};
+  const auto none = without_needs(study, {"head-tracking"});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "no level of 'viewpoint' can be run without head-tracking.");
 }
 
 TEST(StudyCheck, MenusAreNotThereYet) {
@@ -82,8 +113,19 @@ TEST(StudyCheck, TestsMustSuitTheirVariables) {
   EXPECT_TRUE(says(check_study(study).warnings, "is about a nominal variable"));
   study.hypotheses[0].test = study::Test::Kruskal;
   EXPECT_TRUE(says(check_study(study).warnings, "'technique' is within; use friedman"));
+  study.hypotheses[1].test = study::Test::ChiSquared;
+  study.hypotheses[1].direction = Direction::Less;
+  EXPECT_TRUE(says(check_study(study).warnings, "counts of answers, which have no direction"));
   study.hypotheses[0].test = study::Test::None;
   EXPECT_TRUE(says(check_study(study).warnings, "has no test"));
+}
+
+TEST(StudyCheck, TestsOfPairsMustSayWhichOfThreeLevels) {
+  Study study = study_of("blank");  // expects new < old
+  study.independent[0].levels.push_back({"third", {"Third"}, {}, {}});
+  EXPECT_FALSE(says(check_study(study).warnings, "compares two levels"));
+  study.hypotheses[0].direction = Direction::Differ;
+  EXPECT_TRUE(says(check_study(study).warnings, "compares two levels, and 'technique' has 3"));
 }
 
 TEST(StudyCheck, ConditionsAreCrossedTheLastFactorFastest) {

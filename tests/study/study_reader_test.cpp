@@ -84,6 +84,27 @@ TEST(StudyReader, ReadsTheCaseStudies) {
   ASSERT_TRUE(read_study(*study_template("blank", "b"), "b.toml"));
 }
 
+TEST(StudyReader, ReadsWhatATrialAsksFor) {
+  const Study study = read_study(study_template("menu", "x").value(), "s.toml").value();
+  ASSERT_TRUE(study.task);
+  EXPECT_EQ(study.task->target, "item-{colour}");
+  EXPECT_EQ(study.task->shown, std::vector<std::string>{"cube-{colour}"});
+  EXPECT_EQ(study.task->start, base::Vector3(-0.03, -0.02, 0.1));
+  EXPECT_EQ(study.task->choosing, Choosing::Touch);
+  EXPECT_EQ(study.independent[0].levels[1].choosing, Choosing::Push);
+  EXPECT_EQ(study.independent[1].levels[1].forces, false);
+}
+
+TEST(StudyReader, TasksThatCannotBeAreTold) {
+  const auto with = [](const std::string& task) { return error_of(std::string(kSmall) + "[task]\n" + task); };
+  EXPECT_NE(with("start = [0, 1]").find("start must be three numbers"), std::string::npos);
+  EXPECT_NE(with("start = [0, nan, 1]").find("start must be three numbers"), std::string::npos);
+  EXPECT_NE(with("select = \"clik\"").find("did you mean 'click'?"), std::string::npos);
+  EXPECT_NE(with("target = \"item-{colour}\"").find("names a trial variable that is not there"),
+            std::string::npos);
+  EXPECT_NE(with("limit = 0").find("limit"), std::string::npos);
+}
+
 TEST(StudyReader, WhatIsNoTomlIsToldWithItsPlace) {
   EXPECT_TRUE(error_of("name = \"x").starts_with("s.toml:1:")) << error_of("name = \"x");
   EXPECT_TRUE(error_of("a = 1\na = 2\n").starts_with("s.toml:2:")) << error_of("a = 1\na = 2\n");

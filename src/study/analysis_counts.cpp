@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "stats/contingency.h"
+#include "stats/fisher_exact.h"
+#include "stats/sums.h"
+#include "study/analysis_question.h"
+
+namespace icome::study {
+namespace {
+
+/// Counts of answers (columns) by levels of a between factor (rows), without answers and levels of nobody.
+base::Result<stats::CountTable> counts_by_group(const Question& question, const Item& item,
+                                                const ItemPlace& place) {
+  const auto factors = factors_of(question.data.study, true);
+  const std::size_t at = std::size_t(std::ranges::find(factors, question.factor) - factors.begin());
+  const std::vector<Crossing> groups = crossings(question.data.study, true);
+  std::vector<std::vector<std::string>> answers(question.factor->levels.size());
+  for (const GivenAnswer& answer : answers_to(question.data, place)) {
+    const std::size_t group = question.data.people[answer.person].participant.group;
+    if (group < groups.size()) answers[groups[group][at]].push_back(answer.text);
+  }
+  stats::CountTable table;
+  std::vector<std::size_t> sums;
+  for (const std::vector<std::string>& of_level : answers) {
+    const std::vector<std::size_t> counts = counts_of(item, of_level);
+    sums.resize(counts.size());
+    for (std::size_t i = 0; i < counts.size(); ++i) sums[i] += counts[i];
+    if (!of_level.empty()) table.emplace_back(counts.begin(), counts.end());
+  }
+  for (std::size_t i = sums.size(); i-- > 0;)
+    for (std::vector<double>& row : table)
+      if (sums[i] == 0) row.erase(row.begin() + std::ptrdiff_t(i));
+  if (table.size() < 2 || table.front().size() < 2)
+    return base::fail("all answers are of one level, or all are the same.");
+  return table;
+}
+
+std::size_t total_of(const stats::CountTable& counts) {
+  double total = 0.0;
+  for (const std::vector<double>& row : counts) total += stats::sum(row);
+  return std::size_t(total);
+}
+
+base::Result<TestResult> contingency_of(const stats::CountTable& counts) {
+  const auto test = stats::contingency_test(counts);
+  if (!test) return tl::unexpected(test.error());
+  const std::size_t n = total_of(counts);
+  TestResult result =
+      plain_result("χ² test of independence", "χ²", test->chi_squared, {test->df}, test->p, n);
+  // V is w over the root of the smaller side less 1.
+  const double side = std::sqrt(double(std::min(counts.size(), counts.front().size())) - 1.0);
+  const stats::ConfidenceInterval w = w_interval(test->chi_squared, test->df, double(n));
+  result.effect = "Cramér's V";
+  result.effect_size = test->cramers_v;
+  result.effect_interval = {w.low / side, std::min(1.0, w.high / side)};
+  if (!test->warning.empty()) result.notes.push_back(test->warning);
+  return result;
+}
+
+base::Result<TestResult> fisher_of(const stats::CountTable& counts) {
+  const auto p = stats::fisher_exact_p(counts);
+  if (!p) return tl::unexpected(p.error());
+  TestResult result = plain_result("Fisher's exact test", {}, 0.0, {}, *p, total_of(counts));
+  if (counts.size() != 2 || counts.front().size() != 2) return result;
+  const auto test = stats::fisher_exact_2x2(counts);
+  if (!test || !std::isfinite(test->odds_ratio)) return result;
+  result.effect = "odds ratio";
+  result.effect_size = test->odds_ratio;
+  if (std::isfinite(test->interval.high)) result.effect_interval = test->interval;
+  return result;
+}
+
+/// Answers of the same people at two levels of a within factor.
+base::Result<TestResult> mcnemar_of(const Question& question, const Item& item, const ItemPlace& place) {
+  const auto levels = compared_levels(question);
+  const std::vector<Crossing> conditions = crossings(question.data.study, false);
+  const auto factors = factors_of(question.data.study, false);
+  if (!levels || factors.size() != 1)
+    return base::fail("McNemar's test compares two levels of the only within factor.");
+  std::map<std::size_t, std::map<std::size_t, std::size_t>> chosen;  // person, level, choice
+  for (const GivenAnswer& answer : answers_to(question.data, place)) {
+    const auto choice = std::ranges::find(item.choices, answer.text, &Level::id);
+    if (choice == item.choices.end()) continue;
+    chosen[answer.person][conditions[answer.condition].front()] = std::size_t(choice - item.choices.begin());
+  }
+  stats::CountTable counts(item.choices.size(), std::vector<double>(item.choices.size()));
+  for (const auto& [person, at] : chosen)
+    if (at.contains(levels->first) && at.contains(levels->second))
+      ++counts[at.at(levels->first)][at.at(levels->second)];
+  const auto test = stats::mcnemar_test(counts);
+  if (!test) return tl::unexpected(test.error());
+  if (!std::isfinite(test->chi_squared)) return base::fail("nobody changed the answer.");
+  const bool exact = std::isfinite(test->exact_p);
+  TestResult result =
+      exact ? plain_result("McNemar's exact test", {}, 0.0, {}, test->exact_p, 0)
+            : plain_result("McNemar-Bowker test", "χ²", test->chi_squared, {test->df}, test->p, 0);
+  result.people = total_of(counts);
+  if (exact && std::isfinite(test->odds_ratio)) {
+    result.effect = "odds ratio";
+    result.effect_size = test->odds_ratio;
+  }
+  return result;
+}
+
+/// Of a question that was asked once, in groups of people or, without a factor, against equal shares.
+base::Result<TestResult> answers_given_once(const Question& question, const Item& item,
+                                            const ItemPlace& place) {
+  if (question.factor == nullptr) {
+    if (question.test == Test::Fisher)
+      return base::fail("Fisher's test compares groups of people; test = \"chisq\" does without a factor.");
+    std::vector<std::string> texts;
+    for (const GivenAnswer& answer : answers_to(question.data, place)) texts.push_back(answer.text);
+    return even_shares(counts_of(item, texts));
+  }
+  if (!question.factor->between) return base::fail("the question was asked once, not in each condition.");
+  const auto counts = counts_by_group(question, item, place);
+  if (!counts) return tl::unexpected(counts.error());
+  return question.test == Test::Fisher ? fisher_of(*counts) : contingency_of(*counts);
+}
+
+base::Result<TestResult> changes_of_answers(const Question& question, const Item& item,
+                                            const ItemPlace& place, bool repeated) {
+  if (question.factor == nullptr || question.factor->between)
+    return base::fail(
+        "McNemar's test compares answers of the same people under two levels; test = \"chisq\" others.");
+  if (!repeated) return base::fail("the question was asked once, not in each condition.");
+  return mcnemar_of(question, item, place);
+}
+
+}  // namespace
+
+base::Result<TestResult> test_counts(const Question& question) {
+  if (question.hypothesis.direction != Direction::Differ)
+    return base::fail("counts of answers have no direction; leave `expected` out, or ask for a rating.");
+  ItemPlace place;
+  if (!find_item(question.data.study, question.dependent.from, place))
+    return base::fail("counts are compared of answers to a question, and the variable is from none.");
+  const Questionnaire& questionnaire = question.data.study.questionnaires[place.questionnaire];
+  const Item& item = questionnaire.items[place.item];
+  if (item.kind == ItemKind::Choices)
+    return base::fail("several answers could be chosen, so their counts depend on each other.");
+  if (item.kind != ItemKind::Choice && item.kind != ItemKind::Rating)
+    return base::fail("the question has no choices to count.");
+  const bool repeated = questionnaire.when == AskWhen::AfterCondition;
+  if (question.test == Test::McNemar) return changes_of_answers(question, item, place, repeated);
+  if (!repeated) return answers_given_once(question, item, place);
+  if (question.factor != nullptr && !question.factor->between)
+    return base::fail("the same people answered in each condition; test = \"mcnemar\" compares those.");
+  return base::fail("everybody answered several times, so counts depend on each other.");
+}
+
+}  // namespace icome::study

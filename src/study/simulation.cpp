@@ -1,0 +1,139 @@
+#include "study/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "files/design.h"
+#include "interaction/object_edits.h"
+#include "session/stage.h"
+#include "study/session_run.h"
+#include "study/simulated_person.h"
+#include "world/edit.h"
+
+namespace icome::study {
+namespace {
+
+constexpr double kPageTime = 5.0;                       // s, that a simulated person reads a page
+constexpr double kQuestionTime = 4.0;                   // s, a question
+constexpr const char* kBegan = "2000-01-01T00:00:00Z";  // any date would do
+
+/// The scenes of a study, read once.
+class Scenes {
+ public:
+  Scenes(const Study& study, std::filesystem::path folder) : study_(study), folder_(std::move(folder)) {}
+
+  struct Place {
+    TrialGoal goal;
+    FeltScene felt;
+  };
+  base::Result<Place> place(const Participant& participant, const TrialPlan& plan) {
+    const TrialScene* const scene = scene_of(study_, plan);
+    if (scene == nullptr || scene->file.empty())
+      return base::fail(
+          "no scene file says where trials take place: write scenes = [{ id = \"room\", file = \"room.wrl\" "
+          "}].");
+    const auto read = this->read(scene->file);
+    if (!read) return tl::unexpected(read.error());
+    world::World world = **read;
+    const auto hidden = hidden_things(study_, plan, world);
+    if (!hidden.empty())
+      if (const auto done = world::apply(world, interaction::delete_objects(world, hidden)); !done)
+        return tl::unexpected(done.error());
+    auto goal = trial_goal(study_, participant, plan, world);
+    if (!goal) return tl::unexpected(goal.error());
+    session::HapticRepresentation felt;
+    felt.open(world);
+    return Place{std::move(*goal), {felt.scene(), felt.names()}};
+  }
+
+ private:
+  base::Result<const world::World*> read(const std::string& file) {
+    const auto found = worlds_.find(file);
+    if (found != worlds_.end()) return &found->second;
+    auto design = files::read_design(folder_ / file);
+    if (!design) return tl::unexpected(design.error());
+    if (session::stands_on_z(file)) session::set_upright(design->world);
+    return &worlds_.emplace(file, std::move(design->world)).first->second;
+  }
+
+  const Study& study_;
+  std::filesystem::path folder_;
+  std::map<std::string, world::World> worlds_;
+};
+
+/// When the last thing on record was over, s.
+double time_so_far(const Progress& progress) {
+  double time = 0.0;
+  for (const EventRecord& event : progress.events) time = std::max(time, event.onset + event.duration);
+  for (const TrialRecord& trial : progress.trials) time = std::max(time, trial.onset + trial.measures.time);
+  return time;
+}
+
+/// One person's session, from where it is to its end; false: told to end early.
+class SimulatedSession {
+ public:
+  SimulatedSession(const Study& study, Scenes& scenes, const std::function<bool(double)>& tell)
+      : study_(study), scenes_(scenes), tell_(tell) {}
+
+  base::Result<bool> go(SessionLog log) {
+    const SimulatedPerson person(study_, log.participant().number);
+    time_ = time_so_far(log.progress());
+    auto run = SessionRun::begin(
+        study_, std::move(log), [this] { return time_; }, kBegan);
+    if (!run) return tl::unexpected(run.error());
+    while (run->step().kind != Step::Kind::Over) {
+      if (!tell_(run->share())) return false;
+      if (const auto done = step(*run, person); !done) return tl::unexpected(done.error());
+    }
+    return true;
+  }
+
+ private:
+  base::Result<void> step(SessionRun& run, const SimulatedPerson& person) {
+    const Step& now = run.step();
+    if (now.kind == Step::Kind::Page) {
+      time_ += now.page == PageKind::Rest ? std::max(kPageTime, study_.trials.rest) : kPageTime;
+      return run.page_read();
+    }
+    if (now.kind == Step::Kind::Questions) {
+      const Questionnaire& questionnaire = study_.questionnaires[now.questionnaire];
+      time_ += kQuestionTime * double(questionnaire.items.size());
+      return run.answered(person.answers(questionnaire, now.position));
+    }
+    const auto place = scenes_.place(run.participant(), now.trial);
+    if (!place) return tl::unexpected(place.error());
+    const auto trial = person.trial(now.trial, place->goal, place->felt);
+    time_ += study_.trials.hold + trial.measures.time;
+    return run.trial_done(trial.measures, trial.trace);
+  }
+
+  const Study& study_;
+  Scenes& scenes_;
+  const std::function<bool(double)>& tell_;
+  double time_ = 0.0;  // s, of the person's session
+};
+
+}  // namespace
+
+base::Result<void> simulate(const Study& study, const std::filesystem::path& study_folder, DataFolder& data,
+                            std::size_t people, const std::function<bool(double)>& tell) {
+  Scenes scenes(study, study_folder);
+  for (std::size_t number = 0; number < people; ++number) {
+    while (data.participants().size() <= number) {
+      const auto enrolled = data.enrol({}, 0, SimulatedPerson::control(study, data.participants().size()));
+      if (!enrolled) return tl::unexpected(enrolled.error());
+    }
+    auto log = data.open_log(data.participants()[number]);
+    if (!log) return tl::unexpected(log.error());
+    const auto share = [&](double part) { return tell((double(number) + part) / double(people)); };
+    const auto through = SimulatedSession(study, scenes, share).go(std::move(*log));
+    if (!through) return tl::unexpected(through.error());
+    if (!*through) return {};
+  }
+  return {};
+}
+
+}  // namespace icome::study
