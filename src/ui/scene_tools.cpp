@@ -21,7 +21,7 @@ SceneTools::SceneTools(session::Session& session, Listener listener)
 }
 
 void SceneTools::choose(Tool tool) {
-  if (tool == tool_) return;
+  if (tool == tool_ || stays_) return;
   finish();
   tool_ = tool;
   if (tool_ == Tool::Touch) {
@@ -33,7 +33,13 @@ void SceneTools::choose(Tool tool) {
   listener_.chosen(tool_);
 }
 
+void SceneTools::stay_with(Tool tool) {
+  choose(tool);
+  stays_ = true;
+}
+
 std::optional<ViewMove> SceneTools::view_move(const SceneInput& input) const {
+  if (stays_) return std::nullopt;
   const bool shift = input.modifiers & Qt::ShiftModifier;
   if (input.button == Qt::RightButton) return shift ? ViewMove::Pan : ViewMove::Orbit;
   if (input.button == Qt::MiddleButton) return ViewMove::Pan;
@@ -90,9 +96,9 @@ void SceneTools::double_click(const SceneInput& input) {
 }
 
 void SceneTools::wheel(const SceneInput& input, double notches) {
-  if (tool_ == Tool::Touch && touch_tool_.pressing()) {
+  if (tool_ == Tool::Touch && (touch_tool_.pressing() || touch_tool_.goes_freely())) {
     touch_tool_.turn_wheel(notches);
-  } else {
+  } else if (!stays_) {
     zoom_at(session_, input, notches);
   }
 }
@@ -151,7 +157,7 @@ bool SceneTools::arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
     move_tool_.nudge(in_view, repeats);
     return true;
   }
-  return step_view(session_, key, shift ? ViewMove::Pan : ViewMove::Orbit);
+  return !stays_ && step_view(session_, key, shift ? ViewMove::Pan : ViewMove::Orbit);
 }
 
 bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats) {

@@ -32,6 +32,8 @@ class SceneTools {
 
   Tool tool() const { return tool_; }
   void choose(Tool tool);
+  /// Chooses it for good: from now on nothing chooses another, or moves the view.
+  void stay_with(Tool tool);
 
   // What happens over the scene. Those that return bool: was it of use?
   void press(const SceneInput& input);
@@ -61,6 +63,7 @@ class SceneTools {
   ShapeTool& shape_tool() { return shape_tool_; }
   /// What has stopped what is dragged, or what it snaps to; or empty.
   std::string drag_words() const { return move_tool_.words(); }
+  TouchTool& touch_tool() { return touch_tool_; }
   bool turning() const { return view_drag_.active(); }
   double aspect() const { return size_.width() / size_.height(); }
 
@@ -80,6 +83,7 @@ class SceneTools {
   ViewDrag view_drag_;
   Qt::MouseButton view_button_ = {};  // what the view is dragged with
   Tool tool_ = Tool::Select;
+  bool stays_ = false;  // with it
   QSizeF size_ = {1.0, 1.0};
   std::optional<SceneInput> mouse_ = {};
   std::optional<world::ObjectId> hovered_ = {};

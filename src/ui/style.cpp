@@ -232,7 +232,7 @@ int DesktopStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, co
     case PM_IndicatorHeight:
     case PM_ExclusiveIndicatorWidth:
     case PM_ExclusiveIndicatorHeight:
-      return 4 * kGrid;
+      return std::max(4 * kGrid, widget ? widget->fontMetrics().ascent() : 0);  // large type, large boxes
     default:
       return QProxyStyle::pixelMetric(metric, option, widget);
   }

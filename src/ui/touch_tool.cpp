@@ -3,6 +3,7 @@
 #include <QRectF>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "session/user_interaction.h"
 
@@ -25,6 +26,10 @@ void TouchTool::leave() {
 }
 
 bool TouchTool::step(int key, bool fine) {
+  if (free_ && (key == Qt::Key_PageUp || key == Qt::Key_PageDown)) {
+    turn_wheel(key == Qt::Key_PageUp ? 1.0 : -1.0);
+    return true;
+  }
   const double right = key == Qt::Key_Right ? 1.0 : key == Qt::Key_Left ? -1.0 : 0.0;
   const double down = key == Qt::Key_Down ? 1.0 : key == Qt::Key_Up ? -1.0 : 0.0;
   if (right == 0.0 && down == 0.0) return false;
@@ -74,10 +79,36 @@ void TouchTool::tick_technique(const session::TechniqueHand& hand) {
   session_.hold_hand_buttons(pressing() ? (travels ? 2U : 1U) : 0U);
 }
 
+void TouchTool::go_freely(const std::optional<base::Vector3>& from) {
+  free_.reset();
+  wheel_ = 0.0;
+  if (from) free_ = Free{*from};
+}
+
+/// The mouse counts from where it was at first, so that the hand does not leap to it.
+void TouchTool::tick_freely() {
+  constexpr double kNotch = 0.005;  // m
+  session_.hold_hand_buttons(take_press() ? 1U : 0U);
+  free_->away += kNotch * std::exchange(wheel_, 0.0);
+  const base::Pose& world_from_eye = session_.view().world_from_eye;
+  const base::Pose eye_from_world = world_from_eye.inverse();
+  const base::Vector3 ray = eye_from_world.linear() * input_.ray(session_.view()).direction;
+  if (!(ray.z() < 0.0)) return;
+  const base::Vector2 mouse = ray.head<2>() / -ray.z();
+  if (!free_->mouse_from) free_->mouse_from = mouse;
+  base::Vector3 place = eye_from_world * free_->from;
+  const double depth = -place.z();
+  place.head<2>() += depth * (mouse - *free_->mouse_from);
+  place.z() -= free_->away;
+  const base::Vector3 target = world_from_eye * place;
+  if (target.allFinite()) session_.aim_hand(target);
+}
+
 void TouchTool::tick() {
   if (!active_) return;
   if (const session::TechniqueHand* hand = session_.technique(); hand && !session_.shaping())
     return tick_technique(*hand);
+  if (free_) return tick_freely();
   session_.hold_hand_buttons(0);
   const interaction::View& view = session_.view();
   interaction::MouseHand::Input input;

@@ -334,5 +334,48 @@ TEST_F(PenTest, SpacePressesToo) {
   EXPECT_TRUE(hand_until([&] { return !session().pointer(0).touching; }));
 }
 
+TEST_F(PenTest, AFreeHandGoesAsTheMouseGoesAndTheWheelAway) {
+  tools_.stay_with(Tool::Touch);
+  mouse(QEvent::MouseMove, {123.0, 456.0});  // wherever the mouse is
+  const Vector3 start(0.3, 0.0, 0.3);
+  tools_.touch_tool().go_freely(start);
+  const auto& hand = session().pointer(0);
+  const auto is_at = [&](const Vector3& place) {
+    return hand_until([&] { return (hand.tip - place).norm() < 0.002; });
+  };
+  session().put_hand(start);
+  EXPECT_TRUE(is_at(start));
+  const QPointF right = pixel(start + Vector3(0.05, 0.0, 0.0)) - pixel(start);
+  mouse(QEvent::MouseMove, QPointF(123.0, 456.0) + right);
+  EXPECT_TRUE(is_at(start + Vector3(0.05, 0.0, 0.0)));
+  tools_.touch_tool().turn_wheel(10.0);  // 5 cm away
+  EXPECT_TRUE(is_at(start + Vector3(0.05, 0.0, -0.05)));
+  tools_.touch_tool().turn_wheel(32.0);  // 1 cm into the box
+  EXPECT_TRUE(hand_until([&] { return hand.touching && hand.force.z() > 0.1; }));
+  EXPECT_EQ(session().touched(0), right_);
+}
+
+TEST_F(SceneToolsTest, AClickThatIsShorterThanATickIsNotMissed) {
+  tools_.choose(Tool::Touch);
+  click({400.0, 300.0});
+  EXPECT_TRUE(tools_.touch_tool().take_press());
+  EXPECT_FALSE(tools_.touch_tool().take_press());
+}
+
+TEST_F(SceneToolsTest, AToolThatStaysCannotBeLeftNorTheViewMoved) {
+  tools_.stay_with(Tool::Touch);
+  const auto before = session().view().world_from_eye.matrix();
+  tools_.choose(Tool::Select);
+  tools_.key_press(Qt::Key_Tab, {}, false);
+  tools_.key_press(Qt::Key_Escape, {}, false);
+  EXPECT_EQ(tools_.tool(), Tool::Touch);
+  drag({300.0, 300.0}, {500.0, 350.0}, Qt::RightButton);
+  drag({300.0, 300.0}, {500.0, 350.0}, Qt::MiddleButton);
+  tools_.wheel({.at = {400.0, 300.0}, .size = {800.0, 600.0}}, 3.0);
+  settle();
+  EXPECT_EQ(session().view().world_from_eye.matrix(), before);
+  EXPECT_EQ(asked_, 0);
+}
+
 }  // namespace
 }  // namespace icome::ui
