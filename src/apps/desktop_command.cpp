@@ -7,7 +7,6 @@
 #include "ui/desktop.h"
 
 namespace icome::apps {
-namespace {
 
 /// A 3D mouse may be plugged in at any time. Where there is no force-feedback device, the mouse is the hand.
 session::SessionSettings desktop_settings() {
@@ -15,8 +14,6 @@ session::SessionSettings desktop_settings() {
   if (auto mouse = devices::SpaceMouse::create({.wait = true})) settings.navigation = std::move(*mouse);
   return settings;
 }
-
-}  // namespace
 
 bool is_design_name(const std::string& word) {
   std::error_code error;

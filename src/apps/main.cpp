@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     if (command_line.edit) return icome::apps::run_edit(*command_line.edit);
     if (command_line.shot) return icome::apps::run_shot(*command_line.shot);
     if (command_line.stats) return icome::apps::run_stats(*command_line.stats);
-    if (command_line.study) return icome::apps::run_study(*command_line.study);
+    if (command_line.study) return icome::apps::run_study(argc, argv, *command_line.study);
     if (command_line.techniques) return icome::apps::run_techniques(*command_line.techniques);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;

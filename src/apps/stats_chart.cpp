@@ -68,7 +68,8 @@ std::string heading_of(const StatsChart& chart) {
 
 /// How the marks are to be read.
 std::string reading_key(const StatsChart& chart) {
-  const std::string interval = fmt::format("{} confidence interval", percent_text(chart.confidence));
+  const std::string interval = fmt::format("{} {}confidence interval", percent_text(chart.confidence),
+                                           chart.within_people ? "within-subject " : "");
   switch (chart.kind) {
     case ChartKind::Box:
       return "Box: quartiles and median. Whiskers: farthest values within 1.5 box lengths. Diamond: mean. "
@@ -133,6 +134,8 @@ AxisRange y_range(const StatsChart& chart) {
   if (chart.kind == ChartKind::Curve || shares) return axis_over(0.0, 1.0, 5);
   const Extremes extremes = extremes_of(chart);
   const bool stand_on_zero = chart.kind == ChartKind::Bars || chart.kind == ChartKind::Shares;
+  // Of zeros alone both ends would be zero.
+  if (stand_on_zero && extremes.low == 0.0 && extremes.high == 0.0) return axis_over(0.0, 1.0, 6);
   AxisRange range = roomy_axis(extremes, 0.05, 6);
   if (stand_on_zero && extremes.low == 0.0) range.low = 0.0;
   if (stand_on_zero && extremes.high == 0.0) range.high = 0.0;
@@ -360,18 +363,34 @@ bool is_chart_name(const std::filesystem::path& out) {
   return ending == ".svg" || ending == ".png";
 }
 
-base::Result<void> write_chart(const StatsChart& chart, const std::filesystem::path& out) {
-  if (const auto checked = check_size(chart); !checked) return checked;
-  if (lower_ending(out) == ".png") {
-    Canvas canvas(int(kPixelScale * kChartWidth), int(kPixelScale * kChartHeight), kPixelScale);
-    draw_chart(canvas, chart);
-    return render::write_png(canvas.snapshot(), out);
-  }
+base::Result<std::string> chart_svg(const StatsChart& chart) {
+  if (const auto checked = check_size(chart); !checked) return tl::unexpected(checked.error());
   Canvas canvas = Canvas::of_lines(kChartWidth, kChartHeight);
   draw_chart(canvas, chart);
+  return canvas.svg();
+}
+
+base::Result<std::vector<std::uint8_t>> chart_png(const StatsChart& chart) {
+  if (const auto checked = check_size(chart); !checked) return tl::unexpected(checked.error());
+  Canvas canvas(int(kPixelScale * kChartWidth), int(kPixelScale * kChartHeight), kPixelScale);
+  draw_chart(canvas, chart);
+  return render::encode_png(canvas.snapshot());
+}
+
+base::Result<void> write_chart(const StatsChart& chart, const std::filesystem::path& out) {
+  std::string bytes;
+  if (lower_ending(out) == ".png") {
+    const auto png = chart_png(chart);
+    if (!png) return tl::unexpected(png.error());
+    bytes.assign(png->begin(), png->end());
+  } else {
+    auto svg = chart_svg(chart);
+    if (!svg) return tl::unexpected(svg.error());
+    bytes = std::move(*svg);
+  }
   auto file = files::NewFile::create(out);
   if (!file) return tl::unexpected(file.error());
-  file->write(canvas.svg());
+  file->write(bytes);
   return file->finish();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -34,14 +35,20 @@ struct StatsChart {
   std::vector<base::Vector2> marks;                      // of Curve, ringed
   Eigen::MatrixXd matrix, p;                             // of Matrix; named by `groups`
   double confidence = 0.95;                              // of intervals and bands
+  bool within_people = false;                            // the intervals are within-subject ones
 };
 
 /// What may follow --plot-kind, in the order of ChartKind.
 inline constexpr const char* kChartKinds[] = {"box",    "bars",   "interaction", "scatter",
                                               "matrix", "shares", "curve"};
 
-/// Writes the chart: .svg, or .png of 1920 x 1280 pixels. Fails for another ending, for more groups or series
-/// than a page can show, and when the file cannot be written.
+/// The chart as an SVG file; as the bytes of a PNG file of 1920 x 1280 pixels. Fail for more groups or series
+/// than a page can show.
+base::Result<std::string> chart_svg(const StatsChart& chart);
+base::Result<std::vector<std::uint8_t>> chart_png(const StatsChart& chart);
+
+/// Writes the chart by how `out` ends: .png, else an SVG file. Fails as those do, and when the file cannot be
+/// written.
 base::Result<void> write_chart(const StatsChart& chart, const std::filesystem::path& out);
 
 /// Whether the path ends in .svg or .png.

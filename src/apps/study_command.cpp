@@ -10,15 +10,14 @@
 #include "apps/design_work.h"
 #include "apps/study_help.h"
 #include "apps/study_report.h"
+#include "apps/study_report_command.h"
+#include "apps/study_run_command.h"
 #include "files/file_bytes.h"
 #include "study/study_check.h"
-#include "study/study_reader.h"
 #include "study/templates.h"
 
 namespace icome::apps {
 namespace {
-
-constexpr std::uint64_t kLargestStudyFile = 16U << 20U;  // bytes
 
 /// Writes what is not there yet.
 base::Result<void> write_new(const std::filesystem::path& file, const std::string& text) {
@@ -34,6 +33,15 @@ base::Result<void> write_new(const std::filesystem::path& file, const std::strin
   return base::fail(fmt::format("{} cannot be written: is the disk full?", file.string()));
 }
 
+/// A scene that is there already is as good when it is the same.
+base::Result<void> write_scene(const std::filesystem::path& file, std::string_view text) {
+  const auto there = files::read_bytes(file, text.size());
+  if (there && *there == text) return {};
+  std::error_code failed;
+  std::filesystem::create_directories(file.parent_path(), failed);
+  return write_new(file, std::string(text));
+}
+
 int run_study_new(const StudyOptions& options) {
   StatusLine status;
   if (options.file.extension() != ".toml")
@@ -43,41 +51,32 @@ int run_study_new(const StudyOptions& options) {
   if (!text) return end_without_result(text.error(), status);
   if (const auto written = write_new(options.file, *text); !written)
     return end_without_result(written.error(), status);
-  return print_answer(fmt::format("{} is written. Change it, then: icome study check {}\n",
-                                  options.file.string(), options.file.string()));
-}
-
-/// A study whose scenes are not where it says cannot be run.
-void add_missing_files(const study::Study& study, const std::filesystem::path& folder,
-                       study::StudyCheck& check) {
-  std::vector<study::TrialScene> scenes = study.trials.scenes;
-  if (study.trials.practice_scene) scenes.push_back(*study.trials.practice_scene);
-  for (const study::TrialScene& scene : scenes) {
-    std::error_code failed;
-    if (scene.file.empty() || std::filesystem::is_regular_file(folder / scene.file, failed)) continue;
-    check.reasons.push_back({scene.place, fmt::format("scene '{}': there is no file {} beside the study.",
-                                                      scene.id, scene.file)});
-  }
+  const auto scenes = study::template_scenes(options.from);
+  for (const study::TemplateScene& scene : scenes)
+    if (const auto written = write_scene(options.file.parent_path() / scene.file, scene.text); !written)
+      return end_without_result(written.error(), status);
+  const std::string name = options.file.string();
+  return print_answer(fmt::format(
+      "{} is written, with {} in scenes/ beside it. Change it, then:\n  icome study check {}\n"
+      "  icome study run {} --simulate 8\n",
+      name, scenes.size() == 1 ? "a scene" : fmt::format("{} scenes", scenes.size()), name, name));
 }
 
 int run_study_check(const StudyOptions& options) {
   StatusLine status;
-  const auto bytes = files::read_bytes(options.file, kLargestStudyFile);
-  if (!bytes) return end_without_result(bytes.error(), status);
-  const auto study = study::read_study(*bytes, options.file.string());
-  if (!study) return end_without_result(study.error(), status);
-  study::StudyCheck check = study::check_study(*study);
-  add_missing_files(*study, options.file.parent_path(), check);
-  const int printed = print_answer(options.json ? study_json(*study, check)
-                                                : study_text(*study, check, options.file.string()));
+  const auto opened = open_study(options.file);
+  if (!opened) return end_without_result(opened.error(), status);
+  const study::Study& study = opened->study;
+  study::StudyCheck check = study::check_study(study);
+  // A study whose scenes are not where it says cannot be run.
+  for (study::Finding& missing : missing_scenes(study, opened->folder))
+    check.reasons.push_back(std::move(missing));
+  const int printed =
+      print_answer(options.json ? study_json(study, check) : study_text(study, check, options.file.string()));
   return check.reasons.empty() ? printed : kDesignFailed;
 }
 
-}  // namespace
-
-void add_study_options(CLI::App& study, StudyOptions& options) {
-  study.require_subcommand(1);
-  study.footer(kStudyExamples);
+void add_new_options(CLI::App& study, StudyOptions& options) {
   CLI::App& create = *study.add_subcommand("new", kStudyNewSummary);
   create.callback([&options] { options.task = "new"; });
   create.add_option("NAME.toml", options.file, "The study file to write; never overwrites one")
@@ -86,14 +85,72 @@ void add_study_options(CLI::App& study, StudyOptions& options) {
   create.add_option("--template", options.from, "What to begin with (default blank)")
       ->type_name("blank|head-tracking|menu")
       ->check(CLI::IsMember(study::template_names()));
+}
+
+void add_check_options(CLI::App& study, StudyOptions& options) {
   CLI::App& check = *study.add_subcommand("check", kStudyCheckSummary);
   check.callback([&options] { options.task = "check"; });
   check.add_option("STUDY.toml", options.file, "The study file")->required()->type_name("");
   check.add_flag("--json", options.json, "Print it as JSON (fields: icome study --help)");
 }
 
-int run_study(const StudyOptions& options) {
-  return options.task == "new" ? run_study_new(options) : run_study_check(options);
+/// What run and resume have in common.
+CLI::App& add_session_command(CLI::App& study, StudyOptions& options, const char* name, const char* summary) {
+  CLI::App& command = *study.add_subcommand(name, summary);
+  command.callback([&options, name] { options.task = name; });
+  command.add_option("STUDY.toml", options.file, "The study file")->required()->type_name("");
+  command
+      .add_option("--data", options.data,
+                  "The folder of the data (default: beside the study file, STUDY-data)")
+      ->type_name("FOLDER");
+  command.add_option("--participant", options.participant, "Who takes part: letters and digits")
+      ->type_name("ID");
+  command.add_flag("--pointer-only", options.pointer_alone,
+                   "Leave out what needs more than the program has; such data are kept apart");
+  command.add_flag("--window", options.in_window, "Not over the whole screen");
+  return command;
+}
+
+void add_run_options(CLI::App& study, StudyOptions& options) {
+  CLI::App& run = add_session_command(study, options, "run", kStudyRunSummary);
+  run.add_option("--with", options.with, "A control variable of the person; again for each")
+      ->type_name("NAME=VALUE");
+  run.add_option("--language", options.language, "What texts are read in (default: the study's first)")
+      ->type_name("en|nl|...");
+  run.add_option("--simulate", options.simulate,
+                 "Let so many simulated people take part, until all are through")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000));
+  run.add_flag("--json", options.json, "Of --simulate: print what was done as JSON");
+}
+
+void add_report_options(CLI::App& study, StudyOptions& options) {
+  CLI::App& report = *study.add_subcommand("report", kStudyReportSummary);
+  report.callback([&options] { options.task = "report"; });
+  report.add_option("FOLDER", options.report.folder, "The folder of the data")->required()->type_name("");
+  report.add_option("--out", options.report.out, "The page (default: report.html in the folder)")
+      ->type_name("FILE.html");
+  report.add_option("--pdf", options.report.pdf, "The same as a PDF file")->type_name("FILE.pdf");
+  report.add_flag("--json", options.report.json, "Print all results as JSON (fields: icome study --help)");
+}
+
+}  // namespace
+
+void add_study_options(CLI::App& study, StudyOptions& options) {
+  study.require_subcommand(1);
+  study.footer(kStudyExamples);
+  add_new_options(study, options);
+  add_check_options(study, options);
+  add_run_options(study, options);
+  add_session_command(study, options, "resume", kStudyResumeSummary);
+  add_report_options(study, options);
+}
+
+int run_study(int argc, char** argv, const StudyOptions& options) {
+  if (options.task == "new") return run_study_new(options);
+  if (options.task == "check") return run_study_check(options);
+  if (options.task == "report") return run_study_report(options.report);
+  return run_study_session(argc, argv, options);
 }
 
 }  // namespace icome::apps

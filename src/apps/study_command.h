@@ -12,6 +12,6 @@ void add_study_options(CLI::App& study, StudyOptions& options);
 
 /// Runs `icome study`: writes a new study file, or says what one means. Returns the program's exit code: 1
 /// also where a study cannot be run as it is.
-int run_study(const StudyOptions& options);
+int run_study(int argc, char** argv, const StudyOptions& options);
 
 }  // namespace icome::apps

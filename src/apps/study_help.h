@@ -5,10 +5,14 @@ namespace icome::apps {
 // The words of `icome study --help` that do not stand beside an option.
 
 constexpr const char* kStudySummary =
-    "User studies: write a study file, learn what it means and what it lacks";
+    "User studies: write a study file, check it, run it with people or simulated ones, report";
 constexpr const char* kStudyNewSummary = "Write a complete study file with comments, to be changed";
 constexpr const char* kStudyCheckSummary =
     "Say what a study is: variables, groups, orders, how many people it takes; and what it lacks";
+constexpr const char* kStudyRunSummary =
+    "Take a person through a study in a window, or let simulated people take part";
+constexpr const char* kStudyResumeSummary = "Go on with a person whose session was interrupted";
+constexpr const char* kStudyReportSummary = "Analyse the data of a study: a page with tables and figures";
 
 constexpr const char* kStudyExamples =
     "Examples:\n"
@@ -16,6 +20,10 @@ constexpr const char* kStudyExamples =
     "  icome study new menus.toml --template menu  the user experiment on menus of section 6.6 of the "
     "thesis\n"
     "  icome study check menus.toml                what it means, how many people, what is missing\n"
+    "  icome study run pointing.toml --simulate 16 simulated people, to see what the data will be\n"
+    "  icome study run pointing.toml --with age=31 the next person, in a window over the whole screen\n"
+    "  icome study resume pointing.toml            the person whose session was interrupted goes on\n"
+    "  icome study report pointing-data            tables, figures and tests as a page\n"
     "\n"
     "A study is one TOML file; docs/studies.md describes every key. All mistakes in it are told at once, "
     "with\n"
@@ -29,7 +37,17 @@ constexpr const char* kStudyExamples =
     "  group), order_count, participants, balanced_by, trials, session_seconds, reasons and warnings "
     "[{line,\n"
     "  column, sentence}], line 0 where they concern the whole.\n"
+    "JSON of run --simulate: study, simulated, folder, participants.\n"
+    "JSON of report: study, simulated, participants {people, complete, groups, control, trials}, tables "
+    "[{factor,\n"
+    "  trials, only, rows [{variable, unit, sum, levels, test, statistic, df, p, effect, outliers}]}], "
+    "correlations,\n"
+    "  hypotheses [{id, test, statistic, df, p, p_holm, effect, effect_ci, decision, why}], questions, "
+    "checks,\n"
+    "  warnings.\n"
     "\n"
-    "Exit code: 0 done, 1 the study cannot be read or cannot be run as it is, 2 wrong usage.";
+    "Exit code: 0 done, 1 the study cannot be read or cannot be run as it is, 2 wrong usage, 3 a person "
+    "ended\n"
+    "before the end (resume goes on), 130 interrupted.";
 
 }  // namespace icome::apps

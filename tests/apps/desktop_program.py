@@ -254,6 +254,28 @@ class DesktopTest(unittest.TestCase):
         self.addCleanup(self.clear_away, desktop)
         return desktop
 
+    def small_disk(self, name, size):
+        """A folder of the test's on a disk of its own, of a size such as "256k"."""
+        disk = self.folder / name
+        disk.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", disk],
+                          stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("only root can make a disk that is full soon")
+        self.addCleanup(subprocess.run, ["umount", "-l", disk])
+        return disk
+
+    @staticmethod
+    def fill(disk):
+        """Fills it with a file; gives the file."""
+        filler = disk / "filler"
+        with filler.open("wb", buffering=0) as file:
+            try:
+                while file.write(b"\0" * 4096):
+                    pass
+            except OSError:
+                pass
+        return filler
+
     def clear_away(self, desktop):
         if desktop.is_running():
             self.keep(desktop, "last-of-" + self.id().rsplit(".", maxsplit=1)[-1])

@@ -73,23 +73,12 @@ class DesktopTroubleTest(DesktopTest):
         self.assertEqual(desktop.wait_end(), 0, desktop.said())
 
     def test_a_full_disk_loses_nothing(self):
-        disk = self.folder / "disk"
-        disk.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", disk],
-                          stderr=subprocess.DEVNULL).returncode != 0:
-            self.skipTest("only root can make a disk that is full soon")
-        self.addCleanup(subprocess.run, ["umount", "-l", disk])
+        disk = self.small_disk("disk", "256k")
         design = disk / "ball.wrl"
         design.write_text(BALL)
         desktop = self.open_ball(design)
         self.nudge(desktop)
-        filler = disk / "filler"
-        with filler.open("wb", buffering=0) as file:
-            try:
-                while file.write(b"\0" * 4096):
-                    pass
-            except OSError:
-                pass
+        filler = self.fill(disk)
         desktop.key("ctrl+s")
         wait_for("the reason", lambda: shows_banner(desktop, "error"))
         self.keep(desktop, "full-disk")

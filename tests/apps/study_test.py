@@ -79,16 +79,28 @@ class StudyTest(ProgramTest):
 
     def test_scenes_must_be_there(self):
         file = self.new("rooms.toml")
-        file.write_text(file.read_text().replace("[trials]\n", '[trials]\nscenes = [{ id = "a", file = "a.wrl" }, { id = "b", file = "b.wrl" }]\n'))
+        file.write_text(re.sub(r"scenes = .*", 'scenes = [{ id = "a", file = "a.wrl" }, { id = "b", file = "b.wrl" }]',
+                               file.read_text()))
         self.write("a.wrl", "#VRML V2.0 utf8\n")
         (reason,) = self.check(file, code=1)["reasons"]
         self.assertEqual(reason["sentence"], "scene 'b': there is no file b.wrl beside the study.")
+        self.assertGreater(reason["line"], 1)
+
+    def test_scenes_of_templates_stand_beside_them(self):
+        self.new("head.toml", "--template", "head-tracking")
+        room = self.folder / "scenes" / "room-1.wrl"
+        self.assertEqual(room.read_text(), (STUDIES / "scenes" / "room-1.wrl").read_text())
+        self.new("again.toml", "--template", "head-tracking")  # which has the same scenes
+        room.write_text("mine")
+        self.fails("study", "new", self.folder / "third.toml", "--template", "head-tracking", code=1,
+                   saying="room-1.wrl is there already")
+        self.assertEqual(room.read_text(), "mine")
 
     def test_what_is_no_study_is_told(self):
         self.fails("study", "check", self.write("a.toml", "[="), code=1, saying="a.toml:1:2")
         self.fails("study", "check", self.folder / "none.toml", code=1, saying="none.toml")
         self.fails("study", "check", self.folder, code=1, saying=str(self.folder))
-        self.fails("study", "run", code=2, saying='there is no command "run"; choose from new, check')
+        self.fails("study", "ran", code=2, saying='there is no command "ran"; choose from new, check, run')
         self.fails("study", code=2, saying="say which command")
 
     def test_the_hash_is_of_what_is_said(self):

@@ -1,0 +1,268 @@
+"""`icome study run` with a person: pages, questions and trials by keys and mouse, to the end, and what goes wrong."""
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from desktop_program import DesktopTest, wait_for
+from icome_program import PROGRAM, ProgramTest
+
+STUDY = """
+name = "tiny"
+languages = ["en", "nl"]
+title = { en = "A ball", nl = "Een bal" }
+needs = ["pointer"]
+goal = { en = "We look at balls.", nl = "We bekijken ballen." }
+consent = { en = "You may stop at any time.", nl = "U mag altijd stoppen." }
+
+[[independent]]
+id = "technique"
+name = { en = "Technique", nl = "Techniek" }
+kind = "within"
+levels = [
+  { id = "old", name = { en = "Old", nl = "Oud" } },
+  { id = "new", name = { en = "New", nl = "Nieuw" } },
+]
+
+[[dependent]]
+id = "time"
+name = { en = "Time", nl = "Tijd" }
+type = "ratio"
+values = "continuous"
+unit = "s"
+better = "lower"
+from = "time"
+
+[[hypotheses]]
+id = "faster"
+text = { en = "New is faster.", nl = "Nieuw is sneller." }
+dependent = "time"
+factor = "technique"
+expected = "new < old"
+test = "ttest"
+
+[task]
+target = "ball"
+start = [0.0, 0.0, 0.12]
+
+[trials]
+measured = 2
+hold = 0.2
+beep = true
+rest = 600
+scenes = [{ id = "ball", file = "ball.wrl" }]
+
+[[questionnaires]]
+id = "you"
+title = { en = "About you", nl = "Over u" }
+when = "before"
+
+[[questionnaires.items]]
+id = "age"
+kind = "number"
+text = { en = "How old are you?", nl = "Hoe oud bent u?" }
+least = 16
+most = 99
+
+[[questionnaires.items]]
+id = "hand"
+kind = "choice"
+text = { en = "Which hand do you write with?", nl = "Met welke hand schrijft u?" }
+choices = [
+  { id = "left", name = { en = "The left", nl = "De linker" } },
+  { id = "right", name = { en = "The right", nl = "De rechter" } },
+]
+"""
+# Seen from the front: the ball in the middle of the scene.
+BALL = """#VRML V2.0 utf8
+DEF ball Transform { children Shape {
+  appearance Appearance { material Material { diffuseColor 0.02 0.27 0.24 } }
+  geometry Sphere { radius 0.05 } } }
+"""
+# Sound goes into a file: what is played can be looked at, and no machine needs an output.
+SOUND = 'pcm.!default {{ type file slave.pcm "null" file "{}" format "raw" }}\n'
+BEEP = 7200  # samples
+
+
+def is_ink(red, green, blue):
+    return max(red, green, blue) < 80
+
+
+class StudyWindowTest(DesktopTest):
+    def setUp(self):
+        super().setUp()
+        self.study = self.folder / "tiny.toml"
+        self.study.write_text(STUDY)
+        (self.folder / "ball.wrl").write_text(BALL)
+        self.sound = self.folder / "sound.raw"
+        (self.home / ".asoundrc").write_text(SOUND.format(self.sound))
+
+    def run_study(self, *arguments, task="run", **options):
+        desktop = self.start("study", task, self.study, *arguments, **options)
+        desktop.window = desktop.find_window("ICOME")
+        self.screen.ask("windowfocus", "--sync", desktop.window)
+        return desktop
+
+    def rows(self, kind):
+        """Of the person's table of that kind, without its heading; nothing before it is there."""
+        found = list(self.folder.glob(f"tiny-data/sub-*/beh/*_{kind}.tsv"))
+        return found[0].read_text().splitlines()[1:] if found else []
+
+    def key_until(self, desktop, kind, count, *keys):
+        """Keys that add rows to a table, until it has so many."""
+        desktop.key(*keys)
+        wait_for(f"{count} rows of {kind} (there are {self.rows(kind)})", lambda: len(self.rows(kind)) >= count)
+
+    def answer(self, desktop):
+        """From the beginning to before the first condition's page."""
+        self.key_until(desktop, "events", 2, "Return")
+        desktop.type("33")
+        self.key_until(desktop, "events", 4, "Tab", "2", "Return")
+        self.key_until(desktop, "events", 5, "Return")
+
+    def reach_until(self, desktop, what, condition):
+        """Moves the hand into the ball, away from the eye, until a condition holds."""
+        def reach():
+            # Where the scene was: the last step may have been the one, and the scene be gone.
+            self.screen.ask("click", "--repeat", 4, "--delay", 20, 4)
+            # Another step might begin the next trial's way.
+            latest = time.monotonic() + 0.4
+            while not condition() and time.monotonic() < latest:
+                time.sleep(0.02)
+            return condition()
+        wait_for(what, reach)
+
+    def touch(self, desktop, count):
+        """Does a trial: there are so many then."""
+        self.reach_until(desktop, f"{count} trials", lambda: len(self.rows("beh")) >= count)
+
+    def test_a_person_is_led_to_the_end(self):
+        desktop = self.run_study()
+        self.keep(desktop, "study-consent")
+        self.key_until(desktop, "events", 2, "Return")
+        time.sleep(0.5)  # the page is on the screen
+        self.keep(desktop, "study-questions")
+        desktop.key("Return")  # which only goes to the next question, as this one needs an answer
+        desktop.key("Return")
+        desktop.type("33")
+        desktop.key("Tab")
+        self.key_until(desktop, "events", 4, "2", "Return")
+        self.key_until(desktop, "events", 5, "Return")
+        self.key_until(desktop, "events", 6, "Return")
+        self.touch(desktop, 1)
+        self.touch(desktop, 2)
+        self.keep(desktop, "study-rest")
+        desktop.key("Return")  # not before the break is over
+        self.key_until(desktop, "events", 7, "ctrl+shift+n", "Return")
+        self.key_until(desktop, "events", 8, "Return")
+        self.touch(desktop, 3)
+        self.touch(desktop, 4)
+        wait_for("the end", lambda: len(self.rows("events")) >= 9)
+        self.keep(desktop, "study-thanks")
+        desktop.key("Return")
+        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertIn("is through", desktop.said())
+        answers = "\n".join(self.rows("events"))
+        self.assertRegex(answers, r"you\.age\t33\b")
+        self.assertRegex(answers, r"you\.hand\tright\b")
+
+    def test_the_start_is_heard(self):
+        desktop = self.run_study()
+        self.answer(desktop)
+        self.key_until(desktop, "events", 6, "Return")
+        self.touch(desktop, 1)
+        self.assertGreaterEqual(self.sound.stat().st_size, 2 * BEEP)
+
+    def test_who_is_interrupted_goes_on_where_it_was(self):
+        desktop = self.run_study("--language", "nl")
+        self.answer(desktop)
+        self.key_until(desktop, "events", 6, "Return")
+        self.touch(desktop, 1)
+        desktop.key("Escape")
+        self.keep(desktop, "study-interrupt")
+        desktop.key("shift+Tab", "Return")
+        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertIn("study resume", desktop.said())
+        self.assertEqual(len(self.rows("beh")), 1)
+        desktop = self.run_study(task="resume")
+        self.touch(desktop, 2)
+        desktop.process.send_signal(signal.SIGTERM)
+        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertEqual(len(self.rows("beh")), 2)
+
+    def test_going_on_after_all_begins_the_trial_again(self):
+        desktop = self.run_study()
+        self.answer(desktop)
+        self.key_until(desktop, "events", 6, "Return")
+        desktop.key("Escape", "Return")
+        self.touch(desktop, 1)
+
+    def test_who_does_not_agree_is_let_go(self):
+        desktop = self.run_study()
+        desktop.key("shift+Tab", "Return")
+        self.keep(desktop, "study-declined")
+        desktop.key("Return")
+        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertEqual([row.split("\t")[2] for row in self.rows("events")], ["session", "declined"])
+        self.assertIn("did not agree", desktop.said())
+
+    def test_a_scene_that_is_gone_is_told_and_tried_again(self):
+        desktop = self.run_study()
+        self.answer(desktop)
+        away = (self.folder / "ball.wrl").rename(self.folder / "away.wrl")
+        self.key_until(desktop, "events", 6, "Return")
+        wait_for("the reason", lambda: "ball.wrl" in desktop.said())
+        self.keep(desktop, "study-trouble")
+        away.rename(self.folder / "ball.wrl")
+        desktop.key("Return")
+        self.touch(desktop, 1)
+
+    def test_a_full_disk_loses_nothing(self):
+        disk = self.small_disk("tiny-data", "512k")
+        desktop = self.run_study()
+        self.answer(desktop)
+        self.key_until(desktop, "events", 6, "Return")
+        filler = self.fill(disk)
+        self.reach_until(desktop, "the reason", lambda: "tiny-data" in desktop.said())
+        self.keep(desktop, "study-full-disk")
+        self.assertEqual(self.rows("beh"), [])
+        filler.unlink()
+        desktop.key("Return")
+        wait_for("the trial that was done", lambda: len(self.rows("beh")) == 1)
+
+    def test_without_opengl_the_reason_is_seen(self):
+        bad = {"LIBGL_DRIVERS_PATH": "/nonexistent"}
+        desktop = self.run_study(environment=bad)
+        self.answer(desktop)
+        self.key_until(desktop, "events", 6, "Return")
+        left, top, width, height = desktop.place()
+        middle = (left + width // 3, top + height // 2, width // 3, height // 5)
+        wait_for("the reason", lambda: self.screen.picture().part(*middle).share(is_ink) > 0.01)
+        self.keep(desktop, "study-no-opengl")
+        desktop.key("Escape", "shift+Tab", "Return")
+        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+
+    def test_closing_the_window_asks(self):
+        desktop = self.run_study()
+        desktop.quit()
+        desktop.key("Return")
+        self.key_until(desktop, "events", 2, "Return")
+        desktop.quit()
+        desktop.key("shift+Tab", "Return")
+        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+
+
+class NoDisplayTest(ProgramTest):
+    def test_there_is_none(self):
+        bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+        self.write("ball.wrl", BALL)
+        study = self.write("tiny.toml", STUDY)
+        done = subprocess.run([PROGRAM, "study", "run", study], capture_output=True, text=True, timeout=120, env=bare)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("There is no display", done.stderr)
+        self.assertIn("icome study run --simulate", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
