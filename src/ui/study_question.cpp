@@ -50,6 +50,20 @@ std::string typed_number(const QString& text) {
 
 QString shown_number(double number) { return QString::number(number, 'g', 10); }
 
+/// Buttons do not break their lines by themselves, and what does not fit cannot be read.
+QString in_lines(const QString& text) {
+  constexpr qsizetype kLongestLine = 64;  // letters, which fit into any window that people read in
+  QString lines;
+  qsizetype length = 0;
+  for (const QString& word : text.split(' ')) {
+    const bool fits = length == 0 || length + 1 + word.size() <= kLongestLine;
+    if (!lines.isEmpty()) lines += fits ? ' ' : '\n';
+    length = fits && length > 0 ? length + 1 + word.size() : word.size();
+    lines += word;
+  }
+  return lines;
+}
+
 QLabel* note_label(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
   label->setTextFormat(Qt::PlainText);
@@ -111,7 +125,7 @@ void StudyQuestion::add_choices(bool several) {
   buttons_ = new QButtonGroup(this);
   buttons_->setExclusive(!several);
   for (const study::Level& choice : item_.choices) {
-    const QString name = study_text(choice.name, language_).replace('&', "&&");
+    const QString name = in_lines(study_text(choice.name, language_)).replace('&', "&&");
     QAbstractButton* const button =
         several ? static_cast<QAbstractButton*>(new QCheckBox(name, this)) : new QRadioButton(name, this);
     buttons_->addButton(button, int(buttons_->buttons().size()));

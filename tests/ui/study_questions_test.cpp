@@ -97,6 +97,29 @@ TEST_F(StudyQuestionsTest, EveryKindGivesItsAnswer) {
   EXPECT_EQ(answers_, (Answers{"some", "few,many", "5", "33.5", "It was\nfine."}));
 }
 
+TEST_F(StudyQuestionsTest, LongAnswersStandInSeveralLines) {
+  Item& one = add("one", ItemKind::Choice);
+  const QString words = QString("forces & no forces, ").repeated(10).trimmed();
+  one.choices[0].name = {words.toStdString()};
+  show();
+  const QString text = field<QAbstractButton>("one").text().replace("&&", "&");
+  for (const QString& line : text.split('\n')) EXPECT_LE(line.size(), 64);
+  EXPECT_GE(text.count('\n'), 3);
+  EXPECT_EQ(QString(text).replace('\n', ' '), words);
+}
+
+TEST_F(StudyQuestionsTest, ANumberThatCanBeReadInTwoWaysIsRefused) {
+  add("age", ItemKind::Number);
+  show();
+  field<QLineEdit>("age").setText("1,000");
+  go_on();
+  EXPECT_FALSE(answers_);
+  EXPECT_EQ(complaint("age"), "Please give a number.");
+  field<QLineEdit>("age").setText("0,125");
+  go_on();
+  EXPECT_EQ(answers_, Answers{"0.125"});
+}
+
 TEST_F(StudyQuestionsTest, WhatIsNotRequiredMayStayEmpty) {
   for (const ItemKind kind :
        {ItemKind::Choice, ItemKind::Choices, ItemKind::Rating, ItemKind::Number, ItemKind::OpenText})
