@@ -182,32 +182,44 @@ class StudyRunTest(ProgramTest):
         file = self.study(change=lambda text: text.replace("measured = 10", "measured = 500"))
         whole = self.simulate(file, 1)
         trials = whole_lines(next(whole.glob("sub-*/beh/*_beh.tsv")))
-        data = self.folder / "killed"
-        command = [PROGRAM, "study", "run", str(file), "--simulate", "1", "--data", str(data)]
         chance = random.Random(7)
-        done, in_vain, latest = 0, 0, LATEST_KILL
-        for kill in range(KILLS):
-            with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
-                try:
-                    said = process.communicate(timeout=chance.uniform(0.0, latest))[1]
-                    self.assertEqual(process.returncode, 0, said)
-                except subprocess.TimeoutExpired:
-                    process.kill()
-                    process.communicate()
+        kills, ended, logged, in_vain, latest, done = 0, 0, 0, 0, LATEST_KILL, 0
+        data = self.folder / "killed"
+        while kills < KILLS:
+            was_killed = self.run_until_killed(file, data, chance.uniform(0.0, latest))
             now = [line for log in data.glob("sub-*/beh/*_beh.tsv") for line in whole_lines(log)]
             # What was on record stays, and is what an undisturbed run has, in its order.
-            self.assertGreaterEqual(len(now), done, kill)
-            self.assertEqual(now[done:], trials[done:len(now)], kill)
+            self.assertGreaterEqual(len(now), done, kills)
+            self.assertEqual(now[done:], trials[done:len(now)], kills)
             for line in now[max(done, 1):]:
                 trace = data / "sub-SIMULATED001" / line.split("\t")[-2]
-                self.assertEqual(trace.read_bytes(), (whole / trace.relative_to(data)).read_bytes(), kill)
-            in_vain = 0 if len(now) > done else in_vain + 1
+                self.assertEqual(trace.read_bytes(), (whole / trace.relative_to(data)).read_bytes(), kills)
+            kills += was_killed
+            logged += len(now) - done
+            in_vain = 0 if len(now) > done or not was_killed else in_vain + 1
             if in_vain == 15:  # the machine is slower than that
                 in_vain, latest = 0, 1.5 * latest
             done = len(now)
-        self.assertGreater(done, 100)  # trials were under way
+            if not was_killed:  # it came to its end: the next kills are of one that begins anew
+                self.assert_same_trials(whole, data)
+                ended += 1
+                data, done, in_vain = self.folder / f"killed{ended}", 0, 0
+        self.assertGreater(logged, 100)  # trials were under way
         self.simulate(file, 1, "--data", data)
         self.assert_same_trials(whole, data)
+
+    def run_until_killed(self, file, data, delay):
+        """Runs the study for `delay` seconds; whether it had to be killed then."""
+        command = [PROGRAM, "study", "run", str(file), "--simulate", "1", "--data", str(data)]
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            try:
+                said = process.communicate(timeout=delay)[1]
+                self.assertEqual(process.returncode, 0, said)
+                return False
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                return True
 
 
 if __name__ == "__main__":
