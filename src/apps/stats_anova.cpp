@@ -74,6 +74,20 @@ std::string anova_sentence(const AnovaTerm& term, const Anova& anova, bool sever
   return text;
 }
 
+/// Says why an effect size can stand outside of its interval, where one does.
+void note_intervals(StatsReport& report, const Anova& anova, bool several) {
+  const auto stands_outside = [&](const AnovaTerm& term) {
+    const auto interval =
+        stats::partial_eta_sq_interval(term.f, term.df, anova.residual.df, kEffectConfidence);
+    const double share = several ? term.partial_eta_sq : term.eta_sq;
+    return interval && (share < interval->low || share > interval->high);
+  };
+  if (std::ranges::any_of(anova.terms, stands_outside))
+    report.warnings.push_back(
+        "The interval of \u03b7\u00b2 is of the population's, which is less than what few values show of it; "
+        "so the value itself can stand outside.");
+}
+
 /// The title of the chart: the term that speaks most of all factors together.
 std::string anova_title(const Anova& anova) {
   const bool several = anova.terms.size() > 1;
@@ -128,6 +142,7 @@ base::Result<StatsReport> report_anova(const StatsOptions& asked) {
   report.text += anova_table_text(*anova) + "\n";
   for (const AnovaTerm& term : anova->terms)
     report.text += fmt::format("  {}: {}\n", term.term, anova_sentence(term, *anova, several));
+  note_intervals(report, *anova, several);
   std::string title = anova_title(*anova);
   if (options.welch) {
     auto welch = welch_part(*data);

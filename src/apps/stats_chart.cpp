@@ -116,6 +116,11 @@ Extremes extremes_of(const StatsChart& chart) {
     }
   }
   for (const Vector2& point : chart.points) extremes.add(point.y());
+  if (chart.kind == ChartKind::Scatter) {
+    const FittedLine line = fitted_line(chart);
+    for (const auto* const limit : {&line.lower, &line.upper})
+      for (const Vector2& point : *limit) extremes.add(point.y());
+  }
   if (chart.kind == ChartKind::Bars || chart.kind == ChartKind::Shares) extremes.add(0.0);
   return extremes;
 }
@@ -142,9 +147,10 @@ AxisRange y_range(const StatsChart& chart) {
   return range;
 }
 
-std::string y_tick(const StatsChart& chart, double value, int decimals) {
+std::string y_tick(const StatsChart& chart, double value, double step) {
   const bool shares = chart.kind == ChartKind::Shares && chart.series.size() > 1;
-  return shares ? fmt::format("{:.0f} %", 100.0 * value) : render::tick_label(value, decimals);
+  if (shares) return render::tick_label(100.0 * value, 100.0 * step) + " %";
+  return render::tick_label(value, step);
 }
 
 /// "n = 12", or "n = 6, 5" of several series.
@@ -208,7 +214,7 @@ ChartFrame frame_of(const Canvas& canvas, const StatsChart& chart, const AxisRan
                     GroupLabels& labels) {
   double widest = 0.0;
   for (const double value : y.at)
-    widest = std::max(widest, canvas.text_width(y_tick(chart, value, y.decimals), {kLabelSize, {}}));
+    widest = std::max(widest, canvas.text_width(y_tick(chart, value, y.step), {kLabelSize, {}}));
   ChartFrame frame;
   const double left = kSideMargin + 40.0 + widest;
   const double right = kChartWidth - kSideMargin - legend_width(canvas, chart);
@@ -226,7 +232,7 @@ void draw_y_axis_of(Canvas& canvas, const StatsChart& chart, const ChartFrame& f
   for (const double value : y.at) {
     const Vector2 grid[] = {{frame.area.x, frame.y(value)}, {frame.area.right(), frame.y(value)}};
     canvas.line(grid, {kChartGrid, 1.0, {}});
-    canvas.text({frame.area.x - 10.0, frame.y(value) + 0.36 * kLabelSize}, y_tick(chart, value, y.decimals),
+    canvas.text({frame.area.x - 10.0, frame.y(value) + 0.36 * kLabelSize}, y_tick(chart, value, y.step),
                 {kLabelSize, kChartInk, false, 1.0});
   }
   const render::TextStyle style{kLabelSize + 1.0, kChartInk, false, 0.5, 0.5 * M_PI};
@@ -263,7 +269,7 @@ void draw_x_axis_of(Canvas& canvas, const StatsChart& chart, const ChartFrame& f
       const Vector2 mark[] = {{frame.x(value), frame.area.bottom()},
                               {frame.x(value), frame.area.bottom() + 5.0}};
       canvas.line(mark, {kChartInk, 1.0, {}});
-      canvas.text({frame.x(value), frame.area.bottom() + 23.0}, render::tick_label(value, x.decimals),
+      canvas.text({frame.x(value), frame.area.bottom() + 23.0}, render::tick_label(value, x.step),
                   {kLabelSize, kChartInk, false, 0.5});
     }
   }

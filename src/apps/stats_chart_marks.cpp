@@ -132,7 +132,11 @@ Colour chart_colour(std::size_t which) {
   static const Colour kColours[] = {{0.0, 0.447, 0.698},   {0.902, 0.624, 0.0},   {0.0, 0.620, 0.451},
                                     {0.835, 0.369, 0.0},   {0.800, 0.475, 0.655}, {0.298, 0.667, 0.882},
                                     {0.450, 0.480, 0.530}, {0.420, 0.300, 0.600}};
-  return kColours[which % std::size(kColours)];
+  const Colour& base = kColours[which % std::size(kColours)];
+  const std::size_t round = which / std::size(kColours) % 3;
+  const double share = round == 0 ? 0.0 : 0.5, end = round == 1 ? 1.0 : 0.0;
+  const auto mix = [&](double ink) { return ink + share * (end - ink); };
+  return {mix(base.red), mix(base.green), mix(base.blue)};
 }
 
 AxisRange axis_over(double low, double high, int count) {
@@ -145,7 +149,7 @@ AxisRange axis_over(double low, double high, int count) {
   AxisRange range;
   range.low = low;
   range.high = high;
-  range.decimals = ticks.decimals;
+  range.step = ticks.step;
   range.at = ticks.at;
   return range;
 }
@@ -224,7 +228,7 @@ void draw_interaction(Canvas& canvas, const StatsChart& chart, const ChartFrame&
 namespace {
 
 /// The line of least squares, and what its interval needs.
-struct FittedLine {
+struct Fit {
   double centre = 0.0, height = 0.0;  // means of x and y
   double slope = 0.0;
   double sxx = 0.0;    // squared deviations of x
@@ -237,45 +241,36 @@ struct FittedLine {
   }
 };
 
-FittedLine fitted_line(const std::vector<Vector2>& points) {
+Fit fit_of(const std::vector<Vector2>& points) {
   std::vector<double> xs, ys, products, squares;
   for (const Vector2& point : points) {
     xs.push_back(point.x());
     ys.push_back(point.y());
   }
-  FittedLine line;
-  line.count = double(points.size());
-  line.centre = stats::mean(xs);
-  line.height = stats::mean(ys);
-  for (const Vector2& point : points)
-    products.push_back((point.x() - line.centre) * (point.y() - line.height));
-  line.sxx = stats::squared_deviations(xs);
-  line.slope = stats::sum(products) / line.sxx;
+  Fit fit;
+  fit.count = double(points.size());
+  fit.centre = stats::mean(xs);
+  fit.height = stats::mean(ys);
+  for (const Vector2& point : points) products.push_back((point.x() - fit.centre) * (point.y() - fit.height));
+  fit.sxx = stats::squared_deviations(xs);
+  fit.slope = stats::sum(products) / fit.sxx;
   for (const Vector2& point : points) {
-    const double off = point.y() - line.at(point.x());
+    const double off = point.y() - fit.at(point.x());
     squares.push_back(off * off);
   }
-  line.error = std::sqrt(stats::sum(squares) / std::max(1.0, line.count - 2.0));
-  return line;
+  fit.error = std::sqrt(stats::sum(squares) / std::max(1.0, fit.count - 2.0));
+  return fit;
 }
 
 void draw_fit(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame, const Colour& colour) {
-  const FittedLine line = fitted_line(chart.points);
-  if (!(line.sxx > 0.0) || chart.points.size() < 3) return;
-  const auto [least, greatest] =
-      std::ranges::minmax(chart.points, {}, [](const Vector2& p) { return p.x(); });
-  const double t = stats::t_quantile(0.5 + 0.5 * chart.confidence, line.count - 2.0);
-  constexpr int kSteps = 60;
-  std::vector<Vector2> band, back;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double x = least.x() + (greatest.x() - least.x()) * i / kSteps;
-    band.emplace_back(frame.x(x), frame.y(line.at(x) + line.half(x, t)));
-    back.emplace_back(frame.x(x), frame.y(line.at(x) - line.half(x, t)));
-  }
-  band.insert(band.end(), back.rbegin(), back.rend());
+  const FittedLine line = fitted_line(chart);
+  if (line.lower.empty()) return;
+  const auto placed = [&](const Vector2& point) { return Vector2(frame.x(point.x()), frame.y(point.y())); };
+  std::vector<Vector2> band;
+  std::ranges::transform(line.upper, std::back_inserter(band), placed);
+  std::transform(line.lower.rbegin(), line.lower.rend(), std::back_inserter(band), placed);
   canvas.fill_polygon(band, colour.with_alpha(0.15));
-  const Vector2 ends[] = {{frame.x(least.x()), frame.y(line.at(least.x()))},
-                          {frame.x(greatest.x()), frame.y(line.at(greatest.x()))}};
+  const Vector2 ends[] = {placed(line.from), placed(line.to)};
   canvas.line(ends, {colour, 2.6, {}});
 }
 
@@ -304,6 +299,25 @@ void draw_correlation(Canvas& canvas, const Area& cell, double r, double p) {
 
 }  // namespace
 
+FittedLine fitted_line(const StatsChart& chart) {
+  FittedLine line;
+  if (!chart.line || chart.points.size() < 3) return line;
+  const Fit fit = fit_of(chart.points);
+  if (!(fit.sxx > 0.0)) return line;
+  const auto [least, greatest] =
+      std::ranges::minmax(chart.points, {}, [](const Vector2& p) { return p.x(); });
+  const double t = stats::t_quantile(0.5 + 0.5 * chart.confidence, fit.count - 2.0);
+  constexpr int kSteps = 60;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double x = least.x() + (greatest.x() - least.x()) * i / kSteps;
+    line.lower.emplace_back(x, fit.at(x) - fit.half(x, t));
+    line.upper.emplace_back(x, fit.at(x) + fit.half(x, t));
+  }
+  line.from = {least.x(), fit.at(least.x())};
+  line.to = {greatest.x(), fit.at(greatest.x())};
+  return line;
+}
+
 void draw_scatter(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame) {
   canvas.clip({frame.area.x, frame.area.y - 4.0, frame.area.width, frame.area.height + 4.0});
   const Colour colour = chart_colour(0);
@@ -315,7 +329,7 @@ void draw_scatter(Canvas& canvas, const StatsChart& chart, const ChartFrame& fra
     if (thin && !drawn.emplace(std::lround(0.5 * at.x()), std::lround(0.5 * at.y())).second) continue;
     canvas.fill_disc(at, chart.points.size() > 600 ? 3.0 : 4.4, colour.with_alpha(alpha));
   }
-  if (chart.line) draw_fit(canvas, chart, frame, chart_colour(3));
+  draw_fit(canvas, chart, frame, chart_colour(3));
   canvas.unclip();
 }
 
@@ -363,9 +377,17 @@ void draw_matrix(Canvas& canvas, const StatsChart& chart, const Area& area) {
   const auto count = double(chart.groups.size());
   constexpr double kNames = 190.0;
   const double side = std::min((area.height - 8.0) / count, (area.width - 2.0 * kNames) / count);
-  const double left = area.x + 0.5 * (area.width - count * side);
   const render::TextStyle row{std::clamp(0.3 * side, 7.0, 15.5), kChartInk, false, 1.0};
   const render::TextStyle column{row.size, kChartQuiet};
+  // In the middle, unless the names of rows need what those of columns leave.
+  const double spare = area.width - count * side;
+  double for_rows = 0.0, for_columns = 0.0;
+  for (std::size_t i = 0; i < chart.groups.size(); ++i) {
+    const double width = canvas.text_width(chart.groups[i], row) + 12.0;
+    for_rows = std::max(for_rows, width);
+    if (i + 1 < chart.groups.size()) for_columns = std::max(for_columns, width - (count - double(i)) * side);
+  }
+  const double left = area.x + std::max(0.5 * spare, std::min(for_rows, spare - for_columns));
   for (std::size_t i = 0; i < chart.groups.size(); ++i) {
     const double top = area.y + 4.0 + side * double(i), text = top + 0.5 * side + 0.36 * row.size;
     // The first has no row, the last no column.

@@ -17,8 +17,8 @@ inline const render::Colour kChartQuiet{0.40, 0.43, 0.48};
 inline const render::Colour kChartGrid{0.90, 0.91, 0.93};
 inline const render::Colour kChartPaper{1.0, 1.0, 1.0};
 
-/// The colours of Okabe and Ito, which colour-blind eyes tell apart, and grey; again from the first after
-/// the last.
+/// The colours of Okabe and Ito, which colour-blind eyes tell apart, and grey; then the same lighter, then
+/// darker, then again from the first.
 render::Colour chart_colour(std::size_t which);
 
 /// From a quantity to a stretch of the page.
@@ -39,7 +39,7 @@ struct ChartFrame {
 struct AxisRange {
   double low = 0.0, high = 1.0;
   std::vector<double> at;
-  int decimals = 0;
+  double step = 1.0;
 };
 /// From `low` to `high`, a little wider where they are the same.
 AxisRange axis_over(double low, double high, int count);
@@ -49,6 +49,14 @@ struct ChartMean {
   double mean = 0.0, low = 0.0, high = 0.0;
 };
 ChartMean chart_mean(const std::vector<double>& values, double confidence);
+
+/// The line of least squares and the interval of its mean, as the chart of a scatter shows them.
+struct FittedLine {
+  base::Vector2 from, to;                   // its ends, above the first and the last point
+  std::vector<base::Vector2> lower, upper;  // the interval's limits from left to right
+};
+/// Empty `lower` where there is none: less than three points, or all at one x.
+FittedLine fitted_line(const StatsChart& chart);
 
 /// A minus sign for every hyphen that is one.
 std::string with_minus(std::string_view text);

@@ -40,13 +40,6 @@ bool pairs_people(const StatsOptions& options) {
   return options.paired || options.test == "friedman";
 }
 
-/// Control characters of headings and levels do not reach the terminal from sentences either.
-std::string without_control_characters(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) < 0x20U && c != '\n') || c == 0x7f; }, ' ');
-  return text;
-}
-
 std::string whole_answer(StatsReport& report, bool json) {
   if (!json) return without_control_characters(base::as_utf8(report.text + notes_text(report.warnings)));
   report.json["warnings"] = StatsJson::array();

@@ -146,6 +146,10 @@ base::Result<StatsReport> matrix_report(const stats::DataTable& table, const Sta
   const std::string name = is_pearson ? "Pearson's correlations" : "Spearman's rank correlations";
   report.text = fmt::format("{} of {} columns, {}\n\n{}", name, options.columns.size(),
                             count_text(table.rows(), "row"), matrix_text(options.columns, *matrix));
+  const auto fewest = std::size_t(matrix->counts.minCoeff());
+  if (fewest < table.rows())
+    report.warnings.push_back(fmt::format(
+        "Values are missing: each correlation is of the rows that have both, {} at least.", fewest));
   if (options.plot.empty()) return report;
   const auto kind = chart_kind(options, {ChartKind::Matrix});
   if (!kind) return tl::unexpected(kind.error());

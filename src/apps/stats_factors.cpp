@@ -193,6 +193,26 @@ base::Result<FactorialData> read_factorial(const stats::DataTable& table, const 
   return data;
 }
 
+FactorialData people_means(const FactorialData& data) {
+  std::vector<stats::Factor> by = {data.subject};
+  for (const auto* const factors : {&data.factors, &data.within})
+    by.insert(by.end(), factors->begin(), factors->end());
+  const CellsOfFactors cells = cells_of(data, by);
+  const stats::GroupedValues grouped = stats::grouped(cells.values, cells.cell, cells.combinations.size());
+  FactorialData means = data;
+  means.values.clear();
+  std::vector<stats::Factor*> into = {&means.subject};
+  for (stats::Factor& factor : means.factors) into.push_back(&factor);
+  for (stats::Factor& factor : means.within) into.push_back(&factor);
+  for (stats::Factor* const factor : into) factor->of.clear();
+  for (std::size_t i = 0; i < cells.combinations.size(); ++i) {
+    if (grouped.group(i).empty()) continue;
+    means.values.push_back(stats::mean(grouped.group(i)));
+    for (std::size_t k = 0; k < into.size(); ++k) into[k]->of.push_back(cells.combinations[i][k]);
+  }
+  return means;
+}
+
 void add_cells(StatsReport& report, const FactorialData& data, double confidence) {
   const std::vector<stats::Factor> factors = all_factors(data);
   const auto cells = stats::describe_cells(data.values, factors, confidence);

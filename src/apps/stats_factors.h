@@ -20,6 +20,10 @@ struct FactorialData {
 /// The columns that the options name. Fails when one is not there or is named twice.
 base::Result<FactorialData> read_factorial(const stats::DataTable& table, const StatsOptions& options);
 
+/// One value a person and cell, the mean of theirs, as the analysis of repeated measures takes them. What
+/// lacks a value, a level or a person is left out.
+FactorialData people_means(const FactorialData& data);
+
 /// Means and their intervals by cell, to text and JSON ("cells").
 void add_cells(StatsReport& report, const FactorialData& data, double confidence);
 

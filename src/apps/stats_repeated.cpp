@@ -90,7 +90,7 @@ std::string sphericity_text(const RepeatedMeasures& analysis) {
     any = true;
     table.add({it.term, share_text(it.sphericity->mauchly_w, 3), p_cell(it.sphericity->p),
                share_text(it.sphericity->greenhouse_geisser, 3),
-               share_text(std::min(1.0, it.sphericity->huynh_feldt), 3)});
+               share_text(std::min(it.sphericity->huynh_feldt, 1.0), 3)});
   }
   return any ? table.text() : std::string();
 }
@@ -129,6 +129,7 @@ base::Result<StatsReport> report_repeated_measures(const StatsOptions& asked) {
   for (const RepeatedMeasuresTerm& it : analysis->terms)
     report.text += fmt::format("  {}: {}\n", it.term, repeated_sentence(it));
   leave_out(*data, analysis->left_out);
+  *data = people_means(*data);
   add_cells(report, *data, options.confidence);
   add_assumptions(report, *data, true);
   report.text += sphericity_text(*analysis);

@@ -40,6 +40,12 @@ std::string terminal_safe(const std::string& cell) {
 
 }  // namespace
 
+std::string without_control_characters(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) < 0x20U && c != '\n') || c == 0x7f; }, ' ');
+  return text;
+}
+
 std::string TextTable::text() const {
   std::vector<std::vector<std::string>> rows = rows_;
   std::vector<std::size_t> widths(rows.front().size(), 0);

@@ -20,6 +20,9 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// With blanks for control characters, but line feeds: what files say must not steer a terminal.
+std::string without_control_characters(std::string text);
+
 /// ".26", "-.12", "1.00": a number that cannot leave -1 ... 1, without the 0 that says so. "-" of NaN.
 std::string share_text(double value, int decimals = 2);
 /// "< .001", ".016", "> .999" for a cell; "-" of NaN.

@@ -123,7 +123,7 @@ void draw_ranking(Canvas& canvas, const Area& area, const BenchResult& result) {
   for (const double value : ticks.at) {
     const Vector2 grid[] = {{scale(value), top}, {scale(value), bottom}};
     canvas.line(grid, {kPageGrid, 1.0, {}});
-    canvas.text({scale(value), bottom + 22.0}, render::tick_label(value, ticks.decimals),
+    canvas.text({scale(value), bottom + 22.0}, render::tick_label(value, ticks.step),
                 {15.0, kPageInk, false, 0.5});
   }
   canvas.text({0.5 * (scale.from + scale.to), bottom + 46.0}, "effective throughput (bit/s)",
@@ -163,12 +163,12 @@ void law_axes(Canvas& canvas, const Area& frame, const PageScale& x, const PageS
   for (const double value : times.at) {
     const Vector2 grid[] = {{frame.x, y(value)}, {frame.right(), y(value)}};
     canvas.line(grid, {kPageGrid, 1.0, {}});
-    canvas.text({frame.x - 10.0, y(value) + 5.4}, render::tick_label(value, times.decimals),
+    canvas.text({frame.x - 10.0, y(value) + 5.4}, render::tick_label(value, times.step),
                 {15.0, kPageInk, false, 1.0});
   }
   const render::Ticks ids = render::nice_ticks(x.low, x.high, 7);
   for (const double value : ids.at)
-    canvas.text({x(value), frame.bottom() + 22.0}, render::tick_label(value, ids.decimals),
+    canvas.text({x(value), frame.bottom() + 22.0}, render::tick_label(value, ids.step),
                 {15.0, kPageInk, false, 0.5});
   const Vector2 base[] = {{frame.x, frame.bottom()}, {frame.right(), frame.bottom()}};
   canvas.line(base, {kPageInk, 1.2, {}});

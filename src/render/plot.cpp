@@ -68,7 +68,7 @@ void draw_x_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
   for (const double value : ticks.at) {
     const Vector2 mark[] = {{axes.x(value), base}, {axes.x(value), base + 5.0}};
     canvas.line(mark, {kPlotInk, 1.0, {}});
-    canvas.text({axes.x(value), base + 24.0}, tick_label(value, ticks.decimals),
+    canvas.text({axes.x(value), base + 24.0}, tick_label(value, ticks.step),
                 {kTextSize, kPlotInk, false, 0.5});
   }
   canvas.text({axes.frame.x + 0.5 * axes.frame.width, base + 50.0}, label,
@@ -82,7 +82,7 @@ void draw_y_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
   for (const double value : ticks.at) {
     const Vector2 grid[] = {{axes.frame.x, axes.y(value)}, {axes.frame.right(), axes.y(value)}};
     if (value > 0.0) canvas.line(grid, {kGrid, 1.0, {}});
-    canvas.text({axes.frame.x - 10.0, axes.y(value) + 0.36 * kTextSize}, tick_label(value, ticks.decimals),
+    canvas.text({axes.frame.x - 10.0, axes.y(value) + 0.36 * kTextSize}, tick_label(value, ticks.step),
                 {kTextSize, kPlotInk, false, 1.0});
   }
   canvas.text({axes.frame.x - 58.0, axes.frame.y + 0.5 * axes.frame.height}, label,
@@ -118,13 +118,12 @@ void draw_line(Canvas& canvas, const Axes& axes, const TimePlot& plot) {
 
 Ticks nice_ticks(double low, double high, int count) {
   const double range = high - low;
-  if (!(range > 0.0) || !std::isfinite(range) || count < 1) return {1.0, {low}, 0};
+  if (!(range > 0.0) || !std::isfinite(range) || count < 1) return {1.0, {low}};
   const double rough = range / count;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   const double ratio = rough / power;
   Ticks ticks;
   ticks.step = power * (ratio <= 1.5 ? 1.0 : ratio <= 3.5 ? 2.0 : ratio <= 7.5 ? 5.0 : 10.0);
-  ticks.decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(ticks.step) - 1e-9)));
   const double slack = 1e-9 * ticks.step;
   for (double n = std::ceil(low / ticks.step - 1e-9); n * ticks.step <= high + slack; n += 1.0) {
     ticks.at.push_back(n * ticks.step);
@@ -134,11 +133,16 @@ Ticks nice_ticks(double low, double high, int count) {
   return ticks;
 }
 
-std::string tick_label(double value, int decimals) {
+std::string tick_label(double value, double step) {
+  constexpr int kMostDigits = 17;  // of a double
+  const double size = std::abs(value);
   // Very small and very large steps read better as powers of ten.
-  const bool plain = decimals <= 6 && std::abs(value) < 1e7;
+  const bool plain = step < 1e6 && step > 0.9e-6;
+  const auto decimals = static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
+  const double steps = std::max(1.0, size / step);
+  const int figures = std::clamp(2 + static_cast<int>(std::log10(steps)), 3, kMostDigits);
   const std::string digits =
-      plain ? fmt::format("{:.{}f}", std::abs(value), decimals) : fmt::format("{:.3g}", std::abs(value));
+      plain ? fmt::format("{:.{}f}", size, std::max(0, decimals)) : fmt::format("{:.{}g}", size, figures);
   const bool zero = digits.find_first_of("123456789") == std::string::npos;
   return fmt::format("{}{}", std::signbit(value) && !zero ? "\u2212" : "", digits);
 }

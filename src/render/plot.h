@@ -13,14 +13,13 @@ namespace icome::render {
 struct Ticks {
   double step = 1.0;
   std::vector<double> at;  ///< ascending, within the range asked for
-  int decimals = 0;        ///< digits behind the point that their labels need
 };
 
 /// About `count` ticks in low ... high. A range that is empty or not finite gives a single tick at `low`.
 Ticks nice_ticks(double low, double high, int count);
 
-/// The number written with that many decimals, with a real minus sign.
-std::string tick_label(double value, int decimals);
+/// The number with the digits that tell it from its neighbours, a `step` away, and a real minus sign.
+std::string tick_label(double value, double step);
 
 /// A stretch of the horizontal axis.
 struct Span {

@@ -254,7 +254,7 @@ void draw_colour_bar(Canvas& canvas, const Scene& scene) {
     const double y = bar.bottom() - bar.height * value / scene.newtons;
     const Vector2 mark[] = {{bar.right() + 2.0, y}, {bar.right() + 7.0, y}};
     canvas.line(mark, {kInk, 1.2, {}});
-    canvas.text({bar.right() + 13.0, y + 5.8}, tick_label(value, ticks.decimals), {16.0, kInk});
+    canvas.text({bar.right() + 13.0, y + 5.8}, tick_label(value, ticks.step), {16.0, kInk});
   }
   canvas.text({bar.x + 9.0, bar.y - 18.0}, "force (N)", {17.0, kInk, false, 0.5});
 }

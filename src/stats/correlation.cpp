@@ -27,10 +27,14 @@ std::vector<double> scaled_deviations(std::span<const double> values) {
   const double largest_value = std::abs(*std::max_element(
       values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   std::vector<double> deviations(values.begin(), values.end());
-  for (double& value : deviations) value /= largest_value;
-  const double centre = mean(deviations);
+  // By a power of two, which rounds nothing that small differences between large values would lose.
+  for (double& value : deviations) value = std::scalbn(value, -std::ilogb(largest_value));
   double largest = 0.0;
-  for (double& value : deviations) largest = std::max(largest, std::abs(value -= centre));
+  for (int pass = 0; pass < 2; ++pass) {  // the second takes off what the first mean was rounded by
+    const double centre = mean(deviations);
+    largest = 0.0;
+    for (double& value : deviations) largest = std::max(largest, std::abs(value -= centre));
+  }
   for (double& value : deviations) value /= largest;
   return deviations;
 }

@@ -125,6 +125,12 @@ base::Result<std::size_t> t_test_count(TDesign design, double d, double power,
                                        const PowerSettings& settings) {
   if (auto error = power_complaint(power, settings.alpha)) return tl::unexpected(*error);
   if (auto error = effect_complaint(d)) return tl::unexpected(*error);
+  const bool other_way = settings.alternative == Alternative::Less ? d > 0.0 : d < 0.0;
+  if (other_way && settings.alternative != Alternative::TwoSided)
+    return base::fail(fmt::format(
+        "power: however many values, an effect of {} is not found by a test for the other direction; "
+        "turn its sign or the alternative",
+        d));
   return count_reaching(power, 2, [&](double count) { return one_design_power(design, count, d, settings); });
 }
 

@@ -75,9 +75,11 @@ void warn_of_groups(RepeatedMeasures& result, const SubjectTable& table, const M
     const double asked = column_count(table.between, term.term);
     const auto df = static_cast<double>(term.directions.cols());
     if (df == asked) continue;
+    const std::string name = term.term.empty() ? fmt::format("the mean of all groups, which '{}' rests on,",
+                                                             table.within.front().name)
+                                               : fmt::format("'{}'", term_name(table.between, term.term));
     result.warnings.push_back(fmt::format(
-        "Groups without subjects leave '{}' {} of its {} degrees of freedom{}.",
-        term_name(table.between, term.term), df, asked,
+        "Groups without subjects leave {} {} of its {} degrees of freedom{}.", name, df, asked,
         result.type == SumsOfSquares::TypeIII ? ", and what type III tests depends on them: prefer type II"
                                               : ""));
   }

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <unordered_map>
 
+#include "base/utf8.h"
+
 namespace icome::stats {
 namespace {
 
@@ -152,6 +154,17 @@ std::string not_text(std::string_view bytes) {
   return {};
 }
 
+/// Where the first byte stands that is no UTF-8; npos: nowhere.
+std::size_t find_not_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const bool ascii = static_cast<unsigned char>(text[at]) < 0x80;
+    const std::size_t length = ascii ? 1 : base::utf8_length(text.substr(at));
+    if (length == 0) return at;
+    at += length;
+  }
+  return std::string_view::npos;
+}
+
 /// Reads rows into a table; errors are sentences that begin with source and line.
 class TableFiller {
  public:
@@ -283,6 +296,11 @@ base::Result<DataTable> read_table(std::string_view bytes, const std::string& so
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   if (const std::string why = not_text(bytes); !why.empty())
     return base::fail(fmt::format("{} {}", source, why));
+  if (const std::size_t at = find_not_utf8(bytes); at != std::string_view::npos)
+    return base::fail(fmt::format(
+        "{}:{}: the byte 0x{:02x} is no UTF-8; save the table as UTF-8 (spreadsheets: \"CSV UTF-8\").",
+        source, 1 + std::count(bytes.begin(), bytes.begin() + std::ptrdiff_t(at), '\n'),
+        static_cast<unsigned char>(bytes[at])));
   if (separator == Separator::Found) separator = separator_of(bytes);
   return TableFiller(bytes, source, separator).read();
 }

@@ -22,7 +22,7 @@ enum class Separator {
 ///
 /// Fails with `source`, line and column: nothing in it, no row under the heading, a row with more or fewer
 /// cells, a heading that is empty or there twice, a quote that is not closed or has text behind it, a cell
-/// above 1 MiB, bytes that are no text (UTF-16, NUL), 4 GiB or more.
+/// above 1 MiB, bytes that are no UTF-8 text (Latin-1, UTF-16, NUL), 4 GiB or more.
 base::Result<DataTable> read_table(std::string_view bytes, const std::string& source,
                                    Separator separator = Separator::Found);
 

@@ -15,9 +15,8 @@ TEST(NiceTicks, CountsInOnesTwosAndFives) {
   const Ticks ticks = nice_ticks(0.0, 3.7, 5);
   EXPECT_DOUBLE_EQ(ticks.step, 0.5);
   EXPECT_EQ(ticks.at.size(), 8U);
-  EXPECT_EQ(ticks.decimals, 1);
   EXPECT_DOUBLE_EQ(nice_ticks(0.0, 90.0, 5).step, 20.0);
-  EXPECT_EQ(nice_ticks(0.0, 90.0, 5).decimals, 0);
+  EXPECT_EQ(nice_ticks(0.0, 90.0, 5).step, 20.0);
 }
 
 TEST(NiceTicks, StartsAtTheFirstMultipleInRange) {
@@ -32,8 +31,16 @@ TEST(NiceTicks, GivesOneTickForARangeWithoutLength) {
 }
 
 TEST(TickLabel, WritesARealMinusAndNoNegativeZero) {
-  EXPECT_EQ(tick_label(-1.5, 1), "\u22121.5");
-  EXPECT_EQ(tick_label(-1e-17, 1), "0.0");
+  EXPECT_EQ(tick_label(-1.5, 0.5), "\u22121.5");
+  EXPECT_EQ(tick_label(-1e-17, 0.5), "0.0");
+}
+
+TEST(TickLabel, TellsNeighboursApart) {
+  EXPECT_EQ(tick_label(1e9 + 5.0, 5.0), "1000000005");
+  EXPECT_EQ(tick_label(9e6, 1e6), "9e+06");
+  EXPECT_EQ(tick_label(1.1e7, 1e6), "1.1e+07");
+  EXPECT_EQ(tick_label(3.1e-7, 1e-8), "3.1e-07");
+  EXPECT_EQ(tick_label(123456e6, 1e6), "1.23456e+11");
 }
 
 TEST(LengthText, ChoosesTheUnit) {

@@ -30,6 +30,17 @@ TEST(Correlation, Pearson) {
   EXPECT_EQ(test->df, 7.0);
 }
 
+TEST(Correlation, SmallDifferencesBetweenLargeValuesKeepTheirDigits) {
+  std::vector<double> x, far, y;
+  for (int i = 0; i < 12; ++i) {
+    x.push_back(3.0 * i + (i % 3) * 7.0);
+    far.push_back(1e15 + x.back());  // exact
+    y.push_back(std::sin(2.0 * i));
+  }
+  EXPECT_DOUBLE_EQ(pearson(x, far)->r, 1.0);
+  EXPECT_NEAR(pearson(far, y)->r, pearson(x, y)->r, 1e-15);
+}
+
 TEST(Correlation, PearsonOfSharedCars) {
   // R 4.2: cor.test(mtcars$mpg, mtcars$wt), then alternative = "less", conf.level = 0.9.
   const auto mpg = shared_numbers("r-datasets/mtcars.csv", "mpg");

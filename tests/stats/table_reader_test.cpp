@@ -125,6 +125,14 @@ TEST(ReadTable, ErrorsNameFileLineAndColumn) {
             "d.csv is UTF-16; save it as UTF-8.");
 }
 
+TEST(ReadTable, TextThatIsNoUtf8IsToldWithItsLine) {
+  const auto table = read_table("name,v\nb,1\ncaf\xe9,2\n", "t.csv");
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().message,
+            "t.csv:3: the byte 0xe9 is no UTF-8; save the table as UTF-8 (spreadsheets: \"CSV UTF-8\").");
+  EXPECT_TRUE(read_table("name,v\ncaf\xc3\xa9,2\n", "t.csv"));
+}
+
 TEST(ReadTable, HugeCellsAreRefused) {
   const std::string huge((1U << 20U) + 1, 'x');
   EXPECT_EQ(error_of("a\n" + huge + "\n"),
