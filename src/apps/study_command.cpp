@@ -13,6 +13,7 @@
 #include "apps/study_report_command.h"
 #include "apps/study_run_command.h"
 #include "files/file_bytes.h"
+#include "study/scene_check.h"
 #include "study/study_check.h"
 #include "study/templates.h"
 
@@ -68,9 +69,7 @@ int run_study_check(const StudyOptions& options) {
   if (!opened) return end_without_result(opened.error(), status);
   const study::Study& study = opened->study;
   study::StudyCheck check = study::check_study(study);
-  // A study whose scenes are not where it says cannot be run.
-  for (study::Finding& missing : missing_scenes(study, opened->folder))
-    check.reasons.push_back(std::move(missing));
+  study::check_scenes(study, opened->folder, check);
   const int printed =
       print_answer(options.json ? study_json(study, check) : study_text(study, check, options.file.string()));
   return check.reasons.empty() ? printed : kDesignFailed;
@@ -117,11 +116,13 @@ void add_run_options(CLI::App& study, StudyOptions& options) {
       ->type_name("NAME=VALUE");
   run.add_option("--language", options.language, "What texts are read in (default: the study's first)")
       ->type_name("en|nl|...");
-  run.add_option("--simulate", options.simulate,
-                 "Let so many simulated people take part, until all are through")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000));
-  run.add_flag("--json", options.json, "Of --simulate: print what was done as JSON");
+  CLI::Option& simulate = *run.add_option("--simulate", options.simulate,
+                                          "Let so many simulated people take part, until all are through")
+                               ->type_name("N")
+                               ->check(CLI::Range(1, 10000));
+  for (const char* const of_a_person : {"--participant", "--with", "--language", "--window"})
+    simulate.excludes(run.get_option(of_a_person));
+  run.add_flag("--json", options.json, "Of --simulate: print what was done as JSON")->needs(&simulate);
 }
 
 void add_report_options(CLI::App& study, StudyOptions& options) {

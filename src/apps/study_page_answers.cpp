@@ -25,7 +25,7 @@ std::size_t answered(const study::QuestionSummary& question) {
 std::string no_test_sentence(const study::Item& item, const study::QuestionSummary& question) {
   if (question.columns.size() == 1)
     return item.kind == study::ItemKind::Rating
-               ? "No test: it was rated once, so that there is nothing to compare."
+               ? "No test: everybody rated it once, so that there is nothing to compare within people."
                : "No test: there is nothing to compare.";
   return "No test: the same people answered in each condition, and tests of counts ask for one answer of "
          "each.";

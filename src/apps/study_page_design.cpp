@@ -27,6 +27,12 @@ std::string scale_text(Scale scale, bool discrete) {
   return text;
 }
 
+std::string control_values(const study::ControlVariable& variable) {
+  std::string text = variable.levels.empty() ? variable.unit : level_list(variable.levels);
+  if (variable.balanced) text.append(text.empty() ? "" : "; ").append("balanced over the groups");
+  return text;
+}
+
 void write_variables(StudyPage& page) {
   const study::Study& study = page.data().study;
   PageTable table;
@@ -42,10 +48,8 @@ void write_variables(StudyPage& page) {
                           : study::is_measured(variable) ? fmt::format("measured: {}", variable.from)
                                                          : fmt::format("asked: {}", variable.from)});
   for (const study::ControlVariable& variable : study.control)
-    table.rows.push_back(
-        {name_of(variable.name, variable.id), "control", scale_text(variable.scale, variable.discrete),
-         fmt::format("{}{}", variable.levels.empty() ? variable.unit : level_list(variable.levels),
-                     variable.balanced ? "; balanced over the groups" : "")});
+    table.rows.push_back({name_of(variable.name, variable.id), "control",
+                          scale_text(variable.scale, variable.discrete), control_values(variable)});
   page.table(table);
 }
 

@@ -143,7 +143,7 @@ std::vector<std::string> all_needs(const study::Study& study) {
   return needs;
 }
 
-/// Whether people felt anything in some trial.
+/// Whether there is something to feel in some trial, with a device that gives forces.
 bool gives_forces(const study::Study& study) {
   bool always_set = false;
   for (const study::IndependentVariable& factor : study.independent) {
@@ -162,9 +162,9 @@ std::string apparatus_text(const study::Study& study) {
     if (std::ranges::find(ids, capability.id) != ids.end())
       needs.emplace_back(capability.what.substr(0, capability.what.find(',')));
   return fmt::format(
-      "[Name the haptic device, the display and the computer.] The study was run with ICOME{}.{}",
-      gives_forces(study) ? ", with forces computed at 1 kHz" : "",
-      needs.empty() ? "" : fmt::format(" The study used {}.", joined(needs)));
+      "[Name the device, the display and the computer.] The study was run with ICOME{}.{}",
+      gives_forces(study) ? ", with forces computed at 1 kHz [say on which device they were felt]" : "",
+      needs.empty() ? "" : fmt::format(" [The study asks for {}: say what was used.]", joined(needs)));
 }
 
 std::string criterion_text(const StudyPage& page) {

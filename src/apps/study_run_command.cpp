@@ -13,6 +13,7 @@
 #include "files/file_bytes.h"
 #include "study/data_folder.h"
 #include "study/needs.h"
+#include "study/scene_check.h"
 #include "study/session_run.h"
 #include "study/simulation.h"
 #include "study/study_reader.h"
@@ -48,14 +49,13 @@ base::Result<OpenedStudy> study_to_run(const StudyOptions& options) {
     opened->study = std::move(*alone);
   }
   study::StudyCheck check = study::check_study(opened->study);
+  study::check_scenes(opened->study, opened->folder, check);
   const auto unmet = study::unmet_needs(opened->study);
   std::string why;
   const std::string name = options.file.string();
   // Reasons begin with unmet needs, and simulated people need no devices.
   for (std::size_t i = options.simulate > 0 ? unmet.size() : 0; i < check.reasons.size(); ++i)
     why += fmt::format(" {}", check.reasons[i].sentence);
-  for (const study::Finding& missing : missing_scenes(opened->study, opened->folder))
-    why += fmt::format(" {}", missing.sentence);
   if (why.empty()) return opened;
   if (!unmet.empty() && options.simulate == 0)
     why += " With --pointer-only what needs these is left out; --simulate needs no devices.";
@@ -64,10 +64,9 @@ base::Result<OpenedStudy> study_to_run(const StudyOptions& options) {
 
 std::filesystem::path data_folder(const StudyOptions& options) {
   if (!options.data.empty()) return options.data;
-  const char* const kind = options.simulate > 0    ? "simulated"
-                           : options.pointer_alone ? "pointer-data"
-                                                   : "data";
-  return options.file.parent_path() / fmt::format("{}-{}", options.file.stem().string(), kind);
+  return options.file.parent_path() / fmt::format("{}-{}{}", options.file.stem().string(),
+                                                  options.pointer_alone ? "pointer-" : "",
+                                                  options.simulate > 0 ? "simulated" : "data");
 }
 
 /// The scenes as they are now.
@@ -145,7 +144,9 @@ base::Result<std::vector<std::string>> control_answers(const study::Study& study
           fmt::format("--with {}: write a control variable of the study and its value, such as "
                       "age=31.",
                       said));
-    answers[std::size_t(found - study.control.begin())] = said.substr(id.size() + 1);
+    std::string& answer = answers[std::size_t(found - study.control.begin())];
+    if (answer != "n/a") return base::fail(fmt::format("--with {}: {} is given twice.", said, id));
+    answer = said.substr(id.size() + 1);
   }
   std::string missing;
   for (std::size_t i = 0; i < answers.size(); ++i)
@@ -262,10 +263,17 @@ void tell_of_forces(const study::Study& study) {
         "push, and which nobody feels. Do not take such data for a study of force feedback.\n");
 }
 
+/// Whether there is anybody who can go on.
+base::Result<void> check_begun(const StudyOptions& options) {
+  std::error_code failed;
+  const std::filesystem::path folder = data_folder(options);
+  if (options.task != "resume" || std::filesystem::is_directory(folder, failed)) return {};
+  return base::fail(fmt::format("{}: there are no data; begin with icome study run.", folder.string()));
+}
+
 int run_person(int argc, char** argv, const StudyOptions& options, const OpenedStudy& opened) {
   StatusLine status;
-  auto data = open_data(options, opened);
-  if (!data) return end_without_result(data.error(), status);
+  if (const auto begun = check_begun(options); !begun) return end_without_result(begun.error(), status);
   catch_interrupts();
   session::SessionSettings settings = desktop_settings();
   const bool has_device = !settings.pointers.empty();
@@ -273,7 +281,11 @@ int run_person(int argc, char** argv, const StudyOptions& options, const OpenedS
   window.full_screen = !options.in_window;
   window.interrupted = [] { return interrupted(); };
   std::string id;
+  std::optional<study::DataFolder> data;  // opened when there is a display, which nothing begins without
   const int code = ui::run_study_window(argc, argv, window, opened.folder, std::move(settings), [&] {
+    auto folder = open_data(options, opened);
+    if (!folder) return base::Result<study::SessionRun>(tl::unexpected(folder.error()));
+    data.emplace(std::move(*folder));
     auto run = begin_session(options, opened, *data);
     if (run) id = run->participant().id;
     if (run && !has_device) tell_of_forces(opened.study);
@@ -291,17 +303,6 @@ base::Result<OpenedStudy> open_study(const std::filesystem::path& file) {
   auto study = study::read_study(*bytes, file.string());
   if (!study) return tl::unexpected(study.error());
   return OpenedStudy{std::move(*study), std::move(*bytes), file.parent_path()};
-}
-
-std::vector<study::Finding> missing_scenes(const study::Study& study, const std::filesystem::path& folder) {
-  std::vector<study::Finding> missing;
-  for (const study::TrialScene& scene : scenes_of_trials(study)) {
-    std::error_code failed;
-    if (scene.file.empty() || std::filesystem::is_regular_file(folder / scene.file, failed)) continue;
-    missing.push_back({scene.place, fmt::format("scene '{}': there is no file {} beside the study.", scene.id,
-                                                scene.file)});
-  }
-  return missing;
 }
 
 int run_study_session(int argc, char** argv, const StudyOptions& options) {

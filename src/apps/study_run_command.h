@@ -2,7 +2,6 @@
 #include "apps/study_options.h"
 #include "base/result.h"
 #include "study/study.h"
-#include "study/study_check.h"
 
 namespace icome::apps {
 
@@ -13,9 +12,6 @@ struct OpenedStudy {
   std::filesystem::path folder;  // of the file
 };
 base::Result<OpenedStudy> open_study(const std::filesystem::path& file);
-
-/// The scenes whose files are not where the study says.
-std::vector<study::Finding> missing_scenes(const study::Study& study, const std::filesystem::path& folder);
 
 /// `icome study run` and `resume`: takes a person through the study in a window, or lets simulated people
 /// take part. Gives the program's exit code.

@@ -123,7 +123,7 @@ std::string study_text(const study::Study& study, const study::StudyCheck& check
   text += findings_text("To think about", check.warnings, source);
   text += findings_text("It cannot be run as it is", check.reasons, source);
   if (check.reasons.empty()) text += "\nIt can be run.\n";
-  return text;
+  return without_control_characters(std::move(text));
 }
 
 }  // namespace icome::apps

@@ -9,14 +9,6 @@ namespace {
 
 bool is_choice(const Item& item) { return item.kind == ItemKind::Choice || item.kind == ItemKind::Choices; }
 
-std::vector<std::string> answer_names(const Item& item) {
-  std::vector<std::string> names;
-  for (const Level& choice : item.choices) names.push_back(plain_name(choice));
-  for (int point = 1; item.kind == ItemKind::Rating && point <= item.points; ++point)
-    names.push_back(std::to_string(point));
-  return names;
-}
-
 void describe_columns(const StudyData& data, QuestionSummary& summary) {
   const PersonTable table = answered_table(data, summary.place);
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
@@ -84,6 +76,14 @@ QuestionSummary summarise_question(const StudyData& data, const ItemPlace& place
 }
 
 }  // namespace
+
+std::vector<std::string> answer_names(const Item& item) {
+  std::vector<std::string> names;
+  for (const Level& choice : item.choices) names.push_back(plain_name(choice));
+  for (int point = 1; item.kind == ItemKind::Rating && point <= item.points; ++point)
+    names.push_back(std::to_string(point));
+  return names;
+}
 
 std::vector<std::string> chosen_ids(const std::string& answer) {
   std::vector<std::string> ids;

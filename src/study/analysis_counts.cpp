@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,8 +13,24 @@ namespace icome::study {
 namespace {
 
 /// Counts of answers (columns) by levels of a between factor (rows), without answers and levels of nobody.
-base::Result<stats::CountTable> counts_by_group(const Question& question, const Item& item,
-                                                const ItemPlace& place) {
+struct GroupCounts {
+  stats::CountTable table;
+  std::vector<std::string> levels, answers;
+
+  /// "Click: red 3, blue 2; Push: red 1, blue 4".
+  std::string text() const {
+    std::string all;
+    for (std::size_t row = 0; row < table.size(); ++row) {
+      all.append(row == 0 ? "" : "; ").append(levels[row]);
+      for (std::size_t i = 0; i < answers.size(); ++i)
+        all += fmt::format("{} {} {:g}", i == 0 ? ":" : ",", answers[i], table[row][i]);
+    }
+    return all;
+  }
+};
+
+base::Result<GroupCounts> counts_by_group(const Question& question, const Item& item,
+                                          const ItemPlace& place) {
   const auto factors = factors_of(question.data.study, true);
   const std::size_t at = std::size_t(std::ranges::find(factors, question.factor) - factors.begin());
   const std::vector<Crossing> groups = crossings(question.data.study, true);
@@ -21,20 +39,24 @@ base::Result<stats::CountTable> counts_by_group(const Question& question, const 
     const std::size_t group = question.data.people[answer.person].participant.group;
     if (group < groups.size()) answers[groups[group][at]].push_back(answer.text);
   }
-  stats::CountTable table;
-  std::vector<std::size_t> sums;
-  for (const std::vector<std::string>& of_level : answers) {
-    const std::vector<std::size_t> counts = counts_of(item, of_level);
-    sums.resize(counts.size());
-    for (std::size_t i = 0; i < counts.size(); ++i) sums[i] += counts[i];
-    if (!of_level.empty()) table.emplace_back(counts.begin(), counts.end());
+  const std::vector<std::string> names = answer_names(item);
+  std::vector<std::size_t> all = counts_of(item, {});
+  for (const std::vector<std::string>& of_level : answers)
+    for (std::size_t i = 0; const std::size_t count : counts_of(item, of_level)) all[i++] += count;
+  GroupCounts result;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] > 0) result.answers.push_back(names[i]);
+  for (std::size_t level = 0; level < answers.size(); ++level) {
+    if (answers[level].empty()) continue;
+    const std::vector<std::size_t> counts = counts_of(item, answers[level]);
+    result.levels.push_back(plain_name(question.factor->levels[level]));
+    std::vector<double>& row = result.table.emplace_back();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i] > 0) row.push_back(double(counts[i]));
   }
-  for (std::size_t i = sums.size(); i-- > 0;)
-    for (std::vector<double>& row : table)
-      if (sums[i] == 0) row.erase(row.begin() + std::ptrdiff_t(i));
-  if (table.size() < 2 || table.front().size() < 2)
+  if (result.table.size() < 2 || result.answers.size() < 2)
     return base::fail("all answers are of one level, or all are the same.");
-  return table;
+  return result;
 }
 
 std::size_t total_of(const stats::CountTable& counts) {
@@ -117,7 +139,9 @@ base::Result<TestResult> answers_given_once(const Question& question, const Item
   if (!question.factor->between) return base::fail("the question was asked once, not in each condition.");
   const auto counts = counts_by_group(question, item, place);
   if (!counts) return tl::unexpected(counts.error());
-  return question.test == Test::Fisher ? fisher_of(*counts) : contingency_of(*counts);
+  auto result = question.test == Test::Fisher ? fisher_of(counts->table) : contingency_of(counts->table);
+  if (result) result->notes.insert(result->notes.begin(), counts->text());
+  return result;
 }
 
 base::Result<TestResult> changes_of_answers(const Question& question, const Item& item,
@@ -126,6 +150,9 @@ base::Result<TestResult> changes_of_answers(const Question& question, const Item
     return base::fail(
         "McNemar's test compares answers of the same people under two levels; test = \"chisq\" others.");
   if (!repeated) return base::fail("the question was asked once, not in each condition.");
+  if (item.kind != ItemKind::Choice)
+    return base::fail(
+        "McNemar's test compares choices, and this is a rating; test = \"wilcoxon\" compares those.");
   return mcnemar_of(question, item, place);
 }
 
@@ -143,7 +170,9 @@ base::Result<TestResult> test_counts(const Question& question) {
     return base::fail("several answers could be chosen, so their counts depend on each other.");
   if (item.kind != ItemKind::Choice && item.kind != ItemKind::Rating)
     return base::fail("the question has no choices to count.");
-  const bool repeated = questionnaire.when == AskWhen::AfterCondition;
+  // After the only condition there is, everybody answers once.
+  const bool repeated =
+      questionnaire.when == AskWhen::AfterCondition && crossings(question.data.study, false).size() > 1;
   if (question.test == Test::McNemar) return changes_of_answers(question, item, place, repeated);
   if (!repeated) return answers_given_once(question, item, place);
   if (question.factor != nullptr && !question.factor->between)

@@ -54,6 +54,9 @@ base::Result<TestResult> signed_ranks_of(const std::vector<double>& first, const
 /// Are the answers spread evenly?
 base::Result<TestResult> even_shares(const std::vector<std::size_t>& counts);
 
+/// What the choices, or points of a rating, are called.
+std::vector<std::string> answer_names(const Item& item);
+
 /// How many people gave each choice, or point of a rating; of several choices each counts.
 std::vector<std::size_t> counts_of(const Item& item, const std::vector<std::string>& answers);
 /// The noncentral interval (Smithson 2003) of Cohen's w, 0.95, with n answers.

@@ -59,23 +59,29 @@ base::Result<void> write_study_files(const StudyFolder& folder, std::string_view
   const std::vector<std::pair<fs::path, std::string>> files = {
       {folder.study_copy(), std::string(text)},
       {folder.readme(), readme_text(folder)},
-      {folder.ignored(), folder.study_copy().filename().string() + '\n'},
+      {folder.ignored(),
+       fmt::format("{}\nreport.html\nreport.pdf\n", folder.study_copy().filename().string())},
       {sidecar_of(folder.people()), table_sidecar(people_columns(folder), folder.simulated)}};
   for (const auto& [path, bytes] : files)
     if (auto wrote = anew ? write_whole(path, bytes) : write_missing(path, bytes); !wrote) return wrote;
   return sync_folder(folder.path);
 }
 
-/// Where the copy of a scene is; those that do not lie below the study file go by their name.
-fs::path scene_copy(const StudyFolder& folder, const std::string& file) {
-  const fs::path normal = fs::path(file).lexically_normal();
+/// Where the copy of a scene is. Those that do not lie below the study file go by their name in a folder of
+/// their own, since names of different folders may be the same.
+fs::path scene_copy(const StudyFolder& folder, const std::vector<SceneFile>& scenes, const SceneFile& scene) {
+  const fs::path normal = fs::path(scene.file).lexically_normal();
   const bool below = normal.is_relative() && !normal.empty() && *normal.begin() != "..";
-  return folder.path / "stimuli" / (below ? normal : normal.filename());
+  if (below) return folder.path / "stimuli" / normal;
+  const auto first = std::ranges::find(scenes, scene.file, &SceneFile::file);
+  return folder.path / "stimuli" / fmt::format("outside-{}", 1 + (first - scenes.begin())) /
+         normal.filename();
 }
 
 /// Scenes are a part of what people are shown: they stay what they were, as the study does.
-base::Result<void> keep_scene(const StudyFolder& folder, const SceneFile& scene, bool anew) {
-  const fs::path copy = scene_copy(folder, scene.file);
+base::Result<void> keep_scene(const StudyFolder& folder, const std::vector<SceneFile>& scenes,
+                              const SceneFile& scene, bool anew) {
+  const fs::path copy = scene_copy(folder, scenes, scene);
   const auto before = read_whole(copy);
   if (!before) return tl::unexpected(before.error());
   if (*before && **before == scene.bytes) return {};
@@ -119,7 +125,7 @@ base::Result<void> prepare(const StudyFolder& folder, std::string_view text,
   const bool anew = *nobody && is_ours && (!*description || !same);
   if (!same && !anew) return same;
   for (const SceneFile& scene : scenes)
-    if (auto kept = keep_scene(folder, scene, *nobody && is_ours); !kept) return kept;
+    if (auto kept = keep_scene(folder, scenes, scene, *nobody && is_ours); !kept) return kept;
   if (auto wrote = write_study_files(folder, text, anew); !wrote) return wrote;
   if (*description && !anew) return {};
   if (auto wrote = write_first_files(folder); !wrote) return wrote;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/near_names.h"
@@ -35,10 +36,22 @@ std::string order_text(const Study& study, std::size_t group, std::size_t order_
   return text;
 }
 
-bool is_finite_number(const std::string& text) {
+std::optional<double> finite_number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// Why this is no value of a variable of numbers; empty: it is one.
+std::string why_no_number(const ControlVariable& variable, const std::string& answer) {
+  const auto value = finite_number(answer);
+  if (!value) return fmt::format("'{}' is a number, and '{}' is none.", variable.id, cell_of(answer));
+  if (variable.discrete && *value != std::floor(*value))
+    return fmt::format("'{}' is counted in whole numbers, and '{}' is none.", variable.id, cell_of(answer));
+  if (variable.scale == Scale::Ratio && *value < 0.0)
+    return fmt::format("'{}' begins at 0, and '{}' is less.", variable.id, cell_of(answer));
+  return {};
 }
 
 /// Why this is no answer; empty: it is one.
@@ -49,10 +62,7 @@ std::string why_no_control(const ControlVariable& variable, const std::string& a
     return variable.balanced ? fmt::format("'{}' is missing, and the groups are balanced by it; give {}.",
                                            variable.id, variable.levels.empty() ? "a number" : "a level")
                              : std::string();
-  if (variable.levels.empty())
-    return is_finite_number(answer)
-               ? std::string()
-               : fmt::format("'{}' is a number, and '{}' is none.", variable.id, cell_of(answer));
+  if (variable.levels.empty()) return why_no_number(variable, answer);
   const auto found = std::ranges::find(variable.levels, answer, &Level::id);
   return found != variable.levels.end()
              ? std::string()

@@ -13,11 +13,18 @@
 namespace icome::study {
 namespace {
 
-Column item_column(const Item& item) {
+/// Of answers after a condition; the empty crossing: of answers to what is asked once.
+Column item_column(const Study& study, const Item& item, const Crossing& condition) {
   Column column = {item.id, first_text(item.text), item.unit, column_levels(item.choices), true};
-  if (item.kind != ItemKind::Rating) return column;
-  column.description +=
-      fmt::format(" (1: {}; {}: {})", first_text(item.low), item.points, first_text(item.high));
+  if (item.kind == ItemKind::Rating)
+    column.description +=
+        fmt::format(" (1: {}; {}: {})", first_text(item.low), item.points, first_text(item.high));
+  const auto factors = factors_of(study, false);
+  for (std::size_t i = 0; i < condition.size(); ++i)
+    column.name.append("_").append(factors[i]->levels[condition[i]].id);
+  if (!condition.empty())
+    column.description +=
+        fmt::format(" Asked after the condition '{}'.", crossing_name(study, false, condition));
   return column;
 }
 
@@ -36,22 +43,30 @@ const std::string* find_answer(const StudyFolder& folder, const Questionnaire& q
   return found;
 }
 
-/// A person's answers to one questionnaire at one position; empty where there are none.
-std::string answer_row(const StudyFolder& folder, const Questionnaire& questionnaire, const Answers& of,
-                       std::size_t position) {
+/// What a questionnaire has columns for: its items once, or after each condition.
+std::vector<Crossing> columns_of(const StudyFolder& folder, const Questionnaire& questionnaire) {
+  if (!is_after_conditions(questionnaire)) return {{}};
+  return crossings(folder.study, false);
+}
+
+/// Where a person has a condition in the order, from 0.
+std::size_t position_of(const StudyFolder& folder, const Participant& participant, std::size_t condition) {
+  const auto order = order_of(folder.study, participant.group, participant.order_row);
+  return std::size_t(std::find(order.begin(), order.end(), condition) - order.begin());
+}
+
+/// A person's answers to one questionnaire; empty where there are none.
+std::string answer_row(const StudyFolder& folder, const Questionnaire& questionnaire, const Answers& of) {
   std::vector<std::string> cells = {fmt::format("sub-{}", of.participant.id)};
-  if (is_after_conditions(questionnaire)) {
-    const auto factors = factors_of(folder.study, false);
-    const auto order = order_of(folder.study, of.participant.group, of.participant.order_row);
-    const Crossing crossing = crossings(folder.study, false)[order[position]];
-    cells.push_back(fmt::format("{}", position + 1));
-    for (std::size_t i = 0; i < factors.size(); ++i) cells.push_back(factors[i]->levels[crossing[i]].id);
-  }
   bool any = false;
-  for (const Item& item : questionnaire.items) {
-    const std::string* const answer = find_answer(folder, questionnaire, item, of.progress, position);
-    any = any || answer != nullptr;
-    cells.push_back(answer == nullptr ? std::string(kNotAvailable) : cell_of(*answer));
+  for (std::size_t i = 0; i < columns_of(folder, questionnaire).size(); ++i) {
+    const std::size_t position =
+        is_after_conditions(questionnaire) ? position_of(folder, of.participant, i) : 0;
+    for (const Item& item : questionnaire.items) {
+      const std::string* const answer = find_answer(folder, questionnaire, item, of.progress, position);
+      any = any || answer != nullptr;
+      cells.push_back(answer == nullptr ? std::string(kNotAvailable) : cell_of(*answer));
+    }
   }
   return any ? row_of(cells, folder.simulated) : std::string();
 }
@@ -65,12 +80,8 @@ base::Result<void> write_changed(const std::filesystem::path& path, const std::s
 base::Result<void> write_phenotype(const StudyFolder& folder, const Questionnaire& questionnaire,
                                    const std::vector<Answers>& people) {
   const Columns columns = phenotype_columns(folder, questionnaire);
-  const std::size_t positions =
-      is_after_conditions(questionnaire) ? crossings(folder.study, false).size() : 1;
   std::string table = header_of(columns);
-  for (const Answers& of : people)
-    for (std::size_t position = 0; position < positions; ++position)
-      table += answer_row(folder, questionnaire, of, position);
+  for (const Answers& of : people) table += answer_row(folder, questionnaire, of);
   const std::filesystem::path path = folder.phenotype(questionnaire);
   if (auto wrote = write_changed(path, table); !wrote) return wrote;
   return write_changed(sidecar_of(path), phenotype_sidecar(folder, questionnaire, columns));
@@ -80,12 +91,9 @@ base::Result<void> write_phenotype(const StudyFolder& folder, const Questionnair
 
 Columns phenotype_columns(const StudyFolder& folder, const Questionnaire& questionnaire) {
   Columns columns = {{"participant_id", "As in participants.tsv."}};
-  if (questionnaire.when == AskWhen::AfterCondition) {
-    columns.push_back({"position", "Of the condition in the person's order, from 1."});
-    for (const IndependentVariable* const factor : factors_of(folder.study, false))
-      columns.push_back(level_column(factor->id, factor->name, factor->levels));
-  }
-  for (const Item& item : questionnaire.items) columns.push_back(item_column(item));
+  for (const Crossing& condition : columns_of(folder, questionnaire))
+    for (const Item& item : questionnaire.items)
+      columns.push_back(item_column(folder.study, item, condition));
   return finished_columns(std::move(columns), folder.simulated);
 }
 

@@ -9,8 +9,8 @@
 
 namespace icome::study {
 
-/// The columns of the table of all answers to a questionnaire: a row a person and, where it is asked after
-/// each condition, a condition.
+/// The columns of the table of all answers to a questionnaire: a row a person, as BIDS wants it; a column an
+/// item and, where it is asked after each condition, a condition ("ease_near").
 Columns phenotype_columns(const StudyFolder& folder, const Questionnaire& questionnaire);
 
 /// What somebody has answered.

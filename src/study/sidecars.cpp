@@ -25,10 +25,21 @@ constexpr const char* kEscapes =
     "In cells a backslash before t, n, r or another one stands for tab, line feed, carriage return and "
     "backslash, \\xHH for the byte of that hexadecimal number, and n\\/a is the text n/a.";
 
-std::string json_text(Json json, bool simulated) {
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string data_text(Json json, bool simulated) {
   json["Simulated"] = simulated;
   if (simulated) json["Warning"] = kWarning;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return text_of(json);
+}
+
+/// What a table's columns are. BIDS takes each member for a column or a term, and wants an object.
+std::string table_text(Json columns, bool simulated) {
+  columns["Escapes"]["Description"] = kEscapes;
+  if (simulated) columns["Simulated"]["Description"] = kWarning;
+  return text_of(columns);
 }
 
 Json columns_json(const Columns& columns) {
@@ -65,6 +76,14 @@ const Wanted* member_of(const Json& json, const char* name) {
   return found == json.end() ? nullptr : found->get_ptr<const Wanted*>();
 }
 
+/// Samples a second as they were taken, by their own clock.
+Json effective_rate_json(const Trace& trace) {
+  if (trace.samples.size() < 2) return kNotAvailable;
+  const double seconds = trace.samples.back().time - trace.samples.front().time;
+  if (!(seconds > 0.0)) return kNotAvailable;
+  return double(trace.samples.size() - 1) / seconds;
+}
+
 bool parse_hash(const std::string& text, std::uint64_t& hash) {
   constexpr std::size_t kDigits = 16;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
@@ -74,9 +93,7 @@ bool parse_hash(const std::string& text, std::uint64_t& hash) {
 }  // namespace
 
 std::string table_sidecar(const Columns& columns, bool simulated) {
-  Json json = columns_json(columns);
-  json["Escapes"] = kEscapes;
-  return json_text(std::move(json), simulated);
+  return table_text(columns_json(columns), simulated);
 }
 
 std::string phenotype_sidecar(const StudyFolder& folder, const Questionnaire& questionnaire,
@@ -84,8 +101,7 @@ std::string phenotype_sidecar(const StudyFolder& folder, const Questionnaire& qu
   Json json;
   json["MeasurementToolMetadata"]["Description"] = first_text(questionnaire.title);
   json.update(columns_json(columns));
-  json["Escapes"] = kEscapes;
-  return json_text(std::move(json), folder.simulated);
+  return table_text(std::move(json), folder.simulated);
 }
 
 std::string trace_sidecar(const StudyFolder& folder, const Trace& trace) {
@@ -93,8 +109,10 @@ std::string trace_sidecar(const StudyFolder& folder, const Trace& trace) {
   json["TaskName"] = folder.study.name;
   json["TaskDescription"] = first_text(folder.study.title);
   json["SamplingFrequency"] = trace.rate_hz;
+  json["SamplingFrequencyEffective"] = effective_rate_json(trace);
   json["TrackingSystemName"] = "pointer";
-  json["DeviceName"] = trace.device;
+  json["ManufacturersModelName"] = trace.device;
+  json["SoftwareVersions"] = fmt::format("icome {}", base::kVersion);
   json["TrackedPointsCount"] = 2;
   json["MotionChannelCount"] = channel_count();
   for (const char* const type : {"LATENCY", "POS", "ORNT", "MISC"})
@@ -103,7 +121,7 @@ std::string trace_sidecar(const StudyFolder& folder, const Trace& trace) {
   json["RecordingDuration"] = double(trace.samples.size()) / trace.rate_hz;
   json["MissingValues"] = kNotAvailable;
   json["Touched"] = trace.things;
-  return json_text(std::move(json), folder.simulated);
+  return data_text(std::move(json), folder.simulated);
 }
 
 std::string description_text(const StudyFolder& folder) {
@@ -122,7 +140,7 @@ std::string description_text(const StudyFolder& folder) {
   json["StudyName"] = study.name;
   json["StudyHash"] = fmt::format("{:016x}", study.hash);
   if (!study.without.empty()) json["WithoutNeeds"] = study.without;
-  return json_text(std::move(json), folder.simulated);
+  return data_text(std::move(json), folder.simulated);
 }
 
 std::string readme_text(const StudyFolder& folder) {

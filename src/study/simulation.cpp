@@ -1,17 +1,11 @@
 #include "study/simulation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
-#include <optional>
 
-#include "files/design.h"
-#include "interaction/object_edits.h"
-#include "session/stage.h"
+#include "study/scene_reader.h"
 #include "study/session_run.h"
 #include "study/simulated_person.h"
-#include "world/edit.h"
+#include "study/trial_goal.h"
 
 namespace icome::study {
 namespace {
@@ -19,50 +13,6 @@ namespace {
 constexpr double kPageTime = 5.0;                       // s, that a simulated person reads a page
 constexpr double kQuestionTime = 4.0;                   // s, a question
 constexpr const char* kBegan = "2000-01-01T00:00:00Z";  // any date would do
-
-/// The scenes of a study, read once.
-class Scenes {
- public:
-  Scenes(const Study& study, std::filesystem::path folder) : study_(study), folder_(std::move(folder)) {}
-
-  struct Place {
-    TrialGoal goal;
-    FeltScene felt;
-  };
-  base::Result<Place> place(const Participant& participant, const TrialPlan& plan) {
-    const TrialScene* const scene = scene_of(study_, plan);
-    if (scene == nullptr || scene->file.empty())
-      return base::fail(
-          "no scene file says where trials take place: write scenes = [{ id = \"room\", file = \"room.wrl\" "
-          "}].");
-    const auto read = this->read(scene->file);
-    if (!read) return tl::unexpected(read.error());
-    world::World world = **read;
-    const auto hidden = hidden_things(study_, plan, world);
-    if (!hidden.empty())
-      if (const auto done = world::apply(world, interaction::delete_objects(world, hidden)); !done)
-        return tl::unexpected(done.error());
-    auto goal = trial_goal(study_, participant, plan, world);
-    if (!goal) return tl::unexpected(goal.error());
-    session::HapticRepresentation felt;
-    felt.open(world);
-    return Place{std::move(*goal), {felt.scene(), felt.names()}};
-  }
-
- private:
-  base::Result<const world::World*> read(const std::string& file) {
-    const auto found = worlds_.find(file);
-    if (found != worlds_.end()) return &found->second;
-    auto design = files::read_design(folder_ / file);
-    if (!design) return tl::unexpected(design.error());
-    if (session::stands_on_z(file)) session::set_upright(design->world);
-    return &worlds_.emplace(file, std::move(design->world)).first->second;
-  }
-
-  const Study& study_;
-  std::filesystem::path folder_;
-  std::map<std::string, world::World> worlds_;
-};
 
 /// When the last thing on record was over, s.
 double time_so_far(const Progress& progress) {
@@ -75,7 +25,7 @@ double time_so_far(const Progress& progress) {
 /// One person's session, from where it is to its end; false: told to end early.
 class SimulatedSession {
  public:
-  SimulatedSession(const Study& study, Scenes& scenes, const std::function<bool(double)>& tell)
+  SimulatedSession(const Study& study, SceneReader& scenes, const std::function<bool(double)>& tell)
       : study_(study), scenes_(scenes), tell_(tell) {}
 
   base::Result<bool> go(SessionLog log) {
@@ -103,15 +53,19 @@ class SimulatedSession {
       time_ += kQuestionTime * double(questionnaire.items.size());
       return run.answered(person.answers(questionnaire, now.position));
     }
-    const auto place = scenes_.place(run.participant(), now.trial);
-    if (!place) return tl::unexpected(place.error());
-    const auto trial = person.trial(now.trial, place->goal, place->felt);
+    const auto world = scenes_.in_trial(now.trial);
+    if (!world) return tl::unexpected(world.error());
+    const auto goal = trial_goal(study_, run.participant(), now.trial, *world);
+    if (!goal) return tl::unexpected(goal.error());
+    session::HapticRepresentation felt;
+    felt.open(*world);
+    const auto trial = person.trial(now.trial, *goal, {felt.scene(), felt.names()});
     time_ += study_.trials.hold + trial.measures.time;
     return run.trial_done(trial.measures, trial.trace);
   }
 
   const Study& study_;
-  Scenes& scenes_;
+  SceneReader& scenes_;
   const std::function<bool(double)>& tell_;
   double time_ = 0.0;  // s, of the person's session
 };
@@ -120,7 +74,7 @@ class SimulatedSession {
 
 base::Result<void> simulate(const Study& study, const std::filesystem::path& study_folder, DataFolder& data,
                             std::size_t people, const std::function<bool(double)>& tell) {
-  Scenes scenes(study, study_folder);
+  SceneReader scenes(study, study_folder);
   for (std::size_t number = 0; number < people; ++number) {
     while (data.participants().size() <= number) {
       const auto enrolled = data.enrol({}, 0, SimulatedPerson::control(study, data.participants().size()));

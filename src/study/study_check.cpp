@@ -9,6 +9,7 @@
 #include "study/counterbalancing.h"
 #include "study/needs.h"
 #include "study/session_length.h"
+#include "study/untestable.h"
 
 namespace icome::study {
 namespace {
@@ -56,6 +57,11 @@ std::string test_misfit(const Hypothesis& hypothesis, const DependentVariable& d
   if (hypothesis.test == Test::Kruskal && !factor->between)
     return fmt::format("needs other people for each level, and '{}' is within; use friedman", factor->id);
   return {};
+}
+
+/// Whether a hypothesis that test_misfit() has something against is tested all the same.
+bool is_tested_anyway(const Hypothesis& hypothesis, const DependentVariable& dependent) {
+  return dependent.scale == Scale::Ordinal && compares_means(hypothesis.test);
 }
 
 /// How many people in all the design needs; nothing where it is not simple to say.
@@ -157,6 +163,9 @@ class Checker {
                                            hypothesis.id, dependent->id));
       const std::string misfit = test_misfit(hypothesis, *dependent, factor_named(study_, hypothesis.factor));
       if (!misfit.empty()) warn(hypothesis.place, fmt::format("hypothesis '{}' {}.", hypothesis.id, misfit));
+      const std::string never = why_untestable(study_, hypothesis);
+      if (!never.empty() && (misfit.empty() || is_tested_anyway(hypothesis, *dependent)))
+        warn(hypothesis.place, fmt::format("hypothesis '{}' cannot be tested: {}.", hypothesis.id, never));
       if (const auto power = power_of(study_, hypothesis)) result_.powers.push_back(*power);
     }
   }

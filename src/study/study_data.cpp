@@ -9,6 +9,7 @@
 #include "study/needs.h"
 #include "study/people_rows.h"
 #include "study/record_rows.h"
+#include "study/session_length.h"
 #include "study/sidecars.h"
 #include "study/study_reader.h"
 
@@ -59,7 +60,30 @@ base::Result<StudyData::Person> read_person(const StudyFolder& folder, Participa
     if (const fs::path trace = folder.trace(id, run); !fs::exists(trace, ignored))
       notices.push_back(fmt::format("{}: is missing, the trace of a trial.", trace.string()));
   const bool complete = has_event(record->progress, EventKind::Over);
+  // Who is through has done all trials: what is not there was taken away since.
+  const std::size_t all =
+      conditions_of(folder.study, participant).size() * trials_a_condition(folder.study.trials);
+  const auto done = std::size_t(std::ranges::count_if(
+      record->progress.trials, [](const TrialRecord& trial) { return !trial.plan.practice; }));
+  if (complete && done < all)
+    notices.push_back(
+        fmt::format("{}: has {} of the {} measured trials of {}, who is through; put the file back.",
+                    folder.trials(id).string(), done, all, id));
   return StudyData::Person{std::move(participant), std::move(record->progress), complete};
+}
+
+/// People's folders that no row of participants.tsv tells of.
+void note_strangers(const StudyFolder& folder, const std::vector<Participant>& people,
+                    std::vector<std::string>& notices) {
+  std::error_code failed;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path, failed)) {
+    const std::string name = entry.path().filename().string();
+    const bool known = std::ranges::any_of(
+        people, [&](const Participant& person) { return folder.person(person.id) == entry.path(); });
+    if (known || !name.starts_with("sub-") || !entry.is_directory(failed)) continue;
+    notices.push_back(fmt::format("{}: is left out, since {} has no row of it.", entry.path().string(),
+                                  folder.people().filename().string()));
+  }
 }
 
 }  // namespace
@@ -74,6 +98,7 @@ base::Result<StudyData> read_study_data(const fs::path& folder_path) {
   StudyData data;
   data.simulated = folder->simulated;
   note_torn(people->torn, folder->people(), data.notices);
+  note_strangers(*folder, people->participants, data.notices);
   for (Participant& participant : people->participants) {
     auto person = read_person(*folder, std::move(participant), data.notices);
     if (!person) return tl::unexpected(person.error());

@@ -18,8 +18,7 @@ constexpr std::size_t kMostQuoted = 40;  // bytes of a cell that a message repea
 
 constexpr std::string_view kMarkColumn = "data";
 /// What the JSON file of a table has beside its columns.
-constexpr std::array<std::string_view, 4> kOtherMembers = {"Escapes", "Simulated", "Warning",
-                                                           "MeasurementToolMetadata"};
+constexpr std::array<std::string_view, 3> kOtherMembers = {"Escapes", "Simulated", "MeasurementToolMetadata"};
 
 bool marks_simulated(const Column& column) { return column.name == kMarkColumn && !column.of_study; }
 

@@ -262,7 +262,7 @@ TEST(StudyPageAnswers, SayWhyThereIsNoTest) {
   analysis.questions.at(0).counts = {{0, 1, 2, 0, 1}};
   analysis.questions[0].test = {};
   const std::string page = study_page(data, analysis, PageForm::Screen);
-  EXPECT_TRUE(has(part_of(page, "Answers"), "No test: it was rated once"));
+  EXPECT_TRUE(has(part_of(page, "Answers"), "No test: everybody rated it once"));
 }
 
 TEST(StudyPageAnswers, AreNoHeadingAlone) {

@@ -66,6 +66,27 @@ class StudyRunTest(ProgramTest):
                 continue
             self.assertTrue("SIMULATED" in path.read_text() or "SIMULATED" in path.name, path)
 
+    def test_folders_are_as_the_validators_of_bids_want_them(self):
+        data = self.simulate(self.study("menu", template="menu"), 2)
+        for path in data.rglob("*.tsv"):
+            if path.name.endswith("_motion.tsv"):
+                about = json.loads(path.with_suffix(".json").read_text())
+                self.assertEqual(about["TaskName"], "menu")
+                self.assertAlmostEqual(about["SamplingFrequencyEffective"], about["SamplingFrequency"], places=2)
+                continue
+            about = json.loads(path.with_suffix(".json").read_text())
+            self.assertTrue(all(isinstance(member, dict) for member in about.values()), path)
+            columns = path.read_text().split("\n")[0].split("\t")
+            self.assertEqual(set(columns) - set(about), set(), path)
+            if path.parent.name == "phenotype":
+                people = [row["participant_id"] for row in rows(path)]
+                self.assertEqual(sorted(set(people)), people, path)
+        self.succeeds("study", "report", data)
+        ignored = (data / ".bidsignore").read_text().split()
+        standard = {"dataset_description.json", "participants.tsv", "participants.json", "README"}
+        self.assertEqual({path.name for path in data.iterdir() if path.is_file() and path.name[0] != "."} - standard,
+                         set(ignored) - {"report.pdf"})
+
     def test_the_case_studies_run(self):
         for template, people, trials in (("head-tracking", 2, 16), ("menu", 4, 30)):
             data = self.simulate(self.study(template, template=template), people)
@@ -99,11 +120,6 @@ class StudyRunTest(ProgramTest):
         scene.write_text(scene.read_text().replace("0.06", "0.05"))
         self.fails("study", "run", file, "--simulate", 2, code=1, saying="was another scene")
 
-    def test_real_and_simulated_data_are_kept_apart(self):
-        file = self.study()
-        data = self.simulate(file, 1)
-        self.fails("study", "run", file, "--data", data, "--with", "age=30", code=1, saying="simulated")
-
     def test_what_cannot_be_run_says_why(self):
         head = self.study("head", template="head-tracking")
         self.fails("study", "run", head, code=1, saying="head-tracking")
@@ -113,6 +129,16 @@ class StudyRunTest(ProgramTest):
         (self.folder / "scenes" / "pointing-room.wrl").unlink()
         self.fails("study", "run", bare, "--simulate", 1, code=1, saying="pointing-room.wrl")
         self.fails("study", "run", bare, "--simulate", 0, code=2, saying="--simulate")
+
+    def test_nothing_begins_that_a_scene_would_stop(self):
+        pink = self.study("pink", lambda text: text.replace('id = "red"', 'id = "pink"'), template="menu")
+        file = self.study()
+        (self.folder / "scenes" / "pointing-room.wrl").write_bytes(b"\x00\xff" * 250)
+        before = sorted(self.folder.rglob("*"))
+        for options in (("--simulate", 1), ("--pointer-only", "--with", "age=30")):
+            self.fails("study", "run", pink, *options, code=1, saying="'item-pink'")
+            self.fails("study", "run", file, *options, code=1, saying="pointing-room.wrl")
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
 
     def test_the_pointer_alone_leaves_out_what_is_missing(self):
         head = self.study("head", template="head-tracking")
@@ -153,7 +179,19 @@ class StudyRunTest(ProgramTest):
     def test_without_a_display_it_says_what_to_do(self):
         file = self.study()
         self.fails("study", "run", file, "--with", "age=30", code=1, saying="display")
-        self.fails("study", "resume", file, code=1, saying="display")
+        self.fails("study", "resume", file, code=1, saying="begin with icome study run")
+        self.assertEqual(list(file.parent.glob("*-data")), [])
+
+    def test_what_simulated_people_do_not_need_is_refused(self):
+        file = self.study()
+        for option in (("--participant", "7"), ("--with", "age=30"), ("--language", "en"), ("--window",)):
+            self.fails("study", "run", file, "--simulate", 1, *option, code=2, saying=option[0])
+        self.fails("study", "run", file, "--json", code=2, saying="--simulate")
+
+    def test_what_is_left_out_is_kept_apart(self):
+        file = self.study("menu", template="menu")
+        self.assertEqual(self.simulate(file, 1).name, "menu-simulated")
+        self.assertEqual(self.simulate(file, 1, "--pointer-only").name, "menu-pointer-simulated")
 
     def test_interrupted_it_goes_on(self):
         file = self.study()

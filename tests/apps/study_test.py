@@ -81,10 +81,36 @@ class StudyTest(ProgramTest):
         file = self.new("rooms.toml")
         file.write_text(re.sub(r"scenes = .*", 'scenes = [{ id = "a", file = "a.wrl" }, { id = "b", file = "b.wrl" }]',
                                file.read_text()))
-        self.write("a.wrl", "#VRML V2.0 utf8\n")
+        self.write("a.wrl", "#VRML V2.0 utf8\nDEF target Transform { children Shape { geometry Box { size 0.1 0.1 0.1 } } }\n")
         (reason,) = self.check(file, code=1)["reasons"]
         self.assertEqual(reason["sentence"], "scene 'b': there is no file b.wrl beside the study.")
         self.assertGreater(reason["line"], 1)
+
+    def test_scenes_must_have_what_trials_ask_for(self):
+        file = self.new("pointing.toml")
+        text = file.read_text()
+        file.write_text(text.replace('target = "target"', 'target = "goal"'))
+        report = self.check(file, code=1)
+        self.assertFalse(report["runnable"])
+        (reason,) = report["reasons"]
+        self.assertTrue(reason["sentence"].startswith("scene 'room': the task's target is 'goal', and nothing"))
+        self.assertEqual(file.read_text().split("\n")[reason["line"] - 1], "[task]")
+        done = run("study", "check", file)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"It cannot be run as it is\n  .*pointing\.toml:\d+:1: scene 'room': ")
+        file.write_text(text)
+        for broken in (bytes(range(200, 256)) * 9, b"#VRML V2.0 utf8\nTransform {", b"hello", b""):
+            (self.folder / "scenes" / "pointing-room.wrl").write_bytes(broken)
+            (reason,) = self.check(file, code=1)["reasons"]
+            self.assertIn("scenes/pointing-room.wrl: ", reason["sentence"])
+
+    def test_scenes_must_have_a_target_for_every_value(self):
+        file = self.new("menu.toml", "--template", "menu")
+        file.write_text(file.read_text().replace('id = "red"', 'id = "pink"'))
+        report = self.check(file, code=1)
+        self.assertEqual(len(report["reasons"]), 2)  # the menus that the program has not, and this
+        self.assertIn("the task's target is 'item-pink'", report["reasons"][1]["sentence"])
+        self.assertTrue(any("'cube-pink'" in warning["sentence"] for warning in report["warnings"]))
 
     def test_scenes_of_templates_stand_beside_them(self):
         self.new("head.toml", "--template", "head-tracking")

@@ -252,6 +252,12 @@ class StudyWindowTest(DesktopTest):
         desktop.key("shift+Tab", "Return")
         self.assertEqual(desktop.wait_end(), 3, desktop.said())
 
+    def test_among_simulated_people_nobody_takes_part(self):
+        subprocess.run([PROGRAM, "study", "run", self.study, "--simulate", "1"], check=True, capture_output=True)
+        desktop = self.start("study", "run", self.study, "--data", self.folder / "tiny-simulated")
+        self.assertEqual(desktop.wait_end(), 1, desktop.said())
+        self.assertIn("holds simulated data", desktop.said())
+
 
 class NoDisplayTest(ProgramTest):
     def test_there_is_none(self):

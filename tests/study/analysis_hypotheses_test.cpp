@@ -227,6 +227,15 @@ TEST(Hypotheses, NoTestStandsInForTheOneThatIsNamed) {
   EXPECT_EQ(why("liked", "", study::Test::ChiSquared), "");
 }
 
+TEST(Hypotheses, AfterTheOnlyConditionEverybodyAnswersOnce) {
+  StudyData data = crossed_data(kThirdIsSlow, {0, 1, 2});
+  const auto why = [&](study::Test test) { return result_of(data, "picked", "group", test).test.why; };
+  const std::string several = "everybody answered several times, so counts depend on each other.";
+  EXPECT_EQ(why(study::Test::Fisher), several);
+  std::erase_if(data.study.independent, [](const IndependentVariable& factor) { return !factor.between; });
+  EXPECT_NE(why(study::Test::Fisher), several);
+}
+
 TEST(Hypotheses, OrdinalVariablesAreRankedWhereNoTestIsNamed) {
   StudyData data = crossed_data(kThirdIsSlow, {0, 1, 2});
   const auto test = [&](const char* dependent, const char* factor) {

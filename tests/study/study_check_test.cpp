@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "study/conditions.h"
 #include "study/needs.h"
@@ -126,6 +127,94 @@ TEST(StudyCheck, TestsOfPairsMustSayWhichOfThreeLevels) {
   EXPECT_FALSE(says(check_study(study).warnings, "compares two levels"));
   study.hypotheses[0].direction = Direction::Differ;
   EXPECT_TRUE(says(check_study(study).warnings, "compares two levels, and 'technique' has 3"));
+}
+
+/// What is warned of a test of the "preferred" question or of time in the study of the blank template.
+bool cannot_be_tested(Study study, const char* dependent, const char* factor, Test test) {
+  Hypothesis& hypothesis = study.hypotheses[0];
+  hypothesis.dependent = dependent;
+  hypothesis.factor = factor;
+  hypothesis.direction = Direction::Differ;
+  hypothesis.test = test;
+  return says(check_study(study).warnings, "hypothesis '" + hypothesis.id + "' cannot be tested: ");
+}
+
+Item& preferred(Study& study, AskWhen when) {
+  for (Questionnaire& questionnaire : study.questionnaires) {
+    if (questionnaire.id != "comparison") continue;
+    questionnaire.when = when;
+    return questionnaire.items[0];
+  }
+  throw std::runtime_error("the template has no comparison");
+}
+
+/// With a between factor "room" besides the within factor "technique".
+Study study_of_groups() {
+  Study study = study_of("blank");
+  study.independent.push_back(study.independent[0]);
+  study.independent[1].id = "room";
+  study.independent[1].between = true;
+  study.dependent[1].scale = Scale::Nominal;
+  return study;
+}
+
+TEST(StudyCheck, TemplatesCanBeTested) {
+  for (const char* const name : {"blank", "head-tracking", "menu"})
+    EXPECT_FALSE(says(check_study(study_of(name)).warnings, "cannot be tested")) << name;
+}
+
+TEST(StudyCheck, CountsAreOfAnswersThatAreGivenOnce) {
+  Study study = study_of_groups();
+  for (const study::Test test : {study::Test::ChiSquared, study::Test::Fisher}) {
+    EXPECT_TRUE(cannot_be_tested(study, "time", "room", test));
+    EXPECT_FALSE(cannot_be_tested(study, "preference", "room", test));
+    EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", test));
+  }
+  EXPECT_FALSE(cannot_be_tested(study, "preference", "", study::Test::ChiSquared));
+  Item& item = preferred(study, AskWhen::AfterCondition);
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "room", study::Test::ChiSquared));
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", study::Test::ChiSquared));
+  preferred(study, AskWhen::End);
+  item.kind = ItemKind::Choices;
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "room", study::Test::ChiSquared));
+  item.kind = ItemKind::Number;
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "room", study::Test::Fisher));
+  item.kind = ItemKind::Rating;
+  EXPECT_FALSE(cannot_be_tested(study, "preference", "room", study::Test::Fisher));
+}
+
+TEST(StudyCheck, ChangesAreOfChoicesUnderTheTwoLevelsOfTheOnlyWithinFactor) {
+  Study study = study_of_groups();
+  EXPECT_TRUE(cannot_be_tested(study, "time", "technique", study::Test::McNemar));
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", study::Test::McNemar));  // it is asked once
+  Item& item = preferred(study, AskWhen::AfterCondition);
+  EXPECT_FALSE(cannot_be_tested(study, "preference", "technique", study::Test::McNemar));
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "room", study::Test::McNemar));
+  item.kind = ItemKind::Rating;
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", study::Test::McNemar));
+  item.kind = ItemKind::Choice;
+  study.independent[0].levels.push_back({"third", {"Third"}, {}, {}});
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", study::Test::McNemar));
+  study.independent[0].levels.pop_back();
+  study.independent[1].between = false;
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", study::Test::McNemar));
+}
+
+TEST(StudyCheck, LevelsAreComparedByNumbersThatAreAskedForInEach) {
+  Study study = study_of_groups();
+  study.dependent[1].scale = Scale::Ordinal;
+  Item& item = preferred(study, AskWhen::End);
+  EXPECT_TRUE(cannot_be_tested(study, "preference", "room", study::Test::Kruskal));  // choices are no numbers
+  item.kind = ItemKind::Rating;
+  EXPECT_FALSE(cannot_be_tested(study, "preference", "room", study::Test::Kruskal));
+  for (const study::Test test :
+       {study::Test::Friedman, study::Test::Wilcoxon, study::Test::Anova, study::Test::TTest}) {
+    preferred(study, AskWhen::End);
+    EXPECT_TRUE(cannot_be_tested(study, "preference", "technique", test));
+    preferred(study, AskWhen::AfterCondition);
+    EXPECT_FALSE(cannot_be_tested(study, "preference", "technique", test));
+    EXPECT_FALSE(cannot_be_tested(study, "time", "technique", test));
+  }
 }
 
 TEST(StudyCheck, ConditionsAreCrossedTheLastFactorFastest) {

@@ -16,7 +16,7 @@ class ReadData : public testing::Test {
     base::Random random(9);
     for (int i = 0; i < 3; ++i) enrolled(folder);
     SessionLog first = log_of(folder, folder.participants()[0]);
-    do_trials(first, 8, random);
+    do_trials(first, 14, random);
     EXPECT_TRUE(first.add(EventRecord{EventKind::Answer, 3.0, 1.0, 0, "each.trouble", "x"}));
     EXPECT_TRUE(first.add(EventRecord{EventKind::Over, 9.0, 0.0, 0, "", ""}));
     SessionLog second = log_of(folder, folder.participants()[1]);
@@ -43,7 +43,7 @@ TEST_F(ReadData, GivesAll) {
   EXPECT_FALSE(data->simulated);
   EXPECT_TRUE(data->notices.empty());
   ASSERT_EQ(data->people.size(), 3U);
-  EXPECT_EQ(data->people[0].progress.trials.size(), 8U);
+  EXPECT_EQ(data->people[0].progress.trials.size(), 14U);
   EXPECT_TRUE(data->people[0].complete);
   EXPECT_EQ(data->people[1].progress.trials.size(), 3U);
   EXPECT_FALSE(data->people[1].complete);
@@ -57,10 +57,21 @@ TEST_F(ReadData, ChangesNothing) {
   fs::remove(scratch_.data() / "README");
   const auto data = read_study_data(scratch_.data());
   ASSERT_TRUE(data);
-  EXPECT_EQ(data->people[0].progress.trials.size(), 7U);
-  EXPECT_EQ(data->notices.size(), 2U);
+  EXPECT_EQ(data->people[0].progress.trials.size(), 13U);
+  EXPECT_EQ(data->notices.size(), 3U);
   EXPECT_EQ(bytes_of(trials_file(scratch_.data())), whole.substr(0, whole.size() - 5));
   EXPECT_FALSE(fs::exists(scratch_.data() / "README"));
+}
+
+TEST_F(ReadData, TellsOfTrialsAndPeopleThatWereTakenAway) {
+  const std::string whole = bytes_of(trials_file(scratch_.data()));
+  put_bytes(trials_file(scratch_.data()), whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1));
+  fs::create_directories(scratch_.data() / "sub-009");
+  const auto data = read_study_data(scratch_.data());
+  ASSERT_TRUE(data);
+  ASSERT_EQ(data->notices.size(), 2U);
+  EXPECT_NE(data->notices[0].find("sub-009: is left out"), std::string::npos);
+  EXPECT_NE(data->notices[1].find("measured trials of 001, who is through"), std::string::npos);
 }
 
 TEST_F(ReadData, NeedsTheFilesOfAStudy) {

@@ -98,7 +98,7 @@ TEST(Tsv, NamesOfTheStudyGiveWay) {
   const Columns columns =
       finished_columns({{"time", "ours"}, {"time", "", "", {}, true}, {"time_", "", "", {}, true}}, true);
   EXPECT_EQ(header_of(columns), "time\ttime_\ttime__\tdata\n");
-  EXPECT_EQ(header_of(finished_columns({{"Warning", "", "", {}, true}}, false)), "Warning_\n");
+  EXPECT_EQ(header_of(finished_columns({{"Escapes", "", "", {}, true}}, false)), "Escapes_\n");
 }
 
 TEST(Tsv, SimulatedRowsAreMarked) {
