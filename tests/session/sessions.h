@@ -62,20 +62,25 @@ std::vector<SessionEvent> run_until(Session& session, const IsSo& is_so) {
   }
 }
 
-/// How far the stage's frame is off that of device 0, the hand of which rests at `start`: where the view has
-/// put its workspace. The hand itself is the servo's to ask.
-inline base::Vector3 stage_offset(Session& session, const base::Vector3& start) {
+/// Where the hand of device 0 has come to rest, in the stage's frame: it is the servo's to ask.
+inline base::Vector3 tip_at_rest(Session& session) {
   constexpr std::int64_t kApart = 30'000'000;  // ns
-  session.update();
+  constexpr double kStill = 1e-6;              // m
   PointerView before = session.pointer(0);
   run_until(session, [&] {
     const PointerView& now = session.pointer(0);
     if (now.time < before.time + kApart) return false;
-    const bool rests = before.time > 0 && now.tip == before.tip;
+    const bool rests = before.time > 0 && (now.tip - before.tip).norm() < kStill;
     before = now;
     return rests;
   });
-  return before.tip - start;
+  return before.tip;
+}
+
+/// How far the stage's frame is off that of device 0, the hand of which rests at `start`: where the view has
+/// put its workspace.
+inline base::Vector3 stage_offset(Session& session, const base::Vector3& start) {
+  return tip_at_rest(session) - start;
 }
 
 /// How many events of a kind there are.
