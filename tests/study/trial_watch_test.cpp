@@ -92,8 +92,8 @@ TEST(TrialWatch, TouchingTheTargetEndsTheTrial) {
 TEST(TrialWatch, WrongTouchesCountOnceAndBouncesDoNot) {
   Hand hand(goal(Choosing::Touch));
   hand.begin();
-  hand.at(kAside, 300, 1);  // one touch, however long
-  hand.at(kAside, 20, -1);  // a bounce
+  hand.at(kAside, 300, 1);   // one touch, however long
+  hand.at(kAside, 240, -1);  // a bounce
   hand.at(kAside, 10, 1);
   EXPECT_EQ(hand.watch.measures().errors, 1);
   hand.at(kAside, 260, -1);  // left for more than 250 ms
