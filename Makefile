@@ -23,19 +23,9 @@ run: build  ## open the demo in the window; without a display, draw it to demo.p
 	  echo "There is no display for the window (DISPLAY is not set), so demo.png shows the demo design."; \
 	fi
 
-# Quick checks first, so that a slip is told early; the release tests last, so that their total ends the log. What failed
-# among them is run once more by itself, which passes nothing but tells at the end what was wrong.
 test:  ## every check: layout, names, layers, unit and program tests, sanitizers
 	tools/install-packages
-	tools/check-format
-	cmake --preset release -DICOME_BUILD_BENCHMARKS=ON -DICOME_WARNINGS_AS_ERRORS=ON
-	tools/check-names -j $(JOBS)
-	for preset in asan-ubsan tsan; do \
-	  cmake --preset $$preset && cmake --build --preset $$preset -j $(JOBS) && \
-	  ctest --preset $$preset -j $(JOBS) || exit 1; \
-	done
-	cmake --build --preset release -j $(JOBS)
-	ctest --preset release -j $(JOBS) || { ctest --preset release --rerun-failed; exit 1; }
+	tools/check -j $(JOBS)
 
 bench:  ## compare ourselves with the naive ways and with packaged peers
 	tools/install-packages build run bench

@@ -1,5 +1,16 @@
 # One folder under src/ is one library and one namespace; one folder under tests/ is one test program.
 
+# icome_even_batches(TARGET source...): batches of one size, where the sources are compiled several at a time: with 17
+# of them and at most 16 a batch, 9 and 8 take less time than 16 and 1.
+function(icome_even_batches target)
+  list(LENGTH ARGN count)
+  if(CMAKE_UNITY_BUILD AND count GREATER 0)
+    math(EXPR batches "(${count} + ${CMAKE_UNITY_BUILD_BATCH_SIZE} - 1) / ${CMAKE_UNITY_BUILD_BATCH_SIZE}")
+    math(EXPR size "(${count} + ${batches} - 1) / ${batches}")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${size})
+  endif()
+endfunction()
+
 # icome_folder(NAME [USES folder...] [LINKS target...])
 # USES are other folders of src/ (tools/check_layers.py holds them against tools/layers.txt);
 # LINKS are third-party targets, private so that their headers stay behind this folder's sources.
@@ -17,6 +28,7 @@ function(icome_folder name)
     return()
   endif()
   add_library(icome_${name} STATIC ${sources})
+  icome_even_batches(icome_${name} ${sources})
   target_include_directories(icome_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(icome_${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_LINKS})
 endfunction()
@@ -24,11 +36,30 @@ endfunction()
 # Every unit test program, so that a sanitizer build makes these and what they need, and no more.
 add_custom_target(icome_unit_tests)
 
-# icome_tests(NAME [LINKS target...] [THREADED file...]): the *_test.cpp files of this folder as one GoogleTest
-# program. Where only some of a folder's code is threaded, THREADED names the tests of it, which are all that the
+# icome_unit_test(NAME PROGRAM [SHARDS]): the tests of a GoogleTest program in so many processes (1), which may run side
+# by side: a process for each test would cost more than most tests. To run one: PROGRAM --gtest_filter=Suite.Name
+function(icome_unit_test name program)
+  set(shards 1)
+  if(ARGN)
+    set(shards ${ARGN})
+  endif()
+  foreach(shard RANGE 1 ${shards})
+    set(test ${name})
+    if(shards GREATER 1)
+      set(test ${name}/${shard}of${shards})
+    endif()
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${test} COMMAND ${program})
+    set_tests_properties(${test} PROPERTIES LABELS unit TIMEOUT 600
+      ENVIRONMENT "GTEST_BRIEF=1;GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
+  endforeach()
+endfunction()
+
+# icome_tests(NAME [LINKS target...] [THREADED file...] [SHARDS n]): the *_test.cpp files of this folder as one
+# GoogleTest program, run as icome_unit_test says. Where only some of a folder's code is threaded, THREADED names the tests of it, which are all that the
 # thread sanitizer runs.
 function(icome_tests name)
-  cmake_parse_arguments(ARG "" "" "LINKS;THREADED" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS" "LINKS;THREADED" ${ARGN})
   if(ICOME_SANITIZE STREQUAL "thread" AND ARG_THREADED)
     list(TRANSFORM ARG_THREADED PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   else()
@@ -39,25 +70,17 @@ function(icome_tests name)
   endif()
   set(program icome_${name}_tests)
   add_executable(${program} ${sources})
+  icome_even_batches(${program} ${sources})
   add_dependencies(icome_unit_tests ${program})
   if(NOT ICOME_SANITIZE)
-    # Most of the time goes into reading headers and optimising checks that run once: in fours and with
-    # little of the latter a test program is built in 2/5 of it.
-    set_target_properties(${program} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+    # Checks that run once need no optimising: what they check is optimised as users have it.
     target_compile_options(${program} PRIVATE -O1)
   endif()
   target_link_libraries(${program} PRIVATE icome_${name} GTest::gtest_main ${ARG_LINKS})
   target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${program} PRIVATE
     ICOME_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
-  if(ICOME_SANITIZE)
-    # One process for the whole program: starting one for each test would cost more than the tests.
-    add_test(NAME ${name} COMMAND ${program})
-    set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT 600)
-  else()
-    gtest_discover_tests(${program} TEST_PREFIX "${name}/" DISCOVERY_MODE PRE_TEST
-      PROPERTIES LABELS unit TIMEOUT 400)
-  endif()
+  icome_unit_test(${name} ${program} ${ARG_SHARDS})
 endfunction()
 
 # icome_script_tests(NAME): each *_test.py of this folder as one test. The scripts find the program in

@@ -22,6 +22,11 @@ add_compile_options(-Wall -Wextra -Wshadow -Wno-psabi)
 if(ICOME_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
+# Sources that are compiled several at a time are included by a generated one, so GCC takes them for headers and
+# warns of members that others could not see: there are no others.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Wno-subobject-linkage)
+endif()
 # Equal inputs give equal bits whatever the optimiser does (replays are compared bit for bit).
 add_compile_options(-ffp-contract=off)
 # Where assert() is on, the containers of the standard library check their arguments too.
@@ -31,7 +36,15 @@ if(ICOME_SANITIZE)
   # A null or misaligned access faults by itself, and a wrong vptr is rare: checking each for every
   # access would add 60 % to the time that compiling takes.
   add_compile_options(-fno-sanitize=null,alignment,vptr)
+  # GCC's manual warns that sanitizers make it take values for uninitialised that are not; the release build tells.
+  add_compile_options(-Wno-maybe-uninitialized)
   add_link_options(-fsanitize=${ICOME_SANITIZE})
+endif()
+
+# The linker that takes the least time, where it is installed.
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+  add_link_options(-fuse-ld=mold)
 endif()
 
 find_package(Threads REQUIRED)

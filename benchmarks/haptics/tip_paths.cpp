@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/decompositions.h"
 #include "base/random.h"
 
 namespace icome::benchmarks {
@@ -82,7 +83,7 @@ std::vector<Vector3> stab_path(const BumpySphere& sphere, double depth, int stab
     const Vector3 deepest = up * (sphere.surface(up) - depth);
     const Vector3 start = deepest + kLength * near_direction(random, up, 0.25 * std::numbers::pi);
     const Vector3 from = tips.back().normalized();
-    const auto turn = base::Quaternion::FromTwoVectors(from, start.normalized());
+    const auto turn = base::rotation_between(from, start.normalized());
     go(tips, tips.back(), kClear * from, kTravelSpeed);
     for (int step = 1; step <= kTravelSteps; ++step) {
       const double part = double(step) / kTravelSteps;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/decompositions.h"
+
 namespace icome::files {
 namespace {
 
@@ -33,7 +35,7 @@ base::Matrix3 facing(const Vector3& direction) {
   const Vector3 to = direction / length;
   if (to == -Vector3::UnitZ()) return base::Matrix3::Identity();
   if (to == Vector3::UnitZ()) return Eigen::AngleAxisd(std::numbers::pi, Vector3::UnitY()).toRotationMatrix();
-  return base::Quaternion::FromTwoVectors(-Vector3::UnitZ(), to).toRotationMatrix();
+  return base::rotation_between(-Vector3::UnitZ(), to).toRotationMatrix();
 }
 
 }  // namespace

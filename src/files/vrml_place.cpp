@@ -1,12 +1,12 @@
 #include "files/vrml_place.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/decompositions.h"
 #include "files/number_text.h"
 #include "files/single.h"
 
@@ -99,8 +99,7 @@ bool settle_equal(Stretch& stretch) {
   stretch.scale = Vector3::Constant(twice);
   stretch.scale[stretch.axis] = scale[other];
   const Vector3 along = axis[stretch.axis] < 0.0 ? -axis : axis;
-  stretch.orientation =
-      base::Quaternion::FromTwoVectors(Vector3::Unit(stretch.axis), along).toRotationMatrix();
+  stretch.orientation = base::rotation_between(Vector3::Unit(stretch.axis), along).toRotationMatrix();
   return true;
 }
 
@@ -155,8 +154,8 @@ Stretch stretch_of(const Matrix3& matrix) {
   Stretch result{matrix * lengths.cwiseInverse().asDiagonal(), lengths};
   const Matrix3 cosines = result.rotation.transpose() * result.rotation - Matrix3::Identity();
   if (!(cosines.cwiseAbs().maxCoeff() < kNothing)) {
-    const Eigen::JacobiSVD<Matrix3> parts(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    result = {parts.matrixU() * parts.matrixV().transpose(), parts.singularValues(), parts.matrixV()};
+    const base::SingularValues parts = base::singular_values(matrix);
+    result = {parts.u * parts.v.transpose(), parts.values, parts.v};
     if (!settle_equal(result)) turn_least(result);
   }
   if (result.rotation.determinant() < 0.0) mirror(result);

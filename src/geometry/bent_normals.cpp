@@ -5,6 +5,7 @@
 #include <compare>
 #include <numeric>
 
+#include "base/decompositions.h"
 #include "geometry/weld.h"
 
 namespace icome::geometry {
@@ -109,7 +110,7 @@ class NormalBender {
       const CornerFrame now{to, tangent_of(c, after_, to)};
       if (!old.tangent.isZero(0.0) && !now.tangent.isZero(0.0)) return now.axes() * old.axes().transpose();
     }
-    return base::Quaternion::FromTwoVectors(from, to).toRotationMatrix();
+    return base::rotation_between(from, to).toRotationMatrix();
   }
 
   /// Unit; zero where the triangles have no area.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.h"
+
 namespace icome::geometry {
 namespace {
 
@@ -232,7 +234,7 @@ RealRoots capsule_crossings(const CsgAtom& atom, const Vector3& start, const Vec
 
 Affine3 placed(const Affine3& tree_from_leaf, const Vector3& origin, const Vector3& axis) {
   Affine3 leaf_from_atom = Affine3::Identity();
-  leaf_from_atom.linear() = base::Quaternion::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
+  leaf_from_atom.linear() = base::rotation_between(Vector3::UnitZ(), axis).toRotationMatrix();
   leaf_from_atom.translation() = origin;
   return tree_from_leaf * leaf_from_atom;
 }

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include "base/decompositions.h"
 
 namespace icome::geometry {
 namespace {
@@ -228,7 +229,7 @@ SurfacePoint CsgLeaf::scp_from_outside(const Vector3& point) const {
 
 TriangleMesh CsgLeaf::tessellate(double tolerance) const {
   assert(tolerance > 0.0);
-  const double stretch = Eigen::JacobiSVD<Matrix3>(tree_from_shape_.linear()).singularValues()[0];
+  const double stretch = base::singular_values(tree_from_shape_.linear()).values[0];
   TriangleMesh mesh = std::visit(MeshOfShape{tolerance / stretch}, shape_);
   for (Vector3& position : mesh.positions) position = tree_from_shape_ * position;
   // Of the matrix made of size one: the determinant of a scale by 1e-120 underflows.

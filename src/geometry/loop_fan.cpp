@@ -54,28 +54,38 @@ void take_limit(const FanMasks& masks, FaceRows& rows) {
   for (Row& row : rows.outer) row -= limit;
 }
 
-/// What projects heights over the tangent plane onto themselves: they vanish under the tangent masks and the
-/// limit mask.
-Eigen::MatrixXd height_projection(const FanMasks& masks, Eigen::Index width) {
+/// An orthonormal basis of what the tangent masks and the limit mask span, by Gram and Schmidt, twice, since
+/// rounding leaves something of what was taken away.
+std::vector<Row> constraint_basis(const FanMasks& masks, Eigen::Index width) {
   std::vector<const std::vector<double>*> used = {&masks.limit};
   for (const auto& tangent : masks.tangents) {
     if (!tangent.empty()) used.push_back(&tangent);
   }
-  Eigen::MatrixXd constraints = Eigen::MatrixXd::Zero(Eigen::Index(used.size()), width);
-  for (Eigen::Index i = 0; i < constraints.rows(); ++i) {
-    for (std::size_t j = 0; j < used[i]->size(); ++j) constraints(i, Eigen::Index(j)) = (*used[i])[j];
+  std::vector<Row> basis;
+  for (const std::vector<double>* mask : used) {
+    Row row = Row::Zero(width);
+    std::copy(mask->begin(), mask->end(), row.begin());
+    const double length = row.norm();
+    for (int pass = 0; pass < 2; ++pass) {
+      for (const Row& unit : basis) row -= row.dot(unit) * unit;
+    }
+    constexpr double kDependent = 1e-12;
+    if (row.norm() > kDependent * length) basis.push_back(row.normalized());
   }
-  return Eigen::MatrixXd::Identity(width, width) -
-         constraints.transpose() *
-             (constraints * constraints.transpose()).completeOrthogonalDecomposition().solve(constraints);
+  return basis;
 }
 
-double largest_row_sum(const FaceRows& rows, const Eigen::MatrixXd* projection) {
+/// The row less its components along the constraints: a height over the tangent plane vanishes under these.
+Row without_constraints(Row row, std::span<const Row> constraints) {
+  for (const Row& unit : constraints) row -= row.dot(unit) * unit;
+  return row;
+}
+
+double largest_row_sum(const FaceRows& rows, std::span<const Row> constraints) {
   double largest = 0.0;
   for (const auto* group : {&rows.ring, &rows.outer}) {
     for (const Row& row : *group) {
-      const double sum = projection ? (row * *projection).cwiseAbs().sum() : row.cwiseAbs().sum();
-      largest = std::max(largest, sum);
+      largest = std::max(largest, without_constraints(row, constraints).cwiseAbs().sum());
     }
   }
   return largest;
@@ -99,10 +109,10 @@ FanTable fan_table(const FanType& type) {
     (i <= type.spokes() ? rows.ring : rows.outer).emplace_back(Row::Unit(width, i));
   }
   take_limit(table.masks, rows);
-  const Eigen::MatrixXd heights = height_projection(table.masks, width);
+  const std::vector<Row> constraints = constraint_basis(table.masks, width);
   for (;; ++table.levels) {
-    table.reach.push_back(largest_row_sum(rows, nullptr));
-    table.lift.push_back(largest_row_sum(rows, &heights));
+    table.reach.push_back(largest_row_sum(rows, {}));
+    table.lift.push_back(largest_row_sum(rows, constraints));
     if (table.levels == kMaxLevels || table.reach.back() < kNegligible) break;
     const auto fine = subdivide(type, rows);
     for (const Row& row : fine) table.rows.insert(table.rows.end(), row.begin(), row.end());

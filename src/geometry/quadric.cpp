@@ -1,9 +1,10 @@
 #include "geometry/quadric.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "base/decompositions.h"
 
 namespace icome::geometry {
 namespace {
@@ -32,11 +33,11 @@ struct BoxedQuadric {
     for (int axis = 0; axis < 3; ++axis) {
       if (fixed[axis]) right[axis] = 0.0;
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(reduced);
+    const base::SymmetricEigen eigen = base::symmetric_eigen(reduced);
     Vector3 free = Vector3::Zero();
     for (int i = 0; i < 3; ++i) {
-      const double value = eigen.eigenvalues()[i];
-      const Vector3 direction = eigen.eigenvectors().col(i);
+      const double value = eigen.values[i];
+      const Vector3 direction = eigen.vectors.col(i);
       if (value > drop) free += direction * (direction.dot(right) / value);
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -57,8 +58,7 @@ Vector3 nearest_to_planes(std::span<const SurfacePoint> planes, const Bounds& bo
     quadric.a += plane.normal * plane.normal.transpose();
     quadric.b += plane.normal * plane.normal.dot(plane.point - mean);
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(quadric.a, Eigen::EigenvaluesOnly);
-  quadric.drop = kFlat * eigen.eigenvalues()[2];
+  quadric.drop = kFlat * base::symmetric_eigen(quadric.a).values[2];
 
   const Vector3 low = box.min() - mean, high = box.max() - mean;
   for (int round = 0; round < 3; ++round) {

@@ -26,7 +26,7 @@ struct ProjectorFrame {
 };
 
 base::Result<ProjectorFrame> projector_frame(const Affine3& mesh_from_projector) {
-  constexpr double kFlat = 1e-12;  // the volume that three unit axes must at least span
+  constexpr double kFlatArea = 1e-12;  // the volume that three unit axes must at least span
   if (!mesh_from_projector.affine().allFinite()) {
     return base::fail("the projector's frame is not finite: give it a position and sizes in metres");
   }
@@ -38,7 +38,7 @@ base::Result<ProjectorFrame> projector_frame(const Affine3& mesh_from_projector)
     frame.axes.col(axis) = column.stableNormalized();
   }
   const bool some_size = frame.sizes.minCoeff() > 0 && frame.sizes.allFinite();
-  if (!some_size || !(std::abs(frame.axes.determinant()) > kFlat)) {
+  if (!some_size || !(std::abs(frame.axes.determinant()) > kFlatArea)) {
     return base::fail("the projector is flat: give it some size along each of its three axes");
   }
   frame.inverse = frame.axes.inverse();

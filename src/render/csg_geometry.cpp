@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "base/decompositions.h"
 #include "geometry/csg_normal_form.h"
 #include "geometry/weld.h"
 
@@ -80,14 +80,13 @@ struct VertexPlanes {
 
 /// The step that takes all planes at a vertex outward by 1, as nearly as it can and not much farther.
 Vector3 step_outward(const VertexPlanes& planes) {
-  Eigen::SelfAdjointEigenSolver<Matrix3> solver;
-  solver.computeDirect(planes.squares);
-  const double largest = solver.eigenvalues().maxCoeff();
+  const base::SymmetricEigen eigen = base::symmetric_eigen(planes.squares);
+  const double largest = eigen.values[2];
   if (!(largest > 0.0)) return Vector3::Zero();
   Vector3 step = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
-    const double value = solver.eigenvalues()[i];
-    const Vector3 axis = solver.eigenvectors().col(i);
+    const double value = eigen.values[i];
+    const Vector3 axis = eigen.vectors.col(i);
     if (value > 0.02 * largest) step += axis.dot(planes.normals) / value * axis;
   }
   constexpr double kFarthest = 4.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/decompositions.h"
 #include "world/solid_geometry.h"
 
 namespace icome::render {
@@ -44,7 +45,7 @@ Affine3 stretched(const Vector3& from, const Vector3& to, double radius) {
   const Vector3 along = to - from;
   const double length = along.norm();
   Affine3 place = Affine3::Identity();
-  place.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), along).toRotationMatrix() *
+  place.linear() = base::rotation_between(Vector3::UnitZ(), along).toRotationMatrix() *
                    Vector3(radius, radius, length).asDiagonal();
   place.translation() = 0.5 * (from + to);
   return place;

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/decompositions.h"
 #include "render/csg_view.h"
 #include "render/gl_objects.h"
 #include "render/mesh_view.h"
@@ -187,7 +188,7 @@ using PassLights = std::array<Light, kLightsAPass>;
 
 /// One light of the key and three of the sky for each pass, so that each pass is a fair sample.
 std::vector<PassLights> make_lights(int passes, const Pose& studio_from_camera, const Vector3& up) {
-  const auto up_from_z = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), up);
+  const auto up_from_z = base::rotation_between(Vector3::UnitZ(), up);
   constexpr int kSkyLights = kLightsAPass - 1;
   std::vector<PassLights> lights;
   for (int pass = 0; pass < passes; ++pass) {

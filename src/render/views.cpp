@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/decompositions.h"
+
 namespace icome::render {
 namespace {
 
@@ -83,8 +85,13 @@ Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds
 
 Camera look_from(const RenderViewpoint& viewpoint, const base::Bounds& bounds, double aspect) {
   base::Pose world_from_camera;
-  world_from_camera.linear() = viewpoint.world_from_viewpoint.rotation();
-  if (!world_from_camera.linear().allFinite()) world_from_camera.linear().setIdentity();
+  const base::Matrix3 linear = viewpoint.world_from_viewpoint.linear();
+  if (linear.allFinite()) {
+    const base::SingularValues parts = base::singular_values(linear);
+    world_from_camera.linear() = parts.u * parts.v.transpose();
+  } else {
+    world_from_camera.linear().setIdentity();
+  }
   if (world_from_camera.linear().determinant() < 0.0) world_from_camera.linear().col(0) *= -1.0;
   world_from_camera.translation() = viewpoint.world_from_viewpoint.translation();
   Camera camera;

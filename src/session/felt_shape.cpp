@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/decompositions.h"
 #include "geometry/csg_solid.h"
 #include "geometry/mesh_repair.h"
 #include "haptics/mesh_shape.h"
@@ -184,7 +185,7 @@ base::Pose turned_to(const base::Affine3& world_from_primitive) {
   const Vector3 normal =
       (world_from_primitive.linear().inverse().transpose() * Vector3::UnitZ()).normalized();
   base::Pose pose = base::Pose::Identity();
-  pose.linear() = base::Quaternion::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
+  pose.linear() = base::rotation_between(Vector3::UnitZ(), normal).toRotationMatrix();
   pose.translation() = world_from_primitive.translation();
   return pose;
 }

@@ -1,7 +1,8 @@
 #include "session/rigid_part.h"
 
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "base/decompositions.h"
 
 namespace icome::session {
 namespace {
@@ -39,12 +40,11 @@ RigidPart rigid_part(const base::Affine3& world_from_shape) {
   } else if (is_diagonal(linear)) {
     part.felt_from_shape = rounded(linear);
   } else {
-    const Eigen::JacobiSVD<Matrix3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Matrix3 turn = svd.matrixU() * svd.matrixV().transpose();
+    const base::SingularValues parts = base::singular_values(linear);
+    const Matrix3 turn = parts.u * parts.v.transpose();
     const double side = turn.determinant() < 0.0 ? -1.0 : 1.0;  // a mirror is no turn: it goes to the shape
     part.world_from_felt.linear() = side * turn;
-    part.felt_from_shape =
-        rounded(side * svd.matrixV() * svd.singularValues().asDiagonal() * svd.matrixV().transpose());
+    part.felt_from_shape = rounded(side * parts.v * parts.values.asDiagonal() * parts.v.transpose());
   }
   return part;
 }

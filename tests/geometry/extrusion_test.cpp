@@ -242,7 +242,7 @@ TEST(Extrusion, TwistedRingMeetsItselfACornerFurther) {
   std::vector<SweepStep> steps;
   for (int i = 0; i < kSteps; ++i) {
     const Affine3 next = place(i + 1) * place(i).inverse();
-    const Eigen::AngleAxisd turn(Matrix3(next.rotation()));
+    const Eigen::AngleAxisd turn(Matrix3(next.linear()));
     steps.push_back(turned_about(turn.axis(), turn.angle(), 1));
     steps.back().translation = next.translation();
   }

@@ -1,5 +1,6 @@
 #include "render/views.h"
 
+#include "base/decompositions.h"
 #include "render/drawn_world.h"
 
 namespace icome::render {
@@ -16,7 +17,7 @@ DrawnWorld six_sides() {
                            Side{{1, 0, 0}, {0.0F, 0.0F, 0.8F}}, Side{{-1, 0, 0}, {0.8F, 0.8F, 0.0F}},
                            Side{{0, 1, 0}, {0.8F, 0.0F, 0.8F}}, Side{{0, -1, 0}, {0.0F, 0.8F, 0.8F}}}) {
     base::Affine3 place = base::Affine3::Identity();
-    place.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), side.out).toRotationMatrix();
+    place.linear() = base::rotation_between(Vector3::UnitZ(), side.out).toRotationMatrix();
     place.translation() = side.out;
     it.add(square(), place, coloured(side.colour));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/decompositions.h"
+
 namespace icome::files {
 namespace {
 
@@ -46,7 +48,7 @@ std::vector<Matrix3> section_planes(const std::vector<Vector3>& spine, bool is_c
   if (!fill_gaps(along)) along.assign(count, Vector3::UnitY());
   std::vector<Matrix3> planes(count);
   if (!fill_gaps(across)) {
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitY(), along.front());
+    const Eigen::Quaterniond turn = base::rotation_between(Vector3::UnitY(), along.front());
     std::fill(planes.begin(), planes.end(), turn.toRotationMatrix());
     return planes;
   }

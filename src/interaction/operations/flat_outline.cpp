@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/decompositions.h"
 #include "geometry/weld.h"
 
 namespace icome::interaction {
@@ -67,7 +68,7 @@ base::Matrix3 turn_to(const Vector3& normal) {
   constexpr double kSame = 1e-12;
   if ((normal - Vector3::UnitZ()).norm() < kSame) return base::Matrix3::Identity();
   if ((normal + Vector3::UnitZ()).norm() < kSame) return Vector3(1, -1, -1).asDiagonal();
-  return base::Quaternion::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
+  return base::rotation_between(Vector3::UnitZ(), normal).toRotationMatrix();
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "base/decompositions.h"
 
 namespace icome::interaction {
 namespace {
@@ -14,13 +15,7 @@ bool is_target_place(const base::Affine3& place) {
          std::abs(place.linear().determinant()) > 0.0;
 }
 
-double longest_stretch(const base::Affine3& place) {
-  const base::Matrix3 linear = place.linear();
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<base::Matrix3>(linear.transpose() * linear, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .maxCoeff());
-}
+double longest_stretch(const base::Affine3& place) { return base::singular_values(place.linear()).values[0]; }
 
 /// How far along the ray the ball is met: at its far side from within it.
 std::optional<double> ball_hit(const TargetBall& ball, const Ray& ray) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.h"
+
 namespace icome::interaction {
 namespace {
 
@@ -20,7 +22,7 @@ double twist_about(const Quaternion& turn, const Vector3& axis) {
 
 /// The turn of the line between the hands the short way, and then that of the hands about it.
 Quaternion turn_of_hands(const std::array<Pose, 2>& before, const std::array<Pose, 2>& now) {
-  const Quaternion swing = Quaternion::FromTwoVectors(between(before), between(now));
+  const Quaternion swing = base::rotation_between(between(before), between(now));
   const Vector3 line = between(now).normalized();
   double twist = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {

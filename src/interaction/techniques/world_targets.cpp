@@ -1,10 +1,10 @@
 #include "interaction/techniques/world_targets.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/decompositions.h"
 #include "geometry/mesh_repair.h"
 #include "geometry/triangle_tree.h"
 #include "world/mesh_geometry.h"
@@ -35,11 +35,7 @@ class MeshTarget final : public TargetShape {
 };
 
 /// How much shorter the frame makes lengths at most: lengths in the world are at least that of its own.
-double least_stretch(const base::Affine3& frame) {
-  Eigen::SelfAdjointEigenSolver<base::Matrix3> squares;
-  squares.computeDirect(frame.linear().transpose() * frame.linear(), Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, squares.eigenvalues().x()));  // in ascending order
-}
+double least_stretch(const base::Affine3& frame) { return base::singular_values(frame.linear()).values[2]; }
 
 double MeshTarget::distance(const base::Affine3& world_from_target, const Vector3& point,
                             double limit) const {
