@@ -56,8 +56,8 @@ function(icome_unit_test name program)
 endfunction()
 
 # icome_tests(NAME [LINKS target...] [THREADED file...] [SHARDS n]): the *_test.cpp files of this folder as one
-# GoogleTest program, run as icome_unit_test says. Where only some of a folder's code is threaded, THREADED names the tests of it, which are all that the
-# thread sanitizer runs.
+# GoogleTest program, run as icome_unit_test says. Where only some of a folder's code is threaded, THREADED names the
+# tests of it, which are all that the thread sanitizer runs.
 function(icome_tests name)
   cmake_parse_arguments(ARG "" "SHARDS" "LINKS;THREADED" ${ARGN})
   if(ICOME_SANITIZE STREQUAL "thread" AND ARG_THREADED)
