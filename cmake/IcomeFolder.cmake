@@ -1,22 +1,39 @@
 # One folder under src/ is one library and one namespace; one folder under tests/ is one test program.
 
-# icome_even_batches(TARGET source...): batches of one size, where the sources are compiled several at a time: with 17
-# of them and at most 16 a batch, 9 and 8 take less time than 16 and 1.
-function(icome_even_batches target)
+# icome_sources(TARGET source...): compiles the sources as part of the target, in batches of nearly equal size where
+# ICOME_BATCH asks for batches, since what sources include costs more than they do. A batch is a generated source that
+# includes them by their path in the project, so that the compiler cache knows it in every clone (CMAKE_UNITY_BUILD
+# writes absolute paths into its own).
+function(icome_sources target)
   list(LENGTH ARGN count)
-  if(CMAKE_UNITY_BUILD AND count GREATER 0)
-    math(EXPR batches "(${count} + ${CMAKE_UNITY_BUILD_BATCH_SIZE} - 1) / ${CMAKE_UNITY_BUILD_BATCH_SIZE}")
-    math(EXPR size "(${count} + ${batches} - 1) / ${batches}")
-    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${size})
+  if(NOT ICOME_BATCH OR count LESS 2)
+    target_sources(${target} PRIVATE ${ARGN})
+    return()
   endif()
+  math(EXPR batches "(${count} + ${ICOME_BATCH} - 1) / ${ICOME_BATCH}")
+  foreach(batch RANGE 1 ${batches})
+    math(EXPR first "(${batch} - 1) * ${count} / ${batches}")
+    math(EXPR size "${batch} * ${count} / ${batches} - ${first}")
+    list(SUBLIST ARGN ${first} ${size} sources)
+    list(TRANSFORM sources REPLACE "^${PROJECT_SOURCE_DIR}/(.+)$" "#include \"\\1\"\n")
+    string(CONCAT text ${sources})
+    set(generated ${CMAKE_CURRENT_BINARY_DIR}/batches/${target}_${batch}.cpp)
+    file(CONFIGURE OUTPUT ${generated} CONTENT "${text}" @ONLY)
+    target_sources(${target} PRIVATE ${generated})
+  endforeach()
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
 endfunction()
 
-# icome_folder(NAME [USES folder...] [LINKS target...])
+# icome_folder(NAME [USES folder...] [LINKS target...] [EXCEPT folder...])
 # USES are other folders of src/ (tools/check_layers.py holds them against tools/layers.txt);
-# LINKS are third-party targets, private so that their headers stay behind this folder's sources.
+# LINKS are third-party targets, private so that their headers stay behind this folder's sources;
+# EXCEPT are folders in this one that are targets of their own.
 function(icome_folder name)
-  cmake_parse_arguments(ARG "" "" "USES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "USES;LINKS;EXCEPT" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(folder IN LISTS ARG_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${folder}/")
+  endforeach()
   list(TRANSFORM ARG_USES PREPEND icome_)
   if(NOT name STREQUAL "base")
     list(PREPEND ARG_USES icome_base)
@@ -27,11 +44,26 @@ function(icome_folder name)
     target_link_libraries(icome_${name} INTERFACE ${ARG_USES})
     return()
   endif()
-  add_library(icome_${name} STATIC ${sources})
-  icome_even_batches(icome_${name} ${sources})
+  add_library(icome_${name} STATIC)
+  icome_sources(icome_${name} ${sources})
   target_include_directories(icome_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(icome_${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_LINKS})
 endfunction()
+
+# Where the files are that tests and benchmarks read: paths of this clone, so they are in one source, and the compiler
+# cache knows all others in every clone.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/places.cpp @ONLY CONTENT [[
+#include "places.h"
+
+namespace icome::places {
+
+std::filesystem::path project_folder() { return "@PROJECT_SOURCE_DIR@"; }
+std::filesystem::path shared_data() { return project_folder().parent_path() / "shared" / "data"; }
+
+}  // namespace icome::places
+]])
+add_library(icome_places STATIC EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/generated/places.cpp)
+target_include_directories(icome_places PUBLIC ${PROJECT_SOURCE_DIR}/tests)
 
 # Every unit test program, so that a sanitizer build makes these and what they need, and no more.
 add_custom_target(icome_unit_tests)
@@ -69,17 +101,14 @@ function(icome_tests name)
     return()
   endif()
   set(program icome_${name}_tests)
-  add_executable(${program} ${sources})
-  icome_even_batches(${program} ${sources})
+  add_executable(${program})
+  icome_sources(${program} ${sources})
   add_dependencies(icome_unit_tests ${program})
   if(NOT ICOME_SANITIZE)
     # Checks that run once need no optimising: what they check is optimised as users have it.
     target_compile_options(${program} PRIVATE -O1)
   endif()
-  target_link_libraries(${program} PRIVATE icome_${name} GTest::gtest_main ${ARG_LINKS})
-  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_definitions(${program} PRIVATE
-    ICOME_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
+  target_link_libraries(${program} PRIVATE icome_${name} icome_places GTest::gtest_main ${ARG_LINKS})
   icome_unit_test(${name} ${program} ${ARG_SHARDS})
 endfunction()
 
@@ -101,7 +130,8 @@ function(icome_benchmark name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(program icome_${name}_benchmark)
-  add_executable(${program} ${sources})
-  target_link_libraries(${program} PRIVATE icome_base ${ARG_LINKS})
+  add_executable(${program})
+  icome_sources(${program} ${sources})
+  target_link_libraries(${program} PRIVATE icome_base icome_places ${ARG_LINKS})
   set_property(GLOBAL APPEND PROPERTY ICOME_BENCHMARKS ${program})
 endfunction()

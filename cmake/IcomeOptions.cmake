@@ -8,6 +8,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 option(ICOME_BUILD_TESTS "Build the tests" ON)
 option(ICOME_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(ICOME_WARNINGS_AS_ERRORS "A compiler warning fails the build (what `make test` asks for)" OFF)
+set(ICOME_BATCH 0 CACHE STRING "How many sources one compiler run takes at most; 0: each by itself")
 set(ICOME_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, such as address,undefined")
 
 # The cache is shared by every clone on the machine: paths count from the source tree, and the
@@ -24,7 +25,7 @@ if(ICOME_WARNINGS_AS_ERRORS)
 endif()
 # Sources that are compiled several at a time are included by a generated one, so GCC takes them for headers and
 # warns of members that others could not see: there are no others.
-if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+if(ICOME_BATCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wno-subobject-linkage)
 endif()
 # Equal inputs give equal bits whatever the optimiser does (replays are compared bit for bit).

@@ -69,7 +69,7 @@ def check_links(text, table):
     """Yields (line number, complaint) for the USES of the icome_folder calls in a CMakeLists.txt."""
     for match in CMAKE_FOLDER.finditer(text):
         folder, arguments = match.groups()
-        uses = re.search(r"\bUSES\b(.*?)(?:\bLINKS\b|$)", arguments, re.DOTALL)
+        uses = re.search(r"\bUSES\b(.*?)(?:\b(?:LINKS|EXCEPT)\b|$)", arguments, re.DOTALL)
         for used in uses.group(1).split() if uses else []:
             complaint = why_not(table, folder, used)
             if complaint:

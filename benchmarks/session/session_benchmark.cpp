@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "places.h"
 #include "session_figures.h"
 
 int main(int argc, char** argv) {
@@ -10,7 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app("Measures a session. Takes two minutes.");
   bool is_quick = false;
   SessionExtent extent;
-  extent.demo = ICOME_DEMO_DESIGN;
+  extent.demo = icome::places::project_folder() / "data" / "demo.wrl";
   app.add_flag("--quick", is_quick, "A little of everything: does it work at all?");
   app.add_option("--demo", extent.demo, "The design that start-up is measured with (default: the demo)");
   CLI11_PARSE(app, argc, argv);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "measure.h"
+#include "places.h"
 #include "stats/anova.h"
 #include "stats/repeated_measures.h"
 #include "stats_peer.h"
@@ -144,7 +145,7 @@ void print_figures(const StatsExtent& extent, const fs::path& file) {
 
 /// NIST's sets of the higher difficulties agree in their first digits, which squares of the values then hold.
 void print_certified_digits() {
-  const fs::path folder = fs::path(ICOME_SHARED_DATA) / "stats" / "nist-strd-anova";
+  const fs::path folder = places::shared_data() / "stats" / "nist-strd-anova";
   if (!fs::exists(folder)) {
     fmt::print("-- digits of NIST's certified F: its data sets are not beside the project\n");
     return;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "places.h"
+
 namespace icome::benchmarks {
 namespace {
 
@@ -29,8 +31,9 @@ bool has_peer() {
 
 std::optional<PeerAnswer> ask_peer(const std::string& kind, const std::filesystem::path& file, int repeats) {
   if (!has_peer()) return std::nullopt;
+  const auto script = places::project_folder() / "benchmarks" / "stats" / "stats_peer.R";
   const auto said =
-      output_of(fmt::format("Rscript '{}' {} '{}' {}", ICOME_STATS_PEER, kind, file.string(), repeats));
+      output_of(fmt::format("Rscript '{}' {} '{}' {}", script.string(), kind, file.string(), repeats));
   if (!said) return std::nullopt;
   PeerAnswer answer;
   std::istringstream lines(*said);

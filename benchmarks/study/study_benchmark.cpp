@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "devices/simulated/simulated_device.h"
 #include "files/design.h"
 #include "haptics/servo/servo.h"
+#include "places.h"
 #include "realtime/message_pipe.h"
 #include "session/haptic_representation.h"
 #include "session/session.h"
@@ -40,11 +42,15 @@ T must(base::Result<T> result) {
   return std::move(*result);
 }
 
+std::filesystem::path study_scene() {
+  return places::project_folder() / "data" / "studies" / "scenes" / "menu-room.wrl";
+}
+
 /// A hand that wanders over the menu room's menu.
 class Wandering {
  public:
   Wandering() : hand_(devices::SimulatedSettings{}), servo_(hand_, haptics::ServoSettings{}) {
-    felt_.open(must(files::read_design(ICOME_STUDY_SCENE)).world);
+    felt_.open(must(files::read_design(study_scene())).world);
     servo_.publish(felt_.scene());
   }
 
@@ -232,7 +238,7 @@ void disk_costs(const Extent& extent) {
 /// A session's servo while its ticks are kept, or not, and while trials go to the disk.
 void live_row(const char* what, double seconds, bool kept, bool written) {
   auto session = must(session::Session::create({}));
-  session->open(ICOME_STUDY_SCENE);
+  session->open(study_scene());
   session->settle();
   session->trace(kept);
   const study::Trace trace = trace_of(10.0);

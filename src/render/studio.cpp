@@ -582,17 +582,17 @@ class FloorShadow {
  private:
   /// A box filter along the lines whose neighbours lie `step` apart; three make nearly a Gaussian.
   void blur(std::size_t step, std::size_t next_line) {
-    constexpr int kReach = 4;
+    constexpr int kBlurReach = 4;
     std::array<float, kFloorSide> line;
     for (std::size_t start = 0; start < kFloorSide; ++start) {
       float* first = dark_.data() + start * next_line;
       for (std::size_t i = 0; i < kFloorSide; ++i) line[i] = first[i * step];
       for (int i = 0; i < kFloorSide; ++i) {
         float sum = 0.0F;
-        for (int k = i - kReach; k <= i + kReach; ++k) {
+        for (int k = i - kBlurReach; k <= i + kReach; ++k) {
           sum += line[static_cast<std::size_t>(std::clamp(k, 0, kFloorSide - 1))];
         }
-        first[static_cast<std::size_t>(i) * step] = sum / (2 * kReach + 1);
+        first[static_cast<std::size_t>(i) * step] = sum / (2 * kBlurReach + 1);
       }
     }
   }

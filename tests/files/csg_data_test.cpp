@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "files/csg_reader.h"
+#include "places.h"
 
 namespace icome::files {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using geometry::CsgTree;
 using geometry::Vector3;
 
-const std::filesystem::path kCsgData = std::filesystem::path(ICOME_SHARED_DATA) / "csg";
+const std::filesystem::path kCsgData = places::shared_data() / "csg";
 
 struct ReadableCsg {
   const char* file;

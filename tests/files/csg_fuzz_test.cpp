@@ -10,6 +10,7 @@
 #include "damage.h"
 #include "files/csg_reader.h"
 #include "files/file_bytes.h"
+#include "places.h"
 
 namespace icome::files {
 namespace {
@@ -43,7 +44,7 @@ void check_tree(const geometry::CsgTree& tree) {
 
 std::vector<std::string> small_real_files() {
   std::vector<std::string> texts{kEverything};
-  const std::filesystem::path folder = std::filesystem::path(ICOME_SHARED_DATA) / "csg";
+  const std::filesystem::path folder = places::shared_data() / "csg";
   if (!std::filesystem::exists(folder)) return texts;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))

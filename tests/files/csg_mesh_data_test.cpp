@@ -10,6 +10,7 @@
 #include "files/csg_reader.h"
 #include "geometry/csg_mesh.h"
 #include "geometry/mesh_topology.h"
+#include "places.h"
 
 namespace icome::files {
 namespace {
@@ -47,7 +48,7 @@ void expect_meshed(const CsgTree& tree) {
 }
 
 TEST(CsgMeshData, SharedFilesGiveClosedMeshes) {
-  const std::filesystem::path data = std::filesystem::path(ICOME_SHARED_DATA) / "csg" / "pure";
+  const std::filesystem::path data = places::shared_data() / "csg" / "pure";
   if (!std::filesystem::exists(data)) GTEST_SKIP() << "the shared data is not there: " << data;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());

@@ -5,11 +5,12 @@
 #include <filesystem>
 
 #include "files/mesh_reader.h"
+#include "places.h"
 
 namespace icome::files {
 namespace {
 
-std::filesystem::path meshes() { return std::filesystem::path(ICOME_SHARED_DATA) / "meshes"; }
+std::filesystem::path meshes() { return places::shared_data() / "meshes"; }
 
 struct Good {
   const char* file;

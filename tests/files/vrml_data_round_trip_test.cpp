@@ -7,6 +7,7 @@
 #include "files/sample_files.h"
 #include "files/vrml_reader.h"
 #include "files/vrml_writer.h"
+#include "places.h"
 #include "world/random_edits.h"
 
 namespace icome::files {
@@ -33,7 +34,7 @@ std::string difference_through_file(const World& world, const fs::path& path) {
 }
 
 TEST(VrmlDataRoundTrip, EverySharedFileThatCanBeReadStaysAsItIs) {
-  const fs::path shared = fs::path(ICOME_SHARED_DATA) / "vrml";
+  const fs::path shared = places::shared_data() / "vrml";
   if (!fs::exists(shared)) GTEST_SKIP() << shared << " is not there";
   std::vector<fs::path> paths;
   for (const auto& entry : fs::recursive_directory_iterator(shared)) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "files/vrml_reader.h"
+#include "places.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
 
@@ -152,7 +153,7 @@ const std::vector<VrmlCount> kCounts = {
 };
 // clang-format on
 
-const std::filesystem::path kVrmlData = std::filesystem::path(ICOME_SHARED_DATA) / "vrml";
+const std::filesystem::path kVrmlData = places::shared_data() / "vrml";
 
 #define SKIP_WITHOUT_VRML_DATA() \
   if (!std::filesystem::exists(kVrmlData)) GTEST_SKIP() << kVrmlData << " is not there"

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "damage.h"
 #include "files/file_bytes.h"
+#include "places.h"
 #include "sample_files.h"
 #include "vrml_seen.h"
 
@@ -171,7 +172,7 @@ TEST(VrmlHostile, DamagedFilesNeverBringDownTheReader) {
 }
 
 TEST(VrmlHostile, WrongNumbersInSharedFiles) {
-  const fs::path folder = fs::path(ICOME_SHARED_DATA) / "vrml";
+  const fs::path folder = places::shared_data() / "vrml";
   if (!fs::exists(folder)) GTEST_SKIP() << "shared VRML files are not here";
   base::Random random(7);
   std::vector<std::string> texts;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "files/file_bytes.h"
+#include "places.h"
 #include "vrml_seen.h"
 
 namespace icome::files {
@@ -73,7 +74,7 @@ TEST(VrmlProcess, TellsTheSceneOfAFile) {
 }
 
 TEST(VrmlProcess, AnswersEverySharedFileOrSaysWhyNot) {
-  const fs::path folder = fs::path(ICOME_SHARED_DATA) / "vrml";
+  const fs::path folder = places::shared_data() / "vrml";
   if (!fs::exists(folder)) GTEST_SKIP() << "shared VRML files are not here";
   int read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -15,6 +15,7 @@
 #include "geometry/triangle_tree.h"
 #include "loop_reference.h"
 #include "meshes.h"
+#include "places.h"
 
 namespace icome::geometry {
 namespace loop_surface_test {
@@ -160,7 +161,7 @@ TriangleMesh read_obj(const std::filesystem::path& path) {
 }
 
 TEST(LoopSurface, TakesRealControlMeshes) {
-  const std::filesystem::path folder = std::filesystem::path(ICOME_SHARED_DATA) / "meshes" / "control";
+  const std::filesystem::path folder = places::shared_data() / "meshes" / "control";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   for (const std::string name : {"cow", "spot", "suzanne", "cat_head", "woody", "dodecahedron_poly"}) {
     SCOPED_TRACE(name);

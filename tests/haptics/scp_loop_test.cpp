@@ -6,6 +6,7 @@
 #include "files/mesh_reader.h"
 #include "geometry/loop_surface.h"
 #include "haptics/loop_brute.h"
+#include "places.h"
 
 namespace icome::haptics {
 namespace {
@@ -146,7 +147,7 @@ TEST(ScpOnLoop, RestsInShallowGrooves) {
 }
 
 TEST(ScpOnLoop, GivesTheConstrainedPlaceOnRealModels) {
-  const auto folder = std::filesystem::path(ICOME_SHARED_DATA) / "meshes" / "control";
+  const auto folder = places::shared_data() / "meshes" / "control";
   for (const char* name : {"spot.obj", "bob_small.ply"}) {
     if (!std::filesystem::exists(folder / name)) GTEST_SKIP() << folder / name << " is not there";
     SCOPED_TRACE(name);

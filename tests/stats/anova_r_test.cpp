@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "anova_test_data.h"
+#include "places.h"
 #include "stats/anova.h"
 #include "stats/descriptives.h"
 #include "stats/repeated_measures.h"
@@ -55,8 +56,8 @@ class AnovaInR : public testing::Test {
   std::vector<std::map<std::string, std::vector<double>>> answers() {
     std::ofstream(folder_ / "sets.R") << calls_;
     const std::string command =
-        fmt::format("Rscript '{0}/anova_in_r.R' '{1}' > '{1}/out.txt' 2> '{1}/errors.txt'", ICOME_STATS_TESTS,
-                    folder_.string());
+        fmt::format("Rscript '{0}/tests/stats/anova_in_r.R' '{1}' > '{1}/out.txt' 2> '{1}/errors.txt'",
+                    places::project_folder().string(), folder_.string());
     EXPECT_EQ(std::system(command.c_str()), 0) << std::ifstream(folder_ / "errors.txt").rdbuf();
     std::vector<std::map<std::string, std::vector<double>>> result;
     std::ifstream file(folder_ / "out.txt");

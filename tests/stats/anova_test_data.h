@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "base/random.h"
+#include "places.h"
 #include "stats/factor.h"
 
 namespace icome::stats::anova_data {
 
 inline std::filesystem::path shared_file(const std::string& name) {
-  return std::filesystem::path(ICOME_SHARED_DATA) / "stats" / name;
+  return places::shared_data() / "stats" / name;
 }
 
 /// Equal in so many significant digits.

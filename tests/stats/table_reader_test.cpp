@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "places.h"
+
 namespace icome::stats {
 namespace {
 
@@ -197,7 +199,7 @@ TEST(ReadNist, SaysWhatIsWrong) {
 }
 
 TEST(ReadTable, SharedTables) {
-  const std::filesystem::path folder = std::filesystem::path(ICOME_SHARED_DATA) / "stats";
+  const std::filesystem::path folder = places::shared_data() / "stats";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   std::size_t read_files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -13,6 +13,7 @@
 
 #include "base/random.h"
 #include "base/result.h"
+#include "places.h"
 
 namespace icome::stats {
 
@@ -50,7 +51,7 @@ inline const Groups kRoundingTimes = {
 
 /// A column of a shared data set without quotes; empty where there is no such file.
 inline std::vector<std::string> shared_column(const std::string& set, const std::string& column) {
-  std::ifstream file(std::filesystem::path(ICOME_SHARED_DATA) / "stats" / set);
+  std::ifstream file(places::shared_data() / "stats" / set);
   std::vector<std::string> values;
   std::string line, cell;
   std::size_t wanted = std::string::npos;
