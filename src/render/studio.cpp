@@ -589,7 +589,7 @@ class FloorShadow {
       for (std::size_t i = 0; i < kFloorSide; ++i) line[i] = first[i * step];
       for (int i = 0; i < kFloorSide; ++i) {
         float sum = 0.0F;
-        for (int k = i - kBlurReach; k <= i + kReach; ++k) {
+        for (int k = i - kBlurReach; k <= i + kBlurReach; ++k) {
           sum += line[static_cast<std::size_t>(std::clamp(k, 0, kFloorSide - 1))];
         }
         first[static_cast<std::size_t>(i) * step] = sum / (2 * kBlurReach + 1);
