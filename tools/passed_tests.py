@@ -1,17 +1,17 @@
 """Which tests of a build have passed, so that nothing is tested again that nothing has changed for.
 
 A test counts as having passed by all that it is made of: its command, its environment, the bytes of the programs it
-runs, the files that tests read, and the installed packages. They are kept in the build folder, in passed-tests.json,
+runs, the files that tests read, the project's tools and presets, and the installed packages. They are kept in the build folder, in passed-tests.json,
 so a fresh clone runs every test, as the continuous integration does.
 """
 import hashlib
 import json
 import pathlib
 import subprocess
-import xml.etree.ElementTree
 
-READ_BY_TESTS = ("data", "examples", "tests")
-CODE = (".cpp", ".h", ".py")  # compiled into the programs, or told with the scripts
+# What tests read, run or are run with, beside their programs.
+READ_BY_TESTS = ("data", "examples", "tests", "tools", "CMakePresets.json")
+CODE = (".cpp", ".h", ".py")  # of tests: compiled into the programs, or told with the scripts
 
 
 def hash_of(*parts):
@@ -30,8 +30,9 @@ def hash_of_files(root, paths):
 def surroundings(root):
     """What every test may depend on besides its program, in one hash."""
     packages = subprocess.run(["dpkg-query", "--show"], check=True, capture_output=True).stdout
-    ours = (path for folder in READ_BY_TESTS for path in (root / folder).rglob("*")
-            if path.is_file() and path.suffix not in CODE and "__pycache__" not in path.parts)
+    named = (path for name in READ_BY_TESTS for path in (root / name, *(root / name).rglob("*")) if path.is_file())
+    ours = (path for path in named if "__pycache__" not in path.parts
+            and not (path.is_relative_to(root / "tests") and path.suffix in CODE))
     shared = (root.parent / "shared" / "data").rglob("*")
     times = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in sorted(shared) if path.is_file()]
     return hash_of(packages, hash_of_files(root, ours), times)
@@ -101,11 +102,10 @@ class PassedTests:
         """Names of the tests to run."""
         return [name for name in self.names if name not in self.keys or self.passed.get(name) != self.keys[name]]
 
-    def add(self, results):
-        """Remembers what ctest says has passed in `results`, the path of its JUnit file."""
-        for case in xml.etree.ElementTree.parse(results).getroot().iter("testcase"):
-            name = case.get("name")
-            if case.get("status") == "run" and name in self.keys:
+    def add(self, passed):
+        """Remembers {name: whether it has passed} of the tests that were run."""
+        for name, has_passed in passed.items():
+            if has_passed and name in self.keys:
                 self.passed[name] = self.keys[name]
             else:
                 self.passed.pop(name, None)

@@ -61,8 +61,11 @@ StatsJson& StatsJson::operator[](const std::string& key) {
   return members.back().value;
 }
 
-// Not inlined: where GCC 12 sees which alternative of a variant is moved, it warns that the others were never set.
-[[gnu::noinline]] void StatsJson::push_back(StatsJson element) { std::get<Array>(value_).push_back(std::move(element)); }
+// Not inlined: where GCC 12 sees which alternative of a variant is moved, it warns that the others were never
+// set.
+[[gnu::noinline]] void StatsJson::push_back(StatsJson element) {
+  std::get<Array>(value_).push_back(std::move(element));
+}
 
 void StatsJson::append(const StatsJson& object) {
   for (const Member& member : std::get<Object>(object.value_)) (*this)[member.key] = member.value;

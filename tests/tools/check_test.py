@@ -43,16 +43,39 @@ class CheckTest(unittest.TestCase):
             work()
         return out.getvalue()
 
+    def runs(self, text, units=("haptics/1of2", "haptics/2of2")):
+        return self.check.test_runs(self.results(text), units)
+
     def test_tests_within_programs_are_counted_and_scripts_as_one(self):
-        self.assertEqual(41 + 1 + 1, self.check.count_tests(self.results(RESULTS)))
+        self.assertEqual([41, 1, 1], [run.ran for run in self.runs(RESULTS)])
+        self.assertTrue(all(run.passed and run.complete and run.skipped == 0 for run in self.runs(RESULTS)))
+        self.check.folders.clear()
+        self.runs(RESULTS)
         self.assertEqual(4.0, self.check.folders["tests/haptics"].testing)
         self.assertEqual(30.0, self.check.folders["tests/apps"].testing)
 
     def test_results_that_cannot_be_read_are_told(self):
         for text in ("", "<testsuite>"):
             with self.subTest(text):
-                path = self.results(text)
-                self.assertIn("cannot be counted", self.printed(lambda: self.check.count_tests(path)))
+                self.assertIn("cannot be counted", self.printed(lambda: self.assertEqual([], self.runs(text))))
+
+    def test_a_program_that_ends_before_its_tests_do_is_not_complete(self):
+        (run,) = self.runs('<t><testcase name="haptics/1of2" time="1" status="run"><system-out>[ RUN ]</system-out>'
+                           '</testcase></t>')
+        self.assertTrue(run.passed)
+        self.assertFalse(run.complete)
+
+    def test_tests_that_were_skipped_are_counted(self):
+        (run,) = self.runs('<t><testcase name="haptics/1of2" time="1" status="run"><system-out>'
+                           '[==========] 20 tests from 1 test suite ran. (0 ms total)\n[  PASSED  ] 1 test.\n'
+                           '[  SKIPPED ] 19 tests, listed below:\n</system-out></testcase></t>')
+        self.assertEqual((20, 19), (run.ran, run.skipped))
+
+    def test_a_program_in_which_no_test_runs_is_named(self):
+        none = '[==========] 0 tests from 0 test suites ran. (0 ms total)'
+        runs = self.runs(RESULTS.replace("[==========] 41 tests from 7 test suites ran. (2400 ms total)", none))
+        self.assertEqual([], check.programs_without_tests(runs))  # its other share has one
+        self.assertEqual(["haptics"], check.programs_without_tests(runs[:1]))
 
     def test_a_stage_that_fails_is_in_the_table(self):
         def fail():
