@@ -20,12 +20,6 @@ using haptics::TouchableSides;
 
 constexpr double kPictureTolerance = 0.0005;  // of the size: what a picture of a primitive may be off
 
-bool names_primitive(std::string_view text) {
-  constexpr std::array<std::string_view, 7> kKeywords = {"plane", "box",   "sphere", "cylinder",
-                                                         "cone",  "torus", "capsule"};
-  return std::find(kKeywords.begin(), kKeywords.end(), text.substr(0, text.find(':'))) != kKeywords.end();
-}
-
 /// The same primitive, every length times `factor`.
 class Scaled {
  public:
@@ -106,6 +100,12 @@ base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& 
 }
 
 }  // namespace
+
+bool names_primitive(std::string_view text) {
+  constexpr std::array<std::string_view, 7> kKeywords = {"plane", "box",   "sphere", "cylinder",
+                                                         "cone",  "torus", "capsule"};
+  return std::find(kKeywords.begin(), kKeywords.end(), text.substr(0, text.find(':'))) != kKeywords.end();
+}
 
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options) {
   if (names_design(text)) return load_design(text, options);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/touch_options.h"
@@ -47,6 +48,9 @@ struct TouchModel {
   TouchBody& body() { return bodies.front(); }
   const TouchBody& body() const { return bodies.front(); }
 };
+
+/// Is this MODEL a primitive (a keyword before a colon, or "plane"), not a file?
+bool names_primitive(std::string_view text);
 
 /// Reads one MODEL: what has a primitive's keyword before a colon, or is "plane", is a primitive,
 /// everything else a file, of a mesh, a CSG solid or a design. Models stand in the world as they are: files

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "apps/exact_models.h"
+#include "apps/touch_models.h"
+#include "files/mesh_reader.h"
+
 namespace icome::apps {
 namespace {
 
@@ -34,6 +38,24 @@ base::Result<void> check_exact(const TouchOptions& options) {
       options.subdivision->thesis != (*options.renderer == haptics::Renderer::Thesis)) {
     return base::fail("--renderer and --subdivide name different renderers: leave --renderer out.");
   }
+  return {};
+}
+
+/// An option that would change nothing is a misunderstanding: better refused than ignored.
+base::Result<void> check_use(const TouchOptions& options) {
+  if (const auto unit = files::parse_unit(options.unit); !unit)
+    return base::fail("--unit: " + unit.error().message);
+  if (options.implicit && options.models.empty() && options.fit)
+    return base::fail("--fit scales models: the size of --implicit is that of its formula.");
+  if (options.subdivision) {
+    for (const std::string& model : options.models) {
+      if (names_csg(model) || names_primitive(model))
+        return base::fail(fmt::format("--subdivide takes meshes: {} has no triangles to subdivide.", model));
+    }
+  }
+  if (renderer_of(options) != haptics::Renderer::Thesis) return {};
+  if (options.friction) return base::fail("--friction: the thesis's renderers know none; leave it out.");
+  if (options.sides) return base::fail("--sides: the thesis's renderers touch the front only; leave it out.");
   return {};
 }
 
@@ -104,6 +126,7 @@ base::Result<void> check(const TouchOptions& options) {
     if (!checked) return checked;
   }
   if (const auto checked = check_exact(options); !checked) return checked;
+  if (const auto checked = check_use(options); !checked) return checked;
   if (friction.sliding > friction.at_rest) {
     return base::fail(
         fmt::format("--friction {},{}: the first, static coefficient must not be below the second, "

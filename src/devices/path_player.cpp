@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -24,6 +25,13 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string without_blanks(std::string_view text) {
+  std::string result;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(result),
+               [](char c) { return c != ' ' && c != '\t'; });
+  return result;
 }
 
 // Takes the text up to `end` (or all) off the front.
@@ -87,8 +95,10 @@ base::Result<PathPlayer> PathPlayer::parse(std::string_view text, const std::str
   const auto fail_here = [&](const std::string& what) {
     return base::fail(fmt::format("{}:{}: {}", name, line, what));
   };
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // which some spreadsheets write
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   const std::string_view header = trimmed(take_until(text, '\n'));
-  if (header != kHeader) {
+  if (without_blanks(header) != kHeader) {
     return fail_here(fmt::format("the first line must be \"{}\", not \"{}\"", kHeader, header.substr(0, 40)));
   }
   PathPlayer player;

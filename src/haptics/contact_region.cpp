@@ -14,18 +14,24 @@ ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::k
   elements_.reserve(kElements);
 }
 
-void ContactRegion::start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach,
-                          double tip, double elapsed, std::size_t limit) {
+void ContactRegion::start(const HapticScene& scene, const Frame& frame, const Vector3& a, const Vector3& b,
+                          double reach, std::size_t limit) {
   limit_ = std::min(limit, kPieces);
   scene_ = &scene;
+  frame_ = frame;
   a_ = a;
   b_ = b;
   reach_ = reach;
-  tip_ = tip;
-  elapsed_ = elapsed;
+  tolerance_ = Tolerance::for_coordinates(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
+  smallest_ = std::numeric_limits<double>::infinity();
   overflowed_ = false;
   size_ = 0;
   elements_.clear();
+}
+
+void ContactRegion::hold(double size) {
+  tolerance_.gap = std::max(tolerance_.gap, Tolerance::for_size(size).gap);
+  if (size > 0.0) smallest_ = std::min(smallest_, size);
 }
 
 void ContactRegion::invalidate() {
@@ -59,7 +65,7 @@ bool ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bound
 std::span<const Element> ContactRegion::elements_of(Piece& piece) {
   if (piece.count == 0) {
     PieceElements made(elements_);
-    scene_->expand(piece.object, piece.piece, tip_, elapsed_, made);
+    scene_->expand(piece.object, piece.piece, frame_, made);
     overflowed_ = overflowed_ || !made.complete();
     piece.first = std::uint32_t(made.all().data() - elements_.data());
     piece.count = std::uint32_t(made.all().size());
@@ -79,9 +85,9 @@ double ContactRegion::clearance(const Vector3& position) const {
 }
 
 SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
-                              const Tolerance& tolerance, std::uint32_t ignored_object) {
+                              std::uint32_t ignored_object) {
   const Vector3 end = start + step;
-  const Vector3 margin = Vector3::Constant(tolerance.touching() + edge_dip(tip_));
+  const Vector3 margin = Vector3::Constant(tolerance_.touching() + edge_dip(frame_.tip));
   const FloatBox path = relative_box(Bounds(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin));
   SweepHit first;
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
@@ -94,7 +100,7 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
         const auto same = [&](const Element& contact) { return same_surface(contact, element); };
         if (std::any_of(ignored.begin(), ignored.end(), same)) continue;
         Element met = facing(element, start);
-        const auto t = haptics::sweep(met, start, step, tolerance);
+        const auto t = haptics::sweep(met, start, step, tolerance_);
         if (t && (*t < first.t || !first.met)) first = {*t, true, met};
       }
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct SweepHit {
 
 class HapticScene;
 
-/// What surrounds the surface contact point: in the world frame, every element that a tip whose
-/// centre stays within `reach` of the segment from `a` to `b` can meet. Gathered once, it answers all
+/// What surrounds the surface contact point: every element that a tip whose centre stays within `reach` of
+/// the segment from `a` to `b` can meet. All in a frame with the world's axes and an origin near by: far from
+/// the world's own, coordinates would have too few digits left. Gathered once, it answers all
 /// sweeps of a tick, and of the next ticks while the SCP stays inside. Pieces of large shapes are
 /// only boxes at first and become elements when a sweep comes near. Takes its memory when
 /// constructed; everything else is real-time safe.
@@ -31,11 +33,19 @@ class ContactRegion {
 
   ContactRegion();
 
-  /// Empties the region and sets what it will cover: for a tip of radius `tip` (m), `elapsed` seconds
-  /// after the moment of the scene's poses, with at most `limit` pieces. The caller keeps the scene alive.
-  void start(const HapticScene& scene, const Vector3& a, const Vector3& b, double reach, double tip,
-             double elapsed, std::size_t limit = kPieces);
-  /// Adds an element (world frame); `bounds` encloses the positions of the tip's centre at which it
+  /// What a region is gathered for.
+  struct Frame {
+    Vector3 origin;      // m, where the region's frame lies in the world
+    double tip = 0.0;    // m, the tip's radius
+    double elapsed = 0;  // s after the moment of the scene's poses
+  };
+  /// Empties the region and sets what it will cover, with at most `limit` pieces. The caller keeps the scene
+  /// alive.
+  void start(const HapticScene& scene, const Frame& frame, const Vector3& a, const Vector3& b, double reach,
+             std::size_t limit = kPieces);
+  /// Says that an object of this size (m, how far it reaches from its middle) has pieces here.
+  void hold(double size);
+  /// Adds an element (in this frame); `bounds` encloses the positions of the tip's centre at which it
   /// can hold. False when there was no room.
   bool add(const Element& element, const Bounds& bounds);
   /// Adds a piece of an object that becomes elements later, by Shape::expand. False without room.
@@ -53,7 +63,7 @@ class ContactRegion {
   /// The first element that a tip moving from `start` by `step` comes to rest on, other than the
   /// surfaces of `ignored` and those of `ignored_object`. Both ends lie in the region.
   SweepHit sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
-                 const Tolerance& tolerance, std::uint32_t ignored_object = kNoObject);
+                 std::uint32_t ignored_object = kNoObject);
 
   /// Elements that sweeps have looked at so far: what they cost, as a number that replays repeat.
   std::uint64_t looked_at() const { return looked_at_; }
@@ -61,8 +71,12 @@ class ContactRegion {
   const Vector3& a() const { return a_; }
   const Vector3& b() const { return b_; }
   double reach() const { return reach_; }
-  double tip() const { return tip_; }
-  double elapsed() const { return elapsed_; }
+  const Frame& frame() const { return frame_; }
+  /// What contact arithmetic does not tell apart here: it follows from the largest object that has pieces
+  /// here, and from the digits that coordinates have.
+  const Tolerance& tolerance() const { return tolerance_; }
+  /// The size (m) of the smallest object that has pieces here; infinite without any.
+  double smallest() const { return smallest_; }
 
  private:
   /// A box and the elements in it; none yet for a deferred piece.
@@ -80,9 +94,10 @@ class ContactRegion {
   const HapticScene* scene_ = nullptr;
   Vector3 a_ = Vector3::Zero();
   Vector3 b_ = Vector3::Zero();
-  double reach_ = -1.0;   // m
-  double tip_ = 0.0;      // m
-  double elapsed_ = 0.0;  // s
+  Frame frame_ = {Vector3::Zero()};
+  double reach_ = -1.0;  // m
+  Tolerance tolerance_;
+  double smallest_ = std::numeric_limits<double>::infinity();  // m
   bool overflowed_ = false;
   std::size_t limit_ = kPieces;
   std::uint64_t looked_at_ = 0;

@@ -12,15 +12,18 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
-/// Lengths below which the contact arithmetic does not distinguish. They follow from the size of the
-/// scene, never from a unit, so a mesh in metres and the same mesh in millimetres feel alike.
+/// Lengths below which the contact arithmetic does not distinguish. They follow from the size of what is
+/// touched, never from a unit or from what lies far off: a mesh in metres and the same mesh in millimetres
+/// feel alike, and a thing feels the same alone and beside a mountain.
 struct Tolerance {
   /// m; the tip rests this far above a surface, so that its side is never in doubt.
   double gap = 0.0;
 
-  /// 1e-10 of the largest coordinate: five orders above the rounding of double precision there and
-  /// far below what any device resolves.
-  static Tolerance for_extent(double largest_coordinate) { return {1e-10 * largest_coordinate}; }
+  /// For an object of this size (m): five orders above the rounding of double precision there and far below
+  /// what any device resolves.
+  static Tolerance for_size(double size) { return {1e-10 * size}; }
+  /// The least for coordinates so large (m): some steps of their rounding.
+  static Tolerance for_coordinates(double largest) { return {64.0 * 2.2e-16 * largest}; }
 
   double touching() const { return 4.0 * gap; }  // heights up to this count as contact
   double behind() const { return 8.0 * gap; }    // further below than this is the other side

@@ -24,6 +24,15 @@ Eigen::Vector3f sorting_point(const Bounds& bounds) {
   return centre.allFinite() ? Eigen::Vector3f(centre.cast<float>()) : Eigen::Vector3f::Zero();
 }
 
+/// How far a box reaches from its middle. One that lies far from its own origin counts as larger: its
+/// coordinates have fewer digits.
+double own_size(const Bounds& box) {
+  if (box.isEmpty()) return 0.0;
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double share = Tolerance::for_coordinates(1.0).gap / Tolerance::for_size(1.0).gap;
+  return std::max(0.5 * box.sizes().maxCoeff(), share * largest);
+}
+
 }  // namespace
 
 std::shared_ptr<const HapticScene> HapticScene::compile(std::vector<HapticObject> objects) {
@@ -58,15 +67,16 @@ std::shared_ptr<const HapticScene> HapticScene::moved(std::span<const Move> move
 void HapticScene::measure() {
   bounds_.setEmpty();
   moves_ = false;
+  sizes_.resize(objects_.size());
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Bounds box = object_bounds(i);
     if (box.min().allFinite() && box.max().allFinite()) bounds_.extend(box);
     moves_ = moves_ || restless(i);
+    sizes_[i] = own_size(objects_[i].shape->bounds());
   }
-  const double extent =
-      bounds_.isEmpty() ? 1.0
-                        : std::max(bounds_.min().cwiseAbs().maxCoeff(), bounds_.max().cwiseAbs().maxCoeff());
-  tolerance_ = Tolerance::for_extent(extent);
+  extent_ = bounds_.isEmpty()
+                ? 1.0
+                : std::max(bounds_.min().cwiseAbs().maxCoeff(), bounds_.max().cwiseAbs().maxCoeff());
 }
 
 // The box sweeps over everything the object can reach within the horizon, so that the tree stays
@@ -98,7 +108,8 @@ std::vector<geometry::FloatBox> HapticScene::slot_boxes() const {
 }
 
 void HapticScene::gather(ContactRegion& region) const {
-  near(region.a(), region.b(), region.reach() + region.tip() + edge_dip(region.tip()),
+  const auto& [origin, tip, elapsed] = region.frame();
+  near(origin + region.a(), origin + region.b(), region.reach() + tip + edge_dip(tip),
        [&](std::uint32_t object) {
          gather_object(region, object);
          return !region.overflowed();
@@ -107,26 +118,44 @@ void HapticScene::gather(ContactRegion& region) const {
 
 void HapticScene::gather_object(ContactRegion& region, std::uint32_t object) const {
   const HapticObject& it = objects_[object];
-  const Pose world_from_object = pose(object, region.elapsed());
-  const Pose object_from_world = world_from_object.inverse();
-  ElementSink sink(region, object, world_from_object);
-  const double reach = region.reach() + edge_dip(region.tip());
-  it.shape->gather({object_from_world * region.a(), object_from_world * region.b(), reach, region.tip(),
-                    it.surface.sides, time(object, region.elapsed())},
+  const ContactRegion::Frame& frame = region.frame();
+  const Pose region_from_object = pose_in(frame.origin, object, frame.elapsed);
+  const Pose object_from_region = region_from_object.inverse();
+  ElementSink sink(region, object, region_from_object);
+  const double reach = region.reach() + edge_dip(frame.tip);
+  const std::size_t before = region.size();
+  it.shape->gather({object_from_region * region.a(), object_from_region * region.b(), reach, frame.tip,
+                    it.surface.sides, time(object, frame.elapsed)},
                    sink);
+  if (region.size() != before) region.hold(size_near(object, object_from_region * region.a()));
 }
 
-void HapticScene::expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed,
+void HapticScene::expand(std::uint32_t object, std::uint32_t piece, const ContactRegion::Frame& frame,
                          PieceElements& elements) const {
   const HapticObject& it = objects_[object];
-  it.shape->expand(piece, tip, it.surface.sides, elements);
-  const Pose world_from_object = pose(object, elapsed);
-  const bool in_place = world_from_object.matrix().isIdentity(0.0);
+  it.shape->expand(piece, frame.tip, it.surface.sides, elements);
+  const Pose region_from_object = pose_in(frame.origin, object, frame.elapsed);
+  const bool in_place = region_from_object.matrix().isIdentity(0.0);
   for (Element& element : elements.all()) {
     element.object = object;
-    element.time = this->time(object, elapsed);
-    if (!in_place) element = transformed(world_from_object, element);
+    element.time = this->time(object, frame.elapsed);
+    if (!in_place) element = transformed(region_from_object, element);
   }
+}
+
+// What has no end is as large as the place on it is far out.
+double HapticScene::size_near(std::uint32_t object, const Vector3& place) const {
+  return std::isfinite(sizes_[object]) ? sizes_[object] : std::max(1.0, place.cwiseAbs().maxCoeff());
+}
+
+Tolerance HapticScene::tolerance_near(std::uint32_t object, const Vector3& place) const {
+  return Tolerance::for_size(size_near(object, place));
+}
+
+Pose HapticScene::pose_in(const Vector3& origin, std::uint32_t object, double elapsed) const {
+  Pose result = pose(object, elapsed);
+  result.translation() -= origin;
+  return result;
 }
 
 Pose HapticScene::pose(std::uint32_t object, double elapsed) const {

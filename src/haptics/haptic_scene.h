@@ -54,8 +54,8 @@ class HapticScene {
   void gather(ContactRegion& region) const;
   /// The same for one object. Real-time safe.
   void gather_object(ContactRegion& region, std::uint32_t object) const;
-  /// The elements of a deferred piece of an object, in the world. Real-time safe.
-  void expand(std::uint32_t object, std::uint32_t piece, double tip, double elapsed,
+  /// The elements of a deferred piece of an object, in the frame of a region. Real-time safe.
+  void expand(std::uint32_t object, std::uint32_t piece, const ContactRegion::Frame& frame,
               PieceElements& elements) const;
 
   /// Calls `visit(object)` for objects near the ball or segment until it returns false. Real-time safe
@@ -76,14 +76,23 @@ class HapticScene {
   /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
   Pose pose(std::uint32_t object, double elapsed) const;
 
+  /// What contact arithmetic does not tell apart at a place on the object (in its frame). Real-time safe.
+  Tolerance tolerance_near(std::uint32_t object, const Vector3& place) const;
+
   /// Everything the object can reach from its pose within the horizon, world frame.
   Bounds object_bounds(std::uint32_t object) const;
+
+  /// The same in a frame that lies at `origin`, with the world's axes. Real-time safe.
+  Pose pose_in(const Vector3& origin, std::uint32_t object, double elapsed) const;
 
   /// The object's index in this scene. Real-time safe.
   std::optional<std::uint32_t> find(ObjectId id) const;
 
   const std::vector<HapticObject>& objects() const { return objects_; }
-  const Tolerance& tolerance() const { return tolerance_; }
+  /// The largest coordinate of what is limited, m; 1 where nothing is.
+  double extent() const { return extent_; }
+  /// What arithmetic with any coordinate of the scene does not tell apart.
+  Tolerance tolerance() const { return Tolerance::for_size(extent_); }
   /// Is any object restless?
   bool moves() const { return moves_; }
   /// The box around all limited objects; empty when there are none.
@@ -94,13 +103,15 @@ class HapticScene {
   HapticScene() = default;
 
   std::vector<geometry::FloatBox> slot_boxes() const;
+  double size_near(std::uint32_t object, const Vector3& place) const;
   void measure();
 
   std::vector<HapticObject> objects_;
   std::vector<std::uint32_t> order_;  // slot in the tree to object
   std::vector<std::uint32_t> by_id_;  // objects in the order of their ids
+  std::vector<double> sizes_;         // how far each object reaches from its middle, m
   geometry::BoxTree tree_;
-  Tolerance tolerance_;
+  double extent_ = 1.0;  // m
   Bounds bounds_;
   bool moves_ = false;
 };

@@ -13,6 +13,8 @@ constexpr std::size_t kFewPieces = 12;
 constexpr std::size_t kManyPieces = 48;
 constexpr double kTicksAhead = 4.0;
 constexpr double kLeastShare = 1e-3;
+constexpr double kLargestReach = 0.1;  // of the scene's extent
+constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin: then that is moved
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxWaysOut = 8;
@@ -42,7 +44,8 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
   follow_reported_object(*old);
   carry_contacts(*old, old_elapsed);
   const Vector3 margin = Vector3::Constant(settings_.tip_radius + scene.tolerance().behind());
-  const geometry::FloatBox here = geometry::float_box(Bounds(position_ - margin, position_ + margin));
+  const Vector3 at = origin_ + position_;
+  const geometry::FloatBox here = geometry::float_box(Bounds(at - margin, at + margin));
   geometry::FourBoxes swept;
   for (const SceneChange& change : changes) {
     swept.set(0, change.swept);
@@ -51,7 +54,7 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
     if (!now) continue;
     const std::optional<std::uint32_t> before = old->find(change.id);
     if (before && old->objects()[*before].shape == scene.objects()[*now].shape) {
-      ride(*now, old->pose(*before, old_elapsed), scene.pose(*now, 0.0));
+      ride(*now, old->pose_in(origin_, *before, old_elapsed), pose(*now, 0.0));
     } else if (leave_solid(*now)) {
       left_solid_ = true;
     }
@@ -75,7 +78,8 @@ void ScpSolver::carry_contacts(const HapticScene& old, double old_elapsed) {
     const HapticObject& before = old.objects()[contact.object];
     const std::optional<std::uint32_t> now = scene_->find(before.id);
     if (!now || scene_->objects()[*now].shape != before.shape) return true;
-    const Pose now_from_before = scene_->pose(*now, 0.0) * old.pose(contact.object, old_elapsed).inverse();
+    const Pose now_from_before =
+        pose(*now, 0.0) * old.pose_in(origin_, contact.object, old_elapsed).inverse();
     contact = transformed(now_from_before, contact);
     contact.object = *now;
     if (!carried) {
@@ -88,13 +92,15 @@ void ScpSolver::carry_contacts(const HapticScene& old, double old_elapsed) {
   if (carried) shove(to, pusher);
 }
 
-const ScpState& ScpSolver::step(const Vector3& tip, double elapsed) {
+const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   if (scene_ == nullptr) {
     state_ = {};
-    state_.scp = tip;
+    state_.scp = in_world;
     return state_;
   }
-  if (!started_) start(tip);
+  if (!started_) start(in_world);
+  if (position_.cwiseAbs().maxCoeff() > kFarOff * region_.smallest()) move_origin();
+  const Vector3 tip = in_world - origin_;
   if (scene_->moves()) carry(elapsed_, elapsed);
   elapsed_ = elapsed;
   tip_motion_ = (tip - last_tip_).norm();
@@ -107,14 +113,26 @@ const ScpState& ScpSolver::step(const Vector3& tip, double elapsed) {
   return state_;
 }
 
-void ScpSolver::start(const Vector3& tip) {
+/// To where the SCP is. Contacts are found again by the next sweep, and have all their digits then.
+void ScpSolver::move_origin() {
+  origin_ += position_;
+  last_tip_ -= position_;
+  goal_ -= position_;
+  position_.setZero();
+  contacts_.clear();
+  region_.invalidate();
+}
+
+void ScpSolver::start(const Vector3& in_world) {
   started_ = true;
-  position_ = last_tip_ = tip;
+  origin_.setZero();
+  position_ = last_tip_ = in_world;
   region_.invalidate();
   // One way out may lead into another solid: follow until free.
   for (int i = 0; i < kMaxWaysOut; ++i) {
     bool moved = false;
-    scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
+    const Vector3 at = origin_ + position_;
+    scene_->near(at, at, settings_.tip_radius, [&](std::uint32_t object) {
       moved = leave_solid(object) || moved;
       return true;
     });
@@ -123,15 +141,20 @@ void ScpSolver::start(const Vector3& tip) {
   }
 }
 
+/// How far above a place on an object (in its frame) the SCP is put.
+double ScpSolver::gap_on(std::uint32_t object, const Vector3& place) const {
+  return std::max(scene_->tolerance_near(object, place).gap,
+                  Tolerance::for_coordinates(position_.cwiseAbs().maxCoeff()).gap);
+}
+
 bool ScpSolver::leave_solid(std::uint32_t object) {
   const HapticObject& it = scene_->objects()[object];
   if (it.surface.sides == TouchableSides::Both) return false;
-  const Pose world_from_object = scene_->pose(object, elapsed_);
-  const auto place =
-      it.shape->way_out(world_from_object.inverse() * position_, scene_->time(object, elapsed_));
+  const Pose from_object = pose(object, elapsed_);
+  const auto place = it.shape->way_out(from_object.inverse() * position_, scene_->time(object, elapsed_));
   if (!place) return false;
-  const Vector3 out = world_from_object.linear() * place->normal;
-  position_ = world_from_object * place->point + out * (settings_.tip_radius + 2.0 * scene_->tolerance().gap);
+  const Vector3 out = from_object.linear() * place->normal;
+  position_ = from_object * place->point + out * (settings_.tip_radius + 2.0 * gap_on(object, place->point));
   return true;
 }
 
@@ -141,31 +164,30 @@ void ScpSolver::carry(double from, double to) {
   std::uint32_t pusher = kNoObject;
   for (Element& contact : contacts_.all()) {
     if (!scene_->restless(contact.object)) continue;
-    const Pose now_from_before =
-        scene_->pose(contact.object, to) * scene_->pose(contact.object, from).inverse();
+    const Pose now_from_before = pose(contact.object, to) * pose(contact.object, from).inverse();
     contact = transformed(now_from_before, contact);
     contact.time = scene_->time(contact.object, to);
     if (pusher == kNoObject) {
       target = now_from_before * position_;
       pusher = contact.object;
     }
-    if (contact.smooth() && height(contact, target) < scene_->tolerance().gap)
-      target = settle(contact, target, scene_->tolerance());
+    if (contact.smooth() && height(contact, target) < tolerance().gap)
+      target = settle(contact, target, tolerance());
   }
   elapsed_ = to;
   bool near_moving = false;
-  scene_->near(position_, position_, std::max(0.0, region_.reach()) + settings_.tip_radius,
-               [&](std::uint32_t object) {
-                 near_moving = scene_->restless(object);
-                 return !near_moving;
-               });
+  const Vector3 at = origin_ + position_;
+  scene_->near(at, at, std::max(0.0, region_.reach()) + settings_.tip_radius, [&](std::uint32_t object) {
+    near_moving = scene_->restless(object);
+    return !near_moving;
+  });
   if (near_moving) region_.invalidate();
   if (pusher != kNoObject) shove(target, pusher);
   if (!near_moving) return;
   // What a moving object runs into is taken along.
-  scene_->near(position_, position_, settings_.tip_radius, [&](std::uint32_t object) {
-    if (!scene_->objects()[object].motion.still())
-      ride(object, scene_->pose(object, from), scene_->pose(object, to));
+  const Vector3 there = origin_ + position_;
+  scene_->near(there, there, settings_.tip_radius, [&](std::uint32_t object) {
+    if (!scene_->objects()[object].motion.still()) ride(object, pose(object, from), pose(object, to));
     if (scene_->objects()[object].shape->changes()) surface_through(object);
     return true;
   });
@@ -173,12 +195,12 @@ void ScpSolver::carry(double from, double to) {
 
 // A surface that changes may have swallowed the SCP: it comes to the top.
 void ScpSolver::surface_through(std::uint32_t object) {
-  const Pose world_from_object = scene_->pose(object, elapsed_);
-  const auto place = scene_->objects()[object].shape->way_out(world_from_object.inverse() * position_,
+  const Pose from_object = pose(object, elapsed_);
+  const auto place = scene_->objects()[object].shape->way_out(from_object.inverse() * position_,
                                                               scene_->time(object, elapsed_));
   if (!place) return;
-  const Vector3 out = world_from_object.linear() * place->normal;
-  shove(world_from_object * place->point + out * scene_->tolerance().gap, object);
+  const Vector3 out = from_object.linear() * place->normal;
+  shove(from_object * place->point + out * gap_on(object, place->point), object);
 }
 
 // Seen from the object, the SCP moved from where it would be had it gone along to where it is.
@@ -186,11 +208,11 @@ void ScpSolver::ride(std::uint32_t object, const Pose& before, const Pose& now) 
   const auto held_by = [&](const Element& contact) { return contact.object == object; };
   if (std::any_of(contacts_.all().begin(), contacts_.all().end(), held_by)) return;
   const Vector3 along = now * (before.inverse() * position_);
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   if ((along - position_).norm() <= tolerance.gap) return;
-  ride_region_.start(*scene_, along, position_, tolerance.behind(), settings_.tip_radius, elapsed_);
+  ride_region_.start(*scene_, frame(), along, position_, tolerance.behind());
   scene_->gather_object(ride_region_, object);
-  const SweepHit hit = ride_region_.sweep(along, position_ - along, {}, tolerance);
+  const SweepHit hit = ride_region_.sweep(along, position_ - along, {});
   if (!hit.met) return;
   shove(along + hit.t * (position_ - along), object);
   contacts_.add(hit.contact);
@@ -199,15 +221,15 @@ void ScpSolver::ride(std::uint32_t object, const Pose& before, const Pose& now) 
 // Moves the SCP because an object pushes it; others may stop it on the way.
 void ScpSolver::shove(const Vector3& to, std::uint32_t pusher) {
   const Vector3 way = to - position_;
-  ride_region_.start(*scene_, position_, to, scene_->tolerance().behind(), settings_.tip_radius, elapsed_);
+  ride_region_.start(*scene_, frame(), position_, to, tolerance().behind());
   scene_->gather(ride_region_);
-  const SweepHit hit = ride_region_.sweep(position_, way, {}, scene_->tolerance(), pusher);
+  const SweepHit hit = ride_region_.sweep(position_, way, {}, pusher);
   position_ += hit.t * way;
   if (hit.met) contacts_.add(hit.contact);
 }
 
 void ScpSolver::converge(const Vector3& tip) {
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   state_.converged = false;
   state_.iterations = 0;
   const std::uint64_t most = region_.looked_at() + std::uint64_t(settings_.max_elements);
@@ -245,7 +267,7 @@ bool ScpSolver::nearer(const Vector3& from, const Vector3& tip) const {
 /// The piece of way that the contacts allow. `exact`: if nothing is met, its end needs no second look.
 Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   const Vector3 pull = tip - position_;
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   exact = true;
   for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
   if (contacts_.any_smooth()) return next_smooth_step(tip, exact);
@@ -283,7 +305,7 @@ bool ScpSolver::lets_go(const Element& contact, const Vector3& tip) const {
 
 /// The same with smooth surfaces among the contacts, which are followed as they curve.
 Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   const Vector3 pull = tip - position_;
   contacts_.follow(position_);
   if (contacts_.size() == 1 && lets_go(contacts_.all().front(), tip)) {
@@ -313,11 +335,10 @@ bool ScpSolver::escape(const Vector3& tip) {
     contacts_.forget_if([&](const Element& contact) { return &contact == &contacts_.all()[left_out]; });
     const Vector3 from = position_;
     goal_ = tip;
-    const Vector3 step = contacts_.any_smooth()
-                             ? Vector3(contacts_.rest(from, tip, scene_->tolerance()).place - from)
-                             : contacts_.constrained(from, pull, scene_->tolerance());
+    const Vector3 step = contacts_.any_smooth() ? Vector3(contacts_.rest(from, tip, tolerance()).place - from)
+                                                : contacts_.constrained(from, pull, tolerance());
     advance(step);
-    if ((tip - position_).norm() < pull.norm() - scene_->tolerance().touching()) return true;
+    if ((tip - position_).norm() < pull.norm() - tolerance().touching()) return true;
     position_ = from;
   }
   contacts_ = all;
@@ -327,7 +348,7 @@ bool ScpSolver::escape(const Vector3& tip) {
 /// Forgets contacts that a step leaves and could run into again, as the two sides of a ring's hole.
 void ScpSolver::let_go(const Vector3& step) {
   contacts_.forget_if([&](const Element& contact) {
-    return !contact.convex() && normal(contact, position_).dot(step) > scene_->tolerance().touching();
+    return !contact.convex() && normal(contact, position_).dot(step) > tolerance().touching();
   });
 }
 
@@ -345,7 +366,7 @@ const Surface& ScpSolver::surface() const { return scene_->objects()[contacts_.a
 
 /// Sweeps the SCP along `wanted`, or as far as the region goes; false when something was in the way.
 bool ScpSolver::advance(const Vector3& wanted) {
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   const std::size_t held = contacts_.size();
   if (region_.overflowed()) region_.invalidate();
   const double room = region_.clearance(position_);
@@ -370,7 +391,7 @@ bool ScpSolver::advance(const Vector3& wanted) {
 
 /// Moves the SCP by `step` or to the first hit, which is none of `ignored`.
 SweepHit ScpSolver::sweep_on(const Vector3& step, std::span<const Element> ignored) {
-  SweepHit hit = region_.sweep(position_, step, ignored, scene_->tolerance());
+  SweepHit hit = region_.sweep(position_, step, ignored);
   if (!region_.overflowed()) position_ += hit.t * step;
   return hit;
 }
@@ -378,7 +399,7 @@ SweepHit ScpSolver::sweep_on(const Vector3& step, std::span<const Element> ignor
 /// The same, where only those contacts are ignored that hold the SCP at one of two places: who is merely
 /// near one could be gone through.
 SweepHit ScpSolver::sweep_past(const Vector3& step, const Vector3& one, const Vector3& other) {
-  const double touching = scene_->tolerance().touching();
+  const double touching = tolerance().touching();
   const auto off = [&](const Element& contact) {
     return height(contact, one) > touching && height(contact, other) > touching;
   };
@@ -394,7 +415,7 @@ SweepHit ScpSolver::sweep_past(const Vector3& step, const Vector3& one, const Ve
 /// `step` becomes what was tried last.
 SweepHit ScpSolver::arch(Vector3& step) {
   const Vector3 from = position_;
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   double longest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxArches; ++i) {
     if (step.norm() > longest) step = rest_within(longest, step);
@@ -406,7 +427,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
     }
     if (region_.clearance(from + step) < 0.0 || region_.clearance(from + 0.5 * step + *top) < 0.0) {
       const double reach = 2.0 * top->norm() + tolerance.behind();
-      region_.start(*scene_, from, from + step, reach, settings_.tip_radius, elapsed_);
+      region_.start(*scene_, frame(), from, from + step, reach);
       scene_->gather(region_);
     }
     const Vector3 end = from + step;
@@ -440,7 +461,7 @@ bool ScpSolver::holds(const Element& element) const {
 /// A step along the contacts about `length` long, in the direction of a longer one.
 Vector3 ScpSolver::rest_within(double length, const Vector3& step) {
   const Vector3 part = (length / step.norm()) * step;
-  return contacts_.rest(position_, position_ + part, scene_->tolerance()).place - position_;
+  return contacts_.rest(position_, position_ + part, tolerance()).place - position_;
 }
 
 /// The beginning of a step that would leave the region.
@@ -451,35 +472,42 @@ Vector3 ScpSolver::within_region(const Vector3& step) {
     return rest_within(0.5 * part * step.norm(), step);
   }
   if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
-  if (height(contacts_.all().front(), position_ + step) > scene_->tolerance().touching()) return part * step;
+  if (height(contacts_.all().front(), position_ + step) > tolerance().touching()) return part * step;
   // Half-way along a chord the SCP would lie in the solid: end on the surface, which the region covers
   // if the chord is short enough.
   const Element& contact = contacts_.all().front();
   for (double share = part; share > kLeastShare * part; share *= 0.5) {
-    const Vector3 end = settle(contact, position_ + share * step, scene_->tolerance());
+    const Vector3 end = settle(contact, position_ + share * step, tolerance());
     if (region_.clearance(end) >= 0.0) return end - position_;
   }
   return Vector3::Zero();
 }
 
-/// A tenth of the scene.
-double ScpSolver::largest_reach() const { return 1e9 * scene_->tolerance().gap; }
+double ScpSolver::largest_reach() const { return kLargestReach * scene_->extent(); }
 
 /// Gathers the region anew: around the SCP and ahead of it. Too many pieces are slow to sweep, so the
-/// region shrinks until few are left or it is as small as the motion allows.
+/// region shrinks until few are left or it is as small as the motion allows. It also looks no farther than
+/// the things near by are large, or what lies far off would say what counts as small here.
 void ScpSolver::surround(const Vector3& step) {
   Vector3 ahead = way_ahead(step);
   const double least_reach = 0.25 * tip_motion_;
   for (int i = 0; i < kMaxShrinks; ++i) {
     const bool least = reach_ <= least_reach;
-    region_.start(*scene_, position_, position_ + ahead, reach_, settings_.tip_radius, elapsed_,
+    region_.start(*scene_, frame(), position_, position_ + ahead, reach_,
                   least ? ContactRegion::kPieces : kManyPieces);
     scene_->gather(region_);
-    if (!region_.overflowed()) break;
-    if (least) ahead *= 0.5;
-    reach_ *= 0.5;
+    const double wide = std::max(least_reach, region_.smallest());
+    if (region_.overflowed()) {
+      if (least) ahead *= 0.5;
+      reach_ *= 0.5;
+    } else if (reach_ > wide) {
+      reach_ = wide;
+    } else {
+      break;
+    }
   }
-  if (region_.size() < kFewPieces) reach_ = std::min(1.4 * reach_, largest_reach());
+  if (region_.size() < kFewPieces)
+    reach_ = std::min({1.4 * reach_, largest_reach(), std::max(least_reach, region_.smallest())});
 }
 
 /// Is the SCP in the air between two places of a surface? Then its step points at the tip, which says
@@ -500,10 +528,10 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
 }
 
 void ScpSolver::report(const Vector3& tip) {
-  const Tolerance& tolerance = scene_->tolerance();
+  const Tolerance& tolerance = region_.tolerance();
   const Vector3 pull = tip - position_;
   const bool apart = pull.squaredNorm() > std::pow(tolerance.touching(), 2);
-  state_.scp = position_;
+  state_.scp = origin_ + position_;
   state_.started_inside = left_solid_;
   left_solid_ = false;
   if (contacts_.empty() && state_.touching && apart) return;  // out of budget on its way: still held
@@ -511,7 +539,8 @@ void ScpSolver::report(const Vector3& tip) {
   state_.surface_velocity.setZero();
   if (!state_.touching) {
     state_.object = kNoObject;
-    if (contacts_.empty() && state_.converged) state_.scp = position_ = tip;
+    // The SCP itself may stay behind by a step too short to sweep: such steps add up until they are swept.
+    if (contacts_.empty() && state_.converged) state_.scp = origin_ + tip;
     return;
   }
   report_contact(pull);
@@ -529,12 +558,12 @@ void ScpSolver::report_contact(const Vector3& pull) {
     state_.normal = normal(contact, position_);
   }
   if (contacts_.size() > 1) {
-    const Vector3 press = pull - contacts_.constrained(position_, pull, scene_->tolerance());
+    const Vector3 press = pull - contacts_.constrained(position_, pull, tolerance());
     if (press.squaredNorm() > 0.0) state_.normal = -press.normalized();
   }
   const HapticObject& object = scene_->objects()[state_.object];
   if (!object.motion.still() && elapsed_ < HapticScene::kMotionHorizon) {
-    const Vector3 arm = position_ - scene_->pose(state_.object, elapsed_).translation();
+    const Vector3 arm = position_ - pose(state_.object, elapsed_).translation();
     state_.surface_velocity = object.motion.linear + object.motion.angular.cross(arm);
   }
   if (object.shape->changes()) state_.surface_velocity += swell();

@@ -33,7 +33,12 @@ class ScpSolver final : public ContactSolver {
   const ScpState& state() const override { return state_; }
 
  private:
+  const Tolerance& tolerance() const { return region_.tolerance(); }
+  ContactRegion::Frame frame() const { return {origin_, settings_.tip_radius, elapsed_}; }
+  Pose pose(std::uint32_t object, double elapsed) const { return scene_->pose_in(origin_, object, elapsed); }
+  void move_origin();
   void start(const Vector3& tip);
+  double gap_on(std::uint32_t object, const Vector3& place) const;
   bool leave_solid(std::uint32_t object);
   void carry(double from, double to);
   void ride(std::uint32_t object, const Pose& before, const Pose& now);
@@ -71,7 +76,10 @@ class ScpSolver final : public ContactSolver {
   bool started_ = false;
   bool cut_ = false;  // did the last step go only a part of the way wanted?
   bool sliding_ = false;
-  bool left_solid_ = false;             // put on the surface since the last report
+  bool left_solid_ = false;  // put on the surface since the last report
+  // m, where the frame of all that follows lies in the world: moved when the SCP is so far from it that what
+  // is near would have too few digits.
+  Vector3 origin_ = Vector3::Zero();
   Vector3 position_ = Vector3::Zero();  // m, of the SCP (centre of the tip that rests)
   Vector3 last_tip_ = Vector3::Zero();
   Vector3 goal_ =

@@ -64,7 +64,7 @@ std::optional<geometry::SurfacePoint> SmoothShape::way_out(const Vector3& positi
 }
 
 std::optional<ShapeHit> SmoothShape::cast(const Vector3& start, const Vector3& step, double time) const {
-  const double slack = Tolerance::for_extent(extent_of(surface_->bounds(), start, step)).rim();
+  const double slack = Tolerance::for_size(extent_of(surface_->bounds(), start, step)).rim();
   // Each part begins well before its piece, so that the side on which it begins is in no doubt.
   constexpr double kClear = 8.0;
   std::optional<ShapeHit> best;

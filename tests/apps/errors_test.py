@@ -36,6 +36,15 @@ class UsageTest(ProgramTest):
             self.fails("touch", "sphere:0.05", option, "sideways", code=2, saying=option)
         self.fails("touch", "sphere:0.05", "--rate", "fast", code=2, saying="--rate")
 
+    def test_options_that_would_change_nothing_are_refused(self):
+        for words in (("--implicit", "x*x+y*y+z*z-0.0025", "--bounds", "0.2", "--fit", "0.1"),
+                      ("sphere:0.05", "--subdivide", "limit"),
+                      ("solid.csg", "--subdivide", "limit"),
+                      ("sphere:0.05", "--unit", "parsec"),
+                      ("sphere:0.05", "--renderer", "thesis", "--friction", "0.4,0.3"),
+                      ("sphere:0.05", "--renderer", "thesis", "--sides", "both")):
+            self.fails("touch", *words, code=2, saying=words[-2])
+
     def test_one_file_cannot_be_two_things(self):
         self.fails("touch", "sphere:0.05", "--path", "a.csv", "--trace", "a.csv", code=2, saying="--trace")
         self.fails("touch", "sphere:0.05", "--picture", "a.png", "--trace", "a.png", code=2, saying="--picture")

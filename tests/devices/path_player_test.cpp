@@ -69,6 +69,12 @@ TEST(PathPlayer, AcceptsWindowsLinesBlanksAndExponents) {
   EXPECT_EQ(player->positions()[0], Vector3(0.01, 0, -25));
 }
 
+TEST(PathPlayer, AcceptsAByteOrderMarkAndBlanksInTheHeader) {
+  const auto player = PathPlayer::parse("\xef\xbb\xbft, x, y, z\n0, 1, 2, 3\n", "path.csv");
+  ASSERT_TRUE(player.has_value()) << player.error().message;
+  EXPECT_EQ(player->positions()[0], Vector3(1, 2, 3));
+}
+
 TEST(PathPlayer, ErrorsNameFileAndLine) {
   EXPECT_EQ(error_of(""), "path.csv:1: the first line must be \"t,x,y,z\", not \"\"");
   EXPECT_EQ(error_of("x,y,z\n1,2,3\n"), "path.csv:1: the first line must be \"t,x,y,z\", not \"x,y,z\"");

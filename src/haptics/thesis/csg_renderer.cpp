@@ -99,7 +99,7 @@ void CsgRenderer::find_boxes() {
     if (node.op == CsgOperator::Intersection) node.bounds = left.bounds.intersection(right.bounds);
   }
   if (!nodes_.empty()) bounds_ = nodes_.front().bounds;
-  gap_ = Tolerance::for_extent(extent > 0.0 ? extent : 1.0).touching();
+  gap_ = Tolerance::for_size(extent > 0.0 ? extent : 1.0).touching();
 }
 
 std::size_t CsgRenderer::bytes() const {
