@@ -71,7 +71,7 @@ class FileTest(ProgramTest):
     def test_unknown_devices_and_units_list_what_there_is(self):
         self.fails("touch", "sphere:0.05", "--device", "Joystick", code=1, saying="omega.x")
         mesh = self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        self.fails("touch", mesh, "--unit", "furlong", code=1, saying="mm")
+        self.fails("touch", mesh, "--unit", "furlong", code=2, saying="mm")
 
     def test_outputs_that_cannot_be_written_fail_before_the_run(self):
         path = self.path_file([(0.0, 0.0, 1.0)])
