@@ -1,8 +1,8 @@
 """Which tests of a build have passed, so that nothing is tested again that nothing has changed for.
 
 A test counts as having passed by all that it is made of: its command, its environment, the bytes of the programs it
-runs, the files that tests read, the project's tools and presets, and the installed packages. They are kept in the build folder, in passed-tests.json,
-so a fresh clone runs every test, as the continuous integration does.
+runs, the files that tests read, the project's tools and presets, and the installed packages. They are kept in the
+build folder, in passed-tests.json, so a fresh clone runs every test, as the continuous integration does.
 """
 import hashlib
 import json
