@@ -84,6 +84,28 @@ double ContactRegion::clearance(const Vector3& position) const {
   return reach_ - (a_ + t * along - position).norm();
 }
 
+std::size_t ContactRegion::around(const Vector3& position, double distance, std::span<Element> into) {
+  const Vector3 margin = Vector3::Constant(distance);
+  const FloatBox here = relative_box(Bounds(position - margin, position + margin));
+  const Tolerance near = Tolerance::reaching(distance);
+  std::size_t count = 0;
+  for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+    for (unsigned mask = boxes_[block].overlap_mask(here); mask != 0; mask &= mask - 1) {
+      const std::span<const Element> elements =
+          elements_of(pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))]);
+      looked_at_ += elements.size();
+      for (const Element& element : elements) {
+        if (element.flat() &&
+            (std::abs(height(element, position)) > distance || !covers(element, position, near)))
+          continue;
+        if (count < into.size()) into[count] = facing(element, position);
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
 SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                               std::uint32_t ignored_object) {
   const Vector3 end = start + step;

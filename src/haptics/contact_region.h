@@ -65,6 +65,10 @@ class ContactRegion {
   SweepHit sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                  std::uint32_t ignored_object = kNoObject);
 
+  /// The flat elements within `distance` of a position in the region, and all curved ones that may be, facing
+  /// it: as many as fit in `into`; how many there are.
+  std::size_t around(const Vector3& position, double distance, std::span<Element> into);
+
   /// Elements that sweeps have looked at so far: what they cost, as a number that replays repeat.
   std::uint64_t looked_at() const { return looked_at_; }
 

@@ -25,6 +25,9 @@ struct Tolerance {
   /// The least for coordinates so large (m): some steps of their rounding.
   static Tolerance for_coordinates(double largest) { return {64.0 * 2.2e-16 * largest}; }
 
+  /// That whose rim is as wide as a distance (m), below zero inwards from the edges.
+  static Tolerance reaching(double distance) { return {4.0 * distance}; }
+
   double touching() const { return 4.0 * gap; }  // heights up to this count as contact
   double behind() const { return 8.0 * gap; }    // further below than this is the other side
   double rim() const { return 0.25 * gap; }      // edges reach this far out: no cracks between neighbours

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/contact_fan.h"
 #include "haptics/smooth_element.h"
 
 namespace icome::haptics {
@@ -25,7 +26,7 @@ constexpr double kSteepest = 0.1;    // rise of an arch for its length
 
 }  // namespace
 
-ScpSolver::ScpSolver(const ScpSettings& settings) : settings_(settings) {}
+ScpSolver::ScpSolver(const ScpSettings& settings) : settings_(settings), around_(ContactFan::kCapacity) {}
 
 void ScpSolver::reset() {
   started_ = false;
@@ -234,13 +235,15 @@ void ScpSolver::converge(const Vector3& tip) {
   state_.iterations = 0;
   const std::uint64_t most = region_.looked_at() + std::uint64_t(settings_.max_elements);
   int idle = 0;
+  Vector3 nearest = position_;
   while (state_.iterations < settings_.max_iterations && region_.looked_at() < most) {
     ++state_.iterations;
     bool exact = false;
     const Vector3 step = next_step(tip, exact);
-    if (step.norm() <= tolerance.touching() || idle == kMaxIdle) {
+    const bool turns = idle == kMaxIdle;
+    if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
-      if (escape(tip)) continue;
+      if ((turns || contacts_.size() > 1) && escape(tip)) continue;
       state_.converged = true;
       return;
     }
@@ -248,7 +251,12 @@ void ScpSolver::converge(const Vector3& tip) {
     const Vector3 from = position_;
     const bool whole = advance(step);
     if (region_.overflowed()) return;
-    if (!cut_) idle = nearer(from, tip) ? 0 : idle + 1;  // a part of a way may lead off at first
+    if (nearer(nearest, tip)) {
+      nearest = position_;
+      idle = 0;
+    } else if (!cut_) {  // a part of a way may lead off at first
+      ++idle;
+    }
     if (contacts_.size() != held) continue;
     const bool fast = position_ == from && contacts_.any_smooth();  // between walls
     const bool there = whole && exact && held < 2;                  // with more there may be an escape
@@ -324,10 +332,26 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
 }
 
 /// Where faces meet in a saddle, the half-spaces of all of them together hold a tip that could still
-/// move: a face does not reach beyond its edges. Leaves out one contact at a time; the sweep, which
-/// sees faces as they are, says whether that opens a way. True when the SCP moved.
+/// move: a face does not reach beyond its edges. True when there was a way and the SCP moved.
 bool ScpSolver::escape(const Vector3& tip) {
-  if (contacts_.size() < 2 || sliding_ || surface().static_friction > 0.0) return false;
+  if (contacts_.empty() || sliding_ || surface().static_friction > 0.0) return false;
+  const double near = ContactFan::kNeighbourhood * ContactFan::kLength * tolerance().gap;
+  if (contacts_.any_smooth() || region_.clearance(position_) < near) return escape_without_one(tip);
+  const std::size_t count = region_.around(position_, near, around_);
+  if (region_.overflowed()) return false;
+  const std::span<const Element> elements = std::span(around_).first(std::min(count, around_.size()));
+  if (count > around_.size() || !ContactFan::knows(elements)) return escape_without_one(tip);
+  const std::optional<FanWay> way = ContactFan(elements, position_, tip - position_, tolerance()).steepest();
+  if (!way) return false;
+  position_ = way->end;
+  contacts_.clear();
+  if (way->on != FanWay::kNone) contacts_.add(elements[way->on]);
+  return true;
+}
+
+/// By leaving out one contact at a time; the sweep, which sees surfaces as they are, says whether that opens
+/// a way.
+bool ScpSolver::escape_without_one(const Vector3& tip) {
   const Vector3 pull = tip - position_;
   const ContactSet all = contacts_;
   for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "haptics/contact_region.h"
 #include "haptics/contact_set.h"
@@ -58,6 +59,7 @@ class ScpSolver final : public ContactSolver {
   SweepHit arch(Vector3& step);
   Vector3 rest_within(double length, const Vector3& step);
   bool escape(const Vector3& tip);
+  bool escape_without_one(const Vector3& tip);
   bool lets_go(const Element& contact, const Vector3& tip) const;
   void let_go(const Vector3& step);
   double slip(double along, double press);
@@ -89,6 +91,7 @@ class ScpSolver final : public ContactSolver {
   Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
   double reach_ = 0.0;               // m, how far around the SCP the region looks
   ContactSet contacts_;
+  std::vector<Element> around_;  // what a way out looks at: memory only
   ContactRegion region_;
   ContactRegion ride_region_;
   ScpState state_;

@@ -1,0 +1,119 @@
+// Where many faces meet in a point the SCP goes on if there is any way on, judged by trying ways against
+// every triangle.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/contact_world.h"
+
+namespace icome::haptics {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+enum class Fold { Convex, Concave, Mixed };
+
+/// A solid below faces that meet at the origin, closed far down. Convex: a peak; concave: a pit; mixed:
+/// ridges and valleys.
+TriangleMesh random_fan(Random& random, Fold fold) {
+  const auto count = std::uint32_t(3 + random.index(10));
+  std::vector<double> angles(count);
+  // No gap of half a turn or more: every face stands over the plane as one of a height field does.
+  do {
+    for (double& angle : angles) angle = random.uniform(0.0, 2.0 * kPi);
+    std::sort(angles.begin(), angles.end());
+  } while ([&] {
+    double widest = angles.front() + 2.0 * kPi - angles.back();
+    double narrowest = widest;
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+      widest = std::max(widest, angles[i] - angles[i - 1]);
+      narrowest = std::min(narrowest, angles[i] - angles[i - 1]);
+    }
+    return widest > 0.9 * kPi || narrowest < 0.02;
+  }());
+  const double steep = std::pow(10.0, random.uniform(-1.5, 0.5));
+  TriangleMesh mesh;
+  mesh.positions.push_back(Vector3::Zero());
+  for (const double angle : angles) {
+    const double height = fold == Fold::Convex    ? -steep
+                          : fold == Fold::Concave ? steep
+                                                  : random.uniform(-steep, steep);
+    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), height);
+  }
+  mesh.positions.emplace_back(0.0, 0.0, -10.0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t here = 1 + i, next = 1 + (i + 1) % count;
+    mesh.triangles.push_back({0, here, next});
+    mesh.triangles.push_back({count + 1, next, here});
+  }
+  return mesh;
+}
+
+/// How much nearer (m) to the tip some straight free move of this length leads; of moves straight on, along
+/// any face, along any edge, and anywhere.
+double best_free_move(const TriangleMesh& mesh, const Vector3& scp, const Vector3& tip, double length,
+                      Random& random) {
+  const Vector3 pull = tip - scp;
+  double best = 0.0;
+  const auto attempt = [&](const Vector3& along) {
+    const double norm = along.norm();
+    if (norm < 1e-9) return;
+    const Vector3 direction = along / norm;
+    // Not closely along a face: whether that is free is for rounding to say.
+    for (const double lift : {1e-4, 1e-3}) {
+      const Vector3 way = length * (direction + lift * Vector3::UnitZ());
+      const double nearer = pull.norm() - (pull - way).norm();
+      // A way through a vertex crosses no face for sure: its end tells then.
+      if (nearer > best && !brute_crosses(mesh, scp, scp + way, false) &&
+          brute_winding(mesh, scp + way) < 0.5)
+        best = nearer;
+    }
+  };
+  attempt(pull);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3 out = face_normal(mesh, i);
+    attempt(pull - out.dot(pull) * out);
+    const Vector3 edge = (mesh.corner(i, 1) - mesh.corner(i, 0)).normalized();
+    attempt(edge * edge.dot(pull));
+  }
+  for (int i = 0; i < 20; ++i) attempt(pull.normalized() + random.direction());
+  return best;
+}
+
+class Fans : public testing::TestWithParam<Fold> {};
+
+INSTANTIATE_TEST_SUITE_P(Folds, Fans, testing::Values(Fold::Convex, Fold::Concave, Fold::Mixed),
+                         [](const auto& it) {
+                           return it.param == Fold::Convex    ? "Convex"
+                                  : it.param == Fold::Concave ? "Concave"
+                                                              : "Mixed";
+                         });
+
+TEST_P(Fans, LetTheScpGoOnWhereThereIsAWay) {
+  Random random(17);
+  int stuck = 0, inside = 0;
+  const int fans = repeats(35'000);
+  for (int i = 0; i < fans; ++i) {
+    const MeshPointer mesh = shared(random_fan(random, GetParam()));
+    Toucher toucher(HapticScene::compile({object(1, shape_of(mesh))}));
+    toucher.step({0.0, 0.0, 0.3});
+    toucher.step({0.0, 0.0, -1e-3});  // to the apex, or to a side of it
+    Vector3 pull = random.direction();
+    pull.z() = -std::abs(pull.z());
+    const Vector3 tip = 0.3 * random.uniform(0.01, 1.0) * pull;
+    const ScpState& state = toucher.step(tip);
+    if (brute_winding(*mesh, state.scp) > 0.5) ++inside;
+    if (state.scp.head<2>().norm() > 0.5 || !state.touching) continue;  // it has left the fan
+    const double left = (tip - state.scp).norm();
+    if (left < 1e-3) continue;
+    const double length = std::min(1e-3, 0.1 * left);
+    if (best_free_move(*mesh, state.scp, tip, length, random) > 0.02 * length) ++stuck;
+  }
+  // Between faces that are folded back onto each other the SCP may lie too deep for a way's length to tell.
+  EXPECT_LE(stuck, fans / 10'000) << "of " << fans;
+  EXPECT_EQ(inside, 0) << "of " << fans;
+}
+
+}  // namespace
+}  // namespace icome::haptics
