@@ -76,8 +76,9 @@ void ContactFan::consider(const Vector3& along, const Vector3& pull, std::size_t
   if (gain * length_ > tolerance_.touching()) ways_[way_count_++] = {end, gain, on};
 }
 
-std::optional<FanWay> ContactFan::steepest() {
+std::optional<FanWay> ContactFan::steepest(double held) {
   for (const FanWay& way : std::span(ways_).first(way_count_)) {
+    if (way.on != FanWay::kNone && way.gain <= held) continue;
     if (sees(position_, way.end) || (!buried(way.end) && reachable(way.end))) return way;
   }
   return std::nullopt;

@@ -39,8 +39,8 @@ class ContactFan {
              const Tolerance& tolerance);
 
   /// The steepest free way, unless none brings the SCP nearer to the tip by more than what counts as
-  /// touching.
-  std::optional<FanWay> steepest();
+  /// touching. Friction holds what runs along an element with a gain of at most `held`.
+  std::optional<FanWay> steepest(double held);
 
  private:
   static constexpr std::size_t kMostWays = 1 + 5 * kCapacity;

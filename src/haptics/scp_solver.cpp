@@ -243,7 +243,8 @@ void ScpSolver::converge(const Vector3& tip) {
     const bool turns = idle == kMaxIdle;
     if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
-      if ((turns || contacts_.size() > 1) && escape(tip)) continue;
+      const bool at_rest = contacts_.size() < 2 && !turns && held_gain() <= 0.0;  // on a face, below its edges
+      if (!at_rest && escape(tip)) continue;
       state_.converged = true;
       return;
     }
@@ -334,14 +335,15 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
 /// Where faces meet in a saddle, the half-spaces of all of them together hold a tip that could still
 /// move: a face does not reach beyond its edges. True when there was a way and the SCP moved.
 bool ScpSolver::escape(const Vector3& tip) {
-  if (contacts_.empty() || sliding_ || surface().static_friction > 0.0) return false;
+  if (contacts_.empty()) return false;
   const double near = ContactFan::kNeighbourhood * ContactFan::kLength * tolerance().gap;
   if (contacts_.any_smooth() || region_.clearance(position_) < near) return escape_without_one(tip);
   const std::size_t count = region_.around(position_, near, around_);
   if (region_.overflowed()) return false;
   const std::span<const Element> elements = std::span(around_).first(std::min(count, around_.size()));
   if (count > around_.size() || !ContactFan::knows(elements)) return escape_without_one(tip);
-  const std::optional<FanWay> way = ContactFan(elements, position_, tip - position_, tolerance()).steepest();
+  ContactFan fan(elements, position_, tip - position_, tolerance());
+  const std::optional<FanWay> way = fan.steepest(held_gain());
   if (!way) return false;
   position_ = way->end;
   contacts_.clear();
@@ -352,6 +354,7 @@ bool ScpSolver::escape(const Vector3& tip) {
 /// By leaving out one contact at a time; the sweep, which sees surfaces as they are, says whether that opens
 /// a way.
 bool ScpSolver::escape_without_one(const Vector3& tip) {
+  if (sliding_ || surface().static_friction > 0.0) return false;
   const Vector3 pull = tip - position_;
   const ContactSet all = contacts_;
   for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
@@ -384,6 +387,13 @@ double ScpSolver::slip(double along, double press) {
   const double coefficient = sliding_ ? touched.dynamic_friction : touched.static_friction;
   sliding_ = along > coefficient * press;
   return sliding_ ? 1.0 - touched.dynamic_friction * press / along : 0.0;
+}
+
+/// The cosine of the angle between pull and surface up to which friction holds: Coulomb's cone.
+double ScpSolver::held_gain() const {
+  if (contacts_.empty()) return 0.0;
+  const double coefficient = sliding_ ? surface().dynamic_friction : surface().static_friction;
+  return coefficient / std::hypot(1.0, coefficient);
 }
 
 const Surface& ScpSolver::surface() const { return scene_->objects()[contacts_.all().back().object].surface; }

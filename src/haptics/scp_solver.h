@@ -63,6 +63,7 @@ class ScpSolver final : public ContactSolver {
   bool lets_go(const Element& contact, const Vector3& tip) const;
   void let_go(const Vector3& step);
   double slip(double along, double press);
+  double held_gain() const;
   void surround(const Vector3& step);
   bool falling() const;
   Vector3 way_ahead(const Vector3& step);
