@@ -141,6 +141,20 @@ Expression::Node Expression::binary(Operation operation, Node a, Node b) {
   return shared({operation, a, b, 0.0});
 }
 
+Expression::Node Expression::rebuilt(const Step& step, Node a, Node b) {
+  switch (step.operation) {
+    case Operation::AddConstant:
+      return is_constant(a) ? constant(value(a) + step.constant) : sum(a, step.constant);
+    case Operation::Scale:
+      return is_constant(a) ? constant(value(a) * step.constant) : scaled(a, step.constant);
+    case Operation::IntegerPower:
+    case Operation::ConstantPower:
+      return raised(a, step.constant);
+    default:
+      return is_binary(step.operation) ? binary(step.operation, a, b) : unary(step.operation, a);
+  }
+}
+
 Expression::Node Expression::negated(Node a) {
   if (is_constant(a)) return constant(-value(a));
   const Step step = steps_[a];

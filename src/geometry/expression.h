@@ -61,10 +61,13 @@ class Expression {
   Node unary(Operation operation, Node a);
   /// Also Power with a constant exponent.
   Node binary(Operation operation, Node a, Node b);
+  /// What `step` computes, of other operands (`b` counts where it has two).
+  Node rebuilt(const Step& step, Node a, Node b);
 
   const std::vector<Step>& steps() const { return steps_; }
   /// Why a part that consists of constants has no value ("sqrt(-1) is not a finite number"); else empty.
   const std::string& fault() const { return fault_; }
+  void forget_fault() { fault_.clear(); }
 
  private:
   struct Hash {

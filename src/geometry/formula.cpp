@@ -247,10 +247,6 @@ base::Result<Formula> Formula::compile(const Expression& expression, Expression:
 }
 
 base::Result<Formula> Formula::parse(const std::string& text) {
-  if (text.size() > kMostCharacters) {
-    return base::fail(fmt::format("the formula is {} characters long: at most {} can be read", text.size(),
-                                  kMostCharacters));
-  }
   Expression expression;
   const auto root = read_formula(text, expression);
   if (!root) return base::fail(root.error().message);

@@ -27,6 +27,8 @@ class Formula {
 
   /// Fails with a sentence that names the column.
   static base::Result<Formula> parse(const std::string& text);
+  /// What the expression computes at `root`; fails if that takes more steps or registers than there may be.
+  static base::Result<Formula> compile(const Expression& expression, Expression::Node root);
 
   double value(const base::Vector3& point, double time) const;
 
@@ -91,7 +93,6 @@ class Formula {
   using Registers = std::array<Number, kMostRegisters>;
 
   Formula() = default;
-  static base::Result<Formula> compile(const Expression& expression, Expression::Node root);
   template <typename Scalar, int Variables, int Order>
   Jet<Scalar, Variables, Order> run(Registers<Jet<Scalar, Variables, Order>>& registers) const;
   template <int Variables, int Order>
@@ -103,7 +104,8 @@ class Formula {
   std::array<bool, 4> used_{};
 };
 
-/// Reads `text` into an expression and gives its root. Fails with a sentence that names the column.
+/// Reads `text`, of at most Formula::kMostCharacters, into an expression and gives its root. Fails with a
+/// sentence that names the column.
 base::Result<Expression::Node> read_formula(const std::string& text, Expression& expression);
 
 }  // namespace icome::geometry

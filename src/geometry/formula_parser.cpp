@@ -227,6 +227,10 @@ std::size_t bare_comma(const std::string& text) {
 }  // namespace
 
 base::Result<ReadNode> read_formula(const std::string& text, Expression& expression) {
+  if (text.size() > Formula::kMostCharacters) {
+    return base::fail(fmt::format("the formula is {} characters long: at most {} can be read", text.size(),
+                                  Formula::kMostCharacters));
+  }
   if (std::string complaint = wrong_character(text); !complaint.empty()) {
     return base::fail(std::move(complaint));
   }

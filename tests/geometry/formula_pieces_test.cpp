@@ -1,0 +1,88 @@
+#include "geometry/formula_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "geometry/plane_formulas.h"
+
+namespace icome::geometry {
+namespace {
+
+using base::Vector3;
+
+FormulaPieces taken_apart(const std::string& text) {
+  auto pieces = FormulaPieces::parse(text);
+  EXPECT_TRUE(pieces) << text << ": " << (pieces ? "" : pieces.error().message);
+  return pieces ? *pieces : *FormulaPieces::parse("x");
+}
+
+TEST(FormulaPieces, AreTheSmoothFunctionsOfAFormula) {
+  const auto count = [](const std::string& text) { return taken_apart(text).pieces.size(); };
+  EXPECT_EQ(count("x^2 + y^2 + z^2 - 1"), 1U);
+  EXPECT_EQ(count("z - abs(x)"), 2U);
+  EXPECT_EQ(count("z - max(x, -2*x)"), 2U);
+  EXPECT_EQ(count("abs(x) + abs(y) + abs(z) - 0.05"), 8U);
+  EXPECT_EQ(count("max(abs(x), abs(y), abs(z)) - 0.05"), 6U);
+  EXPECT_EQ(count("abs(x) + 2*abs(x)"), 2U);           // one choice, made once
+  EXPECT_EQ(count("max(x, y, z, x + y, x - y)"), 5U);  // not what does not matter then
+  EXPECT_EQ(count("max(x, -0.01)"), 1U);               // a constant has no surface
+  EXPECT_EQ(count("z + sqrt(min(x, -1))"), 1U);        // nor has what is never defined
+}
+
+TEST(FormulaPieces, LeavesPartsWithTooManyCombinationsAsTheyAre) {
+  std::string sum = "z";
+  for (int i = 1; i <= 9; ++i) sum += fmt::format(" + abs(x - {})", i);
+  const FormulaPieces pieces = taken_apart(sum);
+  EXPECT_EQ(pieces.pieces.size(), 1U);
+  EXPECT_EQ(pieces.pieces[0].formula.value({5.5, 0.0, 1.0}, 0.0), pieces.whole.value({5.5, 0.0, 1.0}, 0.0));
+}
+
+/// Which choices take their second operand there.
+FormulaPieces::ChoiceSet choices_at(const FormulaPieces& pieces, const Vector3& point) {
+  FormulaPieces::ChoiceSet second = 0;
+  for (std::size_t i = 0; i < pieces.choices.size(); ++i) {
+    if (pieces.choices[i].value(point, 0.0) > 0.0) second |= FormulaPieces::ChoiceSet{1} << i;
+  }
+  return second;
+}
+
+TEST(FormulaPieces, HaveTheFormulasValueWhereTheirChoicesAreMade) {
+  base::Random random(31);
+  for (int i = 0; i < 200; ++i) {
+    const PlaneFormula formula = random_plane_formula(random, 4, 0.5);
+    const FormulaPieces pieces = taken_apart(formula.text);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3 point = random.uniform(0.0, 1.0) * random.direction();
+      const FormulaPieces::ChoiceSet second = choices_at(pieces, point);
+      int made = 0;
+      for (const FormulaPieces::Piece& piece : pieces.pieces) {
+        for (const FormulaPieces::Case& it : piece.cases) {
+          if ((it.made & (it.second ^ second)) != 0) continue;
+          ++made;
+          ASSERT_NEAR(piece.formula.value(point, 0.0), formula.value(point), 1e-14) << formula.text;
+        }
+      }
+      ASSERT_EQ(made, 1) << formula.text;
+    }
+  }
+}
+
+TEST(FormulaPieces, KnowsWhereAFormulaMayJump) {
+  const auto borders = [](const std::string& text) { return taken_apart(text).borders; };
+  EXPECT_TRUE(borders("x*y - abs(z)").empty());
+  for (const char* text : {"1/x", "z - y/x^2", "sqrt(x)", "log(3*x)", "y - x^0.3", "1/abs(x)"}) {
+    const std::vector<Formula> both = borders(text);
+    ASSERT_EQ(both.size(), 2U) << text;
+    for (const double x : {-0.3, 0.0, 0.4}) {
+      EXPECT_EQ(std::abs(both[0].value({x, 0.7, 0.2}, 0.0)) > 0.0, x != 0.0) << text;
+      EXPECT_EQ(both[0].value({x, 0.7, 0.2}, 0.0), -both[1].value({x, 0.7, 0.2}, 0.0)) << text;
+    }
+  }
+  EXPECT_EQ(borders("asin(x)").size(), 4U);  // at -1 and 1
+  EXPECT_EQ(borders("1/(x*y)").size(), 4U);
+}
+
+}  // namespace
+}  // namespace icome::geometry
