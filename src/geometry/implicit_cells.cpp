@@ -12,14 +12,6 @@ constexpr std::size_t kMostLeaves = 4096;
 // Steps of programs spent on the tree: a long formula gets a coarser one, so that all are ready in a second.
 constexpr std::size_t kMostWork = 4'000'000;
 
-Formula::Box4 always_in(const Bounds& box) {
-  Formula::Box4 ranges;
-  for (int i = 0; i < 3; ++i) ranges[static_cast<std::size_t>(i)] = {box.min()[i], box.max()[i]};
-  // Thirty years, not for ever: what overflows is not sure to have a value.
-  ranges[3] = {-1e9, 1e9};
-  return ranges;
-}
-
 Bounds eighth_of(const Bounds& box, unsigned number) {
   const Vector3 middle = box.min() + 0.5 * box.sizes();
   Bounds eighth = box;
@@ -54,6 +46,14 @@ bool may_reach(const Vector3& a, const Vector3& step, double reach, const Bounds
 
 }  // namespace
 
+Formula::Box4 always_in(const Bounds& box) {
+  Formula::Box4 ranges;
+  for (int i = 0; i < 3; ++i) ranges[static_cast<std::size_t>(i)] = {box.min()[i], box.max()[i]};
+  // Thirty years, not for ever: what overflows is not sure to have a value.
+  ranges[3] = {-1e9, 1e9};
+  return ranges;
+}
+
 int sign_in_box(const Formula& formula, const Bounds& box) {
   const Formula::Box4 ranges = always_in(box);
   const auto at = formula.slope_range(ranges);
@@ -80,27 +80,29 @@ struct ImplicitCells::Visit {
   base::FunctionRef<bool(const Bounds&)> call;
 };
 
-ImplicitCells::ImplicitCells(const Formula& formula, const Bounds& box) : box_(box) {
+ImplicitCells::ImplicitCells(const Bounds& box, std::size_t work,
+                             base::FunctionRef<bool(const Bounds& part)> may_hold)
+    : box_(box) {
   nodes_.push_back({0, 0});
   std::vector<GrowingCell> level;
-  if (sign_in_box(formula, box) == 0) level.push_back({0, box});
-  std::size_t work = 0;
+  if (may_hold(box)) level.push_back({0, box});
+  std::size_t worked = 0;
   // Level by level, so that leaves are of one size, until the next level might be too much.
-  while (!level.empty() && level.size() * 4 <= kMostLeaves && work < kMostWork) {
+  while (!level.empty() && level.size() * 4 <= kMostLeaves && worked < kMostWork) {
     std::vector<GrowingCell> next;
     for (const GrowingCell& cell : level) {
       nodes_[cell.node].first = static_cast<std::uint32_t>(nodes_.size());
       std::uint8_t eighths = 0;
       for (unsigned i = 0; i < 8; ++i) {
         const Bounds eighth = eighth_of(cell.box, i);
-        if (sign_in_box(formula, eighth) != 0) continue;
+        if (!may_hold(eighth)) continue;
         eighths = static_cast<std::uint8_t>(eighths | 1U << i);
         next.push_back({static_cast<std::uint32_t>(nodes_.size()), eighth});
         nodes_.push_back({0, 0});
       }
       nodes_[cell.node].eighths = eighths;
     }
-    work += level.size() * 8 * formula.steps();
+    worked += level.size() * 8 * work;
     level = std::move(next);
   }
   for (const GrowingCell& cell : level) bounds_.extend(cell.box);

@@ -9,13 +9,14 @@
 
 namespace icome::geometry {
 
-/// The parts of a box in which a formula may be zero at some time (up to 1e9 s): an octree, found by interval
-/// arithmetic.
+/// The parts of a box in which something may be found: an octree.
 class ImplicitCells {
  public:
-  ImplicitCells(const Formula& formula, const base::Bounds& box);
+  /// `may_hold(part)` says whether it may be in a part; asking takes some `work` steps of a formula.
+  ImplicitCells(const base::Bounds& box, std::size_t work,
+                base::FunctionRef<bool(const base::Bounds& part)> may_hold);
 
-  /// Around all parts; empty if f is surely never zero in the box.
+  /// Around all parts; empty if it is surely nowhere in the box.
   const base::Bounds& bounds() const { return bounds_; }
   /// Calls `visit(part)` for every part within `reach` of the segment, until it returns false; then the
   /// answer is false. Real-time safe.
@@ -36,6 +37,9 @@ class ImplicitCells {
   base::Bounds box_, bounds_;
   std::vector<Node> nodes_;
 };
+
+/// The box at all times that count: up to 1e9 s.
+Formula::Box4 always_in(const base::Bounds& box);
 
 /// Does f surely keep away from zero in the box, at all times? Then its sign there, else 0.
 int sign_in_box(const Formula& formula, const base::Bounds& box);

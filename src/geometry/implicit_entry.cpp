@@ -20,8 +20,13 @@ struct LinePart {
 /// where ways out are looked for: it is negative behind the surface.
 class CrossingSearch {
  public:
-  CrossingSearch(const Formula& formula, const ImplicitLine& line)
-      : formula_(formula), line_(line), sign_(line.from_behind ? -1.0 : 1.0), length_(line.step.norm()) {}
+  CrossingSearch(const Formula& formula, const ImplicitLine& line,
+                 base::FunctionRef<bool(double s, bool jump)> counts)
+      : formula_(formula),
+        line_(line),
+        counts_(counts),
+        sign_(line.from_behind ? -1.0 : 1.0),
+        length_(line.step.norm()) {}
 
   std::optional<double> run() {
     look_at_start();
@@ -33,7 +38,12 @@ class CrossingSearch {
       if (left == 0) return cell.a;
       switch (look_at(cell)) {
         case Outcome::Crossing:
-          return starts_inwards_ && level_ > 0.0 ? line_.first : found_;
+          // A way in from within slack begins at its start, if the surface already runs there.
+          if (starts_inwards_ && level_ > 0.0 && counts_(line_.first, jump_)) return line_.first;
+          if (counts_(found_, jump_)) return found_;
+          in_front_ = false;
+          level_ = 0.0;
+          break;
         case Outcome::Clear:
           break;
         case Outcome::Unclear: {
@@ -80,20 +90,26 @@ class CrossingSearch {
     return range.total && range.value.hi < -level_;
   }
 
-  Outcome clear_front() {
+  bool above_level(const Interval& value) const {
+    return (line_.from_behind ? -value.hi : value.lo) >= -level_;
+  }
+
+  Outcome clear_front(bool steady) {
     in_front_ = true;
+    steady_ = steady;
     level_ = 0.0;
     return Outcome::Clear;
   }
-  Outcome crossing(double s) {
+  Outcome crossing(double s, bool jump) {
     found_ = s;
+    jump_ = jump;
     return Outcome::Crossing;
   }
-  Outcome behind_from(double s) { return in_front_ ? crossing(s) : Outcome::Clear; }
+  Outcome behind_from(double s) { return in_front_ ? crossing(s, !steady_) : Outcome::Clear; }
 
   Outcome look_at(const LinePart& cell) {
     Formula::SlopeRange<1> at = formula_.line_range(line_.start, line_.step, {cell.a, cell.b}, line_.time);
-    if (surely_front(at.range)) return clear_front();
+    if (surely_front(at.range)) return clear_front(at.range.total);
     if (surely_behind(at.range)) return behind_from(cell.a);
     const double width = cell.b - cell.a;
     const double middle = cell.a + 0.5 * width;
@@ -107,28 +123,31 @@ class CrossingSearch {
       const Formula::Range there = formula_.point_range(line_.start, line_.step, middle, line_.time);
       const Interval mean = there.value + at.slope[0] * Interval{cell.a - middle, cell.b - middle};
       at.range.value = intersection(at.range.value, mean);
-      if (surely_front(at.range)) return clear_front();
+      if (surely_front(at.range)) return clear_front(at.range.total);
       if (surely_behind(at.range)) return behind_from(cell.a);
+      // Along the surface, from within slack: still in front.
+      if (level_ > 0.0 && above_level(at.range.value)) return Outcome::Clear;
       // Too near to tell, all along: only what follows shows on which side the way goes on.
       if (magnitude(at.range.value) <= band(middle, 0.1 * line_.slack)) return Outcome::Clear;
     }
     if (!tiny) return Outcome::Unclear;
+    steady_ = at.range.total;
     if (!(is_front(value(cell.b)) || height(cell.b) >= 0.0)) return behind_from(cell.a);
     if (is_front(value(cell.b))) in_front_ = true;
     return Outcome::Clear;
   }
 
   Outcome look_at_rising(const LinePart& cell) {
-    if (is_front(value(cell.b))) return clear_front();
-    if (in_front_ && height(cell.a) < 0.0) return crossing(cell.a);
+    if (is_front(value(cell.b))) return clear_front(true);
+    if (in_front_ && height(cell.a) < 0.0) return crossing(cell.a, !steady_);
     return Outcome::Clear;
   }
 
   Outcome look_at_falling(const LinePart& cell) {
-    if (is_front(value(cell.b))) return clear_front();
+    if (is_front(value(cell.b))) return clear_front(true);
     const double before = height(cell.a);
     if (height(cell.b) >= 0.0) return Outcome::Clear;
-    if (before >= 0.0) return crossing(root(cell, before));
+    if (before >= 0.0) return crossing(root(cell, before), false);
     return behind_from(cell.a);
   }
 
@@ -155,19 +174,27 @@ class CrossingSearch {
 
   const Formula& formula_;
   const ImplicitLine& line_;
+  const base::FunctionRef<bool(double s, bool jump)> counts_;
   const double sign_;
   const double length_;
   bool in_front_ = false;
   double level_ = 0.0;  // F above this much below zero counts as in front
   bool starts_inwards_ = false;
   double found_ = 0.0;
+  bool jump_ = false;   // is what was found no zero of f, or not surely?
+  bool steady_ = true;  // was f surely continuous where it was last looked at?
 };
 
 }  // namespace
 
-std::optional<double> first_crossing(const Formula& formula, const ImplicitLine& line) {
+std::optional<double> first_crossing(const Formula& formula, const ImplicitLine& line,
+                                     base::FunctionRef<bool(double s, bool jump)> counts) {
   if (!(line.last >= line.first) || !(line.step.norm() > 0.0)) return std::nullopt;
-  return CrossingSearch(formula, line).run();
+  return CrossingSearch(formula, line, counts).run();
+}
+
+std::optional<double> first_crossing(const Formula& formula, const ImplicitLine& line) {
+  return first_crossing(formula, line, [](double, bool) { return true; });
 }
 
 }  // namespace icome::geometry

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "base/function_ref.h"
 #include "geometry/formula.h"
 
 namespace icome::geometry {
@@ -17,7 +18,12 @@ struct ImplicitLine {
 
 /// The s at which the way first goes through the surface from the front to behind it. Interval arithmetic
 /// leaves none out, however thin the solid or grazing the way, down to a tenth of `slack`. If more than
-/// bounded work would be needed, the answer is an s up to which there is surely no crossing. Real-time safe.
+/// bounded work would be needed, the answer is an s up to which there is surely no crossing.
+/// Crossings that `counts(s, jump)` does not accept are passed; `jump`: f may be discontinuous or undefined
+/// there. Real-time safe.
+std::optional<double> first_crossing(const Formula& formula, const ImplicitLine& line,
+                                     base::FunctionRef<bool(double s, bool jump)> counts);
+/// The same, of all crossings.
 std::optional<double> first_crossing(const Formula& formula, const ImplicitLine& line);
 
 }  // namespace icome::geometry

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/formula.h"
-#include "geometry/implicit_cells.h"
 #include "geometry/implicit_entry.h"
+#include "geometry/implicit_pieces.h"
 #include "geometry/implicit_walk.h"
 #include "geometry/implicit_way_out.h"
 #include "geometry/segment.h"
@@ -18,6 +17,11 @@ namespace icome::geometry {
 namespace {
 
 constexpr std::uint32_t kSides = 6;  // pieces 1 to 6
+
+bool is_side(std::uint32_t piece) { return piece >= 1 && piece <= kSides; }
+/// Of the formula's pieces, in ImplicitPieces and here.
+std::size_t index_of(std::uint32_t piece) { return piece == 0 ? 0 : piece - kSides; }
+std::uint32_t piece_of(std::size_t index) { return std::uint32_t(index == 0 ? 0 : index + kSides); }
 
 Eigen::Index axis_of(std::uint32_t side_piece) { return (side_piece - 1) / 2; }
 double direction_of(std::uint32_t side_piece) { return side_piece % 2 == 0 ? 1.0 : -1.0; }
@@ -77,18 +81,22 @@ bool is_within(const Bounds& box, const Vector3& point, double reach) {
 }  // namespace
 
 struct ImplicitSurface::Parts {
-  Formula formula;
-  ImplicitCells cells;
+  ImplicitPieces pieces;
   std::array<Bounds, kSides> sides;  // what counts of pieces 1 to 6
   Bounds bounds;
   double size;  // m, of the box
 
-  Parts(Formula read, const Bounds& box)
-      : formula(std::move(read)), cells(formula, box), bounds(cells.bounds()), size(box.diagonal().norm()) {
+  Parts(FormulaPieces read, const Bounds& box)
+      : pieces(std::move(read), box), bounds(pieces.bounds()), size(box.diagonal().norm()) {
     for (std::uint32_t i = 0; i < kSides; ++i) {
-      sides[i] = side_part(formula, box, i + 1);
+      sides[i] = side_part(pieces.whole(), box, i + 1);
       bounds.extend(sides[i]);
     }
+  }
+
+  const Formula& formula() const { return pieces.whole(); }
+  ImplicitWalk walk(std::uint32_t piece, double time) const {
+    return {pieces.formula(index_of(piece)), time, size};
   }
 };
 
@@ -100,14 +108,14 @@ ImplicitSurface::~ImplicitSurface() = default;
 base::Result<std::shared_ptr<const ImplicitSurface>> ImplicitSurface::create(const std::string& formula,
                                                                              const Bounds& box) {
   if (const std::string complaint = box_complaint(box); !complaint.empty()) return base::fail(complaint);
-  auto read = Formula::parse(formula);
+  auto read = FormulaPieces::parse(formula);
   if (!read) return base::fail(read.error().message);
-  if (!read->uses_place()) {
+  if (!read->whole.uses_place()) {
     return base::fail("the formula does not depend on x, y or z, so it has no surface");
   }
   auto parts = std::make_unique<const Parts>(std::move(*read), box);
-  if (parts->cells.bounds().isEmpty()) {
-    const bool negative = parts->formula.value(box.center(), 0.0) < 0.0;
+  if (parts->pieces.bounds().isEmpty()) {
+    const bool negative = parts->formula().value(box.center(), 0.0) < 0.0;
     return base::fail(
         fmt::format("there is no surface: the formula is {} everywhere in the box; the solid "
                     "is where it is negative, so change the formula or the box",
@@ -117,22 +125,24 @@ base::Result<std::shared_ptr<const ImplicitSurface>> ImplicitSurface::create(con
 }
 
 ImplicitSurface::Value ImplicitSurface::value(const Vector3& point, double time) const {
-  const Formula::Slope at = parts_->formula.slope(point, time);
+  const Formula::Slope at = parts_->formula().slope(point, time);
   return {at.value, at.gradient, at.rate};
 }
 
 Bounds ImplicitSurface::bounds() const { return parts_->bounds; }
 
-bool ImplicitSurface::changes() const { return parts_->formula.uses_time(); }
+bool ImplicitSurface::changes() const { return parts_->formula().uses_time(); }
 
 std::size_t ImplicitSurface::bytes() const {
-  return sizeof(*this) + sizeof(Parts) + parts_->formula.bytes() - sizeof(Formula) + parts_->cells.bytes();
+  return sizeof(*this) + sizeof(Parts) - sizeof(ImplicitPieces) + parts_->pieces.bytes();
 }
 
 void ImplicitSurface::near(const Vector3& a, const Vector3& b, double reach, double /*time*/,
                            PieceVisitor visit) const {
-  const auto visit_cell = [&](const Bounds& part) { return visit(0, part); };
-  if (!parts_->cells.near(a, b, reach, visit_cell)) return;
+  for (std::size_t i = 0; i < parts_->pieces.size(); ++i) {
+    const auto visit_cell = [&](const Bounds& part) { return visit(piece_of(i), part); };
+    if (!parts_->pieces.cells(i).near(a, b, reach, visit_cell)) return;
+  }
   for (std::uint32_t piece = 1; piece <= kSides; ++piece) {
     const Bounds& part = parts_->sides[piece - 1];
     if (part.isEmpty() || !part_within(part, a, b - a, reach)) continue;
@@ -141,21 +151,21 @@ void ImplicitSurface::near(const Vector3& a, const Vector3& b, double reach, dou
 }
 
 bool ImplicitSurface::inside(const Vector3& point, double time) const {
-  return box_.contains(point) && parts_->formula.value(point, time) < 0.0;
+  return box_.contains(point) && parts_->formula().value(point, time) < 0.0;
 }
 
 std::optional<SurfacePlace> ImplicitSurface::way_out(const Vector3& point, double time) const {
   if (!inside(point, time)) return std::nullopt;
   std::optional<SurfacePlace> nearest;
   double distance = std::numeric_limits<double>::infinity();
-  if (const auto place = implicit_way_out(parts_->formula, box_, point, time)) {
-    nearest = SurfacePlace{place->point, place->normal};
-    distance = (place->point - point).norm();
+  if (const auto out = implicit_way_out(parts_->pieces, box_, point, time)) {
+    nearest = SurfacePlace{out->place.point, out->place.normal, piece_of(out->piece)};
+    distance = (out->place.point - point).norm();
   }
   for (std::uint32_t piece = 1; piece <= kSides; ++piece) {
     const SurfacePlace place = foot({point, side_normal(piece), piece}, point, time);
     const double height = std::fabs(point[axis_of(piece)] - side_level(box_, piece));
-    if (height < distance && parts_->formula.value(place.point, time) < 0.0) {
+    if (height < distance && parts_->formula().value(place.point, time) < 0.0) {
       nearest = place;
       distance = height;
     }
@@ -166,24 +176,35 @@ std::optional<SurfacePlace> ImplicitSurface::way_out(const Vector3& point, doubl
 std::optional<SurfaceEntry> ImplicitSurface::entry(std::uint32_t piece, const Vector3& start,
                                                    const Vector3& step, bool from_behind, double time,
                                                    double slack) const {
-  return piece == 0 ? entry_of_formula(start, step, from_behind, time, slack)
-                    : entry_of_side(piece, start, step, from_behind, time, slack);
+  return is_side(piece) ? entry_of_side(piece, start, step, from_behind, time, slack)
+                        : entry_of_formula(piece, start, step, from_behind, time, slack);
 }
 
-std::optional<SurfaceEntry> ImplicitSurface::entry_of_formula(const Vector3& start, const Vector3& step,
-                                                              bool from_behind, double time,
-                                                              double slack) const {
+std::optional<SurfaceEntry> ImplicitSurface::entry_of_formula(std::uint32_t piece, const Vector3& start,
+                                                              const Vector3& step, bool from_behind,
+                                                              double time, double slack) const {
   const auto stay = part_within(box_, start, step, slack);
   if (!stay) return std::nullopt;
   const auto [first, last] = *stay;
-  const auto t =
-      first_crossing(parts_->formula, {start, step, first, last, time, slack, from_behind, first == 0.0});
+  const ImplicitPieces& pieces = parts_->pieces;
+  const std::size_t index = index_of(piece);
+  const ImplicitWalk walk = parts_->walk(piece, time);
+  const auto place_at = [&](double t) -> SurfacePlace {
+    const Vector3 point = start + t * step;
+    // Where f jumps, or begins to have values, it has no gradient: then the surface faces the way that is
+    // taken.
+    const Vector3 facing = from_behind ? step : -step;
+    return {point, walk.normal(point).value_or(facing.stableNormalized()), piece};
+  };
+  const auto counts = [&](double t, bool jump) {
+    const SurfacePlace place = place_at(t);
+    if (jump && pieces.border_at(place.point, time, slack)) return pieces.is_border(index);
+    return pieces.covers(index, place.point, place.normal, time, slack);
+  };
+  const auto t = first_crossing(pieces.formula(index),
+                                {start, step, first, last, time, slack, from_behind, first == 0.0}, counts);
   if (!t) return std::nullopt;
-  const Vector3 point = start + *t * step;
-  // Where f begins to have values, it has no gradient: then the surface faces the way that is taken.
-  const Vector3 facing = from_behind ? step : -step;
-  const auto normal = ImplicitWalk(parts_->formula, time, parts_->size).normal(point);
-  return SurfaceEntry{*t, {point, normal ? *normal : facing.stableNormalized()}};
+  return SurfaceEntry{*t, place_at(*t)};
 }
 
 std::optional<SurfaceEntry> ImplicitSurface::entry_of_side(std::uint32_t piece, const Vector3& start,
@@ -209,27 +230,29 @@ std::optional<SurfaceEntry> ImplicitSurface::entry_of_side(std::uint32_t piece, 
 }
 
 SurfacePlace ImplicitSurface::foot(const SurfacePlace& from, const Vector3& goal, double time) const {
-  if (from.piece != 0) {
+  if (is_side(from.piece)) {
     SurfacePlace place{goal, side_normal(from.piece), from.piece};
     place.point[axis_of(from.piece)] = side_level(box_, from.piece);
     return place;
   }
-  const auto place = ImplicitWalk(parts_->formula, time, parts_->size).descend(from.point, goal);
-  return {place.point, place.normal};
+  const auto place = parts_->walk(from.piece, time).descend(from.point, goal);
+  return {place.point, place.normal, from.piece};
 }
 
 bool ImplicitSurface::covers(const SurfacePlace& place, const Vector3& /*above*/, double time,
                              double slack) const {
   if (!is_within(box_, place.point, slack)) return false;
-  if (place.piece == 0) return true;
-  const Formula::Slope at = parts_->formula.slope(place.point, time);
+  if (!is_side(place.piece)) {
+    return parts_->pieces.covers(index_of(place.piece), place.point, place.normal, time, slack);
+  }
+  const Formula::Slope at = parts_->formula().slope(place.point, time);
   if (at.value <= 0.0) return true;
   return at.value <= slack * at.gradient.norm();
 }
 
 double ImplicitSurface::normal_speed(const SurfacePlace& place, double time) const {
-  if (place.piece != 0 || !changes()) return 0.0;
-  const Formula::Slope at = parts_->formula.slope(place.point, time);
+  if (is_side(place.piece) || !changes()) return 0.0;
+  const Formula::Slope at = parts_->pieces.formula(index_of(place.piece)).slope(place.point, time);
   const double speed = -at.rate / at.gradient.norm();
   return std::isfinite(speed) ? speed : 0.0;
 }

@@ -11,10 +11,14 @@ namespace icome::geometry {
 /// The surface f(x, y, z, t) = 0 of a formula (see formula.h), solid where f < 0, within a box (thesis
 /// 8.1.2). Lengths in metres, t in seconds. Gradients by automatic differentiation, sweeps by interval
 /// arithmetic: nothing is sampled, so nothing is missed. The box cuts the solid off with flat sides. Where
-/// the formula has no value, there is nothing.
+/// the formula has no value, there is nothing; where it begins to have negative ones, or jumps to them (at a
+/// pole), the solid ends in a wall.
 ///
-/// Piece 0 is the formula's surface, which goes on beyond the box (covers() knows); pieces 1 to 6 are the
-/// sides of the box towards -x, +x, -y, +y, -z, +z where they bound the solid.
+/// Where abs, min and max choose, the surface consists of pieces that are smooth each and meet in edges and
+/// grooves, as faces of a CSG solid do. Piece 0 is the first of them, or all of a smooth formula's surface;
+/// it goes on beyond its edges and the box (covers() knows), as the others do, which are pieces 7, 8, ...,
+/// with walls the last. Pieces 1 to 6 are the sides of the box towards -x, +x, -y, +y, -z, +z where they
+/// bound the solid.
 class ImplicitSurface final : public SmoothSurface {
  public:
   /// Fails on a formula that cannot be read, naming the column, on an empty or infinite box, and if there
@@ -23,7 +27,8 @@ class ImplicitSurface final : public SmoothSurface {
                                                                      const Bounds& box);
   ~ImplicitSurface() override;
 
-  /// f there, and its exact gradient (with respect to x, y, z). Real-time safe.
+  /// f there, and its exact gradient (with respect to x, y, z; where abs, min and max change, of one side).
+  /// Real-time safe.
   struct Value {
     double value;
     Vector3 gradient;
@@ -49,8 +54,8 @@ class ImplicitSurface final : public SmoothSurface {
  private:
   struct Parts;
   ImplicitSurface(std::unique_ptr<const Parts> parts, const Bounds& box);
-  std::optional<SurfaceEntry> entry_of_formula(const Vector3& start, const Vector3& step, bool from_behind,
-                                               double time, double slack) const;
+  std::optional<SurfaceEntry> entry_of_formula(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                               bool from_behind, double time, double slack) const;
   std::optional<SurfaceEntry> entry_of_side(std::uint32_t piece, const Vector3& start, const Vector3& step,
                                             bool from_behind, double time, double slack) const;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "geometry/implicit_walk.h"
 
 namespace icome::geometry {
 namespace implicit_surface_test {
@@ -49,6 +50,18 @@ const std::string kGyroid = "sin(80*x)*cos(80*y) + sin(80*y)*cos(80*z) + sin(80*
 const std::string kWaves = "z - 0.005*sin(60*x + 3*t)*cos(60*y)";
 const std::string kEllipsoid = "(x/0.08)^2 + (y/0.05)^2 + (z/0.03)^2 - 1";
 constexpr double kFieldSlack = 2e-12;  // 1e-11 of the cube's edge
+
+/// Through whichever piece comes first.
+std::optional<SurfaceEntry> first_entry(const ImplicitSurface& surface, const Vector3& start,
+                                        const Vector3& step, bool from_behind = false) {
+  std::optional<SurfaceEntry> first;
+  surface.near(start, start + step, kFieldSlack, 0.0, [&](std::uint32_t piece, const Bounds&) {
+    const auto entry = surface.entry(piece, start, step, from_behind, 0.0, kFieldSlack);
+    if (entry && (!first || entry->t < first->t)) first = entry;
+    return true;
+  });
+  return first;
+}
 
 // ---- Creation ----------------------------------------------------------------------------------------
 
@@ -192,7 +205,7 @@ TEST(ImplicitSurface, MissesNoThinSheet) {
       const double before = side(way.start), after = side(way.start + way.step);
       if ((before > 0.0) == (after > 0.0) || std::abs(before) < 6e-7 || std::abs(after) < 6e-7) continue;
       ++crossings;
-      const auto entry = sheet->entry(0, way.start, way.step, false, 0.0, kFieldSlack);
+      const auto entry = first_entry(*sheet, way.start, way.step);
       ASSERT_TRUE(entry.has_value());
       ASSERT_NEAR(std::abs(side(entry->place.point)), 5e-7, 1e-9);
       ASSERT_GT(side(entry->place.point) * before, 0.0);
@@ -251,14 +264,18 @@ TEST(ImplicitSurface, EntersAgainAfterMovingOut) {
 
 TEST(ImplicitSurface, EntersTheSolidWhereTheFormulaBeginsToHaveValues) {
   const Surface half = surface_of("sqrt(x) - 1");  // solid for x >= 0, nothing for x < 0
-  const auto entry = half->entry(0, {-0.05, 0, 0}, {0.1, 0, 0}, false, 0.0, kFieldSlack);
+  const auto entry = first_entry(*half, {-0.05, 0, 0}, {0.1, 0, 0});
   ASSERT_TRUE(entry.has_value());
   EXPECT_NEAR(entry->t, 0.5, 1e-9);
-  EXPECT_TRUE(entry->place.normal.allFinite());
+  EXPECT_EQ(entry->place.normal, Vector3(-1, 0, 0));
   const Surface pole = surface_of("-1/x");  // solid for x > 0, its surface a pole
-  const auto through = pole->entry(0, {-0.05, 0.01, 0}, {0.1, 0, 0}, false, 0.0, kFieldSlack);
+  const auto through = first_entry(*pole, {-0.05, 0.01, 0}, {0.1, 0, 0});
   ASSERT_TRUE(through.has_value());
   EXPECT_NEAR(through->t, 0.5, 1e-9);
+  EXPECT_EQ(through->place.normal, Vector3(-1, 0, 0));
+  const auto back = first_entry(*pole, {0.05, 0.01, 0}, {-0.1, 0, 0}, true);
+  ASSERT_TRUE(back.has_value());
+  EXPECT_NEAR(back->t, 0.5, 1e-9);
 }
 
 TEST(ImplicitSurface, AnswersEarlyWhenThereIsTooMuchToLookAt) {
@@ -406,23 +423,24 @@ TEST(ImplicitSurface, WalksOverTheSidesAsPlanes) {
   EXPECT_FALSE(waves->covers(foot, {}, 0.0, kFieldSlack));
 }
 
-TEST(ImplicitSurface, WalksAroundTheEdgesOfABoxMadeOfFormula) {
-  const Surface box = surface_of("max(abs(x), abs(y), abs(z)) - 0.05");
+TEST(ImplicitWalk, GoesAroundTheEdgesOfABox) {
+  const Formula box = *Formula::parse("max(abs(x), abs(y), abs(z)) - 0.05");
+  const ImplicitWalk walk(box, 0.0, 0.3);
   // On the top, dragged over the edge and down along the side.
-  const SurfacePlace down = box->foot({{0.03, 0.01, 0.05}, {}}, {0.045, 0.01, 0.02}, 0.0);
+  const auto down = walk.descend({0.03, 0.01, 0.05}, {0.045, 0.01, 0.02});
   EXPECT_NEAR(down.point.z(), 0.05, 1e-12);  // still above its goal on the top
   EXPECT_NEAR(down.point.x(), 0.045, 1e-12);
-  const SurfacePlace round = box->foot({{0.03, 0.01, 0.05}, {}}, {0.06, 0.01, 0.02}, 0.0);
+  const auto round = walk.descend({0.03, 0.01, 0.05}, {0.06, 0.01, 0.02});
   EXPECT_NEAR(round.point.x(), 0.05, 1e-12);
   EXPECT_NEAR(round.point.z(), 0.02, 1e-10);
   EXPECT_NEAR(round.point.y(), 0.01, 1e-10);
 }
 
-TEST(ImplicitSurface, RestsInTheGrooveBetweenTwoSpheres) {
-  const Surface pair =
-      surface_of("min((x - 0.03)^2 + y^2 + z^2 - 0.05^2, (x + 0.03)^2 + y^2 + z^2 - 0.05^2)");
+TEST(ImplicitWalk, RestsInTheGrooveBetweenTwoSpheres) {
+  const Formula pair =
+      *Formula::parse("min((x - 0.03)^2 + y^2 + z^2 - 0.05^2, (x + 0.03)^2 + y^2 + z^2 - 0.05^2)");
   // The groove is the circle x = 0, y^2 + z^2 = 0.04^2.
-  const SurfacePlace foot = pair->foot({{0.02, 0.0, 0.0489898}, {}}, {-0.001, 0.01, 0.01}, 0.0);
+  const auto foot = ImplicitWalk(pair, 0.0, 0.3).descend({0.02, 0.0, 0.0489898}, {-0.001, 0.01, 0.01});
   const Vector3 expected(0.0, 0.04 * std::sqrt(0.5), 0.04 * std::sqrt(0.5));
   EXPECT_LT((foot.point - expected).norm(), 1e-6) << foot.point.transpose();
 }
