@@ -1,5 +1,6 @@
 """icome touch on what is touched without a mesh: CSG trees, Loop surfaces, formulas."""
 import json
+import math
 import unittest
 
 from icome_program import ProgramTest, SHARED_MESHES
@@ -84,7 +85,20 @@ class LoopTest(ExactTest):
         self.assertGreater(report["touch_fraction"], 0.05)
 
 
+def above_valley(x, z):
+    """The nearest place to (x, z) with z >= x and z >= -2 x: of the two sides of the groove and its bottom."""
+    free = [p for p in ((x, z), ((x + z) / 2,) * 2, ((x - 2 * z) / 5, -2 * (x - 2 * z) / 5), (0.0, 0.0))
+            if p[1] >= max(p[0], -2 * p[0]) - 1e-12]
+    return min(free, key=lambda p: (p[0] - x) ** 2 + (p[1] - z) ** 2)
+
+
 class ImplicitTest(ExactTest):
+    VALLEY = ("--implicit", "z - max(x, -2*x)", "--bounds", "0.2,0.2,0.1")
+
+    def way(self, name, places):
+        return self.write(name, "t,x,y,z\n" + "".join(
+            f"{i / 1000},{x:.12f},{y:.12f},{z:.12f}\n" for i, (x, y, z) in enumerate(places)))
+
     def test_waves_are_touched_while_they_move(self):
         self.assert_sound(self.touched(*WAVES))
 
@@ -92,6 +106,32 @@ class ImplicitTest(ExactTest):
         path = self.write("still.csv", "t,x,y,z\n" + "".join(f"{i / 1000},0,0,-0.001\n" for i in range(1500)))
         heights = [row["scp_z"] for row in self.trace(*WAVES, "--path", path)]
         self.assertGreater(max(heights) - min(heights), 0.003)
+
+    def test_a_groove_holds_the_contact_on_both_sides(self):
+        places = [(0.012 * math.sin(0.02 * i), 0.00001 * i, 0.045 - min(0.055, 0.0005 * i)) for i in range(600)]
+        rows = self.trace(*self.VALLEY, "--path", self.way("groove.csv", places))
+        for (x, y, z), row in zip(places, rows):
+            expected = above_valley(x, z)
+            self.assertAlmostEqual(row["scp_x"], expected[0], delta=1e-9)
+            self.assertAlmostEqual(row["scp_y"], y, delta=1e-9)
+            self.assertAlmostEqual(row["scp_z"], expected[1], delta=1e-9)
+
+    def test_creases_and_poles_hold_under_the_exploring_hand(self):
+        for formula in ("z - max(x, -2*x)", "min(z - 0.01*sin(50*x), x)", "1/x", "z - abs(x)"):
+            with self.subTest(formula):
+                self.assert_sound(self.touched("--implicit", formula, "--bounds", "0.2,0.2,0.1"))
+
+    def test_a_crease_that_moves_takes_the_contact_along(self):
+        formula = "z - max(x - 0.01*sin(20*t), -2*(x - 0.01*sin(20*t)))"
+        places = [(0.01 * math.cos(0.013 * i), 0.0, 0.06 - min(0.065, 0.0005 * i)) for i in range(1500)]
+        rows = self.trace("--implicit", formula, "--bounds", "0.1", "--path", self.way("moving.csv", places))
+        off = []
+        for i, ((x, _, z), row) in enumerate(zip(places, rows)):
+            groove = 0.01 * math.sin(0.02 * i)
+            expected = above_valley(x - groove, z)
+            off.append(math.hypot(row["scp_x"] - groove - expected[0], row["scp_z"] - expected[1]))
+        self.assertLess(max(off), 0.0002)  # as far as the groove moves in a tick
+        self.assertLess(sorted(off)[-len(off) // 100], 1e-8)
 
     def test_bad_formulas_name_the_column(self):
         self.fails("touch", "--implicit", "x + * y", "--bounds", "0.1", code=1, saying="column")

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/implicit_surface.h"
+#include "geometry/plane_formulas.h"
 #include "haptics/csg_touch.h"
 
 namespace icome::haptics {
@@ -106,13 +107,78 @@ Field wave_field(double time = 0.0) {
           std::sqrt(1.0 + 0.36 * 0.36 + 0.21 * 0.21)};
 }
 
+// ---- Solids whose formulas choose or jump
+
+Field valley_field() {
+  return {"Valley", "z - max(x, -2*x)",
+          [](const Vector3& p) { return p.z() - std::max(p.x(), -2.0 * p.x()); }, std::sqrt(5.0)};
+}
+
+Field waves_and_wall_field() {
+  return {"WavesAndWall", "min(z - 0.01*sin(50*x), x)",
+          [](const Vector3& p) { return std::min(p.z() - 0.01 * std::sin(50.0 * p.x()), p.x()); },
+          std::sqrt(1.25)};
+}
+
+double ball_distance(const Vector3& p, double x) { return (p - Vector3(x, 0.0, 0.0)).norm() - 0.03; }
+
+Field joined_balls_field() {
+  return {"JoinedBalls", "min((x + 0.015)^2 + y^2 + z^2 - 0.03^2, (x - 0.015)^2 + y^2 + z^2 - 0.03^2)",
+          [](const Vector3& p) { return std::min(ball_distance(p, -0.015), ball_distance(p, 0.015)); }, 1.0};
+}
+
+Field lens_field() {
+  return {"Lens", "max((x + 0.015)^2 + y^2 + z^2 - 0.03^2, (x - 0.015)^2 + y^2 + z^2 - 0.03^2)",
+          [](const Vector3& p) { return std::max(ball_distance(p, -0.015), ball_distance(p, 0.015)); }, 1.0};
+}
+
+Field octahedron_field() {
+  return {"Octahedron", "abs(x) + abs(y) + abs(z) - 0.05",
+          [](const Vector3& p) { return p.cwiseAbs().sum() - 0.05; }, std::sqrt(3.0)};
+}
+
+Field cube_field() {
+  return {"Cube", "max(abs(x), max(abs(y), abs(z))) - 0.04",
+          [](const Vector3& p) { return p.cwiseAbs().maxCoeff() - 0.04; }, 1.0};
+}
+
+/// A cross of two bars: convex and concave edges, and corners of both.
+Field cross_field() {
+  return {
+      "Cross", "max(min(abs(x) - 0.015, abs(y) - 0.01), abs(z) - 0.02, abs(x) - 0.05, abs(y) - 0.05)",
+      [](const Vector3& p) {
+        const Vector3 q = p.cwiseAbs();
+        return std::max({std::min(q.x() - 0.015, q.y() - 0.01), q.z() - 0.02, q.x() - 0.05, q.y() - 0.05});
+      },
+      1.0};
+}
+
+/// A ridge that goes over into the plane without a crease.
+Field smooth_join_field() {
+  return {"SmoothJoin", "z - 20*max(x, 0)^2",
+          [](const Vector3& p) { return p.z() - 20.0 * std::pow(std::max(p.x(), 0.0), 2.0); },
+          std::sqrt(1.0 + 2.4 * 2.4)};
+}
+
+/// Solid for x < 0, by a pole, and for x > 0.01.
+Field pole_field() {
+  return {"Pole", "1/x - 100", [](const Vector3& p) { return 0.005 - std::abs(p.x() - 0.005); }, 1.0};
+}
+
+/// Solid between x = 0, where the formula begins to have values, and x = 0.01.
+Field begin_field() {
+  return {"Begin", "sqrt(x) - 0.1", [](const Vector3& p) { return std::abs(p.x() - 0.005) - 0.005; }, 1.0};
+}
+
 // ---- Random presses and slides
 
 class TouchedFields : public testing::TestWithParam<Field> {};
 
 INSTANTIATE_TEST_SUITE_P(Fields, TouchedFields,
                          testing::Values(ball_field(), ring_field(), gyroid_field(), blend_field(),
-                                         wave_field()),
+                                         wave_field(), valley_field(), waves_and_wall_field(),
+                                         joined_balls_field(), lens_field(), octahedron_field(), cube_field(),
+                                         cross_field(), smooth_join_field(), pole_field(), begin_field()),
                          [](const auto& it) { return it.param.name; });
 
 TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
@@ -151,6 +217,98 @@ TEST(ScpOnImplicit, IsTheNearestPlaceOfABallAndARing) {
     const Vector3 core = 0.035 * Vector3(tip.x(), tip.y(), 0.0).normalized();
     return Vector3(core + 0.015 * (tip - core).normalized());
   });
+}
+
+/// Planes n . p = c, above all of which is free.
+struct Corner {
+  std::vector<Vector3> normals;
+  std::vector<double> offsets;
+
+  bool allows(const Vector3& p) const {
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (normals[i].dot(p) < offsets[i] - 1e-12) return false;
+    }
+    return true;
+  }
+
+  /// The nearest free place: of those that one, two or three planes have, each by the normal equations.
+  Vector3 nearest(const Vector3& tip) const {
+    Vector3 best = tip;
+    double least = allows(tip) ? 0.0 : std::numeric_limits<double>::infinity();
+    const std::size_t sets = std::size_t{1} << normals.size();
+    for (std::size_t set = 1; set < sets; ++set) {
+      Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> rows(std::min(3, __builtin_popcountll(set)), 3);
+      if (__builtin_popcountll(set) > 3) continue;
+      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> lacks(rows.rows());
+      Eigen::Index row = 0;
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        if ((set >> i & 1) == 0) continue;
+        rows.row(row) = normals[i].transpose();
+        lacks[row++] = offsets[i] - normals[i].dot(tip);
+      }
+      const Vector3 place =
+          tip + rows.transpose() * (rows * rows.transpose()).fullPivLu().solve(lacks).eval();
+      if (!allows(place) || (place - tip).norm() >= least) continue;
+      best = place;
+      least = (place - tip).norm();
+    }
+    return best;
+  }
+};
+
+TEST(ScpOnImplicit, IsTheProjectionInsideAnyConcaveCorner) {
+  Random random(52);
+  std::size_t edges = 0;
+  for (int i = 0; i < repeats(100); ++i) {
+    Corner corner;
+    std::string text = "min(";
+    for (int k = 0; k < 2 + i % 4; ++k) {
+      const Vector3 normal = (random.direction() + 1.1 * Vector3::UnitZ()).normalized();
+      const double offset = geometry::short_number(random, 0.01);
+      corner.normals.push_back(normal);
+      corner.offsets.push_back(offset);
+      text +=
+          fmt::format("{}{}*x + {}*y + {}*z - {}", k ? ", " : "", normal.x(), normal.y(), normal.z(), offset);
+    }
+    Toucher toucher(HapticScene::compile({object(1, formula_shape(text + ")"))}));
+    Vector3 tip(0.0, 0.0, 0.05);
+    toucher.step(tip);
+    for (int tick = 0; tick < 60; ++tick) {
+      const Vector3 next = 0.03 * random.uniform(0.0, 1.0) * random.direction();
+      const ScpState& state = toucher.go(tip, next, 4);
+      tip = next;
+      const Vector3 expected = corner.nearest(tip);
+      if (expected.cwiseAbs().maxCoeff() > 0.055) break;  // by the box
+      ASSERT_TRUE(state.converged) << text;
+      ASSERT_LT((state.scp - expected).norm(), 1e-8) << text << " tip " << tip.transpose();
+      edges += (expected - tip).norm() > 1e-3;
+    }
+  }
+  EXPECT_GT(edges, 1000);
+}
+
+/// Two tellings of one solid are felt alike.
+void expect_felt_alike(const Field& field, std::shared_ptr<const Shape> other, std::uint64_t seed) {
+  Toucher one(HapticScene::compile({object(1, formula_shape(field.formula))}));
+  Toucher two(HapticScene::compile({object(1, std::move(other))}));
+  std::size_t touching = 0;
+  for (const Vector3& tip : random_touch(field, seed, 4000, kImplicitSize)) {
+    const ScpState& a = one.step(tip);
+    const ScpState& b = two.step(tip);
+    ASSERT_EQ(a.touching, b.touching) << tip.transpose();
+    ASSERT_LT((a.scp - b.scp).norm(), 1e-8) << tip.transpose();
+    touching += a.touching;
+  }
+  EXPECT_GT(touching, 200);
+}
+
+TEST(ScpOnImplicit, IsAsOnTheSameSolidMadeOfPrimitives) {
+  const auto left = moved(-0.015, 0.0, 0.0), right = moved(0.015, 0.0, 0.0);
+  const CsgTree joined = TreeChain(ball_shape(0.03), left).unite(ball_shape(0.03), right).tree();
+  const CsgTree lens = TreeChain(ball_shape(0.03), left).keep(ball_shape(0.03), right).tree();
+  expect_felt_alike(joined_balls_field(), shape_of(joined), 61);
+  expect_felt_alike(lens_field(), shape_of(lens), 62);
+  expect_felt_alike(cube_field(), shape_of(primitive("box:0.08x0.08x0.08")), 63);
 }
 
 TEST(ScpOnImplicit, IsNotStabbedThroughAThinWavyWall) {
