@@ -258,7 +258,7 @@ void ScpSolver::converge(const Vector3& tip) {
     } else if (!cut_) {  // a part of a way may lead off at first
       ++idle;
     }
-    if (contacts_.size() != held) continue;
+    if (met_ || contacts_.size() != held) continue;
     const bool fast = position_ == from && contacts_.any_smooth();  // between walls
     const bool there = whole && exact && held < 2;                  // with more there may be an escape
     if (fast || there) {
@@ -414,6 +414,7 @@ bool ScpSolver::advance(const Vector3& wanted) {
     reach_ *= 0.5;
     return false;
   }
+  met_ = hit.met;
   cut_ = !hit.met && step != wanted;
   const bool whole = !hit.met && !cut_ && (!smooth || contacts_.size() == held);
   contacts_.forget_if([&](const Element& contact) {

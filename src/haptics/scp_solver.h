@@ -78,6 +78,7 @@ class ScpSolver final : public ContactSolver {
   double elapsed_ = 0.0;  // s, of the last step
   bool started_ = false;
   bool cut_ = false;  // did the last step go only a part of the way wanted?
+  bool met_ = false;  // did it end at something new?
   bool sliding_ = false;
   bool left_solid_ = false;  // put on the surface since the last report
   // m, where the frame of all that follows lies in the world: moved when the SCP is so far from it that what
