@@ -35,6 +35,10 @@ DesignEyes::Eye make_eye(const world::Geometry& shape, const session::FeltShape&
     const auto tree = std::shared_ptr<const geometry::TriangleTree>(mesh_shape, &mesh_shape->tree());
     return {felt.mesh, tree};
   }
+  if (shape.kind() == "csg") {
+    if (auto solid = std::dynamic_pointer_cast<const haptics::SmoothShape>(felt.shape))
+      return {nullptr, nullptr, std::move(solid)};
+  }
   if (felt.primitive) {
     const Bounds box = geometry::bounds(*felt.primitive);
     const double size = box.sizes().allFinite() ? box.sizes().maxCoeff() : 1.0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geometry/triangle_tree.h"
+#include "haptics/smooth_shape.h"
 #include "session/felt_shape.h"
 #include "world/world.h"
 
@@ -14,9 +15,10 @@ namespace icome::apps {
 class DesignEyes {
  public:
   struct Eye {
-    std::shared_ptr<const geometry::TriangleMesh> mesh;  // never null; empty where the shape has no triangles
-    std::shared_ptr<const geometry::TriangleTree> tree;  // never null
-    std::string problem = {};                            // a sentence, where there are none
+    std::shared_ptr<const geometry::TriangleMesh> mesh;  // empty where the shape has no triangles
+    std::shared_ptr<const geometry::TriangleTree> tree;
+    std::shared_ptr<const haptics::SmoothShape> solid = nullptr;  // a CSG tree's, instead of these two
+    std::string problem = {};                                     // a sentence, where there are none
   };
 
   const Eye& eye(const world::Geometry& shape, const session::FeltShapePointer& felt);

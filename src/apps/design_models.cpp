@@ -64,6 +64,7 @@ class BodyMaker {
     const session::FeltShapePointer felt = felt_.felt(*felt_.object(object.id));
     const DesignEyes::Eye& eye = eyes_.eye(geometry, felt);
     TouchBody body{eye.mesh, eye.tree, object.shape, object.world_from_object};
+    body.solid = eye.solid;
     body.primitive = felt->primitive;
     if (geometry.kind() == "csg") body.csg = felt->solid;
     body.membership = felt->inside;

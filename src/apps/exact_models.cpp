@@ -69,31 +69,48 @@ base::Affine3 placement(const base::Bounds& bounds, const TouchOptions& options)
   return world_from_file;
 }
 
-base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree tree, const TouchOptions& options) {
-  if (geometry::bounds(tree).isEmpty())
-    return base::fail(model.name + ": the solid is empty: its parts do not meet.");
-  auto contoured =
-      geometry::contour(tree, contour_options(geometry::bounds(tree), geometry::count(tree).primitives));
-  if (!contoured) return base::fail(model.name + ": " + contoured.error().message);
-  if (contoured->mesh.triangles.empty()) return base::fail(model.name + ": the solid is empty.");
-  take_mesh(model, std::move(contoured->mesh));
+base::Result<geometry::ContourMesh> contoured(const geometry::CsgTree& tree, bool measures) {
+  auto options = contour_options(geometry::bounds(tree), geometry::count(tree).primitives);
+  options.measures = measures;
+  return geometry::contour(tree, options);
+}
+
+/// The sphere tip's mesh of a CSG tree.
+base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options) {
+  auto made = contoured(*model.body().csg, true);
+  if (!made) return base::fail(model.name + ": " + made.error().message);
   const Stopwatch watch;
-  model.body().membership = [tree](const base::Vector3& point, double) {
-    return geometry::inside(tree, point);
-  };
-  if (renderer_of(options) == haptics::Renderer::Thesis) {
+  take_mesh(model, std::move(made->mesh));
+  touch_mesh(model, options, fmt::format(", within {}", in_millimetres(made->error)));
+  model.build_seconds = watch.seconds();
+  return {};
+}
+
+base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const TouchOptions& options) {
+  const auto tree = std::make_shared<const geometry::CsgTree>(std::move(made));
+  model.body().csg = tree;
+  if (geometry::bounds(*tree).isEmpty())
+    return base::fail(model.name + ": the solid is empty: its parts do not meet.");
+  const Stopwatch watch;
+  const auto solid = std::make_shared<const geometry::CsgSolid>(*tree);
+  if (solid->proved_empty()) return base::fail(model.name + ": the solid is empty: its parts leave nothing.");
+  const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
+  if (thesis) {
     if (const auto point = no_sphere_tip(options); !point) return point;
-    auto shape = haptics::ThesisCsgShape::create(tree);
+  } else if (options.radius > 0.0) {
+    return touch_csg_mesh(model, options);
+  }
+  model.body().membership = [tree](const base::Vector3& point, double) {
+    return geometry::inside(*tree, point);
+  };
+  model.body().solid = std::make_shared<const haptics::SmoothShape>(solid);
+  model.body().shape = model.body().solid;
+  if (thesis) {
+    auto shape = haptics::ThesisCsgShape::create(*tree);
     if (!shape) return base::fail(model.name + ": " + shape.error().message);
     model.body().shape = *shape;
-  } else if (options.radius > 0.0) {
-    touch_mesh(model, options, fmt::format(", within {}", in_millimetres(contoured->error)));
-  } else {
-    model.body().shape =
-        std::make_shared<haptics::SmoothShape>(std::make_shared<const geometry::CsgSolid>(tree));
   }
   model.build_seconds = watch.seconds();
-  model.body().csg = std::make_shared<const geometry::CsgTree>(std::move(tree));
   return {};
 }
 
@@ -156,6 +173,12 @@ base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& o
   if (const auto made = finish_csg(model, std::move(loaded->tree), options); !made)
     return tl::unexpected(made.error());
   return model;
+}
+
+base::Result<geometry::TriangleMesh> picture_mesh(const geometry::CsgTree& tree) {
+  auto made = contoured(tree, false);
+  if (!made) return tl::unexpected(made.error());
+  return std::move(made->mesh);
 }
 
 base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& options) {

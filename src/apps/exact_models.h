@@ -5,14 +5,18 @@
 
 namespace icome::apps {
 
-// MODELs that are touched without meshing them. Each still gets a mesh, for the picture and for where the
-// simulated hand looks; and to feel with a sphere tip, where the model says so among its sentences.
+// MODELs that are touched without meshing them. Loop and implicit surfaces still get a mesh, for the picture
+// and for where the simulated hand looks; a CSG tree gets one only when a picture needs it. With a sphere tip
+// each is felt as a mesh; the model says so among its sentences.
 
 /// Does the MODEL name an OpenSCAD file?
 bool names_csg(const std::string& text);
 
 /// Reads a .csg file, always in its millimetres, turned and scaled as the options say.
 base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& options);
+
+/// A mesh of a CSG tree for the eye. Fails as geometry::contour does.
+base::Result<geometry::TriangleMesh> picture_mesh(const geometry::CsgTree& tree);
 
 /// A primitive as a CSG tree of one leaf, as the renderer of the thesis takes it.
 base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& options);

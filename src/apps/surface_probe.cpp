@@ -1,5 +1,6 @@
 #include "apps/surface_probe.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <optional>
@@ -15,6 +16,13 @@ using geometry::MeshHit;
 
 // How much of a surface must face one way for it to count as a sheet: 1 is flat, a half sphere has 0.5.
 constexpr double kSheet = 0.7;
+
+/// A place of a body's surface, in its own frame.
+struct BodyHit {
+  double parameter;  // of the way looked along, in [0, 1], or the distance, m
+  Vector3 point;     // m
+  Vector3 normal;    // unit, out of the solid or towards the front
+};
 
 // Twice the triangle's area as a vector along its normal.
 Vector3 area_vector(const geometry::TriangleMesh& mesh, std::size_t triangle) {
@@ -36,6 +44,58 @@ struct AreaSum {
     }
   }
 };
+
+double box_area(const base::Bounds& box) {
+  const Vector3 size = box.sizes();
+  return 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+}
+
+std::optional<BodyHit> of_triangle(const TouchBody& body, const std::optional<MeshHit>& hit) {
+  if (!hit) return std::nullopt;
+  return BodyHit{hit->parameter, hit->point, area_vector(*body.mesh, hit->triangle).normalized()};
+}
+
+std::optional<BodyHit> first_hit(const TouchBody& body, const Vector3& from, const Vector3& to) {
+  if (!body.solid) return of_triangle(body, body.tree->first_hit(from, to));
+  const auto hit = body.solid->cast(from, to - from, 0.0);
+  if (!hit) return std::nullopt;
+  return BodyHit{hit->t, hit->point, hit->normal};
+}
+
+/// From outside: the nearest place that lines of sight to all sides find, then straight ahead of that.
+std::optional<BodyHit> nearest_in_sight(const haptics::SmoothShape& solid, const Vector3& point,
+                                        double limit) {
+  const base::Bounds box = solid.bounds();
+  const double far = std::min(limit, box.exteriorDistance(point) + box.diagonal().norm());
+  std::optional<BodyHit> best;
+  const auto look = [&](const Vector3& direction) {
+    const double reach = best ? best->parameter : far;
+    const auto hit = solid.cast(point, reach * direction, 0.0);
+    if (hit && hit->t * reach < reach) best = BodyHit{hit->t * reach, hit->point, hit->normal};
+  };
+  if (const Vector3 way = box.center() - point; way.norm() > 0.0) look(way.normalized());
+  for (int i = 0; i < 27; ++i) {
+    if (i != 13) look(Vector3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1).normalized());
+  }
+  constexpr int kStraighter = 3;
+  for (int i = 0; i < kStraighter && best; ++i) look(-best->normal);
+  return best;
+}
+
+/// `parameter` of the result is the distance.
+std::optional<BodyHit> nearest_hit(const TouchBody& body, const Vector3& point, double limit) {
+  if (!body.solid) return of_triangle(body, body.tree->nearest(point, limit));
+  const auto out = body.solid->way_out(point, 0.0);
+  if (!out) return nearest_in_sight(*body.solid, point, limit);
+  return BodyHit{(out->point - point).norm(), out->point, out->normal};
+}
+
+ProbedPoint probed(const TouchBody& body, const BodyHit& hit, const Vector3& from) {
+  const Vector3 point = body.world_from_body * hit.point;
+  Vector3 normal = body.world_from_body.linear() * hit.normal;
+  if (!body.closed && normal.dot(from - point) < 0.0) normal = -normal;
+  return {point, normal};
+}
 
 }  // namespace
 
@@ -68,6 +128,10 @@ void SurfaceProbe::find_front() {
       front_ = body->world_from_body.linear() * Vector3::UnitZ();
       return;
     }
+    if (body->solid) {  // closed: it has no front, however large it is
+      sum.area += box_area(body->solid->bounds());
+      continue;
+    }
     const auto [found, fresh] = of_mesh.try_emplace(body->mesh.get());
     if (fresh) found->second = AreaSum(*body->mesh);
     sum.vector += body->world_from_body.linear() * found->second.vector;
@@ -76,20 +140,13 @@ void SurfaceProbe::find_front() {
   if (sum.vector.norm() > kSheet * sum.area) front_ = sum.vector.normalized();
 }
 
-ProbedPoint SurfaceProbe::probed(const TouchBody& body, const MeshHit& hit, const Vector3& from) const {
-  const Vector3 point = body.world_from_body * hit.point;
-  Vector3 normal = body.world_from_body.linear() * area_vector(*body.mesh, hit.triangle).normalized();
-  if (!body.closed && normal.dot(from - point) < 0.0) normal = -normal;
-  return {point, normal};
-}
-
 ProbedPoint SurfaceProbe::look(const Vector3& from, const Vector3& to, const Vector3& near) const {
   std::optional<ProbedPoint> best;
   double first = std::numeric_limits<double>::infinity();
   boxes_.near(geometry::SegmentQuery(from, to, 0.0), [&](std::uint32_t slot) {
     const TouchBody& body = *bodies_[slot];
     const base::Pose body_from_world = body.world_from_body.inverse();
-    const std::optional<MeshHit> hit = body.tree->first_hit(body_from_world * from, body_from_world * to);
+    const auto hit = first_hit(body, body_from_world * from, body_from_world * to);
     if (hit && hit->parameter < first) {
       first = hit->parameter;
       best = probed(body, *hit, from);
@@ -104,7 +161,7 @@ ProbedPoint SurfaceProbe::nearest(const Vector3& point, const Vector3& from) con
   double limit = std::numeric_limits<double>::infinity();
   boxes_.nearest(point, limit, [&](std::uint32_t slot) {
     const TouchBody& body = *bodies_[slot];
-    const std::optional<MeshHit> hit = body.tree->nearest(body.world_from_body.inverse() * point, limit);
+    const auto hit = nearest_hit(body, body.world_from_body.inverse() * point, limit);
     if (hit && hit->parameter < limit) {
       limit = hit->parameter;
       best = probed(body, *hit, from);

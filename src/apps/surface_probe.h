@@ -32,7 +32,6 @@ class SurfaceProbe {
 
  private:
   void find_front();
-  ProbedPoint probed(const TouchBody& body, const geometry::MeshHit& hit, const base::Vector3& from) const;
 
   std::vector<const TouchBody*> bodies_;  // in spatial order
   geometry::BoxTree boxes_;               // around them

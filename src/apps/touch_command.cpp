@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/design_models.h"
+#include "apps/exact_models.h"
 #include "apps/exploration.h"
 #include "apps/interrupt.h"
 #include "apps/status_line.h"
@@ -78,7 +79,7 @@ haptics::JudgedObject judged(const TouchBody& body, const haptics::Surface& surf
   if (body.primitive) {
     object.surface = *body.primitive;
   } else if (body.membership) {
-    object.surface = haptics::MembershipSolid{body.membership, body.tree->bounds()};
+    object.surface = haptics::MembershipSolid{body.membership, own_bounds(body)};
   } else {
     object.surface = body.mesh;
   }
@@ -144,7 +145,7 @@ void add_to(render::TouchPicture& picture, const TouchBody& body, const std::str
   if (body.csg) {
     render::TouchSolid solid{.tree = *body.csg, .name = name, .world_from_tree = body.world_from_body};
     if (body.colour) solid.colour = *body.colour;
-    solid.mesh = [&body] { return base::Result<geometry::TriangleMesh>(*body.mesh); };
+    solid.mesh = [&body] { return body.mesh ? *body.mesh : picture_mesh(*body.csg); };
     picture.solids.push_back(std::move(solid));
     return;
   }

@@ -145,8 +145,12 @@ base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
   return models;
 }
 
+base::Bounds own_bounds(const TouchBody& body) {
+  return body.solid ? body.solid->bounds() : body.tree->bounds();
+}
+
 base::Bounds bounds(const TouchBody& body) {
-  const base::Bounds own = body.tree->bounds();
+  const base::Bounds own = own_bounds(body);
   if (own.isEmpty() || body.world_from_body.matrix().isIdentity(0.0)) return own;
   return own.transformed(body.world_from_body);
 }

@@ -13,18 +13,22 @@
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/smooth_shape.h"
 #include "render/colour.h"
 
 namespace icome::apps {
 
 /// A body that is touched: a MODEL is one, or a design of many. What bodies share, clones share.
 struct TouchBody {
-  std::shared_ptr<const geometry::TriangleMesh> mesh;  // never null; for the eye, where `exact`
-  std::shared_ptr<const geometry::TriangleTree> tree;  // never null; over `mesh`
+  std::shared_ptr<const geometry::TriangleMesh>
+      mesh;  // for the eye, where `exact`; null where `solid` is set
+  std::shared_ptr<const geometry::TriangleTree> tree;  // over `mesh`; null where that is
   std::shared_ptr<const haptics::Shape> shape;         // never null
   base::Pose world_from_body = base::Pose::Identity();
   std::optional<geometry::Primitive> primitive = {};       // what a primitive is
   std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
+  /// Of a CSG tree without a mesh: tells where its surface is. Else null.
+  std::shared_ptr<const haptics::SmoothShape> solid = nullptr;
   /// Is the point inside at that time (s)? Of solids that are touched without a mesh; else empty.
   std::function<bool(const base::Vector3& point, double time)> membership = {};
   bool exact = false;  // touched as what it is, without a mesh; primitives are, too
@@ -62,7 +66,8 @@ base::Result<TouchModel> load_model(const std::string& text, const TouchOptions&
 base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
                                                   const std::function<void(const std::string&)>& say);
 
-/// Around what the eye sees of it, world frame.
+/// Around what the eye sees of it, in its own frame or the world's.
+base::Bounds own_bounds(const TouchBody& body);
 base::Bounds bounds(const TouchBody& body);
 base::Bounds bounds(const TouchModel& model);
 

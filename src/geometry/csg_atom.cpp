@@ -11,14 +11,15 @@ namespace {
 
 using Kind = CsgAtom::Kind;
 
-constexpr double kSimilar = 1e-12;      // how far a transform may be from keeping angles, relatively
-constexpr double kMaxTurn = 0.3;        // rad, of one walk
-constexpr int kMaxWalk = 24;            // steps
-constexpr double kClose = 0.1;          // of the tightest bend: so near the surface a goal has one foot
-constexpr double kArrived = 1e-15;      // a step this small, relative to the place's coordinates, is none
-constexpr double kAlmost = 1e-6;        // of the longest step: the last of a walk that is slow to end
-constexpr double kApex = 1e-7;          // of the way to the goal: so near a cone's apex is at it
-constexpr double kCustomStride = 0.02;  // of a custom primitive's size
+constexpr double kSimilar = 1e-12;       // how far a transform may be from keeping angles, relatively
+constexpr double kMaxTurn = 0.3;         // rad, of one walk
+constexpr int kMaxWalk = 24;             // steps
+constexpr double kClose = 0.1;           // of the tightest bend: so near the surface a goal has one foot
+constexpr double kArrived = 1e-15;       // a step this small, relative to the place's coordinates, is none
+constexpr double kAlmost = 1e-6;         // of the longest step: the last of a walk that is slow to end
+constexpr double kApex = 1e-7;           // of the way to the goal: so near a cone's apex is at it
+constexpr double kSideRounding = 1e-12;  // of coordinates: what distances are sure to
+constexpr double kCustomStride = 0.02;   // of a custom primitive's size
 
 /// The part of a vector across z.
 Vector3 across(const Vector3& v) { return {v.x(), v.y(), 0.0}; }
@@ -333,6 +334,20 @@ double signed_distance(const CsgAtom& atom, const Vector3& point) {
       within ? atom.custom->scp_from_inside(point) : atom.custom->scp_from_outside(point);
   const double distance = (near.point - point).norm();
   return within ? -distance : distance;
+}
+
+std::optional<bool> side_of(const CsgAtom& atom, const Bounds& box) {
+  const Vector3 centre = atom.atom_from_tree * box.center();
+  const Vector3 half = atom.atom_from_tree.linear().cwiseAbs() * (0.5 * box.sizes());
+  const double rounding = kSideRounding * centre.cwiseAbs().maxCoeff();
+  if (atom.kind == Kind::Mesh) {
+    if (atom.mesh->tree.nearest(centre, half.norm() + rounding)) return std::nullopt;
+    return atom.mesh->tree.encloses(centre);
+  }
+  const double reach = (atom.kind == Kind::Plane ? half.z() : half.norm()) + rounding;
+  const double distance = signed_distance(atom, centre);
+  if (std::abs(distance) <= reach) return std::nullopt;
+  return distance < 0.0;
 }
 
 SurfacePoint retract(const CsgAtom& atom, const Vector3& point) {

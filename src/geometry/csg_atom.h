@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geometry/csg_leaf.h"
@@ -43,6 +44,10 @@ std::vector<CsgAtom> atoms(const CsgLeaf& leaf);
 
 /// Signed distance to the surface (for a cone, beyond its apex, to the extended side); negative within.
 double signed_distance(const CsgAtom& atom, const Vector3& point);
+
+/// Is all of the box (tree's frame) behind the atom, or all in front of it? Nothing where neither is certain.
+/// For meshes, too.
+std::optional<bool> side_of(const CsgAtom& atom, const Bounds& box);
 
 /// Where the distance is zero, straight along its gradient from `point`.
 SurfacePoint retract(const CsgAtom& atom, const Vector3& point);

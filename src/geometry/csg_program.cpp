@@ -41,6 +41,8 @@ std::optional<Placed> mesh_height(const CsgAtom& atom, const Vector3& in_atom, d
   return Placed{(atom.tree_from_atom.linear() * (in_atom - hit->point)).norm(), tree_normal(atom, normal)};
 }
 
+}  // namespace
+
 bool behind(const CsgAtom& atom, const Vector3& point) {
   const Vector3 in_atom = atom.atom_from_tree * point;
   if (atom.kind == Kind::Mesh)
@@ -48,8 +50,6 @@ bool behind(const CsgAtom& atom, const Vector3& point) {
   if (atom.kind == Kind::Custom) return atom.custom->inside(in_atom);
   return signed_distance(atom, in_atom) <= 0.0;
 }
-
-}  // namespace
 
 /// What on_surface() looks with.
 struct CsgProgram::SidesView {

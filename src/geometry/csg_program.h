@@ -9,6 +9,9 @@
 
 namespace icome::geometry {
 
+/// Is the point (tree's frame) behind the atom, whatever its kind? Real-time safe.
+bool behind(const CsgAtom& atom, const Vector3& point);
+
 /// A CSG tree compiled to a program of tests and forward jumps: "is the point in this box?", "is it
 /// behind this atom?". Deep trees need no stack, and what is far costs one test of a box: operands of a
 /// union are grouped in space, so a point looks at what is near, not at the whole tree.
@@ -23,6 +26,23 @@ class CsgProgram {
 
   /// Is the point in the solid? Real-time safe.
   bool inside(const Vector3& point) const;
+
+  /// Is there solid in the box, if `behind(atom)` tells for each atom on which side of it the box is? What is
+  /// told about atoms whose relevant() box the box does not meet makes no difference.
+  template <typename Behind>
+  bool inside_where(const Bounds& box, Behind&& behind) const {
+    std::uint32_t at = start_;
+    while (at < kFalse) {
+      const Instruction& test = code_[at];
+      const bool yes =
+          (test.test & kBox) != 0 ? boxes_[test.test & ~kBox].intersects(box) : behind(test.test);
+      at = yes ? test.on_true : test.on_false;
+    }
+    return at == kTrue;
+  }
+
+  /// The number of tests that finding out about a point can take.
+  std::size_t size() const { return code_.size(); }
 
   /// Does the solid's surface run along `atom` at a place of it? Decided by looking from both sides, with
   /// all else as it is there: solid behind and free in front. What else lies within `slack` (m) and across

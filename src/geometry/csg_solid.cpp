@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/box_tree.h"
+#include "geometry/csg_emptiness.h"
 #include "geometry/csg_program.h"
 #include "geometry/hilbert.h"
 
@@ -334,6 +335,8 @@ std::optional<SurfacePoint> CsgSolid::crossing(const Vector3& a, const Vector3& 
   if (!first) return std::nullopt;
   return SurfacePoint{first->place.point, first->place.normal};
 }
+
+bool CsgSolid::proved_empty() const { return geometry::proved_empty(compiled_->program); }
 
 std::size_t CsgSolid::bytes() const {
   return sizeof(*this) + compiled_->program.bytes() + compiled_->tree.bytes() +

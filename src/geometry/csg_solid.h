@@ -23,6 +23,9 @@ class CsgSolid final : public SmoothSurface {
   bool covers(const SurfacePlace& place, const Vector3& above, double time, double slack) const override;
   std::size_t bytes() const override;
 
+  /// See csg_emptiness.h.
+  bool proved_empty() const;
+
   /// Where the segment from `a` to `b` first crosses the surface, either way, for meshing and pictures;
   /// nothing when it does not. Real-time safe.
   std::optional<SurfacePoint> crossing(const Vector3& a, const Vector3& b) const;

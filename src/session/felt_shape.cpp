@@ -137,8 +137,10 @@ class FeltShapeMaker {
   }
 
   static Felt of_tree(geometry::CsgTree tree) {
+    const auto solid = std::make_shared<const geometry::CsgSolid>(tree);
+    if (solid->proved_empty()) return untouchable("is empty: there is nothing to touch");
     auto felt = std::make_shared<FeltShape>();
-    felt->shape = std::make_shared<haptics::SmoothShape>(std::make_shared<const geometry::CsgSolid>(tree));
+    felt->shape = std::make_shared<haptics::SmoothShape>(solid);
     felt->solid = std::make_shared<const geometry::CsgTree>(std::move(tree));
     felt->inside = [solid = felt->solid](const Vector3& point, double) {
       return geometry::inside(*solid, point);
