@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "files/csg_reader.h"
 #include "files/stl_writer.h"
+#include "geometry/csg_emptiness.h"
 #include "geometry/csg_mesh.h"
 #include "geometry/csg_program.h"
 
@@ -103,7 +104,8 @@ base::Result<void> judge_points(CsgWork& work, StatusLine& status) {
 
 base::Result<void> make_mesh(CsgWork& work, const CsgOptions& options, StatusLine& status) {
   const geometry::Bounds& box = work.figures.bounds;
-  if (box.isEmpty()) return base::fail(work.figures.file + ": the solid is empty: there is nothing to mesh.");
+  if (box.isEmpty() || geometry::proved_empty(geometry::CsgProgram(work.tree)))
+    return base::fail(work.figures.file + ": the solid is empty: there is nothing to mesh.");
   geometry::ContourOptions how;
   how.cell = options.cell_mm ? *options.cell_mm * kMillimetre : box.sizes().maxCoeff() / kCellsAlong;
   how.progress = [&](double part) {

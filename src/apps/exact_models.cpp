@@ -10,6 +10,7 @@
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
 #include "files/csg_reader.h"
+#include "geometry/csg_emptiness.h"
 #include "geometry/csg_mesh.h"
 #include "geometry/csg_solid.h"
 #include "geometry/implicit_surface.h"
@@ -93,7 +94,8 @@ base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const T
     return base::fail(model.name + ": the solid is empty: its parts do not meet.");
   const Stopwatch watch;
   const auto solid = std::make_shared<const geometry::CsgSolid>(*tree);
-  if (solid->proved_empty()) return base::fail(model.name + ": the solid is empty: its parts leave nothing.");
+  if (geometry::proved_empty(solid->program()))
+    return base::fail(model.name + ": the solid is empty: its parts leave nothing.");
   const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
   if (thesis) {
     if (const auto point = no_sphere_tip(options); !point) return point;

@@ -118,24 +118,6 @@ Vector3 bend(const CsgAtom& atom, const Vector3& point, const Vector3& along) {
   }
 }
 
-/// The radius (m) of the tightest bend near a place: walks take steps small against it.
-double tightest(const CsgAtom& atom, const Vector3& point) {
-  switch (atom.kind) {
-    case Kind::Sphere:
-    case Kind::Capsule:
-      return atom.a;
-    case Kind::Cylinder:
-    case Kind::ConeSide:
-      return across(point).norm() * std::hypot(1.0, atom.kind == Kind::ConeSide ? atom.b : 0.0);
-    case Kind::Torus:
-      return std::min(atom.b, across(point).norm());
-    case Kind::Custom:
-      return kCustomStride / kMaxTurn * atom.custom->bounds().sizes().maxCoeff();
-    default:
-      return std::numeric_limits<double>::infinity();
-  }
-}
-
 /// The two unit vectors that span the tangent plane.
 struct Tangents {
   explicit Tangents(const Vector3& normal) : u(normal.unitOrthogonal()), v(normal.cross(u)) {}
@@ -336,6 +318,23 @@ double signed_distance(const CsgAtom& atom, const Vector3& point) {
   return within ? -distance : distance;
 }
 
+double tightest_bend(const CsgAtom& atom, const Vector3& point) {
+  switch (atom.kind) {
+    case Kind::Sphere:
+    case Kind::Capsule:
+      return atom.a;
+    case Kind::Cylinder:
+    case Kind::ConeSide:
+      return across(point).norm() * std::hypot(1.0, atom.kind == Kind::ConeSide ? atom.b : 0.0);
+    case Kind::Torus:
+      return std::min(atom.b, across(point).norm());
+    case Kind::Custom:
+      return kCustomStride / kMaxTurn * atom.custom->bounds().sizes().maxCoeff();
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
 std::optional<bool> side_of(const CsgAtom& atom, const Bounds& box) {
   const Vector3 centre = atom.atom_from_tree * box.center();
   const Vector3 half = atom.atom_from_tree.linear().cwiseAbs() * (0.5 * box.sizes());
@@ -396,7 +395,7 @@ WalkEnd walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal) {
                          height <= kApex * (goal - apex(atom)).norm();
     if (at_apex || (atom.similar && beyond_apex(atom, goal))) return {retract(atom, goal), true};
   }
-  const double radius = tightest(atom, start.point);
+  const double radius = tightest_bend(atom, start.point);
   // All round the top of a torus normals are alike.
   const auto within = [&](const SurfacePoint& place, double turn) {
     return place.normal.dot(start.normal) >= std::cos(turn) &&
@@ -413,7 +412,7 @@ WalkEnd walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal) {
   for (int i = 0; i < kMaxWalk && !reached; ++i) {
     Vector3 step = downhill(atom, at, goal);
     const double length = step.norm();
-    const double longest = 0.5 * kMaxTurn * tightest(atom, at.point);
+    const double longest = 0.5 * kMaxTurn * tightest_bend(atom, at.point);
     if (length > longest) step *= longest / length;
     at = retract(atom, at.point + step);
     if (atom.kind == Kind::ConeSide && at.point == apex(atom)) return {retract(atom, goal), true};

@@ -52,6 +52,9 @@ std::optional<bool> side_of(const CsgAtom& atom, const Bounds& box);
 /// Where the distance is zero, straight along its gradient from `point`.
 SurfacePoint retract(const CsgAtom& atom, const Vector3& point);
 
+/// The radius (m, the atom's frame) of the tightest bend near a place of the surface; infinite for a plane.
+double tightest_bend(const CsgAtom& atom, const Vector3& place);
+
 /// Where start + t step changes sides, t in [0, 1]: rising t. Not for Custom.
 RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& step);
 

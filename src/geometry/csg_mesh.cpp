@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
+#include "geometry/contour_error.h"
+#include "geometry/csg_cut.h"
 #include "geometry/csg_solid.h"
 #include "geometry/hilbert.h"
 
@@ -13,6 +15,9 @@ namespace {
 
 /// A transform stretches evenly when its squared stretches differ by less than this part.
 constexpr double kEven = 1e-9;
+/// Walls below this many cells may slip between the points of a grid.
+constexpr double kThinCells = 2.0;
+constexpr double kCutPart = 0.8;  // of the whole work, without measuring
 /// Distances from a primitive are trusted to this part of the coordinates.
 constexpr double kDistanceRounding = 1e-9;
 
@@ -93,6 +98,20 @@ class CsgLeafSurfaces {
   BoxTree boxes_;
 };
 
+base::Result<ContourMesh> cut_out(const CsgTree& tree, const SampledSolid& solid,
+                                  const ContourOptions& options) {
+  const ContourProgress go_on = [&](double part) { return !options.progress || options.progress(part); };
+  auto mesh = cut_csg(tree, options.cell, options.max_triangles, contour_share(go_on, 0.0, kCutPart));
+  if (!mesh) return tl::unexpected(mesh.error());
+  ContourMesh result{std::move(*mesh)};
+  if (!options.measures) return result;
+  const auto error =
+      measure_contour_error(solid, options.cell, result.mesh, contour_share(go_on, kCutPart, 1.0 - kCutPart));
+  if (!error) return base::fail("the meshing was interrupted");
+  result.error = *error;
+  return result;
+}
+
 }  // namespace
 
 base::Result<ContourMesh> contour(const CsgTree& tree, const ContourOptions& options) {
@@ -105,6 +124,10 @@ base::Result<ContourMesh> contour(const CsgTree& tree, const ContourOptions& opt
     const double nowhere = std::numeric_limits<double>::quiet_NaN();  // then it is found by halving
     return compiled.crossing(a, b).value_or(SurfacePoint{Vector3::Constant(nowhere), b - a});
   };
+  const CsgProgram& program = compiled.program();
+  const bool limited = !solid.bounds.isEmpty() && solid.bounds.sizes().allFinite();
+  if (limited && options.cell > 0.0 && csg_can_cut(program) && is_thin(program, kThinCells * options.cell))
+    return cut_out(tree, solid, options);
   const CsgLeafSurfaces surfaces(tree, solid.bounds);
   solid.may_cross = [&](const Bounds& box) { return surfaces.may_cross(box); };
   return contour(solid, options);

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "geometry/box_tree.h"
-#include "geometry/csg_emptiness.h"
 #include "geometry/csg_program.h"
 #include "geometry/hilbert.h"
 
@@ -336,7 +335,7 @@ std::optional<SurfacePoint> CsgSolid::crossing(const Vector3& a, const Vector3& 
   return SurfacePoint{first->place.point, first->place.normal};
 }
 
-bool CsgSolid::proved_empty() const { return geometry::proved_empty(compiled_->program); }
+const CsgProgram& CsgSolid::program() const { return compiled_->program; }
 
 std::size_t CsgSolid::bytes() const {
   return sizeof(*this) + compiled_->program.bytes() + compiled_->tree.bytes() +

@@ -6,6 +6,8 @@
 
 namespace icome::geometry {
 
+class CsgProgram;
+
 /// A CSG tree compiled for touch: its surface as the exact, trimmed faces of its primitives. Made once
 /// from a tree; immutable.
 class CsgSolid final : public SmoothSurface {
@@ -23,8 +25,7 @@ class CsgSolid final : public SmoothSurface {
   bool covers(const SurfacePlace& place, const Vector3& above, double time, double slack) const override;
   std::size_t bytes() const override;
 
-  /// See csg_emptiness.h.
-  bool proved_empty() const;
+  const CsgProgram& program() const;
 
   /// Where the segment from `a` to `b` first crosses the surface, either way, for meshing and pictures;
   /// nothing when it does not. Real-time safe.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/decompositions.h"
+#include "geometry/csg_emptiness.h"
 #include "geometry/csg_solid.h"
 #include "geometry/mesh_repair.h"
 #include "haptics/mesh_shape.h"
@@ -138,7 +139,7 @@ class FeltShapeMaker {
 
   static Felt of_tree(geometry::CsgTree tree) {
     const auto solid = std::make_shared<const geometry::CsgSolid>(tree);
-    if (solid->proved_empty()) return untouchable("is empty: there is nothing to touch");
+    if (geometry::proved_empty(solid->program())) return untouchable("is empty: there is nothing to touch");
     auto felt = std::make_shared<FeltShape>();
     felt->shape = std::make_shared<haptics::SmoothShape>(solid);
     felt->solid = std::make_shared<const geometry::CsgTree>(std::move(tree));

@@ -113,7 +113,9 @@ class ErrorTest(CsgTest):
         self.fails("csg", self.csg("hull();"), "--mesh", old, code=1, saying="hull")
         apart = self.csg("intersection() { cube(1); multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }")
         self.fails("csg", apart, "--mesh", old, code=1, saying="the solid is empty")
-        self.fails("csg", self.csg(PIERCED), "--mesh", old, "--cell", "100", code=1, saying="--cell")
+        mesh = self.csg("polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"
+                        " faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], convexity = 1);")
+        self.fails("csg", mesh, "--mesh", old, "--cell", "100", code=1, saying="--cell")
         self.fails("csg", self.csg(PIERCED), "--mesh", self.folder / "no" / "m.stl", code=1, saying="m.stl")
         self.assertEqual(old.read_text(), "of another day\n")
         self.assertEqual(sorted(os.listdir(self.folder)), ["old.stl", "solid.csg"])

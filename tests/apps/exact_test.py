@@ -61,6 +61,54 @@ class CsgTest(ExactTest):
                                        "[0,0,0,1]]) { cube(1); } }")
         self.fails("touch", file, code=1, saying="the solid is empty")
 
+    def test_what_leaves_nothing_is_empty(self):
+        ball = "sphere(r = 5);"
+        file = self.write("taken.csg", f"difference() {{ intersection() {{ {ball} cube([8, 8, 8]); }} {ball} }}")
+        self.fails("touch", file, code=1, saying="the solid is empty")
+        self.fails("csg", file, "--mesh", self.folder / "taken.stl", code=1, saying="the solid is empty")
+        design = self.folder / "taken.wrl"
+        self.succeeds("convert", file, design)
+        self.fails("touch", design, code=1, saying="is empty: there is nothing to touch")
+
+    def test_thin_solids_are_solids(self):
+        thin = {"plate": "cube(size = [200, 200, 0.2], center = true);",
+                "rod": "cylinder(h = 100, r1 = 0.05, r2 = 0.05, center = true);",
+                "tube": "difference() { cylinder(h = 100, r1 = 0.4, r2 = 0.4, center = true);"
+                        " cylinder(h = 120, r1 = 0.3, r2 = 0.3, center = true); }"}
+        path = self.path_file([(0.00035, 0, 0.06 - 0.0002 * i) for i in range(300)])
+        for name, text in thin.items():
+            file = self.write(f"{name}.csg", text)
+            self.assertEqual(self.touched(file)["pops"], 0, name)
+            design = self.folder / f"{name}.wrl"
+            self.succeeds("convert", file, design)
+            self.assertGreater(self.touched(design)["touch_fraction"], 0.05, name)
+            mesh = self.folder / f"{name}.stl"
+            self.succeeds("convert", file, mesh)
+            self.assertGreater(self.touched(mesh)["triangles"], 10, name)
+        # Down the wall of the tube, 0.1 mm thick: the tip rests on its upper end.
+        row = self.trace(self.folder / "tube.csg", "--path", path)[-1]
+        self.assertEqual(row["touching"], 1)
+        self.assertAlmostEqual(row["scp_z"], 0.05, delta=1e-9)
+
+    def test_thousands_of_nested_operations_start_at_once(self):
+        def ball(i, radius):
+            return (f"multmatrix([[1,0,0,{i * 37 % 181 - 90}],[0,1,0,{i * 53 % 179 - 89}],[0,0,1,{i * 71 % 173 - 86}],"
+                    f"[0,0,0,1]]) {{ sphere(r = {radius}); }}")
+        trees = {}
+        for operation in ("difference", "union"):
+            text = "cube(size = [200, 200, 200], center = true);"
+            for i in range(3000):
+                text = f"{operation}() {{ {text} {ball(i, 2)} }}"
+            trees[operation] = text
+        shells = "sphere(r = 1);"
+        for i in range(3000):
+            shells = f"difference() {{ sphere(r = {1 + 0.03 * (i + 1)}); {shells} }}"
+        trees["shells"] = shells
+        path = self.path_file([(0, 0, 0.2 - 0.001 * i) for i in range(10)])
+        for name, text in trees.items():
+            file = self.write(f"{name}.csg", text)
+            self.assertEqual(self.report(file, "--path", path)["triangles"], 0, name)
+
     def test_shared_files_are_touched(self):
         if not SHARED_CSG.is_dir():
             self.skipTest(f"the shared .csg files are not at {SHARED_CSG}")

@@ -1,0 +1,342 @@
+#include "geometry/csg_cut.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/decompositions.h"
+#include "geometry/csg_part.h"
+#include "geometry/csg_tets.h"
+#include "geometry/mesh_sheets.h"
+
+namespace icome::geometry {
+namespace {
+
+using Corners4 = std::array<std::uint32_t, 4>;
+using Triangle = TriangleMesh::Triangle;
+
+constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
+constexpr double kOnSurface = 1e-10;  // of the coordinates: so near, a point is on a surface
+constexpr double kRootExact = 1e-4;   // of that: so near, a cut is as exact as can be
+constexpr int kRootSteps = 80;
+constexpr std::size_t kTetsATriangle = 4;  // more tetrahedra than this for each triangle allowed are too many
+constexpr std::size_t kTellEachCut = 1024;  // tetrahedra between two looks at `go_on`
+constexpr std::array<std::array<int, 2>, 6> kPieceEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+/// Of a tetrahedron of positive volume, facing out.
+constexpr std::array<std::array<int, 3>, 4> kPieceFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+
+/// A point at which pieces have a corner: one of the tetrahedra's, or where an atom cuts an edge.
+struct CutPoint {
+  Vector3 place;
+  std::uint32_t atom = CsgTets::kNoAtom;                  // on whose surface it was put
+  std::array<std::uint32_t, 2> ends{kNoPoint, kNoPoint};  // of the edge that was cut
+  /// The corners of the smallest side of a tetrahedron that holds it, rising: all that its cuts depend on.
+  Corners4 carrier{kNoPoint, kNoPoint, kNoPoint, kNoPoint};
+};
+
+/// The side of a piece, with what is behind it.
+struct PieceFace {
+  Triangle key;     // its points, rising
+  Triangle facing;  // facing out of the piece
+  bool solid;
+};
+
+bool operator<(const PieceFace& a, const PieceFace& b) { return a.key < b.key; }
+
+std::uint64_t edge_of(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+class CsgCutter {
+ public:
+  CsgCutter(const CsgProgram& program, CsgTets tets)
+      : program_(program), tets_(std::move(tets.tets)), on_(kOnSurface * largest_coordinate(program)) {
+    find_likes();
+    for (std::uint32_t i = 0; i < tets.points.size(); ++i) {
+      CutPoint point{.place = tets.points[i], .carrier = {i, kNoPoint, kNoPoint, kNoPoint}};
+      if (tets.moved_to[i] != CsgTets::kNoAtom) point.atom = like_[tets.moved_to[i]].atom;
+      points_.push_back(point);
+    }
+    open_at_.resize(points_.size());
+    for (CsgTets::Tet& tet : tets_) {
+      tet.atoms = surfaces(tet.atoms);
+      for (const std::uint32_t corner : tet.corners)
+        open_at_[corner].insert(open_at_[corner].end(), tet.atoms.begin(), tet.atoms.end());
+    }
+    for (auto& atoms : open_at_) make_set(atoms);
+  }
+
+  base::Result<TriangleMesh> mesh(std::size_t max_triangles, const ContourProgress& go_on) {
+    for (std::size_t i = 0; i < tets_.size(); ++i) {
+      if (i % kTellEachCut == 0 && !go_on(double(i) / double(tets_.size())))
+        return base::fail("the meshing was interrupted");
+      cut(tets_[i]);
+      if (triangles_.size() > max_triangles)
+        return base::fail(fmt::format("the mesh would have more than {} triangles", max_triangles));
+    }
+    pair_up(between_, nullptr);
+    TriangleMesh result;
+    for (const CutPoint& point : points_) result.positions.push_back(point.place);
+    result.triangles = std::move(triangles_);
+    return separate_sheets(result);
+  }
+
+ private:
+  /// Atoms whose surfaces lie in one another are cut along as one: the first of them.
+  struct Like {
+    std::uint32_t atom;
+    bool opposite;
+  };
+
+  void find_likes() {
+    const auto& atoms = program_.atoms();
+    const double length = largest_coordinate(program_);
+    std::vector<std::uint32_t> firsts;
+    for (std::uint32_t i = 0; i < atoms.size(); ++i) {
+      Like like{i, false};
+      for (const std::uint32_t first : firsts) {
+        const AtomLikeness likeness = geometry::likeness(atoms[first], atoms[i], length);
+        if (likeness == AtomLikeness::None) continue;
+        like = {first, likeness == AtomLikeness::Opposite};
+        break;
+      }
+      if (like.atom == i) firsts.push_back(i);
+      like_.push_back(like);
+    }
+  }
+
+  static void make_set(std::vector<std::uint32_t>& atoms) {
+    std::sort(atoms.begin(), atoms.end());
+    atoms.erase(std::unique(atoms.begin(), atoms.end()), atoms.end());
+  }
+
+  std::vector<std::uint32_t> surfaces(std::vector<std::uint32_t> atoms) const {
+    for (std::uint32_t& atom : atoms) atom = like_[atom].atom;
+    make_set(atoms);
+    return atoms;
+  }
+
+  /// -1 behind the atom, 1 in front of it, 0 on it. Cuts are flat: along an edge that was cut later, a point
+  /// is on the side on which the edge is.
+  int side(std::uint32_t index, std::uint32_t atom) const {
+    const CutPoint& point = points_[index];
+    if (point.atom == atom) return 0;
+    if (point.ends[0] != kNoPoint && atom < point.atom) {
+      const int first = side(point.ends[0], atom);
+      return first != 0 ? first : side(point.ends[1], atom);
+    }
+    const double distance = height(point.place, atom);
+    return std::abs(distance) <= on_ ? 0 : distance < 0.0 ? -1 : 1;
+  }
+
+  /// The distance from an atom's surface, m, as far as its transform is even.
+  double height(const Vector3& place, std::uint32_t index) const {
+    const CsgAtom& atom = program_.atoms()[index];
+    return signed_distance(atom, atom.atom_from_tree * place) * std::sqrt(3.0) / atom.most_stretch;
+  }
+
+  /// Does every tetrahedron around the edge that the atom may pass cut it?
+  bool cuts_along(std::uint32_t atom, const Corners4& carrier) const {
+    return std::all_of(carrier.begin(), carrier.end(), [&](std::uint32_t corner) {
+      return corner == kNoPoint || std::binary_search(open_at_[corner].begin(), open_at_[corner].end(), atom);
+    });
+  }
+
+  Corners4 carrier_of(std::uint32_t a, std::uint32_t b) const {
+    std::array<std::uint32_t, 8> both;
+    std::merge(points_[a].carrier.begin(), points_[a].carrier.end(), points_[b].carrier.begin(),
+               points_[b].carrier.end(), both.begin());
+    const auto end = std::unique(both.begin(), both.end());
+    Corners4 carrier{kNoPoint, kNoPoint, kNoPoint, kNoPoint};
+    std::copy(both.begin(), std::min(end, both.begin() + 4), carrier.begin());
+    return carrier;
+  }
+
+  /// Where the atom's surface crosses the edge, between points on either side of it.
+  Vector3 crossing(std::uint32_t a, std::uint32_t b, std::uint32_t atom) const {
+    const Vector3 start = points_[a].place, step = points_[b].place - start;
+    double low = 0.0, high = 1.0, at_low = height(start, atom), at_high = height(start + step, atom);
+    if (!(at_low < 0.0 ? at_high > 0.0 : at_low > 0.0 && at_high < 0.0)) return start + 0.5 * step;
+    double best = 0.5, least = std::numeric_limits<double>::infinity();
+    for (int i = 0, kept = 0; i < kRootSteps && least > kRootExact * on_; ++i) {  // Illinois
+      const double t = (low * at_high - high * at_low) / (at_high - at_low);
+      const double here = height(start + t * step, atom);
+      if (std::abs(here) < least) {
+        least = std::abs(here);
+        best = t;
+      }
+      if ((here < 0.0) == (at_low < 0.0)) {
+        low = t;
+        at_low = here;
+        if (kept == 1) at_high *= 0.5;
+        kept = 1;
+      } else {
+        high = t;
+        at_high = here;
+        if (kept == 2) at_low *= 0.5;
+        kept = 2;
+      }
+    }
+    return start + best * step;
+  }
+
+  std::uint32_t cut_point(std::uint32_t a, std::uint32_t b, std::uint32_t atom) {
+    const auto [found, fresh] = cut_edges_.try_emplace(edge_of(a, b), std::uint32_t(points_.size()));
+    if (fresh) {
+      const std::array<std::uint32_t, 2> ends{std::min(a, b), std::max(a, b)};
+      points_.push_back({crossing(ends[0], ends[1], atom), atom, ends, carrier_of(a, b)});
+    }
+    return found->second;
+  }
+
+  /// Divides every piece that the atom passes, edge by edge; in an order that its neighbours share.
+  void cut_along(std::uint32_t atom, std::vector<Corners4>& pieces) {
+    std::vector<Corners4> result;
+    std::vector<std::array<std::uint32_t, 2>> crossed;
+    for (const Corners4& piece : pieces) {
+      crossed.clear();
+      std::array<int, 4> sides;
+      for (std::size_t i = 0; i < 4; ++i) sides[i] = side(piece[i], atom);
+      for (const auto& edge : kPieceEdges) {
+        const std::uint32_t a = piece[edge[0]], b = piece[edge[1]];
+        if (sides[edge[0]] * sides[edge[1]] < 0 && cuts_along(atom, carrier_of(a, b)))
+          crossed.push_back({std::min(a, b), std::max(a, b)});
+      }
+      std::sort(crossed.begin(), crossed.end());
+      const std::size_t first = result.size();
+      result.push_back(piece);
+      for (const auto& edge : crossed) {
+        const std::uint32_t point = cut_point(edge[0], edge[1], atom);
+        for (std::size_t i = first, end = result.size(); i < end; ++i) {
+          const auto a = std::find(result[i].begin(), result[i].end(), edge[0]) - result[i].begin();
+          const auto b = std::find(result[i].begin(), result[i].end(), edge[1]) - result[i].begin();
+          if (a == 4 || b == 4) continue;
+          Corners4 other = result[i];
+          other[std::size_t(a)] = point;
+          result[i][std::size_t(b)] = point;
+          result.push_back(other);
+        }
+      }
+    }
+    pieces = std::move(result);
+  }
+
+  void cut(const CsgTets::Tet& tet) {
+    std::vector<std::uint32_t> atoms;  // that pass an edge, perhaps beyond what is open here
+    for (const std::uint32_t corner : tet.corners)
+      atoms.insert(atoms.end(), open_at_[corner].begin(), open_at_[corner].end());
+    make_set(atoms);
+    std::vector<Corners4> pieces{tet.corners};
+    for (const std::uint32_t atom : atoms) cut_along(atom, pieces);
+    std::vector<PieceFace> faces;
+    for (const Corners4& piece : pieces) {
+      const bool solid = is_solid(tet, piece);
+      for (const auto& face : kPieceFaces) {
+        const Triangle facing{piece[face[0]], piece[face[1]], piece[face[2]]};
+        Triangle key = facing;
+        std::sort(key.begin(), key.end());
+        faces.push_back({key, facing, solid});
+      }
+    }
+    pair_up(faces, &between_);
+  }
+
+  bool is_solid(const CsgTets::Tet& tet, const Corners4& piece) const {
+    Bounds box;
+    Vector3 centre = Vector3::Zero();
+    for (const std::uint32_t corner : tet.corners) {
+      box.extend(points_[corner].place);
+      centre += 0.25 * points_[corner].place;
+    }
+    return program_.inside_where(box, [&](std::uint32_t atom) {
+      const Like& like = like_[atom];
+      if (std::binary_search(tet.atoms.begin(), tet.atoms.end(), like.atom)) {
+        for (const std::uint32_t corner : piece) {
+          if (const int at = side(corner, like.atom); at != 0) return (at < 0) != like.opposite;
+        }
+      }
+      return behind(program_.atoms()[atom], centre);
+    });
+  }
+
+  /// Faces between solid and free pieces are the surface; those that find no other half go to `lone`.
+  void pair_up(std::vector<PieceFace>& faces, std::vector<PieceFace>* lone) {
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (i + 1 < faces.size() && faces[i].key == faces[i + 1].key) {
+        if (faces[i].solid != faces[i + 1].solid)
+          triangles_.push_back(faces[i].solid ? faces[i].facing : faces[i + 1].facing);
+        ++i;
+      } else if (lone != nullptr) {
+        lone->push_back(faces[i]);
+      }
+    }
+  }
+
+  const CsgProgram& program_;
+  std::vector<CsgTets::Tet> tets_;
+  double on_;  // m
+  std::vector<Like> like_;
+  std::vector<CutPoint> points_;
+  std::vector<std::vector<std::uint32_t>> open_at_;  // by point of the tetrahedra: atoms of all around it
+  std::unordered_map<std::uint64_t, std::uint32_t> cut_edges_;
+  std::vector<PieceFace> between_;  // tetrahedra
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace
+
+base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t max_triangles,
+                                   const ContourProgress& go_on) {
+  // What is straight lies along z, where tetrahedra may be long.
+  base::Quaternion tree_from_z = base::Quaternion::Identity();
+  if (const auto way = straight_way(CsgProgram(tree)))
+    tree_from_z = base::rotation_between(Vector3::UnitZ(), *way);
+  CsgTree turned = tree;
+  turned.set_transform(turned.root(),
+                       Affine3(tree_from_z.conjugate()) * turned.node(turned.root()).parent_from_node);
+  const CsgProgram program(turned);
+  auto tets = make_csg_tets(program, cell, kTetsATriangle * max_triangles, contour_share(go_on, 0.0, 0.4));
+  if (!tets) return tl::unexpected(tets.error());
+  auto mesh = CsgCutter(program, std::move(*tets)).mesh(max_triangles, contour_share(go_on, 0.4, 0.6));
+  if (mesh) {
+    for (Vector3& position : mesh->positions) position = tree_from_z * position;
+  }
+  return mesh;
+}
+
+bool csg_can_cut(const CsgProgram& program) {
+  return std::none_of(program.atoms().begin(), program.atoms().end(), [](const CsgAtom& atom) {
+    return atom.kind == CsgAtom::Kind::Mesh || atom.kind == CsgAtom::Kind::Custom;
+  });
+}
+
+bool is_thin(const CsgProgram& program, double thickness) {
+  constexpr std::size_t kMostAtoms = 2000;
+  constexpr int kPlaces = 24;
+  base::Random random(1);
+  const std::size_t stride = 1 + program.atoms().size() / kMostAtoms;
+  for (std::uint32_t atom = 0; atom < program.atoms().size(); atom += std::uint32_t(stride)) {
+    int thin = 0, places = 0;
+    for (int i = 0; i < kPlaces; ++i) {
+      const auto place = random_place(program, atom, random);
+      if (!place) continue;
+      ++places;
+      for (const double depth : {0.25, 0.5, 0.75, 1.0}) {
+        if (program.inside(place->point - depth * thickness * place->normal)) continue;
+        ++thin;
+        break;
+      }
+    }
+    if (places > 0 && 2 * thin >= places) return true;
+  }
+  return false;
+}
+
+}  // namespace icome::geometry
