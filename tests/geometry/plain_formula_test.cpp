@@ -1,0 +1,43 @@
+#include "geometry/plain_formula.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "geometry/formula.h"
+
+namespace icome::geometry {
+namespace {
+
+TEST(PlainFormula, AgreesWithTheCompiledOne) {
+  base::Random random(4);
+  for (const char* text :
+       {"x^2 + y^2 + z^2 - 0.05^2", "-x^2 + y^z^2", "z - 0.01*sin(50*x + t)*cos(pi*y)",
+        "log(x) + log10(y) - ln(z)", "max(x, y, -z) - min(x, t)", "atan2(y, x) + hypot(x, z) - pow(2, x)",
+        "1/x - sqrt(y)*e", "abs(x) - tanh(y) + exp(-z) / cosh(t) * sinh(x)",
+        "asin(x) + acos(y) - atan(z) + tan(t)", "-(x - +y) * 1e-3"}) {
+    const auto compiled = Formula::parse(text);
+    const auto plain = plain_formula(text);
+    ASSERT_TRUE(compiled && plain) << text;
+    for (int i = 0; i < 500; ++i) {
+      const base::Vector3 place(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+      const double time = random.uniform(0, 5);
+      const double expected = compiled->value(place, time), actual = (*plain)(place, time);
+      if (std::isnan(expected) || std::isnan(actual)) {
+        EXPECT_EQ(std::isnan(expected), std::isnan(actual)) << text << " at " << place.transpose();
+      } else {
+        EXPECT_NEAR(actual, expected, 1e-12 * (1.0 + std::abs(expected))) << text;
+      }
+    }
+  }
+}
+
+TEST(PlainFormula, RefusesWhatItCannotRead) {
+  EXPECT_FALSE(plain_formula("x + * y"));
+  EXPECT_FALSE(plain_formula("x + w"));
+  EXPECT_FALSE(plain_formula(""));
+}
+
+}  // namespace
+}  // namespace icome::geometry
