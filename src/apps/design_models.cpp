@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "apps/design_eyes.h"
+#include "apps/exact_models.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
 #include "files/design.h"
 #include "files/file_ending.h"
 #include "files/mesh_reader.h"
+#include "haptics/plain_solid.h"
 #include "session/haptic_representation.h"
+#include "world/solid_geometry.h"
 
 namespace icome::apps {
 namespace {
@@ -56,7 +60,9 @@ Affine3 placing(const World& world, const TouchOptions& options) {
 /// Makes the bodies of what a representation holds.
 class BodyMaker {
  public:
-  BodyMaker(const World& world, const session::HapticRepresentation& felt) : world_(world), felt_(felt) {}
+  /// `check`: will somebody judge?
+  BodyMaker(const World& world, const session::HapticRepresentation& felt, bool check)
+      : world_(world), felt_(felt), check_(check) {}
 
   TouchBody body(const haptics::HapticObject& object) {
     const world::PhysicalObject& of = *world_.find(*felt_.object(object.id));
@@ -67,7 +73,7 @@ class BodyMaker {
     body.solid = eye.solid;
     body.primitive = felt->primitive;
     if (geometry.kind() == "csg") body.csg = felt->solid;
-    body.membership = felt->inside;
+    if (check_ && felt->inside) body.membership = membership(geometry, *felt);
     body.exact = !felt->mesh;
     body.closed = felt->closed;
     body.surface = object.surface;
@@ -76,6 +82,21 @@ class BodyMaker {
   }
 
  private:
+  /// By plain evaluation where there is one; made once for all clones.
+  const haptics::MembershipSolid& membership(const world::Geometry& geometry,
+                                             const session::FeltShape& felt) {
+    const auto [made, fresh] = memberships_.try_emplace(&felt);
+    if (!fresh) return made->second;
+    made->second = {felt.inside, felt.shape->bounds()};
+    if (felt.solid) {
+      made->second = haptics::plain_solid(*felt.solid);
+    } else if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&geometry)) {
+      if (auto solid = negative_inside(implicit->formula(), implicit->surface()->box()))
+        made->second = std::move(*solid);
+    }
+    return made->second;
+  }
+
   static render::Colour colour_of(const world::Material& material) {
     const auto channel = [&](std::size_t i) { return std::clamp(double(material.diffuse[i]), 0.0, 1.0); };
     return {channel(0), channel(1), channel(2)};
@@ -83,7 +104,9 @@ class BodyMaker {
 
   const World& world_;
   const session::HapticRepresentation& felt_;
+  bool check_;
   DesignEyes eyes_;
+  std::map<const session::FeltShape*, haptics::MembershipSolid> memberships_;
 };
 
 /// Tells the first sentences and how many there are.
@@ -129,7 +152,7 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
     return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text,
                                   remarks.empty() ? "" : ": ", remarks.empty() ? "." : remarks.front()));
   model.bodies.clear();
-  BodyMaker maker(design->world, felt);
+  BodyMaker maker(design->world, felt, options.check);
   for (const haptics::HapticObject& object : objects) {
     model.bodies.push_back(maker.body(object));
     const TouchBody& body = model.bodies.back();

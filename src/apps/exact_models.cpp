@@ -17,7 +17,9 @@
 #include "geometry/loop_levels.h"
 #include "geometry/loop_surface.h"
 #include "geometry/mesh_topology.h"
+#include "geometry/plain_formula.h"
 #include "haptics/mesh_shape.h"
+#include "haptics/plain_solid.h"
 #include "haptics/smooth_shape.h"
 #include "haptics/thesis/thesis_shapes.h"
 
@@ -52,7 +54,7 @@ void touch_mesh(TouchModel& model, const TouchOptions& options, const std::strin
   settings.tip_radius = options.radius;
   model.body().shape = std::make_shared<const haptics::MeshShape>(model.body().mesh, settings);
   model.triangles = model.body().mesh->triangles.size();
-  model.body().membership = nullptr;
+  model.body().membership.reset();
   model.repairs.push_back(
       fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, deviation));
 }
@@ -102,9 +104,7 @@ base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const T
   } else if (options.radius > 0.0) {
     return touch_csg_mesh(model, options);
   }
-  model.body().membership = [tree](const base::Vector3& point, double) {
-    return geometry::inside(*tree, point);
-  };
+  model.body().membership = haptics::plain_solid(*tree);
   model.body().solid = std::make_shared<const haptics::SmoothShape>(solid);
   model.body().shape = model.body().solid;
   if (thesis) {
@@ -148,6 +148,13 @@ int picture_level(std::size_t control_triangles) {
 }
 
 }  // namespace
+
+base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula, const base::Bounds& box) {
+  const auto value = geometry::plain_formula(formula);
+  if (!value) return tl::unexpected(value.error());
+  return haptics::MembershipSolid{
+      [value = *value](const base::Vector3& point, double time) { return value(point, time) < 0.0; }, box};
+}
 
 bool names_csg(const std::string& text) {
   const auto ends = [&](std::string_view ending) {
@@ -210,9 +217,9 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
   take_mesh(model, std::move(*mesh));
   // Against facets, however fine, a contact on the limit would be judged wrong by what they cut off.
   if (model.body().closed) {
-    model.body().membership = [surface = *surface](const base::Vector3& point, double) {
-      return surface->inside(point);
-    };
+    model.body().membership = haptics::MembershipSolid{
+        [surface = *surface](const base::Vector3& point, double) { return surface->inside(point); },
+        (*surface)->bounds()};
   } else if (options.check) {
     return base::fail(model.name + ": --check cannot judge an open subdivision surface: leave it out.");
   }
@@ -257,9 +264,9 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
     return model;
   }
   model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
-  model.body().membership = [surface = *surface](const base::Vector3& point, double time) {
-    return surface->bounds().contains(point) && surface->value(point, time).value < 0.0;
-  };
+  auto solid = negative_inside(*options.implicit, *options.bounds);
+  if (!solid) return base::fail("--implicit: " + solid.error().message);
+  model.body().membership = std::move(*solid);
   return model;
 }
 

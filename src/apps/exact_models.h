@@ -24,6 +24,9 @@ base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& option
 /// Makes the limit of a control mesh, just read, of its file's mesh.
 base::Result<TouchModel> as_loop_surface(TouchModel control, const TouchOptions& options);
 
+/// The solid where a formula is negative, within a box, by plain evaluation: for those who judge.
+base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula, const base::Bounds& box);
+
 /// The surface of --implicit.
 base::Result<TouchModel> load_implicit(const TouchOptions& options);
 

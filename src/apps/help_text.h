@@ -96,8 +96,9 @@ constexpr const char* kTouchExamples =
     "JSON: model, triangles (0 for primitives), build_seconds (of what the servo touches, without reading\n"
     "  files), ticks, rate_hz, tick_us {median, p99, p999, max}, haptic_load {median, p999, max} (the tick "
     "as\n"
-    "  a share of the period, 1 is all of it), overruns, max_force_n, touch_fraction, pops and sticks (null\n"
-    "  without --check), peak_memory_bytes. It goes to standard output, all messages to standard error.\n"
+    "  a share of the period, 1 is all of it), overruns, max_force_n, touch_fraction, pops, sticks, silent\n"
+    "  (ticks in which the tip is inside and nothing is felt) and pulls (the four null without --check),\n"
+    "  peak_memory_bytes. It goes to standard output, all messages to standard error.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 a replay was interrupted.";
 

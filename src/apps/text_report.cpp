@@ -130,9 +130,10 @@ std::string text_report(const TouchFigures& figures, const std::vector<TouchMode
   add_run(table, figures, outcome, options);
   table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
   table.row("force", fmt::format("at most {:.3g} N", figures.max_force));
-  if (figures.pops && figures.sticks) {
+  if (figures.pops && figures.sticks && figures.silent && figures.pulls) {
     table.row("check",
-              fmt::format("{}, {}", counted(*figures.pops, "pop"), counted(*figures.sticks, "stick")));
+              fmt::format("{}, {}, {}, {}", counted(*figures.pops, "pop"), counted(*figures.sticks, "stick"),
+                          counted(*figures.silent, "silent tick"), counted(*figures.pulls, "pull")));
   }
   table.row("memory",
             fmt::format("{:.3g} MB at most", static_cast<double>(figures.peak_memory_bytes) * 1e-6));

@@ -79,7 +79,7 @@ haptics::JudgedObject judged(const TouchBody& body, const haptics::Surface& surf
   if (body.primitive) {
     object.surface = *body.primitive;
   } else if (body.membership) {
-    object.surface = haptics::MembershipSolid{body.membership, own_bounds(body)};
+    object.surface = *body.membership;
   } else {
     object.surface = body.mesh;
   }

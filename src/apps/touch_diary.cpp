@@ -18,8 +18,7 @@ std::uint32_t saturated(std::int64_t nanoseconds) {
 
 void TouchDiary::add(const TickRow& row) {
   if (trace_ != nullptr) trace_->add(row);
-  if (first_time_ < 0.0) first_time_ = row.t;
-  if (judge_ != nullptr) judge_->judge(row.tip, row.scp, row.touching(), row.t - first_time_);
+  if (judge_ != nullptr) judge_->judge({row.tip, row.scp, row.touching(), row.elapsed, row.force});
   if (keep_samples_) keep_sample(row);
   tick_ns_.push_back(saturated(row.own_ns));
   touching_ += row.touching() ? 1 : 0;

@@ -40,7 +40,6 @@ class TouchDiary {
   TraceFile* trace_;
   haptics::ContactJudge* judge_;
   bool keep_samples_;
-  double first_time_ = -1.0;  // s, of the first row
   std::uint64_t touching_ = 0;
   double max_force_ = 0.0;
   std::vector<std::uint32_t> tick_ns_;

@@ -56,6 +56,8 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
   if (diary.judge() != nullptr) {
     figures.pops = diary.judge()->pops();
     figures.sticks = diary.judge()->sticks();
+    figures.silent = diary.judge()->silent();
+    figures.pulls = diary.judge()->pulls();
   }
   figures.peak_memory_bytes = peak_memory();
   return figures;

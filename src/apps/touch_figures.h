@@ -32,6 +32,8 @@ struct TouchFigures {
   double touch_fraction = 0.0;                       // of the ticks
   std::optional<std::uint64_t> pops;                 // none when nobody judged
   std::optional<std::uint64_t> sticks;
+  std::optional<std::uint64_t> silent;
+  std::optional<std::uint64_t> pulls;
   std::size_t peak_memory_bytes = 0;  // of the whole program
 };
 

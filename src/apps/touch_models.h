@@ -12,6 +12,7 @@
 #include "geometry/primitive.h"
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
+#include "haptics/contact_judge.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/smooth_shape.h"
 #include "render/colour.h"
@@ -29,8 +30,8 @@ struct TouchBody {
   std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
   /// Of a CSG tree without a mesh: tells where its surface is. Else null.
   std::shared_ptr<const haptics::SmoothShape> solid = nullptr;
-  /// Is the point inside at that time (s)? Of solids that are touched without a mesh; else empty.
-  std::function<bool(const base::Vector3& point, double time)> membership = {};
+  /// What lies in it, as its model says: of solids that are touched without a mesh; else empty.
+  std::optional<haptics::MembershipSolid> membership = {};
   bool exact = false;  // touched as what it is, without a mesh; primitives are, too
   bool closed = true;
   haptics::Surface surface = {};              // what the model itself says; the options come before it

@@ -15,26 +15,87 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
+constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
+constexpr double kTellable = 30.0;    // times the noise, a length is told from none
+constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
+constexpr double kSideways = 0.1;     // cosine: a force at less than this to the surface does not pull
 constexpr double kLeastCosine = 0.2588;  // of the angle between the pull and a move that counts
 
-/// One object with its pose.
-struct Party {
-  std::unique_ptr<Witness> witness;
-  Pose object_from_world;
+/// What is small for an object, m.
+struct Lengths {
+  double noise;  // what positions may be off
+  double pop;    // as JudgeSettings has them
+  double stick;
+
+  Lengths(double size, double farthest, const JudgeSettings& settings) {
+    const double small = 1e-2 * size;
+    noise = std::max(
+        {std::min(1e-6 * size, 1e-2 * std::min(settings.pop_depth, small)), 1e-9 * size, 1e-12 * farthest});
+    pop = std::max(std::min(settings.pop_depth, small), kTellable * noise);
+    stick = std::max(std::min(settings.stick_move, small), kTellable * noise);
+  }
 };
 
-/// The diagonal of the box around all limited objects; 1 m when there is none.
-double diagonal(const std::vector<JudgedObject>& objects) {
-  Bounds all;
-  for (const JudgedObject& object : objects) {
-    const Bounds box = bounds(object);
-    if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) continue;
-    const Vector3 centre = object.world_from_object * Vector3(box.center());
-    const Vector3 reach = object.world_from_object.linear().cwiseAbs() * (0.5 * box.sizes());
-    all.extend(Bounds(centre - reach, centre + reach));
-  }
-  return all.isEmpty() || all.sizes().norm() <= 0.0 ? 1.0 : all.sizes().norm();
+/// Around `box`, given in the object's frame, in the world.
+Bounds placed(const Bounds& box, const Pose& world_from_object) {
+  if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) return box;
+  const Vector3 centre = world_from_object * Vector3(box.center());
+  const Vector3 reach = world_from_object.linear().cwiseAbs() * (0.5 * box.sizes());
+  return {centre - reach, centre + reach};
 }
+
+/// One object, where it is now.
+class Party {
+ public:
+  Party(const JudgedObject& object, const JudgeSettings& settings)
+      : motion_(object.motion), box_(bounds(object)), lengths_(lengths_of(object, box_, settings)) {
+    limited_ = !box_.isEmpty() && box_.min().allFinite() && box_.max().allFinite();
+    witness_ = make_witness(object, {lengths_.noise, lengths_.pop / 8.0});
+    place(object.world_from_object);
+  }
+
+  void set_time(double time) {
+    witness_->set_time(time);
+    if (motion_) place(motion_(time));
+  }
+
+  const Lengths& lengths() const { return lengths_; }
+  const Witness& witness() const { return *witness_; }
+  Vector3 in_object(const Vector3& point) const { return object_from_world_ * point; }
+  Vector3 in_world(const Vector3& direction) const {
+    return object_from_world_.linear().transpose() * direction;
+  }
+
+  /// May anything of it lie within `reach` of the segment?
+  bool may_meet(const Vector3& a, const Vector3& b, double reach) const {
+    if (!limited_) return true;
+    const Vector3 margin = Vector3::Constant(reach + lengths_.noise);
+    return Bounds(Vector3(a.cwiseMin(b) - margin), Vector3(a.cwiseMax(b) + margin)).intersects(world_box_);
+  }
+
+ private:
+  static Lengths lengths_of(const JudgedObject& object, const Bounds& box, const JudgeSettings& settings) {
+    const Bounds world = placed(box, object.motion ? object.motion(0.0) : object.world_from_object);
+    const bool limited = !world.isEmpty() && world.min().allFinite() && world.max().allFinite();
+    if (!limited || box.sizes().norm() <= 0.0) return {1.0, 0.0, settings};
+    const double farthest = std::max({world.min().cwiseAbs().maxCoeff(), world.max().cwiseAbs().maxCoeff(),
+                                      box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
+    return {box.sizes().norm(), farthest, settings};
+  }
+
+  void place(const Pose& world_from_object) {
+    object_from_world_ = world_from_object.inverse();
+    if (limited_) world_box_ = placed(box_, world_from_object);
+  }
+
+  std::function<Pose(double)> motion_;
+  Bounds box_;  // own frame
+  Lengths lengths_;
+  bool limited_ = false;
+  std::unique_ptr<Witness> witness_;
+  Pose object_from_world_ = Pose::Identity();
+  Bounds world_box_;
+};
 
 /// Some unit vectors at right angles to `axis`, evenly around it.
 template <std::size_t kCount>
@@ -53,78 +114,136 @@ std::array<Vector3, kCount> ring(const Vector3& axis) {
 
 class ContactJudge::Court {
  public:
-  Court(const std::vector<JudgedObject>& objects, const JudgeSettings& settings) : settings_(settings) {
-    const double size = diagonal(objects);
-    const auto scaled = [&](double length) { return std::clamp(length, 1e-5 * size, 1e-2 * size); };
-    settings_.pop_depth = scaled(settings.pop_depth);
-    settings_.stick_move = scaled(settings.stick_move);
-    noise_ = kJudgeNoise * size;
-    const Resolution resolution{noise_, settings_.pop_depth / 8.0};
-    for (const JudgedObject& object : objects) {
-      parties_.push_back({make_witness(object, resolution), object.world_from_object.inverse()});
-    }
+  Court(const std::vector<JudgedObject>& objects, const JudgeSettings& settings)
+      : settings_(settings), near_(1.0, 0.0, settings) {
+    parties_.reserve(objects.size());
+    for (const JudgedObject& object : objects) parties_.emplace_back(object, settings);
   }
 
-  const JudgeSettings& settings() const { return settings_; }
-
-  Judgement judge(const Vector3& tip, const Vector3& scp, bool touching, double time) {
-    for (const Party& party : parties_) party.witness->set_time(time);
-    if (time != time_) rise();
-    time_ = time;
+  Judgement judge(const JudgedTick& tick) {
+    for (Party& party : parties_) party.set_time(tick.time);
+    look_around(tick);
+    if (tick.time != last_.time) rise();
     Judgement judgement;
-    judgement.pop = too_deep(scp) || passed_through(scp, tip);
-    if (!judgement.pop) judgement.stick = sticks(tip, scp, touching);
+    judgement.pop = too_deep(tick.scp) || passed_through(tick.scp, tick.tip);
+    if (!judgement.pop) judgement.stick = sticks(tick.tip, tick.scp, tick.touching);
+    judgement.silent = unfelt(tick) && buried(tick.tip);
+    pulling_ = pulls(tick) ? pulling_ + 1 : 0;
+    judgement.pull = pulling_ >= kPullTicks;
+    last_ = tick;
     return judgement;
   }
 
  private:
+  /// Measures by what is near: the strictest of the objects that the tick can have to do with.
+  void look_around(const JudgedTick& tick) {
+    const double reach = settings_.tip_radius + settings_.pop_depth + settings_.stick_move;
+    const Vector3 from = seen_.value_or(tick.scp);
+    std::optional<Lengths> near;
+    for (const Party& party : parties_) {
+      if (!party.may_meet(tick.scp, tick.tip, reach) && !party.may_meet(from, tick.scp, reach)) continue;
+      const Lengths& its = party.lengths();
+      if (!near) near = its;
+      near->noise = std::max(near->noise, its.noise);
+      near->pop = std::min(near->pop, its.pop);
+      near->stick = std::min(near->stick, its.stick);
+    }
+    if (!near) return;
+    near_ = *near;
+    near_.pop = std::max(near_.pop, kTellable * near_.noise);
+    near_.stick = std::max(near_.stick, kTellable * near_.noise);
+  }
+
   std::optional<Block> blocked(const Vector3& a, const Vector3& b) const {
     std::optional<Block> first;
     for (const Party& party : parties_) {
-      const auto block = party.witness->blocked(party.object_from_world * a, party.object_from_world * b);
+      if (!party.may_meet(a, b, 0.0)) continue;
+      const auto block = party.witness().blocked(party.in_object(a), party.in_object(b));
       if (!block || (first && block->t >= first->t)) continue;
-      first = Block{block->t, party.object_from_world.linear().transpose() * block->normal};
+      first = Block{block->t, party.in_world(block->normal)};
     }
     return first;
   }
 
   bool passes(const Vector3& a, const Vector3& b) const {
     return std::all_of(parties_.begin(), parties_.end(), [&](const Party& party) {
-      return party.witness->passes(party.object_from_world * a, party.object_from_world * b);
+      return !party.may_meet(a, b, 0.0) || party.witness().passes(party.in_object(a), party.in_object(b));
     });
   }
 
   double distance(const Vector3& point, double limit) const {
-    for (const Party& party : parties_)
-      limit = party.witness->distance(party.object_from_world * point, limit);
+    for (const Party& party : parties_) {
+      if (party.may_meet(point, point, limit))
+        limit = party.witness().distance(party.in_object(point), limit);
+    }
     return limit;
   }
 
   double least_distance(const Vector3& point, double limit) const {
-    for (const Party& party : parties_)
-      limit = party.witness->least_distance(party.object_from_world * point, limit);
+    for (const Party& party : parties_) {
+      if (party.may_meet(point, point, limit))
+        limit = party.witness().least_distance(party.in_object(point), limit);
+    }
     return limit;
   }
 
   double overlap(const Vector3& point, double radius) const {
     double deepest = 0.0;
     for (const Party& party : parties_) {
-      deepest = std::max(deepest, party.witness->overlap(party.object_from_world * point, radius));
+      if (party.may_meet(point, point, radius))
+        deepest = std::max(deepest, party.witness().overlap(party.in_object(point), radius));
     }
     return deepest;
   }
 
   bool inside(const Vector3& point) const {
     return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
-      return party.witness->inside(party.object_from_world * point);
+      return party.may_meet(point, point, 0.0) && party.witness().inside(party.in_object(point));
     });
+  }
+
+  /// Is the point inside a solid, and more than its pop depth?
+  bool deep(const Vector3& point) const {
+    return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      return party.may_meet(point, point, 0.0) &&
+             party.witness().deep(party.in_object(point), party.lengths().pop);
+    });
+  }
+
+  /// The same of a tip with its radius.
+  bool buried(const Vector3& tip) const {
+    const double radius = settings_.tip_radius;
+    if (radius <= 0.0) return deep(tip);
+    return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      const Vector3 own = party.in_object(tip);
+      return party.may_meet(tip, tip, radius) && party.witness().solid() &&
+             (party.witness().inside(own) || party.witness().overlap(own, radius) > party.lengths().pop);
+    });
+  }
+
+  /// Is the tip on its way out to the SCP? Then damping may use up the spring's force, and along the normal
+  /// of an edge more than that.
+  bool leaving(const JudgedTick& tick) const { return (tick.tip - last_.tip).dot(tick.scp - tick.tip) > 0.0; }
+
+  bool unfelt(const JudgedTick& tick) const {
+    if (!tick.touching) return true;
+    return tick.force && tick.force->norm() <= kLeastForce && !leaving(tick);
+  }
+
+  /// A force that turned with the pull has yet to follow, as fast as the limiter lets it: it may point away
+  /// from the SCP while it comes round.
+  bool pulls(const JudgedTick& tick) const {
+    const Vector3 out = tick.scp - tick.tip;
+    if (!tick.force || out.norm() <= near_.pop || leaving(tick)) return false;
+    if (tick.force->dot(out) >= -kSideways * tick.force->norm() * out.norm()) return false;
+    return !last_.force || (*tick.force - *last_.force).dot(out) <= 0.0;
   }
 
   /// A surface that moved over the place where the SCP was seen lifts it.
   void rise() {
     if (!seen_ || !inside(*seen_)) return;
     const std::array<Vector3, 3> axes{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
-    for (double far = noise_; far <= 16.0 * settings_.pop_depth; far *= 1.25) {
+    for (double far = near_.noise; far <= 16.0 * near_.pop; far *= 1.25) {
       for (const Vector3& axis : axes) {
         for (const Vector3& side : ring<16>(axis)) {
           if (inside(*seen_ + far * side)) continue;
@@ -137,10 +256,8 @@ class ContactJudge::Court {
   }
 
   bool too_deep(const Vector3& scp) {
-    if (settings_.tip_radius > 0.0 && overlap(scp, settings_.tip_radius) > settings_.pop_depth) return true;
-    const bool deep = std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
-      return party.witness->deep(party.object_from_world * scp, settings_.pop_depth);
-    });
+    if (settings_.tip_radius > 0.0 && overlap(scp, settings_.tip_radius) > near_.pop) return true;
+    const bool deep = this->deep(scp);
     if (deep) seen_ = scp;  // a passage that led here is counted by this
     return deep;
   }
@@ -158,8 +275,8 @@ class ContactJudge::Court {
     }
     const Vector3 way = scp - *seen_;
     const double met = blocked(*seen_, scp)->t * way.norm();
-    const bool far = way.norm() - met > settings_.pop_depth;
-    seen_ = far ? scp : Vector3(*seen_ + std::max(0.0, met - 2.0 * noise_) * way.normalized());
+    const bool far = way.norm() - met > near_.pop;
+    seen_ = far ? scp : Vector3(*seen_ + std::max(0.0, met - 2.0 * near_.noise) * way.normalized());
     return far;
   }
 
@@ -167,13 +284,14 @@ class ContactJudge::Court {
   /// neither: there the clearest of the legal places a little beside.
   template <typename Legal>
   std::optional<Vector3> clearest(const Vector3& scp, Legal&& legal) const {
-    if (distance(scp, 2.0 * noise_) >= 2.0 * noise_) return legal(scp) ? std::optional(scp) : std::nullopt;
+    if (distance(scp, 2.0 * near_.noise) >= 2.0 * near_.noise)
+      return legal(scp) ? std::optional(scp) : std::nullopt;
     std::optional<Vector3> best;
     double most = -1.0;
     for (int i = 0; i < 7; ++i) {
       Vector3 place = scp;
-      if (i > 0) place[(i - 1) / 2] += (i % 2 ? 4.0 : -4.0) * noise_;
-      const double clear = distance(place, 4.0 * noise_);
+      if (i > 0) place[(i - 1) / 2] += (i % 2 ? 4.0 : -4.0) * near_.noise;
+      const double clear = distance(place, 4.0 * near_.noise);
       if (clear <= most || !legal(place)) continue;
       most = clear;
       best = place;
@@ -210,7 +328,7 @@ class ContactJudge::Court {
   /// that never moves away from the tip come by?
   bool slides_to(const Vector3& scp, const Vector3& tip) const {
     constexpr int kMaxSteps = 1000;
-    const double far = std::max(settings_.stick_move, (scp - *seen_).norm() / 50.0);
+    const double far = std::max(near_.stick, (scp - *seen_).norm() / 50.0);
     Vector3 place = *seen_;
     for (int i = 0; i < kMaxSteps; ++i) {
       if (free(place, scp) || ((scp - place).norm() <= 4.0 * far && around(place, scp))) return true;
@@ -244,7 +362,7 @@ class ContactJudge::Court {
       return (from + step - tip).norm() < way && free(from, from + step);
     };
     const auto sides = ring<16>(pull);
-    for (double move = std::min(longest, way); move >= 1e-3 * settings_.stick_move; move *= 0.25) {
+    for (double move = std::min(longest, way); move >= 1e-3 * near_.stick; move *= 0.25) {
       for (const Vector3& along : unblocked(from, move, pull)) {
         if (nearer(move * along)) return from + move * along;
       }
@@ -261,7 +379,7 @@ class ContactJudge::Court {
   bool sticks(const Vector3& tip, const Vector3& scp, bool touching) const {
     const Vector3 pull = tip - scp;
     const double way = pull.norm();
-    const double move = settings_.stick_move;
+    const double move = near_.stick;
     if (way <= move) return false;
     if (!touching || free_by(scp, tip - scp)) return true;
     return !nearest_possible(tip, way) && may_come_nearer(scp, pull / way, way);
@@ -270,16 +388,16 @@ class ContactJudge::Court {
   /// Nothing is nearer to the tip than the SCP is, give or take half a move.
   bool nearest_possible(const Vector3& tip, double way) const {
     const double least = least_distance(tip, way) + settings_.tip_radius;
-    return way <= least + 0.5 * settings_.stick_move && !passes(*seen_, tip);
+    return way <= least + 0.5 * near_.stick && !passes(*seen_, tip);
   }
 
   /// Tries the ways along what blocks the pull, then fans of directions around the pull; the widest is 15
   /// degrees short of the right angle.
   bool may_come_nearer(const Vector3& scp, const Vector3& pull, double way) const {
     constexpr std::array<double, 4> kCosines{kLeastCosine, 0.5, 0.7660, 0.9397};
-    const auto along = unblocked(*seen_, settings_.stick_move, pull);
+    const auto along = unblocked(*seen_, near_.stick, pull);
     const auto clearly = [&](const Vector3& direction) {
-      return clearly_nearer(direction.dot(pull), way) && free_by(scp, settings_.stick_move * direction);
+      return clearly_nearer(direction.dot(pull), way) && free_by(scp, near_.stick * direction);
     };
     if (std::any_of(along.begin(), along.end(), clearly)) return true;
     const auto sides = ring<16>(pull);
@@ -294,7 +412,7 @@ class ContactJudge::Court {
   /// Is a move in this direction, `cosine` of its angle to the pull, outside the friction cone, worth it and
   /// free?
   bool clearly_nearer(double cosine, double way) const {
-    const double move = settings_.stick_move;
+    const double move = near_.stick;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     if (cosine < 0.999 * kLeastCosine || cosine <= 1.1 * settings_.static_friction * sine + 0.02)
       return false;
@@ -324,8 +442,9 @@ class ContactJudge::Court {
 
   JudgeSettings settings_;
   std::vector<Party> parties_;
-  double noise_ = 0.0;           // m
-  double time_ = 0.0;            // s
+  Lengths near_;  // of what the last tick had to do with
+  JudgedTick last_;
+  int pulling_ = 0;              // ticks in a row
   std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
 };
 
@@ -335,15 +454,14 @@ ContactJudge::~ContactJudge() = default;
 ContactJudge::ContactJudge(ContactJudge&&) noexcept = default;
 ContactJudge& ContactJudge::operator=(ContactJudge&&) noexcept = default;
 
-Judgement ContactJudge::judge(const Vector3& tip, const Vector3& scp, bool touching, double time) {
-  const Judgement judgement = court_->judge(tip, scp, touching, time);
+Judgement ContactJudge::judge(const JudgedTick& tick) {
+  const Judgement judgement = court_->judge(tick);
   ++ticks_;
   pops_ += judgement.pop;
   sticks_ += judgement.stick;
+  silent_ += judgement.silent;
+  pulls_ += judgement.pull;
   return judgement;
 }
-
-double ContactJudge::pop_depth() const { return court_->settings().pop_depth; }
-double ContactJudge::stick_move() const { return court_->settings().stick_move; }
 
 }  // namespace icome::haptics

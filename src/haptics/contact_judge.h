@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct JudgedObject {
   base::Pose world_from_object = base::Pose::Identity();
   bool closed = true;      // a mesh that encloses a solid, fronts out; primitives always do
   bool two_sided = false;  // both sides stop the tip; else only the front does
+  /// Where it is at a time (s), in place of `world_from_object`; empty for one that does not move.
+  std::function<base::Pose(double time)> motion = {};
 };
 
 struct JudgeSettings {
@@ -32,15 +35,28 @@ struct JudgeSettings {
   double stick_move = 0.3e-3;    // m, an SCP that could move this far, nearer to the tip, sticks
 };
 
-/// What was wrong with a surface contact point (SCP); both false when nothing was.
+/// What a solver answered to one tip in one tick; world frame.
+struct JudgedTick {
+  base::Vector3 tip;  // m
+  base::Vector3 scp;  // m, the centre of a sphere tip
+  bool touching = false;
+  double time = 0.0;                        // s, the moment for what moves and changes
+  std::optional<base::Vector3> force = {};  // N, as the person felt it; none: not looked at
+};
+
+/// What was wrong with a tick; all false when nothing was.
 struct Judgement {
   bool pop = false;
   bool stick = false;
+  bool silent = false;
+  bool pull = false;
+
+  bool fine() const { return !pop && !stick && !silent && !pull; }
 };
 
-/// Judges surface contact points, tick by tick, without the code that finds them: from the triangles
-/// and closed-form distances alone, or from samples of what is inside. Objects stand still, though a solid
-/// known by membership may change with time. For checks outside the servo: it allocates.
+/// Judges surface contact points (SCP), tick by tick, and shares nothing with the code that finds them:
+/// triangles in its own tree, winding numbers, distances of primitives, plain evaluations of trees and
+/// formulas, all in double precision. For checks outside the servo: it allocates.
 ///
 /// A pop: the SCP (its deepest point, for a sphere tip) is more than the pop depth inside a solid; or its
 /// way since it was last seen on the right side crosses a surface that should have held it, it is by
@@ -54,11 +70,19 @@ struct Judgement {
 /// move starts at a local minimum of the distance, so deep presses, thin walls, ridges and corners
 /// raise no false alarm. Directions are tried 15 degrees and more off the perpendicular of the pull.
 ///
-/// Both lengths are meant for things of 3 cm to 30 m; for smaller models they shrink to 1 % of the
-/// diagonal of the objects' box, for larger ones they grow to 1e-5 of it. (A plane counts as 1 m.)
-/// Solids known by membership are sampled at every eighth of the pop depth: walls thinner than that may be
-/// passed unseen, and solids thinner than that along the way do not count as one.
-/// Positions may be off by 1e-6 of the diagonal (rounding in a file) without harm.
+/// Silent: the tip is more than the pop depth inside a solid and nothing is felt: nothing touched, or no
+/// force though the tip is not on its way out (there damping may use up all of the spring's).
+///
+/// A pull: the force draws the tip away from the SCP, while it is not on its way out, for at least three
+/// ticks and in none less than before.
+///
+/// Lengths follow each object, not the scene: for one smaller than 3 cm they shrink to 1 % of its diagonal.
+/// Positions may be off by 1e-6 of the diagonal, at most a hundredth of the pop depth (rounding in a file),
+/// and by 1e-9 of the diagonal and 1e-12 of coordinates where things are as large as that: depths of less
+/// than 30 times as much are not seen. Solids known by membership are sampled at every eighth of the pop
+/// depth: walls thinner than that may be passed unseen, and solids thinner than that along the way do not
+/// count as one. Objects that move are followed as far as they pass a place by less than half of their
+/// thickness in a tick.
 class ContactJudge {
  public:
   ContactJudge(const std::vector<JudgedObject>& objects, const JudgeSettings& settings);
@@ -66,16 +90,14 @@ class ContactJudge {
   ContactJudge(ContactJudge&&) noexcept;
   ContactJudge& operator=(ContactJudge&&) noexcept;
 
-  /// Judges the next tick: all in the world frame (m); `scp` is the centre of a sphere tip. `time` (s) is the
-  /// moment for solids that change.
-  Judgement judge(const base::Vector3& tip, const base::Vector3& scp, bool touching, double time = 0.0);
+  /// Judges the next tick.
+  Judgement judge(const JudgedTick& tick);
 
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t pops() const { return pops_; }
   std::uint64_t sticks() const { return sticks_; }
-
-  double pop_depth() const;   // m, as scaled to the objects
-  double stick_move() const;  // m, as scaled to the objects
+  std::uint64_t silent() const { return silent_; }
+  std::uint64_t pulls() const { return pulls_; }
 
  private:
   class Court;
@@ -84,6 +106,8 @@ class ContactJudge {
   std::uint64_t ticks_ = 0;
   std::uint64_t pops_ = 0;
   std::uint64_t sticks_ = 0;
+  std::uint64_t silent_ = 0;
+  std::uint64_t pulls_ = 0;
 };
 
 }  // namespace icome::haptics

@@ -12,9 +12,6 @@ struct Block {
   base::Vector3 normal;
 };
 
-/// What positions may be off, as a share of the diagonal of what is judged.
-constexpr double kJudgeNoise = 1e-6;
-
 /// How finely a judge looks.
 struct Resolution {
   double noise;  // m, what positions may be off
@@ -47,6 +44,9 @@ class Witness {
   /// How far the surface reaches into a ball around `point`, from a side that stops it; 0 if not at all.
   virtual double overlap(const base::Vector3& point, double radius) const = 0;
 
+  /// Has it an inside that a tip must be kept out of?
+  virtual bool solid() const = 0;
+
   /// Is the point inside a solid touched from the front?
   virtual bool inside(const base::Vector3& point) const = 0;
 
@@ -61,7 +61,9 @@ base::Bounds bounds(const JudgedObject& object);
 
 std::unique_ptr<Witness> make_witness(const JudgedObject& object, const Resolution& resolution);
 
-/// The witness of a solid known by membership only.
+// The witnesses of each kind of surface.
+std::unique_ptr<Witness> make_mesh_witness(const JudgedObject& object);
+std::unique_ptr<Witness> make_primitive_witness(const JudgedObject& object, const Resolution& resolution);
 std::unique_ptr<Witness> make_membership_witness(const MembershipSolid& solid, const Resolution& resolution);
 
 }  // namespace icome::haptics

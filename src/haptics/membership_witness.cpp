@@ -29,6 +29,7 @@ class MembershipWitness final : public Witness {
 
   void set_time(double time) override { time_ = time; }
 
+  bool solid() const override { return true; }
   bool inside(const Vector3& point) const override {
     return solid_.bounds.contains(point) && solid_.inside(point, time_);
   }

@@ -31,6 +31,19 @@ class TraceTest(ProgramTest):
         self.assertEqual([row["t"] for row in rows], [i / 1000.0 for i in range(500)])
         self.assertEqual([point(row, "tip") for row in rows], points)
 
+    def test_moving_surfaces_are_judged_by_the_time_of_the_tick_whenever_a_path_starts(self):
+        def rows(start, z):
+            return "".join(f"{start + i / 1000},{0.02 + 1e-5 * i},0.01,{z}\n" for i in range(600))
+
+        waves, tide = "z - 0.005*sin(60*x + 6*t)", "z - 0.01*t"
+        for formula in (waves, tide):
+            for start in (-2.0, 7.5):
+                for height in (-0.002, 0.003):
+                    path = self.write("moving.csv", "t,x,y,z\n" + rows(start, height))
+                    report = self.report("--implicit", formula, "--bounds", "0.2,0.2,0.1", "--path", path, "--check")
+                    found = [report[name] for name in ("pops", "sticks", "silent", "pulls")]
+                    self.assertEqual(found, [0, 0, 0, 0], (formula, start, height))
+
     def test_seconds_end_a_path_early(self):
         rows = self.trace("sphere:0.05", "--path", self.path_file(self.circle(500)), "--seconds", "0.2")
         self.assertEqual([row["t"] for row in rows], [i / 1000.0 for i in range(201)])

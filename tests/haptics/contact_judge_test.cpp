@@ -40,7 +40,7 @@ ContactJudge judge_of(const std::vector<JudgedObject>& objects, double tip_radiu
   return {objects, settings};
 }
 
-bool fine(const Judgement& judgement) { return !judgement.pop && !judgement.stick; }
+bool fine(const Judgement& judgement) { return judgement.fine(); }
 
 TEST(ContactJudge, PassesFreeMotionAndAPerfectPress) {
   for (const JudgedObject& box : boxes()) {
@@ -49,7 +49,7 @@ TEST(ContactJudge, PassesFreeMotionAndAPerfectPress) {
       const Vector3 tip(0.01, 0.02, 0.06 - 0.0002 * i);
       Vector3 scp = tip;
       scp.z() = std::max(tip.z(), 0.05);
-      EXPECT_TRUE(fine(judge.judge(tip, scp, tip.z() < 0.05))) << i;
+      EXPECT_TRUE(fine(judge.judge({tip, scp, tip.z() < 0.05}))) << i;
     }
     EXPECT_EQ(judge.ticks(), 101u);
   }
@@ -58,8 +58,8 @@ TEST(ContactJudge, PassesFreeMotionAndAPerfectPress) {
 TEST(ContactJudge, CountsEveryTickInsideASolid) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
-    judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
-    for (int i = 0; i < 5; ++i) judge.judge({0, 0, 0.045}, {0, 0, 0.0496}, true);  // 0.4 mm
+    judge.judge({{0, 0, 0.051}, {0, 0, 0.051}, false});
+    for (int i = 0; i < 5; ++i) judge.judge({{0, 0, 0.045}, {0, 0, 0.0496}, true});  // 0.4 mm
     EXPECT_EQ(judge.pops(), 5u);
     EXPECT_EQ(judge.sticks(), 0u);
   }
@@ -68,8 +68,8 @@ TEST(ContactJudge, CountsEveryTickInsideASolid) {
 TEST(ContactJudge, ForgivesAShallowerPenetration) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
-    judge.judge({0, 0, 0.051}, {0, 0, 0.051}, false);
-    judge.judge({0, 0, 0.0498}, {0, 0, 0.0498}, true);  // 0.2 mm
+    judge.judge({{0, 0, 0.051}, {0, 0, 0.051}, false});
+    judge.judge({{0, 0, 0.0498}, {0, 0, 0.0498}, true});  // 0.2 mm
     EXPECT_EQ(judge.pops(), 0u);
   }
 }
@@ -78,17 +78,17 @@ TEST(ContactJudge, SeesInsideWhereSolidsOverlap) {
   const MeshPointer cross =
       shared(joined(box_mesh({0.1, 0.03, 0.03}), box_mesh({0.03, 0.1, 0.03}), Vector3(0.001, 0.002, 0.003)));
   ContactJudge judge = judge_of({solid(cross)});
-  EXPECT_TRUE(judge.judge({0.001, 0.002, 0.003}, {0.001, 0.002, 0.003}, false)
+  EXPECT_TRUE(judge.judge({{0.001, 0.002, 0.003}, {0.001, 0.002, 0.003}, false})
                   .pop);  // in both: parity would say outside
-  EXPECT_FALSE(judge.judge({0.04, 0.04, 0.0}, {0.04, 0.04, 0.0}, false).pop);
+  EXPECT_FALSE(judge.judge({{0.04, 0.04, 0.0}, {0.04, 0.04, 0.0}, false}).pop);
 }
 
 TEST(ContactJudge, CatchesATipThatWentThroughAThinWall) {
   for (const JudgedObject& wall : walls()) {
     ContactJudge judge = judge_of({wall});
-    judge.judge({0, 0, -0.001}, {0, 0, 0.0005 + 1e-12}, true);
-    EXPECT_TRUE(judge.judge({0, 0, -0.005}, {0, 0, -0.005}, false).pop);
-    EXPECT_FALSE(judge.judge({0, 0, -0.006}, {0, 0, -0.006}, false).pop);  // once
+    judge.judge({{0, 0, -0.001}, {0, 0, 0.0005 + 1e-12}, true});
+    EXPECT_TRUE(judge.judge({{0, 0, -0.005}, {0, 0, -0.005}, false}).pop);
+    EXPECT_FALSE(judge.judge({{0, 0, -0.006}, {0, 0, -0.006}, false}).pop);  // once
   }
 }
 
@@ -96,23 +96,23 @@ TEST(ContactJudge, ApprovesAPressThroughAThinWall) {
   for (const JudgedObject& wall : walls()) {
     ContactJudge judge = judge_of({wall});
     for (int i = 0; i < 50; ++i) {
-      EXPECT_TRUE(fine(judge.judge({0, 0, 0.0005 - 1e-4 * i}, {0, 0, 0.0005 + 1e-12}, true))) << i;
+      EXPECT_TRUE(fine(judge.judge({{0, 0, 0.0005 - 1e-4 * i}, {0, 0, 0.0005 + 1e-12}, true}))) << i;
     }
   }
 }
 
 TEST(ContactJudge, CatchesASheetLeftByTheOtherSide) {
   ContactJudge judge = judge_of({sheet(flat_sheet())});
-  EXPECT_TRUE(fine(judge.judge({0.003, 0.001, 0.002}, {0.003, 0.001, 0.002}, false)));
-  EXPECT_TRUE(fine(judge.judge({0.003, 0.001, -0.002}, {0.003, 0.001, 1e-12}, true)));
-  EXPECT_TRUE(judge.judge({0.003, 0.001, -0.002}, {0.003, 0.001, -0.002}, false).pop);
+  EXPECT_TRUE(fine(judge.judge({{0.003, 0.001, 0.002}, {0.003, 0.001, 0.002}, false})));
+  EXPECT_TRUE(fine(judge.judge({{0.003, 0.001, -0.002}, {0.003, 0.001, 1e-12}, true})));
+  EXPECT_TRUE(judge.judge({{0.003, 0.001, -0.002}, {0.003, 0.001, -0.002}, false}).pop);
 }
 
 TEST(ContactJudge, CatchesASheetPassedInSmallSteps) {
   ContactJudge judge = judge_of({sheet(flat_sheet())});
   for (int i = 0; i < 40; ++i) {  // 0.05 mm each, from 1 mm in front to 1 mm behind
     const Vector3 tip(0.003, 0.001, 0.001 - 5e-5 * i);
-    judge.judge(tip, tip, false);
+    judge.judge({tip, tip, false});
   }
   EXPECT_EQ(judge.pops(), 1u);
 }
@@ -120,15 +120,15 @@ TEST(ContactJudge, CatchesASheetPassedInSmallSteps) {
 TEST(ContactJudge, ForgivesATipThatDipsInAndComesBack) {
   ContactJudge judge = judge_of({sheet(flat_sheet())});
   for (const double z : {0.001, 0.0002, -0.0002, 0.0002, 0.001})
-    judge.judge({0.003, 0.001, z}, {0.003, 0.001, z}, false);
+    judge.judge({{0.003, 0.001, z}, {0.003, 0.001, z}, false});
   EXPECT_EQ(judge.pops(), 0u);
 }
 
 TEST(ContactJudge, ApprovesTheWayRoundARim) {
   ContactJudge judge = judge_of({sheet(flat_sheet())});
-  judge.judge({0.0495, 0.0, -0.0005}, {0.0495, 0.0, 1e-12}, true);
-  EXPECT_TRUE(fine(judge.judge({0.0505, 0.0, -0.001}, {0.0505, 0.0, -0.001}, false)));
-  EXPECT_TRUE(fine(judge.judge({0.0485, 0.0, -0.001}, {0.0485, 0.0, -0.001}, false)));
+  judge.judge({{0.0495, 0.0, -0.0005}, {0.0495, 0.0, 1e-12}, true});
+  EXPECT_TRUE(fine(judge.judge({{0.0505, 0.0, -0.001}, {0.0505, 0.0, -0.001}, false})));
+  EXPECT_TRUE(fine(judge.judge({{0.0485, 0.0, -0.001}, {0.0485, 0.0, -0.001}, false})));
 }
 
 TEST(ContactJudge, ApprovesALongSlideOffAnEdge) {
@@ -137,23 +137,23 @@ TEST(ContactJudge, ApprovesALongSlideOffAnEdge) {
     JudgedObject wall = solid(shared(box_mesh({0.1, 0.1, 0.001})));
     wall.two_sided = two_sided;
     ContactJudge judge = judge_of({wall});
-    judge.judge({0.0444922, -0.00673525, -0.000492117}, {0.050000000005, -0.00673525, -0.000492117}, true);
+    judge.judge({{0.0444922, -0.00673525, -0.000492117}, {0.050000000005, -0.00673525, -0.000492117}, true});
     EXPECT_TRUE(
-        fine(judge.judge({0.0435711, -0.0067274, -0.0005018}, {0.0435711, -0.0067274, -0.0005018}, false)));
+        fine(judge.judge({{0.0435711, -0.0067274, -0.0005018}, {0.0435711, -0.0067274, -0.0005018}, false})));
   }
 }
 
 TEST(ContactJudge, CatchesAContactWithNothingInTheWay) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
-    EXPECT_TRUE(judge.judge({0, 0, 0.06}, {0, 0, 0.05 + 1e-12}, true).stick);
+    EXPECT_TRUE(judge.judge({{0, 0, 0.06}, {0, 0, 0.05 + 1e-12}, true}).stick);
   }
 }
 
 TEST(ContactJudge, CatchesAnScpAwayFromTheTipWithoutAContact) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
-    EXPECT_TRUE(judge.judge({0, 0, 0.045}, {0, 0, 0.05 + 1e-12}, false).stick);
+    EXPECT_TRUE(judge.judge({{0, 0, 0.045}, {0, 0, 0.05 + 1e-12}, false}).stick);
   }
 }
 
@@ -162,9 +162,9 @@ TEST(ContactJudge, CatchesAnScpThatLagsBehind) {
     for (const double radius : {0.0, 0.001}) {
       ContactJudge judge = judge_of({box}, radius);
       const double z = 0.05 + radius + 1e-12;
-      EXPECT_TRUE(fine(judge.judge({0, 0, z - 0.002}, {0, 0, z}, true)));
-      EXPECT_TRUE(judge.judge({0.004, 0, z - 0.002}, {0, 0, z}, true).stick);
-      EXPECT_TRUE(fine(judge.judge({0.004, 0, z - 0.002}, {0.004, 0, z}, true)));
+      EXPECT_TRUE(fine(judge.judge({{0, 0, z - 0.002}, {0, 0, z}, true})));
+      EXPECT_TRUE(judge.judge({{0.004, 0, z - 0.002}, {0, 0, z}, true}).stick);
+      EXPECT_TRUE(fine(judge.judge({{0.004, 0, z - 0.002}, {0.004, 0, z}, true})));
     }
   }
 }
@@ -172,8 +172,8 @@ TEST(ContactJudge, CatchesAnScpThatLagsBehind) {
 TEST(ContactJudge, LetsFrictionHoldWithinItsCone) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box}, 0.0, 0.5);
-    EXPECT_TRUE(fine(judge.judge({0.00095, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true)));
-    EXPECT_TRUE(judge.judge({0.003, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true).stick);
+    EXPECT_TRUE(fine(judge.judge({{0.00095, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true})));
+    EXPECT_TRUE(judge.judge({{0.003, 0, 0.048}, {0, 0, 0.05 + 1e-12}, true}).stick);
   }
 }
 
@@ -181,8 +181,8 @@ TEST(ContactJudge, LetsAConcaveCornerHold) {
   const MeshPointer step = shared(prism({{0, 0}, {.06, 0}, {.06, .02}, {.02, .02}, {.02, .06}, {0, .06}},
                                         {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0.05));
   ContactJudge judge = judge_of({solid(step)});
-  EXPECT_TRUE(fine(judge.judge({0.017, 0.012, 0.003}, {0.02 + 1e-12, 0.02 + 1e-12, 0.003}, true)));
-  EXPECT_TRUE(judge.judge({0.017, 0.012, 0.006}, {0.02 + 1e-12, 0.02 + 1e-12, 0.003}, true)
+  EXPECT_TRUE(fine(judge.judge({{0.017, 0.012, 0.003}, {0.02 + 1e-12, 0.02 + 1e-12, 0.003}, true})));
+  EXPECT_TRUE(judge.judge({{0.017, 0.012, 0.006}, {0.02 + 1e-12, 0.02 + 1e-12, 0.003}, true})
                   .stick);  // along the corner
 }
 
@@ -191,27 +191,27 @@ TEST(ContactJudge, LetsASphereRestInAGrooveTooNarrowForIt) {
   const double slope = std::tan(1.5358897417550099);  // 88 degrees
   const MeshPointer groove =
       shared(height_field(0.02, 2, [&](double x, double) { return slope * std::abs(x); }));
-  JudgedObject v{groove, Pose::Identity(), false, true};
+  JudgedObject v = sheet(groove);
   ContactJudge judge = judge_of({v}, 0.001);
   const double rest = 0.001 / std::cos(1.5358897417550099);
-  EXPECT_TRUE(fine(judge.judge({0, 0.001, rest - 0.004}, {0, 0.001, rest + 1e-9}, true)));
-  EXPECT_TRUE(judge.judge({0, 0.001, rest - 0.004}, {0, 0.001, rest + 0.001}, true).stick);
+  EXPECT_TRUE(fine(judge.judge({{0, 0.001, rest - 0.004}, {0, 0.001, rest + 1e-9}, true})));
+  EXPECT_TRUE(judge.judge({{0, 0.001, rest - 0.004}, {0, 0.001, rest + 0.001}, true}).stick);
 }
 
 TEST(ContactJudge, CatchesASphereThatOverlaps) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box}, 0.005);
-    EXPECT_FALSE(judge.judge({0, 0, 0.054}, {0, 0, 0.0548}, true).pop);
-    EXPECT_TRUE(judge.judge({0, 0, 0.054}, {0, 0, 0.0545}, true).pop);
+    EXPECT_FALSE(judge.judge({{0, 0, 0.054}, {0, 0, 0.0548}, true}).pop);
+    EXPECT_TRUE(judge.judge({{0, 0, 0.054}, {0, 0, 0.0545}, true}).pop);
   }
 }
 
 TEST(ContactJudge, LetsASphereStandBehindAFrontTouchedSheet) {
   JudgedObject front{flat_sheet(), Pose::Identity(), false, false};
   ContactJudge judge = judge_of({front}, 0.005);
-  EXPECT_TRUE(fine(judge.judge({0, 0, -0.002}, {0, 0, -0.002}, false)));
-  EXPECT_TRUE(fine(judge.judge({0, 0, 0.006}, {0, 0, 0.006}, false)));  // out through the back is free
-  EXPECT_TRUE(judge.judge({0, 0, 0.002}, {0, 0, 0.002}, false).pop);
+  EXPECT_TRUE(fine(judge.judge({{0, 0, -0.002}, {0, 0, -0.002}, false})));
+  EXPECT_TRUE(fine(judge.judge({{0, 0, 0.006}, {0, 0, 0.006}, false})));  // out through the back is free
+  EXPECT_TRUE(judge.judge({{0, 0, 0.002}, {0, 0, 0.002}, false}).pop);
 }
 
 TEST(ContactJudge, HearsAllObjectsAndTheirPoses) {
@@ -220,16 +220,84 @@ TEST(ContactJudge, HearsAllObjectsAndTheirPoses) {
   turned.linear() = Eigen::AngleAxisd(0.7853981633974483, Vector3::UnitY()).toRotationMatrix();
   ContactJudge judge = judge_of({solid(box), solid(box, turned)});
   const double top = 0.05 * std::sqrt(2.0);
-  EXPECT_TRUE(fine(judge.judge({0.3, 0.0, top + 0.001}, {0.3, 0.0, top + 0.001}, false)));
-  EXPECT_TRUE(judge.judge({0.3, 0.0, top - 0.002}, {0.3, 0.0, top - 0.002}, false).pop);
-  EXPECT_TRUE(judge.judge({0.0, 0.0, 0.045}, {0.0, 0.0, 0.045}, false).pop);
+  EXPECT_TRUE(fine(judge.judge({{0.3, 0.0, top + 0.001}, {0.3, 0.0, top + 0.001}, false})));
+  EXPECT_TRUE(judge.judge({{0.3, 0.0, top - 0.002}, {0.3, 0.0, top - 0.002}, false}).pop);
+  EXPECT_TRUE(judge.judge({{0.0, 0.0, 0.045}, {0.0, 0.0, 0.045}, false}).pop);
 }
 
-TEST(ContactJudge, ScalesItsLengthsToTinyAndHugeModels) {
-  EXPECT_DOUBLE_EQ(judge_of({solid("box:0.1x0.1x0.1")}).pop_depth(), 0.3e-3);
-  const double tiny = 1e-4 * std::sqrt(3.0);
-  EXPECT_NEAR(judge_of({solid("box:0.0001x0.0001x0.0001")}).pop_depth(), 1e-2 * tiny, 1e-12);
-  EXPECT_NEAR(judge_of({solid("box:1000x1000x1000")}).stick_move(), 1e-5 * 1000 * std::sqrt(3.0), 1e-9);
+/// Is a tip pulled so far (m) into the top of a box of that size (m) a pop?
+bool pops_in_box(double size, double depth, const Vector3& place = Vector3::Zero(),
+                 const std::vector<JudgedObject>& others = {}) {
+  std::vector<JudgedObject> objects = others;
+  objects.push_back(
+      solid(shared(box_mesh(Vector3::Constant(size))), translation(place.x(), place.y(), place.z())));
+  ContactJudge judge = judge_of(objects);
+  const Vector3 top = place + 0.5 * size * Vector3::UnitZ();
+  judge.judge({top, top + 1e-9 * size * Vector3::UnitZ(), true});
+  return judge.judge({top - 2.0 * depth * Vector3::UnitZ(), top - depth * Vector3::UnitZ(), true}).pop;
+}
+
+TEST(ContactJudge, ShrinksItsLengthsToTinyObjects) {
+  EXPECT_TRUE(pops_in_box(1e-4, 0.011 * 1e-4 * std::sqrt(3.0)));
+  EXPECT_FALSE(pops_in_box(1e-4, 0.009 * 1e-4 * std::sqrt(3.0)));
+}
+
+TEST(ContactJudge, MeasuresALargeSceneByWhatIsNear) {
+  const JudgedObject far = solid(shared(box_mesh(Vector3::Ones())), translation(1e6, 0.0, 0.0));
+  for (const double size : {0.1, 10.0, 2000.0}) {
+    EXPECT_TRUE(pops_in_box(size, 0.31e-3)) << size;
+    EXPECT_FALSE(pops_in_box(size, 0.29e-3)) << size;
+    EXPECT_TRUE(pops_in_box(size, 0.31e-3, Vector3::Zero(), {far})) << size;
+    EXPECT_TRUE(pops_in_box(size, 0.31e-3, Vector3(0.0, 3e5, -1e5))) << size;
+  }
+}
+
+TEST(ContactJudge, HearsNothingOfATipInside) {
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box});
+    EXPECT_TRUE(judge.judge({{0, 0, 0.045}, {0, 0, 0.045}, false}).silent);
+    EXPECT_FALSE(judge.judge({{0, 0, 0.0498}, {0, 0, 0.0498}, false}).silent);  // 0.2 mm
+    EXPECT_FALSE(judge.judge({{0, 0, 0.051}, {0, 0, 0.051}, false}).silent);
+    EXPECT_EQ(judge.silent(), 1u);
+  }
+}
+
+TEST(ContactJudge, HearsNoForceButLetsDampingUseItUp) {
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box});
+    const Vector3 scp(0, 0, 0.05 + 1e-12), none = Vector3::Zero();
+    EXPECT_TRUE(judge.judge({{0, 0, 0.045}, scp, true, 0.0, Vector3(0, 0, 3)}).fine());
+    EXPECT_TRUE(judge.judge({{0, 0, 0.045}, scp, true, 0.0, none}).silent);   // at rest
+    EXPECT_TRUE(judge.judge({{0, 0, 0.044}, scp, true, 0.0, none}).silent);   // deeper
+    EXPECT_FALSE(judge.judge({{0, 0, 0.046}, scp, true, 0.0, none}).silent);  // on its way out
+  }
+}
+
+TEST(ContactJudge, CatchesAForceThatPulls) {
+  ContactJudge judge = judge_of({solid("box:0.1x0.1x0.1")});
+  const Vector3 tip(0, 0, 0.045), scp(0, 0, 0.05 + 1e-12);
+  EXPECT_FALSE(judge.judge({tip, scp, true, 0.0, Vector3(0, 0, 2)}).pull);
+  EXPECT_FALSE(judge.judge({tip, scp, true, 0.0, Vector3(0, 0, -2)}).pull);
+  EXPECT_FALSE(judge.judge({tip, scp, true, 0.0, Vector3(0, 0, -2)}).pull);
+  EXPECT_TRUE(judge.judge({tip, scp, true, 0.0, Vector3(0, 0, -2)}).pull);
+  EXPECT_TRUE(judge.judge({tip, scp, true, 0.0, Vector3(0, 0, -2)}).pull);
+  EXPECT_FALSE(judge.judge({tip, scp, true, 0.0, Vector3(0, 0, -1)}).pull);  // it comes round
+  EXPECT_EQ(judge.pulls(), 2u);
+}
+
+TEST(ContactJudge, FollowsAnObjectThatMoves) {
+  for (JudgedObject box : boxes()) {
+    box.motion = [](double time) { return translation(0.0, 0.0, 0.1 * (time + 2.0)); };
+    ContactJudge judge = judge_of({box});
+    const Vector3 tip(0.01, 0.02, 0.055);
+    for (int i = 0; i < 300; ++i) {
+      const double time = -2.0 + 0.001 * i, top = 0.05 + 0.1 * (time + 2.0);
+      const Vector3 scp(0.01, 0.02, std::max(tip.z(), top + 1e-12));
+      EXPECT_TRUE(judge.judge({tip, scp, top > tip.z(), time}).fine()) << i;
+    }
+    const Vector3 old(0.01, 0.02, 0.05 + 1e-12);  // where its top was at first
+    EXPECT_TRUE(judge.judge({tip, old, true, -1.7}).pop);
+  }
 }
 
 TEST(ContactJudge, ToleratesTheRoundingOfATraceFile) {
@@ -239,7 +307,7 @@ TEST(ContactJudge, ToleratesTheRoundingOfATraceFile) {
     const Vector3 direction = Vector3(std::cos(0.01 * i), std::sin(0.01 * i), 0.2).normalized();
     Vector3 scp = brute_nearest(*mesh, 0.048 * direction).point;
     scp = (scp * 1e8).array().round() / 1e8;
-    EXPECT_TRUE(fine(judge.judge(0.048 * direction, scp, true))) << i;
+    EXPECT_TRUE(fine(judge.judge({0.048 * direction, scp, true}))) << i;
   }
 }
 
@@ -257,7 +325,7 @@ TEST(ContactJudge, FindsExactlyThePlantedMistakes) {
     Vector3 scp = nearest.point + 1e-12 * out;
     if (i % 20 == 7) scp -= out * random.uniform(0.35e-3, 1.5e-3);
     if (i % 20 == 17) scp += out * random.uniform(0.4e-3, 1.5e-3);
-    const Judgement judgement = judge.judge(tip, scp, true);
+    const Judgement judgement = judge.judge({tip, scp, true});
     EXPECT_EQ(judgement.pop, i % 20 == 7) << i;
     EXPECT_EQ(judgement.stick, i % 20 == 17) << i;
     pops += i % 20 == 7;

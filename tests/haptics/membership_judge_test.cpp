@@ -5,18 +5,16 @@
 #include "haptics/contact_judge.h"
 #include "haptics/csg_brute.h"
 #include "haptics/csg_world.h"
+#include "haptics/plain_solid.h"
 
 namespace icome::haptics {
 namespace {
 
 constexpr double kPressedSize = 0.1;  // m
 
-JudgedObject judged_by_samples(const CsgTree& tree) {
-  return {MembershipSolid{[tree](const Vector3& p, double) { return geometry::inside(tree, p); },
-                          geometry::bounds(tree)}};
-}
+JudgedObject judged_by_samples(const CsgTree& tree) { return {plain_solid(tree)}; }
 
-bool approved(const Judgement& judgement) { return !judgement.pop && !judgement.stick; }
+bool approved(const Judgement& judgement) { return judgement.fine(); }
 
 /// An SCP that follows a tip by brute force, in steps that are short against everything.
 class BruteFollower {
@@ -119,13 +117,13 @@ TEST_P(MembershipJudge, ApprovesWhatBruteForceFindsAndNothingElse) {
     const Vector3 scp = follower.follow(tip);
     const double pull = (tip - scp).norm();
     touching += pull > 1e-9;
-    EXPECT_TRUE(approved(pleased.judge(tip, scp, pull > 1e-9)))
+    EXPECT_TRUE(approved(pleased.judge({tip, scp, pull > 1e-9})))
         << pleased.ticks() << " pops " << pleased.pops() << " tip " << tip.transpose() << " scp "
         << scp.transpose();
     Vector3 wrong = scp;
     if (pull > 2e-3 && pleased.ticks() % 3 == 2) wrong += 0.8e-3 * (scp - tip) / pull;  // hangs in the air
     if (solid.inside(wrong)) wrong = scp;
-    EXPECT_EQ(angry.judge(tip, wrong, pull > 1e-9).stick, wrong != scp) << pleased.ticks();
+    EXPECT_EQ(angry.judge({tip, wrong, pull > 1e-9}).stick, wrong != scp) << pleased.ticks();
     planted += wrong != scp;
   }
   EXPECT_GT(touching, std::uint64_t(ticks_of_press() / 3));
@@ -135,17 +133,17 @@ TEST_P(MembershipJudge, ApprovesWhatBruteForceFindsAndNothingElse) {
 
 TEST(JudgeBySamples, CatchesAPassageThroughAThinWall) {
   ContactJudge judge({judged_by_samples(nasty::thin_walls().tree)}, {});
-  EXPECT_TRUE(approved(judge.judge({-0.002, 0.03, 0.01}, {0.0001 + 1e-11, 0.03, 0.01}, true)));
-  EXPECT_TRUE(judge.judge({-0.002, 0.03, 0.01}, {-0.002, 0.03, 0.01}, false).pop);
-  EXPECT_TRUE(approved(judge.judge({-0.003, 0.03, 0.01}, {-0.003, 0.03, 0.01}, false)));  // once
+  EXPECT_TRUE(approved(judge.judge({{-0.002, 0.03, 0.01}, {0.0001 + 1e-11, 0.03, 0.01}, true})));
+  EXPECT_TRUE(judge.judge({{-0.002, 0.03, 0.01}, {-0.002, 0.03, 0.01}, false}).pop);
+  EXPECT_TRUE(approved(judge.judge({{-0.003, 0.03, 0.01}, {-0.003, 0.03, 0.01}, false})));  // once
 }
 
 TEST(JudgeBySamples, CatchesAnScpThatWasPulledIn) {
   const CsgTree tree = figure_5_6();
   ContactJudge judge({judged_by_samples(tree)}, {});
-  EXPECT_TRUE(approved(judge.judge({0.04, 0, 0.045}, {0.04, 0, 0.05 + 1e-11}, true)));
-  EXPECT_TRUE(judge.judge({0.04, 0, 0.045}, {0.04, 0, 0.0496}, true).pop);
-  EXPECT_TRUE(judge.judge({0.04, 0, 0.045}, {0.04, 0, 0.045}, false).pop);
+  EXPECT_TRUE(approved(judge.judge({{0.04, 0, 0.045}, {0.04, 0, 0.05 + 1e-11}, true})));
+  EXPECT_TRUE(judge.judge({{0.04, 0, 0.045}, {0.04, 0, 0.0496}, true}).pop);
+  EXPECT_TRUE(judge.judge({{0.04, 0, 0.045}, {0.04, 0, 0.045}, false}).pop);
 }
 
 TEST(JudgeBySamples, ApprovesAHandThatIsCarriedByAWave) {
@@ -166,17 +164,17 @@ TEST(JudgeBySamples, ApprovesAHandThatIsCarriedByAWave) {
     }
     scp.x() = low;
     scp.z() = height(scp, time) + 1e-11;
-    EXPECT_FALSE(judge.judge(tip, scp, true, time).pop) << i;
+    EXPECT_FALSE(judge.judge({tip, scp, true, time}).pop) << i;
   }
-  EXPECT_TRUE(judge.judge({0.02, 0.01, -0.01}, {0.02, 0.01, -0.01}, false, 1.0).pop);
+  EXPECT_TRUE(judge.judge({{0.02, 0.01, -0.01}, {0.02, 0.01, -0.01}, false, 1.0}).pop);
 }
 
 TEST(JudgeBySamples, CatchesASphereThatOverlaps) {
   JudgeSettings settings;
   settings.tip_radius = 0.005;
   ContactJudge judge({judged_by_samples(figure_5_6())}, settings);
-  EXPECT_FALSE(judge.judge({0.036, 0, 0.054}, {0.036, 0, 0.0548}, true).pop);
-  EXPECT_TRUE(judge.judge({0.036, 0, 0.054}, {0.036, 0, 0.0545}, true).pop);
+  EXPECT_FALSE(judge.judge({{0.036, 0, 0.054}, {0.036, 0, 0.0548}, true}).pop);
+  EXPECT_TRUE(judge.judge({{0.036, 0, 0.054}, {0.036, 0, 0.0545}, true}).pop);
 }
 
 }  // namespace

@@ -175,7 +175,7 @@ TEST_P(JudgedMeshes, GivesNoPopsAndNoSticks) {
         }
         tip += speed * (goal - tip).normalized();
         const ScpState& state = toucher.step(tip);
-        judge.judge(tip, state.scp, state.touching);
+        judge.judge({tip, state.scp, state.touching});
       }
       pops += judge.pops();
       sticks += judge.sticks();

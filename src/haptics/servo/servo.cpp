@@ -150,6 +150,7 @@ void Servo::find_contact() {
     return;
   }
   report_.contact = solver_->step(report_.tip, elapsed_);
+  report_.elapsed = elapsed_;
   if (report_.contact.touching) report_.object = scene_->scene->objects()[report_.contact.object].id;
 }
 

@@ -36,7 +36,8 @@ struct TickReport {
   std::uint32_t buttons = 0;                                    // bit i: button i is down
   Vector3 force = Vector3::Zero();                              // N, as written, in the world frame
   ScpState contact;
-  ObjectId object;                               // what is touched, when contact.touching
+  double elapsed = 0.0;  // s since the moment of the scene's poses: when the contact was found
+  ObjectId object;       // what is touched, when contact.touching
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
 
   /// All that the tick took except device input and output, ns.

@@ -113,7 +113,7 @@ TEST(ServoCarry, StopsAtAWallHoweverItIsCarried) {
       servo.carry(goal);
       for (int i = 0; i < 16; ++i) {
         const TickReport& report = servo.tick(kPeriod);
-        judge.judge(report.tip, report.contact.scp, report.contact.touching);
+        judge.judge({report.tip, report.contact.scp, report.contact.touching});
         touched = touched || report.contact.touching;
         ASSERT_LE(device.force.norm(), device.info().max_force);
       }

@@ -1,0 +1,118 @@
+// What the judge evaluates by itself, against what it must not share code with.
+#include "haptics/plain_solid.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/geodesic_sphere.h"
+#include "haptics/contact_world.h"
+#include "haptics/witness_tree.h"
+
+namespace icome::haptics {
+namespace {
+
+using geometry::CsgOperator;
+using geometry::CsgTree;
+
+Vector3 place_about(Random& random, double reach) {
+  return reach * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+}
+
+TEST(PlainDistance, AgreesWithThatOfPrimitives) {
+  Random random(1);
+  for (const char* text : {"plane", "box:0.1x0.06x0.02", "sphere:0.05", "cylinder:0.03x0.1", "cone:0.04x0.1",
+                           "cone:0.01x0.05x0.08", "torus:0.05x0.02", "capsule:0.02x0.06"}) {
+    const geometry::Primitive it = primitive(text);
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3 place = place_about(random, 0.1);
+      EXPECT_NEAR(plain_distance(it, place), geometry::signed_distance(it, place), 1e-15) << text;
+    }
+  }
+}
+
+std::shared_ptr<const geometry::MeshSolid> polyhedron() {
+  return std::make_shared<geometry::MeshSolid>(geometry::bumpy_geodesic_sphere(4, 0.04, 0.005, 2));
+}
+
+/// A chain of operations on shapes of all kinds at random places, stretched; or a tree that branches.
+CsgTree random_plain_tree(Random& random, int leaves, bool chain) {
+  CsgTree tree;
+  std::vector<CsgTree::Index> open;
+  const auto leaf = [&] {
+    base::Affine3 placed(random_pose(random, 0.03).matrix());
+    placed.scale(Vector3(random.uniform(0.5, 1.5), random.uniform(0.5, 1.5), random.uniform(-1.5, -0.5)));
+    const char* texts[] = {"box:0.05x0.06x0.04", "sphere:0.03", "cone:0.03x0.05"};
+    const std::size_t kind = random.index(4);
+    return kind < 3 ? tree.add_leaf(primitive(texts[kind]), placed) : tree.add_leaf(polyhedron(), placed);
+  };
+  const auto join = [&](CsgTree::Index a, CsgTree::Index b) {
+    return tree.add(CsgOperator(random.index(3)), a, b, base::Affine3(random_pose(random, 0.005).matrix()));
+  };
+  CsgTree::Index root = leaf();
+  for (int i = 1; i < leaves; ++i) {
+    const CsgTree::Index other = chain || i + 1 >= leaves ? leaf() : join(leaf(), leaf());
+    root = random.index(2) == 0 ? join(root, other) : join(other, root);
+  }
+  return tree;
+}
+
+TEST(PlainSolid, AgreesWithTheWalkOverTheTree) {
+  Random random(2);
+  int held = 0;
+  for (int round = 0; round < 60; ++round) {
+    const CsgTree tree = random_plain_tree(random, 2 + round % 7, round % 2 == 0);
+    const MembershipSolid solid = plain_solid(tree);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3 place = place_about(random, 0.05);
+      const bool inside = geometry::inside(tree, place);
+      held += inside;
+      ASSERT_EQ(solid.inside(place, 0.0), inside) << round << ": " << place.transpose();
+    }
+  }
+  EXPECT_GT(held, 1000);
+}
+
+TEST(PlainSolid, IsQuickToAskHoweverDeepTheTree) {
+  CsgTree tree;
+  CsgTree::Index root = tree.add_leaf(primitive("sphere:0.05"));
+  for (int i = 0; i < 50'000; ++i)  // far away: each takes nothing off
+    root = tree.add(CsgOperator::Difference, root,
+                    tree.add_leaf(primitive("sphere:0.001"),
+                                  base::Affine3(Eigen::Translation3d(1.0 + 0.01 * i, 0.0, 0.0))));
+  const MembershipSolid solid = plain_solid(tree);
+  EXPECT_TRUE(solid.inside({0.049, 0, 0}, 0.0));
+  EXPECT_FALSE(solid.inside({0.051, 0, 0}, 0.0));
+}
+
+TEST(PlainSolid, OfNothingHoldsNothing) { EXPECT_FALSE(plain_solid({}).inside(Vector3::Zero(), 0.0)); }
+
+TEST(WitnessTree, FindsWhatBruteForceFinds) {
+  Random random(3);
+  const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(7, 0.05, 0.01, 3));
+  const WitnessTree tree(mesh);
+  for (int i = 0; i < 300; ++i) {
+    const Vector3 a = place_about(random, 0.07), b = place_about(random, 0.07);
+    EXPECT_NEAR(tree.distance(a, 1.0), brute_nearest(*mesh, a).distance, 1e-15);
+    EXPECT_EQ(tree.distance(a, 1e-4), std::min(1e-4, tree.distance(a, 1.0)));
+    EXPECT_EQ(winding(tree, a), std::lround(brute_winding(*mesh, a)));
+    bool met = false;
+    tree.along(
+        a, b, [&](std::uint32_t triangle) { met |= crossing(tree.corners(triangle), a, b - a).has_value(); });
+    EXPECT_EQ(met, brute_crosses(*mesh, a, b, true));
+  }
+}
+
+TEST(WitnessTree, CountsOverlappingPartsAndSeesThroughCavities) {
+  TriangleMesh mesh =
+      joined(box_mesh(Vector3::Constant(0.1)), box_mesh(Vector3::Constant(0.1)), {0.05, 0, 0});
+  TriangleMesh cavity = box_mesh(Vector3::Constant(0.02));
+  for (auto& triangle : cavity.triangles) std::swap(triangle[1], triangle[2]);
+  mesh = joined(mesh, cavity, {-0.03, 0, 0});
+  const WitnessTree tree(shared(mesh));
+  EXPECT_EQ(winding(tree, {0.02, 0.001, 0.002}), 2);
+  EXPECT_EQ(winding(tree, {0.09, 0.001, 0.002}), 1);
+  EXPECT_EQ(winding(tree, {-0.03, 0.001, 0.002}), 0);
+  EXPECT_EQ(winding(tree, {-0.06, 0.0, 0.0}), 0);
+}
+
+}  // namespace
+}  // namespace icome::haptics
