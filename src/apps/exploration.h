@@ -1,22 +1,29 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "apps/touch_models.h"
 #include "base/vector.h"
-#include "haptics/renderer.h"
 
 namespace icome::apps {
 
-/// The way that the simulated hand takes over the models: from outside onto the surface, then along a
-/// slow spiral that runs a little below it, so that the hand presses all the time. A closed model is
-/// seen from the middle of all directions, a sheet or a half-space from its front. Planned before the
-/// servo starts; immutable.
+/// The way that the simulated hand takes over the models, planned by geometry alone, before the servo starts
+/// and without the solver that will touch them: strokes a little below the surface, so that the hand presses,
+/// and flights through free space in between. A closed model is looked at from everywhere, a sheet or a
+/// half-space from its front, as they are at the start. Immutable.
 class Exploration {
  public:
-  /// Plans about `seconds` of way for a tip of radius `tip` (m); a longer run goes back the same way.
-  /// The models, at least one, are those of the scene; `renderer` is the one that will touch them.
-  static Exploration plan(const std::vector<TouchModel>& models, const haptics::HapticScene& scene,
-                          double tip, double seconds, haptics::Renderer renderer);
+  struct Leg;
+
+  /// The share of its time that a hand should touch.
+  static constexpr double kEnough = 0.6;
+
+  /// Plans about `seconds` of way over the models, at least one, for a tip of radius `tip` (m); a longer run
+  /// goes back the same way.
+  static Exploration plan(const std::vector<TouchModel>& models, double tip, double seconds);
+
+  /// Why a hand that went this way may have touched for less than that: a clause.
+  std::string why_little() const;
 
   /// Where the hand wants to be `t` >= 0 seconds after the start, m, world frame. Real-time safe.
   base::Vector3 target(double t) const;
@@ -26,9 +33,11 @@ class Exploration {
 
  private:
   Exploration() = default;
-  void follow(const std::vector<base::Vector3>& way, double usual_speed, double seconds);
+  void follow(const std::vector<Leg>& way, double speed);
 
   base::Vector3 centre_ = base::Vector3::Zero();
+  double planned_ = 0.0;                // the share of the way that presses
+  bool changes_ = false;                // does anything change with time?
   std::vector<base::Vector3> targets_;  // one each kStep seconds, at least two
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "geometry/hilbert.h"
@@ -62,34 +61,6 @@ std::optional<BodyHit> first_hit(const TouchBody& body, const Vector3& from, con
   return BodyHit{hit->t, hit->point, hit->normal};
 }
 
-/// From outside: the nearest place that lines of sight to all sides find, then straight ahead of that.
-std::optional<BodyHit> nearest_in_sight(const haptics::SmoothShape& solid, const Vector3& point,
-                                        double limit) {
-  const base::Bounds box = solid.bounds();
-  const double far = std::min(limit, box.exteriorDistance(point) + box.diagonal().norm());
-  std::optional<BodyHit> best;
-  const auto look = [&](const Vector3& direction) {
-    const double reach = best ? best->parameter : far;
-    const auto hit = solid.cast(point, reach * direction, 0.0);
-    if (hit && hit->t * reach < reach) best = BodyHit{hit->t * reach, hit->point, hit->normal};
-  };
-  if (const Vector3 way = box.center() - point; way.norm() > 0.0) look(way.normalized());
-  for (int i = 0; i < 27; ++i) {
-    if (i != 13) look(Vector3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1).normalized());
-  }
-  constexpr int kStraighter = 3;
-  for (int i = 0; i < kStraighter && best; ++i) look(-best->normal);
-  return best;
-}
-
-/// `parameter` of the result is the distance.
-std::optional<BodyHit> nearest_hit(const TouchBody& body, const Vector3& point, double limit) {
-  if (!body.solid) return of_triangle(body, body.tree->nearest(point, limit));
-  const auto out = body.solid->way_out(point, 0.0);
-  if (!out) return nearest_in_sight(*body.solid, point, limit);
-  return BodyHit{(out->point - point).norm(), out->point, out->normal};
-}
-
 ProbedPoint probed(const TouchBody& body, const BodyHit& hit, const Vector3& from) {
   const Vector3 point = body.world_from_body * hit.point;
   Vector3 normal = body.world_from_body.linear() * hit.normal;
@@ -140,7 +111,7 @@ void SurfaceProbe::find_front() {
   if (sum.vector.norm() > kSheet * sum.area) front_ = sum.vector.normalized();
 }
 
-ProbedPoint SurfaceProbe::look(const Vector3& from, const Vector3& to, const Vector3& near) const {
+std::optional<ProbedPoint> SurfaceProbe::look(const Vector3& from, const Vector3& to) const {
   std::optional<ProbedPoint> best;
   double first = std::numeric_limits<double>::infinity();
   boxes_.near(geometry::SegmentQuery(from, to, 0.0), [&](std::uint32_t slot) {
@@ -152,21 +123,6 @@ ProbedPoint SurfaceProbe::look(const Vector3& from, const Vector3& to, const Vec
       best = probed(body, *hit, from);
     }
     return true;
-  });
-  return best ? *best : nearest(near, from);
-}
-
-ProbedPoint SurfaceProbe::nearest(const Vector3& point, const Vector3& from) const {
-  ProbedPoint best{point, Vector3::UnitZ()};
-  double limit = std::numeric_limits<double>::infinity();
-  boxes_.nearest(point, limit, [&](std::uint32_t slot) {
-    const TouchBody& body = *bodies_[slot];
-    const auto hit = nearest_hit(body, body.world_from_body.inverse() * point, limit);
-    if (hit && hit->parameter < limit) {
-      limit = hit->parameter;
-      best = probed(body, *hit, from);
-    }
-    return limit * limit;
   });
   return best;
 }

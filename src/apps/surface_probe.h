@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "apps/touch_models.h"
@@ -19,11 +20,9 @@ class SurfaceProbe {
  public:
   explicit SurfaceProbe(const std::vector<TouchModel>& models);
 
-  /// Where the line of sight from `from` to `to` ends; without a hit, the surface point nearest to `near`.
-  ProbedPoint look(const base::Vector3& from, const base::Vector3& to, const base::Vector3& near) const;
-
-  /// The surface point nearest to `point`; an open surface turns its normal towards `from`.
-  ProbedPoint nearest(const base::Vector3& point, const base::Vector3& from) const;
+  /// Where the line of sight from `from` to `to` ends, if it does; an open surface turns its normal towards
+  /// `from`.
+  std::optional<ProbedPoint> look(const base::Vector3& from, const base::Vector3& to) const;
 
   const base::Bounds& bounds() const { return bounds_; }
   /// The direction from which all of the surface can be seen when it is a sheet or a half-space; zero

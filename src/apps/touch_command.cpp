@@ -38,6 +38,7 @@ struct Prepared {
   double build_seconds = 0.0;
   devices::DeviceInfo device;
   std::optional<devices::PathPlayer> player;  // none: explore
+  std::optional<Exploration> exploration;     // once it is planned
   std::optional<haptics::ContactJudge> judge;
   std::optional<TraceFile> trace;
 };
@@ -120,7 +121,10 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
     prepared.player = std::move(*player);
   }
   if (const auto loaded = load(options, status, prepared); !loaded) return tl::unexpected(loaded.error());
-  if (options.check) prepared.judge = judge_for(prepared.models, options);
+  if (options.check) {
+    status.say("Preparing the check");
+    prepared.judge = judge_for(prepared.models, options);
+  }
   if (options.trace) {
     auto trace = TraceFile::create(*options.trace);
     if (!trace) return tl::unexpected(trace.error());
@@ -134,11 +138,10 @@ base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, To
                              StatusLine& status) {
   if (prepared.player) return replay(*prepared.player, prepared.scene, options, diary, status);
   status.say("Planning where to touch");
-  const Exploration exploration =
-      Exploration::plan(prepared.models, *prepared.scene, options.radius,
-                        options.seconds.value_or(kDefaultSeconds), renderer_of(options));
+  prepared.exploration =
+      Exploration::plan(prepared.models, options.radius, options.seconds.value_or(kDefaultSeconds));
   status.clear();
-  return explore(exploration, prepared.device, prepared.scene, options, diary, status);
+  return explore(*prepared.exploration, prepared.device, prepared.scene, options, diary, status);
 }
 
 void add_to(render::TouchPicture& picture, const TouchBody& body, const std::string& name) {
@@ -199,6 +202,12 @@ void tell_outcome(const RunOutcome& outcome) {
   }
 }
 
+void tell_little_touch(const Exploration& exploration, const TouchFigures& figures) {
+  if (figures.touch_fraction >= Exploration::kEnough) return;
+  tell(fmt::format("the hand touched for {:.0f} % of its time: {}.", 100.0 * figures.touch_fraction,
+                   exploration.why_little()));
+}
+
 /// Writes what was asked for beside the report; false when something failed, which it tells.
 bool write_files(Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
                  const TouchOptions& options, StatusLine& status) {
@@ -246,6 +255,7 @@ int run_touch(const TouchOptions& options) {
   tell_outcome(*outcome);
   const TouchFigures figures =
       figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options.rate_hz);
+  if (prepared->exploration) tell_little_touch(*prepared->exploration, figures);
   if (options.json) {
     fmt::print("{}\n", json_report(figures));
   } else {

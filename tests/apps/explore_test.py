@@ -13,11 +13,23 @@ PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 class ExploreTest(ProgramTest):
     def test_it_touches_most_of_the_time(self):
         sheet = self.write("sheet.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
-        for model in (["sphere:0.05"], ["box:0.1x0.1x0.1"], ["plane"], ["torus:0.05x0.02"], [sheet, "--fit", "0.2"],
-                      ["sphere:0.03", "plane"], ["sphere:5"], ["sphere:0.001"]):
+        for model in (["sphere:0.05"], ["box:0.1x0.1x0.1"], ["plane"], ["torus:0.05x0.02"],
+                      ["sphere:0.03", "plane"], ["sphere:0.001"]):
             report = self.report(*model, "--seconds", "1")
-            self.assertGreater(report["touch_fraction"], 0.5, model)
+            self.assertGreater(report["touch_fraction"], 0.6, model)
             self.assertGreater(report["max_force_n"], 0.0, model)
+        self.assertGreater(self.report(sheet, "--fit", "0.2", "--seconds", "1")["touch_fraction"], 0.3)
+
+    def test_solids_and_formulas_are_touched_most_of_the_time(self):
+        pierced = self.write("pierced.csg", "difference() { cube(size = [80, 80, 80], center = true); "
+                                            "cylinder(h = 200, r1 = 15, r2 = 15, center = true); }")
+        for model in ([pierced], ["--implicit", "x^2 + y^2 + (z/2)^2 - 0.03^2", "--bounds", "0.1"]):
+            self.assertGreater(self.report(*model, "--seconds", "1")["touch_fraction"], 0.6, model)
+
+    def test_it_says_why_it_touched_little(self):
+        sinking = ("--implicit", "x^2 + y^2 + (z + 0.3*t)^2 - 0.03^2", "--bounds", "0.6", "--seconds", "1")
+        self.assertIn("the surface moves", self.succeeds("touch", *sinking).stderr)
+        self.assertNotIn("the hand touched", self.succeeds("touch", "sphere:0.05", "--seconds", "1").stderr)
 
     def test_bunny_leaves_a_picture(self):
         if not BUNNY.exists():
@@ -64,6 +76,12 @@ class SharedDataTest(ProgramTest):
                 report = self.report(mesh, "--fit", "0.1", "--path", self.path)
                 self.assertGreater(report["triangles"], 0, mesh)
                 self.assertEqual(report["ticks"], 600)
+
+    def test_intricate_meshes_are_touched_most_of_the_time(self):
+        for name in ("boolean/Generic_Twin_7863.1.t0_right.obj", "anatomy/teeth-bottom.obj.xz"):
+            report = self.report(SHARED_MESHES / name, "--fit", "0.1", "--seconds", "1", "--check")
+            self.assertGreater(report["touch_fraction"], 0.6, name)
+            self.assertEqual(report["silent"], 0, name)
 
     def test_bad_meshes_are_touched_or_refused_in_one_sentence(self):
         for mesh in sorted((SHARED_MESHES / "bad").iterdir()):
