@@ -7,6 +7,7 @@
 #include <map>
 
 #include "apps/desktop_command.h"
+#include "apps/effect_options.h"
 #include "apps/help_text.h"
 #include "apps/stats_command.h"
 #include "apps/stats_help.h"
@@ -106,6 +107,17 @@ void add_feel_options(CLI::App& touch, Entries& entries) {
                   "Feel facets, or normals interpolated over them (default flat)")
       ->type_name("flat|smooth")
       ->check(CLI::IsMember({"flat", "smooth"}));
+  touch
+      .add_option("--texture", options.texture,
+                  "Relief on all surfaces, such as ridges:0.0005,0.002: depth and spacing in m (list below; "
+                  "default: the material's)")
+      ->type_name("KIND[:NUMBERS]");
+  touch
+      .add_option("--effect", options.effects,
+                  "A force beside the surfaces, such as viscous:2 (list below); may be given several times")
+      ->type_name("KIND:NUMBERS")
+      ->expected(1)
+      ->take_all();
   touch.add_option("--radius", options.radius, "Radius of the tip in metres (default 0: a point)")
       ->type_name("R");
 }
@@ -367,7 +379,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   Entries entries;
   add_desktop_options(app, entries.desktop);
   CLI::App& touch = *app.add_subcommand("touch", kTouchSummary);
-  touch.footer(kTouchExamples);
+  touch.footer(kTouchExamples + effects_help() + kTouchFormats);
   add_model_options(touch, entries);
   add_exact_options(touch, entries);
   add_feel_options(touch, entries);

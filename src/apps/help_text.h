@@ -66,6 +66,7 @@ constexpr const char* kTouchExamples =
     "  icome touch room.wrl --up y --fit 0.3 --picture touch.png\n"
     "  icome touch control.obj --subdivide limit --crease 40\n"
     "  icome touch --implicit \"z - 0.005*sin(60*x + 3*t)*cos(60*y)\" --bounds 0.1,0.1,0.06\n"
+    "  icome touch sphere:0.05 --texture ridges:0.0005,0.002 --effect viscous:2 --effect constant:0,0,-0.3\n"
     "  icome touch tooth.obj jaw.obj --fit 0.08 --device \"PHANToM Desktop\" --trace out.csv\n"
     "\n"
     "World: metres, z up. Models stand where their file or primitive puts them: they are scaled about the\n"
@@ -85,7 +86,9 @@ constexpr const char* kTouchExamples =
     "the\n"
     "same trace (but tick_us). Forces are limited as for --device; they grow from zero at the start of a "
     "run.\n"
-    "Without --path the simulated hand explores in real time, on any machine, and Ctrl-C ends it early.\n"
+    "Without --path the simulated hand explores in real time, on any machine, and Ctrl-C ends it early.\n";
+
+constexpr const char* kTouchFormats =
     "\n"
     "Trace: t,tip_x,tip_y,tip_z,scp_x,scp_y,scp_z,force_x,force_y,force_z,touching,object,tick_us\n"
     "  s, m and N in the world frame. scp is the surface contact point (the centre of a tip with a radius)\n"
@@ -97,7 +100,8 @@ constexpr const char* kTouchExamples =
     "  files), ticks, rate_hz, tick_us {median, p99, p999, max}, haptic_load {median, p999, max} (the tick "
     "as\n"
     "  a share of the period, 1 is all of it), overruns, max_force_n, touch_fraction, pops, sticks, silent\n"
-    "  (ticks in which the tip is inside and nothing is felt) and pulls (the four null without --check),\n"
+    "  (ticks in which the tip is inside and nothing is felt) and pulls (the four null without --check), texture\n"
+    "  (null without --texture) and effects (an array) as they were written,\n"
     "  peak_memory_bytes. It goes to standard output, all messages to standard error.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 a replay was interrupted.";

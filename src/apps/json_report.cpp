@@ -31,6 +31,8 @@ std::string json_report(const TouchFigures& figures) {
   report["sticks"] = count_or_null(figures.sticks);
   report["silent"] = count_or_null(figures.silent);
   report["pulls"] = count_or_null(figures.pulls);
+  report["texture"] = figures.texture ? Json(*figures.texture) : Json(nullptr);
+  report["effects"] = figures.effects;
   report["peak_memory_bytes"] = figures.peak_memory_bytes;
   // Names of files may hold bytes that are no UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace);

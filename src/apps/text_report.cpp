@@ -128,6 +128,8 @@ std::string text_report(const TouchFigures& figures, const std::vector<TouchMode
   Table table;
   for (const TouchModel& model : models) add_model(table, model, options);
   add_run(table, figures, outcome, options);
+  if (options.texture) table.row("texture", *options.texture);
+  for (const std::string& effect : options.effects) table.row("effect", effect);
   table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
   table.row("force", fmt::format("at most {:.3g} N", figures.max_force));
   if (figures.pops && figures.sticks && figures.silent && figures.pulls) {

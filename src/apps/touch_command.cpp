@@ -254,7 +254,7 @@ int run_touch(const TouchOptions& options) {
   }
   tell_outcome(*outcome);
   const TouchFigures figures =
-      figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options.rate_hz);
+      figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options);
   if (prepared->exploration) tell_little_touch(*prepared->exploration, figures);
   if (options.json) {
     fmt::print("{}\n", json_report(figures));

@@ -35,7 +35,7 @@ realtime::Quantiles exact_quantiles(std::vector<std::uint32_t> samples, double u
 }
 
 TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seconds, const TouchDiary& diary,
-                        const RunOutcome& outcome, double rate_hz) {
+                        const RunOutcome& outcome, const TouchOptions& options) {
   TouchFigures figures;
   for (const TouchModel& model : models) {
     figures.model += (figures.model.empty() ? "" : " ") + model.name;
@@ -43,9 +43,9 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
   }
   figures.build_seconds = build_seconds;
   figures.ticks = diary.ticks();
-  figures.rate_hz = rate_hz;
+  figures.rate_hz = options.rate_hz;
   figures.tick_us = exact_quantiles(diary.tick_ns(), kMicrosecond);
-  const double period = kSecond / rate_hz;
+  const double period = kSecond / options.rate_hz;
   figures.load = exact_quantiles(diary.tick_ns(), period);
   for (const std::uint32_t nanoseconds : diary.tick_ns()) ++figures.load_bins[load_bin(nanoseconds / period)];
   figures.overruns = outcome.overruns;
@@ -59,6 +59,8 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
     figures.silent = diary.judge()->silent();
     figures.pulls = diary.judge()->pulls();
   }
+  figures.texture = options.texture;
+  figures.effects = options.effects;
   figures.peak_memory_bytes = peak_memory();
   return figures;
 }

@@ -34,7 +34,9 @@ struct TouchFigures {
   std::optional<std::uint64_t> sticks;
   std::optional<std::uint64_t> silent;
   std::optional<std::uint64_t> pulls;
-  std::size_t peak_memory_bytes = 0;  // of the whole program
+  std::optional<std::string> texture;  // as it was asked for
+  std::vector<std::string> effects;    // the same
+  std::size_t peak_memory_bytes = 0;   // of the whole program
 };
 
 /// The nearest-rank quantiles of raw samples, in units of `unit` of them; zeros without samples. Takes a
@@ -42,6 +44,6 @@ struct TouchFigures {
 realtime::Quantiles exact_quantiles(std::vector<std::uint32_t> samples, double unit);
 
 TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seconds, const TouchDiary& diary,
-                        const RunOutcome& outcome, double rate_hz);
+                        const RunOutcome& outcome, const TouchOptions& options);
 
 }  // namespace icome::apps

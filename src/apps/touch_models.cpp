@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/design_models.h"
+#include "apps/effect_options.h"
 #include "apps/exact_models.h"
 #include "apps/stopwatch.h"
 #include "files/mesh_reader.h"
@@ -172,6 +173,7 @@ haptics::Surface surface_of(const TouchBody& body, const TouchOptions& options) 
     surface.static_friction = options.friction->at_rest;
     surface.dynamic_friction = options.friction->sliding;
   }
+  if (options.texture) surface.texture = texture_of(options);
   surface.sides = options.sides.value_or(body.closed ? TouchableSides::Front : TouchableSides::Both);
   return surface;
 }

@@ -42,9 +42,11 @@ struct TouchOptions {
   double radius = 0.0;                        // m, of the tip; 0 is a point
 
   std::optional<haptics::TouchableSides> sides;  // none: front of closed bodies, both of open ones
-  std::optional<double> stiffness;   // N/m; 0: the device's nominal stiffness; none: the models' own
-  std::optional<Friction> friction;  // none: the models' own
-  bool smooth_shading = false;       // feel normals interpolated over the facets
+  std::optional<double> stiffness;     // N/m; 0: the device's nominal stiffness; none: the models' own
+  std::optional<Friction> friction;    // none: the models' own
+  bool smooth_shading = false;         // feel normals interpolated over the facets
+  std::optional<std::string> texture;  // of all surfaces: haptics::make_texture; none: the models' own
+  std::vector<std::string> effects;    // beside the surfaces: haptics::make_effect
 
   bool check = false;
   bool json = false;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/effect_options.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
 #include "devices/simulated/simulated_device.h"
@@ -110,7 +111,8 @@ devices::SimulatedSettings simulated_settings(const Exploration& exploration,
 
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
                   const TouchOptions& options, TouchDiary& diary, StatusLine& status) {
-  haptics::Servo servo(player, servo_settings(options));
+  haptics::EffectSet effects = effects_of(options);
+  haptics::Servo servo(player, servo_settings(options), &effects);
   servo.publish(scene);
   RunOutcome outcome;
   const std::vector<double>& times = player.times();
@@ -146,7 +148,8 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
   devices::SimulatedDevice hand(simulated_settings(exploration, device, options.rate_hz));
   haptics::ServoSettings settings = servo_settings(options);
   settings.world_from_device.translation() = exploration.centre();
-  haptics::Servo servo(hand, settings);
+  haptics::EffectSet effects = effects_of(options);
+  haptics::Servo servo(hand, settings, &effects);
   servo.publish(scene);
   ClockedRun run(servo, options, seconds);
   const Stopwatch watch;

@@ -18,6 +18,11 @@ GravityWell::GravityWell(const Vector3& centre, double radius, double stiffness)
   assert(radius > 0.0 && stiffness >= 0.0);
 }
 
+double GravityWell::stiffness_of(double radius, double force) {
+  // F(R/sqrt(5)) = k R/sqrt(5) (4/5)^2.
+  return force * 25.0 * std::sqrt(5.0) / (16.0 * radius);
+}
+
 Vector3 GravityWell::force(const EffectInput& input) {
   const Vector3 offset = centre_ - input.position;
   const double left = 1.0 - offset.squaredNorm() / (radius_ * radius_);

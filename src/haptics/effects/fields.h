@@ -34,6 +34,8 @@ class GravityWell final : public Effect {
  public:
   /// `radius` > 0 in m, `stiffness` k at the centre in N/m.
   GravityWell(const Vector3& centre, double radius, double stiffness);
+  /// The stiffness (N/m) at the centre of a well of `radius` > 0 (m) whose strongest pull is `force` (N).
+  static double stiffness_of(double radius, double force);
   Vector3 force(const EffectInput& input) override;
 
  private:
