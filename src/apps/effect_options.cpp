@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "haptics/effects/effect_text.h"
 #include "haptics/texture_text.h"
@@ -14,6 +16,33 @@ std::string help_entry(std::string_view name, const std::string& usage, std::str
                        const std::string& ranges) {
   return fmt::format("  {}{}\n      {}\n      {}\n", name, usage, summary, ranges);
 }
+
+/// Sentences, each once.
+class CappedFeel {
+ public:
+  CappedFeel(const devices::DeviceInfo& device, double rate_hz) : device_(device), rate_hz_(rate_hz) {}
+
+  void add(const std::string& who, const std::string& what) {
+    if (what.empty()) return;
+    std::string sentence =
+        fmt::format("{}: {}, the most that is stable on this device at {:g} Hz.", who, what, rate_hz_);
+    if (std::ranges::find(sentences_, sentence) == sentences_.end())
+      sentences_.push_back(std::move(sentence));
+  }
+  void add_surface(const std::string& who, double stiffness) {
+    const double asked = stiffness > 0.0 ? stiffness : device_.nominal_stiffness;
+    add(who, haptics::capped_stiffness(device_.effective_mass, 1.0 / rate_hz_, asked));
+  }
+  void add_effect(const std::string& who, const haptics::Effect& effect) {
+    add(who, effect.capped(device_.effective_mass, 1.0 / rate_hz_));
+  }
+  std::vector<std::string> sentences() && { return std::move(sentences_); }
+
+ private:
+  devices::DeviceInfo device_;
+  double rate_hz_;
+  std::vector<std::string> sentences_;
+};
 
 }  // namespace
 
@@ -37,6 +66,17 @@ haptics::EffectSet effects_of(const TouchOptions& options) {
 
 std::shared_ptr<const haptics::HapticTexture> texture_of(const TouchOptions& options) {
   return options.texture ? haptics::make_texture(*options.texture).value() : nullptr;
+}
+
+std::vector<std::string> capped_feel(const std::vector<TouchModel>& models, const TouchOptions& options,
+                                     const devices::DeviceInfo& device) {
+  CappedFeel capped(device, options.rate_hz);
+  for (const TouchModel& model : models)
+    for (const TouchBody& body : model.bodies)
+      capped.add_surface(model.name, surface_of(body, options).stiffness);
+  for (const std::string& text : options.effects)
+    capped.add_effect("effect " + text, *haptics::make_effect(text).value());
+  return std::move(capped).sentences();
 }
 
 std::string effects_help() {

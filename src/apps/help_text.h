@@ -102,6 +102,7 @@ constexpr const char* kTouchFormats =
     "  a share of the period, 1 is all of it), overruns, max_force_n, touch_fraction, pops, sticks, silent\n"
     "  (ticks in which the tip is inside and nothing is felt) and pulls (the four null without --check), texture\n"
     "  (null without --texture) and effects (an array) as they were written,\n"
+    "  capped (sentences about what is felt softer than asked for, so as to be stable),\n"
     "  peak_memory_bytes. It goes to standard output, all messages to standard error.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 a replay was interrupted.";

@@ -33,6 +33,7 @@ std::string json_report(const TouchFigures& figures) {
   report["pulls"] = count_or_null(figures.pulls);
   report["texture"] = figures.texture ? Json(*figures.texture) : Json(nullptr);
   report["effects"] = figures.effects;
+  report["capped"] = figures.capped;
   report["peak_memory_bytes"] = figures.peak_memory_bytes;
   // Names of files may hold bytes that are no UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace);

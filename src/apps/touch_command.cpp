@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/design_models.h"
+#include "apps/effect_options.h"
 #include "apps/exact_models.h"
 #include "apps/exploration.h"
 #include "apps/interrupt.h"
@@ -253,8 +254,9 @@ int run_touch(const TouchOptions& options) {
     return kFailed;
   }
   tell_outcome(*outcome);
-  const TouchFigures figures =
-      figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options);
+  TouchFigures figures = figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options);
+  figures.capped = capped_feel(prepared->models, options, prepared->device);
+  for (const std::string& sentence : figures.capped) tell(sentence);
   if (prepared->exploration) tell_little_touch(*prepared->exploration, figures);
   if (options.json) {
     fmt::print("{}\n", json_report(figures));

@@ -1,5 +1,7 @@
 #include "haptics/surface_force.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,7 +11,6 @@ namespace icome::haptics {
 namespace {
 
 constexpr double kLargestRelativeStiffness = 0.1;  // K dt^2/m
-constexpr double kLeakTicks = 2.0;                 // ticks of K that damping must pay for at least
 constexpr double kDampingShare = 0.25;             // of the upper end of the range, used at most
 
 }  // namespace
@@ -28,6 +29,12 @@ DampingRange stable_damping_range(double stiffness, double effective_mass, doubl
 double stable_stiffness(double effective_mass, double dt, double requested) {
   assert(effective_mass > 0.0 && dt > 0.0);
   return std::min(requested, kLargestRelativeStiffness * effective_mass / (dt * dt));
+}
+
+std::string capped_stiffness(double effective_mass, double dt, double requested) {
+  const double felt = stable_stiffness(effective_mass, dt, requested);
+  if (felt >= requested) return {};
+  return fmt::format("stiffness {:g} N/m is felt as {:g} N/m", requested, felt);
 }
 
 double stable_damping(double stiffness, double effective_mass, double dt, double requested) {

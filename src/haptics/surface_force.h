@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <string>
 
 #include "base/vector.h"
 #include "haptics/haptic_texture.h"
@@ -54,6 +55,14 @@ DampingRange stable_damping_range(double stiffness, double effective_mass, doubl
 /// K dt^2/m <= 0.1. At 1 kHz this is above every device's nominal stiffness; a slower loop must be softer
 /// (thesis 5.3.2: stiff walls need a higher rate). Real-time safe.
 double stable_stiffness(double effective_mass, double dt, double requested);
+
+/// "stiffness 5000 N/m is felt as 1000 N/m" where stable_stiffness() allows less than `requested`; else
+/// empty.
+std::string capped_stiffness(double effective_mass, double dt, double requested);
+
+/// How many ticks of a stiffness damping must pay for at least: the hold leaks half a tick of it, a device
+/// that answers one tick late a whole one (stable_damping).
+constexpr double kLeakTicks = 2.0;
 
 /// The damping (N s/m) to use for a wall no stiffer than stable_stiffness(): `requested`, kept between
 /// 2 K dt (the hold leaks K dt/2, a tick of delay K dt) and a quarter of the upper end of the range.

@@ -24,7 +24,11 @@ PointerView view_of(const haptics::TickReport& report, std::uint64_t losses, std
   view.touching = report.contact.touching;
   view.scp = view.touching ? report.contact.scp : report.tip;
   view.force = report.force;
-  if (view.touching) view.touched = report.object;
+  if (view.touching) {
+    view.touched = report.object;
+    view.asked_stiffness = report.asked_stiffness;
+    view.stiffness = report.stiffness;
+  }
   view.losses = losses;
   return view;
 }

@@ -22,6 +22,7 @@ using devices::DeviceStatus;
 namespace {
 
 constexpr int kEvery = 66;  // ms
+constexpr const char* kTouchedTip = "The object under the hand";
 
 /// A lamp that says how the device is.
 class StateDot final : public QWidget {
@@ -96,6 +97,14 @@ QString explanation_of(DeviceStatus status) {
   return "The pointer device does not answer: plug it in again. Forces go nowhere meanwhile.";
 }
 
+QString softer_words(const session::PointerView& view) {
+  return QString(
+             "It was made %1 N/m hard and is felt as %2 N/m, the most that is stable on this device at this "
+             "servo rate.")
+      .arg(std::llround(view.asked_stiffness))
+      .arg(std::llround(view.stiffness));
+}
+
 QString grouped(double number) {
   return number >= 0.0 && number < 1e15
              ? QString::fromStdString(render::grouped(std::size_t(std::llround(number))))
@@ -162,7 +171,7 @@ QWidget* StatusStrip::Parts::build_device(QWidget* strip) {
   state->setAccessibleName("State of the pointer device");
   touched = new QLabel(block);
   touched->setAccessibleName("Object that is touched");
-  touched->setToolTip("The object under the hand");
+  touched->setToolTip(kTouchedTip);
   grid->addWidget(dot, 0, 0);
   grid->addWidget(device, 0, 1);
   grid->addWidget(state, 1, 1);
@@ -213,7 +222,10 @@ void StatusStrip::Parts::look_at_device() {
   state->setToolTip(explanation_of(view.status));
   dot->setToolTip(explanation_of(view.status));
   const auto object = view.touching ? session.touched(0) : std::nullopt;
-  const QString what = object ? "touches " + shown_name(session.world(), *object) : QString();
+  const bool softer = object && view.stiffness < view.asked_stiffness;
+  const QString what =
+      object ? (softer ? "softly touches " : "touches ") + shown_name(session.world(), *object) : QString();
+  touched->setToolTip(softer ? softer_words(view) : QString(kTouchedTip));
   set(*touched, touched->fontMetrics().elidedText(what, Qt::ElideRight, 36 * kGrid));
 }
 

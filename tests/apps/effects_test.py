@@ -148,6 +148,18 @@ class EffectsTest(ProgramTest):
             self.assertAlmostEqual(row["force_z"], pressed, delta=0.02)
             self.assertAlmostEqual(row["force_x"], -pressed * slope, delta=0.02)
 
+    def test_what_is_capped_is_told(self):
+        path = self.path_file([START] * 10)
+        device = ["--device", "omega.x", "--path", path]  # 100 g: K dt^2/m <= 0.1 at 1 kHz is 10 kN/m
+        self.assertEqual(self.report(FAR, *device, "--stiffness", 10000, "--effect", "point:0,0,0,9999")["capped"], [])
+        report = self.report(FAR, *device, "--stiffness", 20000, "--effect", "point:0,0,0,50000", "--effect", "viscous:60")
+        self.assertEqual(len(report["capped"]), 3)
+        self.assertIn("stiffness 20000 N/m is felt as 10000 N/m", report["capped"][0])
+        self.assertIn("effect point:0,0,0,50000: stiffness 50000 N/m is felt as 10000 N/m", report["capped"][1])
+        self.assertIn("damping 60 N s/m is felt as 50 N s/m", report["capped"][2])
+        done = self.succeeds("touch", FAR, *device, "--stiffness", 20000)
+        self.assertIn("the most that is stable on this device at 1000 Hz", done.stderr)
+
     def test_a_direction_turns_the_ridges(self):
         points = line((0.0, 0.0, 0.001), (0.0, 0.0, -0.002), 200) + [(0.0, 0.0, -0.002)] * RAMPED
         points += [(0.00001 * i, 0.0, -0.002) for i in range(500)]

@@ -1,16 +1,22 @@
 #include "haptics/effects/drag.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
-#include "haptics/surface_force.h"
-
 namespace icome::haptics {
 
 Vector3 ViscousDamping::force(const EffectInput& input) {
   return -stable_damping(0.0, input.device_mass, input.dt, damping_) * input.velocity;
+}
+
+std::string ViscousDamping::capped(double device_mass, double dt) const {
+  const double felt = stable_damping(0.0, device_mass, dt, damping_);
+  if (felt >= damping_) return {};
+  return fmt::format("damping {:g} N s/m is felt as {:g} N s/m", damping_, felt);
 }
 
 FrictionEffect::FrictionEffect(const FrictionSettings& settings) : settings_(settings) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "haptics/effects/effect.h"
+#include "haptics/surface_force.h"
 
 namespace icome::haptics {
 
@@ -10,6 +11,7 @@ class ViscousDamping final : public Effect {
   /// `damping` >= 0 in N s/m, usually 0.5 to 10.
   explicit ViscousDamping(double damping) : damping_(damping) {}
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override;
 
  private:
   double damping_;  // N s/m
@@ -30,6 +32,9 @@ class FrictionEffect final : public Effect {
   explicit FrictionEffect(const FrictionSettings& settings);
   Vector3 force(const EffectInput& input) override;
   void reset() override { anchored_ = false; }
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, settings_.stiffness);
+  }
 
  private:
   FrictionSettings settings_;

@@ -26,6 +26,15 @@ Vector3 EffectSet::force(const EffectInput& input) {
   return sum;
 }
 
+std::string EffectSet::capped(double device_mass, double dt) const {
+  std::string all;
+  for (const Member& member : members_) {
+    const std::string one = member.enabled ? member.effect->capped(device_mass, dt) : std::string();
+    if (!one.empty()) all += (all.empty() ? "" : ", ") + one;
+  }
+  return all;
+}
+
 void EffectSet::reset() {
   for (Member& member : members_) member.effect->reset();
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/vector.h"
@@ -29,6 +30,9 @@ class Effect {
   virtual Vector3 force(const EffectInput& input) = 0;
   /// Forgets what it has felt so far: the tip jumped, or the effect was off. Real-time safe.
   virtual void reset() {}
+  /// What a device of `device_mass` (kg) with a tick of `dt` (s) cannot render stably as it was asked for:
+  /// "stiffness 5000 N/m is felt as 1000 N/m". Empty where all is given.
+  virtual std::string capped(double /*device_mass*/, double /*dt*/) const { return {}; }
 };
 
 /// The sum of effects, which it owns. It is an effect itself, so sets nest.
@@ -45,6 +49,8 @@ class EffectSet final : public Effect {
 
   Vector3 force(const EffectInput& input) override;
   void reset() override;
+  /// Of its members, those that are on, one after the other.
+  std::string capped(double device_mass, double dt) const override;
 
  private:
   struct Member {

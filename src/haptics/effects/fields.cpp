@@ -27,7 +27,8 @@ Vector3 GravityWell::force(const EffectInput& input) {
   const Vector3 offset = centre_ - input.position;
   const double left = 1.0 - offset.squaredNorm() / (radius_ * radius_);
   if (left <= 0.0) return Vector3::Zero();
-  return stiffness_ * left * left * offset;
+  const double stiffness = stable_stiffness(input.device_mass, input.dt, stiffness_) * left * left;
+  return stiffness * (offset - kLeakTicks * input.dt * input.velocity);
 }
 
 Recess::Recess(const RecessSettings& settings) : settings_(settings) {
@@ -36,14 +37,22 @@ Recess::Recess(const RecessSettings& settings) : settings_(settings) {
   settings_.axis.normalize();
 }
 
+double Recess::slope_stiffness() const {
+  return settings_.peak_force * std::numbers::pi / (settings_.rim_radius - settings_.floor_radius);
+}
+
 Vector3 Recess::force(const EffectInput& input) {
   const Vector3 offset = settings_.centre - input.position;
   const Vector3 inwards = offset - offset.dot(settings_.axis) * settings_.axis;
   const double r = inwards.norm();
-  if (r <= settings_.floor_radius || r >= settings_.rim_radius) return Vector3::Zero();
+  if (settings_.peak_force <= 0.0 || r <= settings_.floor_radius || r >= settings_.rim_radius)
+    return Vector3::Zero();
   const double across = (r - settings_.floor_radius) / (settings_.rim_radius - settings_.floor_radius);
   const double wave = std::sin(std::numbers::pi * across);
-  return inwards * (settings_.peak_force * wave * wave / r);
+  const double stiffness = stable_stiffness(input.device_mass, input.dt, slope_stiffness());
+  const double peak = settings_.peak_force * stiffness / slope_stiffness();
+  const Vector3 across_axis = input.velocity - input.velocity.dot(settings_.axis) * settings_.axis;
+  return inwards * (peak * wave * wave / r) - kLeakTicks * input.dt * stiffness * wave * across_axis;
 }
 
 }  // namespace icome::haptics

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "haptics/effects/effect.h"
+#include "haptics/surface_force.h"
 
 namespace icome::haptics {
 
@@ -29,7 +30,9 @@ class ForceField final : public Effect {
 
 /// Attracts the tip to a point from within a radius: F(r) = k r (1 - (r/R)^2)^2, which begins at the rim
 /// without a jump in force or slope and is a spring of k at the centre. The strongest pull is 0.286 k R,
-/// at r = R/sqrt(5). It gives back all the energy it takes.
+/// at r = R/sqrt(5). It gives back all the energy it takes but for a little damping, 2 k dt at the centre and
+/// none at the rim, which pays for what the hold of a tick leaks (kLeakTicks). k is kept within what is
+/// stable for the device and the tick.
 class GravityWell final : public Effect {
  public:
   /// `radius` > 0 in m, `stiffness` k at the centre in N/m.
@@ -37,6 +40,9 @@ class GravityWell final : public Effect {
   /// The stiffness (N/m) at the centre of a well of `radius` > 0 (m) whose strongest pull is `force` (N).
   static double stiffness_of(double radius, double force);
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, stiffness_);
+  }
 
  private:
   Vector3 centre_;    // m
@@ -46,7 +52,9 @@ class GravityWell final : public Effect {
 
 /// A round recess, the target aid of Oakley et al. (2000): on its floor the tip is free, around it a
 /// slope pushes it back towards the axis, F(r) = peak sin^2(pi (r - floor)/(rim - floor)), outside it is
-/// free again. To leave, the hand pays peak (rim - floor)/2 joule, and gets it back when it falls in.
+/// free again. To leave, the hand pays peak (rim - floor)/2 joule, and gets it back when it falls in, but for
+/// damping that pays for what the hold of a tick leaks on the slope. The slope's stiffness,
+/// peak pi/(rim - floor), is kept within what is stable for the device and the tick: the peak may be lower.
 struct RecessSettings {
   Vector3 centre = Vector3::Zero();  // m, any point on the axis
   Vector3 axis = Vector3::UnitZ();   // any length but 0; no force along it
@@ -59,8 +67,13 @@ class Recess final : public Effect {
  public:
   explicit Recess(const RecessSettings& settings);
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, slope_stiffness());
+  }
 
  private:
+  double slope_stiffness() const;  // N/m, where the slope rises most
+
   RecessSettings settings_;  // axis normalised
 };
 

@@ -4,8 +4,6 @@
 #include <cassert>
 #include <utility>
 
-#include "haptics/surface_force.h"
-
 namespace icome::haptics {
 namespace {
 

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "haptics/effects/effect.h"
+#include "haptics/surface_force.h"
 
 namespace icome::haptics {
 
@@ -17,6 +18,9 @@ class PointSpring final : public Effect {
  public:
   PointSpring(const Vector3& point, const SpringSettings& settings) : point_(point), settings_(settings) {}
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, settings_.stiffness);
+  }
 
  private:
   Vector3 point_;  // m
@@ -29,6 +33,9 @@ class LineSpring final : public Effect {
   /// The line through `point` (m) along `direction` (any length but 0).
   LineSpring(const Vector3& point, const Vector3& direction, const SpringSettings& settings);
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, settings_.stiffness);
+  }
 
  private:
   Vector3 point_;      // m
@@ -42,6 +49,9 @@ class PlaneSpring final : public Effect {
   /// The plane through `point` (m) with `normal` (any length but 0).
   PlaneSpring(const Vector3& point, const Vector3& normal, const SpringSettings& settings);
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, settings_.stiffness);
+  }
 
  private:
   Vector3 point_;   // m
@@ -56,6 +66,9 @@ class CurveSpring final : public Effect {
   /// At least one point (m); equal neighbours do no harm. A closed curve repeats its first point.
   CurveSpring(std::vector<Vector3> points, const SpringSettings& settings);
   Vector3 force(const EffectInput& input) override;
+  std::string capped(double device_mass, double dt) const override {
+    return capped_stiffness(device_mass, dt, settings_.stiffness);
+  }
 
  private:
   std::vector<Vector3> points_;  // m

@@ -68,6 +68,7 @@ const TickReport& Servo::tick(double dt) {
   clock.ends(Stage::Effects);
   report_.force = limiter_.limit(
       wanted, dt, {fresh, report_.status != devices::DeviceStatus::Lost, report_.contact.started_inside});
+  given_share_ = wanted.isZero(0.0) ? 0.0 : std::min(1.0, report_.force.norm() / wanted.norm());
   clock.ends(Stage::Limit);
   const devices::DeviceStatus written =
       device_.write(world_from_device_.linear().transpose() * report_.force);
@@ -87,6 +88,8 @@ bool Servo::read() {
     return false;
   }
   const bool laid_aside = state.parked && !state_.parked;
+  shading_.settle(state.jumped || !has_state_ ? Vector3::Zero() : Vector3(state.position - state_.position),
+                  given_share_);
   state_ = state;
   has_state_ = true;
   if (laid_aside || (state.jumped && !state.parked)) {
@@ -151,10 +154,14 @@ void Servo::find_contact() {
   }
   report_.contact = solver_->step(report_.tip, elapsed_);
   report_.elapsed = elapsed_;
-  if (report_.contact.touching) report_.object = scene_->scene->objects()[report_.contact.object].id;
+  if (!report_.contact.touching) return;
+  const HapticObject& object = scene_->scene->objects()[report_.contact.object];
+  report_.object = object.id;
+  report_.asked_stiffness = object.surface.stiffness;
+  report_.stiffness = scene_->surfaces[report_.contact.object].stiffness;
 }
 
-Vector3 Servo::surface_force() const {
+Vector3 Servo::surface_force() {
   const ScpState& contact = report_.contact;
   if (!contact.touching) return Vector3::Zero();
   const Surface& surface = scene_->surfaces[contact.object];
@@ -170,8 +177,9 @@ Vector3 Servo::surface_force() const {
   return textured_force(force, contact.normal, surface.stiffness, sample);
 }
 
-/// The force with its normal part turned to the interpolated normal: facets feel round.
-Vector3 Servo::shaded(const Vector3& force) const {
+/// The force with its normal part turned to the interpolated normal, as far as the tank pays for it: facets
+/// feel round. (Round a convex facet the hand pays on the way to its middle what it gets back after it.)
+Vector3 Servo::shaded(const Vector3& force) {
   const ScpState& contact = report_.contact;
   const HapticObject& object = scene_->scene->objects()[contact.object];
   const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
@@ -180,7 +188,9 @@ Vector3 Servo::shaded(const Vector3& force) const {
                          object.shape->shading_normal(contact.feature, object_from_world * contact.scp,
                                                       object_from_world.linear() * contact.normal);
   const double press = force.dot(contact.normal);
-  return force + press * (normal - contact.normal);
+  const base::Matrix3 world_from_device = world_from_device_.linear();
+  const Vector3 turn = world_from_device.transpose() * (press * (normal - contact.normal));
+  return force + world_from_device * shading_.give(turn);
 }
 
 EffectInput Servo::effect_input(double dt) const {

@@ -7,6 +7,7 @@
 #include "devices/pointer_device.h"
 #include "haptics/effects/effect.h"
 #include "haptics/effects/grip.h"
+#include "haptics/energy_tank.h"
 #include "haptics/force_limiter.h"
 #include "haptics/renderer.h"
 #include "haptics/servo/scene_feed.h"
@@ -20,7 +21,9 @@ struct ServoSettings {
   ScpSettings scp;
   LimiterSettings limiter;
   Pose world_from_device = Pose::Identity();  // where the device's workspace lies in the world at first
-  bool force_shading = false;                 // feel interpolated normals (Shape::shading_normal)
+  /// Feel interpolated normals (Shape::shading_normal). Their force belongs to no shape and could feed the
+  /// hand: an EnergyTank bounds it.
+  bool force_shading = false;
 };
 
 /// The stages of a tick, in their order.
@@ -37,7 +40,9 @@ struct TickReport {
   Vector3 force = Vector3::Zero();                              // N, as written, in the world frame
   ScpState contact;
   double elapsed = 0.0;  // s since the moment of the scene's poses: when the contact was found
-  ObjectId object;       // what is touched, when contact.touching
+  ObjectId object;               // what is touched, when contact.touching
+  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made; 0: the device's own
+  double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
 
   /// All that the tick took except device input and output, ns.
@@ -82,8 +87,8 @@ class Servo {
   void follow_scene(double dt);
   void follow_grip();
   void find_contact();
-  Vector3 surface_force() const;
-  Vector3 shaded(const Vector3& force) const;
+  Vector3 surface_force();
+  Vector3 shaded(const Vector3& force);
   EffectInput effect_input(double dt) const;
   Vector3 effect_force(double dt);
 
@@ -103,6 +108,8 @@ class Servo {
   double carry_seconds_ = 0.0;  // until it is where it was carried to
   devices::PointerState state_;
   bool has_state_ = false;
+  EnergyTank shading_;                      // device frame
+  double given_share_ = 0.0;                // of the force that was wanted in the last tick
   Vector3 tip_velocity_ = Vector3::Zero();  // m/s, world; of the hand, not of the workspace
   TickReport report_;
 };

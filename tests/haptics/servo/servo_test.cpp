@@ -39,6 +39,20 @@ TEST(Servo, PushesOutOfASurface) {
   EXPECT_NEAR(device.force.head<2>().norm(), 0.0, 1e-9);
 }
 
+TEST(Servo, TellsThatASurfaceIsFeltSofterThanItWasMade) {
+  HapticObject box = object(1, shape_of(primitive("box:0.1x0.1x0.1")));
+  for (const double made : {700.0, 50000.0}) {
+    box.surface.stiffness = made;
+    ScriptedDevice device;
+    Servo servo(device, {});
+    servo.publish(HapticScene::compile({box}));
+    press(servo, device, 0.0001);
+    ASSERT_TRUE(servo.last().contact.touching);
+    EXPECT_EQ(servo.last().asked_stiffness, made);
+    EXPECT_NEAR(servo.last().stiffness, std::min(made, 1e4), 1e-6) << "100 g at 1 kHz: K dt^2/m <= 0.1";
+  }
+}
+
 TEST(Servo, IsQuietWithoutASceneAndAboveTheSurface) {
   ScriptedDevice device;
   Servo servo(device, {});
