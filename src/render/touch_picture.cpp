@@ -42,7 +42,8 @@ struct Summary {
   std::size_t ticks = 0;
   std::size_t touching = 0;
   std::optional<std::size_t> strongest;  ///< the touching sample with the greatest force
-  double greatest = 0.0;                 ///< N
+  double greatest = 0.0;                 ///< N, while touching
+  double highest = 0.0;                  ///< N, of all: effects are felt in the air, too
   double first = 0.0, last = 0.0;        ///< s
 };
 
@@ -54,9 +55,10 @@ Summary summarise(std::span<const TouchSample> samples) {
     if (summary.ticks == 0) summary.first = sample.t;
     summary.last = std::max(summary.first, sample.t);
     ++summary.ticks;
+    const double force = sample.force.stableNorm();
+    summary.highest = std::max(summary.highest, force);
     if (!sample.touching) continue;
     ++summary.touching;
-    const double force = sample.force.stableNorm();
     if (!summary.strongest || force > summary.greatest) summary.strongest = i;
     summary.greatest = std::max(summary.greatest, force);
   }
@@ -74,11 +76,11 @@ std::string caption(const Summary& summary, double rate_hz) {
          fmt::format("  \u00b7  touching {:.3g} %  \u00b7  greatest force {:.3g} N", share, summary.greatest);
 }
 
-/// The end of the force axis and of the colours: the first tick at or above the greatest force.
-double force_range(double greatest) {
-  if (!(greatest > 0.0)) return 1.0;
-  const double step = nice_ticks(0.0, greatest, 5).step;
-  return step * std::max(1.0, std::ceil(greatest / step - 1e-9));
+/// The end of the force axis and of the colours: the first tick at or above the highest force.
+double force_range(double highest) {
+  if (!(highest > 0.0)) return 1.0;
+  const double step = nice_ticks(0.0, highest, 5).step;
+  return step * std::max(1.0, std::ceil(highest / step - 1e-9));
 }
 
 std::vector<Colour> force_colours(double opacity) {
@@ -146,7 +148,7 @@ Scene make_scene(const TouchPicture& picture, std::span<const PreparedSolid> sol
   fit.margin_y = 0.055;
   const Camera camera = fit_camera(points_to_show(picture, points, ball), fit);
   const Summary summary = summarise(picture.samples);
-  return {picture, summary, layout, force_range(summary.greatest), ball, camera};
+  return {picture, summary, layout, force_range(summary.highest), ball, camera};
 }
 
 base::Result<StudioPicture> photograph(const Scene& scene, const Offscreen& context,
@@ -339,7 +341,7 @@ void draw_force_plot(Canvas& canvas, const Scene& scene) {
                             : Span{scene.summary.first, scene.summary.first + 1.0};
   plot.y_max = scene.newtons;
   plot.fill = force_colours(0.55);
-  plot.mark_peak = scene.summary.strongest.has_value();
+  plot.mark_peak = scene.summary.strongest && scene.summary.greatest == scene.summary.highest;
   draw_time_plot(canvas, area, plot);
 }
 

@@ -137,6 +137,20 @@ TEST(DrawTouchPicture, ShowsNoForceColoursWhenNothingIsTouched) {
   EXPECT_GT(count(*image, kViewTop, kViewEnd, is_tip_blue), 60);
 }
 
+TEST(DrawTouchPicture, ForcesInTheAirStayWithinTheirPlot) {
+  const TriangleMesh mesh = box({0.05, 0.05, 0.05});
+  auto samples = stroke(0.05, 500);
+  for (TouchSample& sample : samples) {
+    sample.touching = false;
+    sample.force = Vector3(0, 0, 3);
+    sample.tip.z() += 0.02;
+  }
+  const auto image = draw_touch_picture(small_picture(mesh, samples));
+  ASSERT_TRUE(image.has_value());
+  EXPECT_EQ(count(*image, kViewTop, kViewEnd, is_warm), 0);
+  EXPECT_GT(count(*image, kPlotTop, 1.0, is_warm), 300);
+}
+
 TEST(DrawTouchPicture, LeavesOutSamplesThatAreNotFinite) {
   const TriangleMesh mesh = box({0.05, 0.05, 0.05});
   auto samples = stroke(0.05, 900);
