@@ -151,6 +151,7 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
   if (objects.empty())
     return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text,
                                   remarks.empty() ? "" : ": ", remarks.empty() ? "." : remarks.front()));
+  model.effects = felt.effects();
   model.bodies.clear();
   BodyMaker maker(design->world, felt, options.check);
   for (const haptics::HapticObject& object : objects) {

@@ -51,6 +51,13 @@ std::string shape_text(const world::Geometry& shape) {
   return std::string(shape.kind());
 }
 
+std::string fixture_text(const world::Fixture& fixture) {
+  if (const auto* const inert = std::get_if<world::Inert>(&fixture)) return "inert " + printable(inert->type);
+  if (const auto* const effect = std::get_if<world::ForceEffect>(&fixture))
+    return "effect " + printable(effect->text) + (effect->on ? "" : ", off");
+  return std::holds_alternative<world::Light>(fixture) ? "light" : "viewpoint";
+}
+
 /// "mesh, 12 triangles, oak, 4 objects use this shape".
 std::string object_text(const DesignFigures& figures, const World& world, const PhysicalObject& object) {
   std::vector<std::string> parts;
@@ -66,9 +73,7 @@ std::string object_text(const DesignFigures& figures, const World& world, const 
     if (geometry.users > 1) parts.push_back(sharing(world, object.geometry));
   }
   if (object.fixture) {
-    constexpr std::array<const char*, 2> kFixtures{"light", "viewpoint"};
-    const auto* const inert = std::get_if<world::Inert>(object.fixture.get());
-    parts.push_back(inert ? "inert " + printable(inert->type) : kFixtures.at(object.fixture->index()));
+    parts.push_back(fixture_text(*object.fixture));
   }
   if (parts.empty()) parts.push_back(object.children.empty() ? "empty" : "group");
   return fmt::format("{}", fmt::join(parts, ", "));

@@ -71,9 +71,12 @@ std::shared_ptr<const haptics::HapticTexture> texture_of(const TouchOptions& opt
 std::vector<std::string> capped_feel(const std::vector<TouchModel>& models, const TouchOptions& options,
                                      const devices::DeviceInfo& device) {
   CappedFeel capped(device, options.rate_hz);
-  for (const TouchModel& model : models)
+  for (const TouchModel& model : models) {
     for (const TouchBody& body : model.bodies)
       capped.add_surface(model.name, surface_of(body, options).stiffness);
+    for (const haptics::PlacedEffect& effect : model.effects)
+      capped.add_effect("effect " + effect.text, *haptics::make_effect(effect.text).value());
+  }
   for (const std::string& text : options.effects)
     capped.add_effect("effect " + text, *haptics::make_effect(text).value());
   return std::move(capped).sentences();

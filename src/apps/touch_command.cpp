@@ -36,6 +36,7 @@ constexpr int kInterrupted = 130;  // what shells report for Ctrl-C
 struct Prepared {
   std::vector<TouchModel> models;
   std::shared_ptr<const haptics::HapticScene> scene;
+  std::vector<haptics::PlacedEffect> effects;  // of the designs
   double build_seconds = 0.0;
   devices::DeviceInfo device;
   std::optional<devices::PathPlayer> player;  // none: explore
@@ -69,6 +70,8 @@ base::Result<void> load(const TouchOptions& options, StatusLine& status, Prepare
   if (!models) return tl::unexpected(models.error());
   prepared.models = std::move(*models);
   for (const TouchModel& model : prepared.models) prepared.build_seconds += model.build_seconds;
+  for (const TouchModel& model : prepared.models)
+    prepared.effects.insert(prepared.effects.end(), model.effects.begin(), model.effects.end());
   const Stopwatch watch;
   prepared.scene = compile_scene(prepared.models, options);
   prepared.build_seconds += watch.seconds();
@@ -137,12 +140,14 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
 
 base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, TouchDiary& diary,
                              StatusLine& status) {
-  if (prepared.player) return replay(*prepared.player, prepared.scene, options, diary, status);
+  if (prepared.player)
+    return replay(*prepared.player, prepared.scene, prepared.effects, options, diary, status);
   status.say("Planning where to touch");
   prepared.exploration =
       Exploration::plan(prepared.models, options.radius, options.seconds.value_or(kDefaultSeconds));
   status.clear();
-  return explore(*prepared.exploration, prepared.device, prepared.scene, options, diary, status);
+  return explore(*prepared.exploration, prepared.device, prepared.scene, prepared.effects, options, diary,
+                 status);
 }
 
 void add_to(render::TouchPicture& picture, const TouchBody& body, const std::string& name) {

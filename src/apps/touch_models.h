@@ -14,6 +14,7 @@
 #include "geometry/triangle_tree.h"
 #include "haptics/contact_judge.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/servo/effect_feed.h"
 #include "haptics/smooth_shape.h"
 #include "render/colour.h"
 
@@ -46,6 +47,7 @@ struct TouchModel {
   std::string kind;                                           // "binary PLY", "primitive" and so on
   std::vector<TouchBody> bodies = std::vector<TouchBody>(1);  // never empty; of all but designs, one
   std::size_t triangles = 0;                                  // that are touched
+  std::vector<haptics::PlacedEffect> effects = {};            // that a design has
   std::vector<std::string> repairs = {};  // what the reader did and found, one sentence each
   double read_seconds = 0.0;              // s, reading and repairing
   double build_seconds = 0.0;             // s, building what the servo touches

@@ -110,10 +110,12 @@ devices::SimulatedSettings simulated_settings(const Exploration& exploration,
 }  // namespace
 
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
-                  const TouchOptions& options, TouchDiary& diary, StatusLine& status) {
-  haptics::EffectSet effects = effects_of(options);
-  haptics::Servo servo(player, servo_settings(options), &effects);
+                  const std::vector<haptics::PlacedEffect>& effects, const TouchOptions& options,
+                  TouchDiary& diary, StatusLine& status) {
+  haptics::EffectSet asked = effects_of(options);
+  haptics::Servo servo(player, servo_settings(options), &asked);
   servo.publish(scene);
+  servo.publish_effects(effects);
   RunOutcome outcome;
   const std::vector<double>& times = player.times();
   const std::size_t rows = rows_within(times, options.seconds);
@@ -143,14 +145,16 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
 
 base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
                                  const std::shared_ptr<const haptics::HapticScene>& scene,
+                                 const std::vector<haptics::PlacedEffect>& effects,
                                  const TouchOptions& options, TouchDiary& diary, StatusLine& status) {
   const double seconds = options.seconds.value_or(kDefaultSeconds);
   devices::SimulatedDevice hand(simulated_settings(exploration, device, options.rate_hz));
   haptics::ServoSettings settings = servo_settings(options);
   settings.world_from_device.translation() = exploration.centre();
-  haptics::EffectSet effects = effects_of(options);
-  haptics::Servo servo(hand, settings, &effects);
+  haptics::EffectSet asked = effects_of(options);
+  haptics::Servo servo(hand, settings, &asked);
   servo.publish(scene);
+  servo.publish_effects(effects);
   ClockedRun run(servo, options, seconds);
   const Stopwatch watch;
   realtime::LoopSettings loop_settings;

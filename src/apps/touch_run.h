@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/exploration.h"
 #include "apps/status_line.h"
@@ -9,6 +10,7 @@
 #include "apps/touch_options.h"
 #include "devices/path_player.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/servo/effect_feed.h"
 #include "realtime/recorder.h"
 
 namespace icome::apps {
@@ -27,11 +29,13 @@ struct RunOutcome {
 /// Replays a path: one row a tick, no clock, as fast as the machine can; the same input gives the same
 /// forces, bit for bit.
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
-                  const TouchOptions& options, TouchDiary& diary, StatusLine& status);
+                  const std::vector<haptics::PlacedEffect>& effects, const TouchOptions& options,
+                  TouchDiary& diary, StatusLine& status);
 
 /// Lets the simulated hand explore in real time, with the limits of `device`.
 base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
                                  const std::shared_ptr<const haptics::HapticScene>& scene,
+                                 const std::vector<haptics::PlacedEffect>& effects,
                                  const TouchOptions& options, TouchDiary& diary, StatusLine& status);
 
 }  // namespace icome::apps

@@ -255,6 +255,11 @@ class GltfReading {
     const Value& extras = icome_extras(node.extras);
     if (const Value& inert = member(extras, "inert"); inert.IsObject())
       fixtures.push_back(share(world::Inert{text_in(inert, "type"), text_in(inert, "source")}));
+    if (const Value& effect = member(extras, "effect"); effect.IsObject()) {
+      const Value& on = member(effect, "on");
+      if (std::string text = text_in(effect, "text"); !text.empty())
+        fixtures.push_back(share(world::ForceEffect{std::move(text), !on.IsBool() || on.Get<bool>()}));
+    }
     const auto own_light = light_of(member(extras, "light"));
     if (own_light) {
       fixtures.push_back(share(*own_light));

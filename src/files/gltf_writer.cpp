@@ -301,6 +301,13 @@ class GltfMaking {
     extras["inert"] = Value(std::move(inert));
   }
 
+  static void add_fixture(const world::ForceEffect& it, tinygltf::Node&, Value::Object& extras) {
+    Value::Object effect;
+    effect["text"] = Value(base::as_utf8(it.text));
+    effect["on"] = Value(it.on);
+    extras["effect"] = Value(std::move(effect));
+  }
+
   void add_root_extras() {
     Value::Object icome;
     if (!shapes_.empty()) icome["shapes"] = Value(std::move(shapes_));

@@ -57,6 +57,10 @@ class NodeReader {
     read_place(from, node);
     if (from.lamp() && node.piece == VrmlNode::kNone) node.fixture = fixture_of(*from.lamp());
     if (from.eye() && node.piece == VrmlNode::kNone) node.fixture = fixture_of(*from.eye());
+    if (from.force() && node.piece == VrmlNode::kNone) {
+      node.fixture.fixture = std::make_shared<const world::Fixture>(
+          world::ForceEffect{reader_.text(from.force()->text()), from.force()->on()});
+    }
     std::uint32_t generation = 0;
     if (node.parent != VrmlNode::kNone) {
       VrmlNode& parent = nodes_[std::size_t(node.parent)];

@@ -77,6 +77,13 @@ inline constexpr VrmlProto kPrimitiveProto = {"IcomePrimitive", R"(  field SFStr
   field SFString axis "z"
 )"};
 
+/// Other viewers see nothing of it.
+inline constexpr VrmlProto kEffectProto = {"IcomeEffect", R"(  field SFString effect ""
+  field SFBool on TRUE
+)",
+                                           R"(  Group {}
+)"};
+
 inline constexpr VrmlProto kSceneProto = {"IcomeScene", R"(  field SFString name ""
   field MFString objects []
 )",

@@ -41,6 +41,10 @@ std::optional<std::string> script_name(const world::Inert& inert) {
   return found->scripts[0].name;
 }
 
+const world::ForceEffect* effect_of(const PhysicalObject& object) {
+  return object.fixture ? std::get_if<world::ForceEffect>(&*object.fixture) : nullptr;
+}
+
 /// Is the object nothing but its fixture?
 bool is_bare(const PhysicalObject& object) {
   return !object.parent && object.children.empty() && !object.geometry && !object.material &&
@@ -204,9 +208,11 @@ void VrmlWriter::write_protos() {
     if (geometry.users > 0) used.insert(VrmlShapes::proto_of(*geometry.shape));
   }
   if (looks_.need_proto()) used.insert(&kMaterialProto);
+  if (std::ranges::any_of(world_.objects(), [](const auto& it) { return effect_of(it.second) != nullptr; }))
+    used.insert(&kEffectProto);
   if (!world_.scenes().empty()) used.insert(&kSceneProto);
-  for (const VrmlProto* proto :
-       {&kMaterialProto, &kPrimitiveProto, &kCsgProto, &kLoopProto, &kImplicitProto, &kSceneProto}) {
+  for (const VrmlProto* proto : {&kMaterialProto, &kPrimitiveProto, &kCsgProto, &kLoopProto, &kImplicitProto,
+                                 &kEffectProto, &kSceneProto}) {
     if (used.contains(proto)) text_.add(definition(*proto));
   }
 }
@@ -301,6 +307,12 @@ void VrmlWriter::write_fixture(ObjectId id, const PhysicalObject& object) {
     text_.field("position", base::Vector3(base::Vector3::Zero()));
     text_.field("fieldOfView", view->field_of_view);
     if (!object.name.empty()) text_.text_field("description", object.name);
+    return text_.close();
+  }
+  if (const auto* effect = effect_of(object)) {
+    text_.open(kEffectProto.name);
+    text_.text_field("effect", effect->text);
+    if (!effect->on) text_.field("on", false);
     return text_.close();
   }
   if (with_script_.contains(id)) text_.add(std::get<world::Inert>(*object.fixture).source);

@@ -228,7 +228,8 @@ void ScenePublisher::show(const World& world, ObjectId root) {
 
 void ScenePublisher::show_object(const World& world, ObjectId id, const Affine3& world_from_object) {
   const world::PhysicalObject& object = *world.find(id);
-  const bool is_fixed = object.fixture && !std::holds_alternative<world::Inert>(*object.fixture);
+  const bool is_fixed = object.fixture && (std::holds_alternative<world::Light>(*object.fixture) ||
+                                           std::holds_alternative<world::Viewpoint>(*object.fixture));
   if (fixed_.erase(id) > 0 || is_fixed) fixtures_touched_ = true;
   if (is_fixed) fixed_.insert(id);
   const RenderShapePointer own = object.geometry ? shape(world, object.geometry).shape : nullptr;

@@ -24,6 +24,10 @@ void FeltWorld::follow(const world::World& world, const world::Changes& changes)
 }
 
 void FeltWorld::publish() {
+  if (felt_.effects() != published_effects_) {
+    published_effects_ = felt_.effects();
+    for (haptics::Servo* servo : servos_) servo->publish_effects(published_effects_);
+  }
   const FeltVersion version{felt_.scene(), felt_.names()};
   if (version.scene == published_.scene && version.names == published_.names) return;
   published_ = version;

@@ -34,6 +34,7 @@ class FeltWorld final : public Representation {
   std::vector<haptics::Servo*> servos_;
   realtime::LatestValue<FeltVersion>& newest_;
   FeltVersion published_ = {};
+  std::vector<haptics::PlacedEffect> published_effects_ = {};
 };
 
 }  // namespace icome::session

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "haptics/effects/effect_text.h"
+#include "session/rigid_part.h"
 
 namespace icome::session {
 
@@ -20,6 +22,11 @@ namespace {
 std::string called(const PhysicalObject& object, world::ObjectId id) {
   return object.name.empty() ? fmt::format("Object {}", id.value & world::IdSource::kNumberMask)
                              : fmt::format("\"{}\"", object.name);
+}
+
+world::FixturePointer effect_in(const PhysicalObject& object) {
+  return object.fixture && std::holds_alternative<world::ForceEffect>(*object.fixture) ? object.fixture
+                                                                                       : nullptr;
 }
 
 std::string remark_on(const std::string& object, const FeltShape& felt, std::size_t others) {
@@ -93,6 +100,9 @@ class HapticRepresentation::Update {
 
   void renew(const Due& it, const Need& need) {
     Member& member = owner_.members_[it.id];
+    const world::FixturePointer effect = effect_in(*need.object);
+    if (effect || member.effect) owner_.effects_stale_ = true;
+    member.effect = effect;
     release_shape(owner_, member);
     member.seen = owner_.surveys_;
     member.world_from_object = it.world_from_object;
@@ -179,6 +189,7 @@ std::optional<world::ObjectId> TouchedNames::object(base::ObjectId haptic_id) co
 
 void HapticRepresentation::open(const World& world, world::SceneId scene) {
   members_.clear();
+  effects_stale_ = true;
   shapes_.clear();
   free_slots_.clear();
   for (std::size_t i = slots_.size(); i-- > 0;) {
@@ -302,6 +313,7 @@ void HapticRepresentation::note_object(const World& world, world::ObjectId id, s
 void HapticRepresentation::forget(world::ObjectId id) {
   const auto found = members_.find(id);
   if (found == members_.end()) return;
+  if (found->second.effect) effects_stale_ = true;
   Update::release_shape(*this, found->second);
   Update::release_slot(*this, found->second);
   members_.erase(found);
@@ -344,7 +356,22 @@ haptics::Surface HapticRepresentation::surface_of(const World& world, const Memb
   return surface;
 }
 
+void HapticRepresentation::list_effects() {
+  std::vector<world::ObjectId> ids;
+  for (const auto& [id, member] : members_)
+    if (member.effect) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  effects_.clear();
+  for (const world::ObjectId id : ids) {
+    const Member& member = members_.at(id);
+    const auto& effect = std::get<world::ForceEffect>(*member.effect);
+    if (!effect.on || !haptics::make_effect(effect.text)) continue;
+    effects_.push_back({id.value, effect.text, rigid_part(member.world_from_object).world_from_felt});
+  }
+}
+
 void HapticRepresentation::publish() {
+  if (std::exchange(effects_stale_, false)) list_effects();
   if (stale_) {
     std::vector<haptics::HapticObject> objects;
     objects.reserve(slots_.size() - free_slots_.size());
@@ -400,6 +427,12 @@ std::vector<std::string> HapticRepresentation::remarks(const World& world) const
   std::vector<std::string> sentences;
   for (const world::ObjectId id : ids) {
     const Member& member = members_.at(id);
+    if (member.effect) {
+      const auto made = haptics::make_effect(std::get<world::ForceEffect>(*member.effect).text);
+      if (!made)
+        sentences.push_back(fmt::format("{} is an effect that is not felt: {}", called(*world.find(id), id),
+                                        made.error().message));
+    }
     const FeltShape* felt = member.felt.get();
     if (!felt) continue;
     if (!felt->remark.empty() && told.insert(felt).second)

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "haptics/haptic_scene.h"
+#include "haptics/servo/effect_feed.h"
+#include "haptics/texture_text.h"
 #include "session/felt_shape.h"
-#include "session/haptic_textures.h"
 #include "world/changes.h"
 
 namespace icome::session {
@@ -20,7 +21,7 @@ struct HapticRepresentationSettings {
   base::Affine3 world_from_design = base::Affine3::Identity();  // where the world of the edits lies
   /// The haptic texture of a name; null for one that is not known.
   std::function<std::shared_ptr<const haptics::HapticTexture>(std::string_view name)> texture =
-      standard_texture;
+      [](std::string_view name) { return haptics::make_texture(name).value_or(nullptr); };
 };
 
 /// Which objects of a world the ids of its haptic scene name. Immutable.
@@ -59,6 +60,10 @@ class HapticRepresentation {
   /// What the servo touches; never null.
   const std::shared_ptr<const haptics::HapticScene>& scene() const { return scene_; }
 
+  /// The effects of the scene that are on, in the order of their objects' ids; a text that says nothing that
+  /// is known is left out.
+  const std::vector<haptics::PlacedEffect>& effects() const { return effects_; }
+
   /// Names go both ways. What cannot be touched, or is gone, has none.
   std::optional<base::ObjectId> haptic_id(world::ObjectId object) const;
   std::optional<world::ObjectId> object(base::ObjectId haptic_id) const;
@@ -87,6 +92,7 @@ class HapticRepresentation {
     world::MaterialId material = {};
     FeltShapePointer felt = nullptr;
     std::optional<std::uint32_t> slot = {};  // none: it cannot be touched
+    world::FixturePointer effect = nullptr;  // a ForceEffect, or null
   };
   struct Slot {
     haptics::HapticObject object;
@@ -115,6 +121,7 @@ class HapticRepresentation {
   std::shared_ptr<const haptics::HapticTexture> texture(const std::string& name);
   haptics::Surface surface_of(const world::World& world, const Member& member);
   void publish();
+  void list_effects();
 
   HapticRepresentationSettings settings_;
   world::SceneId shown_ = {};  // none: the whole world
@@ -128,6 +135,8 @@ class HapticRepresentation {
   std::shared_ptr<const TouchedNames> names_;      // null: to be made anew
   std::vector<haptics::HapticScene::Move> moves_;  // since the last published scene
   bool stale_ = false;                             // moving objects is not enough
+  bool effects_stale_ = false;
+  std::vector<haptics::PlacedEffect> effects_;
   std::uint64_t surveys_ = 0;
   std::shared_ptr<const haptics::HapticScene> scene_;
   Work work_;

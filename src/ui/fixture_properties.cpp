@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "interaction/operations/effect_making.h"
+
 namespace icome::ui {
 
 using base::Result;
@@ -104,5 +106,28 @@ Property<double> field_of_view() {
             return world::Edit(world::ChangeFixture{id, std::make_shared<const world::Fixture>(view)});
           }};
 }
+
+namespace {
+
+/// A part of an effect; what makes no effect is refused.
+template <typename Value>
+Property<Value> effect_property(Value world::ForceEffect::*member) {
+  return {[member](const World& world, ObjectId id) -> std::optional<Value> {
+            const auto* effect = fixture<world::ForceEffect>(world, id);
+            return effect ? std::optional<Value>(effect->*member) : std::nullopt;
+          },
+          [member](const World& world, ObjectId id, const Value& value) -> Result<world::Edit> {
+            auto changed = *fixture<world::ForceEffect>(world, id);
+            changed.*member = value;
+            auto made = interaction::make_effect_fixture(changed.text, changed.on);
+            if (!made) return tl::unexpected(made.error());
+            return world::Edit(world::ChangeFixture{id, std::move(*made)});
+          }};
+}
+
+}  // namespace
+
+Property<std::string> effect_text() { return effect_property(&world::ForceEffect::text); }
+Property<bool> effect_on() { return effect_property(&world::ForceEffect::on); }
 
 }  // namespace icome::ui

@@ -18,4 +18,8 @@ Property<double> light_beam();
 // Of objects that are viewpoints.
 Property<double> field_of_view();
 
+// Of objects that are effects.
+Property<std::string> effect_text();
+Property<bool> effect_on();
+
 }  // namespace icome::ui

@@ -382,6 +382,15 @@ IconPaths inert() {
   return it;
 }
 
+// A well: rings that close in on a point.
+IconPaths effect() {
+  IconPaths it;
+  add_oval(it.ink, {10.0, 10.0}, 7.0, 7.0);
+  add_oval(it.ink, {10.0, 10.0}, 4.0, 4.0);
+  add_oval(it.accent, {10.0, 10.0}, 1.2, 1.2);
+  return it;
+}
+
 IconPaths scene() {
   IconPaths it;
   add_box(it.ink, 2.5, 3.5, 17.5, 16.5, 1.5);
@@ -458,6 +467,8 @@ IconPaths paths_of(Icon which) {
       return viewpoint();
     case Icon::Inert:
       return inert();
+    case Icon::Effect:
+      return effect();
     case Icon::Scene:
       return scene();
     case Icon::Shape:

@@ -40,6 +40,7 @@ enum class Icon : std::uint8_t {
   Light,
   Viewpoint,
   Inert,
+  Effect,
   Scene,
   Count,
 };

@@ -36,6 +36,7 @@ Kind look_of(const world::World& world, const world::PhysicalObject& object) {
   if (object.fixture) {
     if (std::holds_alternative<world::Light>(*object.fixture)) return {Icon::Light, "Light"};
     if (std::holds_alternative<world::Viewpoint>(*object.fixture)) return {Icon::Viewpoint, "Viewpoint"};
+    if (std::holds_alternative<world::ForceEffect>(*object.fixture)) return {Icon::Effect, "Effect"};
     return {Icon::Inert, "Kept"};
   }
   const world::GeometryObject* shape = world.find(object.geometry);

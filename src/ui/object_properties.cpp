@@ -53,6 +53,7 @@ Subjects subjects_of(const World& world, const std::vector<ObjectId>& selection)
     if (!object->fixture) continue;
     if (std::holds_alternative<world::Light>(*object->fixture)) subjects.lights.push_back(id);
     if (std::holds_alternative<world::Viewpoint>(*object->fixture)) subjects.viewpoints.push_back(id);
+    if (std::holds_alternative<world::ForceEffect>(*object->fixture)) subjects.effects.push_back(id);
   }
   return subjects;
 }

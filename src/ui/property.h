@@ -61,6 +61,7 @@ struct Subjects {
   std::vector<world::ObjectId> materials = {};  // one for each material
   std::vector<world::ObjectId> lights = {};
   std::vector<world::ObjectId> viewpoints = {};
+  std::vector<world::ObjectId> effects = {};
   bool all_have_materials = false;  // of the dressed
 };
 Subjects subjects_of(const world::World& world, const std::vector<world::ObjectId>& selection);

@@ -24,6 +24,8 @@ QString noun_of(PropertyBinder::Of of) {
       return "lights";
     case PropertyBinder::Of::Viewpoints:
       return "viewpoints";
+    case PropertyBinder::Of::Effects:
+      return "effects";
     case PropertyBinder::Of::Objects:
       break;
   }
@@ -47,6 +49,8 @@ const std::vector<ObjectId>& PropertyBinder::list(Of of) const {
       return subjects_.lights;
     case Of::Viewpoints:
       return subjects_.viewpoints;
+    case Of::Effects:
+      return subjects_.effects;
     case Of::Objects:
       break;
   }

@@ -15,7 +15,7 @@ namespace icome::ui {
 class PropertyBinder {
  public:
   /// What a change is made to, and named after.
-  enum class Of : std::uint8_t { Objects, Shapes, Materials, Lights, Viewpoints };
+  enum class Of : std::uint8_t { Objects, Shapes, Materials, Lights, Viewpoints, Effects };
   /// How a row is called, what it means, and how changing it is called: "Move", "Change radius of".
   struct Row {
     QString label = {};

@@ -70,6 +70,7 @@ struct PropertyPanel::Parts {
   void build_touch();
   void build_light();
   void build_viewpoint();
+  void build_effect();
   PanelSection& add_section(const char* title, const std::vector<ObjectId> Subjects::*list);
   QPushButton* add_button(PanelSection& section, const char* text, const char* tip,
                           const std::function<base::Result<void>()>& act);
@@ -118,6 +119,7 @@ PropertyPanel::Parts::Parts(session::Session& session, PropertyPanel& of)
   build_touch();
   build_light();
   build_viewpoint();
+  build_effect();
   column->addStretch(1);
   soon->setSingleShot(true);
   QObject::connect(soon, &QTimer::timeout, &of, [this] { refresh(); });
@@ -333,6 +335,16 @@ void PropertyPanel::Parts::build_viewpoint() {
                 {"View, °", "How much is seen: the angle across the shorter side of the picture",
                  "Change view of", Of::Viewpoints},
                 Quantity::Angle, field_of_view());
+}
+
+void PropertyPanel::Parts::build_effect() {
+  PanelSection& section = add_section("Effect", &Subjects::effects);
+  binder.text(
+      section,
+      {"Force", "What it does, such as well:0,0,0,0.01,1.5: lengths in m, forces in N, from where it stands",
+       "Change force of", Of::Effects},
+      effect_text());
+  binder.check(section, {"On", "Off, it is not felt", "Switch", Of::Effects}, effect_on());
 }
 
 void PropertyPanel::Parts::refresh_soon() {

@@ -324,6 +324,10 @@ class EditApplier {
     return fail("A field of view must lie between 0 and 180 degrees.");
   }
   static Result<void> check(const Inert&) { return {}; }
+  static Result<void> check(const ForceEffect& effect) {
+    if (!effect.text.empty()) return {};
+    return fail("An effect must say what it is, such as \"viscous:2\".");
+  }
 
   Result<void> check_material(const Material& material) const {
     if (material.texture && !world_.find(material.texture))

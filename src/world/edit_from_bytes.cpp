@@ -183,6 +183,10 @@ class EditReader {
       return std::make_shared<const Fixture>(
           Inert{reader_.text(from->inert()->type()), reader_.text(from->inert()->source())});
     }
+    if (from->effect()) {
+      return std::make_shared<const Fixture>(
+          ForceEffect{reader_.text(from->effect()->text()), from->effect()->on()});
+    }
     reader_.refuse("An object of an edit is something that is unknown here: use a newer version.");
     return nullptr;
   }

@@ -198,6 +198,7 @@ class EditWriter {
     Offset<flat::Light> light;
     Offset<flat::Viewpoint> viewpoint;
     Offset<flat::Inert> inert;
+    Offset<flat::ForceEffect> effect;
     if (const auto* it = std::get_if<Light>(&*fixture)) {
       const flat::LightNumbers numbers(std::uint8_t(it->kind), it->on, flat_colour(it->colour), it->intensity,
                                        it->ambient, flatbuffers::make_span(it->attenuation), it->radius,
@@ -208,8 +209,10 @@ class EditWriter {
     } else if (const auto* kept = std::get_if<Inert>(&*fixture)) {
       const auto type = text(kept->type);
       inert = flat::CreateInert(builder_, type, text(kept->source));
+    } else if (const auto* force = std::get_if<ForceEffect>(&*fixture)) {
+      effect = flat::CreateForceEffect(builder_, text(force->text), force->on);
     }
-    return flat::CreateFixture(builder_, light, viewpoint, inert);
+    return flat::CreateFixture(builder_, light, viewpoint, inert, effect);
   }
 
   Offset<flat::MaterialState> material(const Material& it) {

@@ -36,6 +36,16 @@ struct Viewpoint {
   bool operator==(const Viewpoint&) const = default;
 };
 
+/// A force on the hand that comes from no surface, where its object is and as that is turned; felt wherever
+/// it reaches.
+struct ForceEffect {
+  std::string
+      text;  // what it is, in the object's frame: as `icome touch --effect` takes it, "well:0,0,0,0.01,1.5"
+  bool on = true;
+
+  bool operator==(const ForceEffect&) const = default;
+};
+
 /// Something of a file that means nothing here, such as a script, kept for those who understand it.
 struct Inert {
   std::string type;    // for people: "Script"
@@ -45,7 +55,7 @@ struct Inert {
 };
 
 /// What an object is beside its shape. Its name is the object's.
-using Fixture = std::variant<Light, Viewpoint, Inert>;
+using Fixture = std::variant<Light, Viewpoint, Inert, ForceEffect>;
 using FixturePointer = std::shared_ptr<const Fixture>;  // null: nothing, as most objects
 
 }  // namespace icome::world

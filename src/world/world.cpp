@@ -27,6 +27,11 @@ void add_to(Hasher& hasher, const Inert& it) {
   hasher.add(std::string_view(it.source));
 }
 
+void add_to(Hasher& hasher, const ForceEffect& it) {
+  hasher.add(std::string_view(it.text));
+  hasher.add(it.on);
+}
+
 void add_to(Hasher& hasher, const PhysicalObject& it) {
   hasher.add(std::string_view(it.name));
   add_id(hasher, it.parent.value);

@@ -57,7 +57,8 @@ std::string rich_glb() {
   tree.add_leaf(geometry::Primitive(geometry::Box{{1, 1, 1}}));
   add_object(world, ids, "solid", std::make_shared<CsgGeometry>(tree));
   for (const Fixture& fixture :
-       {Fixture(Light{}), Fixture(Viewpoint{}), Fixture(Inert{"Script", "Script {}"})}) {
+       {Fixture(Light{}), Fixture(Viewpoint{}), Fixture(Inert{"Script", "Script {}"}),
+        Fixture(ForceEffect{"viscous:2", false})}) {
     const ObjectId id = add_object(world, ids, "fixture", nullptr);
     applied(world, ChangeFixture{id, std::make_shared<const Fixture>(fixture)});
   }

@@ -173,6 +173,8 @@ class Comparison {
       near(light->beam_width, same_light.beam_width, "beam width");
     } else if (const auto* view = std::get_if<world::Viewpoint>(&*one)) {
       near(view->field_of_view, std::get<world::Viewpoint>(*other).field_of_view, "field of view");
+    } else if (const auto* effect = std::get_if<world::ForceEffect>(&*one)) {
+      expect(*effect == std::get<world::ForceEffect>(*other), "effects");
     } else {
       const auto &inert = std::get<world::Inert>(*one), &same_inert = std::get<world::Inert>(*other);
       same(inert.type, same_inert.type, "types of inert nodes");

@@ -90,6 +90,11 @@ TEST(VrmlRoundTrip, LightsViewpointsScriptsAndScenes) {
                                         std::make_shared<const Fixture>(Light{.kind = kind})});
   const ObjectId eye = design.add("from the door", nullptr, {}, at(0.0, 1.6, 3.0));
   applied(design.world, ChangeFixture{eye, std::make_shared<const Fixture>(Viewpoint{1.2})});
+  for (const bool on : {true, false}) {
+    const ObjectId pull = design.add(on ? "pull" : "", on ? box(0.1) : nullptr, room, at(0.2, 0.0, 0.1));
+    applied(design.world,
+            ChangeFixture{pull, std::make_shared<const Fixture>(ForceEffect{"point:0,0,0", on})});
+  }
   const ObjectId script = design.add("logic", nullptr);
   applied(design.world, ChangeFixture{script, std::make_shared<const Fixture>(
                                                   Inert{"Script", "DEF logic Script {\n  url \"a\"\n}"})});

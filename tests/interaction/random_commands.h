@@ -123,8 +123,8 @@ class RandomCommands {
     return list;
   }
   Value text() {
-    static const std::vector<std::string> kTexts = {"name", "wood",  "rubber", "l",      "r", "0",
-                                                    "1",    "table", "#3",     "a/b\"c", "x", ""};
+    static const std::vector<std::string> kTexts = {"name",  "wood", "rubber", "l", "r", "0",        "1",
+                                                    "table", "#3",   "a/b\"c", "x", "",  "viscous:2"};
     return any(kTexts);
   }
   Value object() { return names_.empty() || one_in(50) ? Value("nobody") : Value(any(names_)); }

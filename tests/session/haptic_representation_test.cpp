@@ -221,6 +221,36 @@ TEST(HapticRepresentation, FollowsMaterials) {
   EXPECT_NE(felt.remarks(world)[0].find("velvet"), std::string::npos);
 }
 
+TEST(HapticRepresentation, HasTheEffectsOfItsObjectsWhereTheyAre) {
+  World world;
+  IdSource ids;
+  const auto effect = [](const char* text, bool on = true) {
+    return std::make_shared<const world::Fixture>(world::ForceEffect{text, on});
+  };
+  const auto group = add_object(world, ids, "group", nullptr);
+  const auto pull = add_object(world, ids, "pull", nullptr, group, at(2.0, 0.0, 0.0));
+  HapticRepresentation felt;
+  felt.show(world);
+  EXPECT_TRUE(felt.effects().empty());
+  edit(world, felt, world::ChangeFixture{pull, effect("point:0,0,0")});
+  ASSERT_EQ(felt.effects().size(), 1U);
+  EXPECT_EQ(felt.effects()[0].text, "point:0,0,0");
+  EXPECT_EQ(felt.effects()[0].world_from_effect.translation(), Vector3(2.0, 0.0, 0.0));
+  edit(world, felt, world::PlaceObject{group, at(0.0, 1.0, 0.0)});
+  EXPECT_EQ(felt.effects()[0].world_from_effect.translation(), Vector3(2.0, 1.0, 0.0));
+  edit(world, felt, world::ChangeFixture{pull, effect("point:0,0,0", false)});
+  EXPECT_TRUE(felt.effects().empty()) << "switched off";
+  EXPECT_TRUE(felt.remarks(world).empty());
+  edit(world, felt, world::ChangeFixture{pull, effect("pull:0,0,0")});
+  EXPECT_TRUE(felt.effects().empty());
+  ASSERT_EQ(felt.remarks(world).size(), 1U);
+  EXPECT_NE(felt.remarks(world)[0].find("\"pull\" is an effect that is not felt"), std::string::npos);
+  edit(world, felt, world::ChangeFixture{pull, effect("viscous:1")});
+  EXPECT_EQ(felt.effects().size(), 1U);
+  edit(world, felt, delete_subtree(world, group));
+  EXPECT_TRUE(felt.effects().empty());
+}
+
 TEST(HapticRepresentation, TellsWhatCannotBeTouched) {
   World world;
   IdSource ids;

@@ -1,5 +1,6 @@
 #include "ui/property_panel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
@@ -213,6 +214,24 @@ TEST_F(PropertyPanelTest, SizeStretchesAlongTheObjectsOwnAxis) {
   EXPECT_NEAR(world().find(one_)->parent_from_object.linear().col(2).norm(), 1.5, 1e-12);
   type(field<QuantityField>("Rotation, ° x"), "0");
   EXPECT_EQ(field<QuantityField>("Size, mm z").text(), "150");
+}
+
+TEST_F(PropertyPanelTest, AnEffectIsChangedAndSwitched) {
+  select({one_});
+  EXPECT_FALSE(is_shown("Force"));
+  perform(
+      world::ChangeFixture{one_, std::make_shared<const world::Fixture>(world::ForceEffect{"viscous:2"})});
+  QApplication::processEvents();
+  EXPECT_EQ(field<TextField>("Force").text(), "viscous:2");
+  const auto effect = [&] { return std::get<world::ForceEffect>(*world().find(one_)->fixture); };
+  type(field<TextField>("Force"), "well:0,0,0,0.01,1.5");
+  EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
+  EXPECT_EQ(session().history().undo_name(), "Change force of one");
+  type(field<TextField>("Force"), "well:0,0,0,0.01");
+  EXPECT_TRUE(complaint().contains("number 5")) << complaint().toStdString();
+  EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
+  field<QCheckBox>("On").click();
+  EXPECT_FALSE(effect().on);
 }
 
 TEST_F(PropertyPanelTest, TouchKnowsTheDevicesBest) {

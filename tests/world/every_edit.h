@@ -125,6 +125,7 @@ inline std::vector<Edit> every_edit() {
       ChooseMaterial{leg, {}},
       ChangeFixture{leg, std::make_shared<const Fixture>(Viewpoint{1.0})},
       ChangeFixture{leg, std::make_shared<const Fixture>(Inert{"Script", "Script { url \"a\" }"})},
+      ChangeFixture{leg, std::make_shared<const Fixture>(ForceEffect{"viscous:2", false})},
       ChangeFixture{leg, nullptr},
       DeleteMaterial{paint},
       ReplaceGeometry{{102}, csg()},

@@ -90,13 +90,15 @@ class RandomEdits {
     return CreateObject{ids_.next<ObjectId>(), 0, std::move(object)};
   }
   FixturePointer fixture() {
-    switch (random_.index(4)) {
+    switch (random_.index(5)) {
       case 0:
         return nullptr;
       case 1:
         return std::make_shared<const Fixture>(Light{.intensity = float(random_.uniform())});
       case 2:
         return std::make_shared<const Fixture>(Viewpoint{random_.uniform(0.1, 3.0)});
+      case 3:
+        return std::make_shared<const Fixture>(ForceEffect{"viscous:2", random_.index(2) == 0});
       default:
         return std::make_shared<const Fixture>(Inert{"Script", "Script {}"});
     }

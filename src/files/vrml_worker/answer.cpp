@@ -174,8 +174,10 @@ int Answer::add(const NodeParts& node) {
     const flat::Vec3 axis = flat_vector(node.eye->axis);
     eye = flat::CreateEye(to.builder, node.eye->field_of_view, &position, &axis, node.eye->angle);
   }
+  Offset<flat::Force> force;
+  if (node.force) force = flat::CreateForce(to.builder, to.text(node.force->text), node.force->on);
   to.nodes.push_back(flat::CreateNode(to.builder, node.parent, name, def, matrix, node.piece, node.look, lamp,
-                                      eye, node.reused, scene, members));
+                                      eye, node.reused, scene, members, force));
   return static_cast<int>(to.nodes.size()) - 1;
 }
 

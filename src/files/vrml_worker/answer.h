@@ -108,6 +108,11 @@ struct EyeParts {
   double angle = 0.0;
 };
 
+struct ForceParts {
+  std::string text = {};
+  bool on = true;
+};
+
 struct NodeParts {
   int parent = -1;
   std::string name = {};
@@ -120,6 +125,7 @@ struct NodeParts {
   bool reused = false;
   std::string scene = {};
   std::vector<std::string> members = {};
+  std::optional<ForceParts> force = {};
 };
 
 /// Puts the answer together, each thing as it is found. Throws Refusal when it becomes larger than an answer

@@ -9,6 +9,7 @@
 #include <Inventor/VRMLnodes/SoVRMLViewpoint.h>
 #include <Inventor/VRMLnodes/SoVRMLWorldInfo.h>
 #include <Inventor/fields/SoMFString.h>
+#include <Inventor/fields/SoSFBool.h>
 #include <Inventor/fields/SoSFString.h>
 #include <Inventor/misc/SoProtoInstance.h>
 
@@ -78,7 +79,7 @@ void SceneWalk::visit(SoNode* node, Place place) {
     visit_shape(*shape, parts, within);
   } else if (const auto* part = as<SoVRMLInline>(it.node)) {
     visit_inline(*part, parts, within);
-  } else if (!visit_scene(it, parts) && !visit_group(it, parts, within) &&
+  } else if (!visit_scene(it, parts) && !visit_effect(it, parts) && !visit_group(it, parts, within) &&
              fill_lamp_or_eye(*it.node, parts)) {
     answer_.add(parts);
   }
@@ -157,6 +158,18 @@ bool SceneWalk::visit_scene(const Unwrapped& it, NodeParts& parts) {
   parts.scene = files_.original(static_cast<const SoSFString*>(name)->getValue().getString());
   parts.members = files_.strings(*static_cast<const SoMFString*>(members));
   if (!parts.scene.empty()) answer_.add(parts);
+  return true;
+}
+
+/// IcomeEffect stands for a group that is empty.
+bool SceneWalk::visit_effect(const Unwrapped& it, NodeParts& parts) {
+  if (!it.instance || it.instance->getProtoName() != "IcomeEffect") return false;
+  const SoField* text = find_field(*it.instance, "effect", "SFString");
+  const SoField* on = find_field(*it.instance, "on", "SFBool");
+  if (!text || !on) return false;
+  parts.force = ForceParts{files_.original(static_cast<const SoSFString*>(text)->getValue().getString()),
+                           static_cast<const SoSFBool*>(on)->getValue() != FALSE};
+  if (!parts.force->text.empty()) answer_.add(parts);
   return true;
 }
 

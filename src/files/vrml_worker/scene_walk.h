@@ -37,6 +37,7 @@ class SceneWalk {
   void visit_inline(const SoVRMLInline& it, NodeParts& parts, const Place& place);
   void visit_shape(const SoVRMLShape& it, NodeParts& parts, const Place& place);
   bool visit_scene(const Unwrapped& it, NodeParts& parts);
+  bool visit_effect(const Unwrapped& it, NodeParts& parts);
   void count_visit();
 
   SceneFiles& files_;

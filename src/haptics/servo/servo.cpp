@@ -95,6 +95,7 @@ bool Servo::read() {
   if (laid_aside || (state.jumped && !state.parked)) {
     solver_->reset();
     if (effects_ != nullptr) effects_->reset();
+    effect_feed_.reset();
   }
   // The workspace's own speed is left out: it comes in jerks from who carries it, which damping would turn
   // into jerks of the force.
@@ -208,7 +209,7 @@ EffectInput Servo::effect_input(double dt) const {
 Vector3 Servo::effect_force(double dt) {
   if (state_.parked) return Vector3::Zero();
   const EffectInput input = effect_input(dt);
-  const Vector3 force = grip_force(grip_.read(), input);
+  const Vector3 force = grip_force(grip_.read(), input) + effect_feed_.force(input);
   return effects_ == nullptr ? force : force + effects_->force(input);
 }
 

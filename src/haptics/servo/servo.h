@@ -10,6 +10,7 @@
 #include "haptics/energy_tank.h"
 #include "haptics/force_limiter.h"
 #include "haptics/renderer.h"
+#include "haptics/servo/effect_feed.h"
 #include "haptics/servo/scene_feed.h"
 #include "realtime/latest_value.h"
 
@@ -62,6 +63,9 @@ class Servo {
   /// thread, the main one.
   void publish(std::shared_ptr<const HapticScene> scene) { feed_.publish(std::move(scene)); }
 
+  /// The effects of the design from the next tick on, beside those of the constructor. From the same thread.
+  void publish_effects(const std::vector<PlacedEffect>& effects) { effect_feed_.publish(effects); }
+
   /// Where the device's workspace lies in the world from now on: it moves there smoothly within some ticks,
   /// sweeping the tip along as a hand would. The pose is finite. From one thread, the main one.
   void carry(const Pose& world_from_device) { carried_.publish(world_from_device); }
@@ -96,6 +100,7 @@ class Servo {
   ServoSettings settings_;
   Effect* effects_;  // may be null
   SceneFeed feed_;
+  EffectFeed effect_feed_;
   std::unique_ptr<ContactSolver> solver_;
   ForceLimiter limiter_;
   const PublishedScene* scene_ = nullptr;  // null until the first publish()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "haptics/texture_text.h"
 #include "interaction/operations/material_edits.h"
 #include "interaction/operations/material_library.h"
 #include "interaction/operations/operation.h"
@@ -31,11 +32,27 @@ Result<Plan> plan_colour(const World& world, const Arguments& arguments, world::
   return plan_change(world, arguments, {change, "colour", arguments.flag("shared")}, ids);
 }
 
+/// "bumps:0.0003,0.003", "bumps" in its usual size, or empty for smooth.
+Result<std::string> texture_text(const Arguments& arguments) {
+  const std::string& name = arguments.text("texture");
+  const bool sized = arguments.has("depth") || arguments.has("spacing");
+  if (sized && !(arguments.has("depth") && arguments.has("spacing")))
+    return fail("'depth' and 'spacing' of a texture go together");
+  if (name == "smooth") return sized ? Result<std::string>(fail("what is smooth has no 'depth'")) : "";
+  if (!sized) return name;
+  std::string text = fmt::format("{}:{},{}", name, arguments.number("depth"), arguments.number("spacing"));
+  if (const auto made = haptics::make_texture(text); !made) return fail(made.error().message);
+  return text;
+}
+
 Result<world::TouchProperties> felt_then(const Arguments& arguments, world::TouchProperties touch) {
   if (arguments.has("stiffness")) touch.stiffness = arguments.number("stiffness");
   if (arguments.has("damping")) touch.damping = arguments.number("damping");
-  if (arguments.has("texture"))
-    touch.texture = arguments.text("texture") == "smooth" ? "" : arguments.text("texture");
+  if (arguments.has("texture")) {
+    auto texture = texture_text(arguments);
+    if (!texture) return tl::unexpected(texture.error());
+    touch.texture = std::move(*texture);
+  }
   if (!arguments.has("friction")) return touch;
   const std::vector<double> friction = arguments.numbers("friction");
   if (friction.size() != 2 || friction[0] < friction[1])
@@ -49,6 +66,8 @@ Result<world::TouchProperties> felt_then(const Arguments& arguments, world::Touc
 
 Result<Plan> plan_feel(const World& world, const Arguments& arguments, world::IdSource& ids) {
   const auto said = [&](const char* name) { return arguments.has(name); };
+  if (!said("texture") && (said("depth") || said("spacing")))
+    return fail("'depth' and 'spacing' belong to a 'texture': say which");
   if (!said("stiffness") && !said("damping") && !said("friction") && !said("texture"))
     return fail("say how it feels: 'stiffness', 'damping', 'friction', 'texture' or several");
   if (const auto good = felt_then(arguments, {}); !good) return tl::unexpected(good.error());
@@ -133,6 +152,16 @@ Operation feel_operation() {
             .kind = ParameterKind::Choice,
             .meaning = "the relief that is felt",
             .choices = std::move(textures)},
+           {.name = "depth",
+            .kind = ParameterKind::Number,
+            .meaning = "of the texture, m; at most half of its spacing",
+            .least = 0.0,
+            .most = 0.01},
+           {.name = "spacing",
+            .kind = ParameterKind::Number,
+            .meaning = "of the texture's waves, bumps or grains, m",
+            .least = 1e-5,
+            .most = 1.0},
            shared_parameter()},
           plan_feel};
 }

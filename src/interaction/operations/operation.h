@@ -43,8 +43,9 @@ std::string help_of(const Operation& operation);
 std::vector<Operation> shape_operations();    // create, reshape, extrude, repeat
 std::vector<Operation> vertex_operations();   // drag, subdivide, refine, deform
 std::vector<Operation> object_operations();   // copy and clone, move, turn, align, group, delete
-std::vector<Operation> solid_operations();    // combine, take apart
-std::vector<Operation> look_operations();     // colour, material
+std::vector<Operation> solid_operations();    // combine, take apart, move and change parts
+std::vector<Operation> look_operations();     // colour, material, feel
+std::vector<Operation> effect_operations();   // effect
 std::vector<Operation> texture_operations();  // texture
 
 }  // namespace icome::interaction

@@ -18,7 +18,7 @@ std::vector<Operation> history_operations() {
 std::vector<Operation> all_operations() {
   std::vector<Operation> all;
   for (auto group : {shape_operations, vertex_operations, object_operations, solid_operations,
-                     look_operations, texture_operations, history_operations})
+                     look_operations, texture_operations, effect_operations, history_operations})
     std::ranges::move(group(), std::back_inserter(all));
   return all;
 }
