@@ -190,6 +190,28 @@ TEST_F(SolidOperations, OperandsMoveWithinALiveSolid) {
   EXPECT_TRUE(holds("plate", {10.3, 0, 0}));
 }
 
+TEST_F(SolidOperations, OperatorsOfALiveSolidChange) {
+  box("plate", {0, 0, 0});
+  box("other", {0.5, 0, 0});
+  box("third", {5, 0, 0});
+  run(R"({"op": "combine", "objects": ["plate", "other"], "how": "difference"})");
+  EXPECT_FALSE(holds("plate", {0.3, 0, 0}));
+  run(R"({"op": "change-operator", "object": "plate", "how": "intersection"})");
+  EXPECT_TRUE(holds("plate", {0.3, 0, 0}));
+  EXPECT_FALSE(holds("plate", {-0.3, 0, 0}));
+  run(R"({"op": "change-operator", "object": "plate", "how": "difference"})");
+  EXPECT_TRUE(holds("plate", {-0.3, 0, 0}));
+  run(R"({"op": "combine", "objects": ["plate", "third"], "how": "union"})");
+  run(R"({"op": "change-operator", "object": "plate", "how": "union", "part": "l"})");
+  for (const double x : {-0.3, 0.3, 0.8, 5.0}) EXPECT_TRUE(holds("plate", {x, 0, 0})) << x;
+  run(R"({"op": "change-operator", "object": "plate", "how": "difference"})");
+  EXPECT_FALSE(holds("plate", {5, 0, 0}));
+  expect_refused(
+      {{R"({"op": "change-operator", "object": "plate", "how": "union", "part": "r"})", "single shape"},
+       {R"({"op": "change-operator", "object": "plate", "how": "glue"})", "one of union"},
+       {R"({"op": "change-operator", "object": "plate", "how": "union", "part": "lll"})", "ends in"}});
+}
+
 TEST_F(SolidOperations, OperandsAreFoundByTheirWayAndByNumber) {
   CsgTree tree;
   const auto a = tree.add_leaf(geometry::Sphere{1.0});

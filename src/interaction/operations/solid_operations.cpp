@@ -186,6 +186,34 @@ Result<Plan> plan_move_operand(const World& world, const Arguments& arguments, w
               {id}};
 }
 
+// ---- Change an operator -------------------------------------------------------------------------------
+
+Result<Plan> plan_change_operator(const World& world, const Arguments& arguments, world::IdSource&) {
+  const ObjectId id = arguments.object("object");
+  const auto tree = tree_of(world, id);
+  if (!tree) return tl::unexpected(tree.error());
+  const auto node = arguments.has("part") ? operand_named(**tree, arguments.text("part"))
+                                          : Result<CsgTree::Index>((*tree)->root());
+  if (!node) return tl::unexpected(node.error());
+  if ((*tree)->node(*node).is_leaf)
+    return fail(
+        fmt::format("that part of {} is a single shape: there is nothing to combine", called(world, id)));
+  CsgTree changed = **tree;
+  changed.set_operator(*node, operator_named(arguments.text("how")));
+  const world::GeometryId geometry = world.find(id)->geometry;
+  return Plan{world::ReplaceGeometry{geometry, std::make_shared<world::CsgGeometry>(std::move(changed))},
+              {id}};
+}
+
+/// `how` shapes are combined.
+Parameter how_parameter() {
+  return {.name = "how",
+          .kind = ParameterKind::Choice,
+          .meaning = "all that is in any of them, only what is in all, or the first without the others",
+          .required = true,
+          .choices = {"union", "intersection", "difference"}};
+}
+
 Operation combine_operation() {
   return {"combine",
           "Combine",
@@ -197,11 +225,7 @@ Operation combine_operation() {
             .meaning = "closed shapes: primitives, solids and closed meshes; the first is what others are "
                        "taken from; what is painted on meshes is left behind",
             .required = true},
-           {.name = "how",
-            .kind = ParameterKind::Choice,
-            .meaning = "all that is in any of them, only what is in all, or the first without the others",
-            .required = true,
-            .choices = {"union", "intersection", "difference"}}},
+           how_parameter()},
           plan_combine};
 }
 
@@ -232,10 +256,25 @@ Operation move_operand_operation() {
           plan_move_operand};
 }
 
+Operation change_operator_operation() {
+  return {
+      "change-operator",
+      "Change operator",
+      "Solids",
+      "Combines the shapes of a solid in another way, for all objects that share the solid.",
+      {{.name = "object", .kind = ParameterKind::Object, .meaning = "the solid", .required = true},
+       how_parameter(),
+       {.name = "part",
+        .kind = ParameterKind::Text,
+        .meaning = "which part of it: its way from the top, l for left and r for right (\"rl\"); else the "
+                   "whole"}},
+      plan_change_operator};
+}
+
 }  // namespace
 
 std::vector<Operation> solid_operations() {
-  return {combine_operation(), separate_operation(), move_operand_operation()};
+  return {combine_operation(), separate_operation(), move_operand_operation(), change_operator_operation()};
 }
 
 }  // namespace icome::interaction
