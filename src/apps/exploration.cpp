@@ -36,9 +36,10 @@ constexpr double kFastest = 0.3;  // m/s
 // device can hold; small objects are pressed less.
 constexpr double kDeepest = 0.004;     // m
 constexpr double kDepthOfSize = 0.04;  // of the model's size
-constexpr double kStartSizes = 0.05;   // of the model's size, through the air: where the hand comes from
+constexpr double kStartSeconds = 0.1;  // s of way through the air: where the hand comes from
 
 constexpr double kMostTurn = 0.7;  // cosine: the surface may turn by 45 degrees along two depths of a stroke
+constexpr double kMargin = 1.5;    // depths of a stroke that it stays away from edges
 constexpr double kFacing = 0.3;    // cosine: how squarely a place must be seen to be landed on
 constexpr double kStrokeOfSize = 0.5;     // how long a stroke is at least, of the model's size
 constexpr double kPressesForAir = 3.0;    // how much longer it presses than it flies
@@ -79,11 +80,12 @@ class StrokePlanner {
     find_landings();
   }
 
-  /// A way of at least this length (m); empty where there is no place to land.
-  std::vector<Leg> way(double length) {
+  /// A way of at least this length (m), that begins so far (m) from where it lands first; empty where there
+  /// is no place to land.
+  std::vector<Leg> way(double length, double approach) {
     if (landings_.empty()) return {};
     const Landing first = landings_.front();
-    air(first.place.point + (lift_ + kStartSizes * size_) * first.eye);
+    air(first.place.point + (lift_ + approach) * first.eye);
     land(first);
     stroke(kStrokeOfSize * size_);
     while (gone_ < length) {
@@ -212,10 +214,17 @@ class StrokePlanner {
     return std::nullopt;
   }
 
-  /// The place of the surface a step ahead, unless a wall or an edge comes first.
+  /// The place of the surface a step ahead, unless a wall or an edge comes first, or so soon after it that a
+  /// hand that goes on for a bit would slip off.
   std::optional<ProbedPoint> ahead(const Vector3& heading, double depth) const {
+    const auto place = smooth_floor(heading, 0.5 * depth, depth);
+    return place && smooth_floor(heading, kMargin * depth, depth) ? place : std::nullopt;
+  }
+
+  /// The place of the surface so far ahead (m), if the way there is free and it has turned little since.
+  std::optional<ProbedPoint> smooth_floor(const Vector3& heading, double step, double depth) const {
     const ProbedPoint& here = track_.back();
-    const double step = 0.5 * depth, lift = tip_ + depth;
+    const double lift = tip_ + depth;
     const Vector3 from = here.point + lift * here.normal, to = from + step * heading;
     if (!free(from, to + tip_ * heading)) return std::nullopt;
     const auto floor = probe_.look(to, to - (lift + step) * here.normal);
@@ -334,7 +343,7 @@ double pressed_share(const std::vector<Leg>& way) {
 Exploration Exploration::plan(const std::vector<TouchModel>& models, double tip, double seconds) {
   const SurfaceProbe probe(models);
   const double speed = std::min(kFastest, kSizesPerSecond * probe.bounds().sizes().maxCoeff());
-  std::vector<Leg> way = StrokePlanner(probe, tip).way(speed * seconds);
+  std::vector<Leg> way = StrokePlanner(probe, tip).way(speed * seconds, kStartSeconds * speed);
   Exploration exploration;
   exploration.centre_ = probe.bounds().center();
   exploration.planned_ = pressed_share(way);

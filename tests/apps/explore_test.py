@@ -13,12 +13,11 @@ PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 class ExploreTest(ProgramTest):
     def test_it_touches_most_of_the_time(self):
         sheet = self.write("sheet.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
-        for model in (["sphere:0.05"], ["box:0.1x0.1x0.1"], ["plane"], ["torus:0.05x0.02"],
-                      ["sphere:0.03", "plane"], ["sphere:0.001"]):
+        for model in (["sphere:0.05"], ["box:0.1x0.1x0.1"], ["plane"], ["torus:0.05x0.02"], [sheet, "--fit", "0.2"],
+                      ["sphere:0.03", "plane"], ["sphere:5"], ["sphere:0.001"]):
             report = self.report(*model, "--seconds", "1")
             self.assertGreater(report["touch_fraction"], 0.6, model)
             self.assertGreater(report["max_force_n"], 0.0, model)
-        self.assertGreater(self.report(sheet, "--fit", "0.2", "--seconds", "1")["touch_fraction"], 0.3)
 
     def test_solids_and_formulas_are_touched_most_of_the_time(self):
         pierced = self.write("pierced.csg", "difference() { cube(size = [80, 80, 80], center = true); "
@@ -78,7 +77,8 @@ class SharedDataTest(ProgramTest):
                 self.assertEqual(report["ticks"], 600)
 
     def test_intricate_meshes_are_touched_most_of_the_time(self):
-        for name in ("boolean/Generic_Twin_7863.1.t0_right.obj", "anatomy/teeth-bottom.obj.xz"):
+        for name in ("boolean/Generic_Twin_7863.1.t0_left.obj", "boolean/Generic_Twin_7863.1.t0_right.obj",
+                     "anatomy/teeth-bottom.obj.xz"):
             report = self.report(SHARED_MESHES / name, "--fit", "0.1", "--seconds", "1", "--check")
             self.assertGreater(report["touch_fraction"], 0.6, name)
             self.assertEqual(report["silent"], 0, name)
