@@ -102,9 +102,10 @@ constexpr const char* kTouchFormats =
     "  files), ticks, rate_hz, tick_us {median, p99, p999, max}, haptic_load {median, p999, max} (the tick "
     "as\n"
     "  a share of the period, 1 is all of it), overruns, max_force_n, touch_fraction, pops, sticks, silent\n"
-    "  (ticks in which the tip is inside and nothing is felt) and pulls (the four null without --check), texture\n"
-    "  (null without --texture) and effects (an array) as they were written,\n"
-    "  capped (sentences about what is felt softer than asked for, so as to be stable),\n"
+    "  (ticks in which the tip is inside and nothing is felt) and pulls (these four null without --check),\n"
+    "  texture (null without --texture) and effects (an array) as they were written, capped (sentences "
+    "about\n"
+    "  what is felt softer than asked for, so as to be stable),\n"
     "  peak_memory_bytes. It goes to standard output, all messages to standard error.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 a replay was interrupted.";

@@ -243,7 +243,8 @@ void ScpSolver::converge(const Vector3& tip) {
     const bool turns = idle == kMaxIdle;
     if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
-      const bool at_rest = contacts_.size() < 2 && !turns && held_gain() <= 0.0;  // on a face, below its edges
+      const bool at_rest =
+          contacts_.size() < 2 && !turns && held_gain() <= 0.0;  // on a face, below its edges
       if (!at_rest && escape(tip)) continue;
       state_.converged = true;
       return;
