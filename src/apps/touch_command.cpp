@@ -107,6 +107,14 @@ haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const Tou
   return {objects, settings};
 }
 
+/// Are surfaces all that pushes the tip, each with its plain force?
+bool surfaces_alone(const std::vector<TouchModel>& models, const TouchOptions& options) {
+  const auto plain = [&](const TouchBody& body) { return surface_of(body, options).texture == nullptr; };
+  return options.effects.empty() && std::ranges::all_of(models, [&](const TouchModel& model) {
+           return model.effects.empty() && std::ranges::all_of(model.bodies, plain);
+         });
+}
+
 // What is quick to find wrong is looked for first; the trace is opened last, so that nothing is left
 // behind when something else fails.
 base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) {
@@ -252,7 +260,8 @@ int run_touch(const TouchOptions& options) {
   for (const TouchModel& model : prepared->models) tell_odd_size(model);
   catch_interrupts();
   TouchDiary diary(prepared->trace ? &*prepared->trace : nullptr,
-                   prepared->judge ? &*prepared->judge : nullptr, options.picture.has_value());
+                   prepared->judge ? &*prepared->judge : nullptr, surfaces_alone(prepared->models, options),
+                   options.picture.has_value());
   const auto outcome = run(*prepared, options, diary, status);
   if (!outcome) {
     tell(outcome.error().message);

@@ -18,7 +18,11 @@ std::uint32_t saturated(std::int64_t nanoseconds) {
 
 void TouchDiary::add(const TickRow& row) {
   if (trace_ != nullptr) trace_->add(row);
-  if (judge_ != nullptr) judge_->judge({row.tip, row.scp, row.touching(), row.elapsed, row.force});
+  if (judge_ != nullptr) {
+    haptics::JudgedTick tick{row.tip, row.scp, row.touching(), row.elapsed};
+    if (forces_of_surfaces_) tick.force = row.force;
+    judge_->judge(tick);
+  }
   if (keep_samples_) keep_sample(row);
   tick_ns_.push_back(saturated(row.own_ns));
   touching_ += row.touching() ? 1 : 0;

@@ -15,9 +15,10 @@ namespace icome::apps {
 /// outside the timed part of the ticks and belongs to one thread. Owns neither trace nor judge.
 class TouchDiary {
  public:
-  /// Trace and judge may be null: then there is none.
-  TouchDiary(TraceFile* trace, haptics::ContactJudge* judge, bool keep_samples)
-      : trace_(trace), judge_(judge), keep_samples_(keep_samples) {}
+  /// Trace and judge may be null: then there is none. The judge is told forces only where they are those of
+  /// surfaces: effects and textures push as they like.
+  TouchDiary(TraceFile* trace, haptics::ContactJudge* judge, bool forces_of_surfaces, bool keep_samples)
+      : trace_(trace), judge_(judge), forces_of_surfaces_(forces_of_surfaces), keep_samples_(keep_samples) {}
 
   /// Takes memory for this many rows, so that adding them is quick.
   void reserve(std::size_t rows) { tick_ns_.reserve(rows); }
@@ -39,6 +40,7 @@ class TouchDiary {
 
   TraceFile* trace_;
   haptics::ContactJudge* judge_;
+  bool forces_of_surfaces_;
   bool keep_samples_;
   std::uint64_t touching_ = 0;
   double max_force_ = 0.0;

@@ -12,7 +12,8 @@ using base::Vector3;
 class EnergyTank {
  public:
   /// The part of `force` (N) that may act over the coming tick: all of it where the tip, going on as in the
-  /// last tick, gives it energy or the tank can pay, else less. Real-time safe.
+  /// last tick and as in the last few, gives it energy or the tank can pay, else less. (A slow tip, read by
+  /// steps of an encoder, stands still in most ticks.) Real-time safe.
   Vector3 give(const Vector3& force);
 
   /// A tick is over in which the tip went `way` (m) and `share` of what was given has acted (a limiter may
@@ -27,6 +28,7 @@ class EnergyTank {
   double stored_ = 0.0;               // J
   Vector3 acting_ = Vector3::Zero();  // N
   Vector3 way_ = Vector3::Zero();     // m, of the last tick
+  Vector3 drift_ = Vector3::Zero();   // m a tick, of the last few
 };
 
 }  // namespace icome::haptics

@@ -34,6 +34,8 @@ std::string remark_on(const std::string& object, const FeltShape& felt, std::siz
   return fmt::format("{}{} {}{}", object, more, felt.remark, felt.remark.back() == '.' ? "" : ".");
 }
 
+constexpr std::size_t kMostEffects = 256;  // that one tick can feel
+
 }  // namespace
 
 /// Brings objects up to date: finds out which shapes they need, has the missing ones made side by side, and
@@ -356,6 +358,10 @@ haptics::Surface HapticRepresentation::surface_of(const World& world, const Memb
   return surface;
 }
 
+bool HapticRepresentation::placeable(const Member& effect) {
+  return effect.world_from_object.matrix().allFinite();
+}
+
 void HapticRepresentation::list_effects() {
   std::vector<world::ObjectId> ids;
   for (const auto& [id, member] : members_)
@@ -365,7 +371,8 @@ void HapticRepresentation::list_effects() {
   for (const world::ObjectId id : ids) {
     const Member& member = members_.at(id);
     const auto& effect = std::get<world::ForceEffect>(*member.effect);
-    if (!effect.on || !haptics::make_effect(effect.text)) continue;
+    if (!effect.on || !placeable(member) || !haptics::make_effect(effect.text)) continue;
+    if (effects_.size() == kMostEffects) break;
     effects_.push_back({id.value, effect.text, rigid_part(member.world_from_object).world_from_felt});
   }
 }
@@ -423,15 +430,20 @@ std::vector<std::string> HapticRepresentation::remarks(const World& world) const
   std::map<const FeltShape*, std::size_t> users;
   for (const auto& [id, member] : members_) ++users[member.felt.get()];
   std::set<const FeltShape*> told;
+  std::size_t effects = 0;
   std::set<world::MaterialId> materials;
   std::vector<std::string> sentences;
   for (const world::ObjectId id : ids) {
     const Member& member = members_.at(id);
     if (member.effect) {
+      ++effects;
       const auto made = haptics::make_effect(std::get<world::ForceEffect>(*member.effect).text);
-      if (!made)
-        sentences.push_back(fmt::format("{} is an effect that is not felt: {}", called(*world.find(id), id),
-                                        made.error().message));
+      const std::string why = !made               ? made.error().message
+                              : placeable(member) ? std::string()
+                                                  : "its place is not finite.";
+      if (!why.empty())
+        sentences.push_back(
+            fmt::format("{} is an effect that is not felt: {}", called(*world.find(id), id), why));
     }
     const FeltShape* felt = member.felt.get();
     if (!felt) continue;
@@ -440,10 +452,13 @@ std::vector<std::string> HapticRepresentation::remarks(const World& world) const
     const world::Material* material = world.find(member.material);
     if (!material || !materials.insert(member.material).second) continue;
     const std::string& name = material->touch.texture;
-    if (!name.empty() && !textures_.at(name))
+    const auto texture = textures_.find(name);
+    if (texture != textures_.end() && !texture->second)
       sentences.push_back(
           fmt::format("\"{}\" is felt smooth: no haptic texture is called \"{}\".", material->name, name));
   }
+  if (effects > kMostEffects)
+    sentences.push_back(fmt::format("Of {} effects only the first {} are felt.", effects, kMostEffects));
   return sentences;
 }
 

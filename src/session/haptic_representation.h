@@ -121,6 +121,7 @@ class HapticRepresentation {
   std::shared_ptr<const haptics::HapticTexture> texture(const std::string& name);
   haptics::Surface surface_of(const world::World& world, const Member& member);
   void publish();
+  static bool placeable(const Member& effect);
   void list_effects();
 
   HapticRepresentationSettings settings_;

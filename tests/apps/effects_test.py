@@ -41,6 +41,20 @@ class EffectsTest(ProgramTest):
             self.assertLess(distance(force, expected(tip, velocity, row["t"])), tolerance, (effect, row))
         self.assertGreater(felt, 0.02, effect)
 
+    def test_what_effects_push_is_no_fault_of_the_contact(self):
+        path = self.path_file(line((0, 0, 0.06), (0, 0, 0.048), 400) + [(0, 0, 0.048)] * 400)
+        for options in (["--effect", "constant:0,0,-5"], ["--effect", "point:0,0,0,100"],
+                        ["--texture", "bumps:0.009,0.02"]):
+            report = self.report("sphere:0.05", "--path", path, "--check", *options)
+            counted = {name: report[name] for name in ("pops", "sticks", "silent", "pulls")}
+            self.assertEqual(set(counted.values()), {0}, (options, counted))
+
+    def test_what_no_tick_could_feel_is_refused(self):
+        curve = "curve:" + ";".join(f"0,0,{0.001 * i}" for i in range(1001))
+        field = "field:" + "+".join(["sin(x*y)"] * 400) + ",0,0"
+        for effect, reason in ((curve, "1001 points; 1000 are the most"), (field, "1000 are the most")):
+            self.fails("touch", FAR, "--effect", effect, code=2, saying=reason)
+
     def test_point_spring(self):
         self.expect_forces("point:0.05,0.02,0.04,100,0",
                            lambda tip, v, t: minus(scaled(minus((0.05, 0.02, 0.04), tip), 100.0),

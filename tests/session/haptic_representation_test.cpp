@@ -251,6 +251,26 @@ TEST(HapticRepresentation, HasTheEffectsOfItsObjectsWhereTheyAre) {
   EXPECT_TRUE(felt.effects().empty());
 }
 
+TEST(HapticRepresentation, LeavesOutEffectsThatCannotBePlacedOrAreTooMany) {
+  World world;
+  IdSource ids;
+  auto lost = add_object(world, ids, "lost", nullptr, {}, Affine3(Eigen::Scaling(1e200)));
+  lost = add_object(world, ids, "farther", nullptr, lost, Affine3(Eigen::Scaling(1e200)));
+  const auto child = add_object(world, ids, "far", nullptr, lost, at(1.0, 0.0, 0.0));
+  const auto push = std::make_shared<const world::Fixture>(world::ForceEffect{"constant:0,0,1", true});
+  HapticRepresentation felt;
+  felt.show(world);
+  edit(world, felt, world::ChangeFixture{child, push});
+  EXPECT_TRUE(felt.effects().empty());
+  ASSERT_EQ(felt.remarks(world).size(), 1U);
+  EXPECT_NE(felt.remarks(world)[0].find("its place is not finite"), std::string::npos);
+  for (int i = 0; i < 300; ++i)
+    edit(world, felt, world::ChangeFixture{add_object(world, ids, "push", nullptr), push});
+  felt.show(world);
+  EXPECT_EQ(felt.effects().size(), 256U);
+  EXPECT_NE(felt.remarks(world).back().find("Of 301 effects only the first 256"), std::string::npos);
+}
+
 TEST(HapticRepresentation, TellsWhatCannotBeTouched) {
   World world;
   IdSource ids;

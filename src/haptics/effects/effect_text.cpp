@@ -38,6 +38,11 @@ constexpr Parameter kDamping = {"DAMPING", "N s/m", 0.0, 1e3, kUsualSpring.dampi
 // The smallest length that means anything to a hand.
 constexpr double kShortest = 1e-6;  // m
 
+// What one tick can look at beside everything else.
+constexpr std::size_t kMostCurvePoints = 1000;
+constexpr std::size_t kMostFieldSteps = 1000;
+constexpr double kMostField = 1000.0;  // N, of each component
+
 constexpr std::array kPoint = {coordinate("X"), coordinate("Y"), coordinate("Z"), kStiffness, kDamping};
 constexpr std::array kLine = {coordinate("X"), coordinate("Y"), coordinate("Z"), component("DX"),
                               component("DY"), component("DZ"), kStiffness,      kDamping};
@@ -122,6 +127,8 @@ EffectResult curve_of(std::string_view text) {
     spring = spring_in(*feel, 0);
     groups.pop_back();
   }
+  if (groups.size() > kMostCurvePoints)
+    return base::fail(fmt::format("it has {} points; {} are the most.", groups.size(), kMostCurvePoints));
   std::vector<Vector3> points;
   for (const std::string_view group : groups) {
     const auto point = read_parameters(group, kCurvePoint);
@@ -137,17 +144,22 @@ EffectResult field_of(std::string_view text) {
   if (parts.size() != 3)
     return base::fail(fmt::format("it takes FX,FY,FZ: three formulas, not {}.", parts.size()));
   std::vector<geometry::Formula> formulas;
+  std::size_t steps = 0;
   for (const std::string_view part : parts) {
     auto formula = geometry::Formula::parse(std::string(part));
     if (!formula)
       return base::fail(fmt::format("formula {}: {}", formulas.size() + 1, formula.error().message));
     formulas.push_back(std::move(*formula));
+    steps += formulas.back().steps();
   }
+  if (steps > kMostFieldSteps)
+    return base::fail(fmt::format("its formulas take {} steps; {} are the most.", steps, kMostFieldSteps));
   return std::make_unique<ForceField>(
       [formulas = std::move(formulas)](const Vector3& position, double time) -> Vector3 {
         const Vector3 force(formulas[0].value(position, time), formulas[1].value(position, time),
                             formulas[2].value(position, time));
-        return force.allFinite() ? force : Vector3::Zero();
+        if (!force.allFinite()) return Vector3::Zero();
+        return force.cwiseMax(-kMostField).cwiseMin(kMostField);
       });
 }
 

@@ -48,7 +48,8 @@ Vector3 EffectFeed::force(const EffectInput& input) {
   if (version == nullptr) return sum;
   for (const Member& it : version->members) {
     const base::Pose& pose = it.placed.world_from_effect;
-    sum += pose.linear() * it.effect->force(seen_from(pose, input));
+    const Vector3 force = pose.linear() * it.effect->force(seen_from(pose, input));
+    if (force.allFinite()) sum += force;
   }
   return sum;
 }

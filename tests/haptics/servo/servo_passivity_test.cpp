@@ -211,8 +211,8 @@ std::string felt_name(const testing::TestParamInfo<std::size_t>& info) { return 
 INSTANTIATE_TEST_SUITE_P(Feels, ServoPassivity, testing::Range(std::size_t{0}, felts().size()), felt_name);
 
 // Round and round a lumpy ball of few triangles, slowly and at one depth: the walk ends where it began, so
-// what the hand gave is what was lost.
-double energy_of_walk(bool shading, double direction) {
+// what the hand gave is what was lost. The device reads places in steps of `encoder` (m), zero: exactly.
+double energy_of_walk(bool shading, double direction, double encoder, int ticks_around) {
   ScriptedDevice device;
   ServoSettings settings;
   settings.force_shading = shading;
@@ -224,7 +224,8 @@ double energy_of_walk(bool shading, double direction) {
     return Vector3(radius * (std::cos(angle) * tilted + std::sin(angle) * Vector3::UnitY()));
   };
   double energy = 0.0;
-  const auto go = [&](const Vector3& to) {
+  const auto go = [&](const Vector3& exact) {
+    const Vector3 to = encoder > 0.0 ? Vector3(encoder * (exact / encoder).array().round()) : exact;
     energy -= device.force.dot(to - device.position);
     device.position = to;
     servo.tick(1e-3);
@@ -233,7 +234,8 @@ double energy_of_walk(bool shading, double direction) {
   servo.tick(1e-3);
   for (int i = 0; i <= 500; ++i) go(at(0.0, kBallRadius * (1.2 - 0.0006 * i)));
   for (int turn = 0; turn < 3; ++turn)
-    for (int i = 0; i < 4000; ++i) go(at(direction * 2.0 * std::numbers::pi * i / 4000.0, 0.9 * kBallRadius));
+    for (int i = 0; i < ticks_around; ++i)
+      go(at(direction * 2.0 * std::numbers::pi * i / ticks_around, 0.9 * kBallRadius));
   for (int i = 500; i >= 0; --i) go(at(0.0, kBallRadius * (1.2 - 0.0006 * i)));
   return energy;
 }
@@ -242,9 +244,19 @@ TEST(ForceShading, GivesNoEnergyOnAWalkRoundACoarseBall) {
   for (const double direction : {1.0, -1.0}) {
     // The way of the SCP is the same: what differs is what shading took. Without the tank it gave
     // 24 mJ.
-    const double taken = energy_of_walk(true, direction) - energy_of_walk(false, direction);
+    const double taken =
+        energy_of_walk(true, direction, 0.0, 4000) - energy_of_walk(false, direction, 0.0, 4000);
     EXPECT_GE(taken, -1e-6) << direction;
     EXPECT_LT(taken, 1e-3) << direction << ": most comes back";
+  }
+}
+
+TEST(ForceShading, GivesHardlyAnyEnergyToASlowHandThatIsReadInSteps) {
+  // So slow a tip stands still in most ticks: who looks at the last tick only lets 20 mJ and more through.
+  for (const double direction : {1.0, -1.0}) {
+    const double taken =
+        energy_of_walk(true, direction, 6e-5, 16'000) - energy_of_walk(false, direction, 6e-5, 16'000);
+    EXPECT_GE(taken, -2e-4) << direction;
   }
 }
 
