@@ -102,9 +102,12 @@ std::optional<SurfacePoint> random_place(const CsgProgram& program, std::uint32_
     const Vector3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
     place = {(a + b + c) / 3.0, (b - a).cross(c - a)};
   } else {
+    // Around the face itself: bars that stand tilted fill next to nothing of boxes along the tree's axes.
+    const Bounds around = program.extent(index).intersection(box.transformed(atom.atom_from_tree));
+    if (around.isEmpty()) return std::nullopt;
     Vector3 start;
-    for (int k = 0; k < 3; ++k) start[k] = random.uniform(box.min()[k], box.max()[k]);
-    place = retract(atom, atom.atom_from_tree * start);
+    for (int k = 0; k < 3; ++k) start[k] = random.uniform(around.min()[k], around.max()[k]);
+    place = retract(atom, start);
   }
   const Vector3 point = atom.tree_from_atom * place.point;
   const Vector3 normal = tree_normal(atom, place.normal);

@@ -118,7 +118,10 @@ class CsgProgram::Compiler {
     Part part;
     part.is_leaf = true;
     part.first_atom = std::uint32_t(program_.atoms_.size());
-    for (CsgAtom& atom : geometry::atoms(leaf)) program_.atoms_.push_back(std::move(atom));
+    for (CsgAtom& atom : geometry::atoms(leaf)) {
+      program_.extents_.push_back(shape_bounds(leaf.shape(), atom.atom_from_tree * leaf.tree_from_shape()));
+      program_.atoms_.push_back(std::move(atom));
+    }
     part.atom_count = std::uint32_t(program_.atoms_.size()) - part.first_atom;
     part.box = inflated(leaf.bounds());
     return add(std::move(part));
@@ -361,7 +364,7 @@ bool CsgProgram::on_surface(std::uint32_t atom, const Vector3& place, const Vect
 
 std::size_t CsgProgram::bytes() const {
   return sizeof(*this) + code_.capacity() * sizeof(Instruction) + atoms_.capacity() * sizeof(CsgAtom) +
-         (boxes_.capacity() + relevant_.capacity()) * sizeof(Bounds);
+         (boxes_.capacity() + relevant_.capacity() + extents_.capacity()) * sizeof(Bounds);
 }
 
 }  // namespace icome::geometry

@@ -22,6 +22,8 @@ class CsgProgram {
   const std::vector<CsgAtom>& atoms() const { return atoms_; }
   /// Where an atom's faces can matter at all: the boxes that 5.5.5 gives the nodes above it.
   const Bounds& relevant(std::uint32_t atom) const { return relevant_[atom]; }
+  /// The box around an atom's leaf, in the atom's frame: its faces lie within.
+  const Bounds& extent(std::uint32_t atom) const { return extents_[atom]; }
   const Bounds& bounds() const { return bounds_; }
 
   /// Is the point in the solid? Real-time safe.
@@ -76,6 +78,7 @@ class CsgProgram {
   std::vector<CsgAtom> atoms_;
   std::vector<Bounds> boxes_;
   std::vector<Bounds> relevant_;
+  std::vector<Bounds> extents_;
   Bounds bounds_;
 };
 
