@@ -26,7 +26,10 @@ constexpr double kOnSurface = 1e-10;  // of the coordinates: so near, a point is
 constexpr double kRootExact = 1e-4;   // of that: so near, a cut is as exact as can be
 constexpr int kRootSteps = 80;
 constexpr std::size_t kTetsATriangle = 4;  // more tetrahedra than this for each triangle allowed are too many
-constexpr std::size_t kTellEachCut = 1024;  // tetrahedra between two looks at `go_on`
+constexpr std::size_t kMostTets = 5'000'000;    // however many triangles are allowed: they take some GB
+constexpr std::size_t kMostPieces = 100'000;    // of one tetrahedron
+constexpr std::size_t kMostCuts = 200'000'000;  // cuts of pieces by surfaces, all told
+constexpr std::size_t kTellEachCut = 1 << 16;   // of them between two looks at `go_on`
 constexpr std::array<std::array<int, 2>, 6> kPieceEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 /// Of a tetrahedron of positive volume, facing out.
 constexpr std::array<std::array<int, 3>, 4> kPieceFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -74,9 +77,8 @@ class CsgCutter {
 
   base::Result<TriangleMesh> mesh(std::size_t max_triangles, const ContourProgress& go_on) {
     for (std::size_t i = 0; i < tets_.size(); ++i) {
-      if (i % kTellEachCut == 0 && !go_on(double(i) / double(tets_.size())))
-        return base::fail("the meshing was interrupted");
-      cut(tets_[i]);
+      const auto done = cut(tets_[i], contour_share(go_on, double(i) / double(tets_.size()), 0.0));
+      if (!done) return tl::unexpected(done.error());
       if (triangles_.size() > max_triangles)
         return base::fail(fmt::format("the mesh would have more than {} triangles", max_triangles));
     }
@@ -227,13 +229,22 @@ class CsgCutter {
     pieces = std::move(result);
   }
 
-  void cut(const CsgTets::Tet& tet) {
+  base::Result<void> cut(const CsgTets::Tet& tet, const ContourProgress& go_on) {
     std::vector<std::uint32_t> atoms;  // that pass an edge, perhaps beyond what is open here
     for (const std::uint32_t corner : tet.corners)
       atoms.insert(atoms.end(), open_at_[corner].begin(), open_at_[corner].end());
     make_set(atoms);
     std::vector<Corners4> pieces{tet.corners};
-    for (const std::uint32_t atom : atoms) cut_along(atom, pieces);
+    for (const std::uint32_t atom : atoms) {
+      cuts_ += pieces.size();
+      if (cuts_ >= tell_at_) {
+        tell_at_ = cuts_ + kTellEachCut;
+        if (!go_on(0.0)) return base::fail("the meshing was interrupted");
+      }
+      cut_along(atom, pieces);
+      if (pieces.size() > kMostPieces || cuts_ > kMostCuts)
+        return base::fail("too many thin parts meet in one place to mesh it");
+    }
     std::vector<PieceFace> faces;
     for (const Corners4& piece : pieces) {
       const bool solid = is_solid(tet, piece);
@@ -245,6 +256,7 @@ class CsgCutter {
       }
     }
     pair_up(faces, &between_);
+    return {};
   }
 
   bool is_solid(const CsgTets::Tet& tet, const Corners4& piece) const {
@@ -282,6 +294,7 @@ class CsgCutter {
   const CsgProgram& program_;
   std::vector<CsgTets::Tet> tets_;
   double on_;  // m
+  std::size_t cuts_ = 0, tell_at_ = 0;
   std::vector<Like> like_;
   std::vector<CutPoint> points_;
   std::vector<std::vector<std::uint32_t>> open_at_;  // by point of the tetrahedra: atoms of all around it
@@ -302,7 +315,8 @@ base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t
   turned.set_transform(turned.root(),
                        Affine3(tree_from_z.conjugate()) * turned.node(turned.root()).parent_from_node);
   const CsgProgram program(turned);
-  auto tets = make_csg_tets(program, cell, kTetsATriangle * max_triangles, contour_share(go_on, 0.0, 0.4));
+  const std::size_t most_tets = std::min(kMostTets, kTetsATriangle * max_triangles);
+  auto tets = make_csg_tets(program, cell, most_tets, contour_share(go_on, 0.0, 0.4));
   if (!tets) return tl::unexpected(tets.error());
   auto mesh = CsgCutter(program, std::move(*tets)).mesh(max_triangles, contour_share(go_on, 0.4, 0.6));
   if (mesh) {

@@ -11,8 +11,9 @@ namespace icome::geometry {
 /// are cut along the surfaces of the tree's primitives, one after the other, and what lies on both sides of a
 /// cut is told apart by the tree. Flat faces and the edges between them are exact; bent ones are chords,
 /// about `cell` m long and at most 0.4 of the bend's radius, whose ends lie on the surface but where another
-/// face cuts them off. Only for primitives in closed form (csg_can_cut). Fails as make_csg_tets does, and on
-/// too many triangles.
+/// face cuts them off. Only for primitives in closed form (csg_can_cut). Fails as make_csg_tets does, on
+/// too many triangles, and where so many surfaces pass one place that cutting would take minutes or
+/// gigabytes.
 base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t max_triangles,
                                    const ContourProgress& go_on);
 

@@ -16,14 +16,17 @@ namespace icome::geometry {
 namespace {
 
 constexpr double kEdgeOfCell = 2.5;      // the longest edges where a grid's cells are as many
+constexpr double kEdgeInCrowd = 0.1;     // where more than kCrowd surfaces pass
 constexpr double kChord = 0.4;           // edges, of the radius of the bend
 constexpr double kStraightChord = 0.2;   // where they may be long in the other direction
 constexpr double kParallel = 1e-9;       // what cosines of parallel directions are off 1
 constexpr double kTip = 0.1;             // of a cone's or tube's size: what is bent more counts as bent so
 constexpr std::size_t kMostFlat = 8;     // planes that one tetrahedron is cut by, where it need not be small
+constexpr std::size_t kCrowd = 12;       // more surfaces than this are better parted than cut along
 constexpr double kFinest = 0x1p-18;      // of the whole: no edge is halved below
 constexpr double kAround = 0.1;          // of a tetrahedron's size: so much around it counts as its own
 constexpr double kBeside = 0.02;         // of a point's shortest edge: nearer surfaces draw it to them
+constexpr std::size_t kLooksATet = 64;   // on average, for each tetrahedron allowed
 constexpr std::size_t kTellEach = 4096;  // tetrahedra between two looks at `go_on`
 /// The first tetrahedra begin this part of the size below the box: neither faces along the axes nor along
 /// their diagonals shall fall on their points.
@@ -83,8 +86,8 @@ class TetRefiner {
   }
 
   bool goes_on() {
-    too_many_ = tets_.size() + waiting_.size() > most_;
-    return !too_many_ && (++told_ % kTellEach != 0 || go_on_(0.5));
+    too_many_ = tets_.size() + waiting_.size() + passed_ / kMostFlat > most_ || ++looks_ > kLooksATet * most_;
+    return !too_many_ && (looks_ % kTellEach != 0 || go_on_(0.5));
   }
 
   bool halve_large() {
@@ -96,6 +99,7 @@ class TetRefiner {
       if (size(tet) > wanted_size(tet)) {
         halve(tet, waiting_);
       } else {
+        passed_ += tet.atoms->size();
         tets_.push_back(std::move(tet));
       }
     }
@@ -158,6 +162,21 @@ class TetRefiner {
     return found.solid && found.free;
   }
 
+  /// Is it passed by so many surfaces that cutting it takes longer than halving it? Those that lie in one
+  /// another count as one: halving does not part them.
+  bool is_crowded(const std::vector<std::uint32_t>& passing) const {
+    const auto& atoms = program_.atoms();
+    std::vector<std::uint32_t> unlike;
+    for (const std::uint32_t index : passing) {
+      const bool known = std::any_of(unlike.begin(), unlike.end(), [&](std::uint32_t other) {
+        return likeness(atoms[other], atoms[index], length_) != AtomLikeness::None;
+      });
+      if (!known) unlike.push_back(index);
+      if (unlike.size() > kCrowd) return true;
+    }
+    return false;
+  }
+
   double wanted_size(const OpenTet& tet) const {
     double wanted = std::numeric_limits<double>::infinity();
     const Vector3 centre = box_around(tet).center();
@@ -171,6 +190,7 @@ class TetRefiner {
       wanted = std::min({wanted, kEdgeOfCell * cell_, chord * in_tree * std::max(bend, least)});
     }
     if (tet.atoms->size() > kMostFlat) wanted = std::min(wanted, kEdgeOfCell * cell_);
+    if (is_crowded(*tet.atoms)) wanted = std::min(wanted, kEdgeInCrowd * cell_);
     return std::max(wanted, finest_);
   }
 
@@ -240,8 +260,9 @@ class TetRefiner {
   const ContourProgress& go_on_;
   double length_;  // m, the largest coordinate
   bool along_z_ = false;
-  double finest_ = 0.0;  // m
-  std::size_t told_ = 0;
+  double finest_ = 0.0;     // m
+  std::size_t looks_ = 0;   // at tetrahedra
+  std::size_t passed_ = 0;  // by surfaces, each tetrahedron as often as surfaces may pass it
   bool too_many_ = false;
   std::vector<OpenTet> waiting_, tets_;
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;

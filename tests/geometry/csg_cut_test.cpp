@@ -173,6 +173,50 @@ TEST(CsgCut, TooManyTrianglesAreRefused) {
   EXPECT_NE(made.error().message.find("more than"), std::string::npos);
 }
 
+/// Bars 200 x 0.2 x 0.2 mm in all directions, through one point.
+CsgTree crossing_bars(int count) {
+  Random random(5);
+  CsgTree tree;
+  CsgTree::Index root = tree.add_leaf(Box{{0.1, 1e-4, 1e-4}});
+  for (int i = 1; i < count; ++i) {
+    Affine3 placing = Affine3::Identity();
+    placing.rotate(Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()));
+    root = tree.add(CsgOperator::Union, root, tree.add_leaf(Box{{0.1, 1e-4, 1e-4}}, placing));
+  }
+  return tree;
+}
+
+TEST(CsgCut, BarsThatCrossAreOneSolid) {
+  const CsgTree tree = crossing_bars(4);
+  const auto made = contour(tree, {.cell = 0.005, .measures = false});
+  ASSERT_TRUE(made.has_value()) << made.error().message;
+  expect_manifold(made->mesh);
+  EXPECT_EQ(euler_characteristic(made->mesh), 2);
+  // Inclusion and exclusion: what they share lies within some thicknesses of the point.
+  const double one = 0.2 * 2e-4 * 2e-4;
+  EXPECT_LT(signed_volume(made->mesh), 4 * one);
+  EXPECT_GT(signed_volume(made->mesh), 3.95 * one);
+}
+
+TEST(CsgCut, TooManyPiecesAreRefused) {
+  const auto made = contour(crossing_bars(20), {.cell = 0.2, .measures = false});
+  ASSERT_FALSE(made.has_value());
+  EXPECT_NE(made.error().message.find("meet in one place"), std::string::npos) << made.error().message;
+}
+
+TEST(CsgCut, CanBeInterruptedWithinATetrahedron) {
+  int repeated = 0;
+  double last = 0.0;
+  const auto progress = [&](double part) {
+    repeated = part > 0.2 && part == last ? repeated + 1 : 0;  // the tetrahedra are made before
+    last = part;
+    return repeated < 3;
+  };
+  const auto made = contour(crossing_bars(20), {.cell = 0.2, .measures = false, .progress = progress});
+  ASSERT_FALSE(made.has_value());
+  EXPECT_NE(made.error().message.find("interrupted"), std::string::npos) << made.error().message;
+}
+
 TEST(MeshSheets, CubesThatShareAnEdgeAreTwo) {
   // Two tetrahedra that share the edge from vertex 0 to 1.
   TriangleMesh mesh;
