@@ -82,6 +82,9 @@ base::Result<geometry::ContourMesh> contoured(const geometry::CsgTree& tree, boo
 base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options) {
   auto made = contoured(*model.body().csg, true);
   if (!made) return base::fail(model.name + ": " + made.error().message);
+  if (made->mesh.triangles.empty())
+    return base::fail(model.name +
+                      ": the solid is empty, or so thin that its mesh is: touch it with a point.");
   const Stopwatch watch;
   take_mesh(model, std::move(made->mesh));
   touch_mesh(model, options, fmt::format(", within {}", in_millimetres(made->error)));

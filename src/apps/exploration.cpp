@@ -42,6 +42,8 @@ constexpr double kMostTurn = 0.7;  // cosine: the surface may turn by 45 degrees
 constexpr double kMargin = 1.5;    // depths of a stroke that it stays away from edges
 constexpr double kFacing = 0.3;    // cosine: how squarely a place must be seen to be landed on
 constexpr double kStrokeOfSize = 0.5;     // how long a stroke is at least, of the model's size
+constexpr double kLeastShare = 1e-6;      // of the whole way: no stroke need be shorter
+constexpr double kMostSeconds = 120.0;    // of way: who touches for longer goes to and fro on it
 constexpr double kPressesForAir = 3.0;    // how much longer it presses than it flies
 constexpr double kAirSpeed = 2.0;         // of flights, against strokes
 constexpr int kHalvings = 6;              // of the depth, where there is little room
@@ -93,7 +95,7 @@ class StrokePlanner {
       const std::size_t before = legs_.size();
       fly(to);
       const double missing = kPressesForAir * flown() - (gone_ - flown());
-      if (missing > 0.0) {  // too soon: first press for longer
+      if (missing > kLeastShare * length) {  // too soon: first press for longer
         take_back(before);
         stroke(missing);
         continue;
@@ -343,7 +345,8 @@ double pressed_share(const std::vector<Leg>& way) {
 Exploration Exploration::plan(const std::vector<TouchModel>& models, double tip, double seconds) {
   const SurfaceProbe probe(models);
   const double speed = std::min(kFastest, kSizesPerSecond * probe.bounds().sizes().maxCoeff());
-  std::vector<Leg> way = StrokePlanner(probe, tip).way(speed * seconds, kStartSeconds * speed);
+  std::vector<Leg> way =
+      StrokePlanner(probe, tip).way(speed * std::min(seconds, kMostSeconds), kStartSeconds * speed);
   Exploration exploration;
   exploration.centre_ = probe.bounds().center();
   exploration.planned_ = pressed_share(way);

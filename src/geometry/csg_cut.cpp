@@ -26,10 +26,10 @@ constexpr double kOnSurface = 1e-10;  // of the coordinates: so near, a point is
 constexpr double kRootExact = 1e-4;   // of that: so near, a cut is as exact as can be
 constexpr int kRootSteps = 80;
 constexpr std::size_t kTetsATriangle = 4;  // more tetrahedra than this for each triangle allowed are too many
-constexpr std::size_t kMostTets = 5'000'000;    // however many triangles are allowed: they take some GB
-constexpr std::size_t kMostPieces = 100'000;    // of one tetrahedron
-constexpr std::size_t kMostCuts = 200'000'000;  // cuts of pieces by surfaces, all told
-constexpr std::size_t kTellEachCut = 1 << 16;   // of them between two looks at `go_on`
+constexpr std::size_t kMostTets = 1'500'000;   // however many triangles are allowed: they take some seconds
+constexpr std::size_t kMostPieces = 100'000;   // of one tetrahedron
+constexpr std::size_t kMostCuts = 50'000'000;  // cuts of pieces by surfaces, all told
+constexpr std::size_t kTellEachCut = 1 << 16;  // of them between two looks at `go_on`
 constexpr std::array<std::array<int, 2>, 6> kPieceEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 /// Of a tetrahedron of positive volume, facing out.
 constexpr std::array<std::array<int, 3>, 4> kPieceFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};

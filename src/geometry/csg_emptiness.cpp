@@ -10,9 +10,9 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::size_t kMostLooks = 256;       // at places of the surfaces
-constexpr std::size_t kMostWork = 4'000'000;  // tests of atoms, with what a trial of their sides costs
-constexpr std::size_t kTrialWork = 64;        // of that, for a part
+constexpr std::size_t kMostLooks = 256;        // at places of the surfaces
+constexpr std::size_t kMostTests = 4'000'000;  // tests of atoms, with what a trial of their sides costs
+constexpr std::size_t kTrialWork = 64;         // of that, for a part
 
 struct OpenPart {
   Bounds box;
@@ -55,7 +55,7 @@ bool proved_empty(const CsgProgram& program) {
   for (; !parts.empty(); parts.pop_front()) {
     OpenPart& part = parts.front();
     work += part.atoms.size() + kTrialWork;
-    if (work > kMostWork) return false;
+    if (work > kMostTests) return false;
     part.atoms = open_atoms(program, part.box, part.atoms);
     const PartContent found = content(program, part.box, part.atoms, length);
     if (found.solid && !found.free) return false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "geometry/box_tree.h"
@@ -98,18 +99,26 @@ class CsgLeafSurfaces {
   BoxTree boxes_;
 };
 
-base::Result<ContourMesh> cut_out(const CsgTree& tree, const SampledSolid& solid,
-                                  const ContourOptions& options) {
-  const ContourProgress go_on = [&](double part) { return !options.progress || options.progress(part); };
+/// Nothing where cutting would take too much: then cells must do. Who says how many triangles are allowed
+/// hears that they do not suffice.
+base::Result<std::optional<ContourMesh>> cut_out(const CsgTree& tree, const SampledSolid& solid,
+                                                 const ContourOptions& options) {
+  bool stopped = false;
+  const ContourProgress go_on = [&](double part) {
+    stopped = stopped || (options.progress && !options.progress(part));
+    return !stopped;
+  };
   auto mesh = cut_csg(tree, options.cell, options.max_triangles, contour_share(go_on, 0.0, kCutPart));
-  if (!mesh) return tl::unexpected(mesh.error());
+  const bool limited = options.max_triangles < ContourOptions().max_triangles;
+  if (!mesh && (stopped || limited)) return tl::unexpected(mesh.error());
+  if (!mesh) return std::nullopt;
   ContourMesh result{std::move(*mesh)};
-  if (!options.measures) return result;
+  if (!options.measures) return std::optional(std::move(result));
   const auto error =
       measure_contour_error(solid, options.cell, result.mesh, contour_share(go_on, kCutPart, 1.0 - kCutPart));
   if (!error) return base::fail("the meshing was interrupted");
   result.error = *error;
-  return result;
+  return std::optional(std::move(result));
 }
 
 }  // namespace
@@ -126,8 +135,12 @@ base::Result<ContourMesh> contour(const CsgTree& tree, const ContourOptions& opt
   };
   const CsgProgram& program = compiled.program();
   const bool limited = !solid.bounds.isEmpty() && solid.bounds.sizes().allFinite();
-  if (limited && options.cell > 0.0 && csg_can_cut(program) && is_thin(program, kThinCells * options.cell))
-    return cut_out(tree, solid, options);
+  if (limited && options.cell > 0.0 && csg_can_cut(program) && is_thin(program, kThinCells * options.cell)) {
+    if (auto cut = cut_out(tree, solid, options); !cut || *cut) {
+      if (!cut) return tl::unexpected(cut.error());
+      return std::move(**cut);
+    }
+  }
   const CsgLeafSurfaces surfaces(tree, solid.bounds);
   solid.may_cross = [&](const Bounds& box) { return surfaces.may_cross(box); };
   return contour(solid, options);

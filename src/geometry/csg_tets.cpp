@@ -25,7 +25,7 @@ constexpr std::size_t kMostFlat = 8;     // planes that one tetrahedron is cut b
 constexpr std::size_t kCrowd = 12;       // more surfaces than this are better parted than cut along
 constexpr double kFinest = 0x1p-18;      // of the whole: no edge is halved below
 constexpr double kAround = 0.1;          // of a tetrahedron's size: so much around it counts as its own
-constexpr double kBeside = 0.02;         // of a point's shortest edge: nearer surfaces draw it to them
+constexpr double kDrawnFrom = 0.02;      // of a point's shortest edge: nearer surfaces draw it to them
 constexpr std::size_t kLooksATet = 64;   // on average, for each tetrahedron allowed
 constexpr std::size_t kTellEach = 4096;  // tetrahedra between two looks at `go_on`
 /// The first tetrahedra begin this part of the size below the box: neither faces along the axes nor along
@@ -232,7 +232,7 @@ class TetRefiner {
     for (const OpenTet& tet : tets_) {
       for (const auto& edge : kTetEdges) {
         const std::uint32_t a = tet.corners[edge[0]], b = tet.corners[edge[1]];
-        const double reach = kBeside * (at(b) - at(a)).norm();
+        const double reach = kDrawnFrom * (at(b) - at(a)).norm();
         nearest[a].reach = std::min(nearest[a].reach, reach);
         nearest[b].reach = std::min(nearest[b].reach, reach);
       }

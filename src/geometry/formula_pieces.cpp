@@ -9,6 +9,7 @@ using Node = Expression::Node;
 using Case = FormulaPieces::Case;
 using ChoiceSet = FormulaPieces::ChoiceSet;
 
+constexpr std::size_t kMostBorders = 512;
 constexpr std::size_t kMostCases = 256;  // of one part of a formula
 constexpr std::size_t kMostChoices = 64;
 
@@ -40,12 +41,14 @@ class FormulaSplitter {
       if (!used[i]) continue;
       parts_[i] = parts_of(i, steps[i]);
       find_borders(steps[i]);
+      if (too_many_borders()) return;
     }
   }
 
   const std::vector<SmoothPart>& parts() const { return parts_[root_]; }
   const std::vector<Node>& choices() const { return choices_; }
   const std::vector<Node>& borders() const { return borders_; }
+  bool too_many_borders() const { return borders_.size() > kMostBorders; }
 
  private:
   std::vector<bool> used_steps(const std::vector<Expression::Step>& steps) const {
@@ -151,6 +154,7 @@ class FormulaSplitter {
   }
 
   void add_border(Node node) {
+    if (too_many_borders()) return;
     for (const Node side : {node, expression_.unary(Operation::Negate, node)}) {
       if (std::find(borders_.begin(), borders_.end(), side) == borders_.end()) borders_.push_back(side);
     }
@@ -202,6 +206,8 @@ base::Result<FormulaPieces> FormulaPieces::parse(const std::string& text) {
   if (!whole) return base::fail(whole.error().message);
   FormulaSplitter splitter(expression, *root);
   splitter.run();
+  if (splitter.too_many_borders())
+    return base::fail("the formula has too many poles and edges of where it has values to follow them all.");
   auto pieces = pieces_of(expression, splitter.parts());
   auto choices = formulas_of(expression, splitter.choices());
   auto borders = formulas_of(expression, splitter.borders());

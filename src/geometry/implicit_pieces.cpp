@@ -11,7 +11,7 @@ using base::Bounds;
 using base::Vector3;
 using ChoiceSet = FormulaPieces::ChoiceSet;
 
-constexpr double kFlush = 1e-6;        // sine of the angle up to which two pieces run along each other
+constexpr double kAlongside = 1e-6;    // sine of the angle up to which two pieces run along each other
 constexpr double kLeastAcross = 0.01;  // share of a slope that counts across at least
 
 /// Calls `visit(number)` for each choice of a set, until it returns false; then the answer is false.
@@ -38,7 +38,7 @@ ChoiceState choice_at(const Formula& choice, const Vector3& point, const Vector3
   if (std::fabs(at.value) > slack * std::max(across, kLeastAcross * steepness)) {
     return at.value > 0.0 ? ChoiceState::Second : ChoiceState::First;
   }
-  if (across > kFlush * steepness || steepness == 0.0) return ChoiceState::Either;
+  if (across > kAlongside * steepness || steepness == 0.0) return ChoiceState::Either;
   return through < 0.0 ? ChoiceState::Second : ChoiceState::First;
 }
 

@@ -78,6 +78,7 @@ void ContactFan::consider(const Vector3& along, const Vector3& pull, std::size_t
 
 std::optional<FanWay> ContactFan::steepest(double held) {
   for (const FanWay& way : std::span(ways_).first(way_count_)) {
+    if (looks_ <= 0) break;
     if (way.on != FanWay::kNone && way.gain <= held) continue;
     if (sees(position_, way.end) || (!buried(way.end) && reachable(way.end))) return way;
   }
@@ -87,6 +88,7 @@ std::optional<FanWay> ContactFan::steepest(double held) {
 /// Whether a straight way passes through the element, or through its plane so near to its edge that this
 /// cannot be told.
 ContactFan::Passage ContactFan::passage(const Element& e, const Vector3& from, const Vector3& to) const {
+  --looks_;
   const double before = height(e, from);
   const double after = height(e, to);
   if ((before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0)) return Passage::Free;
@@ -144,7 +146,7 @@ void ContactFan::look_around(const Vector3& from) {
 /// Does a chain of stations, each in sight of the one before, lead from the SCP to a place?
 bool ContactFan::reachable(const Vector3& place) {
   if (!has_stations_) find_stations();
-  for (std::size_t i = 0; i < seen_count_; ++i) {
+  for (std::size_t i = 0; i < seen_count_ && looks_ > 0; ++i) {
     if (i == looked_from_) look_around(stations_[looked_from_++]);
     if (sees(stations_[i], place)) return true;
   }

@@ -26,7 +26,7 @@ struct FanWay {
 /// the neighbourhood. Real-time safe.
 class ContactFan {
  public:
-  static constexpr std::size_t kCapacity = 64;   // elements
+  static constexpr std::size_t kCapacity = 24;   // elements
   static constexpr double kLength = 1024.0;      // gaps, of a way
   static constexpr double kNeighbourhood = 2.0;  // lengths of a way: how far the elements must be known
 
@@ -45,6 +45,8 @@ class ContactFan {
  private:
   static constexpr std::size_t kMostWays = 1 + 5 * kCapacity;
   static constexpr std::size_t kMostStations = 8 * kCapacity;
+
+  static constexpr int kMostLooks = 4'000;  // at an element, some 10 ns each: then there is no way
 
   enum class Passage : std::uint8_t { Free, AtAnEdge, Through };
 
@@ -72,6 +74,7 @@ class ContactFan {
   std::size_t seen_count_ = 0;
   std::size_t looked_from_ = 0;  // of those seen, how many have been looked around from
   bool has_stations_ = false;
+  mutable int looks_ = kMostLooks;  // that are left
 };
 
 }  // namespace icome::haptics

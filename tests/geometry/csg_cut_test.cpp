@@ -198,10 +198,12 @@ TEST(CsgCut, BarsThatCrossAreOneSolid) {
   EXPECT_GT(signed_volume(made->mesh), 3.95 * one);
 }
 
-TEST(CsgCut, TooManyPiecesAreRefused) {
-  const auto made = contour(crossing_bars(20), {.cell = 0.2, .measures = false});
+TEST(CsgCut, TooManyPiecesAreRefusedAndCellsDoThen) {
+  const CsgTree tree = crossing_bars(20);
+  const auto made = cut_csg(tree, 0.2, 20'000'000, [](double) { return true; });
   ASSERT_FALSE(made.has_value());
   EXPECT_NE(made.error().message.find("meet in one place"), std::string::npos) << made.error().message;
+  EXPECT_TRUE(contour(tree, {.cell = 0.2, .measures = false}).has_value());
 }
 
 TEST(CsgCut, CanBeInterruptedWithinATetrahedron) {

@@ -20,11 +20,11 @@ namespace {
 
 using Path = std::vector<Vector3>;
 
-constexpr double kTop = 0.05;      // m, the height of what is touched first in all worlds
-constexpr double kTick = 1e-3;     // s
-constexpr double kPress = 0.0031;  // m; no tick lies just at the height of the top
-constexpr double kRise = 0.02;     // m/s
-constexpr double kBallTip = 1e-3;  // m
+constexpr double kTop = 0.05;        // m, the height of what is touched first in all worlds
+constexpr double kFaultTick = 1e-3;  // s
+constexpr double kPress = 0.0031;    // m; no tick lies just at the height of the top
+constexpr double kRise = 0.02;       // m/s
+constexpr double kBallTip = 1e-3;    // m
 constexpr double kStiffness = 1000.0;
 
 /// What is touched, as the solver and as the judge know it, and the way of the tip.
@@ -395,7 +395,7 @@ ContactJudge judged_run(const TouchedWorld& true_world, const TouchedWorld& beli
   solver.adopt(*scene, {});
   for (std::size_t i = 0; i < true_world.path.size(); ++i) {
     const Vector3& tip = true_world.path[i];
-    const double elapsed = kTick * double(i);
+    const double elapsed = kFaultTick * double(i);
     const Answer answer = answering(solver, tip, elapsed);
     judge.judge({tip, answer.scp, answer.touching, elapsed, answer.force});
   }

@@ -254,8 +254,9 @@ TEST(HapticRepresentation, HasTheEffectsOfItsObjectsWhereTheyAre) {
 TEST(HapticRepresentation, LeavesOutEffectsThatCannotBePlacedOrAreTooMany) {
   World world;
   IdSource ids;
-  auto lost = add_object(world, ids, "lost", nullptr, {}, Affine3(Eigen::Scaling(1e200)));
-  lost = add_object(world, ids, "farther", nullptr, lost, Affine3(Eigen::Scaling(1e200)));
+  world::ObjectId lost = add_object(world, ids, "lost", nullptr);
+  for (int i = 0; i < 4; ++i)
+    lost = add_object(world, ids, "farther", nullptr, lost, Affine3(Eigen::Scaling(1e100)));
   const auto child = add_object(world, ids, "far", nullptr, lost, at(1.0, 0.0, 0.0));
   const auto push = std::make_shared<const world::Fixture>(world::ForceEffect{"constant:0,0,1", true});
   HapticRepresentation felt;
