@@ -10,8 +10,8 @@ namespace icome::geometry {
 /// blocks of the grid that none of these passes are not looked at. A solid with walls, plates or rods that
 /// are thin against a cell is cut out instead (csg_cut.h), so that none is lost; only where operands are
 /// meshes or primitives of your own may thin parts be, or where cutting would take too much, as for a block
-/// with many narrow holes, and nobody limits the triangles. A tree whose solid is unlimited, for a half-space in
-/// it, fails; an empty one gives an empty mesh.
+/// with many narrow holes, and nobody limits the triangles. A tree whose solid is unlimited, for a
+/// half-space in it, fails; an empty one gives an empty mesh.
 base::Result<ContourMesh> contour(const CsgTree& tree, const ContourOptions& options);
 
 }  // namespace icome::geometry
