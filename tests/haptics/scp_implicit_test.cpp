@@ -284,7 +284,7 @@ TEST(ScpOnImplicit, IsTheProjectionInsideAnyConcaveCorner) {
       edges += (expected - tip).norm() > 1e-3;
     }
   }
-  EXPECT_GT(edges, 1000);
+  EXPECT_GT(edges, std::size_t(repeats(1000)));
 }
 
 /// Two tellings of one solid are felt alike.
