@@ -252,7 +252,7 @@ TEST(ForceShading, GivesNoEnergyOnAWalkRoundACoarseBall) {
 }
 
 TEST(ForceShading, GivesHardlyAnyEnergyToASlowHandThatIsReadInSteps) {
-  // So slow a tip stands still in most ticks: who looks at the last tick only lets 20 mJ and more through.
+  // So slow a tip stands still in most ticks: who looks at the last tick only lets 12 mJ and more through.
   for (const double direction : {1.0, -1.0}) {
     const double taken =
         energy_of_walk(true, direction, 6e-5, 16'000) - energy_of_walk(false, direction, 6e-5, 16'000);
