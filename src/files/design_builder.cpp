@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "world/solid_geometry.h"
+
 namespace icome::files {
 
 void DesignBuilder::put(const world::Edit& edit) {
@@ -11,9 +13,18 @@ void DesignBuilder::put(const world::Edit& edit) {
   if (const auto applied = world::replay(design_.world, edit); !applied) refusal_ = applied.error().message;
 }
 
+/// The equal primitive that is there already, else the shape itself.
+world::GeometryPointer DesignBuilder::known(world::GeometryPointer shape) {
+  const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(shape.get());
+  if (!primitive) return shape;
+  const auto [found, fresh] = primitives_.try_emplace(primitive->hash(), shape);
+  const auto& other = static_cast<const world::PrimitiveGeometry&>(*found->second);
+  return fresh || other.same(*primitive) ? found->second : shape;
+}
+
 world::GeometryId DesignBuilder::add(world::GeometryPointer shape) {
   const auto id = ids_.next<world::GeometryId>();
-  put(world::CreateGeometry{id, std::move(shape)});
+  put(world::CreateGeometry{id, known(std::move(shape))});
   return id;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 
 #include "files/design.h"
 #include "world/edit.h"
@@ -10,6 +12,7 @@ namespace icome::files {
 /// that readers ask once.
 class DesignBuilder {
  public:
+  /// Each is a shape of its own in the world; primitives that are equal lie in memory once.
   world::GeometryId add(world::GeometryPointer shape);
   world::MaterialId add(world::Material material);
   world::TextureId add(world::Texture texture);
@@ -25,9 +28,11 @@ class DesignBuilder {
 
  private:
   void put(const world::Edit& edit);
+  world::GeometryPointer known(world::GeometryPointer shape);
 
   LoadedDesign design_;
   world::IdSource ids_;
+  std::unordered_map<std::uint64_t, world::GeometryPointer> primitives_;  // by hash
   std::string refusal_;
 };
 

@@ -153,13 +153,14 @@ MadeTriangles fine_triangles(const world::Geometry& shape) {
 }
 
 std::shared_ptr<const MeshGeometry> ShownShapes::triangles(world::GeometryId id) {
-  const auto [found, is_new] = shown_.try_emplace(id);
+  const world::Geometry* const shape = world_.find(id)->shape.get();
+  const auto [found, is_new] = shown_.try_emplace(shape);
   if (!is_new) return found->second;
-  auto made = make_(*world_.find(id)->shape);
+  auto made = make_(*shape);
   if (made) {
     found->second = std::move(*made);
   } else {
-    refusals_[id] = made.error().message;
+    refusals_[shape] = made.error().message;
   }
   return found->second;
 }

@@ -16,7 +16,7 @@ base::Result<std::shared_ptr<const world::MeshGeometry>> shown_triangles(const w
 /// 100th where it is contoured.
 base::Result<std::shared_ptr<const world::MeshGeometry>> fine_triangles(const world::Geometry& shape);
 
-/// The triangles of a world's shapes: made once for each, whatever the number of its objects.
+/// The triangles of a world's shapes: made once for each, and for all that lie in memory once.
 class ShownShapes {
  public:
   using Maker = base::Result<std::shared_ptr<const world::MeshGeometry>> (*)(const world::Geometry&);
@@ -24,13 +24,13 @@ class ShownShapes {
 
   /// Null where nothing can be shown; why() says why then.
   std::shared_ptr<const world::MeshGeometry> triangles(world::GeometryId id);
-  const std::string& why(world::GeometryId id) const { return refusals_.at(id); }
+  const std::string& why(world::GeometryId id) const { return refusals_.at(world_.find(id)->shape.get()); }
 
  private:
   const world::World& world_;
   Maker make_;
-  std::unordered_map<world::GeometryId, std::shared_ptr<const world::MeshGeometry>> shown_;
-  std::unordered_map<world::GeometryId, std::string> refusals_;
+  std::unordered_map<const world::Geometry*, std::shared_ptr<const world::MeshGeometry>> shown_;
+  std::unordered_map<const world::Geometry*, std::string> refusals_;
 };
 
 /// An object's triangles where they are in the world.

@@ -11,29 +11,43 @@ namespace icome::geometry {
 // Each primitive stands centred in its own frame, its axis along z. Lengths in metres.
 
 /// The half-space z <= 0; its surface is the plane z = 0, free side +z.
-struct Plane {};
+struct Plane {
+  bool operator==(const Plane&) const = default;
+};
 /// A box with the given half extents, > 0.
 struct Box {
   Vector3 half;
+
+  bool operator==(const Box&) const = default;
 };
 struct Sphere {
   double radius;
+
+  bool operator==(const Sphere&) const = default;
 };
 /// A solid cylinder, z in [-height/2, height/2].
 struct Cylinder {
   double radius, height;
+
+  bool operator==(const Cylinder&) const = default;
 };
 /// A cone or frustum: `bottom_radius` at z = -height/2, `top_radius` at z = +height/2; one may be 0.
 struct Cone {
   double bottom_radius, top_radius, height;
+
+  bool operator==(const Cone&) const = default;
 };
 /// A ring: circle of `major_radius` in the plane z = 0, swept by a disc of `minor_radius` < major.
 struct Torus {
   double major_radius, minor_radius;
+
+  bool operator==(const Torus&) const = default;
 };
 /// A cylinder of `height` (between the centres of its caps) with hemispheres of `radius` on it.
 struct Capsule {
   double radius, height;
+
+  bool operator==(const Capsule&) const = default;
 };
 
 using Primitive = std::variant<Plane, Box, Sphere, Cylinder, Cone, Torus, Capsule>;

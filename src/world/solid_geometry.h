@@ -25,6 +25,11 @@ struct PrimitiveGeometry final : public Geometry {
   /// The turn from the primitive's own frame to the shape's.
   base::Matrix3 shape_from_primitive() const;
 
+  /// Is it the same solid, to the last bit?
+  bool same(const PrimitiveGeometry& other) const {
+    return primitive == other.primitive && axis == other.axis;
+  }
+
   std::string_view kind() const override { return "primitive"; }
   Bounds bounds() const override;
   std::uint64_t hash() const override;
