@@ -8,10 +8,10 @@
 #include <limits>
 #include <map>
 #include <ostream>
+#include <set>
 #include <streambuf>
 #include <tuple>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "base/srgb.h"
@@ -174,9 +174,17 @@ class GltfMaking {
     return found->second;
   }
 
+  /// What meshes must have in common to share accessors. Shapes that are triangles alone are told apart by
+  /// theirs: each has its own. Exact ones that lie in memory once have theirs in the file once.
+  using Triangles = std::pair<const world::Geometry*, GeometryId>;
+  Triangles triangles_of(GeometryId id) {
+    return {world_.find(id)->shape.get(), exact_shape(id) >= 0 ? GeometryId{} : id};
+  }
+
   /// The accessors of a shape, which meshes of several materials share.
   const tinygltf::Primitive* primitive_of(GeometryId id) {
-    const auto [found, is_new] = primitives_.try_emplace(id);
+    const Triangles triangles = triangles_of(id);
+    const auto [found, is_new] = primitives_.try_emplace(triangles);
     if (!is_new) return found->second.attributes.empty() ? nullptr : &found->second;
     const auto mesh = shown_.triangles(id);
     if (!mesh || mesh->mesh.triangles.empty()) return nullptr;
@@ -189,7 +197,7 @@ class GltfMaking {
       primitive.attributes["TEXCOORD_0"] = buffer_.add_accessor(vertices.coordinates);
     if (!vertices.colours.empty()) primitive.attributes["COLOR_0"] = buffer_.add_accessor(vertices.colours);
     primitive.indices = buffer_.add_indices(vertices.corners, vertices.positions.size());
-    if (vertices.smooth) smooth_.insert(id);
+    if (vertices.smooth) smooth_.insert(triangles);
     return &primitive;
   }
 
@@ -206,7 +214,7 @@ class GltfMaking {
     mesh.primitives.push_back(std::move(primitive));
     Value::Object extras;
     if (exact >= 0) extras["shape"] = Value(exact);
-    if (smooth_.count(geometry) > 0) extras["smooth"] = Value(true);
+    if (smooth_.count(triangles_of(geometry)) > 0) extras["smooth"] = Value(true);
     const std::string_view recipe = world::recipe_of(*world_.find(geometry)->shape);
     if (!recipe.empty()) extras["recipe"] = Value(base::as_utf8(recipe));
     if (!extras.empty()) mesh.extras = extras_with(Value(std::move(extras)));
@@ -333,8 +341,8 @@ class GltfMaking {
   std::unordered_map<MaterialId, int> materials_;
   std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture
   std::unordered_map<GeometryId, int> exact_;
-  std::unordered_map<GeometryId, tinygltf::Primitive> primitives_;
-  std::unordered_set<GeometryId> smooth_;
+  std::map<Triangles, tinygltf::Primitive> primitives_;
+  std::set<Triangles> smooth_;
   std::map<std::pair<GeometryId, MaterialId>, int> meshes_;
   std::unordered_map<ObjectId, int> nodes_;
   Value::Array shapes_;

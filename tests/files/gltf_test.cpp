@@ -212,6 +212,28 @@ TEST(Gltf, ClonesInOtherMaterialsShareTheirShape) {
   EXPECT_EQ(back.materials().size(), 2U);
 }
 
+TEST(Gltf, EqualExactShapesHaveTheirTrianglesOnceAndStayShapesOfTheirOwn) {
+  constexpr std::size_t kCount = 20;
+  const auto written = [](bool shared) {
+    World world;
+    IdSource ids;
+    GeometryPointer ball;
+    const GeometryPointer mesh = square();
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (!ball || !shared) ball = std::make_shared<PrimitiveGeometry>(geometry::Sphere{0.1});
+      add_object(world, ids, "ball", ball, {}, at(double(i), 0.0, 0.0));
+      add_object(world, ids, "square", mesh, {}, at(double(i), 1.0, 0.0));
+    }
+    const World back = through(world, "a.glb");
+    EXPECT_EQ(difference(world, back, kAsGltf), "");
+    EXPECT_EQ(back.geometries().size(), 2 * kCount);
+    const ScratchFolder folder;
+    EXPECT_TRUE(write_design(folder.path() / "a.glb", world));
+    return double(std::filesystem::file_size(folder.path() / "a.glb"));
+  };
+  EXPECT_LT(written(true), 0.2 * written(false));
+}
+
 TEST(Gltf, NumbersThatSinglesHoldComeBackAsTheyWereWritten) {
   World world;
   IdSource ids;
