@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/parallel.h"
@@ -62,6 +63,7 @@ class HapticRepresentation::Update {
     const world::Geometry* shape;
     base::Matrix3 felt_from_geometry;
     FeltShapePointer before;  // null: new
+    Job* like = nullptr;      // set: what is made for that one will do
     FeltShapePointer made = nullptr;
   };
 
@@ -89,15 +91,36 @@ class HapticRepresentation::Update {
   }
 
   void make_missing() {
-    base::parallel_for(jobs_.size(), 1, [this](std::size_t begin, std::size_t end) {
+    const std::vector<Job*> first = first_of_equals();
+    base::parallel_for(first.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        Job& job = jobs_[i];
+        Job& job = *first[i];
         job.made =
             make_felt_shape(*job.shape, job.felt_from_geometry, owner_.settings_.felt, job.before.get());
       }
     });
-    for (Job& job : jobs_) owner_.shapes_[job.key] = std::move(job.made);
-    owner_.work_.shapes += jobs_.size();
+    for (Job& job : jobs_) owner_.shapes_[job.key] = job.like ? of_its_own(job.like->made) : job.made;
+    owner_.work_.shapes += first.size();
+  }
+
+  /// Shapes that lie in memory once and are stretched alike are felt alike: they are made once.
+  std::vector<Job*> first_of_equals() {
+    using Likeness = std::tuple<const world::Geometry*, std::array<double, 9>, const FeltShape*>;
+    std::map<Likeness, Job*> known;
+    std::vector<Job*> first;
+    for (Job& job : jobs_) {
+      const auto [found, fresh] = known.try_emplace({job.shape, job.key.stretch, job.before.get()}, &job);
+      if (fresh)
+        first.push_back(&job);
+      else
+        job.like = found->second;
+    }
+    return first;
+  }
+
+  /// The same shape under a count of users of its own, by which one entry is forgotten and others stay.
+  static FeltShapePointer of_its_own(const FeltShapePointer& felt) {
+    return {std::make_shared<FeltShapePointer>(felt), felt.get()};
   }
 
   void renew(const Due& it, const Need& need) {
@@ -130,7 +153,7 @@ class HapticRepresentation::Update {
     }
     if (object.world_from_object.matrix() == world_from_felt.matrix()) return;
     object.world_from_object = world_from_felt;
-    owner_.moves_.push_back({object.id, world_from_felt, {}});
+    if (!owner_.stale_) owner_.moves_.push_back({object.id, world_from_felt, {}});
   }
 
   static bool differ(const haptics::Surface& a, const haptics::Surface& b) {
@@ -224,6 +247,7 @@ void HapticRepresentation::survey(const World& world) {
   std::sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id < b.id; });
   due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
             due.end());
+  slots_.reserve(due.size());
   Update(*this, world).bring(due);
   std::vector<world::ObjectId> gone;
   for (const auto& [id, member] : members_) {

@@ -88,6 +88,34 @@ TEST(HapticRepresentation, MakesAShapeOnceForAllClones) {
   EXPECT_EQ(object(felt, legs[20]).shape, object(felt, legs[39]).shape);
 }
 
+TEST(HapticRepresentation, MakesAShapeOnceForAllThatShareItInMemory) {
+  World world;
+  IdSource ids;
+  const world::GeometryPointer ball =
+      std::make_shared<world::PrimitiveGeometry>(geometry::Primitive(geometry::Sphere{0.1}));
+  std::vector<world::ObjectId> balls;
+  for (int i = 0; i < 5; ++i) balls.push_back(add_object(world, ids, "ball", ball, {}, at(i, 0.0, 0.0)));
+  HapticRepresentation felt;
+  felt.show(world);
+  EXPECT_EQ(felt.work().shapes, 1U);
+  for (const auto id : balls) EXPECT_EQ(object(felt, id).shape, object(felt, balls[0]).shape);
+
+  // They are shapes of their own: an edit of one is felt on that alone, and leaves the others what they are.
+  edit(world, felt, world::ReplaceGeometry{world.find(balls[0])->geometry, box(0.5)});
+  EXPECT_EQ(felt.work().shapes, 2U);
+  EXPECT_TRUE(std::holds_alternative<geometry::Box>(*felt.felt(balls[0])->primitive));
+  for (std::size_t i = 1; i < balls.size(); ++i)
+    EXPECT_TRUE(std::holds_alternative<geometry::Sphere>(*felt.felt(balls[i])->primitive));
+
+  // The shape stays for as long as one has it, and no longer.
+  const std::weak_ptr<const haptics::Shape> last = object(felt, balls[1]).shape;
+  for (std::size_t i = 1; i < balls.size(); ++i) {
+    EXPECT_FALSE(last.expired());
+    edit(world, felt, delete_subtree(world, balls[i]));
+  }
+  EXPECT_TRUE(last.expired());
+}
+
 TEST(HapticRepresentation, OfOneSceneIsBuiltWithoutTheOthers) {
   World world;
   IdSource ids;
