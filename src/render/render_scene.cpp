@@ -142,16 +142,24 @@ void ScenePublisher::make_shapes(const World& world) {
     if (geometry.users > 0) ids.push_back(id);
   }
   std::sort(ids.begin(), ids.end());
-  std::vector<base::Result<RenderShapePointer>> made(ids.size());
-  base::parallel_for(ids.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) made[i] = make_render_shape(*world.find(ids[i])->shape);
+  // What lies in memory once is made once.
+  std::unordered_map<const world::Geometry*, std::size_t> places;
+  std::vector<const world::Geometry*> shapes;
+  for (const auto id : ids) {
+    const world::Geometry* const shape = world.find(id)->shape.get();
+    if (places.try_emplace(shape, shapes.size()).second) shapes.push_back(shape);
+  }
+  std::vector<base::Result<RenderShapePointer>> made(shapes.size());
+  base::parallel_for(shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) made[i] = make_render_shape(*shapes[i]);
   });
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    Made& it = shapes_[ids[i]];
-    if (made[i]) {
-      it.shape = std::move(*made[i]);
+  for (const auto id : ids) {
+    const base::Result<RenderShapePointer>& its = made[places.at(world.find(id)->shape.get())];
+    Made& it = shapes_[id];
+    if (its) {
+      it.shape = *its;
     } else {
-      it.remark = fmt::format("{} is not drawn: {}", shape_name(world, ids[i]), made[i].error().message);
+      it.remark = fmt::format("{} is not drawn: {}", shape_name(world, id), its.error().message);
     }
   }
 }

@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "base/decompositions.h"
@@ -229,10 +231,15 @@ geometry::TriangleMesh floor_square(double height, const Vector3& up) {
   return square;
 }
 
-/// A mesh ready to be drawn: its buffers and where they stand in the studio.
-struct Item {
+/// The buffers of a mesh.
+struct ItemViews {
   MeshView view;
   std::optional<MeshView> caster;  ///< a coarser one that throws the shadows, for large meshes
+};
+
+/// A mesh ready to be drawn: its buffers, which others may share, and where they stand in the studio.
+struct Item {
+  std::shared_ptr<const ItemViews> views;
   Matrix4 studio_from_mesh;
   Matrix4 direction_from_buffer;  ///< turns normals
   Vector3 albedo;                 ///< linear RGB
@@ -242,8 +249,7 @@ Vector3 linear_rgb(const Colour& colour) {
   return {linear_from_srgb(colour.red), linear_from_srgb(colour.green), linear_from_srgb(colour.blue)};
 }
 
-Item make_item(const geometry::TriangleMesh& mesh, const Matrix4& studio_from_mesh, const Pose& turn,
-               const Colour& colour, double crease_angle) {
+std::shared_ptr<const ItemViews> make_views(const geometry::TriangleMesh& mesh, double crease_angle) {
   constexpr std::size_t kCoarseFrom = 150'000;  // triangles
   constexpr std::size_t kFineFrom = 20'000;
   constexpr double kFineCrease = 2.2;  // rad: only what folds back on itself
@@ -252,9 +258,14 @@ Item make_item(const geometry::TriangleMesh& mesh, const Matrix4& studio_from_me
       make_shading_mesh(mesh, fine ? std::max(crease_angle, kFineCrease) : crease_angle);
   std::optional<MeshView> caster;
   if (mesh.triangles.size() > kCoarseFrom) caster.emplace(clustered(shading, 1.0 / 64.0));
+  return std::make_shared<const ItemViews>(ItemViews{MeshView(shading), std::move(caster)});
+}
+
+Item make_item(std::shared_ptr<const ItemViews> views, const Matrix4& studio_from_mesh, const Pose& turn,
+               const Colour& colour) {
   Matrix4 direction = Matrix4::Identity();
   direction.topLeftCorner<3, 3>() = turn.linear();
-  return {MeshView(shading), std::move(caster), studio_from_mesh, direction, linear_rgb(colour)};
+  return {std::move(views), studio_from_mesh, direction, linear_rgb(colour)};
 }
 
 /// A CSG solid ready to be drawn.
@@ -379,7 +390,7 @@ void draw_depth(const Studio& studio, const Matrix4& clip_from_studio, bool coar
   glUseProgram(program.name());
   set_uniform(program, "clip_from_studio", clip_from_studio);
   for (const Item& item : studio.items) {
-    const MeshView& view = coarse && item.caster ? *item.caster : item.view;
+    const MeshView& view = coarse && item.views->caster ? *item.views->caster : item.views->view;
     set_uniform(program, "studio_from_buffer", Matrix4(item.studio_from_mesh * view.mesh_from_buffer()));
     view.draw();
   }
@@ -448,10 +459,11 @@ void set_lights(const GlObject& program, const Pass& pass) {
 }
 
 void draw_item(const GlObject& program, const Item& item) {
-  set_uniform(program, "studio_from_buffer", Matrix4(item.studio_from_mesh * item.view.mesh_from_buffer()));
+  const MeshView& view = item.views->view;
+  set_uniform(program, "studio_from_buffer", Matrix4(item.studio_from_mesh * view.mesh_from_buffer()));
   set_uniform(program, "direction_from_buffer", item.direction_from_buffer);
   set_uniform(program, "albedo", item.albedo);
-  item.view.draw();
+  view.draw();
 }
 
 void set_view(const Studio& studio, const GlObject& program, double share) {
@@ -716,15 +728,19 @@ base::Result<Studio> make_studio(const StudioScene& scene, const Camera& camera,
   if (!targets) return base::fail(targets.error().message);
   const Matrix4 to_studio = studio_from_world(settings);
   std::vector<Item> items;
+  std::unordered_map<const geometry::TriangleMesh*, std::shared_ptr<const ItemViews>> views;
   for (const StudioBody& body : scene.bodies) {
-    items.push_back(make_item(body.mesh, to_studio * body.world_from_mesh.matrix(), body.world_from_mesh,
-                              body.colour, settings.crease_angle));
+    auto& own = views[&body.mesh];
+    if (!own) own = make_views(body.mesh, settings.crease_angle);
+    items.push_back(
+        make_item(own, to_studio * body.world_from_mesh.matrix(), body.world_from_mesh, body.colour));
   }
   auto solids = make_solids(scene.solids, to_studio);
   if (!solids) return base::fail(solids.error().message);
   const Vector3 up = settings.up.normalized();
   const double height = settings.floor / settings.radius;
-  Item floor = make_item(floor_square(height, up), Matrix4::Identity(), Pose::Identity(), {}, 0.0);
+  Item floor =
+      make_item(make_views(floor_square(height, up), 0.0), Matrix4::Identity(), Pose::Identity(), {});
   const Matrix4 clip_from_floor = light_camera(-up, height * up, kFloorReach).clip_from_world();
   const Matrix4 clip_from_studio = camera.clip_from_world() * to_studio.inverse();
   const Vector3 eye = (camera.eye() - settings.centre) / settings.radius;

@@ -36,17 +36,28 @@ void expect_equal(const RenderScene& updated, const RenderScene& anew) {
   EXPECT_EQ(updated.remarks(), anew.remarks());
 }
 
-TEST(RenderScene, ClonesShareOneShape) {
+std::size_t shapes_in(const RenderScene& scene) {
+  std::set<const RenderShape*> shapes;
+  scene.for_each([&](const RenderItem& item) { shapes.insert(item.shape.get()); });
+  return shapes.size();
+}
+
+TEST(RenderScene, ClonesAndCopiesShareOneShape) {
   DrawnWorld it;
   const auto first = it.add(box(1.0));
   world::duplicated(it.world, it.ids, first, world::Duplicate::CloneObject);
-  world::duplicated(it.world, it.ids, first, world::Duplicate::CopyObject);
-  const auto scene = ScenePublisher().publish(it.world);
-  std::set<const RenderShape*> shapes;
-  scene->for_each([&](const RenderItem& item) { shapes.insert(item.shape.get()); });
+  const auto copy = world::duplicated(it.world, it.ids, first, world::Duplicate::CopyObject);
+  ScenePublisher publisher;
+  const auto scene = publisher.publish(it.world);
   EXPECT_EQ(scene->object_count(), 3u);
-  EXPECT_EQ(shapes.size(), 2u);
+  EXPECT_EQ(shapes_in(*scene), 1u);
   EXPECT_EQ(scene->triangle_count(), 36u);
+  // A copy goes its own way when it is edited.
+  const world::Edit edit = world::ReplaceGeometry{it.world.find(copy)->geometry, box(2.0)};
+  world::applied(it.world, edit);
+  const auto after = publisher.update(it.world, changes_of(edit));
+  EXPECT_EQ(shapes_in(*after), 2u);
+  expect_equal(*after, *ScenePublisher().publish(it.world));
 }
 
 TEST(RenderScene, AnEditReplacesOnlyWhatItTouched) {
