@@ -23,36 +23,21 @@ double tolerance_for(const world::Geometry& shape, const Bounds& box) {
   return (sampled ? kSampledCell : kSmoothOff) * box.sizes().maxCoeff();
 }
 
-DesignEyes::Eye eye_of(TriangleMesh mesh) {
-  DesignEyes::Eye eye;
-  eye.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-  eye.tree = std::make_shared<const geometry::TriangleTree>(*eye.mesh);
-  return eye;
+TriangleMesh triangles_of(const world::Geometry& shape, const base::Matrix3& felt_from_geometry) {
+  const auto triangles = shape.triangles(tolerance_for(shape, shape.bounds()));
+  if (!triangles) return {};
+  TriangleMesh mesh = (*triangles)->mesh;
+  session::stretch(mesh, felt_from_geometry);
+  return mesh;
 }
 
-DesignEyes::Eye make_eye(const world::Geometry& shape, const session::FeltShape& felt) {
-  if (const auto mesh_shape = std::dynamic_pointer_cast<const haptics::MeshShape>(felt.shape)) {
-    const auto tree = std::shared_ptr<const geometry::TriangleTree>(mesh_shape, &mesh_shape->tree());
-    return {felt.mesh, tree};
-  }
-  if (shape.kind() == "csg") {
-    if (auto solid = std::dynamic_pointer_cast<const haptics::SmoothShape>(felt.shape))
-      return {nullptr, nullptr, std::move(solid)};
-  }
-  if (felt.primitive) {
-    const Bounds box = geometry::bounds(*felt.primitive);
-    const double size = box.sizes().allFinite() ? box.sizes().maxCoeff() : 1.0;
-    return eye_of(geometry::tessellate(*felt.primitive, kSmoothOff * size));
-  }
-  const auto triangles = shape.triangles(tolerance_for(shape, shape.bounds()));
-  if (!triangles) {
-    DesignEyes::Eye eye = eye_of({});
-    eye.problem = triangles.error().message;
-    return eye;
-  }
-  TriangleMesh mesh = (*triangles)->mesh;
-  session::stretch(mesh, felt.felt_from_geometry);
-  return eye_of(std::move(mesh));
+std::shared_ptr<TouchEye> make_eye(const world::GeometryPointer& shape,
+                                   const session::FeltShapePointer& felt) {
+  if (const auto mesh_shape = std::dynamic_pointer_cast<const haptics::MeshShape>(felt->shape))
+    return std::make_shared<TouchEye>(mesh_shape);
+  if (shape->kind() == "csg" && felt->solid) return nullptr;
+  if (felt->primitive) return eye_of(*felt->primitive);
+  return std::make_shared<TouchEye>([=] { return triangles_of(*shape, felt->felt_from_geometry); });
 }
 
 /// Around a placed shape, as tight as the shape can tell.
@@ -78,9 +63,10 @@ Bounds placed_bounds(const world::Geometry& shape, const Affine3& placing) {
 
 }  // namespace
 
-const DesignEyes::Eye& DesignEyes::eye(const world::Geometry& shape, const session::FeltShapePointer& felt) {
-  const auto [found, fresh] = eyes_.try_emplace(felt);
-  if (fresh) found->second = make_eye(shape, *felt);
+const std::shared_ptr<TouchEye>& DesignEyes::eye(const world::GeometryPointer& shape,
+                                                 const session::FeltShapePointer& felt) {
+  const auto [found, fresh] = eyes_.try_emplace(felt.get());
+  if (fresh) found->second = make_eye(shape, felt);
   return found->second;
 }
 

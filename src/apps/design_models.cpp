@@ -66,13 +66,15 @@ class BodyMaker {
 
   TouchBody body(const haptics::HapticObject& object) {
     const world::PhysicalObject& of = *world_.find(*felt_.object(object.id));
-    const world::Geometry& geometry = *world_.find(of.geometry)->shape;
+    const world::GeometryPointer& shape = world_.find(of.geometry)->shape;
+    const world::Geometry& geometry = *shape;
     const session::FeltShapePointer felt = felt_.felt(*felt_.object(object.id));
-    const DesignEyes::Eye& eye = eyes_.eye(geometry, felt);
-    TouchBody body{eye.mesh, eye.tree, object.shape, object.world_from_object};
-    body.solid = eye.solid;
+    TouchBody body{eyes_.eye(shape, felt), object.shape, object.world_from_object};
     body.primitive = felt->primitive;
-    if (geometry.kind() == "csg") body.csg = felt->solid;
+    if (!body.eye) {
+      body.csg = felt->solid;
+      body.solid = std::dynamic_pointer_cast<const haptics::SmoothShape>(felt->shape);
+    }
     if (check_ && felt->inside) body.membership = membership(geometry, *felt);
     body.exact = !felt->mesh;
     body.closed = felt->closed;
@@ -153,11 +155,12 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
                                   remarks.empty() ? "" : ": ", remarks.empty() ? "." : remarks.front()));
   model.effects = felt.effects();
   model.bodies.clear();
+  model.bodies.reserve(objects.size());
   BodyMaker maker(design->world, felt, options.check);
   for (const haptics::HapticObject& object : objects) {
     model.bodies.push_back(maker.body(object));
     const TouchBody& body = model.bodies.back();
-    if (!body.exact) model.triangles += body.mesh->triangles.size();
+    if (!body.exact) model.triangles += body.eye->mesh()->triangles.size();
     if (options.check && body.exact && !body.primitive && !body.membership)
       return base::fail(text + ": --check cannot judge an open subdivision surface: leave it out.");
   }

@@ -35,8 +35,8 @@ constexpr int kFinestPicture = 5;                   // subdivisions
 std::string in_millimetres(double metres) { return fmt::format("{:.2g} mm", 1e3 * metres); }
 
 void take_mesh(TouchModel& model, geometry::TriangleMesh mesh) {
-  model.body().mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
-  model.body().tree = std::make_shared<const geometry::TriangleTree>(*model.body().mesh);
+  model.body().eye =
+      std::make_shared<TouchEye>(std::make_shared<const geometry::TriangleMesh>(std::move(mesh)));
 }
 
 geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t primitives = 1) {
@@ -52,8 +52,10 @@ void touch_mesh(TouchModel& model, const TouchOptions& options, const std::strin
   haptics::MeshShapeSettings settings;
   settings.closed = model.body().closed;
   settings.tip_radius = options.radius;
-  model.body().shape = std::make_shared<const haptics::MeshShape>(model.body().mesh, settings);
-  model.triangles = model.body().mesh->triangles.size();
+  const auto shape = std::make_shared<const haptics::MeshShape>(model.body().eye->mesh(), settings);
+  model.body().shape = shape;
+  model.body().eye = std::make_shared<TouchEye>(shape);
+  model.triangles = shape->mesh().triangles.size();
   model.body().membership.reset();
   model.repairs.push_back(
       fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, deviation));
@@ -204,7 +206,7 @@ base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& option
 }
 
 base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& options) {
-  const geometry::ControlMesh control = control_mesh(*model.body().mesh, options);
+  const geometry::ControlMesh control = control_mesh(*model.body().eye->mesh(), options);
   const Stopwatch watch;
   auto surface = geometry::LoopSurface::create(control);
   if (!surface) return base::fail(model.name + ": " + surface.error().message);

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "geometry/hilbert.h"
+#include "geometry/primitive_crossing.h"
 
 namespace icome::apps {
 namespace {
 
 using base::Vector3;
-using geometry::MeshHit;
 
 // How much of a surface must face one way for it to count as a sheet: 1 is flat, a half sphere has 0.5.
 constexpr double kSheet = 0.7;
@@ -49,16 +49,31 @@ double box_area(const base::Bounds& box) {
   return 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
 }
 
-std::optional<BodyHit> of_triangle(const TouchBody& body, const std::optional<MeshHit>& hit) {
-  if (!hit) return std::nullopt;
-  return BodyHit{hit->parameter, hit->point, area_vector(*body.mesh, hit->triangle).normalized()};
+std::optional<BodyHit> hit_on(const geometry::Primitive& primitive, const Vector3& from, const Vector3& to) {
+  const auto t = geometry::first_crossing(primitive, from, to - from);
+  if (!t) return std::nullopt;
+  const geometry::SurfacePoint place = geometry::scp_from_inside(primitive, from + *t * (to - from));
+  return BodyHit{*t, place.point, place.normal};
 }
 
-std::optional<BodyHit> first_hit(const TouchBody& body, const Vector3& from, const Vector3& to) {
-  if (!body.solid) return of_triangle(body, body.tree->first_hit(from, to));
-  const auto hit = body.solid->cast(from, to - from, 0.0);
+std::optional<BodyHit> hit_on(const haptics::SmoothShape& solid, const Vector3& from, const Vector3& to) {
+  const auto hit = solid.cast(from, to - from, 0.0);
   if (!hit) return std::nullopt;
   return BodyHit{hit->t, hit->point, hit->normal};
+}
+
+std::optional<BodyHit> hit_on(TouchEye& eye, const Vector3& from, const Vector3& to) {
+  const auto hit = eye.tree().first_hit(from, to);
+  if (!hit) return std::nullopt;
+  return BodyHit{hit->parameter, hit->point, area_vector(*eye.mesh(), hit->triangle).normalized()};
+}
+
+/// Needs no triangles where a line of sight has a closed form, or an exact answer. Of a half-space only the
+/// square that pictures show of it is looked at, so that the hand stays there.
+std::optional<BodyHit> first_hit(const TouchBody& body, const Vector3& from, const Vector3& to) {
+  if (body.solid) return hit_on(*body.solid, from, to);
+  return body.primitive && !is_half_space(body) ? hit_on(*body.primitive, from, to)
+                                                : hit_on(*body.eye, from, to);
 }
 
 ProbedPoint probed(const TouchBody& body, const BodyHit& hit, const Vector3& from) {
@@ -99,12 +114,13 @@ void SurfaceProbe::find_front() {
       front_ = body->world_from_body.linear() * Vector3::UnitZ();
       return;
     }
-    if (body->solid) {  // closed: it has no front, however large it is
-      sum.area += box_area(body->solid->bounds());
+    if (body->solid || body->primitive) {  // closed: it has no front, however large it is
+      sum.area += box_area(own_bounds(*body));
       continue;
     }
-    const auto [found, fresh] = of_mesh.try_emplace(body->mesh.get());
-    if (fresh) found->second = AreaSum(*body->mesh);
+    const geometry::TriangleMesh& mesh = *body->eye->mesh();
+    const auto [found, fresh] = of_mesh.try_emplace(&mesh);
+    if (fresh) found->second = AreaSum(mesh);
     sum.vector += body->world_from_body.linear() * found->second.vector;
     sum.area += found->second.area;
   }

@@ -86,7 +86,7 @@ haptics::JudgedObject judged(const TouchBody& body, const haptics::Surface& surf
   } else if (body.membership) {
     object.surface = *body.membership;
   } else {
-    object.surface = body.mesh;
+    object.surface = body.eye->mesh();
   }
   object.closed = body.closed;
   object.two_sided = surface.sides == haptics::TouchableSides::Both;
@@ -162,11 +162,11 @@ void add_to(render::TouchPicture& picture, const TouchBody& body, const std::str
   if (body.csg) {
     render::TouchSolid solid{.tree = *body.csg, .name = name, .world_from_tree = body.world_from_body};
     if (body.colour) solid.colour = *body.colour;
-    solid.mesh = [&body] { return body.mesh ? *body.mesh : picture_mesh(*body.csg); };
+    solid.mesh = [&body] { return body.eye ? *body.eye->mesh() : picture_mesh(*body.csg); };
     picture.solids.push_back(std::move(solid));
     return;
   }
-  render::StudioBody drawn{*body.mesh, body.world_from_body};
+  render::StudioBody drawn{*body.eye->mesh(), body.world_from_body};
   if (body.colour) drawn.colour = *body.colour;
   picture.bodies.push_back(drawn);
 }

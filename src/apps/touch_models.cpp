@@ -19,8 +19,6 @@ namespace {
 
 using haptics::TouchableSides;
 
-constexpr double kPictureTolerance = 0.0005;  // of the size: what a picture of a primitive may be off
-
 /// The same primitive, every length times `factor`.
 class Scaled {
  public:
@@ -61,10 +59,7 @@ base::Result<TouchModel> load_primitive(const std::string& text, const TouchOpti
   }
   model.kind = kPrimitive;
   model.body().primitive = *primitive;
-  const double size = unlimited ? 1.0 : geometry::bounds(*primitive).sizes().maxCoeff();
-  model.body().mesh = std::make_shared<const geometry::TriangleMesh>(
-      geometry::tessellate(*primitive, kPictureTolerance * size));
-  model.body().tree = std::make_shared<const geometry::TriangleTree>(*model.body().mesh);
+  model.body().eye = eye_of(*primitive);
   const Stopwatch watch;
   model.body().shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
   model.build_seconds = watch.seconds();
@@ -86,16 +81,15 @@ base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& 
   model.triangles = loaded->mesh.triangles.size();
   model.body().closed = loaded->repair.surface.closed;
   model.read_seconds = loaded->read_seconds + loaded->repair_seconds;
-  model.body().mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
+  const auto mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
   const Stopwatch watch;
   haptics::MeshShapeSettings settings;
   settings.closed = model.body().closed;
   settings.interpolate_normals = options.smooth_shading;
   settings.tip_radius = options.radius;
-  const auto shape = std::make_shared<const haptics::MeshShape>(model.body().mesh, settings);
+  const auto shape = std::make_shared<const haptics::MeshShape>(mesh, settings);
   model.build_seconds = watch.seconds();
-  model.body().tree =
-      std::shared_ptr<const geometry::TriangleTree>(shape, &shape->tree());  // lives in the shape
+  model.body().eye = std::make_shared<TouchEye>(shape);
   model.body().shape = shape;
   return model;
 }
@@ -147,7 +141,9 @@ base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
 }
 
 base::Bounds own_bounds(const TouchBody& body) {
-  return body.solid ? body.solid->bounds() : body.tree->bounds();
+  if (body.solid) return body.solid->bounds();
+  return body.primitive && !is_half_space(body) ? geometry::bounds(*body.primitive)
+                                                : body.eye->tree().bounds();
 }
 
 base::Bounds bounds(const TouchBody& body) {

@@ -6,12 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/touch_eye.h"
 #include "apps/touch_options.h"
 #include "base/result.h"
 #include "geometry/csg_tree.h"
 #include "geometry/primitive.h"
-#include "geometry/triangle_mesh.h"
-#include "geometry/triangle_tree.h"
 #include "haptics/contact_judge.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/servo/effect_feed.h"
@@ -22,10 +21,8 @@ namespace icome::apps {
 
 /// A body that is touched: a MODEL is one, or a design of many. What bodies share, clones share.
 struct TouchBody {
-  std::shared_ptr<const geometry::TriangleMesh>
-      mesh;  // for the eye, where `exact`; null where `solid` is set
-  std::shared_ptr<const geometry::TriangleTree> tree;  // over `mesh`; null where that is
-  std::shared_ptr<const haptics::Shape> shape;         // never null
+  std::shared_ptr<TouchEye> eye;                // what is felt, unless `exact`; null where `solid` is set
+  std::shared_ptr<const haptics::Shape> shape;  // never null
   base::Pose world_from_body = base::Pose::Identity();
   std::optional<geometry::Primitive> primitive = {};       // what a primitive is
   std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
@@ -69,7 +66,8 @@ base::Result<TouchModel> load_model(const std::string& text, const TouchOptions&
 base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
                                                   const std::function<void(const std::string&)>& say);
 
-/// Around what the eye sees of it, in its own frame or the world's.
+/// Around its surface, of a half-space around the square that pictures show of it; in its own frame or the
+/// world's.
 base::Bounds own_bounds(const TouchBody& body);
 base::Bounds bounds(const TouchBody& body);
 base::Bounds bounds(const TouchModel& model);
