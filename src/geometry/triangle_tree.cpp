@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "geometry/hilbert.h"
+#include "geometry/ray_winding.h"
 
 namespace icome::geometry {
 namespace {
@@ -164,21 +165,15 @@ std::optional<MeshHit> TriangleTree::nearest(const Vector3& point, double limit)
   return best;
 }
 
-bool TriangleTree::encloses(const Vector3& point) const {
-  const double length = 2.0 * (bounds_.sizes().norm() + (point - bounds_.center()).norm());
-  int votes = 0;
-  for (const Vector3& direction : {Vector3(0.8660, 0.3535, 0.3536), Vector3(-0.3162, 0.9354, -0.1581),
-                                   Vector3(-0.2357, -0.4714, 0.8498)}) {
-    const Vector3 step = length * direction;
-    int left = 0;  // fronts passed on the way out, less backs
-    near(point, point + step, 0.0, [&](std::uint32_t slot) {
-      const auto& [a, b, c] = corners_[slot];
-      if (crossing(corners_[slot], point, step)) left += (b - a).cross(c - a).dot(step) > 0.0 ? 1 : -1;
-      return true;
-    });
-    votes += left > 0 ? 1 : -1;
-  }
-  return votes > 0;
+int TriangleTree::winding(const Vector3& point) const {
+  if (!bounds_.contains(point)) return 0;
+  const WindingRay ray(point, bounds_);
+  int winding = 0;
+  near(point, ray.end(), 0.0, [&](std::uint32_t slot) {
+    winding += ray.through(corners_[slot]);
+    return true;
+  });
+  return winding;
 }
 
 std::size_t TriangleTree::bytes() const {

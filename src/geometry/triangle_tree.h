@@ -86,9 +86,12 @@ class TriangleTree {
   std::optional<MeshHit> nearest(const Vector3& point,
                                  double limit = std::numeric_limits<double>::infinity()) const;
 
-  /// Does a closed mesh, outward normals out, enclose the point? Its parts may overlap. The majority of
-  /// three rays decides, as one through an edge counts it twice. Real-time safe.
-  bool encloses(const Vector3& point) const;
+  /// How often a closed mesh winds around the point, outward normals out; its parts may overlap. Exact, as
+  /// WindingRay tells; of a point on the surface as of one beside it. Real-time safe.
+  int winding(const Vector3& point) const;
+
+  /// Does a closed mesh, outward normals out, enclose the point? Real-time safe.
+  bool encloses(const Vector3& point) const { return winding(point) > 0; }
 
   const Corners& corners(std::uint32_t slot) const { return corners_[slot]; }
   std::uint32_t triangle(std::uint32_t slot) const { return order_[slot]; }
