@@ -161,12 +161,14 @@ std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position
     return std::nullopt;
   const std::optional<geometry::MeshHit> hit = tree_.nearest(position);
   const Vector3 away = hit->point - position;
-  const double length = away.norm();
   const auto& triangle = *mesh_;
   const Vector3 face = (triangle.corner(hit->triangle, 1) - triangle.corner(hit->triangle, 0))
                            .cross(triangle.corner(hit->triangle, 2) - triangle.corner(hit->triangle, 0))
                            .normalized();
-  return geometry::SurfacePoint{hit->point, length > 0.0 ? Vector3(away / length) : face};
+  // From a place on the surface, give or take rounding, the way to it says nothing.
+  const double least = Tolerance::for_coordinates(position.cwiseAbs().maxCoeff()).gap;
+  const double length = away.norm();
+  return geometry::SurfacePoint{hit->point, length > least ? Vector3(away / length) : face};
 }
 
 std::optional<ShapeHit> MeshShape::cast(const Vector3& start, const Vector3& step, double /*time*/) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/contact_fan.h"
+#include "haptics/place_outside.h"
 #include "haptics/smooth_element.h"
 
 namespace icome::haptics {
@@ -18,7 +19,6 @@ constexpr double kLargestReach = 0.1;  // of the scene's extent
 constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin: then that is moved
 
 constexpr int kMaxShrinks = 48;
-constexpr int kMaxWaysOut = 8;
 constexpr int kMaxArches = 12;
 constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
 constexpr double kRounding = 1e-14;  // of squared distances
@@ -48,6 +48,7 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
   const Vector3 at = origin_ + position_;
   const geometry::FloatBox here = geometry::float_box(Bounds(at - margin, at + margin));
   geometry::FourBoxes swept;
+  bool appeared = false;
   for (const SceneChange& change : changes) {
     swept.set(0, change.swept);
     if (swept.overlap_mask(here) == 0) continue;
@@ -56,10 +57,11 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
     const std::optional<std::uint32_t> before = old->find(change.id);
     if (before && old->objects()[*before].shape == scene.objects()[*now].shape) {
       ride(*now, old->pose_in(origin_, *before, old_elapsed), pose(*now, 0.0));
-    } else if (leave_solid(*now)) {
-      left_solid_ = true;
+    } else {
+      appeared = true;
     }
   }
+  if (appeared) leave_solids();
 }
 
 // The last report names an object by its place in the old scene.
@@ -129,34 +131,21 @@ void ScpSolver::start(const Vector3& in_world) {
   origin_.setZero();
   position_ = last_tip_ = in_world;
   region_.invalidate();
-  // One way out may lead into another solid: follow until free.
-  for (int i = 0; i < kMaxWaysOut; ++i) {
-    bool moved = false;
-    const Vector3 at = origin_ + position_;
-    scene_->near(at, at, settings_.tip_radius, [&](std::uint32_t object) {
-      moved = leave_solid(object) || moved;
-      return true;
-    });
-    if (!moved) break;
-    left_solid_ = true;
-  }
+  leave_solids();
+}
+
+/// An SCP inside solids is put outside of all of them.
+void ScpSolver::leave_solids() {
+  const std::optional<Vector3> free = place_outside(*scene_, frame(), position_);
+  if (!free) return;
+  position_ = *free;
+  left_solid_ = true;
 }
 
 /// How far above a place on an object (in its frame) the SCP is put.
 double ScpSolver::gap_on(std::uint32_t object, const Vector3& place) const {
   return std::max(scene_->tolerance_near(object, place).gap,
                   Tolerance::for_coordinates(position_.cwiseAbs().maxCoeff()).gap);
-}
-
-bool ScpSolver::leave_solid(std::uint32_t object) {
-  const HapticObject& it = scene_->objects()[object];
-  if (it.surface.sides == TouchableSides::Both) return false;
-  const Pose from_object = pose(object, elapsed_);
-  const auto place = it.shape->way_out(from_object.inverse() * position_, scene_->time(object, elapsed_));
-  if (!place) return false;
-  const Vector3 out = from_object.linear() * place->normal;
-  position_ = from_object * place->point + out * (settings_.tip_radius + 2.0 * gap_on(object, place->point));
-  return true;
 }
 
 void ScpSolver::carry(double from, double to) {

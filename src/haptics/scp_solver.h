@@ -40,7 +40,7 @@ class ScpSolver final : public ContactSolver {
   void move_origin();
   void start(const Vector3& tip);
   double gap_on(std::uint32_t object, const Vector3& place) const;
-  bool leave_solid(std::uint32_t object);
+  void leave_solids();
   void carry(double from, double to);
   void ride(std::uint32_t object, const Pose& before, const Pose& now);
   void follow_reported_object(const HapticScene& old);
