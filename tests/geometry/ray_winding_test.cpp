@@ -91,6 +91,27 @@ TEST(RayWinding, OfBlocksThatTouch) {
   EXPECT_GT(asked, 500);
 }
 
+TEST(RayWinding, AlongRaysThroughVertices) {
+  const TriangleMesh ball = tessellate(Sphere{1.0}, 0.05);
+  const TriangleTree tree(ball);
+  int inside = 0, outside = 0;
+  for (const Vector3& vertex : ball.positions) {
+    for (const double share : {0.9, 1.01}) {
+      // Below or above the vertex, on the axis along which the box's side is nearest.
+      int axis = 0;
+      vertex.cwiseAbs().maxCoeff(&axis);
+      Vector3 place = vertex;
+      place[axis] *= share;
+      if (!tree.bounds().contains(place)) continue;
+      const int expected = int(std::lround(winding_by_solid_angle(ball, place)));
+      EXPECT_EQ(tree.winding(place), expected) << place.transpose();
+      ++(expected > 0 ? inside : outside);
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(outside, 50);
+}
+
 TEST(RayWinding, OfABallFarFromItsOrigin) {
   expect_right_near_the_surface(moved(tessellate(Sphere{0.05}, 1e-4), {5e5, 4e6, 100.0}), 300, 3);
 }
