@@ -165,6 +165,22 @@ TEST(PlaceOutside, OfBlocksThatTouchLeadsOutOfAll) {
   }
 }
 
+TEST(PlaceOutside, OfAStackOfPlatesThatTouchLeadsThroughThem) {
+  const auto plate = shape_of(primitive("box:1x1x0.01"));
+  std::vector<HapticObject> objects;
+  for (std::uint32_t i = 0; i < 9; ++i)
+    objects.push_back(object(i, plate, translation(0.0, 0.0, 0.01 * i - 0.04)));
+  const ScenePointer scene = HapticScene::compile(objects);
+  Random random(15);
+  for (int i = 0; i < repeats(200); ++i) {
+    const Vector3 start = random_place(random, Bounds(Vector3(-0.2, -0.2, -0.044), Vector3(0.2, 0.2, 0.044)));
+    const auto free = place_outside(*scene, kPointTip, start);
+    ASSERT_TRUE(free) << start.transpose();
+    EXPECT_GT(std::abs(free->z()), 0.045) << free->transpose();
+    EXPECT_LT((*free - start).norm(), 0.3);
+  }
+}
+
 TEST(PlaceOutside, OfManyBallsIsInNone) {
   Random random(14);
   for (int world = 0; world < repeats(40); ++world) {
