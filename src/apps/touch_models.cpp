@@ -10,6 +10,7 @@
 #include "apps/exact_models.h"
 #include "apps/stopwatch.h"
 #include "files/mesh_reader.h"
+#include "geometry/mesh_frame.h"
 #include "geometry/primitive.h"
 #include "haptics/mesh_shape.h"
 #include "haptics/primitive_shape.h"
@@ -81,6 +82,7 @@ base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& 
   model.triangles = loaded->mesh.triangles.size();
   model.body().closed = loaded->repair.surface.closed;
   model.read_seconds = loaded->read_seconds + loaded->repair_seconds;
+  model.body().world_from_body.translation() = geometry::bring_near(loaded->mesh);
   const auto mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
   const Stopwatch watch;
   haptics::MeshShapeSettings settings;

@@ -7,6 +7,7 @@
 #include "base/decompositions.h"
 #include "geometry/csg_emptiness.h"
 #include "geometry/csg_solid.h"
+#include "geometry/mesh_frame.h"
 #include "geometry/mesh_repair.h"
 #include "haptics/mesh_shape.h"
 #include "haptics/primitive_shape.h"
@@ -76,6 +77,7 @@ class FeltShapeMaker {
     auto felt = std::make_shared<FeltShape>();
     felt->closed = report.surface.closed;
     felt->sound = !report.changed();
+    felt->middle = geometry::bring_near(mesh);
     felt->mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
     haptics::MeshShapeSettings settings;
     settings.closed = felt->closed;
@@ -94,6 +96,7 @@ class FeltShapeMaker {
 
   Felt following(geometry::TriangleMesh mesh) const {
     auto felt = std::make_shared<FeltShape>(*before_);
+    for (Vector3& position : mesh.positions) position -= felt->middle;
     felt->mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
     const auto& shape = static_cast<const haptics::MeshShape&>(*before_->shape);
     felt->shape = std::make_shared<haptics::MeshShape>(shape, felt->mesh);

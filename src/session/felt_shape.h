@@ -27,7 +27,12 @@ struct FeltShape {
   bool exact = true;   // touched as what it is, also if that is a mesh; else as triangles of it
   std::string remark;  // a clause about what cannot be touched or is not quite itself; empty: nothing
 
-  // What it is, for those who judge or draw what was felt; at most one of the first three. In the felt frame.
+  /// m, where the frame of what is felt lies in the felt frame: not at its origin where a mesh has
+  /// coordinates far larger than itself.
+  base::Vector3 middle = base::Vector3::Zero();
+
+  // What it is, for those who judge or draw what was felt; at most one of the first three. In the frame of
+  // what is felt.
   std::shared_ptr<const geometry::TriangleMesh> mesh = nullptr;
   std::optional<geometry::Primitive> primitive = {};
   std::shared_ptr<const geometry::CsgTree> solid = nullptr;

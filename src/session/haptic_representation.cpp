@@ -134,7 +134,9 @@ class HapticRepresentation::Update {
     member.geometry = need.object->geometry;
     member.material = need.object->material;
     member.felt = need.key ? owner_.shapes_.at(*need.key) : nullptr;
-    renew_slot(it.id, member, need.place.world_from_felt);
+    base::Pose world_from_felt = need.place.world_from_felt;
+    if (member.felt) world_from_felt.translate(member.felt->middle);
+    renew_slot(it.id, member, world_from_felt);
   }
 
   void renew_slot(world::ObjectId id, Member& member, const base::Pose& world_from_felt) {

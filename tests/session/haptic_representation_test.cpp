@@ -1,5 +1,7 @@
 #include "session/haptic_representation.h"
 
+#include <numeric>
+
 #include "haptics/renderer.h"
 #include "world/random_edits.h"
 
@@ -114,6 +116,30 @@ TEST(HapticRepresentation, MakesAShapeOnceForAllThatShareItInMemory) {
     edit(world, felt, delete_subtree(world, balls[i]));
   }
   EXPECT_TRUE(last.expired());
+}
+
+TEST(HapticRepresentation, AMeshWithTheCoordinatesOfAMapIsFeltAboutItsMiddle) {
+  const Vector3 far(500'000.25, 4'200'000.5, -0.125);
+  geometry::TriangleMesh mesh = geometry::tessellate(geometry::Sphere{0.05}, 1e-3);
+  for (Vector3& position : mesh.positions) position += far;
+  World world;
+  IdSource ids;
+  const Affine3 frame(Eigen::AngleAxisd(0.5, Vector3::UnitZ()) * Eigen::Scaling(2.0));
+  const auto ball = add_object(world, ids, "ball", std::make_shared<world::MeshGeometry>(mesh), {}, frame);
+  HapticRepresentation felt;
+  felt.show(world);
+  const auto middle_felt = [&] {
+    const haptics::HapticObject& it = object(felt, ball);
+    EXPECT_LT(it.shape->bounds().center().norm(), 0.3);
+    return Vector3(it.world_from_object * Vector3(it.shape->bounds().center()));
+  };
+  EXPECT_LT((middle_felt() - frame * far).norm(), 1e-8);
+  // Also when its vertices are moved, and the mesh follows.
+  std::vector<std::uint32_t> vertices(mesh.positions.size());
+  std::iota(vertices.begin(), vertices.end(), 0U);
+  for (Vector3& position : mesh.positions) position.y() += 0.25;
+  edit(world, felt, world::MoveVertices{world.find(ball)->geometry, vertices, mesh.positions});
+  EXPECT_LT((middle_felt() - frame * (far + Vector3(0.0, 0.25, 0.0))).norm(), 1e-8);
 }
 
 TEST(HapticRepresentation, OfOneSceneIsBuiltWithoutTheOthers) {
