@@ -12,8 +12,8 @@ using base::Vector3;
 using Eigen::Vector2d;
 
 constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
-constexpr double kTurnRounding = (3.0 + 16.0 * kUnit) * kUnit;  // of the products' sizes: Shewchuk's bounds
-constexpr double kSideRounding = (7.0 + 56.0 * kUnit) * kUnit;
+constexpr double kTurnError = (3.0 + 16.0 * kUnit) * kUnit;  // of the products' sizes: Shewchuk's bounds
+constexpr double kVolumeError = (7.0 + 56.0 * kUnit) * kUnit;
 
 int sign_of(double value) { return (value > 0.0) - (value < 0.0); }
 
@@ -68,8 +68,7 @@ void add_volume(ExactSum& sum, double sign, const Vector3& u, const Vector3& v, 
 int turn_sign(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const double left = (a.x() - c.x()) * (b.y() - c.y());
   const double right = (a.y() - c.y()) * (b.x() - c.x());
-  if (std::abs(left - right) > kTurnRounding * (std::abs(left) + std::abs(right)))
-    return sign_of(left - right);
+  if (std::abs(left - right) > kTurnError * (std::abs(left) + std::abs(right))) return sign_of(left - right);
   ExactSum sum;
   add_cross(sum, a, b);
   add_cross(sum, b, c);
@@ -85,7 +84,7 @@ int side_sign(const Vector3& a, const Vector3& b, const Vector3& c, const Vector
                       std::abs(u.x() * v.y()) + std::abs(u.y() * v.x()));
   // From d, the corners of a plane that d is above run clockwise: the volume is below zero.
   const double volume = cross.dot(w);
-  if (std::abs(volume) > kSideRounding * sizes.dot(w.cwiseAbs())) return -sign_of(volume);
+  if (std::abs(volume) > kVolumeError * sizes.dot(w.cwiseAbs())) return -sign_of(volume);
   ExactSum sum;
   add_volume(sum, 1.0, b, c, d);
   add_volume(sum, -1.0, a, c, d);

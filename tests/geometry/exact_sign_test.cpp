@@ -45,7 +45,7 @@ TEST(ExactSign, IsThatOfTheDeterminantInWholeNumbers) {
     wrong_in_doubles += (in_doubles > 0.0) - (in_doubles < 0.0) != sign_of(volume) ? 1 : 0;
   }
   EXPECT_GT(flat, 10'000);
-  EXPECT_GT(wrong_in_doubles, 100);
+  EXPECT_GT(wrong_in_doubles, 10);
 }
 
 TEST(ExactSign, TellsAPointOneBitOffALineOrAPlane) {
