@@ -15,7 +15,7 @@ namespace {
 
 const Vector3 kFarAway(1e6, -4e5, 2e5);  // m
 
-enum class CubeAs { Primitive, Mesh, CsgTree };
+enum class CubeAs { ClosedForm, Facets, DrilledTree };
 
 /// With a hole through it along z.
 std::shared_ptr<const Shape> drilled_cube(double size) {
@@ -28,14 +28,14 @@ std::shared_ptr<const Shape> drilled_cube(double size) {
 
 /// A cube of this size (m) about the origin; as a tree, a drilled one.
 std::shared_ptr<const Shape> cube(double size, CubeAs as) {
-  if (as == CubeAs::CsgTree) return drilled_cube(size);
-  if (as == CubeAs::Mesh) return shape_of(shared(box_mesh(Vector3::Constant(size))));
+  if (as == CubeAs::DrilledTree) return drilled_cube(size);
+  if (as == CubeAs::Facets) return shape_of(shared(box_mesh(Vector3::Constant(size))));
   return shape_of(geometry::Box{Vector3::Constant(0.5 * size)});
 }
 
 // The tip sinks into the top of a cube, from just above until it is well inside.
 TEST(ScpScale, HoldsSlowAndFastTipsOnThingsOfEverySize) {
-  for (const CubeAs as : {CubeAs::Primitive, CubeAs::Mesh, CubeAs::CsgTree}) {
+  for (const CubeAs as : {CubeAs::ClosedForm, CubeAs::Facets, CubeAs::DrilledTree}) {
     for (double size = 1e-4; size < 2e7; size *= 10.0) {
       const double fine = 1e-9 * size;
       for (double speed = 1e-9; speed <= 5.0; speed *= 31.6) {  // m a tick
@@ -69,7 +69,7 @@ TEST(ScpScale, HoldsASlowTipOnALargeBoxSoon) {
 }
 
 TEST(ScpScale, PutsATipThatBeginsInsideOntoTheSurfaceOfThingsOfEverySize) {
-  for (const CubeAs as : {CubeAs::Primitive, CubeAs::Mesh, CubeAs::CsgTree}) {
+  for (const CubeAs as : {CubeAs::ClosedForm, CubeAs::Facets, CubeAs::DrilledTree}) {
     for (double size = 1e-4; size < 2e7; size *= 10.0) {
       for (const double share : {1e-7, 1e-4, 0.1}) {
         for (const Vector3& place : {Vector3(0.0, 0.0, 0.0), kFarAway}) {
@@ -121,12 +121,10 @@ double farthest_apart(const std::vector<Followed>& one, const std::vector<Follow
 }
 
 TEST(ScpScale, FeelsTheSameAloneBesideWhatIsFarOffAndFarOff) {
-  const std::vector<std::shared_ptr<const Shape>> shapes = {cube(0.1, CubeAs::Primitive),
-                                                            cube(0.1, CubeAs::Mesh),
-                                                            shape_of(primitive("sphere:0.05")),
-                                                            shape_of(primitive("cone:0.05x0.1")),
-                                                            shape_of(primitive("torus:0.04x0.015")),
-                                                            cube(0.1, CubeAs::CsgTree)};
+  const std::vector<std::shared_ptr<const Shape>> shapes = {
+      cube(0.1, CubeAs::ClosedForm),           cube(0.1, CubeAs::Facets),
+      shape_of(primitive("sphere:0.05")),      shape_of(primitive("cone:0.05x0.1")),
+      shape_of(primitive("torus:0.04x0.015")), cube(0.1, CubeAs::DrilledTree)};
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const bool tree = i + 1 == shapes.size();  // for a point alone
     for (const double radius : tree ? std::vector{0.0} : std::vector{0.0, 0.001}) {
@@ -138,11 +136,11 @@ TEST(ScpScale, FeelsTheSameAloneBesideWhatIsFarOffAndFarOff) {
       beside.translation() = kFarAway;
       const auto alone = wander({object(1, shapes[i], turned)}, Vector3::Zero(), radius);
       const auto with_far =
-          wander({object(1, shapes[i], turned), object(2, cube(0.1, CubeAs::Primitive), beside)},
+          wander({object(1, shapes[i], turned), object(2, cube(0.1, CubeAs::ClosedForm), beside)},
                  Vector3::Zero(), radius);
       const auto with_mountain =
-          wander({object(1, shapes[i], turned), object(2, cube(1e5, CubeAs::Mesh), beside)}, Vector3::Zero(),
-                 radius);
+          wander({object(1, shapes[i], turned), object(2, cube(1e5, CubeAs::Facets), beside)},
+                 Vector3::Zero(), radius);
       const auto carried = wander({object(1, shapes[i], far)}, kFarAway, radius);
       EXPECT_LE(farthest_apart(alone, with_far), 1e-9) << i << " " << radius;
       EXPECT_LE(farthest_apart(alone, with_mountain), 1e-9) << i << " " << radius;
