@@ -1,7 +1,5 @@
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,14 +22,17 @@ struct PlacedEffect {
 };
 
 /// Brings the effects of a design from one thread (main) to the servo: a latest-value box, so neither waits.
-/// Owns all until the servo has gone over to later ones, so that the servo never frees anything.
+/// An effect lives as long as the box may show it; only publish() frees one, so the servo never does, and
+/// however many versions the servo missed, the box holds three.
 class EffectFeed {
  public:
   /// Makes these the ones that are felt. One whose object and text were among the last goes on, wherever it
   /// is now: what is stuck in dry friction stays stuck. The main thread calls this.
   void publish(const std::vector<PlacedEffect>& effects);
 
-  /// The sum of the newest ones. The servo calls this once a tick. Real-time safe.
+  /// Goes over to the newest ones. The servo calls this once a tick. Real-time safe.
+  void follow() { newest_.update(); }
+  /// Their sum. The servo calls this at most once a tick. Real-time safe.
   Vector3 force(const EffectInput& input);
   /// They forget what they felt; see Effect::reset. The servo calls this. Real-time safe.
   void reset();
@@ -42,16 +43,11 @@ class EffectFeed {
     PlacedEffect placed;
     std::shared_ptr<Effect> effect;  // never null
   };
-  struct Version {
-    std::uint64_t number = 0;
-    std::vector<Member> members;
-  };
+  using Members = std::vector<Member>;
   std::shared_ptr<Effect> effect_of(const PlacedEffect& placed) const;
 
-  std::uint64_t next_number_ = 1;
-  std::deque<std::unique_ptr<const Version>> kept_;  // newest last
-  realtime::LatestValue<const Version*> newest_{nullptr};
-  std::atomic<std::uint64_t> taken_ = 0;  // oldest version that the servo may use
+  Members published_;  // main's own copy of the newest
+  realtime::LatestValue<Members> newest_;
 };
 
 }  // namespace icome::haptics

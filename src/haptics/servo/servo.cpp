@@ -57,6 +57,7 @@ const TickReport& Servo::tick(double dt) {
   if (has_state_) report_stylus();
   clock.ends(Stage::Read);
   follow_scene(dt);
+  effect_feed_.follow();
   follow_grip();
   clock.ends(Stage::Scene);
   if (fresh || (has_state_ && (carried || state_.parked))) find_contact();
