@@ -4,6 +4,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
+
+#include "base/near_names.h"
+#include "base/shown_text.h"
 
 namespace icome::haptics {
 namespace {
@@ -17,6 +21,7 @@ std::string_view without_blanks(std::string_view text) {
 }
 
 std::optional<double> number_in(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars takes no plus
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
@@ -36,11 +41,11 @@ base::Result<double> read_parameter(std::string_view text, std::size_t place, co
   const auto value = number_in(said);
   if (!value) {
     return base::fail(fmt::format("number {} ({}) is \"{}\", which is no number.", place,
-                                  with_unit(std::string(parameter.name), parameter), said));
+                                  with_unit(std::string(parameter.name), parameter), base::shown_text(said)));
   }
   if (*value >= parameter.least && *value <= parameter.most) return *value;
-  return base::fail(fmt::format("number {} ({}) is {}: choose one from {}.", place, parameter.name, said,
-                                range_text(parameter)));
+  return base::fail(fmt::format("number {} ({}) is {}: choose one from {}.", place, parameter.name,
+                                base::shown_text(said), range_text(parameter)));
 }
 
 }  // namespace
@@ -93,6 +98,12 @@ base::Result<std::vector<double>> read_parameters(std::string_view text,
     numbers.push_back(*number);
   }
   return numbers;
+}
+
+std::string unknown_name(std::string_view kind, std::string_view said, std::vector<std::string> names) {
+  const std::string near = base::suggestion(said, std::move(names));
+  return fmt::format("there is no {} \"{}\"{}{}", kind, base::shown_text(said), near,
+                     near.ends_with('?') ? "" : ".");
 }
 
 std::vector<std::string_view> split_outside_parentheses(std::string_view text, char separator) {

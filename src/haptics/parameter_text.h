@@ -29,6 +29,10 @@ std::string ranges_of(std::span<const Parameter> parameters);
 base::Result<std::vector<double>> read_parameters(std::string_view text,
                                                   std::span<const Parameter> parameters);
 
+/// 'there is no effect "wel"; did you mean 'well'?': a sentence about a kind of thing that is not among
+/// `names`.
+std::string unknown_name(std::string_view kind, std::string_view said, std::vector<std::string> names);
+
 /// The parts of a text between separators that stand in no parentheses: "min(x,y),0" has two. Without a
 /// separator there is one, which may be empty.
 std::vector<std::string_view> split_outside_parentheses(std::string_view text, char separator);

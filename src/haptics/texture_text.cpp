@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
-#include "base/near_names.h"
 #include "haptics/parameter_text.h"
 
 namespace icome::haptics {
@@ -59,6 +59,27 @@ std::vector<std::string> names_of_textures() {
   return names;
 }
 
+struct ReadTexture {
+  const TextureMaker& maker;
+  Numbers numbers;  // depth and spacing first
+};
+
+base::Result<ReadTexture> read_texture(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const std::string_view name = text.substr(0, colon);
+  const auto* const maker = std::ranges::find(kTextures, name, &TextureMaker::name);
+  if (maker == kTextures.end()) return base::fail(unknown_name("texture", name, names_of_textures()));
+  auto numbers =
+      read_parameters(colon == std::string_view::npos ? "" : text.substr(colon + 1), maker->parameters);
+  if (!numbers) return tl::unexpected(numbers.error());
+  const double deep = (*numbers)[0], apart = (*numbers)[1];
+  if (deep > kMostDepthOfSpacing * apart) {
+    return base::fail(
+        fmt::format("DEPTH {:g} m is more than half of SPACING {:g} m: too steep to be felt.", deep, apart));
+  }
+  return ReadTexture{*maker, std::move(*numbers)};
+}
+
 }  // namespace
 
 const std::vector<TextureKind>& texture_kinds() {
@@ -71,23 +92,16 @@ const std::vector<TextureKind>& texture_kinds() {
   return kKinds;
 }
 
+base::Result<TextureSize> texture_size(std::string_view text) {
+  const auto read = read_texture(text);
+  if (!read) return tl::unexpected(read.error());
+  return TextureSize{read->numbers[0], read->numbers[1]};
+}
+
 base::Result<TexturePointer> make_texture(std::string_view text) {
-  const std::size_t colon = text.find(':');
-  const std::string_view name = text.substr(0, colon);
-  const auto* const maker = std::ranges::find(kTextures, name, &TextureMaker::name);
-  if (maker == kTextures.end()) {
-    return base::fail(
-        fmt::format("there is no texture \"{}\"{}.", name, base::suggestion(name, names_of_textures())));
-  }
-  const auto numbers =
-      read_parameters(colon == std::string_view::npos ? "" : text.substr(colon + 1), maker->parameters);
-  if (!numbers) return tl::unexpected(numbers.error());
-  const double deep = (*numbers)[0], apart = (*numbers)[1];
-  if (deep > kMostDepthOfSpacing * apart) {
-    return base::fail(
-        fmt::format("DEPTH {:g} m is more than half of SPACING {:g} m: too steep to be felt.", deep, apart));
-  }
-  return maker->make(*numbers);
+  const auto read = read_texture(text);
+  if (!read) return tl::unexpected(read.error());
+  return read->maker.make(read->numbers);
 }
 
 }  // namespace icome::haptics

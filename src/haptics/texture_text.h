@@ -18,6 +18,13 @@ struct TextureKind {
 };
 const std::vector<TextureKind>& texture_kinds();
 
+/// How deep and how far apart the waves, bumps or grains of a texture's text are, m.
+struct TextureSize {
+  double depth = 0.0, spacing = 0.0;
+};
+/// Fails as make_texture() does.
+base::Result<TextureSize> texture_size(std::string_view text);
+
 /// The texture of "ridges:0.0005,0.002" (depth and spacing in m) or, in the size that a finger knows from
 /// cloth and stone (1 to 3 mm), of "ridges"; see texture_kinds(). Command line and materials write it so.
 /// Fails with a sentence that names what is wrong.

@@ -1,6 +1,7 @@
 #include "haptics/effects/effect_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "base/near_names.h"
 #include "geometry/formula.h"
 #include "haptics/effects/drag.h"
 #include "haptics/effects/fields.h"
@@ -117,8 +117,13 @@ EffectResult recess_of(Values n) {
 
 EffectResult constant_of(Values n) { return std::make_unique<ConstantForce>(vector_in(n)); }
 
+struct WrittenCurve {
+  std::vector<Vector3> points;
+  SpringSettings spring;
+};
+
 // "0,0,0;0.1,0,0;200,1": points, and at the end stiffness and damping where there are one or two numbers.
-EffectResult curve_of(std::string_view text) {
+base::Result<WrittenCurve> read_curve(std::string_view text) {
   std::vector<std::string_view> groups = split_outside_parentheses(text, ';');
   SpringSettings spring = kUsualSpring;
   if (groups.size() > 1 && std::ranges::count(groups.back(), ',') < 2) {
@@ -135,7 +140,13 @@ EffectResult curve_of(std::string_view text) {
     if (!point) return base::fail(fmt::format("point {}: {}", points.size() + 1, point.error().message));
     points.push_back(vector_in(*point));
   }
-  return std::make_unique<CurveSpring>(std::move(points), spring);
+  return WrittenCurve{std::move(points), spring};
+}
+
+EffectResult curve_of(std::string_view text) {
+  auto curve = read_curve(text);
+  if (!curve) return tl::unexpected(curve.error());
+  return std::make_unique<CurveSpring>(std::move(curve->points), curve->spring);
 }
 
 // "0,0,-0.5*sin(20*z)": three formulas in x, y, z (m) and t (s).
@@ -167,6 +178,7 @@ EffectResult field_of(std::string_view text) {
 struct EffectMaker {
   EffectKind kind;
   std::function<EffectResult(std::string_view)> make;
+  std::span<const Parameter> parameters = {};  // of those that have numbers alone
 };
 
 EffectMaker of_numbers(std::string_view name, std::span<const Parameter> parameters,
@@ -176,7 +188,7 @@ EffectMaker of_numbers(std::string_view name, std::span<const Parameter> paramet
     if (!numbers) return tl::unexpected(numbers.error());
     return make(*numbers);
   };
-  return {{name, usage_of(parameters), ranges_of(parameters), summary, example}, read};
+  return {{name, usage_of(parameters), ranges_of(parameters), summary, example}, read, parameters};
 }
 
 const std::vector<EffectMaker>& effect_makers() {
@@ -217,6 +229,19 @@ const std::vector<EffectMaker>& effect_makers() {
   return kMakers;
 }
 
+/// What stands before the colon and behind it.
+std::pair<std::string_view, std::string_view> parts_of(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return {text.substr(0, colon), colon == std::string_view::npos ? "" : text.substr(colon + 1)};
+}
+
+/// Null where there is no such kind.
+const EffectMaker* maker_named(std::string_view name) {
+  const auto& makers = effect_makers();
+  const auto maker = std::ranges::find(makers, name, [](const EffectMaker& it) { return it.kind.name; });
+  return maker == makers.end() ? nullptr : &*maker;
+}
+
 }  // namespace
 
 const std::vector<EffectKind>& effect_kinds() {
@@ -229,17 +254,34 @@ const std::vector<EffectKind>& effect_kinds() {
 }
 
 EffectResult make_effect(std::string_view text) {
-  const std::size_t colon = text.find(':');
-  const std::string_view name = text.substr(0, colon);
-  const auto& makers = effect_makers();
-  const auto maker = std::ranges::find(makers, name, [](const EffectMaker& it) { return it.kind.name; });
-  if (maker == makers.end()) {
-    std::vector<std::string> names;
-    for (const EffectMaker& it : makers) names.emplace_back(it.kind.name);
-    return base::fail(
-        fmt::format("there is no effect \"{}\"{}.", name, base::suggestion(name, std::move(names))));
+  const auto [name, numbers] = parts_of(text);
+  if (const EffectMaker* maker = maker_named(name)) return maker->make(numbers);
+  std::vector<std::string> names;
+  for (const EffectMaker& it : effect_makers()) names.emplace_back(it.kind.name);
+  return base::fail(unknown_name("effect", name, std::move(names)));
+}
+
+std::vector<EffectNumber> effect_numbers(std::string_view text) {
+  const auto [name, said] = parts_of(text);
+  const EffectMaker* maker = maker_named(name);
+  if (maker == nullptr || !maker->make(said)) return {};
+  std::vector<EffectNumber> numbers;
+  const auto values = read_parameters(said, maker->parameters);
+  for (std::size_t i = 0; i < maker->parameters.size(); ++i) {
+    const Parameter& it = maker->parameters[i];
+    numbers.push_back({it.name, it.unit, it.least, it.most, (*values)[i]});
   }
-  return maker->make(colon == std::string_view::npos ? "" : text.substr(colon + 1));
+  return numbers;
+}
+
+std::vector<Vector3> curve_points(std::string_view text) {
+  const auto [name, said] = parts_of(text);
+  auto curve = read_curve(said);
+  return name == "curve" && curve ? std::move(curve->points) : std::vector<Vector3>();
+}
+
+std::string effect_of_numbers(std::string_view kind, const std::vector<double>& numbers) {
+  return fmt::format("{}:{}", kind, fmt::join(numbers, ","));
 }
 
 }  // namespace icome::haptics

@@ -1,0 +1,19 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "base/utf8.h"
+
+namespace icome::base {
+
+/// What a person wrote, as errors repeat it: the first 60 characters, and "..." where there are more.
+inline std::string shown_text(std::string_view text) {
+  constexpr std::size_t kMostCharacters = 60;
+  std::size_t bytes = 0;
+  for (std::size_t count = 0; count < kMostCharacters && bytes < text.size(); ++count)
+    bytes += std::max<std::size_t>(1, utf8_length(text.substr(bytes)));
+  return std::string(text.substr(0, bytes)) + (bytes < text.size() ? "..." : "");
+}
+
+}  // namespace icome::base
