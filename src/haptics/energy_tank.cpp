@@ -15,9 +15,17 @@ Vector3 EnergyTank::give(const Vector3& force) {
   return acting_;
 }
 
-void EnergyTank::settle(const Vector3& way, double share) {
-  stored_ -= share * acting_.dot(way);
+void EnergyTank::acts(double share) {
+  least_share_ = std::min(share, least_share_.value_or(share));
+  most_share_ = std::max(share, most_share_);
+}
+
+void EnergyTank::settle(const Vector3& way) {
+  const double given = acting_.dot(way);
+  stored_ = std::min(kMost, stored_ - given * (given > 0.0 ? most_share_ : least_share_.value_or(0.0)));
   acting_.setZero();
+  least_share_.reset();
+  most_share_ = 0.0;
   way_ = way;
   drift_ += kNewest * (way - drift_);
 }

@@ -69,7 +69,7 @@ const TickReport& Servo::tick(double dt) {
   clock.ends(Stage::Effects);
   report_.force = limiter_.limit(
       wanted, dt, {fresh, report_.status != devices::DeviceStatus::Lost, report_.contact.started_inside});
-  given_share_ = wanted.isZero(0.0) ? 0.0 : std::min(1.0, report_.force.norm() / wanted.norm());
+  shading_.acts(wanted.isZero(0.0) ? 0.0 : std::min(1.0, report_.force.norm() / wanted.norm()));
   clock.ends(Stage::Limit);
   const devices::DeviceStatus written =
       device_.write(world_from_device_.linear().transpose() * report_.force);
@@ -89,8 +89,7 @@ bool Servo::read() {
     return false;
   }
   const bool laid_aside = state.parked && !state_.parked;
-  shading_.settle(state.jumped || !has_state_ ? Vector3::Zero() : Vector3(state.position - state_.position),
-                  given_share_);
+  shading_.settle(state.jumped || !has_state_ ? Vector3::Zero() : Vector3(state.position - state_.position));
   state_ = state;
   has_state_ = true;
   if (laid_aside || (state.jumped && !state.parked)) {

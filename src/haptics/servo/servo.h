@@ -114,7 +114,6 @@ class Servo {
   devices::PointerState state_;
   bool has_state_ = false;
   EnergyTank shading_;                      // device frame
-  double given_share_ = 0.0;                // of the force that was wanted in the last tick
   Vector3 tip_velocity_ = Vector3::Zero();  // m/s, world; of the hand, not of the workspace
   TickReport report_;
 };
