@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/shown_text.h"
 #include "haptics/effects/effect_text.h"
 #include "haptics/texture_text.h"
 
@@ -20,7 +21,7 @@ std::string help_entry(std::string_view name, const std::string& usage, std::str
 /// Sentences, each once.
 class CappedFeel {
  public:
-  CappedFeel(const devices::DeviceInfo& device, double rate_hz) : device_(device), rate_hz_(rate_hz) {}
+  explicit CappedFeel(double rate_hz) : rate_hz_(rate_hz) {}
 
   void add(const std::string& who, const std::string& what) {
     if (what.empty()) return;
@@ -29,17 +30,9 @@ class CappedFeel {
     if (std::ranges::find(sentences_, sentence) == sentences_.end())
       sentences_.push_back(std::move(sentence));
   }
-  void add_surface(const std::string& who, double stiffness) {
-    const double asked = stiffness > 0.0 ? stiffness : device_.nominal_stiffness;
-    add(who, haptics::capped_stiffness(device_.effective_mass, 1.0 / rate_hz_, asked));
-  }
-  void add_effect(const std::string& who, const haptics::Effect& effect) {
-    add(who, effect.capped(device_.effective_mass, 1.0 / rate_hz_));
-  }
   std::vector<std::string> sentences() && { return std::move(sentences_); }
 
  private:
-  devices::DeviceInfo device_;
   double rate_hz_;
   std::vector<std::string> sentences_;
 };
@@ -49,18 +42,22 @@ class CappedFeel {
 base::Result<void> check_effects(const TouchOptions& options) {
   if (options.texture) {
     if (const auto made = haptics::make_texture(*options.texture); !made)
-      return base::fail(fmt::format("--texture \"{}\": {}", *options.texture, made.error().message));
+      return base::fail(
+          fmt::format("--texture \"{}\": {}", base::shown_text(*options.texture), made.error().message));
   }
   for (const std::string& text : options.effects) {
     if (const auto made = haptics::make_effect(text); !made)
-      return base::fail(fmt::format("--effect \"{}\": {}", text, made.error().message));
+      return base::fail(fmt::format("--effect \"{}\": {}", base::shown_text(text), made.error().message));
   }
   return {};
 }
 
-haptics::EffectSet effects_of(const TouchOptions& options) {
-  haptics::EffectSet effects;
-  for (const std::string& text : options.effects) effects.add(haptics::make_effect(text).value());
+std::vector<haptics::PlacedEffect> effects_of(const std::vector<TouchModel>& models,
+                                              const TouchOptions& options) {
+  std::vector<haptics::PlacedEffect> effects;
+  for (const std::string& text : options.effects) effects.push_back({.text = text});
+  for (const TouchModel& model : models)
+    effects.insert(effects.end(), model.effects.begin(), model.effects.end());
   return effects;
 }
 
@@ -69,16 +66,13 @@ std::shared_ptr<const haptics::HapticTexture> texture_of(const TouchOptions& opt
 }
 
 std::vector<std::string> capped_feel(const std::vector<TouchModel>& models, const TouchOptions& options,
-                                     const devices::DeviceInfo& device) {
-  CappedFeel capped(device, options.rate_hz);
-  for (const TouchModel& model : models) {
+                                     const haptics::Servo& servo) {
+  CappedFeel capped(options.rate_hz);
+  for (const TouchModel& model : models)
     for (const TouchBody& body : model.bodies)
-      capped.add_surface(model.name, surface_of(body, options).stiffness);
-    for (const haptics::PlacedEffect& effect : model.effects)
-      capped.add_effect("effect " + effect.text, *haptics::make_effect(effect.text).value());
-  }
-  for (const std::string& text : options.effects)
-    capped.add_effect("effect " + text, *haptics::make_effect(text).value());
+      capped.add(model.name, servo.capped_surface(surface_of(body, options)));
+  for (const haptics::CappedEffect& effect : servo.capped_effects())
+    capped.add("effect " + base::shown_text(effect.text), effect.what);
   return std::move(capped).sentences();
 }
 

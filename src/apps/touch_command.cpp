@@ -36,7 +36,6 @@ constexpr int kInterrupted = 130;  // what shells report for Ctrl-C
 struct Prepared {
   std::vector<TouchModel> models;
   std::shared_ptr<const haptics::HapticScene> scene;
-  std::vector<haptics::PlacedEffect> effects;  // of the designs
   double build_seconds = 0.0;
   devices::DeviceInfo device;
   std::optional<devices::PathPlayer> player;  // none: explore
@@ -70,8 +69,6 @@ base::Result<void> load(const TouchOptions& options, StatusLine& status, Prepare
   if (!models) return tl::unexpected(models.error());
   prepared.models = std::move(*models);
   for (const TouchModel& model : prepared.models) prepared.build_seconds += model.build_seconds;
-  for (const TouchModel& model : prepared.models)
-    prepared.effects.insert(prepared.effects.end(), model.effects.begin(), model.effects.end());
   const Stopwatch watch;
   prepared.scene = compile_scene(prepared.models, options);
   prepared.build_seconds += watch.seconds();
@@ -149,12 +146,12 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
 base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, TouchDiary& diary,
                              StatusLine& status) {
   if (prepared.player)
-    return replay(*prepared.player, prepared.scene, prepared.effects, options, diary, status);
+    return replay(*prepared.player, prepared.scene, prepared.models, options, diary, status);
   status.say("Planning where to touch");
   prepared.exploration =
       Exploration::plan(prepared.models, options.radius, options.seconds.value_or(kDefaultSeconds));
   status.clear();
-  return explore(*prepared.exploration, prepared.device, prepared.scene, prepared.effects, options, diary,
+  return explore(*prepared.exploration, prepared.device, prepared.scene, prepared.models, options, diary,
                  status);
 }
 
@@ -216,6 +213,15 @@ void tell_outcome(const RunOutcome& outcome) {
   }
 }
 
+/// The first sentences, and how many there are; the JSON report has them all.
+void tell_capped(const std::vector<std::string>& sentences) {
+  constexpr std::size_t kMostTold = 5;
+  const std::size_t told = std::min(sentences.size(), kMostTold);
+  for (std::size_t i = 0; i < told; ++i) tell(sentences[i]);
+  if (told < sentences.size())
+    tell(fmt::format("{} more are felt softer than asked for; --json names them.", sentences.size() - told));
+}
+
 void tell_little_touch(const Exploration& exploration, const TouchFigures& figures) {
   if (figures.touch_fraction >= Exploration::kEnough) return;
   tell(fmt::format("the hand touched for {:.0f} % of its time: {}.", 100.0 * figures.touch_fraction,
@@ -269,8 +275,7 @@ int run_touch(const TouchOptions& options) {
   }
   tell_outcome(*outcome);
   TouchFigures figures = figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options);
-  figures.capped = capped_feel(prepared->models, options, prepared->device);
-  for (const std::string& sentence : figures.capped) tell(sentence);
+  tell_capped(figures.capped);
   if (prepared->exploration) tell_little_touch(*prepared->exploration, figures);
   if (options.json) {
     fmt::print("{}\n", json_report(figures));

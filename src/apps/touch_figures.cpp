@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/effect_options.h"
+
 namespace icome::apps {
 namespace {
 
@@ -60,7 +62,9 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
     figures.pulls = diary.judge()->pulls();
   }
   figures.texture = options.texture;
-  figures.effects = options.effects;
+  for (const haptics::PlacedEffect& effect : effects_of(models, options))
+    figures.effects.push_back(effect.text);
+  figures.capped = outcome.capped;
   figures.peak_memory_bytes = peak_memory();
   return figures;
 }

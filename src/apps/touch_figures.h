@@ -35,7 +35,7 @@ struct TouchFigures {
   std::optional<std::uint64_t> silent;
   std::optional<std::uint64_t> pulls;
   std::optional<std::string> texture;  // as it was asked for
-  std::vector<std::string> effects;    // the same
+  std::vector<std::string> effects;    // the same, then those of designs
   std::vector<std::string> capped;     // what is felt softer than asked for, a sentence each
   std::size_t peak_memory_bytes = 0;   // of the whole program
 };

@@ -110,12 +110,11 @@ devices::SimulatedSettings simulated_settings(const Exploration& exploration,
 }  // namespace
 
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
-                  const std::vector<haptics::PlacedEffect>& effects, const TouchOptions& options,
-                  TouchDiary& diary, StatusLine& status) {
-  haptics::EffectSet asked = effects_of(options);
-  haptics::Servo servo(player, servo_settings(options), &asked);
+                  const std::vector<TouchModel>& models, const TouchOptions& options, TouchDiary& diary,
+                  StatusLine& status) {
+  haptics::Servo servo(player, servo_settings(options));
   servo.publish(scene);
-  servo.publish_effects(effects);
+  servo.publish_effects(effects_of(models, options));
   RunOutcome outcome;
   const std::vector<double>& times = player.times();
   const std::size_t rows = rows_within(times, options.seconds);
@@ -139,22 +138,22 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
     status.progress("Replaying", static_cast<double>(row), static_cast<double>(rows), "rows");
   }
   outcome.wall_seconds = watch.seconds();
+  outcome.capped = capped_feel(models, options, servo);
   status.clear();
   return outcome;
 }
 
 base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
                                  const std::shared_ptr<const haptics::HapticScene>& scene,
-                                 const std::vector<haptics::PlacedEffect>& effects,
-                                 const TouchOptions& options, TouchDiary& diary, StatusLine& status) {
+                                 const std::vector<TouchModel>& models, const TouchOptions& options,
+                                 TouchDiary& diary, StatusLine& status) {
   const double seconds = options.seconds.value_or(kDefaultSeconds);
   devices::SimulatedDevice hand(simulated_settings(exploration, device, options.rate_hz));
   haptics::ServoSettings settings = servo_settings(options);
   settings.world_from_device.translation() = exploration.centre();
-  haptics::EffectSet asked = effects_of(options);
-  haptics::Servo servo(hand, settings, &asked);
+  haptics::Servo servo(hand, settings);
   servo.publish(scene);
-  servo.publish_effects(effects);
+  servo.publish_effects(effects_of(models, options));
   ClockedRun run(servo, options, seconds);
   const Stopwatch watch;
   realtime::LoopSettings loop_settings;
@@ -176,6 +175,7 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
   outcome.interrupted = cut_short;
   outcome.lost_rows = run.lost_rows();
   outcome.wall_seconds = watch.seconds();
+  outcome.capped = capped_feel(models, options, servo);
   return outcome;
 }
 

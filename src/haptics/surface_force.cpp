@@ -31,17 +31,28 @@ double stable_stiffness(double effective_mass, double dt, double requested) {
   return std::min(requested, kLargestRelativeStiffness * effective_mass / (dt * dt));
 }
 
-std::string capped_stiffness(double effective_mass, double dt, double requested) {
-  const double felt = stable_stiffness(effective_mass, dt, requested);
-  if (felt >= requested) return {};
-  return fmt::format("stiffness {:g} N/m is felt as {:g} N/m", requested, felt);
-}
-
 double stable_damping(double stiffness, double effective_mass, double dt, double requested) {
   const DampingRange range = stable_damping_range(stiffness, effective_mass, dt);
   const double wanted = requested < 0.0 ? std::sqrt(stiffness * effective_mass) : requested;
   const double paid = std::max(wanted, kLeakTicks * stiffness * dt);
   return std::min(paid, kDampingShare * range.most);
+}
+
+std::string capped_spring(double effective_mass, double dt, double stiffness, double damping) {
+  const double felt = stable_stiffness(effective_mass, dt, stiffness);
+  const double damped = stable_damping(felt, effective_mass, dt, damping);
+  std::string text;
+  if (felt < stiffness) text = fmt::format("stiffness {:g} N/m is felt as {:g} N/m", stiffness, felt);
+  if (damped >= damping) return text;
+  return text + fmt::format("{}damping {:g} N s/m{} as {:g} N s/m", text.empty() ? "" : ", ", damping,
+                            text.empty() ? " is felt" : "", damped);
+}
+
+double mass_needed(double stiffness, double damping, double effective_mass, double dt) {
+  const double felt = stable_stiffness(effective_mass, dt, stiffness);
+  const double damped = stable_damping(felt, effective_mass, dt, damping);
+  const double most = stable_damping_range(felt, effective_mass, dt).most * kDampingShare;  // >= damped
+  return std::max(felt * dt * dt / kLargestRelativeStiffness, effective_mass * (damped / most));
 }
 
 void make_stable(Surface& surface, double nominal_stiffness, double effective_mass, double dt) {

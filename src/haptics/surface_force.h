@@ -56,9 +56,10 @@ DampingRange stable_damping_range(double stiffness, double effective_mass, doubl
 /// (thesis 5.3.2: stiff walls need a higher rate). Real-time safe.
 double stable_stiffness(double effective_mass, double dt, double requested);
 
-/// "stiffness 5000 N/m is felt as 1000 N/m" where stable_stiffness() allows less than `requested`; else
-/// empty.
-std::string capped_stiffness(double effective_mass, double dt, double requested);
+/// "stiffness 5000 N/m is felt as 1000 N/m, damping 60 N s/m as 5 N s/m": of a spring with this stiffness
+/// (N/m) and damping (N s/m; kAutomaticDamping asks for none) what stable_stiffness() and stable_damping()
+/// allow less of. Empty where all is given.
+std::string capped_spring(double effective_mass, double dt, double stiffness, double damping);
 
 /// How many ticks of a stiffness damping must pay for at least: the hold leaks half a tick of it, a device
 /// that answers one tick late a whole one (stable_damping).
@@ -70,6 +71,10 @@ constexpr double kLeakTicks = 2.0;
 /// is exactly the geometric middle of the range. Without a stiffness (pure damping) automatic is 0.
 /// Real-time safe.
 double stable_damping(double stiffness, double effective_mass, double dt, double requested);
+
+/// The least mass (kg, at most `effective_mass`) for which a spring is stable with all of the stiffness (N/m)
+/// and damping (N s/m) that it gets on a device of `effective_mass`. Real-time safe.
+double mass_needed(double stiffness, double damping, double effective_mass, double dt);
 
 /// The surface with its stiffness and damping replaced by those that are stable on a device of nominal
 /// stiffness `nominal_stiffness` N/m and `effective_mass` kg every `dt` s. Real-time safe.

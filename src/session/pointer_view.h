@@ -21,7 +21,7 @@ struct PointerView {
   std::uint32_t buttons = 0;  // bit i: button i is down
   bool touching = false;
   base::ObjectId touched = {};   // in the haptic scene, when touching
-  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made; 0: the device's own
+  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made, or the device's nominal one
   double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
   std::uint64_t losses = 0;      // how often the device was lost since the start
 };

@@ -165,14 +165,39 @@ class EffectsTest(ProgramTest):
     def test_what_is_capped_is_told(self):
         path = self.path_file([START] * 10)
         device = ["--device", "omega.x", "--path", path]  # 100 g: K dt^2/m <= 0.1 at 1 kHz is 10 kN/m
-        self.assertEqual(self.report(FAR, *device, "--stiffness", 10000, "--effect", "point:0,0,0,9999")["capped"], [])
-        report = self.report(FAR, *device, "--stiffness", 20000, "--effect", "point:0,0,0,50000", "--effect", "viscous:60")
-        self.assertEqual(len(report["capped"]), 3)
-        self.assertIn("stiffness 20000 N/m is felt as 10000 N/m", report["capped"][0])
-        self.assertIn("effect point:0,0,0,50000: stiffness 50000 N/m is felt as 10000 N/m", report["capped"][1])
-        self.assertIn("damping 60 N s/m is felt as 50 N s/m", report["capped"][2])
+        self.assertEqual(self.report(FAR, *device, "--stiffness", 5000, "--effect", "point:0,0,0,4000")["capped"], [])
         done = self.succeeds("touch", FAR, *device, "--stiffness", 20000)
-        self.assertIn("the most that is stable on this device at 1000 Hz", done.stderr)
+        self.assertIn("stiffness 20000 N/m is felt as 10000 N/m, the most that is stable on this device at 1000 Hz",
+                      done.stderr)
+
+    def test_surface_and_effects_share_what_is_stable(self):
+        # Surface, spring and damper could each alone take all of the device: each gets a third.
+        path = self.path_file([START] * 10)
+        report = self.report(FAR, "--device", "omega.x", "--path", path, "--stiffness", 20000,
+                             "--effect", "point:0,0,0,50000", "--effect", "viscous:60")
+        self.assertEqual(len(report["capped"]), 3)
+        self.assertIn("stiffness 20000 N/m is felt as 3333.33 N/m", report["capped"][0])
+        self.assertIn("effect point:0,0,0,50000: stiffness 50000 N/m is felt as 3333.33 N/m", report["capped"][1])
+        self.assertIn("damping 60 N s/m is felt as 16.6667 N s/m", report["capped"][2])
+
+    def test_many_capped_effects_are_told_in_few_lines(self):
+        path = self.path_file([START] * 10)
+        effects = [text for i in range(100) for text in ("--effect", f"point:0,0,{0.001 * i:g},50000")]
+        done = self.succeeds("touch", FAR, "--device", "omega.x", "--path", path, *effects)
+        self.assertLessEqual(done.stderr.count("\n"), 6)
+        self.assertIn("96 more are felt softer", done.stderr)
+        self.assertEqual(len(self.report(FAR, "--device", "omega.x", "--path", path, *effects)["capped"]), 101)
+
+    def test_eight_dampers_do_not_rattle(self):
+        # To and fro at 1 Hz with a hand that is read in steps of 20 um: what the dampers do is -B v with the sum of
+        # what is stable, 50 N s/m on 100 g, and never more than that of the fastest step.
+        points = [tuple(round(x / 2e-5) * 2e-5 for x in (0.05 + 0.02 * math.sin(0.002 * math.pi * i), 0.0, 0.03))
+                  for i in range(2000)]
+        rows = self.trace(FAR, "--device", "omega.x", "--path", self.path_file([points[0]] * RAMPED + points),
+                          *["--effect", "viscous:50"] * 8)
+        for before, row in zip(rows[RAMPED:], rows[RAMPED + 1:]):
+            speed = (row["tip_x"] - before["tip_x"]) * 1000.0
+            self.assertLess(abs(row["force_x"]), 50.0 * abs(speed) + 1e-6)
 
     def test_a_direction_turns_the_ridges(self):
         points = line((0.0, 0.0, 0.001), (0.0, 0.0, -0.002), 200) + [(0.0, 0.0, -0.002)] * RAMPED
@@ -205,9 +230,12 @@ class EffectsTest(ProgramTest):
                                ("curve:0,0,0;1,2,x", "point 2: number 3 (Z m)"),
                                ("field:x,y", "three formulas"),
                                ("field:x,y,z+", "formula 3"),
-                               ("wel:1", "did you mean 'well'")]:
+                               ("wel:1", "did you mean 'well'?"),
+                               ("x" * 5000, "x" * 60 + "...")]:
             done = self.fails("touch", FAR, "--effect", "viscous:1", "--effect", effect, code=2, saying=saying)
-            self.assertIn(f'--effect "{effect}"', done.stderr)
+            self.assertIn(f'--effect "{effect[:60]}', done.stderr)
+            self.assertLess(len(done.stderr), 1000)
+            self.assertNotIn("?.", done.stderr)
         for texture, saying in [("ridges:1", "number 1 (DEPTH) is 1"), ("ridges:0.002,0.002", "SPACING"),
                                 ("ridges:0.0005,0.002,0,0,0", "direction"), ("sand", "no texture \"sand\"")]:
             self.fails("touch", FAR, "--texture", texture, code=2, saying=saying)

@@ -293,47 +293,5 @@ TEST(Inertia, FeelsNothingAtConstantSpeedAndAfterReset) {
   expect_force(inertia, tip_at(Vector3::Zero(), Vector3(-5, 0, 0)), Vector3::Zero());
 }
 
-TEST(EffectSet, IsTheSumOfWhatIsOn) {
-  EffectSet set;
-  set.add(std::make_unique<ConstantForce>(Vector3(1, 0, 0)));
-  const std::size_t second = set.add(std::make_unique<ConstantForce>(Vector3(0, 2, 0)));
-  auto nested = std::make_unique<EffectSet>();
-  nested->add(std::make_unique<ConstantForce>(Vector3(0, 0, 4)));
-  set.add(std::move(nested));
-  EXPECT_EQ(set.size(), 3u);
-  expect_force(set, {}, Vector3(1, 2, 4));
-  set.set_enabled(second, false);
-  expect_force(set, {}, Vector3(1, 0, 4));
-}
-
-TEST(EffectSet, SwitchingOnStartsAfreshAndResetReachesAll) {
-  EffectSet set;
-  set.add(std::make_unique<FrictionEffect>(FrictionSettings{}));
-  set.force(tip_at(Vector3::Zero()));
-  set.set_enabled(0, true);  // on already: keeps its anchor
-  EXPECT_GT(set.force(tip_at(Vector3(2e-4, 0, 0))).norm(), 0.1);
-  set.set_enabled(0, false);
-  set.set_enabled(0, true);
-  expect_force(set, tip_at(Vector3(0.05, 0, 0)), Vector3::Zero());
-  set.reset();
-  expect_force(set, tip_at(Vector3(0.09, 0, 0)), Vector3::Zero());
-}
-
-// An effect of one's own, as GHOST lets one derive (4.3.1).
-class Buzz final : public Effect {
- public:
-  Vector3 force(const EffectInput& input) override {
-    return {0.2 * std::sin(2.0 * std::numbers::pi * 100.0 * input.time), 0, 0};
-  }
-};
-
-TEST(EffectSet, TakesEffectsOfOnesOwn) {
-  EffectSet set;
-  set.add(std::make_unique<Buzz>());
-  EffectInput input;
-  input.time = 0.0025;  // a quarter of its period
-  expect_force(set, input, Vector3(0.2, 0, 0));
-}
-
 }  // namespace
 }  // namespace icome::haptics

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "haptics/effects/effect.h"
 #include "haptics/surface_force.h"
 
@@ -11,7 +13,12 @@ class ViscousDamping final : public Effect {
   /// `damping` >= 0 in N s/m, usually 0.5 to 10.
   explicit ViscousDamping(double damping) : damping_(damping) {}
   Vector3 force(const EffectInput& input) override;
-  std::string capped(double device_mass, double dt) const override;
+  double mass_needed(double device_mass, double dt) const override {
+    return haptics::mass_needed(0.0, damping_, device_mass, dt);
+  }
+  std::string capped(double device_mass, double dt) const override {
+    return capped_spring(device_mass, dt, 0.0, damping_);
+  }
 
  private:
   double damping_;  // N s/m
@@ -31,16 +38,24 @@ class FrictionEffect final : public Effect {
  public:
   explicit FrictionEffect(const FrictionSettings& settings);
   Vector3 force(const EffectInput& input) override;
-  void reset() override { anchored_ = false; }
+  void reset() override { memory_->anchored = false; }
+  void continue_from(const Effect& before) override;
+  void reframe(const base::Pose& new_from_old) override { memory_->anchor = new_from_old * memory_->anchor; }
+  double mass_needed(double device_mass, double dt) const override {
+    return haptics::mass_needed(settings_.stiffness, kAutomaticDamping, device_mass, dt);
+  }
   std::string capped(double device_mass, double dt) const override {
-    return capped_stiffness(device_mass, dt, settings_.stiffness);
+    return capped_spring(device_mass, dt, settings_.stiffness, kAutomaticDamping);
   }
 
  private:
+  struct Memory {
+    bool anchored = false;
+    bool sliding = false;
+    Vector3 anchor = Vector3::Zero();  // m
+  };
   FrictionSettings settings_;
-  bool anchored_ = false;
-  bool sliding_ = false;
-  Vector3 anchor_ = Vector3::Zero();  // m
+  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();  // of those that continue each other
 };
 
 /// The tip feels heavier: a force against its acceleration, as of `mass` kg held in the hand (without
@@ -54,14 +69,22 @@ class Inertia final : public Effect {
   /// `mass` >= 0 in kg, usually 0.05 to 1; `corner_hz` of the low-pass, usually 20 to 100.
   explicit Inertia(double mass, double corner_hz = 50.0) : mass_(mass), corner_hz_(corner_hz) {}
   Vector3 force(const EffectInput& input) override;
-  void reset() override { started_ = false; }
+  void reset() override { memory_->started = false; }
+  void continue_from(const Effect& before) override;
+  void reframe(const base::Pose& new_from_old) override;
+  double mass_needed(double device_mass, double dt) const override;
 
  private:
+  double low_pass(double dt) const;  // the share of the newest acceleration
+
   double mass_;       // kg
   double corner_hz_;  // Hz
-  bool started_ = false;
-  Vector3 last_velocity_ = Vector3::Zero();  // m/s
-  Vector3 acceleration_ = Vector3::Zero();   // m/s^2, low-passed
+  struct Memory {
+    bool started = false;
+    Vector3 last_velocity = Vector3::Zero();  // m/s
+    Vector3 acceleration = Vector3::Zero();   // m/s^2, low-passed
+  };
+  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();  // of those that continue each other
 };
 
 }  // namespace icome::haptics

@@ -1,14 +1,9 @@
 #pragma once
-#include <cstddef>
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "base/vector.h"
+#include "haptics/effects/reach.h"
 
 namespace icome::haptics {
-
-using base::Vector3;
 
 /// What an effect may look at in one tick; world frame.
 struct EffectInput {
@@ -18,7 +13,8 @@ struct EffectInput {
   Vector3 velocity = Vector3::Zero();  // m/s, of the tip
   Vector3 scp = Vector3::Zero();       // m, surface contact point; the tip when nothing is touched
   bool touching = false;
-  double device_mass = 0.1;  // kg, apparent at the tip (DeviceInfo::effective_mass)
+  double device_mass =
+      0.1;  // kg, apparent at the tip (DeviceInfo::effective_mass), or the effect's part of it
 };
 
 /// A force on the tip that comes from no surface. Derive to add one, as with GHOST (thesis 4.3.1).
@@ -30,34 +26,20 @@ class Effect {
   virtual Vector3 force(const EffectInput& input) = 0;
   /// Forgets what it has felt so far: the tip jumped, or the effect was off. Real-time safe.
   virtual void reset() {}
+  /// Goes on with what another effect remembers, if it is of the same kind: its numbers have been changed
+  /// while it was felt. Before this one is felt; the other is not felt any more then.
+  virtual void continue_from(const Effect& /*before*/) {}
+  /// The frame of its input is another one from now on: what it remembers of places and ways is to be where
+  /// it was in the world. Real-time safe.
+  virtual void reframe(const base::Pose& /*new_from_old*/) {}
+  /// The least mass (kg, at most `device_mass`) on which this is stable as it was asked for with a tick of
+  /// `dt` (s): what it takes of a device that others act on, too (mass_shares.h). 0: it is always stable.
+  virtual double mass_needed(double /*device_mass*/, double /*dt*/) const { return 0.0; }
+  /// Where it acts; of what acts everywhere, where it is centred.
+  virtual Reach reach() const { return {}; }
   /// What a device of `device_mass` (kg) with a tick of `dt` (s) cannot render stably as it was asked for:
   /// "stiffness 5000 N/m is felt as 1000 N/m". Empty where all is given.
   virtual std::string capped(double /*device_mass*/, double /*dt*/) const { return {}; }
-};
-
-/// The sum of effects, which it owns. It is an effect itself, so sets nest.
-class EffectSet final : public Effect {
- public:
-  /// Adds an effect and returns its index, 0 for the first. Takes memory: before the servo starts.
-  std::size_t add(std::unique_ptr<Effect> effect);
-
-  std::size_t size() const { return members_.size(); }
-  /// Switches effect `index` < size(); one that is switched on starts afresh. New effects are on.
-  /// Real-time safe.
-  void set_enabled(std::size_t index, bool enabled);
-  bool enabled(std::size_t index) const { return members_[index].enabled; }
-
-  Vector3 force(const EffectInput& input) override;
-  void reset() override;
-  /// Of its members, those that are on, one after the other.
-  std::string capped(double device_mass, double dt) const override;
-
- private:
-  struct Member {
-    std::unique_ptr<Effect> effect;  // never null
-    bool enabled = true;
-  };
-  std::vector<Member> members_;
 };
 
 }  // namespace icome::haptics

@@ -40,8 +40,12 @@ class GravityWell final : public Effect {
   /// The stiffness (N/m) at the centre of a well of `radius` > 0 (m) whose strongest pull is `force` (N).
   static double stiffness_of(double radius, double force);
   Vector3 force(const EffectInput& input) override;
+  double mass_needed(double device_mass, double dt) const override {
+    return haptics::mass_needed(stiffness_, 0.0, device_mass, dt);
+  }
+  Reach reach() const override { return {.centre = centre_, .radius = radius_}; }
   std::string capped(double device_mass, double dt) const override {
-    return capped_stiffness(device_mass, dt, stiffness_);
+    return capped_spring(device_mass, dt, stiffness_, 0.0);
   }
 
  private:
@@ -67,8 +71,12 @@ class Recess final : public Effect {
  public:
   explicit Recess(const RecessSettings& settings);
   Vector3 force(const EffectInput& input) override;
+  double mass_needed(double device_mass, double dt) const override {
+    return haptics::mass_needed(slope_stiffness(), 0.0, device_mass, dt);
+  }
+  Reach reach() const override { return {settings_.centre, settings_.axis, settings_.rim_radius}; }
   std::string capped(double device_mass, double dt) const override {
-    return capped_stiffness(device_mass, dt, slope_stiffness());
+    return capped_spring(device_mass, dt, slope_stiffness(), 0.0);
   }
 
  private:

@@ -54,6 +54,13 @@ double pull_back(const GripFeel& feel, double distance) {
   return feel.least_pull * smooth_step(distance / kSoftStart) + (feel.most_pull - feel.least_pull) * rise;
 }
 
+/// As if guidance, a stop and the well pulled along the same line.
+double grip_mass_needed(const GripFeel& feel, double device_mass, double dt) {
+  if (!feel.holds) return 0.0;
+  const double well = feel.well ? feel.well->stiffness : 0.0;
+  return mass_needed(2.0 * feel.hold.stiffness + well, 2.0 * feel.hold.damping, device_mass, dt);
+}
+
 Vector3 grip_force(const GripFeel& feel, const EffectInput& input) {
   if (!feel.holds) return Vector3::Zero();
   const Hold hold(feel.hold, input);

@@ -53,6 +53,9 @@ struct GripFeel {
 /// taken hold of. Real-time safe.
 double pull_back(const GripFeel& feel, double distance);
 
+/// What of the device's mass (kg) its springs need; see Effect::mass_needed. Real-time safe.
+double grip_mass_needed(const GripFeel& feel, double device_mass, double dt);
+
 /// The force of what is held. A function of the input and `feel` alone. Real-time safe.
 Vector3 grip_force(const GripFeel& feel, const EffectInput& input);
 

@@ -7,14 +7,6 @@
 namespace icome::haptics {
 namespace {
 
-// The spring-damper along an offset (from the tip to where it is held) and the velocity it resists.
-Vector3 pull(const Vector3& offset, const Vector3& resisted, const SpringSettings& settings,
-             const EffectInput& input) {
-  const double stiffness = stable_stiffness(input.device_mass, input.dt, settings.stiffness);
-  const double damping = stable_damping(stiffness, input.device_mass, input.dt, settings.damping);
-  return stiffness * offset - damping * resisted;
-}
-
 Vector3 without_component(const Vector3& vector, const Vector3& unit) {
   return vector - vector.dot(unit) * unit;
 }
@@ -38,32 +30,38 @@ Foot nearest_on_segment(const Vector3& from, const Vector3& to, const Vector3& p
 
 }  // namespace
 
+Vector3 Spring::pull(const Vector3& offset, const Vector3& resisted, const EffectInput& input) const {
+  const double stiffness = stable_stiffness(input.device_mass, input.dt, settings_.stiffness);
+  const double damping = stable_damping(stiffness, input.device_mass, input.dt, settings_.damping);
+  return stiffness * offset - damping * resisted;
+}
+
 Vector3 PointSpring::force(const EffectInput& input) {
-  return pull(point_ - input.position, input.velocity, settings_, input);
+  return pull(point_ - input.position, input.velocity, input);
 }
 
 LineSpring::LineSpring(const Vector3& point, const Vector3& direction, const SpringSettings& settings)
-    : point_(point), direction_(direction.normalized()), settings_(settings) {
+    : Spring(settings), point_(point), direction_(direction.normalized()) {
   assert(direction.squaredNorm() > 0.0);
 }
 
 Vector3 LineSpring::force(const EffectInput& input) {
   return pull(without_component(point_ - input.position, direction_),
-              without_component(input.velocity, direction_), settings_, input);
+              without_component(input.velocity, direction_), input);
 }
 
 PlaneSpring::PlaneSpring(const Vector3& point, const Vector3& normal, const SpringSettings& settings)
-    : point_(point), normal_(normal.normalized()), settings_(settings) {
+    : Spring(settings), point_(point), normal_(normal.normalized()) {
   assert(normal.squaredNorm() > 0.0);
 }
 
 Vector3 PlaneSpring::force(const EffectInput& input) {
   const double offset = (point_ - input.position).dot(normal_);
-  return pull(offset * normal_, input.velocity.dot(normal_) * normal_, settings_, input);
+  return pull(offset * normal_, input.velocity.dot(normal_) * normal_, input);
 }
 
 CurveSpring::CurveSpring(std::vector<Vector3> points, const SpringSettings& settings)
-    : points_(std::move(points)), settings_(settings) {
+    : Spring(settings), points_(std::move(points)) {
   assert(!points_.empty());
 }
 
@@ -78,7 +76,7 @@ Vector3 CurveSpring::force(const EffectInput& input) {
       best = foot;
     }
   }
-  return pull(best.point - input.position, without_component(input.velocity, best.slide), settings_, input);
+  return pull(best.point - input.position, without_component(input.velocity, best.slide), input);
 }
 
 }  // namespace icome::haptics

@@ -43,7 +43,10 @@ void SceneFeed::publish(std::shared_ptr<const HapticScene> scene) {
   next->surfaces.reserve(scene->objects().size());
   for (const HapticObject& object : scene->objects()) {
     next->surfaces.push_back(object.surface);
-    make_stable(next->surfaces.back(), limits_.nominal_stiffness, limits_.effective_mass, limits_.dt);
+    Surface& surface = next->surfaces.back();
+    make_stable(surface, limits_.nominal_stiffness, limits_.effective_mass, limits_.dt);
+    next->mass_needed = std::max(next->mass_needed, mass_needed(surface.stiffness, surface.damping,
+                                                                limits_.effective_mass, limits_.dt));
   }
   next->scene = std::move(scene);
   kept_.push_back(std::move(next));

@@ -17,10 +17,11 @@ struct PublishedScene {
   std::shared_ptr<const HapticScene> scene;  // never null
   std::vector<SceneChange> changes;          // since the last version that the servo had taken, or before
   std::vector<Surface> surfaces;             // by object, made stable for device and rate
+  double mass_needed = 0.0;                  // kg, of the device's, by the surface that needs most
 };
 
-/// How a surface is fitted to the device that renders it.
-struct SurfaceLimits {
+/// What surfaces and effects are fitted to: the device that renders them.
+struct DeviceLimits {
   double nominal_stiffness = 1000.0;  // N/m, for surfaces that name none
   double effective_mass = 0.1;        // kg
   double dt = 0.001;                  // s, the tick
@@ -30,10 +31,13 @@ struct SurfaceLimits {
 /// scenes until the servo has gone over to a later one, so that the servo never frees anything.
 class SceneFeed {
  public:
-  explicit SceneFeed(const SurfaceLimits& limits) : limits_(limits) {}
+  explicit SceneFeed(const DeviceLimits& limits) : limits_(limits) {}
 
   /// Makes `scene` the one to touch. The main thread calls this.
   void publish(std::shared_ptr<const HapticScene> scene);
+
+  /// PublishedScene::mass_needed of the scene published last; 0 before. From the same thread.
+  double published_mass_needed() const { return kept_.empty() ? 0.0 : kept_.back()->mass_needed; }
 
   /// The newest scene when there is one that take() has not returned yet, else null. The servo calls
   /// this. Real-time safe.
@@ -43,7 +47,7 @@ class SceneFeed {
   void done_before(const PublishedScene& scene) { taken_.store(scene.version, std::memory_order_release); }
 
  private:
-  SurfaceLimits limits_;
+  DeviceLimits limits_;
   std::uint64_t next_version_ = 1;
   std::deque<std::unique_ptr<PublishedScene>> kept_;  // newest last
   realtime::LatestValue<const PublishedScene*> newest_{nullptr};

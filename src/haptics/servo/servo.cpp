@@ -4,11 +4,12 @@
 #include <numeric>
 
 #include "base/clock.h"
+#include "haptics/effects/mass_shares.h"
 
 namespace icome::haptics {
 namespace {
 
-SurfaceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
+DeviceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
   return {device.nominal_stiffness, device.effective_mass, 1.0 / rate_hz};
 }
 
@@ -40,15 +41,27 @@ std::int64_t TickReport::own_ns() const {
                          stage_ns.begin() + std::size_t(Stage::Write), std::int64_t{0});
 }
 
-Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings, Effect* effects)
+Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings)
     : device_(device),
       settings_(settings),
-      effects_(effects),
       feed_(limits_of(device.info(), settings.rate_hz)),
+      effect_feed_(limits_of(device.info(), settings.rate_hz)),
       solver_(make_solver(settings.renderer, settings.scp)),
       limiter_(device.info(), settings.limiter),
       carried_(settings.world_from_device),
       world_from_device_(settings.world_from_device) {}
+
+std::vector<CappedEffect> Servo::capped_effects() const {
+  return effect_feed_.capped(feed_.published_mass_needed());
+}
+
+std::string Servo::capped_surface(const Surface& surface) const {
+  const DeviceLimits limits = limits_of(device_.info(), settings_.rate_hz);
+  const double asked = surface.stiffness > 0.0 ? surface.stiffness : limits.nominal_stiffness;
+  const double needs = mass_needed(asked, surface.damping, limits.effective_mass, limits.dt);
+  const double mass = mass_share(limits.effective_mass, needs, needs + effect_feed_.published_mass_needed());
+  return capped_spring(mass, limits.dt, asked, surface.damping);
+}
 
 const TickReport& Servo::tick(double dt) {
   StageClock clock(report_.stage_ns);
@@ -94,7 +107,6 @@ bool Servo::read() {
   has_state_ = true;
   if (laid_aside || (state.jumped && !state.parked)) {
     solver_->reset();
-    if (effects_ != nullptr) effects_->reset();
     effect_feed_.reset();
   }
   // The workspace's own speed is left out: it comes in jerks from who carries it, which damping would turn
@@ -158,22 +170,45 @@ void Servo::find_contact() {
   if (!report_.contact.touching) return;
   const HapticObject& object = scene_->scene->objects()[report_.contact.object];
   report_.object = object.id;
-  report_.asked_stiffness = object.surface.stiffness;
-  report_.stiffness = scene_->surfaces[report_.contact.object].stiffness;
+  const double asked = object.surface.stiffness;
+  report_.asked_stiffness = asked > 0.0 ? asked : device_.info().nominal_stiffness;
+  report_.stiffness = felt_surface().stiffness;
+}
+
+/// How hard and how damped the touched surface is beside the effects. Holds no texture: the servo never owns
+/// one.
+Surface Servo::felt_surface() const {
+  const Surface& made = scene_->surfaces[report_.contact.object];
+  Surface felt{.stiffness = made.stiffness, .damping = made.damping};
+  const double effects = effect_feed_.mass_needed();
+  if (effects <= 0.0) return felt;
+  const double mass = device_.info().effective_mass;
+  const double dt = 1.0 / settings_.rate_hz;
+  const double needs = mass_needed(made.stiffness, made.damping, mass, dt);
+  make_stable(felt, made.stiffness, mass_share(mass, needs, needs + effects), dt);
+  return felt;
+}
+
+/// Of the device's mass, kg. Surfaces count also where none is touched: effects that gave way to a surface in
+/// the moment of touching it would give energy.
+double Servo::mass_needed_beside_effects(double dt) const {
+  if (grip_.read().holds) return grip_mass_needed(grip_.read(), device_.info().effective_mass, dt);
+  return scene_ == nullptr ? 0.0 : scene_->mass_needed;
 }
 
 Vector3 Servo::surface_force() {
   const ScpState& contact = report_.contact;
   if (!contact.touching) return Vector3::Zero();
-  const Surface& surface = scene_->surfaces[contact.object];
+  const Surface surface = felt_surface();
   Vector3 force = spring_damper_force(
       {report_.tip, contact.scp, tip_velocity_, contact.surface_velocity, contact.normal}, surface);
   if (settings_.force_shading) force = shaded(force);
-  if (surface.texture == nullptr) return force;
+  const HapticTexture* const texture = scene_->surfaces[contact.object].texture.get();
+  if (texture == nullptr) return force;
   const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
   const Pose object_from_world = world_from_object.inverse();
   TextureSample sample =
-      surface.texture->sample(object_from_world * contact.scp, object_from_world.linear() * contact.normal);
+      texture->sample(object_from_world * contact.scp, object_from_world.linear() * contact.normal);
   sample.gradient = world_from_object.linear() * sample.gradient;
   return textured_force(force, contact.normal, surface.stiffness, sample);
 }
@@ -209,8 +244,10 @@ EffectInput Servo::effect_input(double dt) const {
 Vector3 Servo::effect_force(double dt) {
   if (state_.parked) return Vector3::Zero();
   const EffectInput input = effect_input(dt);
-  const Vector3 force = grip_force(grip_.read(), input) + effect_feed_.force(input);
-  return effects_ == nullptr ? force : force + effects_->force(input);
+  const double beside = mass_needed_beside_effects(dt);
+  EffectInput held = input;
+  held.device_mass = mass_share(input.device_mass, beside, beside + effect_feed_.mass_needed());
+  return grip_force(grip_.read(), held) + effect_feed_.force(input, beside);
 }
 
 }  // namespace icome::haptics

@@ -3,9 +3,10 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "devices/pointer_device.h"
-#include "haptics/effects/effect.h"
 #include "haptics/effects/grip.h"
 #include "haptics/energy_tank.h"
 #include "haptics/force_limiter.h"
@@ -42,7 +43,7 @@ struct TickReport {
   ScpState contact;
   double elapsed = 0.0;          // s since the moment of the scene's poses: when the contact was found
   ObjectId object;               // what is touched, when contact.touching
-  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made; 0: the device's own
+  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made, or the device's nominal one
   double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
 
@@ -51,20 +52,26 @@ struct TickReport {
 };
 
 /// The servo's tick: reads the device, goes over to the newest scene, finds the surface contact point,
-/// makes a force of it, adds effects, limits, writes. Owns the solver and the limiter; device and
-/// effects are the caller's and outlive it. One thread calls tick(), a loop or a test; another may
-/// call publish(), one carry() and one grip().
+/// makes a force of it, adds effects, limits, writes. Owns the solver and the limiter; the device is the
+/// caller's and outlives it. One thread calls tick(), a loop or a test; another may call publish() and
+/// publish_effects(), one carry() and one grip().
 class Servo {
  public:
-  /// `effects` may be null.
-  Servo(devices::PointerDevice& device, const ServoSettings& settings, Effect* effects = nullptr);
+  Servo(devices::PointerDevice& device, const ServoSettings& settings);
 
   /// The scene to touch from the next tick on; check_renderer says whether the renderer can. From one
   /// thread, the main one.
   void publish(std::shared_ptr<const HapticScene> scene) { feed_.publish(std::move(scene)); }
 
-  /// The effects of the design from the next tick on, beside those of the constructor. From the same thread.
+  /// The effects that are felt from the next tick on. They share with the surfaces and with what is held
+  /// what is stable on the device (mass_shares.h). From the same thread.
   void publish_effects(const std::vector<PlacedEffect>& effects) { effect_feed_.publish(effects); }
+
+  /// Of the effects published last, those that are felt softer than they were asked for. From the same
+  /// thread.
+  std::vector<CappedEffect> capped_effects() const;
+  /// The same of a surface that is felt beside these effects; empty: it is not. From the same thread.
+  std::string capped_surface(const Surface& surface) const;
 
   /// Where the device's workspace lies in the world from now on: it moves there smoothly within some ticks,
   /// sweeping the tip along as a hand would. The pose is finite. From one thread, the main one.
@@ -91,6 +98,8 @@ class Servo {
   void follow_scene(double dt);
   void follow_grip();
   void find_contact();
+  Surface felt_surface() const;
+  double mass_needed_beside_effects(double dt) const;
   Vector3 surface_force();
   Vector3 shaded(const Vector3& force);
   EffectInput effect_input(double dt) const;
@@ -98,7 +107,6 @@ class Servo {
 
   devices::PointerDevice& device_;
   ServoSettings settings_;
-  Effect* effects_;  // may be null
   SceneFeed feed_;
   EffectFeed effect_feed_;
   std::unique_ptr<ContactSolver> solver_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -26,7 +27,7 @@ Vector3 felt_at(EffectFeed& feed, const Vector3& position) {
   EffectInput input;
   input.position = input.scp = position;
   feed.follow();
-  return feed.force(input);
+  return feed.force(input, 0.0);
 }
 
 TEST(EffectFeed, IsFeltInTheNextTickAndGone) {
@@ -60,10 +61,40 @@ TEST(EffectFeed, TheSameObjectKeepsWhatItsEffectKnows) {
   felt_at(feed, Vector3::Zero());  // drops its anchor
   feed.publish({{3, "viscous:1"}, rough});
   EXPECT_NEAR(felt_at(feed, {1e-4, 0, 0}).x(), -0.1, 1e-9) << "1000 N/m from the same anchor";
-  feed.publish({{7, "friction:0.5,0.3"}});
-  EXPECT_EQ(felt_at(feed, {2e-4, 0, 0}), Vector3::Zero()) << "another effect begins anew";
+  feed.publish({{7, "friction:0.6,0.3"}});
+  EXPECT_NEAR(felt_at(feed, {2e-4, 0, 0}).x(), -0.2, 1e-9) << "so it does when its numbers are changed";
+  feed.publish({{8, "friction:0.6,0.3"}});
+  EXPECT_EQ(felt_at(feed, {2e-4, 0, 0}), Vector3::Zero()) << "another object's begins anew";
   feed.reset();
   EXPECT_EQ(felt_at(feed, {9e-4, 0, 0}), Vector3::Zero());
+}
+
+// A tip on a curved way, and after half of it the effect's object is elsewhere and turned.
+double largest_step(const std::string& effect, bool moved) {
+  EffectFeed feed;
+  EffectInput input;
+  double largest = 0.0;
+  Vector3 last = Vector3::Zero();
+  for (int tick = 0; tick < 400; ++tick) {
+    const bool elsewhere = moved && tick >= 200;
+    const std::string text = effect + (elsewhere ? "" : " ");  // the same, written otherwise
+    feed.publish({{1, text, elsewhere ? turned_at({0.03, -0.02, 0.01}) : Pose::Identity()}});
+    feed.follow();
+    const double t = 0.001 * tick;
+    input.position = 0.01 * Vector3(std::sin(5.0 * t), std::cos(3.0 * t), t);
+    input.velocity = 0.01 * Vector3(5.0 * std::cos(5.0 * t), -3.0 * std::sin(3.0 * t), 1.0);
+    const Vector3 force = feed.force(input, 0.0);
+    largest = std::max(largest, (force - last).norm());
+    last = force;
+  }
+  return largest;
+}
+
+TEST(EffectFeed, AnEffectWithoutAPlaceDoesNotKickWhenItsObjectIsMovedAndTurned) {
+  for (const char* const effect : {"friction:0.5,0.4", "inertia:0.5", "viscous:2"}) {
+    EXPECT_NEAR(largest_step(effect, true), largest_step(effect, false), 1e-9) << effect;
+    EXPECT_GT(largest_step(effect, false), 1e-4) << effect;
+  }
 }
 
 TEST(EffectFeed, TakesThousandsOfChangesWhileItIsFelt) {

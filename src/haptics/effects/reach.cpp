@@ -1,0 +1,28 @@
+#include "haptics/effects/reach.h"
+
+#include <cmath>
+
+namespace icome::haptics {
+namespace {
+
+constexpr double kParallelLines = 1e-12;  // squared sine of the angle between two lines
+
+/// What two points or lines are apart. A line is free along its axis, and two that are not parallel meet but
+/// for their common normal.
+double distance_between(const Reach& a, const Reach& b) {
+  const Vector3 way = b.centre - a.centre;
+  const Vector3 normal = a.axis.cross(b.axis);
+  if (normal.squaredNorm() > kParallelLines) return std::abs(way.dot(normal.normalized()));
+  const Vector3& axis = a.axis.isZero(0.0) ? b.axis : a.axis;
+  return (way - way.dot(axis) * axis).norm();
+}
+
+}  // namespace
+
+Reach transformed(const base::Pose& to_from_reach, const Reach& reach) {
+  return {to_from_reach * reach.centre, to_from_reach.linear() * reach.axis, reach.radius};
+}
+
+bool meet(const Reach& a, const Reach& b) { return distance_between(a, b) <= a.radius + b.radius; }
+
+}  // namespace icome::haptics
