@@ -129,7 +129,7 @@ std::vector<std::string> sentences_of(const files::LoadedDesign& design, const s
 
 bool names_design(const std::string& text) {
   const std::string type = files::ending_of(text).type;
-  return type == ".wrl" || type == ".vrml" || type == ".gltf" || type == ".icome";
+  return type == ".wrl" || type == ".vrml" || type == ".gltf" || type == ".glb" || type == ".icome";
 }
 
 base::Result<TouchModel> load_design(const std::string& text, const TouchOptions& options) {
@@ -150,10 +150,10 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
 
   const std::vector<std::string> remarks = felt.remarks(design->world);
   const auto& objects = felt.scene()->objects();
-  if (objects.empty())
+  model.effects = felt.effects();
+  if (objects.empty() && model.effects.empty())
     return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text,
                                   remarks.empty() ? "" : ": ", remarks.empty() ? "." : remarks.front()));
-  model.effects = felt.effects();
   model.bodies.clear();
   model.bodies.reserve(objects.size());
   BodyMaker maker(design->world, felt, options.check);
@@ -165,7 +165,8 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
       return base::fail(text + ": --check cannot judge an open subdivision surface: leave it out.");
   }
   const std::size_t count = model.bodies.size();
-  model.kind = fmt::format("{}, {} {}", design->format, count, count == 1 ? "body" : "bodies");
+  model.kind = count == 0 ? fmt::format("{}, effects alone", design->format)
+                          : fmt::format("{}, {} {}", design->format, count, count == 1 ? "body" : "bodies");
   tell_sentences(model, sentences_of(*design, text));
   tell_sentences(model, remarks);
   return model;

@@ -7,7 +7,7 @@ namespace icome::apps {
 
 // MODELs that are designs: worlds of objects, of which each that has a shape is a body to touch.
 
-/// Does the MODEL name a file of a design (.wrl, .vrml, .gltf, .icome)?
+/// Does the MODEL name a file of a design (.wrl, .vrml, .gltf, .glb, .icome)?
 bool names_design(const std::string& text);
 
 /// Reads a design, turned and scaled as the options say. Every object is felt as what it is, with its

@@ -11,6 +11,7 @@
 
 #include "apps/surface_probe.h"
 #include "base/random.h"
+#include "haptics/effects/effect_text.h"
 
 namespace icome::apps {
 
@@ -340,9 +341,54 @@ double pressed_share(const std::vector<Leg>& way) {
   return all > 0.0 ? pressed / all : 0.0;
 }
 
+/// Where effects are felt, world frame.
+std::vector<haptics::Reach> reaches_of(const std::vector<TouchModel>& models) {
+  std::vector<haptics::Reach> reaches;
+  for (const TouchModel& model : models) {
+    for (const haptics::PlacedEffect& effect : model.effects) {
+      const haptics::Reach own = haptics::make_effect(effect.text).value()->reach();
+      reaches.push_back(transformed(effect.world_from_effect, own));
+    }
+  }
+  return reaches;
+}
+
+/// A way of this length (m) through the air about the effects, from one to the next.
+std::vector<Leg> way_among(const std::vector<haptics::Reach>& reaches, double length) {
+  constexpr double kUsualRadius = 0.03;  // m, of what acts everywhere
+  constexpr double kBeyond = 1.3;        // radii: a little more than the effect reaches
+  base::Random random(kSeed);
+  std::vector<Leg> way;
+  double gone = 0.0;
+  for (std::size_t i = 0; gone < length; ++i) {
+    const haptics::Reach& about = reaches[i % reaches.size()];
+    const double radius = std::isfinite(about.radius) ? about.radius : kUsualRadius;
+    const Vector3 to = about.centre + kBeyond * radius * random.uniform() * random.direction();
+    way.push_back({to, way.empty() ? 0.0 : (to - way.back().to).norm(), false});
+    gone += std::max(way.back().length, kLeastShare * length);
+  }
+  return way;
+}
+
 }  // namespace
 
 Exploration Exploration::plan(const std::vector<TouchModel>& models, double tip, double seconds) {
+  const bool effects_alone =
+      std::ranges::all_of(models, [](const TouchModel& model) { return model.bodies.empty(); });
+  return effects_alone ? among_effects(models, seconds) : over_surfaces(models, tip, seconds);
+}
+
+Exploration Exploration::among_effects(const std::vector<TouchModel>& models, double seconds) {
+  constexpr double kSpeed = 0.07;  // m/s
+  const std::vector<haptics::Reach> reaches = reaches_of(models);
+  Exploration exploration;
+  for (const haptics::Reach& reach : reaches)
+    exploration.centre_ += reach.centre / static_cast<double>(reaches.size());
+  exploration.follow(way_among(reaches, kSpeed * std::min(seconds, kMostSeconds)), kSpeed);
+  return exploration;
+}
+
+Exploration Exploration::over_surfaces(const std::vector<TouchModel>& models, double tip, double seconds) {
   const SurfaceProbe probe(models);
   const double speed = std::min(kFastest, kSizesPerSecond * probe.bounds().sizes().maxCoeff());
   std::vector<Leg> way =

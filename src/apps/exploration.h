@@ -19,7 +19,7 @@ class Exploration {
   static constexpr double kEnough = 0.6;
 
   /// Plans about `seconds` of way over the models, at least one, for a tip of radius `tip` (m); a longer run
-  /// goes back the same way.
+  /// goes back the same way. Where there are effects alone, it leads through the air about these.
   static Exploration plan(const std::vector<TouchModel>& models, double tip, double seconds);
 
   /// Why a hand that went this way may have touched for less than that: a clause.
@@ -33,6 +33,8 @@ class Exploration {
 
  private:
   Exploration() = default;
+  static Exploration over_surfaces(const std::vector<TouchModel>& models, double tip, double seconds);
+  static Exploration among_effects(const std::vector<TouchModel>& models, double seconds);
   void follow(const std::vector<Leg>& way, double speed);
 
   base::Vector3 centre_ = base::Vector3::Zero();

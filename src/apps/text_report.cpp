@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "apps/touch_report.h"
+#include "base/shown_text.h"
 
 namespace icome::apps {
 namespace {
@@ -51,8 +52,7 @@ const char* sides_of(const TouchBody& body, const TouchOptions& options) {
   return surface_of(body, options).sides == haptics::TouchableSides::Both ? "both sides" : "the front";
 }
 
-void add_model(Table& table, const TouchModel& model, const TouchOptions& options) {
-  table.row("model", model.name);
+void add_bodies(Table& table, const TouchModel& model, const TouchOptions& options) {
   const TouchBody& body = model.body();
   if (model.kind == kPrimitive) {
     table.row(
@@ -66,8 +66,24 @@ void add_model(Table& table, const TouchModel& model, const TouchOptions& option
     table.row("",
               fmt::format("{}, touchable from {}", body.closed ? "closed" : "open", sides_of(body, options)));
   }
+}
+
+void add_model(Table& table, const TouchModel& model, const TouchOptions& options) {
+  table.row("model", model.name);
+  if (model.bodies.empty()) {
+    table.row("", model.kind);
+  } else {
+    add_bodies(table, model, options);
+  }
   for (const std::string& sentence : model.repairs) table.row("", sentence);
-  table.row("", fmt::format("read in {}", seconds_text(model.read_seconds)));
+  if (model.kind != kPrimitive) table.row("", fmt::format("read in {}", seconds_text(model.read_seconds)));
+}
+
+void add_effects(Table& table, const std::vector<std::string>& effects) {
+  constexpr std::size_t kMostListed = 20;
+  const std::size_t listed = std::min(effects.size(), kMostListed);
+  for (std::size_t i = 0; i < listed; ++i) table.row("effect", base::shown_text(effects[i]));
+  if (listed < effects.size()) table.row("", fmt::format("and {} more", effects.size() - listed));
 }
 
 void add_histogram(Table& table, const TouchFigures& figures) {
@@ -129,7 +145,7 @@ std::string text_report(const TouchFigures& figures, const std::vector<TouchMode
   for (const TouchModel& model : models) add_model(table, model, options);
   add_run(table, figures, outcome, options);
   if (options.texture) table.row("texture", *options.texture);
-  for (const std::string& effect : options.effects) table.row("effect", effect);
+  add_effects(table, figures.effects);
   table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
   table.row("force", fmt::format("at most {:.3g} N", figures.max_force));
   if (figures.pops && figures.sticks && figures.silent && figures.pulls) {

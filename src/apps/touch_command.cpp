@@ -197,6 +197,7 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
 void tell_odd_size(const TouchModel& model) {
   constexpr double kSmallest = 0.001;  // m
   constexpr double kLargest = 10.0;    // m
+  if (model.bodies.empty()) return;
   const double size = bounds(model).sizes().maxCoeff();
   if (model.kind == kPrimitive || (size >= kSmallest && size <= kLargest)) return;
   tell(fmt::format("{} is {} large: --unit or --fit give it another size.", model.name, length_text(size)));
@@ -276,7 +277,8 @@ int run_touch(const TouchOptions& options) {
   tell_outcome(*outcome);
   TouchFigures figures = figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options);
   tell_capped(figures.capped);
-  if (prepared->exploration) tell_little_touch(*prepared->exploration, figures);
+  const bool effects_alone = prepared->scene->objects().empty();
+  if (prepared->exploration && !effects_alone) tell_little_touch(*prepared->exploration, figures);
   if (options.json) {
     fmt::print("{}\n", json_report(figures));
   } else {

@@ -40,14 +40,15 @@ inline constexpr const char* kPrimitive = "primitive";
 
 /// One MODEL of the command line, ready to be touched.
 struct TouchModel {
-  std::string name;                                           // as the person wrote it
-  std::string kind;                                           // "binary PLY", "primitive" and so on
-  std::vector<TouchBody> bodies = std::vector<TouchBody>(1);  // never empty; of all but designs, one
-  std::size_t triangles = 0;                                  // that are touched
-  std::vector<haptics::PlacedEffect> effects = {};            // that a design has
-  std::vector<std::string> repairs = {};  // what the reader did and found, one sentence each
-  double read_seconds = 0.0;              // s, reading and repairing
-  double build_seconds = 0.0;             // s, building what the servo touches
+  std::string name;  // as the person wrote it
+  std::string kind;  // "binary PLY", "primitive" and so on
+  /// Of all but designs, one; of a design that has effects alone, none.
+  std::vector<TouchBody> bodies = std::vector<TouchBody>(1);
+  std::size_t triangles = 0;                        // that are touched
+  std::vector<haptics::PlacedEffect> effects = {};  // that a design has
+  std::vector<std::string> repairs = {};            // what the reader did and found, one sentence each
+  double read_seconds = 0.0;                        // s, reading and repairing
+  double build_seconds = 0.0;                       // s, building what the servo touches
 
   TouchBody& body() { return bodies.front(); }
   const TouchBody& body() const { return bodies.front(); }

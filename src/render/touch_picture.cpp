@@ -138,6 +138,10 @@ Scene make_scene(const TouchPicture& picture, std::span<const PreparedSolid> sol
     const std::vector<Vector3> own = solid.points();
     points.insert(points.end(), own.begin(), own.end());
   }
+  if (points.empty()) {  // nothing but effects: the tip's way is all there is to see
+    for (const TouchSample& sample : picture.samples)
+      if (is_finite(sample)) points.push_back(sample.tip);
+  }
   const ModelBall ball = model_ball(points, picture.up);
   const Layout layout = make_layout(picture);
   FitOptions fit;

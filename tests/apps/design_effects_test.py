@@ -41,15 +41,35 @@ class DesignEffectsTest(ProgramTest):
             text = self.succeeds("info", out).stdout
             self.assertIn("effect point:0.01,0,0,100,0", text)
             self.assertIn("effect constant:9,9,9, off", text)
-            if name != "c.glb":  # which is touched as a mesh
-                self.assertLess(distance(self.force_at(out), wanted), 1e-6, name)
+            self.assertLess(distance(self.force_at(out), wanted), 1e-6, name)
+            texts = self.report(out, "--path", self.path_file([TIP] * 10), "--effect", "viscous:1")["effects"]
+            self.assertEqual(texts, ["viscous:1", SPRING["force"], WIND["force"]])
             design = out  # each from the one before
+
+    def test_a_design_of_effects_alone_can_be_touched(self):
+        design = self.design("alone.icome", WIND, {**SPRING, "force": "well:0,0,0,0.02,1.5"})
+        self.assertGreater(length(self.force_at(design)), 0.5)
+        report = self.report(design, "--seconds", "1", "--check", "--picture", self.folder / "alone.png")
+        self.assertGreater(report["max_force_n"], 1.0)
+        self.assertEqual((report["touch_fraction"], report["triangles"], report["silent"]), (0, 0, 0))
+        text = self.succeeds("touch", design, "--seconds", "1")
+        self.assertIn("effects alone", text.stdout)
+        self.assertNotIn("%", text.stderr)
+        off = self.design("off.icome", {**WIND, "on": False})
+        self.fails("touch", off, code=1, saying="nothing to touch")
 
     def test_a_copy_is_felt_too_and_one_that_is_deleted_is_not(self):
         copied = {"op": "copy", "object": "wind"}
         self.assertLess(distance(self.force_at(self.design("two.icome", BALL, WIND, copied)), (0.0, 1.0, 0.0)), 1e-9)
         gone = {"op": "delete", "objects": "wind"}
         self.assertEqual(self.force_at(self.design("none.icome", BALL, WIND, gone)), (0.0, 0.0, 0.0))
+
+    def test_every_texture_of_the_help_can_be_given_without_numbers(self):
+        for name in ("ridges", "grooves", "bumps", "grain", "smooth"):
+            design = self.design(f"{name}.icome", BALL, {"op": "feel", "objects": "ball", "texture": name})
+            report = self.report(design, "--path", self.path_file([TIP] * 10))
+            self.assertEqual(report["model"], str(design))
+            self.assertNotIn("felt smooth", self.succeeds("touch", design, "--path", self.path_file([TIP] * 10)).stdout)
 
     def test_a_material_has_the_texture_that_it_was_given(self):
         slab = {"op": "create", "shape": "box", "size": [0.2, 0.02, 0.2], "at": [0, -0.01, 0], "name": "slab"}
@@ -70,8 +90,10 @@ class DesignEffectsTest(ProgramTest):
     def test_an_effect_of_a_design_that_is_capped_is_told(self):
         design = self.design("hard.icome", BALL, {**SPRING, "force": "point:0,0,0,50000"})
         report = self.report(design, "--device", "omega.x", "--path", self.path_file([TIP] * 10))
-        self.assertEqual(len(report["capped"]), 1)
-        self.assertIn("stiffness 50000 N/m is felt as 10000 N/m", report["capped"][0])
+        # The ball has the device's nominal stiffness and needs half of what is stable, the spring all of it.
+        self.assertEqual(len(report["capped"]), 2)
+        self.assertIn("stiffness 5000 N/m is felt as 3333.33 N/m", report["capped"][0])
+        self.assertIn("stiffness 50000 N/m is felt as 6666.67 N/m", report["capped"][1])
 
     def test_what_makes_no_sense_is_told(self):
         for operation, saying in [({**WIND, "force": "wel:1"}, "did you mean 'well'"),
@@ -79,6 +101,8 @@ class DesignEffectsTest(ProgramTest):
                                   ({"op": "feel", "objects": "ball", "texture": "bumps", "depth": 0.001}, "go together"),
                                   ({"op": "feel", "objects": "ball", "texture": "bumps", "depth": 0.001,
                                     "spacing": 0.001}, "SPACING"),
+                                  ({**WIND, "material": "wood"}, "no 'material'"),
+                                  ({**WIND, "factor": 2}, "no 'factor'"),
                                   ({"op": "feel", "objects": "ball", "depth": 0.001, "spacing": 0.01}, "texture")]:
             script = self.write("edits.jsonl", json.dumps(BALL) + "\n" + json.dumps(operation) + "\n")
             self.fails("edit", "new", "--apply", script, "--out", self.folder / "x.icome", code=1, saying=saying)
