@@ -47,8 +47,9 @@ constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
 
 constexpr const char* kModelHelp =
-    "Files (meshes: OBJ, PLY, STL, OFF, GLB; solids: OpenSCAD's .csg; also .xz), designs of many objects "
-    "(VRML 2.0: .wrl, .vrml; .gltf; ICOME's .icome) or primitives, sizes in metres: plane, box:0.1x0.2x0.3, "
+    "Files (meshes: OBJ, PLY, STL, OFF; solids: OpenSCAD's .csg; also .xz), designs of many objects "
+    "(VRML 2.0: .wrl, .vrml; glTF: .glb, .gltf; ICOME's .icome) or primitives, sizes in metres: plane, "
+    "box:0.1x0.2x0.3, "
     "sphere:R, "
     "cylinder:RxH, cone:RxH, cone:R1xR2xH, torus:RxR, capsule:RxH";
 

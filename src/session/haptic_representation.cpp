@@ -479,7 +479,7 @@ std::vector<std::string> HapticRepresentation::remarks(const World& world) const
     if (!material || !materials.insert(member.material).second) continue;
     const std::string& name = material->touch.texture;
     const auto texture = textures_.find(name);
-    if (texture != textures_.end() && !texture->second)
+    if (!name.empty() && texture != textures_.end() && !texture->second)
       sentences.push_back(
           fmt::format("\"{}\" is felt smooth: no haptic texture is called \"{}\".", material->name, name));
   }

@@ -1,6 +1,10 @@
 #include "interaction/operations/material_library.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "haptics/texture_text.h"
 
 namespace icome::interaction {
 namespace {
@@ -98,8 +102,19 @@ const Material* library_material(std::string_view name) {
 }
 
 const std::vector<std::string>& haptic_texture_names() {
-  static const std::vector<std::string> kNames{"grooves", "bumps", "grain"};
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const haptics::TextureKind& kind : haptics::texture_kinds()) names.emplace_back(kind.name);
+    return names;
+  }();
   return kNames;
+}
+
+std::string texture_words(const std::string& text) {
+  const auto size = haptics::texture_size(text);
+  if (!size) return {};
+  return fmt::format("{}, {:g} mm deep every {:g} mm", text.substr(0, text.find(':')), 1e3 * size->depth,
+                     1e3 * size->spacing);
 }
 
 }  // namespace icome::interaction

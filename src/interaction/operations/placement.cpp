@@ -136,17 +136,20 @@ Result<Vector3> scale_of(const Arguments& arguments) {
   return arguments.has("scale") ? arguments.vector("scale") : Vector3(Vector3::Ones());
 }
 
+std::vector<Parameter> rigid_placement_parameters() {
+  return {{.name = "name",
+           .kind = ParameterKind::Text,
+           .meaning = "what it is called; else what it is, and a number where that is taken"},
+          place_parameter("at", "where its origin stands in its parent, m"),
+          turn_parameter("how it is turned there: an axis, as long as the angle in degrees"),
+          {.name = "parent",
+           .kind = ParameterKind::Object,
+           .meaning = "the object that it belongs to; else it stands for itself"}};
+}
+
 std::vector<Parameter> placement_parameters() {
-  std::vector<Parameter> parameters = {
-      {.name = "name",
-       .kind = ParameterKind::Text,
-       .meaning = "what it is called; else what it is, and a number where that is taken"},
-      place_parameter("at", "where its origin stands in its parent, m"),
-      turn_parameter("how it is turned there: an axis, as long as the angle in degrees")};
+  std::vector<Parameter> parameters = rigid_placement_parameters();
   for (Parameter& scale : scale_parameters()) parameters.push_back(std::move(scale));
-  parameters.push_back({.name = "parent",
-                        .kind = ParameterKind::Object,
-                        .meaning = "the object that it belongs to; else it stands for itself"});
   parameters.push_back({.name = "material",
                         .kind = ParameterKind::Text,
                         .meaning = material_meaning() + "; else a plain one"});

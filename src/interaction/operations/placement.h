@@ -36,6 +36,9 @@ base::Result<Vector3> scale_of(const Arguments& arguments);
 /// Where something new stands, and what it is called: name, at, turn, scale and factor, parent, material.
 std::vector<Parameter> placement_parameters();
 
+/// The same of what has no shape: name, at, turn and parent.
+std::vector<Parameter> rigid_placement_parameters();
+
 /// parent_from_object of these parameters: scaled, turned, then moved.
 base::Result<base::Affine3> placement(const Arguments& arguments);
 
