@@ -28,11 +28,17 @@ void FeltWorld::publish() {
     published_effects_ = felt_.effects();
     for (haptics::Servo* servo : servos_) servo->publish_effects(published_effects_);
   }
-  const FeltVersion version{felt_.scene(), felt_.names()};
-  if (version.scene == published_.scene && version.names == published_.names) return;
+  FeltVersion version{felt_.scene(), felt_.names(), published_.capped};
+  if (version.scene != published_.scene)
+    for (haptics::Servo* servo : servos_) servo->publish(version.scene);
+  auto capped = servos_.empty() ? std::vector<haptics::CappedEffect>() : servos_.front()->capped_effects();
+  if (!version.capped || *version.capped != capped)
+    version.capped = std::make_shared<const std::vector<haptics::CappedEffect>>(std::move(capped));
+  if (version.scene == published_.scene && version.names == published_.names &&
+      version.capped == published_.capped)
+    return;
   published_ = version;
   newest_.publish(version);
-  for (haptics::Servo* servo : servos_) servo->publish(version.scene);
 }
 
 }  // namespace icome::session

@@ -13,6 +13,8 @@ namespace icome::session {
 struct FeltVersion {
   std::shared_ptr<const haptics::HapticScene> scene;
   std::shared_ptr<const TouchedNames> names;
+  std::shared_ptr<const std::vector<haptics::CappedEffect>> capped =
+      nullptr;  // by the first pointer; null: none
 };
 
 /// Keeps the world under the hand: brings each version of what can be touched to the servos of all pointers,

@@ -179,6 +179,8 @@ class Session {
   std::size_t pointers() const;
   const PointerView& pointer(std::size_t index) const;
   const devices::DeviceInfo& pointer_info(std::size_t index) const;
+  /// Effects that the first pointer feels softer than they were asked for, so that they are stable.
+  const std::vector<haptics::CappedEffect>& capped_effects() const;
   /// The object that a pointer touches.
   std::optional<world::ObjectId> touched(std::size_t index) const;
   /// Is something held by it? While button 0 is down, what it touched goes along with it (HandGrab), or what

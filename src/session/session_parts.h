@@ -10,6 +10,7 @@
 #include "session/claimed_work.h"
 #include "session/design_loader.h"
 #include "session/design_saver.h"
+#include "session/effect_symbols.h"
 #include "session/felt_world.h"
 #include "session/hand_grab.h"
 #include "session/haptic_loop.h"
@@ -51,6 +52,7 @@ struct Session::Parts {
   void put(const base::Vector3& position);
   void park();
   void renew_outline();
+  void renew_symbols();
   void renew_handles();
   void publish_wish();
 
@@ -117,10 +119,13 @@ struct Session::Parts {
   std::vector<PointGrab> point_grabs;                    // of each pointer
   std::optional<interaction::MarkedHandle> mouse_marks;  // as the mouse's tool says
   interaction::ShapingPicture handles;                   // as they are drawn
-  std::shared_ptr<TechniqueHand> technique;              // null: by touch
-  std::vector<bool> ungrabbed;        // pointers that begin to grab when their button has come up
-  std::vector<bool> lost;             // the pointer's device, as a person was told last
-  std::vector<std::uint64_t> losses;  // that a person was told of
+  EffectSymbols effects;
+  bool symbols_are_new = false;              // they may be
+  render::SceneOverlay symbols;              // of the effects, as they are drawn
+  std::shared_ptr<TechniqueHand> technique;  // null: by touch
+  std::vector<bool> ungrabbed;               // pointers that begin to grab when their button has come up
+  std::vector<bool> lost;                    // the pointer's device, as a person was told last
+  std::vector<std::uint64_t> losses;         // that a person was told of
   realtime::LatestValue<FeltVersion> felt;
   realtime::LatestValue<render::RenderScenePointer> seen;
   DesignLoader loader;

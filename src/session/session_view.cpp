@@ -109,9 +109,17 @@ void Session::Parts::renew_handles() {
   look_is_new = true;
 }
 
+/// What effects are seen as, where they are now.
+void Session::Parts::renew_symbols() {
+  if (!std::exchange(symbols_are_new, false)) return;
+  symbols = effects.overlay(world, shown_scene);
+  look_is_new = true;
+}
+
 void Session::Parts::publish_wish() {
   renew_outline();
   renew_handles();
+  renew_symbols();
   const interaction::View& now = user.drawn_view();
   if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
       now.distance != drawn_view.distance)
@@ -121,6 +129,7 @@ void Session::Parts::publish_wish() {
   DisplayWish wish = look;
   wish.view = now;
   wish.look.selected = outlined;
+  add_marks(wish.look.overlay, symbols);
   if (shaping) add_handles(handles, wish.look.selection_width, wish.look.overlay);
   wish.miniature = marks ? miniature : std::nullopt;
   if (marks) add_marks(wish.look.overlay, *marks);
@@ -171,6 +180,12 @@ std::optional<world::ObjectId> Session::touched(std::size_t index) const {
   const PointerView& view = pointer(index);
   if (!view.touching) return std::nullopt;
   return parts_->felt.read().names->object(view.touched);
+}
+
+const std::vector<haptics::CappedEffect>& Session::capped_effects() const {
+  static const std::vector<haptics::CappedEffect> kNone;
+  const auto& capped = parts_->felt.read().capped;
+  return capped ? *capped : kNone;
 }
 
 void Session::aim_hand(const base::Vector3& position) {

@@ -58,6 +58,9 @@ void Session::Parts::tell_change(const world::Changes* changes) {
 
 void Session::Parts::notify_change(const world::Changes* changes) {
   if (technique) technique->changed(changes);
+  const bool had_effects = !effects.empty();
+  effects.follow(world, changes);
+  if (had_effects || !effects.empty()) symbols_are_new = true;
   for (std::size_t i = 0; i < change_listeners.size(); ++i) change_listeners[i](changes);
 }
 
@@ -68,6 +71,7 @@ void Session::Parts::notify_selection() const {
 void Session::Parts::show(world::SceneId scene) {
   if (shown_scene == scene) return;
   shown_scene = scene;
+  symbols_are_new = true;
   Edited edited;
   edited.shown = scene;
   queue.post(std::move(edited));

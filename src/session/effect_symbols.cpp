@@ -1,0 +1,258 @@
+#include "session/effect_symbols.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+#include "haptics/effects/effect_text.h"
+#include "session/rigid_part.h"
+
+namespace icome::session {
+namespace {
+
+using base::Vector3;
+using render::Colour;
+using world::ObjectId;
+using world::World;
+
+constexpr std::size_t kMostSymbols = 256;
+constexpr Colour kSymbolColour{0.05, 0.55, 0.50};
+constexpr double kFaint = 0.35;      // of the colour of what is off
+constexpr double kSmall = 0.008;     // m, of what has no size of its own
+constexpr double kLong = 0.08;       // m, what is seen of a line or plane without an end
+constexpr double kPerNewton = 0.02;  // m, of an arrow
+constexpr double kThin = 0.0006;     // m, radius of an arrow's shaft
+constexpr int kAround = 48;          // pieces of a circle
+
+/// Draws in the frame of an effect.
+class Pen {
+ public:
+  Pen(const base::Pose& world_from_effect, const Colour& colour, render::SceneOverlay& overlay)
+      : world_from_effect_(world_from_effect), colour_(colour), overlay_(overlay) {}
+
+  void line(std::vector<Vector3> points) {
+    for (Vector3& point : points) point = world_from_effect_ * point;
+    overlay_.lines.push_back({std::move(points), colour_, 1.5});
+  }
+  void circle(const Vector3& centre, const Vector3& axis, double radius) {
+    const Vector3 first = axis.unitOrthogonal(), second = axis.normalized().cross(first);
+    std::vector<Vector3> points;
+    for (int i = 0; i <= kAround; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kAround;
+      points.push_back(centre + radius * (std::cos(angle) * first + std::sin(angle) * second));
+    }
+    line(std::move(points));
+  }
+  void sphere(const Vector3& centre, double radius) {
+    for (int axis = 0; axis < 3; ++axis) circle(centre, Vector3::Unit(axis), radius);
+  }
+  void cross(const Vector3& centre, double size) {
+    for (int axis = 0; axis < 3; ++axis)
+      line({centre - size * Vector3::Unit(axis), centre + size * Vector3::Unit(axis)});
+  }
+  void arrow(const Vector3& from, const Vector3& way) {
+    if (!(way.norm() > 4.0 * kThin)) return;
+    overlay_.arrows.push_back({world_from_effect_ * from, world_from_effect_ * (from + way), kThin, colour_});
+  }
+  void ball(const Vector3& centre, double radius) {
+    overlay_.balls.push_back({world_from_effect_ * centre, radius, colour_});
+  }
+
+ private:
+  base::Pose world_from_effect_;
+  Colour colour_;
+  render::SceneOverlay& overlay_;
+};
+
+/// The numbers of a text, three at a time where they are a place or a way.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view text) : numbers_(haptics::effect_numbers(text)) {}
+  double operator[](std::size_t i) const { return numbers_[i].value; }
+  Vector3 vector(std::size_t i) const { return {(*this)[i], (*this)[i + 1], (*this)[i + 2]}; }
+
+ private:
+  std::vector<haptics::EffectNumber> numbers_;
+};
+
+Vector3 arrow_of(const Vector3& force) {
+  const double longest = 5.0 * kPerNewton;
+  const Vector3 way = kPerNewton * force;
+  return way.norm() > longest ? Vector3(longest * way.normalized()) : way;
+}
+
+void draw_point(const Numbers& n, Pen& pen) {
+  pen.cross(n.vector(0), kSmall);
+  pen.sphere(n.vector(0), 0.5 * kSmall);
+}
+
+void draw_line(const Numbers& n, Pen& pen) {
+  const Vector3 along = n.vector(3).normalized();
+  pen.line({n.vector(0) - kLong * along, n.vector(0) + kLong * along});
+  for (const double share : {-0.5, 0.0, 0.5})
+    pen.circle(n.vector(0) + share * kLong * along, along, 0.5 * kSmall);
+}
+
+void draw_plane(const Numbers& n, Pen& pen) {
+  const Vector3 normal = n.vector(3).normalized(), first = normal.unitOrthogonal();
+  const Vector3 second = normal.cross(first), middle = n.vector(0);
+  const double half = 0.5 * kLong;
+  pen.line({middle + half * (first + second), middle + half * (second - first),
+            middle - half * (first + second), middle + half * (first - second),
+            middle + half * (first + second)});
+  for (const double side : {-1.0, 1.0})
+    pen.arrow(middle + 2.0 * side * kSmall * normal, -1.5 * side * kSmall * normal);
+}
+
+/// A coil, as of a spoon in honey.
+void draw_viscous(const Numbers& /*n*/, Pen& pen) {
+  std::vector<Vector3> coil;
+  for (int i = 0; i <= 3 * kAround; ++i) {
+    const double share = double(i) / (3 * kAround), angle = 6.0 * std::numbers::pi * share;
+    const double radius = kSmall * (1.0 - 0.7 * share);
+    coil.emplace_back(radius * std::cos(angle), kSmall * (2.0 * share - 1.0), radius * std::sin(angle));
+  }
+  pen.line(std::move(coil));
+}
+
+/// A block on a table.
+void draw_friction(const Numbers& /*n*/, Pen& pen) {
+  const auto ring = [&](double y, double half) {
+    pen.line({{half, y, half}, {-half, y, half}, {-half, y, -half}, {half, y, -half}, {half, y, half}});
+  };
+  ring(-0.5 * kSmall, 2.0 * kSmall);
+  ring(-0.5 * kSmall, kSmall);
+  ring(0.5 * kSmall, kSmall);
+  for (const double x : {-kSmall, kSmall})
+    for (const double z : {-kSmall, kSmall}) pen.line({{x, -0.5 * kSmall, z}, {x, 0.5 * kSmall, z}});
+}
+
+/// A heavy ball in a ring.
+void draw_inertia(const Numbers& /*n*/, Pen& pen) {
+  pen.ball(Vector3::Zero(), 0.6 * kSmall);
+  pen.circle(Vector3::Zero(), Vector3::UnitY(), 1.3 * kSmall);
+}
+
+/// The sphere that it reaches, and how it pulls inwards.
+void draw_well(const Numbers& n, Pen& pen) {
+  const Vector3 centre = n.vector(0);
+  const double radius = n[3];
+  pen.sphere(centre, radius);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 rim = centre + 0.9 * radius * side * Vector3::Unit(axis);
+      pen.arrow(rim, 0.6 * (centre - rim));
+    }
+}
+
+/// A dish: its floor stands lower than its rim.
+void draw_recess(const Numbers& n, Pen& pen) {
+  const Vector3 centre = n.vector(0), axis = n.vector(3).normalized(), first = axis.unitOrthogonal();
+  const double floor = n[6], rim = n[7];
+  const Vector3 down = -0.5 * rim * axis;
+  pen.circle(centre, axis, rim);
+  if (floor > 0.0) pen.circle(centre + down, axis, floor);
+  for (int i = 0; i < 8; ++i) {
+    const Vector3 out = Eigen::AngleAxisd(0.25 * std::numbers::pi * i, axis) * first;
+    pen.line({centre + down + floor * out, centre + rim * out});
+  }
+}
+
+void draw_constant(const Numbers& n, Pen& pen) {
+  pen.arrow(Vector3::Zero(), arrow_of(n.vector(0)));
+  pen.sphere(Vector3::Zero(), 0.4 * kSmall);
+}
+
+/// Arrows of the force at the first moment about where its object stands, the longest of a usual length.
+void draw_field(haptics::Effect& field, Pen& pen) {
+  std::array<Vector3, 27> forces;
+  const auto place = [](int i) -> Vector3 {
+    return 2.5 * kSmall * Vector3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+  };
+  double strongest = 0.0;
+  for (int i = 0; i < 27; ++i) {
+    haptics::EffectInput input;
+    input.position = place(i);
+    forces[std::size_t(i)] = field.force(input);
+    strongest = std::max(strongest, forces[std::size_t(i)].norm());
+  }
+  for (int i = 0; i < 27; ++i) {
+    if (strongest > 0.0) pen.arrow(place(i), 2.0 * kSmall / strongest * forces[std::size_t(i)]);
+    pen.ball(place(i), kThin);
+  }
+}
+
+void draw_effect(const std::string& text, Pen& pen) {
+  using Draw = void (*)(const Numbers&, Pen&);
+  static const std::map<std::string_view, Draw> kKinds = {
+      {"point", draw_point},     {"line", draw_line},         {"plane", draw_plane},
+      {"viscous", draw_viscous}, {"friction", draw_friction}, {"inertia", draw_inertia},
+      {"well", draw_well},       {"recess", draw_recess},     {"constant", draw_constant}};
+  const auto made = haptics::make_effect(text);
+  const std::string_view kind = std::string_view(text).substr(0, text.find(':'));
+  if (!made) {
+    pen.cross(Vector3::Zero(), kSmall);  // of a newer program
+  } else if (const auto known = kKinds.find(kind); known != kKinds.end()) {
+    known->second(Numbers(text), pen);
+  } else if (const auto points = haptics::curve_points(text); !points.empty()) {
+    pen.line(points);
+    for (const Vector3& point : points) pen.sphere(point, 0.3 * kSmall);
+  } else {
+    draw_field(**made, pen);
+  }
+}
+
+const world::ForceEffect* effect_at(const World& world, ObjectId id) {
+  const world::PhysicalObject* object = world.find(id);
+  return object && object->fixture ? std::get_if<world::ForceEffect>(object->fixture.get()) : nullptr;
+}
+
+bool stands_in(const World& world, world::SceneId scene, ObjectId id) {
+  const world::Scene* const shown = world.find(scene);
+  if (!shown) return true;
+  for (const world::PhysicalObject* object = world.find(id); object;
+       id = object->parent, object = world.find(id))
+    if (std::ranges::find(shown->roots, id) != shown->roots.end()) return true;
+  return false;
+}
+
+}  // namespace
+
+void EffectSymbols::note(const World& world, ObjectId id) {
+  const auto place = std::ranges::lower_bound(effects_, id);
+  const bool known = place != effects_.end() && *place == id;
+  const bool is_effect = effect_at(world, id) != nullptr;
+  if (is_effect && !known) effects_.insert(place, id);
+  if (!is_effect && known) effects_.erase(place);
+}
+
+void EffectSymbols::follow(const World& world, const world::Changes* changes) {
+  if (!changes) {
+    effects_.clear();
+    for (const auto& [id, object] : world.objects()) note(world, id);
+    return;
+  }
+  for (const ObjectId id : changes->objects) note(world, id);
+}
+
+render::SceneOverlay EffectSymbols::overlay(const World& world, world::SceneId shown) const {
+  render::SceneOverlay overlay;
+  std::size_t drawn = 0;
+  for (const ObjectId id : effects_) {
+    if (drawn == kMostSymbols) break;
+    const base::Affine3 place = world::world_from_object(world, id);
+    if (!place.matrix().allFinite() || !stands_in(world, shown, id)) continue;
+    const world::ForceEffect& effect = *effect_at(world, id);
+    Pen pen(rigid_part(place).world_from_felt, kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
+    draw_effect(effect.text, pen);
+    ++drawn;
+  }
+  return overlay;
+}
+
+}  // namespace icome::session
