@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "interaction/operations/effect_making.h"
-
 namespace icome::ui {
 
 using base::Result;
@@ -109,25 +107,48 @@ Property<double> field_of_view() {
 
 namespace {
 
-/// A part of an effect; what makes no effect is refused.
-template <typename Value>
-Property<Value> effect_property(Value world::ForceEffect::*member) {
+/// `write` gives the changed effect, or says why not.
+template <typename Value, typename Write>
+Property<Value> effect_property(Value world::ForceEffect::*member, const Write& write) {
   return {[member](const World& world, ObjectId id) -> std::optional<Value> {
             const auto* effect = fixture<world::ForceEffect>(world, id);
             return effect ? std::optional<Value>(effect->*member) : std::nullopt;
           },
-          [member](const World& world, ObjectId id, const Value& value) -> Result<world::Edit> {
-            auto changed = *fixture<world::ForceEffect>(world, id);
-            changed.*member = value;
-            auto made = interaction::make_effect_fixture(changed.text, changed.on);
-            if (!made) return tl::unexpected(made.error());
-            return world::Edit(world::ChangeFixture{id, std::move(*made)});
+          [write](const World& world, ObjectId id, const Value& value) -> Result<world::Edit> {
+            auto changed = write(*fixture<world::ForceEffect>(world, id), value);
+            if (!changed) return tl::unexpected(changed.error());
+            return world::Edit(world::ChangeFixture{id, std::move(*changed)});
           }};
 }
 
 }  // namespace
 
-Property<std::string> effect_text() { return effect_property(&world::ForceEffect::text); }
-Property<bool> effect_on() { return effect_property(&world::ForceEffect::on); }
+Property<std::string> effect_text() {
+  return effect_property(&world::ForceEffect::text,
+                         [](const world::ForceEffect& it, const std::string& text) {
+                           return interaction::make_effect_fixture(text, it.on);
+                         });
+}
+
+Property<double> effect_number(const interaction::EffectDial& dial) {
+  return {[dial](const World& world, ObjectId id) -> std::optional<double> {
+            const auto* effect = fixture<world::ForceEffect>(world, id);
+            return effect ? interaction::dial_value(dial, effect->text) : std::nullopt;
+          },
+          [dial](const World& world, ObjectId id, double value) -> Result<world::Edit> {
+            const auto& effect = *fixture<world::ForceEffect>(world, id);
+            auto made = interaction::make_effect_fixture(with_dial(dial, effect.text, value), effect.on);
+            if (!made) return tl::unexpected(made.error());
+            return world::Edit(world::ChangeFixture{id, std::move(*made)});
+          }};
+}
+
+/// Also of an effect whose text this program does not know: that is kept.
+Property<bool> effect_on() {
+  return effect_property(&world::ForceEffect::on,
+                         [](const world::ForceEffect& it, bool on) -> Result<world::FixturePointer> {
+                           return std::make_shared<const world::Fixture>(world::ForceEffect{it.text, on});
+                         });
+}
 
 }  // namespace icome::ui

@@ -1,4 +1,5 @@
 #pragma once
+#include "interaction/operations/effect_making.h"
 #include "ui/property.h"
 
 namespace icome::ui {
@@ -21,5 +22,7 @@ Property<double> field_of_view();
 // Of objects that are effects.
 Property<std::string> effect_text();
 Property<bool> effect_on();
+/// A number of those that are of the dial's kind.
+Property<double> effect_number(const interaction::EffectDial& dial);
 
 }  // namespace icome::ui

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interaction/operations/material_library.h"
+#include "ui/object_look.h"
+
 namespace icome::ui {
 
 using base::Result;
@@ -111,9 +114,12 @@ Property<std::string> haptic_texture() {
                                         });
 }
 
-const std::vector<std::string>& haptic_texture_names() {
-  static const std::vector<std::string> kNames{"grooves", "bumps", "grain"};
-  return kNames;
+QString haptic_texture_words(const std::string& text) {
+  if (text.empty()) return "Smooth";
+  QString words = QString::fromStdString(interaction::texture_words(text));
+  if (words.isEmpty()) return one_line(text) + " (not known)";
+  words[0] = words[0].toUpper();
+  return words;
 }
 
 }  // namespace icome::ui

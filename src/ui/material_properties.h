@@ -21,8 +21,7 @@ Property<MaybeNumber> damping();
 Property<double> static_friction();
 Property<double> dynamic_friction();
 Property<std::string> haptic_texture();
-
-/// The names that haptic_texture() takes, beside the empty one for smooth.
-const std::vector<std::string>& haptic_texture_names();
+/// A text that haptic_texture() has or takes, for people: "Bumps, 0.3 mm deep every 3 mm".
+QString haptic_texture_words(const std::string& text);
 
 }  // namespace icome::ui

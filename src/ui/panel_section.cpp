@@ -59,9 +59,9 @@ PanelSection::Row PanelSection::add_row(const QString& text, const QString& tip,
   if (!fields.empty()) label->setBuddy(fields.front());
   const int row = grid_->rowCount();
   grid_->addWidget(label, row, 0);
-  const int span = fields.size() == 1 ? kColumns - 1 : 1;
   int column = 1;
   for (QWidget* field : fields) {
+    const int span = field == fields.back() ? kColumns - column : 1;
     grid_->addWidget(field, row, column, 1, span);
     column += span;
     if (field->accessibleName().isEmpty()) field->setAccessibleName(text);

@@ -1,6 +1,10 @@
 #include "ui/property_binder.h"
 
 #include <QCheckBox>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <algorithm>
+#include <cmath>
 
 #include "ui/colour_button.h"
 #include "ui/object_look.h"
@@ -101,6 +105,35 @@ void PropertyBinder::number(PanelSection& section, const Row& row, Quantity quan
     const Common<double> now = common(session_.world(), list(row.of), property);
     shown.set_visible(now.shared_by_all);
     now.value || !now.shared_by_all ? field->show_value(now.value) : field->show_mixed();
+  });
+}
+
+void PropertyBinder::slider(PanelSection& section, const Row& row, Quantity quantity,
+                            const Property<double>& property, double least, double most) {
+  constexpr int kSteps = 500;
+  QuantityField* field = number_field(section, row, quantity, property);
+  auto* slider = new QSlider(Qt::Horizontal, section.body());
+  slider->setRange(0, kSteps);
+  slider->setPageStep(kSteps / 20);
+  slider->setAccessibleName(row.label);
+  const auto told = told_to(section);
+  const auto dragged = std::make_shared<bool>(false);  // has this drag changed anything yet?
+  QObject::connect(slider, &QSlider::sliderPressed, slider, [dragged] { *dragged = false; });
+  QObject::connect(slider, &QSlider::valueChanged, slider, [=, this](int step) {
+    const double exact = least + (most - least) * step / kSteps;
+    const double value = QString::number(exact, 'g', 4).toDouble();  // as a person would write it
+    const auto done = set(slider, row, property, value, slider->isSliderDown() && *dragged);
+    *dragged = true;
+    told(done ? QString() : QString::fromStdString(done.error().message));
+  });
+  const PanelSection::Row shown = section.add_row(row.label, row.tip, {field, slider});
+  follow([=, this] {
+    const Common<double> now = common(session_.world(), list(row.of), property);
+    shown.set_visible(now.shared_by_all);
+    now.value || !now.shared_by_all ? field->show_value(now.value) : field->show_mixed();
+    if (!now.value || slider->isSliderDown()) return;
+    const QSignalBlocker quiet(slider);
+    slider->setValue(int(std::lround(std::clamp((*now.value - least) / (most - least), 0.0, 1.0) * kSteps)));
   });
 }
 
@@ -207,11 +240,11 @@ void PropertyBinder::choice(PanelSection& section, const Row& row, const Propert
 }
 
 void PropertyBinder::text_choice(PanelSection& section, const Row& row, const Property<std::string>& property,
-                                 const std::vector<std::string>& texts, const QStringList& items) {
+                                 const std::vector<std::string>& texts,
+                                 QString (*words)(const std::string& text)) {
   auto* box = new QuietComboBox(section.body());
   box->setPlaceholderText("mixed");
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    box->addItem(items[qsizetype(i)], QString::fromStdString(texts[i]));
+  for (const std::string& text : texts) box->addItem(words(text), QString::fromStdString(text));
   const auto told = told_to(section);
   QObject::connect(box, &QComboBox::activated, box, [this, box, row, property, told](int chosen) {
     const auto done = set(box, row, property, box->itemData(chosen).toString().toStdString());
@@ -219,12 +252,12 @@ void PropertyBinder::text_choice(PanelSection& section, const Row& row, const Pr
   });
   const PanelSection::Row shown = section.add_row(row.label, row.tip, {box});
   const int known = box->count();
-  follow([this, box, shown, row, property, known] {
+  follow([this, box, shown, row, property, known, words] {
     const Common<std::string> now = common(session_.world(), list(row.of), property);
     shown.set_visible(now.shared_by_all);
     while (box->count() > known) box->removeItem(box->count() - 1);
     const QString text = QString::fromStdString(now.value.value_or(""));
-    if (now.value && box->findData(text) < 0) box->addItem(one_line(*now.value) + " (not known)", text);
+    if (now.value && box->findData(text) < 0) box->addItem(words(*now.value), text);
     box->setCurrentIndex(now.value ? box->findData(text) : -1);
   });
 }

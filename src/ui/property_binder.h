@@ -27,6 +27,10 @@ class PropertyBinder {
   explicit PropertyBinder(session::Session& session) : session_(session), run_(session) {}
 
   void number(PanelSection& section, const Row& row, Quantity quantity, const Property<double>& property);
+  /// A number with a slider beside it, from `least` to `most`: what is dragged is felt and seen at once, and
+  /// is one action to undo.
+  void slider(PanelSection& section, const Row& row, Quantity quantity, const Property<double>& property,
+              double least, double most);
   void triple(PanelSection& section, const Row& row, Quantity quantity,
               const std::array<Property<double>, 3>& properties);
   /// `none`: what is meant where no number is set.
@@ -36,9 +40,9 @@ class PropertyBinder {
   void colour(PanelSection& section, const Row& row, const Property<world::Colour>& property);
   void check(PanelSection& section, const Row& row, const Property<bool>& property);
   void choice(PanelSection& section, const Row& row, const Property<int>& property, const QStringList& items);
-  /// One of the texts, shown as the items; another text that an object has is shown as it is.
+  /// One of the texts, shown in these words; so is another text that an object has.
   void text_choice(PanelSection& section, const Row& row, const Property<std::string>& property,
-                   const std::vector<std::string>& texts, const QStringList& items);
+                   const std::vector<std::string>& texts, QString (*words)(const std::string& text));
   /// Anything else that follows the selection.
   void follow(std::function<void()> refresh) { refreshers_.push_back(std::move(refresh)); }
 

@@ -7,6 +7,8 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include "interaction/operations/effect_making.h"
+#include "interaction/operations/material_library.h"
 #include "ui/fixture_properties.h"
 #include "ui/material_properties.h"
 #include "ui/object_look.h"
@@ -25,6 +27,17 @@ using Of = PropertyBinder::Of;
 using world::ObjectId;
 
 namespace {
+
+constexpr int kSoftnessEvery = 250;  // ms
+
+/// How a number of an effect is shown.
+Quantity quantity_in(const std::string& unit) {
+  if (unit == "m") return Quantity::Length;
+  if (unit == "N") return Quantity::Force;
+  if (unit == "N/m") return Quantity::Stiffness;
+  if (unit == "N s/m") return Quantity::Damping;
+  return Quantity::Plain;
+}
 
 /// Plain words on several lines. A name without a space in it does not widen the panel.
 void wrap(QLabel& label) {
@@ -71,6 +84,7 @@ struct PropertyPanel::Parts {
   void build_light();
   void build_viewpoint();
   void build_effect();
+  QString effect_trouble() const;
   PanelSection& add_section(const char* title, const std::vector<ObjectId> Subjects::*list);
   QPushButton* add_button(PanelSection& section, const char* text, const char* tip,
                           const std::function<base::Result<void>()>& act);
@@ -299,11 +313,12 @@ void PropertyPanel::Parts::build_touch() {
                  "Change dynamic friction of", Of::Materials},
                 Quantity::Plain, dynamic_friction());
   std::vector<std::string> texts{""};
-  texts.insert(texts.end(), haptic_texture_names().begin(), haptic_texture_names().end());
+  const std::vector<std::string>& names = interaction::haptic_texture_names();
+  texts.insert(texts.end(), names.begin(), names.end());
   binder.text_choice(
       section,
       {"Texture", "Fine relief that the hand feels when it slides", "Change texture of", Of::Materials},
-      haptic_texture(), texts, {"Smooth", "Grooves, 2 mm", "Bumps, 3 mm", "Grain, 1 mm"});
+      haptic_texture(), texts, haptic_texture_words);
 }
 
 void PropertyPanel::Parts::build_light() {
@@ -345,6 +360,42 @@ void PropertyPanel::Parts::build_effect() {
        "Change force of", Of::Effects},
       effect_text());
   binder.check(section, {"On", "Off, it is not felt", "Switch", Of::Effects}, effect_on());
+  for (const interaction::EffectDial& dial : interaction::effect_dials()) {
+    const QString name = QString::fromStdString(dial.name);
+    const Quantity quantity = quantity_in(dial.unit);
+    const QString unit = quantity == Quantity::Plain ? QString::fromStdString(dial.unit) : unit_of(quantity);
+    const QString label = name.left(1) + name.mid(1).toLower();
+    binder.slider(section,
+                  {unit.isEmpty() ? label : label + ", " + unit,
+                   QString("%1 of its text; felt while it is dragged").arg(name),
+                   QString("Change %1 of").arg(name.toLower()), Of::Effects},
+                  quantity, effect_number(dial), dial.usual_least, dial.usual_most);
+  }
+  QLabel* trouble = remark(section);
+  binder.follow([this, trouble] { say(*trouble, effect_trouble()); });
+  // The servo says what it makes of an effect some time after that is changed.
+  auto* later = new QTimer(trouble);
+  QObject::connect(later, &QTimer::timeout, trouble, [this, trouble] {
+    if (trouble->parentWidget()->isVisible()) say(*trouble, effect_trouble());
+  });
+  later->start(kSoftnessEvery);
+}
+
+/// What keeps the first of the selected effects from being felt as its text says; nothing where nothing does.
+QString PropertyPanel::Parts::effect_trouble() const {
+  const std::vector<ObjectId>& effects = binder.subjects().effects;
+  const world::PhysicalObject* object =
+      effects.empty() ? nullptr : binder.session().world().find(effects.front());
+  const auto* effect =
+      object && object->fixture ? std::get_if<world::ForceEffect>(object->fixture.get()) : nullptr;
+  if (!effect) return {};
+  const std::string wrong = interaction::trouble_with_effect(effect->text);
+  if (!wrong.empty()) return "It is not felt: " + one_line(wrong);
+  for (const haptics::CappedEffect& capped : binder.session().capped_effects())
+    if (capped.id == effects.front().value)
+      return "Beside all else that acts, its " + one_line(capped.what) +
+             ", the most that is stable on this device.";
+  return {};
 }
 
 void PropertyPanel::Parts::refresh_soon() {

@@ -105,6 +105,18 @@ QString softer_words(const session::PointerView& view) {
       .arg(std::llround(view.stiffness));
 }
 
+/// Of the first few, what they are called and what they are felt as.
+QString capped_words(const world::World& world, const std::vector<haptics::CappedEffect>& effects) {
+  constexpr std::size_t kMostTold = 6;
+  QStringList lines{"Together with what else acts, this device renders less than was asked for:"};
+  for (std::size_t i = 0; i < std::min(effects.size(), kMostTold); ++i) {
+    const QString name = shown_name(world, world::ObjectId{effects[i].id});
+    lines << QString("%1: %2").arg(name, one_line(effects[i].what));
+  }
+  if (effects.size() > kMostTold) lines << QString("and %1 more").arg(effects.size() - kMostTold);
+  return lines.join('\n');
+}
+
 QString grouped(double number) {
   return number >= 0.0 && number < 1e15
              ? QString::fromStdString(render::grouped(std::size_t(std::llround(number))))
@@ -124,6 +136,7 @@ struct StatusStrip::Parts {
   QWidget* build_servo(QWidget* strip);
   void look();
   void look_at_device();
+  void look_at_effects();
   void look_at_servo(std::int64_t now);
 
   session::Session& session;
@@ -132,6 +145,7 @@ struct StatusStrip::Parts {
   QLabel* device = nullptr;
   QLabel* state = nullptr;
   QLabel* touched = nullptr;
+  QLabel* capped = nullptr;
   QLabel* rate = nullptr;
   QLabel* overruns = nullptr;
   QLabel* lateness = nullptr;
@@ -175,8 +189,12 @@ QWidget* StatusStrip::Parts::build_device(QWidget* strip) {
   grid->addWidget(dot, 0, 0);
   grid->addWidget(device, 0, 1);
   grid->addWidget(state, 1, 1);
+  capped = new QLabel(block);
+  capped->setForegroundRole(QPalette::PlaceholderText);
+  capped->setAccessibleName("Effects that are felt softer than asked for");
   grid->addWidget(touched, 2, 1);
-  grid->setRowStretch(3, 1);
+  grid->addWidget(capped, 3, 1);
+  grid->setRowStretch(4, 1);
   return block;
 }
 
@@ -227,6 +245,16 @@ void StatusStrip::Parts::look_at_device() {
       object ? (softer ? "softly touches " : "touches ") + shown_name(session.world(), *object) : QString();
   touched->setToolTip(softer ? softer_words(view) : QString(kTouchedTip));
   set(*touched, touched->fontMetrics().elidedText(what, Qt::ElideRight, 36 * kGrid));
+  look_at_effects();
+}
+
+void StatusStrip::Parts::look_at_effects() {
+  const std::vector<haptics::CappedEffect>& softer = session.capped_effects();
+  capped->setVisible(!softer.empty());
+  if (softer.empty()) return;
+  set(*capped, softer.size() == 1 ? QString("1 effect felt softly")
+                                  : QString("%1 effects felt softly").arg(softer.size()));
+  capped->setToolTip(tip_of(capped_words(session.world(), softer)));
 }
 
 void StatusStrip::Parts::look_at_servo(std::int64_t now) {

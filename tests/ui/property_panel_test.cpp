@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QSlider>
 #include <QTest>
 #include <QToolTip>
 #include <numbers>
@@ -86,6 +87,12 @@ class PropertyPanelTest : public DesktopTest {
         return label->text();
     }
     return {};
+  }
+  /// Is this on a label that is seen?
+  bool says(const QString& words) {
+    for (const QLabel* label : panel_->findChildren<QLabel*>())
+      if (label->isVisibleTo(panel_.get()) && label->text().contains(words)) return true;
+    return false;
   }
   const world::Material& material() { return *world().find(material_); }
   double radius() {
@@ -232,6 +239,71 @@ TEST_F(PropertyPanelTest, AnEffectIsChangedAndSwitched) {
   EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
   field<QCheckBox>("On").click();
   EXPECT_FALSE(effect().on);
+}
+
+TEST_F(PropertyPanelTest, AnEffectOfANewerProgramIsToldKeptAndSwitched) {
+  select({one_});
+  perform(world::ChangeFixture{one_,
+                               std::make_shared<const world::Fixture>(world::ForceEffect{"magnet:0,0,0,3"})});
+  QApplication::processEvents();
+  EXPECT_TRUE(says("It is not felt: there is no effect \"magnet\""));
+  field<QCheckBox>("On").click();
+  QApplication::processEvents();
+  EXPECT_TRUE(complaint().isEmpty()) << complaint().toStdString();
+  const auto& effect = std::get<world::ForceEffect>(*world().find(one_)->fixture);
+  EXPECT_FALSE(effect.on);
+  EXPECT_EQ(effect.text, "magnet:0,0,0,3");
+  perform(
+      world::ChangeFixture{one_, std::make_shared<const world::Fixture>(world::ForceEffect{"viscous:1"})});
+  QApplication::processEvents();
+  EXPECT_FALSE(says("It is not felt"));
+}
+
+TEST_F(PropertyPanelTest, ADragOfAnEffectsSliderIsFeltAllTheWayAndOneStepToUndo) {
+  select({one_});
+  const auto text = [&] { return std::get<world::ForceEffect>(*world().find(one_)->fixture).text; };
+  perform(world::ChangeFixture{
+      one_, std::make_shared<const world::Fixture>(world::ForceEffect{"well:0,0,0.01,0.01,1.5"})});
+  QApplication::processEvents();
+  EXPECT_FALSE(is_shown("Floor, mm")) << "of a recess";
+  EXPECT_EQ(field<QuantityField>("Force, N").text(), "1.5");
+  QSlider& force = field<QSlider>("Force, N");
+  EXPECT_EQ(force.value(), 150) << "of 500 to 5 N";
+  force.setSliderDown(true);
+  for (const int step : {200, 250, 300}) {
+    force.setSliderPosition(step);
+    QApplication::processEvents();
+    EXPECT_EQ(text(), "well:0,0,0.01,0.01," + std::string(step == 200 ? "2" : step == 250 ? "2.5" : "3"));
+  }
+  force.setSliderDown(false);
+  EXPECT_EQ(session().history().undo_name(), "Change force of one");
+  ASSERT_TRUE(session().undo());
+  QApplication::processEvents();
+  EXPECT_EQ(text(), "well:0,0,0.01,0.01,1.5") << "all of the drag";
+  EXPECT_EQ(force.value(), 150);
+  force.setSliderDown(true);
+  force.setSliderPosition(100);
+  force.setSliderDown(false);
+  force.setSliderDown(true);
+  force.setSliderPosition(50);
+  force.setSliderDown(false);
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(text(), "well:0,0,0.01,0.01,1") << "two drags are two steps";
+}
+
+TEST_F(PropertyPanelTest, ATextureWithDepthAndSpacingIsSaidInWords) {
+  const auto feel = [&](const std::string& texture) {
+    world::Material changed = material();
+    changed.touch.texture = texture;
+    perform(world::ChangeMaterial{material_, changed});
+    QApplication::processEvents();
+    return field<QComboBox>("Texture").currentText();
+  };
+  select({one_});
+  EXPECT_EQ(feel("bumps:0.0006,0.004"), "Bumps, 0.6 mm deep every 4 mm");
+  EXPECT_EQ(feel("ridges"), "Ridges, 0.2 mm deep every 2 mm");
+  EXPECT_EQ(feel("velvet:1"), "velvet:1 (not known)");
+  EXPECT_EQ(feel(""), "Smooth");
 }
 
 TEST_F(PropertyPanelTest, TouchKnowsTheDevicesBest) {

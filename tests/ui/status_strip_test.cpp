@@ -33,6 +33,27 @@ TEST_F(StatusStripTest, WorksOnlyWhileItIsSeen) {
   EXPECT_FALSE(timer->isActive());
 }
 
+TEST_F(StatusStripTest, TellsOfEffectsThatAreFeltSofterThanAskedFor) {
+  StatusStrip strip(session(), nullptr);
+  strip.setAttribute(Qt::WA_DontShowOnScreen);
+  strip.show();
+  const QLabel* told = nullptr;
+  for (const QLabel* label : strip.findChildren<QLabel*>())
+    if (label->accessibleName() == "Effects that are felt softer than asked for") told = label;
+  ASSERT_NE(told, nullptr);
+  EXPECT_FALSE(told->isVisibleTo(&strip));
+  world::PhysicalObject object{.name = "honey"};
+  object.fixture = std::make_shared<const world::Fixture>(world::ForceEffect{"viscous:500", true});
+  perform(world::CreateObject{session().ids().next<world::ObjectId>(), 0, object});
+  ASSERT_TRUE(QTest::qWaitFor([&] {
+    session().update();
+    return told->isVisibleTo(&strip);
+  }));
+  EXPECT_EQ(told->text(), "1 effect felt softly");
+  EXPECT_TRUE(told->toolTip().contains("honey: damping 500 N s/m is felt as"))
+      << told->toolTip().toStdString();
+}
+
 /// How many pixels have about this colour.
 int count(const QImage& image, const QColor& colour) {
   int pixels = 0;
