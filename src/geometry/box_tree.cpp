@@ -35,13 +35,15 @@ FloatBox FourBoxes::enclosing() const {
   return box;
 }
 
-SegmentQuery::SegmentQuery(const Vector3& a, const Vector3& b, double radius_in) {
+SegmentQuery::SegmentQuery(const Vector3& a, const Vector3& b, double radius_in, bool round_in)
+    : round(round_in) {
   const Vector3 reach = Vector3::Constant(radius_in);
   const Vector3 low = a.cwiseMin(b) - reach;
   const Vector3 high = a.cwiseMax(b) + reach;
   box = float_box(Bounds(low, high));
   const double magnitude = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-  radius = float(radius_in + 16.0 * double(kRounding) * magnitude);
+  rounding = float(16.0 * double(kRounding) * magnitude);
+  radius = float(radius_in) + rounding;
   for (int axis = 0; axis < 3; ++axis) {
     centre[axis] = float(0.5 * (a[axis] + b[axis]));
     half[axis] = float(0.5 * (b[axis] - a[axis]));
@@ -79,14 +81,12 @@ void BoxTree::set_child(std::size_t level, std::size_t child, const FloatBox& bo
 // Separating axes between a box grown by the radius and a segment: the three cross products of the
 // segment with the box axes (Ericson, Real-Time Collision Detection, 5.3.3); the box axes themselves
 // are what overlap_mask tested.
-bool BoxTree::touches(const Node& node, unsigned child, const SegmentQuery& query) {
+bool FourBoxes::beside(unsigned which, const SegmentQuery& query) const {
   std::array<float, 3> middle{};
   std::array<float, 3> extent{};
   for (int axis = 0; axis < 3; ++axis) {
-    const float lo = node.lo[axis][child];
-    const float hi = node.hi[axis][child];
-    middle[axis] = 0.5f * lo + 0.5f * hi - query.centre[axis];
-    extent[axis] = 0.5f * hi - 0.5f * lo + query.radius;
+    middle[axis] = 0.5f * lo[axis][which] + 0.5f * hi[axis][which] - query.centre[axis];
+    extent[axis] = 0.5f * hi[axis][which] - 0.5f * lo[axis][which] + query.radius;
   }
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3;
@@ -96,6 +96,23 @@ bool BoxTree::touches(const Node& node, unsigned child, const SegmentQuery& quer
     if (apart > reach) return false;
   }
   return true;
+}
+
+// The place of the box nearest to the middle of the segment, and the plane through it at right angles to the
+// way there: the box lies behind the plane, and no point of the segment is nearer to that than its ends are.
+bool FourBoxes::within(unsigned which, const SegmentQuery& query) const {
+  float squared = 0.0f;
+  float along = 0.0f;
+  float slack = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float p = query.centre[axis];
+    const float off = std::max(lo[axis][which] - p, 0.0f) - std::max(p - hi[axis][which], 0.0f);
+    squared += off * off;
+    along += off * query.half[axis];
+    slack += std::abs(query.half[axis]);
+  }
+  const float distance = std::sqrt(squared);
+  return distance * (distance - query.radius) <= std::abs(along) + query.rounding * slack;
 }
 
 double BoxTree::distance_squared(const Node& node, unsigned child, const FloatPoint& point) {

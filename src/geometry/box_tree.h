@@ -26,6 +26,8 @@ struct FloatBox {
 };
 inline FloatBox float_box(const Bounds& bounds);
 
+struct SegmentQuery;
+
 /// Four boxes, transposed so that one instruction looks at all of them. Empty when default-constructed.
 struct alignas(16) FourBoxes {
   static constexpr unsigned kCount = 4;
@@ -36,20 +38,30 @@ struct alignas(16) FourBoxes {
   FloatBox enclosing() const;
   /// Bit i is set when box i meets `box`. Real-time safe.
   unsigned overlap_mask(const FloatBox& box) const;
+  /// Does box `which`, which meets the query's box, come near the query's segment? Real-time safe.
+  bool comes_near(unsigned which, const SegmentQuery& query) const;
 
   float lo[3][kCount];
   float hi[3][kCount];
+
+ private:
+  bool beside(unsigned which, const SegmentQuery& query) const;
+  bool within(unsigned which, const SegmentQuery& query) const;
 };
 
 /// "Which boxes come within `radius` of the segment from `a` to `b`?" A ball where a equals b.
 struct SegmentQuery {
-  SegmentQuery(const Vector3& a, const Vector3& b, double radius);
+  /// `round`: the radius is large against the boxes and the way, as that of a sphere tip is, so that
+  /// distances are worth measuring: a ball fills half of the box around it.
+  SegmentQuery(const Vector3& a, const Vector3& b, double radius, bool round = false);
 
   FloatBox box;                 // around the capsule
   std::array<float, 3> centre;  // of the segment
   std::array<float, 3> half;    // half the segment, signed
-  float radius;                 // with room for single-precision rounding
+  float rounding;               // m, what single precision may have moved
+  float radius;                 // with room for that
   bool slanted;                 // worth more than the test against `box`
+  bool round;                   // worth a distance
 };
 
 /// A tree over boxes that are already in spatial order (see hilbert_order): four children a node,
@@ -92,7 +104,6 @@ class BoxTree {
   };
 
   void set_child(std::size_t level, std::size_t child, const FloatBox& box);
-  static bool touches(const Node& node, unsigned child, const SegmentQuery& query);
   /// A lower bound, so that rounding never prunes the nearest.
   static double distance_squared(const Node& node, unsigned child, const FloatPoint& point);
   static FloatPoint float_point(const Vector3& point);
@@ -157,6 +168,10 @@ inline unsigned FourBoxes::overlap_mask(const FloatBox& box) const {
 #endif
 }
 
+inline bool FourBoxes::comes_near(unsigned which, const SegmentQuery& query) const {
+  return (!query.slanted || beside(which, query)) && (!query.round || within(which, query));
+}
+
 template <typename Visit>
 void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
   if (levels_ == 0) return;
@@ -168,7 +183,7 @@ void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
     const Node& node = nodes_[start_[place.level] + place.index];
     for (unsigned mask = node.overlap_mask(query.box); mask != 0; mask &= mask - 1) {
       const auto child = unsigned(__builtin_ctz(mask));
-      if (query.slanted && !touches(node, child, query)) continue;
+      if (!node.comes_near(child, query)) continue;
       const std::uint32_t index = place.index * kWidth + child;
       if (place.level == 0) {
         if (!visit(index)) return;

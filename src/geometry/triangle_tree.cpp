@@ -83,7 +83,7 @@ Vector3 nearest_point(const Corners& corners, const Vector3& point) {
 TriangleTree::TriangleTree(const TriangleMesh& mesh)
     : order_(hilbert_order(centroids(mesh))), corners_(mesh.triangles.size()) {
   copy_corners(mesh);
-  boxes_ = boxes_around([this](std::uint32_t slot) { return triangle_bounds(slot); });
+  boxes_ = BoxTree(group_boxes());
 }
 
 TriangleTree::TriangleTree(const TriangleTree& other, const TriangleMesh& mesh)
@@ -94,7 +94,7 @@ TriangleTree::TriangleTree(const TriangleTree& other, const TriangleMesh& mesh)
 void TriangleTree::refit(const TriangleMesh& mesh) {
   assert(mesh.triangles.size() == corners_.size());
   copy_corners(mesh);
-  boxes_.refit(group_boxes([this](std::uint32_t slot) { return triangle_bounds(slot); }));
+  boxes_.refit(group_boxes());
 }
 
 void TriangleTree::copy_corners(const TriangleMesh& mesh) {
@@ -118,21 +118,18 @@ Bounds TriangleTree::triangle_bounds(std::uint32_t slot) const {
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }
 
-std::vector<FloatBox> TriangleTree::group_boxes(const std::function<Bounds(std::uint32_t)>& around) const {
+std::vector<FloatBox> TriangleTree::group_boxes() const {
   std::vector<FloatBox> boxes((corners_.size() + kGroup - 1) / kGroup);
   base::parallel_for(boxes.size(), kTriangleGrain / kGroup, [&](std::size_t begin, std::size_t end) {
     for (std::size_t group = begin; group < end; ++group) {
       Bounds box;
       const std::size_t last = std::min(group * kGroup + kGroup, corners_.size());
-      for (std::size_t slot = group * kGroup; slot < last; ++slot) box.extend(around(std::uint32_t(slot)));
+      for (std::size_t slot = group * kGroup; slot < last; ++slot)
+        box.extend(triangle_bounds(std::uint32_t(slot)));
       boxes[group] = float_box(box);
     }
   });
   return boxes;
-}
-
-BoxTree TriangleTree::boxes_around(const std::function<Bounds(std::uint32_t)>& around) const {
-  return BoxTree(group_boxes(around));
 }
 
 std::optional<MeshHit> TriangleTree::first_hit(const Vector3& a, const Vector3& b) const {

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -45,13 +44,12 @@ class TriangleTree {
   /// some that are only near it, until it returns false. Real-time safe when `visit` is.
   template <typename Visit>
   void near(const Vector3& a, const Vector3& b, double radius, Visit&& visit) const {
-    near_in(boxes_, a, b, radius, visit);
+    near(SegmentQuery(a, b, radius), visit);
   }
 
-  /// The same with other boxes around the triangles, as boxes_around() made them. Real-time safe when
-  /// `visit` is.
+  /// The same for a query made before.
   template <typename Visit>
-  void near_in(const BoxTree& boxes, const Vector3& a, const Vector3& b, double radius, Visit&& visit) const {
+  void near(const SegmentQuery& query, Visit&& visit) const {
     // Groups are looked at a few at a time, so that memory fetches their corners side by side.
     std::array<std::uint32_t, kBatch> groups;
     unsigned count = 0;
@@ -64,7 +62,7 @@ class TriangleTree {
       count = 0;
       return more;
     };
-    boxes.near(SegmentQuery(a, b, radius), [&](std::uint32_t group) {
+    boxes_.near(query, [&](std::uint32_t group) {
       const char* corners = reinterpret_cast<const char*>(&corners_[group * kGroup]);
       for (std::size_t line = 0; line < kGroup * sizeof(Corners); line += kCacheLine) {
         __builtin_prefetch(corners + line);
@@ -74,9 +72,6 @@ class TriangleTree {
     });
     look();
   }
-
-  /// A tree for near_in(): `around(slot)` gives the box of a triangle. Calls it from all cores.
-  BoxTree boxes_around(const std::function<Bounds(std::uint32_t)>& around) const;
 
   /// The first triangle that the segment from `a` to `b` crosses, from either side. Watertight: a
   /// segment through a shared edge or vertex meets one of its triangles. Real-time safe.
@@ -107,7 +102,7 @@ class TriangleTree {
   static constexpr std::size_t kCacheLine = 64;  // bytes
 
   void copy_corners(const TriangleMesh& mesh);
-  std::vector<FloatBox> group_boxes(const std::function<Bounds(std::uint32_t)>& around) const;
+  std::vector<FloatBox> group_boxes() const;
   Bounds triangle_bounds(std::uint32_t slot) const;
 
   std::vector<std::uint32_t> order_;  // slot to triangle

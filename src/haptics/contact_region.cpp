@@ -7,7 +7,6 @@
 
 namespace icome::haptics {
 
-using geometry::FloatBox;
 using geometry::FourBoxes;
 
 ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::kCount) {
@@ -45,7 +44,7 @@ bool ContactRegion::take_box(const Bounds& bounds) {
   if (overflowed_) return false;
   FourBoxes& boxes = boxes_[size_ / FourBoxes::kCount];
   if (size_ % FourBoxes::kCount == 0) boxes = FourBoxes();
-  boxes.set(size_ % FourBoxes::kCount, relative_box(bounds));
+  boxes.set(size_ % FourBoxes::kCount, geometry::float_box(Bounds(bounds.min() - a_, bounds.max() - a_)));
   return true;
 }
 
@@ -73,8 +72,9 @@ std::span<const Element> ContactRegion::elements_of(Piece& piece) {
   return {elements_.data() + piece.first, piece.count};
 }
 
-FloatBox ContactRegion::relative_box(const Bounds& bounds) const {
-  return geometry::float_box(Bounds(bounds.min() - a_, bounds.max() - a_));
+geometry::SegmentQuery ContactRegion::relative_query(const Vector3& from, const Vector3& to,
+                                                     double reach) const {
+  return {from - a_, to - a_, reach + frame_.tip, frame_.tip > 0.0};
 }
 
 double ContactRegion::clearance(const Vector3& position) const {
@@ -85,14 +85,14 @@ double ContactRegion::clearance(const Vector3& position) const {
 }
 
 std::size_t ContactRegion::around(const Vector3& position, double distance, std::span<Element> into) {
-  const Vector3 margin = Vector3::Constant(distance);
-  const FloatBox here = relative_box(Bounds(position - margin, position + margin));
+  const geometry::SegmentQuery here = relative_query(position, position, distance);
   const Tolerance near = Tolerance::reaching(distance);
   std::size_t count = 0;
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
-    for (unsigned mask = boxes_[block].overlap_mask(here); mask != 0; mask &= mask - 1) {
-      const std::span<const Element> elements =
-          elements_of(pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))]);
+    for (unsigned mask = boxes_[block].overlap_mask(here.box); mask != 0; mask &= mask - 1) {
+      const auto which = unsigned(__builtin_ctz(mask));
+      if (!boxes_[block].comes_near(which, here)) continue;
+      const std::span<const Element> elements = elements_of(pieces_[block * FourBoxes::kCount + which]);
       looked_at_ += elements.size();
       for (const Element& element : elements) {
         if (element.flat() &&
@@ -108,13 +108,14 @@ std::size_t ContactRegion::around(const Vector3& position, double distance, std:
 
 SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                               std::uint32_t ignored_object) {
-  const Vector3 end = start + step;
-  const Vector3 margin = Vector3::Constant(tolerance_.touching() + edge_dip(frame_.tip));
-  const FloatBox path = relative_box(Bounds(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin));
+  const geometry::SegmentQuery path =
+      relative_query(start, start + step, tolerance_.touching() + edge_dip(frame_.tip));
   SweepHit first;
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
-    for (unsigned mask = boxes_[block].overlap_mask(path); mask != 0; mask &= mask - 1) {
-      Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
+    for (unsigned mask = boxes_[block].overlap_mask(path.box); mask != 0; mask &= mask - 1) {
+      const auto which = unsigned(__builtin_ctz(mask));
+      Piece& piece = pieces_[block * FourBoxes::kCount + which];
+      if (!boxes_[block].comes_near(which, path)) continue;
       if (piece.object == ignored_object) continue;
       const std::span<const Element> elements = elements_of(piece);
       looked_at_ += elements.size();

@@ -45,8 +45,8 @@ class ContactRegion {
              std::size_t limit = kPieces);
   /// Says that an object of this size (m, how far it reaches from its middle) has pieces here.
   void hold(double size);
-  /// Adds an element (in this frame); `bounds` encloses the positions of the tip's centre at which it
-  /// can hold. False when there was no room.
+  /// Adds an element (in this frame); `bounds` encloses the surface that it stands for, which is nearer to
+  /// the tip's centre than the tip's radius where it holds. False when there was no room.
   bool add(const Element& element, const Bounds& bounds);
   /// Adds a piece of an object that becomes elements later, by Shape::expand. False without room.
   bool defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds);
@@ -93,7 +93,8 @@ class ContactRegion {
 
   bool take_box(const Bounds& bounds);
   std::span<const Element> elements_of(Piece& piece);
-  geometry::FloatBox relative_box(const Bounds& bounds) const;
+  /// For what a tip can meet whose centre stays within `reach` (m) of the segment.
+  geometry::SegmentQuery relative_query(const Vector3& from, const Vector3& to, double reach) const;
 
   const HapticScene* scene_ = nullptr;
   Vector3 a_ = Vector3::Zero();

@@ -133,6 +133,24 @@ bool ContactSet::any_smooth() const {
                      [](const Element& e) { return e.smooth(); });
 }
 
+bool ContactSet::all_convex() const {
+  return std::all_of(elements_.begin(), elements_.begin() + size_,
+                     [](const Element& e) { return e.convex(); });
+}
+
+bool ContactSet::any_guarded() const {
+  return std::any_of(elements_.begin(), elements_.begin() + size_,
+                     [](const Element& e) { return e.guarded; });
+}
+
+double ContactSet::smallest_radius() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Element& e : all()) {
+    if (!e.flat()) least = std::min(least, e.radius);
+  }
+  return least;
+}
+
 ContactSet::Footings ContactSet::footings(const Vector3& position) const {
   Footings result;
   for (std::size_t i = 0; i < size_; ++i) result[i] = footing(elements_[i], position);
@@ -147,7 +165,8 @@ void ContactSet::follow(const Vector3& position) {
 
 ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) {
   Element& contact = elements_.front();
-  const Vector3 place = settle_ahead(contact, goal, tolerance);
+  const Vector3 place =
+      contact.smooth() ? settle_ahead(contact, goal, tolerance) : settle(contact, goal, tolerance);
   const Vector3 out = footing(contact, place).normal;
   const Vector3 pull = goal - place;
   const double press = -out.dot(pull);

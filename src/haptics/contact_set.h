@@ -41,6 +41,15 @@ class ContactSet {
   /// Does any contact belong to a smooth surface?
   bool any_smooth() const;
 
+  /// Is every tangent plane of every contact free of it?
+  bool all_convex() const;
+
+  /// Is any contact a rounded edge or corner of a mesh?
+  bool any_guarded() const;
+
+  /// The least radius (m) of a curved contact; infinite where all are flat.
+  double smallest_radius() const;
+
   /// From `position`, where the contacts hold: the place nearest to `goal` that they all allow, as they
   /// curve (not as their tangent planes say), and whether it was found exactly; else it lies on the way
   /// there. Smooth contacts are followed from their last `follow`, so far and no farther.

@@ -43,7 +43,7 @@ Vector3 skeleton_point(const Element& e, const Vector3& position) {
 
 /// A normal for the places where the skeleton itself is touched and distance gives no direction.
 Vector3 skeleton_normal(const Element& e) {
-  if (e.guarded) return e.w;
+  if (e.guarded && !e.w.isZero(0.0)) return e.w;
   return e.kind == Kind::Ring ? e.axis : perpendicular(e.axis);
 }
 
@@ -83,8 +83,8 @@ Vector3 outward_normal(const Element& e, const Vector3& position) {
   return length > 0.0 ? Vector3(offset / length) : skeleton_normal(e);
 }
 
-/// Rods and balls of a mesh hold the tip only in their own region of space: away from the faces that
-/// meet there and, unless the mesh is two-sided, in front of it.
+/// Rods and balls of a mesh hold the tip only in their own region of space: away from the face that hands
+/// them out and, where the mesh is an open sheet touched from its front, in front of that.
 bool guard_allows(const Element& e, const Vector3& away, const Tolerance& tolerance) {
   if (!e.guarded) return true;
   if (away.dot(e.u) > tolerance.rim() || away.dot(e.v) > tolerance.rim()) return false;
@@ -291,18 +291,17 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
   if (element.flat() || element.smooth()) return nearest;
   const Vector3 here = normal(element, from);
   const double cosine = normal(element, nearest).dot(here);
-  if (cosine >= (element.two_sided && element.convex() && !element.guarded ? kVeryCloseBy : kCloseBy))
-    return nearest;
+  if (cosine >= (element.two_sided && element.convex() ? kVeryCloseBy : kCloseBy)) return nearest;
   // To above the nearest point, from where it is reached by falling.
-  if (element.convex() && !element.guarded && cosine > 0.0) return from + radial(nearest - from, here);
+  if (element.convex() && cosine > 0.0) return from + radial(nearest - from, here);
   const Vector3 pull = radial(goal - from, here);
   const double length = pull.norm();
   if (length <= 0.0) return from;
   if (!element.convex()) {
     return settle(element, from + pull * std::min(1.0, kArcStep * element.radius / length), tolerance);
   }
-  // To the other side of a round solid: a quarter of the way round. On an edge the pull is enough.
-  return from + pull * (element.guarded ? std::min(1.0, element.radius / length) : element.radius / length);
+  // To the other side of a round solid: a quarter of the way round.
+  return from + pull * (element.radius / length);
 }
 
 Element facing(const Element& element, const Vector3& position) {

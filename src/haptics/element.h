@@ -34,8 +34,9 @@ struct Tolerance {
 };
 
 /// How far below a thickened piece the straight way of a tip (radius in m) along a rounded edge may dip
-/// before the neighbouring face is asked: boxes around pieces are looked at with this margin.
-constexpr double edge_dip(double tip) { return 0.02 * tip; }
+/// before the neighbouring face is asked: twice the height of a chord of 0.1 rad, the longest that slide()
+/// takes. Boxes around pieces are looked at with this margin.
+constexpr double edge_dip(double tip) { return 0.0025 * tip; }
 
 /// The foot on a smooth surface of a position of the tip, both in the surface's frame.
 struct SmoothFoot {
@@ -66,7 +67,7 @@ struct Element {
   Kind kind = Kind::Plane;
   bool two_sided = false;     // a sheet: whichever side the tip comes from holds it
   bool inverted = false;      // curved kinds felt from within; the normal points inwards
-  bool guarded = false;       // a rod or ball of a mesh: holds only where its faces do not (u, v, w)
+  bool guarded = false;       // a rod or ball of a mesh: holds only where away . u, v <= 0 and away . w >= 0
   std::uint32_t object = 0;   // index in the haptic scene
   std::uint32_t feature = 0;  // the shape's own number for the piece
   Vector3 origin = Vector3::Zero();

@@ -18,11 +18,30 @@ bool comes_first(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
+Bounds bounds_of(const Corners& corners) {
+  const auto& [a, b, c] = corners;
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+/// May the triangle come within `radius` of the segment from `middle` - `half` to `middle` + `half`? It lies
+/// behind the plane through its point nearest to the middle, at right angles to the way there.
+bool comes_within(const Corners& corners, const Vector3& middle, const Vector3& half, double radius) {
+  const Vector3 away = middle - geometry::nearest_point(corners, middle);
+  const double distance = away.norm();
+  return distance * (distance - radius) <= std::abs(away.dot(half));
+}
+
 /// Turns one triangle into elements.
 class TriangleElements {
  public:
-  TriangleElements(const Corners& corners, std::uint32_t slot, double tip, TouchableSides sides)
-      : corners_(corners), slot_(slot), tip_(tip), two_sided_(sides == TouchableSides::Both) {
+  /// `closed`: the triangle is part of a solid, around whose edges and corners the tip may come from wherever
+  /// it is outside.
+  TriangleElements(const Corners& corners, std::uint32_t slot, double tip, TouchableSides sides, bool closed)
+      : corners_(corners),
+        slot_(slot),
+        tip_(tip),
+        two_sided_(sides == TouchableSides::Both),
+        closed_(closed) {
     normal_ = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     for (int i = 0; i < 3; ++i) inward_[i] = normal_.cross(corners[(i + 1) % 3] - corners[i]).normalized();
   }
@@ -49,7 +68,7 @@ class TriangleElements {
     e.axis = along / e.a;
     e.guarded = true;
     e.u = inward_[i];
-    e.w = normal_;
+    e.w = front();
     return e;
   }
 
@@ -59,7 +78,7 @@ class TriangleElements {
     e.guarded = true;
     e.u = (corners_[(i + 1) % 3] - corners_[i]).normalized();
     e.v = (corners_[(i + 2) % 3] - corners_[i]).normalized();
-    e.w = normal_;
+    e.w = front();
     return e;
   }
 
@@ -73,10 +92,14 @@ class TriangleElements {
     return e;
   }
 
+  /// Half of space to which an edge or a corner is confined: what is behind an open sheet is no surface.
+  Vector3 front() const { return closed_ ? Vector3(Vector3::Zero()) : normal_; }
+
   const Corners& corners_;
   std::uint32_t slot_;
   double tip_;
   bool two_sided_;
+  bool closed_;
   Vector3 normal_;
   std::array<Vector3, 3> inward_;  // unit normals of the edges in the triangle's plane
 };
@@ -94,65 +117,46 @@ MeshShape::MeshShape(const MeshShape& other, std::shared_ptr<const geometry::Tri
 }
 
 void MeshShape::prepare() {
-  if (settings_.closed && settings_.tip_radius > 0.0) thicken();
+  if (settings_.tip_radius > 0.0) {
+    const std::vector<MeshFeatures> by_triangle = mesh_features(*mesh_);
+    features_.resize(by_triangle.size());
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot)
+      features_[slot] = by_triangle[tree_.triangle(slot)];
+  }
   if (settings_.interpolate_normals) normals_ = geometry::vertex_normals(*mesh_);
 }
 
-// For a sphere tip on a smooth closed mesh: boxes around where the tip's centre can be, much smaller
-// than boxes around the triangles grown by the tip on all sides.
-void MeshShape::thicken() {
-  const std::vector<Neighbourhood> by_triangle = neighbourhoods(*mesh_);
-  neighbourhood_.resize(by_triangle.size());
-  for (std::uint32_t slot = 0; slot < tree_.size(); ++slot)
-    neighbourhood_[slot] = by_triangle[tree_.triangle(slot)];
-  thick_ = tree_.boxes_around(
-      [this](std::uint32_t slot) { return tip_bounds(slot, settings_.tip_radius, TouchableSides::Front); });
-}
-
 void MeshShape::gather(const GatherRequest& request, ElementSink& sink) const {
-  const Vector3 margin = Vector3::Constant(request.reach);
+  const double radius = request.reach + request.tip;
+  const Vector3 middle = 0.5 * (request.a + request.b);
+  const Vector3 half = 0.5 * (request.b - request.a);
+  const Vector3 margin = Vector3::Constant(radius);
   const Bounds wanted(request.a.cwiseMin(request.b) - margin, request.a.cwiseMax(request.b) + margin);
-  const auto look = [&](std::uint32_t slot) {
-    const Bounds bounds = tip_bounds(slot, request.tip, request.sides);
-    return !bounds.intersects(wanted) || sink.defer(slot, bounds);
-  };
-  const bool prepared = thick_.leaf_count() > 0 && request.tip == settings_.tip_radius &&
-                        request.sides == TouchableSides::Front;
-  if (prepared) {
-    tree_.near_in(thick_, request.a, request.b, request.reach, look);
-  } else {
-    tree_.near(request.a, request.b, request.reach + request.tip, look);
-  }
+  const bool round = request.tip > 0.0;
+  const geometry::SegmentQuery query(request.a, request.b, radius, round);
+  tree_.near(query, [&](std::uint32_t slot) {
+    const Corners& corners = tree_.corners(slot);
+    const Bounds bounds = bounds_of(corners);
+    if (!bounds.intersects(wanted) || (round && !comes_within(corners, middle, half, radius))) return true;
+    return sink.defer(slot, bounds);
+  });
 }
 
-/// Do all normals around the triangle point much the same way, and is the free side known?
-bool MeshShape::narrow(std::uint32_t slot, TouchableSides sides) const {
-  return !neighbourhood_.empty() && sides == TouchableSides::Front && neighbourhood_[slot].spread < kWide;
-}
-
-// Where the tip's centre can be while it rests on the triangle, its edges or its corners: the triangle
-// moved out along its normal and, as the normals of edges and corners differ from it, a bit around.
-Bounds MeshShape::tip_bounds(std::uint32_t slot, double tip, TouchableSides sides) const {
-  const Corners& corners = tree_.corners(slot);
-  const Bounds triangle(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
-                        corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]));
-  if (tip <= 0.0) return triangle;
-  const bool tight = narrow(slot, sides);
-  const Vector3 margin = Vector3::Constant(tight ? tip * neighbourhood_[slot].spread / kSpreadSteps : tip);
-  const Vector3 out =
-      tight ? Vector3(tip * (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized())
-            : Vector3::Zero();
-  return {triangle.min() + out - margin, triangle.max() + out + margin};
+/// Which edges and corners the triangle hands out, as MeshFeatures numbers them.
+unsigned MeshShape::features(std::uint32_t slot, TouchableSides sides) const {
+  if (features_.empty()) return ~0u;
+  if (sides == TouchableSides::Both) return features_[slot].both;
+  return settings_.closed ? features_[slot].front : ~0u;
 }
 
 void MeshShape::expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const {
-  const TriangleElements triangle(tree_.corners(piece), piece, tip, sides);
+  const TriangleElements triangle(tree_.corners(piece), piece, tip, sides, settings_.closed);
   elements.add(triangle.face());
   if (tip <= 0.0) return;
-  const unsigned owned = narrow(piece, sides) ? neighbourhood_[piece].owned : ~0u;
+  const unsigned handed_out = features(piece, sides);
   for (int i = 0; i < 3; ++i) {
-    if (owned >> i & 1) elements.add(triangle.edge(i));
-    if (owned >> (3 + i) & 1) elements.add(triangle.corner(i));
+    if (handed_out >> i & 1) elements.add(triangle.edge(i));
+    if (handed_out >> (3 + i) & 1) elements.add(triangle.corner(i));
   }
 }
 
@@ -169,6 +173,17 @@ std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position
   const double least = Tolerance::for_coordinates(position.cwiseAbs().maxCoeff()).gap;
   const double length = away.norm();
   return geometry::SurfacePoint{hit->point, length > least ? Vector3(away / length) : face};
+}
+
+std::optional<geometry::SurfacePoint> MeshShape::nearest(const Vector3& position, double limit,
+                                                         TouchableSides sides) const {
+  const std::optional<geometry::MeshHit> hit = tree_.nearest(position, limit);
+  if (!hit) return std::nullopt;
+  const auto corner = [&](int which) { return mesh_->corner(hit->triangle, which); };
+  const Vector3 front = (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
+  const Vector3 away = position - hit->point;
+  if (sides == TouchableSides::Front && !settings_.closed && away.dot(front) < 0.0) return std::nullopt;
+  return geometry::SurfacePoint{hit->point, hit->parameter > 0.0 ? Vector3(away / hit->parameter) : front};
 }
 
 std::optional<ShapeHit> MeshShape::cast(const Vector3& start, const Vector3& step, double /*time*/) const {
@@ -198,8 +213,7 @@ Vector3 MeshShape::shading_normal(std::uint32_t feature, const Vector3& position
 }
 
 std::size_t MeshShape::bytes() const {
-  return tree_.bytes() + thick_.bytes() + neighbourhood_.capacity() * sizeof(Neighbourhood) +
-         normals_.capacity() * sizeof(Vector3);
+  return tree_.bytes() + features_.capacity() * sizeof(MeshFeatures) + normals_.capacity() * sizeof(Vector3);
 }
 
 }  // namespace icome::haptics

@@ -4,7 +4,7 @@
 
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
-#include "haptics/mesh_neighbourhood.h"
+#include "haptics/mesh_features.h"
 #include "haptics/shape.h"
 
 namespace icome::haptics {
@@ -13,7 +13,7 @@ namespace icome::haptics {
 struct MeshShapeSettings {
   bool closed = false;               // it encloses a solid, outward normals out: only then has it an inside
   bool interpolate_normals = false;  // for force shading
-  double tip_radius = 0.0;           // m; a sphere tip of just this radius is served fastest
+  double tip_radius = 0.0;           // m; above 0 a sphere tip of any radius is served much faster
 };
 
 /// A triangle mesh that can be touched: its faces, and with a sphere tip its edges and corners too.
@@ -29,6 +29,8 @@ class MeshShape final : public Shape {
   void gather(const GatherRequest& request, ElementSink& sink) const override;
   void expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const override;
   std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double /*time*/) const override;
+  std::optional<geometry::SurfacePoint> nearest(const Vector3& position, double limit,
+                                                TouchableSides sides) const override;
   std::optional<ShapeHit> cast(const Vector3& start, const Vector3& step, double /*time*/) const override;
   Vector3 shading_normal(std::uint32_t feature, const Vector3& position,
                          const Vector3& face_normal) const override;
@@ -38,17 +40,14 @@ class MeshShape final : public Shape {
   const geometry::TriangleTree& tree() const { return tree_; }
 
  private:
-  bool narrow(std::uint32_t slot, TouchableSides sides) const;
-  Bounds tip_bounds(std::uint32_t slot, double tip, TouchableSides sides) const;
+  unsigned features(std::uint32_t slot, TouchableSides sides) const;
   void prepare();
-  void thicken();
 
   std::shared_ptr<const geometry::TriangleMesh> mesh_;
   geometry::TriangleTree tree_;
   MeshShapeSettings settings_;
-  std::vector<Neighbourhood> neighbourhood_;  // by slot; only of a closed mesh for a sphere tip
-  geometry::BoxTree thick_;                   // over tip_bounds of the prepared radius, likewise
-  std::vector<Vector3> normals_;              // by vertex; empty unless interpolated
+  std::vector<MeshFeatures> features_;  // by slot; only for a sphere tip
+  std::vector<Vector3> normals_;        // by vertex; empty unless interpolated
 };
 
 }  // namespace icome::haptics

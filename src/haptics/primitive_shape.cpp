@@ -14,7 +14,7 @@ using Kind = Element::Kind;
 class PrimitiveElements {
  public:
   PrimitiveElements(const GatherRequest& request, ElementSink& sink) : request_(request), sink_(sink) {
-    const Vector3 margin = Vector3::Constant(request.reach);
+    const Vector3 margin = Vector3::Constant(request.reach + request.tip);
     wanted_ = Bounds(request.a.cwiseMin(request.b) - margin, request.a.cwiseMax(request.b) + margin);
   }
 
@@ -86,9 +86,9 @@ class PrimitiveElements {
     return {-far, far};
   }
 
-  /// The box of a solid of revolution about z, thickened by the tip.
-  Bounds around(double radius, double height) const {
-    const Vector3 half(radius + request_.tip, radius + request_.tip, 0.5 * height + request_.tip);
+  /// The box of a solid of revolution about z.
+  static Bounds around(double radius, double height) {
+    const Vector3 half(radius, radius, 0.5 * height);
     return {-half, half};
   }
 
@@ -109,9 +109,9 @@ class PrimitiveElements {
   /// A piece that lies `radius` around a centre, axis or circle.
   void add_round(Element element, double radius) {
     element.radius = radius + request_.tip;
-    const double rho = element.radius + (element.kind == Kind::Ring ? element.a : 0.0);
+    const double rho = radius + (element.kind == Kind::Ring ? element.a : 0.0);
     const double along = element.kind == Kind::Ball || element.kind == Kind::Ring ? 0.0 : element.a;
-    const Vector3 half(rho, rho, 0.5 * along + element.radius);
+    const Vector3 half(rho, rho, 0.5 * along + radius);
     add_both(element, Bounds(-half, half));
   }
 
@@ -122,21 +122,15 @@ class PrimitiveElements {
       disc.origin = {0.0, 0.0, z};
       disc.axis = {0.0, 0.0, side};
       disc.a = radius;
-      add(disc, flat_bounds(disc, Vector3(radius, radius, 0.0)));
+      const Vector3 half(radius, radius, 0.0);
+      add(disc, Bounds(disc.origin - half, disc.origin + half));
     }
     if (request_.tip <= 0.0) return;
     Element rim = blank(radius > 0.0 ? Kind::Ring : Kind::Ball);
     rim.origin = {0.0, 0.0, z};
     rim.a = radius;
-    const Vector3 half(radius + rim.tip, radius + rim.tip, rim.tip);
+    const Vector3 half(radius, radius, 0.0);
     add(rim, Bounds(rim.origin - half, rim.origin + half));
-  }
-
-  Bounds flat_bounds(const Element& e, const Vector3& half) const {
-    const Vector3 rise = e.axis * e.tip;
-    Bounds bounds(e.origin + rise - half, e.origin + rise + half);
-    if (e.two_sided) bounds.extend(Bounds(e.origin - rise - half, e.origin - rise + half));
-    return bounds;
   }
 
   void add_box_face(const Vector3& half, int axis, double side) {
@@ -151,7 +145,7 @@ class PrimitiveElements {
     face.b = half[last];
     Vector3 extent = half;
     extent[axis] = 0.0;
-    add(face, flat_bounds(face, extent));
+    add(face, Bounds(face.origin - extent, face.origin + extent));
   }
 
   void add_box_edge(const Vector3& half, int axis, int corner) {
@@ -161,15 +155,13 @@ class PrimitiveElements {
     edge.origin[axis] = -half[axis];
     edge.origin[(axis + 1) % 3] = (corner & 1 ? 1.0 : -1.0) * half[(axis + 1) % 3];
     edge.origin[(axis + 2) % 3] = (corner & 2 ? 1.0 : -1.0) * half[(axis + 2) % 3];
-    const Vector3 margin = Vector3::Constant(edge.tip);
-    add(edge, Bounds(edge.origin - margin, edge.origin + edge.a * edge.axis + margin));
+    add(edge, Bounds(edge.origin, edge.origin + edge.a * edge.axis));
   }
 
   void add_box_corner(const Vector3& half, int corner) {
     Element ball = blank(Kind::Ball);
     for (int axis = 0; axis < 3; ++axis) ball.origin[axis] = (corner >> axis & 1 ? 1.0 : -1.0) * half[axis];
-    const Vector3 margin = Vector3::Constant(ball.tip);
-    add(ball, Bounds(ball.origin - margin, ball.origin + margin));
+    add(ball, Bounds(ball.origin, ball.origin));
   }
 
   const GatherRequest& request_;
@@ -188,6 +180,16 @@ std::optional<geometry::SurfacePoint> PrimitiveShape::way_out(const Vector3& pos
                                                               double /*time*/) const {
   if (!geometry::inside(primitive_, position)) return std::nullopt;
   return geometry::scp_from_inside(primitive_, position);
+}
+
+std::optional<geometry::SurfacePoint> PrimitiveShape::nearest(const Vector3& position, double limit,
+                                                              TouchableSides /*sides*/) const {
+  geometry::SurfacePoint place = geometry::scp_from_outside(primitive_, position);
+  const Vector3 away = position - place.point;
+  const double distance = away.norm();
+  if (distance > limit) return std::nullopt;
+  if (distance > 0.0) place.normal = away / distance;
+  return place;
 }
 
 std::optional<ShapeHit> PrimitiveShape::cast(const Vector3& start, const Vector3& step,

@@ -6,6 +6,7 @@
 #include "haptics/contact_fan.h"
 #include "haptics/place_outside.h"
 #include "haptics/smooth_element.h"
+#include "haptics/tip_room.h"
 
 namespace icome::haptics {
 namespace {
@@ -15,6 +16,7 @@ constexpr std::size_t kFewPieces = 12;
 constexpr std::size_t kManyPieces = 48;
 constexpr double kTicksAhead = 4.0;
 constexpr double kLeastShare = 1e-3;
+constexpr double kLeastOfTip = 1e-3;   // of its radius: how little a region reaches at least
 constexpr double kLargestReach = 0.1;  // of the scene's extent
 constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin: then that is moved
 
@@ -23,12 +25,20 @@ constexpr int kMaxArches = 12;
 constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
 constexpr double kRounding = 1e-14;  // of squared distances
 constexpr double kSteepest = 0.1;    // rise of an arch for its length
+constexpr double kStride = 8.0;      // times the last step's way, a sphere tip's next step is looked along
+constexpr double kRoundStep = 0.3;   // rad, along a rounded edge
 
 }  // namespace
 
 ScpSolver::ScpSolver(const ScpSettings& settings) : settings_(settings), around_(ContactFan::kCapacity) {}
 
 void ScpSolver::reset() {
+  no_room_ = false;
+  restart();
+}
+
+/// Goes on from wherever the tip will be.
+void ScpSolver::restart() {
   started_ = false;
   sliding_ = false;
   contacts_.clear();
@@ -61,7 +71,9 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
       appeared = true;
     }
   }
-  if (appeared) leave_solids();
+  if (!appeared) return;
+  leave_solids();
+  if (!find_room()) restart();
 }
 
 // The last report names an object by its place in the old scene.
@@ -101,7 +113,11 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
     state_.scp = in_world;
     return state_;
   }
-  if (!started_) start(in_world);
+  if (!started_ && !start(in_world)) {
+    state_ = {};
+    state_.scp = in_world;
+    return state_;
+  }
   if (position_.cwiseAbs().maxCoeff() > kFarOff * region_.smallest()) move_origin();
   const Vector3 tip = in_world - origin_;
   if (scene_->moves()) carry(elapsed_, elapsed);
@@ -126,12 +142,14 @@ void ScpSolver::move_origin() {
   region_.invalidate();
 }
 
-void ScpSolver::start(const Vector3& in_world) {
-  started_ = true;
+/// False where the tip is larger than the room for it: it then has no SCP until it is somewhere free.
+bool ScpSolver::start(const Vector3& in_world) {
   origin_.setZero();
   position_ = last_tip_ = in_world;
   region_.invalidate();
   leave_solids();
+  started_ = find_room();
+  return started_;
 }
 
 /// An SCP inside solids is put outside of all of them.
@@ -140,6 +158,23 @@ void ScpSolver::leave_solids() {
   if (!free) return;
   position_ = *free;
   left_solid_ = true;
+}
+
+/// Moves a sphere tip's SCP out of what it overlaps, if there is room near by. Who found none once looks no
+/// farther than where the tip is.
+bool ScpSolver::find_room() {
+  if (settings_.tip_radius <= 0.0) return true;
+  const TipRoom room(*scene_, frame());
+  if (room.fits(position_)) {
+    no_room_ = false;
+    return true;
+  }
+  const std::optional<Vector3> place = no_room_ ? std::nullopt : room.near(position_);
+  no_room_ = !place;
+  if (no_room_) return false;
+  position_ = *place;
+  left_solid_ = true;
+  return true;
 }
 
 /// How far above a place on an object (in its frame) the SCP is put.
@@ -224,6 +259,7 @@ void ScpSolver::converge(const Vector3& tip) {
   state_.iterations = 0;
   const std::uint64_t most = region_.looked_at() + std::uint64_t(settings_.max_elements);
   int idle = 0;
+  stride_ = std::numeric_limits<double>::infinity();
   Vector3 nearest = position_;
   while (state_.iterations < settings_.max_iterations && region_.looked_at() < most) {
     ++state_.iterations;
@@ -232,8 +268,8 @@ void ScpSolver::converge(const Vector3& tip) {
     const bool turns = idle == kMaxIdle;
     if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
-      const bool at_rest =
-          contacts_.size() < 2 && !turns && held_gain() <= 0.0;  // on a face, below its edges
+      const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0;  // below its edges
+      const bool at_rest = !turns && (on_a_face || rounded());
       if (!at_rest && escape(tip)) continue;
       state_.converged = true;
       return;
@@ -245,7 +281,7 @@ void ScpSolver::converge(const Vector3& tip) {
     if (nearer(nearest, tip)) {
       nearest = position_;
       idle = 0;
-    } else if (!cut_) {  // a part of a way may lead off at first
+    } else if (!cut_ || position_ == from) {  // a part of a way may lead off at first
       ++idle;
     }
     if (met_ || contacts_.size() != held) continue;
@@ -270,6 +306,7 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   exact = true;
   for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
   if (contacts_.any_smooth()) return next_smooth_step(tip, exact);
+  if (contacts_.size() > 1 && contacts_.any_guarded()) return next_round_step(tip, exact);
   if (contacts_.size() > 1) {
     const Vector3 step = contacts_.constrained(position_, pull, tolerance);
     const double share = slip(step.norm(), (pull - step).norm());
@@ -281,6 +318,7 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
     const Vector3 out = normal(contact, position_);
     const double press = -out.dot(pull);
     if (press > 0.0) {
+      if (contact.guarded) return next_round_step(tip, exact);
       const Vector3 way = slide(contact, position_, tip, tolerance) - position_;
       const double share = slip((pull + press * out).norm(), press);
       const Vector3 end = position_ + share * way;
@@ -321,6 +359,37 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   if (share < 1.0) rest = contacts_.rest(position_, goal_, tolerance);
   return rest.place - position_;
 }
+
+/// Along rounded edges and corners of a mesh, which bend: a step along their tangents would rise off them,
+/// and where the tip is near their centres it would lead a small part of the way only.
+Vector3 ScpSolver::next_round_step(const Vector3& tip, bool& exact) {
+  const Vector3 pull = tip - position_;
+  const Vector3 tangent = contacts_.constrained(position_, pull, tolerance());
+  const double share = slip(tangent.norm(), (pull - tangent).norm());
+  if (share <= 0.0 || tangent.norm() <= tolerance().touching()) return share * tangent;
+  const double longest = kRoundStep * contacts_.smallest_radius();
+  goal_ = tip;
+  ContactSet::Rest rest = contacts_.rest(position_, goal_, tolerance());
+  exact = rest.exact && contacts_.size() == 1;
+  // The nearest place may lie round the edge, where no way along the edge leads nearer: then a part of the
+  // way, pressed on the edge.
+  const Vector3 whole = rest.place - position_;
+  if (share < 1.0 || whole.norm() > longest || whole.dot(tangent) <= 0.0) {
+    exact = false;
+    const Vector3 pressed = tangent.normalized() + (pull - tangent).stableNormalized();
+    for (const double length : {longest, share * tangent.norm()}) {
+      if (length > longest || (share < 1.0 && length == longest)) continue;
+      goal_ = position_ + length * pressed;
+      rest = contacts_.rest(position_, goal_, tolerance());
+      if ((tip - rest.place).squaredNorm() < pull.squaredNorm()) break;
+    }
+  }
+  return rest.place - position_;
+}
+
+/// Do the contacts say all about the free space around? Around what is convex and rounded by a sphere tip no
+/// face ends at an edge: the next contact takes over with the same normal.
+bool ScpSolver::rounded() const { return settings_.tip_radius > 0.0 && contacts_.all_convex(); }
 
 /// Where faces meet in a saddle, the half-spaces of all of them together hold a tip that could still
 /// move: a face does not reach beyond its edges. True when there was a way and the SCP moved.
@@ -396,19 +465,26 @@ bool ScpSolver::advance(const Vector3& wanted) {
   const double room = region_.clearance(position_);
   const bool leaves = room < 0.0 || region_.clearance(position_ + wanted) < 0.0;
   const bool long_way = !falling() && (contacts_.empty() || wanted.norm() > region_.reach());
-  if (leaves && (long_way || room < 0.25 * region_.reach())) surround(wanted);
-  Vector3 step = within_region(wanted);
+  if (leaves && (long_way || room < 0.25 * std::max(reach_, region_.reach()))) surround(wanted);
+  Vector3 step = within_stride(within_region(wanted));
+  const Vector3 from = position_;
+  lifted_ = 0.0;
   const bool smooth = contacts_.any_smooth();
-  const SweepHit hit = smooth ? arch(step) : sweep_on(step, contacts_.all());
+  const SweepHit hit = smooth                    ? arch(step)
+                       : contacts_.any_guarded() ? hop(step)
+                                                 : sweep_on(step, contacts_.all());
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
     reach_ *= 0.5;
     return false;
   }
+  const double least_stride = kLeastShare * settings_.tip_radius;
+  stride_ = kStride * (hit.met ? std::max((position_ - from).norm(), least_stride) : stride_);
   met_ = hit.met;
   cut_ = !hit.met && step != wanted;
   const bool whole = !hit.met && !cut_ && (!smooth || contacts_.size() == held);
+  const double near = std::max(tolerance.touching(), lifted_);
   contacts_.forget_if([&](const Element& contact) {
-    return height(contact, position_) > tolerance.touching() || !covers(contact, position_, tolerance);
+    return height(contact, position_) > near || !covers(contact, position_, tolerance);
   });
   if (hit.met) contacts_.add(hit.contact);
   return whole;
@@ -478,6 +554,31 @@ SweepHit ScpSolver::arch(Vector3& step) {
   return {};
 }
 
+/// The same along rounded edges and corners of a mesh: in two legs over the bulge, or as far as these are
+/// free. Who is stopped above a contact keeps it: it is what bounds the way back down.
+SweepHit ScpSolver::hop(Vector3& step) {
+  const Vector3 from = position_;
+  for (int i = 0; i < kMaxArches; ++i) {
+    const std::optional<Vector3> top = contacts_.lift(from, step, tolerance());
+    if (!top || top->norm() > kSteepest * step.norm()) {
+      step = rest_within(0.5 * step.norm(), step);
+      continue;
+    }
+    if (top->isZero(0.0)) return sweep_past(step, from, from + step);
+    if (region_.clearance(from + 0.5 * step + *top) < 0.0) {
+      region_.start(*scene_, frame(), from, from + step, std::max(reach_, 2.0 * top->norm()));
+      scene_->gather(region_);
+    }
+    const Vector3 end = from + step;
+    SweepHit hit = sweep_past(0.5 * step + *top, from, from);
+    if (!hit.met && !region_.overflowed()) hit = sweep_past(end - position_, end, end);
+    if (hit.met) lifted_ = 2.0 * top->norm();
+    return hit;
+  }
+  step.setZero();
+  return {};
+}
+
 bool ScpSolver::holds(const Element& element) const {
   return std::any_of(contacts_.all().begin(), contacts_.all().end(),
                      [&](const Element& contact) { return same_surface(contact, element); });
@@ -489,11 +590,33 @@ Vector3 ScpSolver::rest_within(double length, const Vector3& step) {
   return contacts_.rest(position_, position_ + part, tolerance()).place - position_;
 }
 
+/// A step of a sphere tip along faces, no longer than a few times what the last one came forward: the way to
+/// a tip far off leads deep into what will stop it soon.
+Vector3 ScpSolver::within_stride(const Vector3& step) const {
+  const auto flat = [](const Element& contact) { return contact.flat(); };
+  const bool straight = std::all_of(contacts_.all().begin(), contacts_.all().end(), flat);
+  const double length = step.norm();
+  return settings_.tip_radius > 0.0 && straight && length > stride_ ? Vector3(step * (stride_ / length))
+                                                                    : step;
+}
+
+/// How much of a step stays in the region, which is convex.
+double ScpSolver::part_within_region(const Vector3& step) const {
+  double within = 0.0;
+  double beyond = 1.0;
+  while (beyond - within > kLeastShare * beyond) {
+    const double middle = 0.5 * (within + beyond);
+    (region_.clearance(position_ + middle * step) >= 0.0 ? within : beyond) = middle;
+    if (beyond * step.norm() <= tolerance().gap) break;
+  }
+  return within;
+}
+
 /// The beginning of a step that would leave the region.
 Vector3 ScpSolver::within_region(const Vector3& step) {
   if (region_.clearance(position_ + step) >= 0.0) return step;
-  const double part = std::min(1.0, region_.clearance(position_) / step.norm());
-  if (contacts_.size() > 1 && contacts_.any_smooth()) {
+  const double part = part_within_region(step);
+  if (contacts_.size() > 1 && (contacts_.any_smooth() || contacts_.any_guarded())) {
     return rest_within(0.5 * part * step.norm(), step);
   }
   if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
@@ -515,7 +638,8 @@ double ScpSolver::largest_reach() const { return kLargestReach * scene_->extent(
 /// the things near by are large, or what lies far off would say what counts as small here.
 void ScpSolver::surround(const Vector3& step) {
   Vector3 ahead = way_ahead(step);
-  const double least_reach = 0.25 * tip_motion_;
+  const double least_reach = std::max(0.25 * tip_motion_, kLeastOfTip * settings_.tip_radius);
+  reach_ = std::max(reach_, kLeastShare * least_reach);
   for (int i = 0; i < kMaxShrinks; ++i) {
     const bool least = reach_ <= least_reach;
     region_.start(*scene_, frame(), position_, position_ + ahead, reach_,
@@ -548,6 +672,10 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
     return on.norm() >= likely ? on : Vector3(step * (likely / length));
   }
   if (!contacts_.empty()) last_slide_ = length;
+  // A sphere tip that is pulled far along what it touches sinks into much that it will not come to.
+  const double farthest = std::max(tip_motion_, kRoundStep * settings_.tip_radius);
+  if (!contacts_.empty() && settings_.tip_radius > 0.0 && length > farthest)
+    return step * (farthest / length);
   const double beside = on.cross(step).norm();
   return on.dot(step) >= step.squaredNorm() && beside <= 0.5 * reach_ * on.norm() ? on : step;
 }

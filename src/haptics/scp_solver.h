@@ -38,7 +38,9 @@ class ScpSolver final : public ContactSolver {
   ContactRegion::Frame frame() const { return {origin_, settings_.tip_radius, elapsed_}; }
   Pose pose(std::uint32_t object, double elapsed) const { return scene_->pose_in(origin_, object, elapsed); }
   void move_origin();
-  void start(const Vector3& tip);
+  bool start(const Vector3& tip);
+  bool find_room();
+  void restart();
   double gap_on(std::uint32_t object, const Vector3& place) const;
   void leave_solids();
   void carry(double from, double to);
@@ -50,14 +52,19 @@ class ScpSolver final : public ContactSolver {
   void converge(const Vector3& tip);
   bool nearer(const Vector3& from, const Vector3& tip) const;
   bool advance(const Vector3& wanted);
+  double part_within_region(const Vector3& step) const;
+  Vector3 within_stride(const Vector3& step) const;
   Vector3 within_region(const Vector3& step);
   Vector3 next_step(const Vector3& tip, bool& exact);
+  Vector3 next_round_step(const Vector3& tip, bool& exact);
   Vector3 next_smooth_step(const Vector3& tip, bool& exact);
   SweepHit sweep_on(const Vector3& step, std::span<const Element> ignored);
   SweepHit sweep_past(const Vector3& step, const Vector3& one, const Vector3& other);
   bool holds(const Element& element) const;
   SweepHit arch(Vector3& step);
+  SweepHit hop(Vector3& step);
   Vector3 rest_within(double length, const Vector3& step);
+  bool rounded() const;
   bool escape(const Vector3& tip);
   bool escape_without_one(const Vector3& tip);
   bool lets_go(const Element& contact, const Vector3& tip) const;
@@ -77,8 +84,9 @@ class ScpSolver final : public ContactSolver {
   const HapticScene* scene_ = nullptr;
   double elapsed_ = 0.0;  // s, of the last step
   bool started_ = false;
-  bool cut_ = false;  // did the last step go only a part of the way wanted?
-  bool met_ = false;  // did it end at something new?
+  bool no_room_ = false;  // when it was looked for last
+  bool cut_ = false;      // did the last step go only a part of the way wanted?
+  bool met_ = false;      // did it end at something new?
   bool sliding_ = false;
   bool left_solid_ = false;  // put on the surface since the last report
   // m, where the frame of all that follows lies in the world: moved when the SCP is so far from it that what
@@ -89,6 +97,8 @@ class ScpSolver final : public ContactSolver {
   Vector3 goal_ =
       Vector3::Zero();       // m, where smooth contacts are pulled: the tip, or as far as friction lets
   double tip_motion_ = 0.0;  // m, of this tick
+  double stride_ = 0.0;      // m, how long a step may be
+  double lifted_ = 0.0;      // m, how high above its contacts the last step may have ended
   double last_slide_ = 0.0;  // m, the last step along a surface in this tick
   Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
   double reach_ = 0.0;               // m, how far around the SCP the region looks

@@ -89,6 +89,14 @@ class Shape {
   /// front; nothing when it is not inside, or the shape has no inside. `time`: see changes(). Real-time safe.
   virtual std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double time) const = 0;
 
+  /// The place of the surface nearest to a position outside, if it is within `limit` metres and its touched
+  /// side is there; the normal points from it to the position. Only shapes that a sphere tip feels as they
+  /// are answer. Real-time safe.
+  virtual std::optional<geometry::SurfacePoint> nearest(const Vector3& /*position*/, double /*limit*/,
+                                                        TouchableSides /*sides*/) const {
+    return std::nullopt;
+  }
+
   /// Where start + t * step, t in [0, 1], first goes through the surface, from either side; for picking with
   /// the mouse, so it may allocate. `time`: see changes().
   virtual std::optional<ShapeHit> cast(const Vector3& start, const Vector3& step, double time) const = 0;

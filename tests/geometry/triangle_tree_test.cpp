@@ -82,17 +82,31 @@ TEST(TriangleTree, NearVisitsEveryTriangleInReachAndStopsWhenTold) {
     const Vector3 a = random.direction();
     const Vector3 b = a + random.uniform(0.0, 1.5) * random.direction();
     const double radius = random.uniform(0.0, 0.1);
-    std::set<std::uint32_t> seen;
-    tree.near(a, b, radius, [&](std::uint32_t slot) { return seen.insert(slot).second; });
-    for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
-      if (sampled_distance(tree.corners(slot), a, b) <= radius) {
-        EXPECT_TRUE(seen.count(slot)) << slot;
+    for (const bool round : {false, true}) {
+      std::set<std::uint32_t> seen;
+      tree.near(SegmentQuery(a, b, radius, round),
+                [&](std::uint32_t slot) { return seen.insert(slot).second; });
+      for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
+        if (sampled_distance(tree.corners(slot), a, b) <= radius) {
+          EXPECT_TRUE(seen.count(slot)) << slot;
+        }
       }
     }
   }
   int visits = 0;
   tree.near(Vector3::Zero(), Vector3::Zero(), 10.0, [&](std::uint32_t) { return ++visits < 7; });
   EXPECT_EQ(visits, 7);
+}
+
+// A ball inside a shell meets the box around it, but not the shell.
+TEST(TriangleTree, ARoundQueryLeavesOutTheCornersOfItsBox) {
+  const TriangleTree shell(bumpy_geodesic_sphere(40, 1.0, 0.0, 0));
+  int boxed = 0, round = 0;
+  const auto count_in = [](int& count) { return [&count](std::uint32_t) { return ++count > 0; }; };
+  shell.near(Vector3::Zero(), Vector3::Zero(), 0.9, count_in(boxed));
+  shell.near(SegmentQuery(Vector3::Zero(), Vector3::Zero(), 0.9, true), count_in(round));
+  EXPECT_GT(boxed, 10'000);
+  EXPECT_LT(20 * round, boxed);  // some boxes hold triangles that lie apart
 }
 
 TEST(TriangleTree, FirstHitIsTheFirstAndWatertightAlongEdges) {

@@ -73,11 +73,12 @@ inline Pose translation(double x, double y, double z) {
   return pose;
 }
 
-/// A solver that follows one tip through one scene, and keeps the scene. Unless told otherwise it may look at
-/// as many elements a tick as it likes: where the SCP ends is one question, what a tick may cost another.
+/// A solver that follows one tip through one scene, and keeps the scene. It has the product's budgets unless
+/// told otherwise.
 struct Toucher {
-  explicit Toucher(ScenePointer touched, double tip_radius = 0.0, int max_elements = 10'000'000)
-      : scene(std::move(touched)), solver({tip_radius, 64, max_elements}) {
+  explicit Toucher(ScenePointer touched, double tip_radius = 0.0,
+                   int max_elements = ScpSettings().max_elements)
+      : scene(std::move(touched)), solver({tip_radius, ScpSettings().max_iterations, max_elements}) {
     solver.adopt(*scene, {});
   }
   const ScpState& step(const Vector3& tip) { return solver.step(tip, 0.0); }

@@ -125,7 +125,7 @@ class CheckedTouch {
   CheckedTouch(Solid solid, std::shared_ptr<const Shape> shape, const TouchCheck& check)
       : check_(check),
         solid_(std::move(solid)),
-        toucher_(HapticScene::compile({object(1, std::move(shape), check.pose)}), 0.0, 100'000) {}
+        toucher_(HapticScene::compile({object(1, std::move(shape), check.pose)})) {}
   CheckedTouch(const CsgTree& tree, const TouchCheck& check)
       : CheckedTouch(BruteSolid(tree), shape_of(tree), check) {}
 
