@@ -292,6 +292,35 @@ std::vector<CsgAtom> atoms(const CsgLeaf& leaf) {
   return result;
 }
 
+bool has_offset(const CsgAtom& atom) {
+  if (atom.kind == Kind::Plane || atom.kind == Kind::Mesh) return true;
+  return atom.similar && atom.kind != Kind::Custom;
+}
+
+std::optional<CsgAtom> offset(const CsgAtom& atom, double distance) {
+  CsgAtom result = atom;
+  const double scaled = distance * atom.normal_map.col(2).norm();
+  switch (atom.kind) {
+    case Kind::Plane:
+      result.tree_from_atom.pretranslate(distance * tree_normal(atom, Vector3::UnitZ()));
+      result.atom_from_tree = result.tree_from_atom.inverse();
+      return result;
+    case Kind::ConeSide:
+      result.a += scaled * std::hypot(1.0, atom.b);
+      return result;
+    case Kind::Torus:
+      result.b += scaled;
+      return result.b > 0.0 ? std::optional(result) : std::nullopt;
+    case Kind::Sphere:
+    case Kind::Cylinder:
+    case Kind::Capsule:
+      result.a += scaled;
+      return result.a > 0.0 ? std::optional(result) : std::nullopt;
+    default:
+      return result;
+  }
+}
+
 double signed_distance(const CsgAtom& atom, const Vector3& point) {
   switch (atom.kind) {
     case Kind::Plane:

@@ -40,6 +40,15 @@ struct CsgAtom {
 /// The atoms of a leaf, whose intersection it is.
 std::vector<CsgAtom> atoms(const CsgLeaf& leaf);
 
+/// Can the surface at a distance from the atom's be told in closed form? For planes and meshes (triangle by
+/// triangle) however they are stretched, for curved kinds while angles are kept.
+bool has_offset(const CsgAtom& atom);
+
+/// The atom whose surface lies `distance` metres (tree's frame) in front of this one's, or behind it if that
+/// is negative: of the same kind. Nothing where none is left. A mesh stays as it is: each of its triangles
+/// moves by itself. Precondition: has_offset().
+std::optional<CsgAtom> offset(const CsgAtom& atom, double distance);
+
 // All of the following: not for meshes, in the atom's own frame unless they say tree. Real-time safe.
 
 /// Signed distance to the surface (for a cone, beyond its apex, to the extended side); negative within.

@@ -6,6 +6,7 @@
 
 namespace icome::geometry {
 
+class CsgFaces;
 class CsgProgram;
 
 /// A CSG tree compiled for touch: its surface as the exact, trimmed faces of its primitives. Made once
@@ -32,11 +33,9 @@ class CsgSolid final : public SmoothSurface {
   std::optional<SurfacePoint> crossing(const Vector3& a, const Vector3& b) const;
 
  private:
-  class Compiled;
-
   std::optional<SurfacePlace> straight_out(const Vector3& point) const;
 
-  std::unique_ptr<const Compiled> compiled_;
+  std::unique_ptr<const CsgFaces> faces_;
 };
 
 }  // namespace icome::geometry
