@@ -38,6 +38,12 @@ double extent_of(const Bounds& bounds, const Vector3& start, const Vector3& step
 
 }  // namespace
 
+Bounds SmoothShape::bounds() const {
+  const Bounds box = surface_->bounds();
+  if (box.isEmpty()) return box;
+  return {box.min() + Vector3::Constant(tip_), box.max() - Vector3::Constant(tip_)};
+}
+
 void SmoothShape::gather(const GatherRequest& request, ElementSink& sink) const {
   surface_->near(request.a, request.b, request.reach, request.time,
                  [&](std::uint32_t piece, const Bounds& box) { return sink.defer(piece, box); });
@@ -60,7 +66,7 @@ void SmoothShape::expand(std::uint32_t piece, double /*tip*/, TouchableSides sid
 std::optional<geometry::SurfacePoint> SmoothShape::way_out(const Vector3& position, double time) const {
   const auto place = surface_->way_out(position, time);
   if (!place) return std::nullopt;
-  return geometry::SurfacePoint{place->point, place->normal};
+  return geometry::SurfacePoint{place->point - tip_ * place->normal, place->normal};
 }
 
 std::optional<ShapeHit> SmoothShape::cast(const Vector3& start, const Vector3& step, double time) const {
