@@ -72,6 +72,10 @@ class MembershipWitness final : public Witness {
       least = std::min(least, there);
     };
     for (const Vector3& direction : around_) look(direction);
+    if (solid_.nearest) {  // what lies between the directions, too
+      if (const auto place = solid_.nearest(point, least, resolution_.wall))
+        look((*place - point).normalized());
+    }
     for (double angle = 0.3; angle > 1e-4 && least < radius; angle *= 0.6) {
       const Vector3 side = nearest.unitOrthogonal(), other = nearest.cross(side), centre = nearest;
       for (int i = 0; i < 6; ++i) {

@@ -114,5 +114,42 @@ TEST(WitnessTree, CountsOverlappingPartsAndSeesThroughCavities) {
   EXPECT_EQ(winding(tree, {-0.06, 0.0, 0.0}), 0);
 }
 
+TEST(PlainSolid, FindsTheNearestOfItsPlaces) {
+  // A plate with a needle on it; the needle is thinner than what samples in some directions would find.
+  CsgTree tree;
+  const auto plate = tree.add_leaf(primitive("box:0.1x0.1x0.01"));
+  base::Affine3 up = base::Affine3::Identity();
+  up.translation() = Vector3(0.0, 0.0, 0.02);
+  const auto needle = tree.add_leaf(primitive("cylinder:0.0005x0.03"), up);
+  tree.add(CsgOperator::Union, plate, needle);
+  const MembershipSolid solid = plain_solid(tree);
+  Random random(9);
+  for (int i = 0; i < repeats(400); ++i) {
+    const Vector3 place(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01),
+                        random.uniform(0.006, 0.04));
+    const double beside = std::hypot(place.x(), place.y()) - 0.0005;
+    const double above = std::max(0.0, place.z() - 0.035);
+    const double distance = std::min(place.z() - 0.005, std::hypot(std::max(0.0, beside), above));
+    const auto found = solid.nearest(place, 0.02, 2e-5);
+    EXPECT_EQ(found.has_value(), distance < 0.02);
+    if (!found) continue;
+    EXPECT_NEAR((*found - place).norm(), distance, 2e-5);
+    EXPECT_TRUE(solid.inside(*found, 0.0));
+  }
+}
+
+TEST(PlainSolid, TellsTheJudgeOfANeedleInASphereTip) {
+  CsgTree tree;
+  base::Affine3 aside = base::Affine3::Identity();
+  aside.rotate(Eigen::AngleAxisd(0.3, Vector3(1.0, 2.0, 0.5).normalized()));
+  tree.add_leaf(primitive("cylinder:0.0002x0.02"), aside);
+  const Vector3 along = aside.linear() * Vector3::UnitZ();
+  JudgeSettings settings;
+  settings.tip_radius = 0.005;
+  ContactJudge judge({{plain_solid(tree)}}, settings);
+  const Vector3 tip = 0.012 * along;  // the needle ends 2 mm away
+  EXPECT_TRUE(judge.judge({.tip = tip, .scp = tip, .touching = false}).pop);
+}
+
 }  // namespace
 }  // namespace icome::haptics
