@@ -12,6 +12,7 @@
 #include "files/csg_reader.h"
 #include "geometry/csg_emptiness.h"
 #include "geometry/csg_mesh.h"
+#include "geometry/csg_offset.h"
 #include "geometry/csg_solid.h"
 #include "geometry/implicit_surface.h"
 #include "geometry/loop_levels.h"
@@ -47,8 +48,8 @@ geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t
   return options;
 }
 
-/// Makes the mesh what is felt: element by element only point tips know how to touch exact surfaces.
-void touch_mesh(TouchModel& model, const TouchOptions& options, const std::string& deviation) {
+/// Makes the mesh what is felt. `detail`: how near the mesh is, or why there is one.
+void touch_mesh(TouchModel& model, const TouchOptions& options, const std::string& detail) {
   haptics::MeshShapeSettings settings;
   settings.closed = model.body().closed;
   settings.tip_radius = options.radius;
@@ -58,7 +59,7 @@ void touch_mesh(TouchModel& model, const TouchOptions& options, const std::strin
   model.triangles = shape->mesh().triangles.size();
   model.body().membership.reset();
   model.repairs.push_back(
-      fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, deviation));
+      fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, detail));
 }
 
 base::Result<void> no_sphere_tip(const TouchOptions& options) {
@@ -80,8 +81,8 @@ base::Result<geometry::ContourMesh> contoured(const geometry::CsgTree& tree, boo
   return geometry::contour(tree, options);
 }
 
-/// The sphere tip's mesh of a CSG tree.
-base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options) {
+/// The sphere tip's mesh of a CSG tree of which there is nothing better, for the reason given.
+base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options, const std::string& reason) {
   auto made = contoured(*model.body().csg, true);
   if (!made) return base::fail(model.name + ": " + made.error().message);
   if (made->mesh.triangles.empty())
@@ -89,7 +90,7 @@ base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options
                       ": the solid is empty, or so thin that its mesh is: touch it with a point.");
   const Stopwatch watch;
   take_mesh(model, std::move(made->mesh));
-  touch_mesh(model, options, fmt::format(", within {}", in_millimetres(made->error)));
+  touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(made->error), reason));
   model.build_seconds = watch.seconds();
   return {};
 }
@@ -106,12 +107,20 @@ base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const T
   const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
   if (thesis) {
     if (const auto point = no_sphere_tip(options); !point) return point;
-  } else if (options.radius > 0.0) {
-    return touch_csg_mesh(model, options);
   }
-  model.body().membership = haptics::plain_solid(*tree);
   model.body().solid = std::make_shared<const haptics::SmoothShape>(solid);
   model.body().shape = model.body().solid;
+  if (options.radius > 0.0) {
+    const auto centres = geometry::CsgOffset::create(*tree, options.radius);
+    if (!centres) {
+      model.body().solid.reset();
+      return touch_csg_mesh(model, options, centres.error().message);
+    }
+    model.repairs.push_back(fmt::format("a tip with a radius feels it exactly: faces, and edges of {} arcs",
+                                        (*centres)->edge_count()));
+    model.body().shape = std::make_shared<const haptics::SmoothShape>(*centres, options.radius);
+  }
+  model.body().membership = haptics::plain_solid(*tree);
   if (thesis) {
     auto shape = haptics::ThesisCsgShape::create(*tree);
     if (!shape) return base::fail(model.name + ": " + shape.error().message);

@@ -6,8 +6,9 @@
 namespace icome::apps {
 
 // MODELs that are touched without meshing them. Loop and implicit surfaces still get a mesh, for the picture
-// and for where the simulated hand looks; a CSG tree gets one only when a picture needs it. With a sphere tip
-// each is felt as a mesh; the model says so among its sentences.
+// and for where the simulated hand looks; a CSG tree gets one only when a picture needs it. A sphere tip
+// feels a CSG tree exactly, too, unless its surface at a distance has no closed form; that, and the others,
+// it feels as a mesh. The model says so among its sentences.
 
 /// Does the MODEL name an OpenSCAD file?
 bool names_csg(const std::string& text);

@@ -6,6 +6,7 @@
 
 #include "base/decompositions.h"
 #include "geometry/csg_emptiness.h"
+#include "geometry/csg_offset.h"
 #include "geometry/csg_solid.h"
 #include "geometry/mesh_frame.h"
 #include "geometry/mesh_repair.h"
@@ -128,16 +129,25 @@ class FeltShapeMaker {
       felt->shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
       return felt;
     }
-    if (sphere_tip()) return of_triangles(shape, "stretched and the tip has a radius");
     geometry::CsgTree tree;
     tree.add_leaf(shape.primitive, base::Affine3(map));
-    return of_tree(std::move(tree));
+    return of_tree(shape, std::move(tree), "stretched", kToleranceOfSize);
   }
 
   Felt of_csg(const world::CsgGeometry& shape) const {
     if (shape.bounds().isEmpty()) return untouchable("is empty: there is nothing to touch");
-    if (sphere_tip()) return of_triangles(shape, "a CSG tree and the tip has a radius", kCellOfSize);
-    return of_tree(stretched(shape.tree, map_));
+    return of_tree(shape, stretched(shape.tree, map_), "a CSG tree", kCellOfSize);
+  }
+
+  /// A tree as the tip feels it: of triangles where a tip with a radius has no surface in closed form.
+  Felt of_tree(const world::Geometry& shape, geometry::CsgTree tree, const std::string& what,
+               double tolerance_of_size) const {
+    if (!sphere_tip()) return of_tree(std::move(tree));
+    const auto centres = geometry::CsgOffset::create(tree, settings_.tip_radius);
+    if (!centres) return of_triangles(shape, what + " and the tip has a radius", tolerance_of_size);
+    Felt felt = of_tree(std::move(tree));
+    if (felt->shape) felt->shape = std::make_shared<haptics::SmoothShape>(*centres, settings_.tip_radius);
+    return felt;
   }
 
   static Felt of_tree(geometry::CsgTree tree) {

@@ -13,7 +13,7 @@ namespace icome::session {
 
 /// What a tip must be told of before shapes are made for it.
 struct FeltSettings {
-  double tip_radius = 0.0;           // m; 0 is a point, which alone touches smooth surfaces as what they are
+  double tip_radius = 0.0;           // m; 0 is a point
   bool interpolate_normals = false;  // of meshes, for force shading
   /// Surfaces that change with time do so under the hand; else they are felt as they are at t = 0, as which
   /// they are seen and picked.
@@ -52,9 +52,9 @@ FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_fr
 
 /// The shape as it is felt. Exact where that is possible: a mesh's vertices go along with the place, so do
 /// control meshes and CSG trees; a primitive stays one where its stretched self is, and else becomes a CSG
-/// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and smooth surfaces under
-/// a tip with a radius are felt as triangles: 1/2000 of their size off at most, or sampled at 100 places
-/// along their longest side.
+/// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and, under a tip with a
+/// radius, Loop and implicit surfaces and trees that geometry::CsgOffset refuses are felt as triangles:
+/// 1/2000 of their size off at most, or sampled at 100 places along their longest side.
 ///
 /// `before`, where given, is what was made of it with the same settings before an edit. A sound mesh whose
 /// vertices alone have moved follows it, many times as soon as one made anew: its surface stays as it was

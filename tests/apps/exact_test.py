@@ -51,10 +51,17 @@ class CsgTest(ExactTest):
         row = self.press(self.write("pierced.csg", PIERCED), "--fit", "0.08")
         self.assertAlmostEqual(row["scp_z"], 0.04, delta=1e-9)
 
-    def test_a_tip_with_a_radius_says_what_it_feels(self):
+    def test_a_tip_with_a_radius_feels_the_exact_solid(self):
         file = self.write("pierced.csg", PIERCED)
         said = self.succeeds("touch", file, "--radius", "0.002", "--seconds", "0.1").stdout
+        self.assertIn("feels it exactly", said)
+        self.assertAlmostEqual(self.press(file, "--radius", "0.002")["scp_z"], 0.042, delta=1e-9)
+
+    def test_a_tip_with_a_radius_says_why_it_feels_a_mesh(self):
+        file = self.write("egg.csg", "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,2,0],[0,0,0,1]]) { sphere(r = 20); }")
+        said = self.succeeds("touch", file, "--radius", "0.002", "--seconds", "0.1").stdout
         self.assertIn("feels it as a mesh of", said)
+        self.assertIn("curved primitives are stretched", said)
 
     def test_an_empty_solid_is_refused(self):
         file = self.write("apart.csg", "intersection() { cube(1); multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],"
