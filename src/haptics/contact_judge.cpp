@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "haptics/contact_witness.h"
 
@@ -15,6 +18,8 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
+constexpr int kMostPlaces = 1'500;      // that one search for a way looks from
+constexpr int kMostSearches = 100'000;  // all of them: then what cannot be told counts as a pop
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise, a length is told from none
 constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
@@ -324,19 +329,91 @@ class ContactJudge::Court {
     return false;
   }
 
-  /// Where an edge or a bottleneck lets go, the SCP may run far in one tick. Does a walk through free space
-  /// that never moves away from the tip come by?
-  bool slides_to(const Vector3& scp, const Vector3& tip) const {
-    constexpr int kMaxSteps = 1000;
+  /// Where an edge or a bottleneck lets go, the SCP may run far in one tick. Is there a way through free
+  /// space that never moves away from the tip? The SCP went downhill as a rule, so look there first.
+  bool slides_to(const Vector3& scp, const Vector3& tip) {
+    return finds_way(scp, tip, tip) || finds_way(scp, tip, scp);
+  }
+
+  /// Best-first search: from the place that is nearest to the goal so far, steps in all directions, and along
+  /// what blocks them; shorter steps only where long ones lead no nearer.
+  bool finds_way(const Vector3& scp, const Vector3& tip, const Vector3& goal) {
     const double far = std::max(near_.stick, (scp - *seen_).norm() / 50.0);
-    Vector3 place = *seen_;
-    for (int i = 0; i < kMaxSteps; ++i) {
-      if (free(place, scp) || ((scp - place).norm() <= 4.0 * far && around(place, scp))) return true;
-      const std::optional<Vector3> next = walked(place, tip, far);
-      if (!next) return false;
-      place = *next;
+    const Vector3 clear = clearest(scp, [&](const Vector3& to) { return !inside(to); }).value_or(scp);
+    Search search{goal, {cell(*seen_, 0.5 * far)}, {{(goal - *seen_).norm(), *seen_}}};
+    for (int i = 0; i < kMostPlaces && !search.open.empty() && searches_ < kMostSearches; ++i) {
+      ++searches_;
+      const Vector3 place = search.next();
+      if (free(place, scp) || free(place, clear) || ((scp - place).norm() <= 4.0 * far && around(place, scp)))
+        return true;
+      for (double move = far; move >= 2.0 * near_.noise; move *= 0.25) {
+        if (walk_on(search, place, scp, tip, move)) break;
+      }
     }
     return false;
+  }
+
+  using Cell = std::array<double, 4>;  // its size and place, in sizes
+
+  /// Where a search leads, the cells that it has come to, and the places that it may go on from.
+  struct Search {
+    Vector3 goal;
+    std::set<Cell> known;
+    std::vector<std::pair<double, Vector3>> open;  // a heap by distance to the goal, m
+
+    static bool farther(const std::pair<double, Vector3>& a, const std::pair<double, Vector3>& b) {
+      return a.first > b.first;
+    }
+    void add(const Vector3& place) {
+      open.emplace_back((goal - place).norm(), place);
+      std::push_heap(open.begin(), open.end(), farther);
+    }
+    Vector3 next() {
+      std::pop_heap(open.begin(), open.end(), farther);
+      const Vector3 place = open.back().second;
+      open.pop_back();
+      return place;
+    }
+  };
+
+  static Cell cell(const Vector3& place, double size) {
+    return {size, std::floor(place.x() / size), std::floor(place.y() / size), std::floor(place.z() / size)};
+  }
+
+  /// Adds the places that free steps `move` long lead to, none farther from the tip. Does one come nearer to
+  /// the goal?
+  bool walk_on(Search& search, const Vector3& from, const Vector3& scp, const Vector3& tip, double move) {
+    constexpr std::array<double, 6> kCosines{0.95, 0.8, 0.6, 0.4, 0.2, 0.08};
+    const double way = (tip - from).norm();
+    const double left = (search.goal - from).norm();
+    bool nearer = false;
+    const auto go = [&](const Vector3& to) {
+      if ((to - tip).norm() > way || search.known.contains(cell(to, 0.5 * move)) || !free(from, to)) return;
+      search.known.insert(cell(to, 0.5 * move));
+      search.add(to);
+      nearer = nearer || (search.goal - to).norm() < left - 0.1 * move;
+    };
+    // As far as it leads nearer to the goal, or up to what is in the way.
+    const auto run = [&](const Vector3& along, const Vector3& goal) {
+      const double length = along.dot(goal - from);
+      if (length <= move) return;
+      const std::optional<Block> block = blocked(from, from + length * along);
+      const double free_part = block ? block->t * length - 2.0 * near_.noise : length;
+      if (free_part > move) go(from + free_part * along);
+    };
+    for (const Vector3& goal : {scp, tip}) {
+      if ((goal - from).squaredNorm() <= 0.0) continue;
+      const Vector3 onward = (goal - from).normalized();
+      for (const Vector3& along : unblocked(from, move, onward)) {
+        run(along, goal);
+        go(from + move * along);
+      }
+      for (const double cosine : kCosines) {
+        for (const Vector3& side : ring<16>(onward))
+          go(from + move * (cosine * onward + std::sqrt(1.0 - cosine * cosine) * side));
+      }
+    }
+    return nearer;
   }
 
   /// The pull, the pull along the face that blocks it, and the pull along that and the face that blocks this.
@@ -350,30 +427,6 @@ class ContactJudge::Court {
     const Vector3 seam = first->normal.cross(second->normal).normalized();
     ways[2] = seam.dot(pull) < 0.0 ? Vector3(-seam) : seam;
     return ways;
-  }
-
-  /// One step of such a walk: straight on, or along what blocks the way, or whichever way leads nearer.
-  std::optional<Vector3> walked(const Vector3& from, const Vector3& tip, double longest) const {
-    constexpr std::array<double, 6> kCosines{0.95, 0.8, 0.6, 0.4, 0.2, 0.08};
-    const double way = (tip - from).norm();
-    if (way <= 0.0) return std::nullopt;
-    const Vector3 pull = (tip - from) / way;
-    const auto nearer = [&](const Vector3& step) {
-      return (from + step - tip).norm() < way && free(from, from + step);
-    };
-    const auto sides = ring<16>(pull);
-    for (double move = std::min(longest, way); move >= 1e-3 * near_.stick; move *= 0.25) {
-      for (const Vector3& along : unblocked(from, move, pull)) {
-        if (nearer(move * along)) return from + move * along;
-      }
-      for (const double cosine : kCosines) {
-        for (const Vector3& side : sides) {
-          const Vector3 step = move * (cosine * pull + std::sqrt(1.0 - cosine * cosine) * side);
-          if (nearer(step)) return from + step;
-        }
-      }
-    }
-    return std::nullopt;
   }
 
   bool sticks(const Vector3& tip, const Vector3& scp, bool touching) const {
@@ -445,6 +498,7 @@ class ContactJudge::Court {
   Lengths near_;  // of what the last tick had to do with
   JudgedTick last_;
   int pulling_ = 0;              // ticks in a row
+  int searches_ = 0;             // places looked from, by all searches
   std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
 };
 
