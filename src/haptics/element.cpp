@@ -281,6 +281,29 @@ bool covers(const Element& e, const Vector3& position, const Tolerance& toleranc
   return false;
 }
 
+Rim nearest_rim(const Element& e, const Vector3& position) {
+  const Vector3 offset = position - e.origin;
+  Rim nearest;
+  const auto edge = [&](const Vector3& inward, double least) {
+    const double inside = inward.dot(offset) - least;
+    if (inside < nearest.inside) nearest = {inside, -inward};
+  };
+  if (e.kind == Kind::Triangle) {
+    edge(e.u, e.a);
+    edge(e.v, e.b);
+    edge(e.w, e.c);
+  } else if (e.kind == Kind::Parallelogram) {
+    edge(e.u, -e.a);
+    edge(-e.u, -e.a);
+    edge(e.v, -e.b);
+    edge(-e.v, -e.b);
+  } else if (e.kind == Kind::Disc) {
+    const Vector3 out = radial(offset, e.axis);
+    if (!out.isZero(0.0)) edge(-out.normalized(), -e.a);
+  }
+  return nearest;
+}
+
 Vector3 settle(const Element& element, const Vector3& position, const Tolerance& tolerance) {
   if (element.smooth()) return smooth_settle(element, position, tolerance);
   return position + normal(element, position) * (tolerance.gap - height(element, position));

@@ -107,6 +107,16 @@ Vector3 normal(const Element& element, const Vector3& position);
 /// Does the piece itself, not only its extension, lie under `position`?
 bool covers(const Element& element, const Vector3& position, const Tolerance& tolerance);
 
+/// An edge of a flat piece: how far inwards of it a position lies (m), and the unit direction that leads out
+/// over it, in the piece's plane.
+struct Rim {
+  double inside = std::numeric_limits<double>::infinity();
+  Vector3 outward = Vector3::Zero();
+};
+
+/// The edge that is nearest to `position`; of a piece that has none, or is not flat, one infinitely far off.
+Rim nearest_rim(const Element& element, const Vector3& position);
+
 /// The point `gap` above the extended piece that is nearest to `position`.
 Vector3 settle(const Element& element, const Vector3& position, const Tolerance& tolerance);
 

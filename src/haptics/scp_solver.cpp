@@ -22,11 +22,13 @@ constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxArches = 12;
-constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
-constexpr double kRounding = 1e-14;  // of squared distances
-constexpr double kSteepest = 0.1;    // rise of an arch for its length
-constexpr double kStride = 8.0;      // times the last step's way, a sphere tip's next step is looked along
-constexpr double kRoundStep = 0.3;   // rad, along a rounded edge
+constexpr int kMaxIdle = 4;            // iterations that bring the SCP no nearer: contacts that take turns
+constexpr double kRounding = 1e-14;    // of squared distances
+constexpr double kSteepest = 0.1;      // rise of an arch for its length
+constexpr double kStride = 8.0;        // times the last step's way, a sphere tip's next step is looked along
+constexpr double kRoundStep = 0.3;     // rad, along a rounded edge
+constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
+constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
 }  // namespace
 
@@ -124,6 +126,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   elapsed_ = elapsed;
   tip_motion_ = (tip - last_tip_).norm();
   last_slide_ = 0.0;
+  fallen_ = 0.0;
   last_tip_ = tip;
   const Vector3 before = position_;
   converge(tip);
@@ -268,7 +271,7 @@ void ScpSolver::converge(const Vector3& tip) {
     const bool turns = idle == kMaxIdle;
     if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
-      const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0;  // below its edges
+      const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0 && !at_edge();
       const bool at_rest = !turns && (on_a_face || rounded());
       if (!at_rest && escape(tip)) continue;
       state_.converged = true;
@@ -286,7 +289,7 @@ void ScpSolver::converge(const Vector3& tip) {
     }
     if (met_ || contacts_.size() != held) continue;
     const bool fast = position_ == from && contacts_.any_smooth();  // between walls
-    const bool there = whole && exact && held < 2;                  // with more there may be an escape
+    const bool there = whole && exact && held < 2 && !at_edge();    // else there may be an escape
     if (fast || there) {
       state_.converged = true;
       return;
@@ -395,6 +398,7 @@ bool ScpSolver::rounded() const { return settings_.tip_radius > 0.0 && contacts_
 /// move: a face does not reach beyond its edges. True when there was a way and the SCP moved.
 bool ScpSolver::escape(const Vector3& tip) {
   if (contacts_.empty()) return false;
+  if (at_edge() && escape_over_edge(tip)) return true;
   const double near = ContactFan::kNeighbourhood * ContactFan::kLength * tolerance().gap;
   if (contacts_.any_smooth() || region_.clearance(position_) < near) return escape_without_one(tip);
   const std::size_t count = region_.around(position_, near, around_);
@@ -428,6 +432,35 @@ bool ScpSolver::escape_without_one(const Vector3& tip) {
     position_ = from;
   }
   contacts_ = all;
+  return false;
+}
+
+/// Is one flat face all that holds a point tip's SCP, so near to its edge that rounding says on which side?
+bool ScpSolver::at_edge() const {
+  if (contacts_.size() != 1 || held_gain() > 0.0) return false;
+  const Element& contact = contacts_.all().front();
+  return contact.flat() && contact.tip <= 0.0 &&
+         nearest_rim(contact, position_).inside < kEdgeWidth * tolerance().gap;
+}
+
+/// A tip that glides along below an edge is held by a face that ends there, where beyond the edge the way on
+/// may be free: tries that side.
+bool ScpSolver::escape_over_edge(const Vector3& tip) {
+  const Vector3 from = position_;
+  const ContactSet held = contacts_;
+  const Rim rim = nearest_rim(held.all().front(), from);
+  goal_ = tip;
+  advance((std::max(0.0, rim.inside) + tolerance().touching()) * rim.outward);
+  if (!met_ && !region_.overflowed()) {
+    contacts_.clear();
+    for (int i = 0; i < kStepsBeyond && !region_.overflowed(); ++i) {
+      bool exact = false;
+      advance(next_step(tip, exact));
+    }
+    if ((tip - position_).norm() < (tip - from).norm() - tolerance().touching()) return true;
+  }
+  position_ = from;
+  contacts_ = held;
   return false;
 }
 
@@ -479,6 +512,7 @@ bool ScpSolver::advance(const Vector3& wanted) {
   }
   const double least_stride = kLeastShare * settings_.tip_radius;
   stride_ = kStride * (hit.met ? std::max((position_ - from).norm(), least_stride) : stride_);
+  fallen_ = contacts_.empty() && !hit.met ? fallen_ + step.norm() : 0.0;
   met_ = hit.met;
   cut_ = !hit.met && step != wanted;
   const bool whole = !hit.met && !cut_ && (!smooth || contacts_.size() == held);
@@ -669,6 +703,8 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
   const Vector3 on = kTicksAhead * drift_;
   if (falling()) {
     const double likely = std::min(length, std::max(tip_motion_, last_slide_));
+    // Looking ahead twice as far as it fell, a long fall takes few regions.
+    if (fallen_ > likely) return step * std::min(1.0, 2.0 * fallen_ / length);
     return on.norm() >= likely ? on : Vector3(step * (likely / length));
   }
   if (!contacts_.empty()) last_slide_ = length;

@@ -67,6 +67,8 @@ class ScpSolver final : public ContactSolver {
   bool rounded() const;
   bool escape(const Vector3& tip);
   bool escape_without_one(const Vector3& tip);
+  bool at_edge() const;
+  bool escape_over_edge(const Vector3& tip);
   bool lets_go(const Element& contact, const Vector3& tip) const;
   void let_go(const Vector3& step);
   double slip(double along, double press);
@@ -100,6 +102,7 @@ class ScpSolver final : public ContactSolver {
   double stride_ = 0.0;      // m, how long a step may be
   double lifted_ = 0.0;      // m, how high above its contacts the last step may have ended
   double last_slide_ = 0.0;  // m, the last step along a surface in this tick
+  double fallen_ = 0.0;      // m, through free space since, in this tick
   Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
   double reach_ = 0.0;               // m, how far around the SCP the region looks
   ContactSet contacts_;
