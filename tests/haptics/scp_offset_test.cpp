@@ -31,7 +31,7 @@ struct SphereToucher {
 /// How a tip goes on: to random places around and in the solid, at 0.01 to 5 m/s.
 std::vector<Vector3> wandering(std::uint64_t seed, std::size_t ticks, double reach) {
   Random random(seed);
-  std::vector<Vector3> path{Vector3(0.0, 0.0, 3.0 * reach)};
+  std::vector<Vector3> path{Vector3(0.0, 0.0, 1.5 * reach)};
   while (path.size() < ticks) {
     const Vector3 from = path.back();
     const Vector3 to = reach * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
@@ -50,7 +50,7 @@ std::size_t expect_at_distance(const CsgTree& tree, double radius, std::uint64_t
                                Distance&& distance) {
   SphereToucher toucher(tree, radius);
   std::size_t touching = 0;
-  for (const Vector3& tip : wandering(seed, std::size_t(repeats(3000)), reach)) {
+  for (const Vector3& tip : wandering(seed, std::size_t(std::max(900, repeats(3000))), reach)) {
     const ScpState& state = toucher.step(tip);
     const double apart = distance(state.scp) - radius;
     EXPECT_GT(apart, -1e-9) << tip.transpose();
@@ -166,7 +166,7 @@ TEST(ScpOfSphereTips, KeepsItsRadiusFromEveryPlaceOfCrossedCylinders) {
   for (const double radius : {5e-4, 2e-3, 8e-3}) {
     SphereToucher toucher(tree, radius);
     std::size_t touching = 0;
-    for (const Vector3& tip : wandering(12, std::size_t(repeats(400)), 0.04)) {
+    for (const Vector3& tip : wandering(12, std::size_t(std::max(200, repeats(400))), 0.04)) {
       const ScpState& state = toucher.step(tip);
       if (!state.touching) continue;
       ++touching;
@@ -235,7 +235,10 @@ bool finds_a_free_way(const BruteSolid& solid, const Vector3& centre, double rad
 
 TEST(ScpOfSphereTips, NeitherOverlapsNorSticksOnManyTrees) {
   std::size_t touching = 0, trees = 0, looked = 0, stuck = 0;
+  const std::size_t every = kSanitizerShare > 1 ? 4 : 1;  // looked through
+  std::size_t which = 0;
   for (const NamedTree& it : rolled_trees()) {
+    if (which++ % every != 0) continue;
     SCOPED_TRACE(it.name);
     const double radius = std::array<double, 3>{2e-3, 3e-4, 5e-3}[trees % 3];
     if (!CsgOffset::create(it.tree, radius)) continue;  // stretched
@@ -244,7 +247,7 @@ TEST(ScpOfSphereTips, NeitherOverlapsNorSticksOnManyTrees) {
     Random random(13);
     ++trees;
     int tick = 0;
-    for (const Vector3& tip : random_touch(solid, 7, std::size_t(repeats(300)))) {
+    for (const Vector3& tip : random_touch(solid, 7, std::size_t(std::max(100, repeats(300))))) {
       const ScpState& state = toucher.step(tip);
       ASSERT_FALSE(solid.inside(state.scp)) << tick;
       ASSERT_TRUE(state.touching || state.scp == tip);
@@ -257,7 +260,7 @@ TEST(ScpOfSphereTips, NeitherOverlapsNorSticksOnManyTrees) {
       stuck += finds_a_free_way(solid, state.scp, radius, pull, random);
     }
   }
-  EXPECT_GT(trees, 25u);
+  EXPECT_GT(trees, 25u / every);
   EXPECT_GT(touching, 3000u / kSanitizerShare);
   EXPECT_LE(stuck, looked / 50);
 }
