@@ -18,8 +18,8 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
-constexpr int kMostPlaces = 1'500;      // that one search for a way looks from
-constexpr int kMostSearches = 100'000;  // all of them: then what cannot be told counts as a pop
+constexpr int kMostSteps = 20'000;       // that one search for a way tries
+constexpr int kMostStepsEver = 400'000;  // all of them: then what cannot be told counts as a pop
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise, a length is told from none
 constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
@@ -341,8 +341,8 @@ class ContactJudge::Court {
     const double far = std::max(near_.stick, (scp - *seen_).norm() / 50.0);
     const Vector3 clear = clearest(scp, [&](const Vector3& to) { return !inside(to); }).value_or(scp);
     Search search{goal, {cell(*seen_, 0.5 * far)}, {{(goal - *seen_).norm(), *seen_}}};
-    for (int i = 0; i < kMostPlaces && !search.open.empty() && searches_ < kMostSearches; ++i) {
-      ++searches_;
+    const int last = std::min(steps_ + kMostSteps, kMostStepsEver);
+    while (!search.open.empty() && steps_ < last) {
       const Vector3 place = search.next();
       if (free(place, scp) || free(place, clear) || ((scp - place).norm() <= 4.0 * far && around(place, scp)))
         return true;
@@ -388,7 +388,9 @@ class ContactJudge::Court {
     const double left = (search.goal - from).norm();
     bool nearer = false;
     const auto go = [&](const Vector3& to) {
-      if ((to - tip).norm() > way || search.known.contains(cell(to, 0.5 * move)) || !free(from, to)) return;
+      if ((to - tip).norm() > way || search.known.contains(cell(to, 0.5 * move))) return;
+      ++steps_;
+      if (!free(from, to)) return;
       search.known.insert(cell(to, 0.5 * move));
       search.add(to);
       nearer = nearer || (search.goal - to).norm() < left - 0.1 * move;
@@ -498,7 +500,7 @@ class ContactJudge::Court {
   Lengths near_;  // of what the last tick had to do with
   JudgedTick last_;
   int pulling_ = 0;              // ticks in a row
-  int searches_ = 0;             // places looked from, by all searches
+  int steps_ = 0;                // tried by all searches for a way
   std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
 };
 
