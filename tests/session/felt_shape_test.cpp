@@ -224,13 +224,19 @@ TEST(FeltShape, SaysWhatCannotBeTouched) {
   expect(make_felt_shape(world::LoopGeometry({fin, {}, {}}), one, {}), "cannot be touched");
 }
 
-TEST(FeltShape, OfSmoothSurfacesUnderASphereTipIsAMesh) {
-  geometry::CsgTree tree;
-  tree.add_leaf(geometry::Primitive(geometry::Sphere{1.0}));
+TEST(FeltShape, OfASolidUnderASphereTipIsExactWhereThatCanBe) {
   const FeltSettings settings{.tip_radius = 0.01};
-  const auto solid = make_felt_shape(world::CsgGeometry(tree), Matrix3::Identity(), settings);
+  geometry::CsgTree round;
+  round.add_leaf(geometry::Primitive(geometry::Sphere{1.0}));
+  const auto exact = make_felt_shape(world::CsgGeometry(round), Matrix3::Identity(), settings);
+  EXPECT_TRUE(exact->shape);
+  EXPECT_FALSE(exact->mesh);
+  EXPECT_EQ(exact->remark, "");
+  geometry::CsgTree oval;
+  oval.add_leaf(geometry::Primitive(geometry::Sphere{1.0}), Affine3(Eigen::Scaling(1.0, 1.0, 2.0)));
+  const auto solid = make_felt_shape(world::CsgGeometry(oval), Matrix3::Identity(), settings);
   EXPECT_TRUE(solid->mesh);
-  EXPECT_NE(solid->remark.find("the tip has a radius"), std::string::npos);
+  EXPECT_NE(solid->remark.find("curved primitives are stretched"), std::string::npos) << solid->remark;
   const auto ellipsoid =
       make_felt_shape(*primitive(geometry::Sphere{1.0}), Vector3(1.0, 2.0, 3.0).asDiagonal(), settings);
   EXPECT_TRUE(ellipsoid->mesh);
