@@ -144,7 +144,10 @@ class FeltShapeMaker {
                double tolerance_of_size) const {
     if (!sphere_tip()) return of_tree(std::move(tree));
     const auto centres = geometry::CsgOffset::create(tree, settings_.tip_radius);
-    if (!centres) return of_triangles(shape, what + " and the tip has a radius", tolerance_of_size);
+    if (!centres) {
+      const std::string why = fmt::format("{} and the tip has a radius: {}", what, centres.error().message);
+      return of_triangles(shape, why, tolerance_of_size);
+    }
     Felt felt = of_tree(std::move(tree));
     if (felt->shape) felt->shape = std::make_shared<haptics::SmoothShape>(*centres, settings_.tip_radius);
     return felt;
