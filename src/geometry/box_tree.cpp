@@ -87,6 +87,8 @@ bool FourBoxes::beside(unsigned which, const SegmentQuery& query) const {
   for (int axis = 0; axis < 3; ++axis) {
     middle[axis] = 0.5f * lo[axis][which] + 0.5f * hi[axis][which] - query.centre[axis];
     extent[axis] = 0.5f * hi[axis][which] - 0.5f * lo[axis][which] + query.radius;
+    // The box may be much larger than the way: then its middle is rounded by more than the way is long.
+    extent[axis] += 8.0f * kRounding * (std::abs(lo[axis][which]) + std::abs(hi[axis][which]));
   }
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3;

@@ -175,5 +175,21 @@ TEST(TriangleTree, AMeshWithoutTrianglesAnswersNothing) {
   EXPECT_FALSE(tree.encloses(Vector3::Zero()));
 }
 
+// A way of nanometres across a face of decimetres: single precision knows the way, but not the face's middle.
+TEST(FourBoxes, AreMetByWaysMuchShorterThanTheyAre) {
+  Random random(17);
+  for (int i = 0; i < 20'000; ++i) {
+    const Vector3 on_box = std::pow(10.0, random.uniform(-9.0, -2.0)) * random.direction();
+    base::Bounds bounds(on_box);
+    for (int k = 0; k < 2; ++k) bounds.extend(on_box + random.uniform(0.01, 0.2) * random.direction());
+    FourBoxes boxes;
+    boxes.set(0, float_box(bounds));
+    const Vector3 way = std::pow(10.0, random.uniform(-10.0, -3.0)) * random.direction();
+    const SegmentQuery query(on_box - random.uniform() * way, on_box + random.uniform() * way, 1e-11);
+    ASSERT_EQ(boxes.overlap_mask(query.box) & 1u, 1u) << i;
+    ASSERT_TRUE(boxes.comes_near(0, query)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace icome::geometry
