@@ -201,6 +201,12 @@ class ContactJudge::Court {
     return deepest;
   }
 
+  bool overlaps(const Vector3& point, double radius) const {
+    return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      return party.may_meet(point, point, radius) && party.witness().overlaps(party.in_object(point), radius);
+    });
+  }
+
   bool inside(const Vector3& point) const {
     return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
       return party.may_meet(point, point, 0.0) && party.witness().inside(party.in_object(point));
@@ -431,13 +437,26 @@ class ContactJudge::Court {
     return ways;
   }
 
+  /// Where a straight way begins, and how far the tip reaches into a surface there.
+  struct Start {
+    Vector3 place;
+    double overlap;
+  };
+  using Starts = std::array<Start, 2>;  // where the SCP was seen, and where it is
+
+  Start start_at(const Vector3& place) const {
+    const double radius = settings_.tip_radius;
+    return {place, radius > 0.0 ? overlap(place, radius) : 0.0};
+  }
+
   bool sticks(const Vector3& tip, const Vector3& scp, bool touching) const {
     const Vector3 pull = tip - scp;
     const double way = pull.norm();
     const double move = near_.stick;
     if (way <= move) return false;
-    if (!touching || free_by(scp, tip - scp)) return true;
-    return !nearest_possible(tip, way) && may_come_nearer(scp, pull / way, way);
+    const Starts starts{start_at(*seen_), start_at(scp)};
+    if (!touching || free_by(starts, tip - scp)) return true;
+    return !nearest_possible(tip, way) && may_come_nearer(starts, pull / way, way);
   }
 
   /// Nothing is nearer to the tip than the SCP is, give or take half a move.
@@ -448,11 +467,11 @@ class ContactJudge::Court {
 
   /// Tries the ways along what blocks the pull, then fans of directions around the pull; the widest is 15
   /// degrees short of the right angle.
-  bool may_come_nearer(const Vector3& scp, const Vector3& pull, double way) const {
+  bool may_come_nearer(const Starts& starts, const Vector3& pull, double way) const {
     constexpr std::array<double, 4> kCosines{kLeastCosine, 0.5, 0.7660, 0.9397};
     const auto along = unblocked(*seen_, near_.stick, pull);
     const auto clearly = [&](const Vector3& direction) {
-      return clearly_nearer(direction.dot(pull), way) && free_by(scp, near_.stick * direction);
+      return clearly_nearer(direction.dot(pull), way) && free_by(starts, near_.stick * direction);
     };
     if (std::any_of(along.begin(), along.end(), clearly)) return true;
     const auto sides = ring<16>(pull);
@@ -476,21 +495,28 @@ class ContactJudge::Court {
 
   /// Is the move free both from the SCP, which noise may have put behind a surface, and from where it was
   /// seen, which may lie just past an edge?
-  bool free_by(const Vector3& scp, const Vector3& move) const {
-    return free(*seen_, *seen_ + move) && free(scp, scp + move);
+  bool free_by(const Starts& starts, const Vector3& move) const {
+    return std::all_of(starts.begin(), starts.end(), [&](const Start& start) {
+      return passes(start.place, start.place + move) && has_room(start, start.place + move);
+    });
   }
 
-  /// May the tip go straight from `a` to `b`? A sphere may brush along what it touches already: the noise,
-  /// and a thousandth of the way, which still tells walls from gaps in a groove of a tenth of a degree.
-  bool free(const Vector3& a, const Vector3& b) const {
-    if (!passes(a, b)) return false;
+  /// May the tip go straight from `a` to `b`?
+  bool free(const Vector3& a, const Vector3& b) const { return passes(a, b) && has_room(start_at(a), b); }
+
+  /// Is there room on a way that its middle may go? A sphere may brush along what it touches already: the
+  /// noise, and a thousandth of the way, which still tells walls from gaps in a groove of a tenth of a
+  /// degree.
+  bool has_room(const Start& start, const Vector3& b) const {
+    const Vector3& a = start.place;
     const double radius = settings_.tip_radius;
     if (radius <= 0.0) return true;
     const double length = (b - a).norm();
-    const double allowed = overlap(a, radius) + 1e-3 * length;
+    const double kept = radius - start.overlap - 1e-3 * length;
+    if (kept <= 0.0) return true;
     const int samples = std::max(2, int(std::ceil(2.0 * length / radius)));
     for (int i = samples; i > 0; --i) {
-      if (overlap(a + (double(i) / samples) * (b - a), radius) > allowed) return false;
+      if (overlaps(a + (double(i) / samples) * (b - a), kept)) return false;
     }
     return true;
   }

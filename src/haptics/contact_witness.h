@@ -44,6 +44,11 @@ class Witness {
   /// How far the surface reaches into a ball around `point`, from a side that stops it; 0 if not at all.
   virtual double overlap(const base::Vector3& point, double radius) const = 0;
 
+  /// Does it reach into a ball around `point` at all, from a side that stops it?
+  virtual bool overlaps(const base::Vector3& point, double radius) const {
+    return overlap(point, radius) > 0.0;
+  }
+
   /// Has it an inside that a tip must be kept out of?
   virtual bool solid() const = 0;
 

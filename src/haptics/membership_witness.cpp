@@ -65,16 +65,17 @@ class MembershipWitness final : public Witness {
     // The nearest of the coarse directions, then ever finer ones around it.
     Vector3 nearest = Vector3::Zero();
     double least = radius;
-    const auto look = [&](const Vector3& direction) {
-      if (!inside(point + least * direction)) return;
-      const double there = least * change(point, least * direction, 0.0, 1.0);
-      if (there < least) nearest = direction;
+    const auto look_at = [&](const Vector3& place) {
+      if (!inside(place)) return;
+      const Vector3 way = place - point;
+      const double there = change(point, way, 0.0, 1.0) * way.norm();
+      if (there < least) nearest = way.normalized();
       least = std::min(least, there);
     };
+    const auto look = [&](const Vector3& direction) { look_at(point + least * direction); };
     for (const Vector3& direction : around_) look(direction);
-    if (solid_.nearest) {  // what lies between the directions, too
-      if (const auto place = solid_.nearest(point, least, resolution_.wall))
-        look((*place - point).normalized());
+    if (solid_.nearest) {  // what lies between the directions, or ends within the ball, too
+      if (const auto place = solid_.nearest(point, least, resolution_.wall)) look_at(*place);
     }
     for (double angle = 0.3; angle > 1e-4 && least < radius; angle *= 0.6) {
       const Vector3 side = nearest.unitOrthogonal(), other = nearest.cross(side), centre = nearest;
@@ -84,6 +85,12 @@ class MembershipWitness final : public Witness {
       }
     }
     return radius - least;
+  }
+
+  bool overlaps(const Vector3& point, double radius) const override {
+    if (inside(point)) return true;
+    return (solid_.nearest && solid_.nearest(point, radius, resolution_.wall)) ||
+           overlap(point, radius) > 0.0;
   }
 
   bool deep(const Vector3& point, double depth) const override {

@@ -6,12 +6,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/decompositions.h"
+#include "haptics/plain_cells.h"
 #include "haptics/witness_tree.h"
 
 namespace icome::haptics {
@@ -117,7 +117,16 @@ class PlainTree {
 
   bool inside(const Vector3& point) const { return inside(root_, point); }
 
-  std::optional<Vector3> nearest(const Vector3& point, double limit, double fineness) const;
+  /// What bounds distances to it, in steps; the last is the whole.
+  std::vector<PlainStep> steps() const {
+    std::vector<PlainStep> steps;
+    for (CsgTree::Index i = 0; i <= root_; ++i) {
+      const Part& part = parts_[i];
+      PlainStep& step = steps.emplace_back(PlainStep{{}, part.op, {part.operands[0], part.operands[1]}});
+      if (part.shape.distance) step.bound = bound(part);
+    }
+    return steps;
+  }
 
  private:
   struct Part {
@@ -152,132 +161,16 @@ class PlainTree {
   }
 
   /// No farther than the leaf's surface is; negative inside.
-  double bound(CsgTree::Index leaf, const Vector3& point) const {
-    const Part& part = parts_[leaf];
-    return part.least_stretch * part.shape.distance(part.shape_from_tree * point);
+  static std::function<double(const Vector3&)> bound(const Part& leaf) {
+    return [distance = leaf.shape.distance, shape_from_tree = leaf.shape_from_tree,
+            stretch = leaf.least_stretch](const Vector3& point) {
+      return stretch * distance(shape_from_tree * point);
+    };
   }
 
-  friend class LocalTree;
   std::vector<Part> parts_;
   CsgTree::Index root_;
 };
-
-/// What a tree is within some distance of a place, without the parts that are all solid or all free there.
-class LocalTree {
- public:
-  LocalTree(const PlainTree& whole, const Vector3& centre, double reach) : whole_(whole) {
-    std::vector<std::uint32_t> local(whole.parts_.size());
-    for (CsgTree::Index i = 0; i < whole.parts_.size(); ++i) {
-      const PlainTree::Part& part = whole.parts_[i];
-      local[i] = part.shape.inside ? leaf(i, centre, reach)
-                                   : joined(part.op, local[part.operands[0]], local[part.operands[1]]);
-    }
-    root_ = local[whole.root_];
-    values_.resize(steps_.size());
-  }
-
-  /// The surface is at least so far away (m); negative inside.
-  double bound(const Vector3& point) {
-    for (std::size_t i = 0; i < steps_.size(); ++i) {
-      const Step& step = steps_[i];
-      if (step.is_leaf) {
-        values_[i] = whole_.bound(step.left, point);
-        continue;
-      }
-      const double left = value(step.left), right = value(step.right);
-      values_[i] = step.op == CsgOperator::Union
-                       ? std::min(left, right)
-                       : std::max(left, step.op == CsgOperator::Difference ? -right : right);
-    }
-    return value(root_);
-  }
-
- private:
-  static constexpr std::uint32_t kFree = 0xffff'ffff, kSolid = 0xffff'fffe;
-
-  struct Step {
-    bool is_leaf;
-    CsgOperator op;
-    std::uint32_t left, right;  // steps before; of a leaf, the part
-  };
-
-  std::uint32_t leaf(CsgTree::Index part, const Vector3& centre, double reach) {
-    const double there = whole_.bound(part, centre);
-    if (std::abs(there) > reach) return there < 0.0 ? kSolid : kFree;
-    steps_.push_back({true, CsgOperator::Union, part, 0});
-    return std::uint32_t(steps_.size() - 1);
-  }
-
-  std::uint32_t joined(CsgOperator op, std::uint32_t left, std::uint32_t right) {
-    if (op == CsgOperator::Union) {
-      if (left == kSolid || right == kFree) return left;
-      if (right == kSolid || left == kFree) return right;
-    } else if (op == CsgOperator::Intersection) {
-      if (left == kFree || right == kSolid) return left;
-      if (right == kFree || left == kSolid) return right;
-    } else {
-      if (left == kFree || right == kFree) return left;
-      if (right == kSolid) return kFree;
-    }
-    steps_.push_back({false, op, left, right});
-    return std::uint32_t(steps_.size() - 1);
-  }
-
-  double value(std::uint32_t step) const {
-    if (step < kSolid) return values_[step];
-    return (step == kFree ? 1.0 : -1.0) * std::numeric_limits<double>::infinity();
-  }
-
-  const PlainTree& whole_;
-  std::vector<Step> steps_;
-  std::vector<double> values_;
-  std::uint32_t root_;
-};
-
-/// A cube around a place, and how far it is from the place that is asked about (m).
-struct PlainCell {
-  Vector3 centre;
-  double half;
-  double apart;
-};
-
-/// The cell next to be looked at is the nearest.
-struct FartherCell {
-  bool operator()(const PlainCell& one, const PlainCell& other) const { return one.apart > other.apart; }
-};
-
-// Cubes, the nearest first, are halved until they are all solid, all free or small.
-std::optional<Vector3> PlainTree::nearest(const Vector3& point, double limit, double fineness) const {
-  LocalTree local(*this, point, 2.0 * limit);
-  std::priority_queue<PlainCell, std::vector<PlainCell>, FartherCell> open;
-  open.push({point, limit, 0.0});
-  std::optional<Vector3> found;
-  double least = limit;
-  while (!open.empty() && open.top().apart < least) {
-    const PlainCell cell = open.top();
-    open.pop();
-    const double bound = local.bound(cell.centre), corner = std::sqrt(3.0) * cell.half;
-    if (bound > corner) continue;
-    const auto take = [&](const Vector3& place) {
-      const double distance = (place - point).norm();
-      if (distance < least) found = place;
-      least = std::min(least, distance);
-    };
-    if (bound <= 0.0) take(cell.centre);
-    if (bound < -corner) {
-      const Vector3 reach = Vector3::Constant(cell.half);
-      take(point.cwiseMax(cell.centre - reach).cwiseMin(cell.centre + reach));
-    } else if (corner > fineness) {
-      for (int i = 0; i < 8; ++i) {
-        const double half = 0.5 * cell.half;
-        const Vector3 centre = cell.centre + half * Vector3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-        const Vector3 over = ((centre - point).cwiseAbs() - Vector3::Constant(half)).cwiseMax(0.0);
-        open.push({centre, half, over.norm()});
-      }
-    }
-  }
-  return found;
-}
 
 }  // namespace
 
@@ -288,9 +181,10 @@ double plain_distance(const geometry::Primitive& primitive, const Vector3& point
 MembershipSolid plain_solid(const CsgTree& tree) {
   if (tree.empty()) return {[](const Vector3&, double) { return false; }, Bounds()};
   const auto plain = std::make_shared<const PlainTree>(tree);
+  const auto cells = std::make_shared<PlainCells>(plain->steps());
   return {[plain](const Vector3& point, double) { return plain->inside(point); }, geometry::bounds(tree),
-          [plain](const Vector3& point, double limit, double fineness) {
-            return plain->nearest(point, limit, fineness);
+          [cells](const Vector3& point, double limit, double fineness) {
+            return cells->nearest(point, limit, fineness);
           }};
 }
 

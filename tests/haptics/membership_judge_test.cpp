@@ -177,5 +177,35 @@ TEST(JudgeBySamples, CatchesASphereThatOverlaps) {
   EXPECT_TRUE(judge.judge({{0.036, 0, 0.054}, {0.036, 0, 0.0545}, true}).pop);
 }
 
+TEST(JudgeBySamples, ApprovesASphereHeldByAShellThatIsThinnerThanItIsPressed) {
+  const CsgTree tree = TreeChain(ball_shape(0.03)).cut(ball_shape(0.0299)).tree();
+  JudgeSettings settings;
+  settings.tip_radius = 0.002;
+  ContactJudge judge({judged_by_samples(tree)}, settings);
+  for (int i = 0; i < 20; ++i) {
+    const Vector3 out = Vector3(0.1 * i, 1.0, 0.3).normalized();
+    EXPECT_TRUE(approved(judge.judge({0.025 * out, (0.032 + 1e-11) * out, true}))) << i;
+  }
+  const Vector3 away = Vector3(1.0, 0.0, 0.3).normalized();
+  EXPECT_TRUE(judge.judge({0.025 * Vector3(0.0, 1.0, 0.3).normalized(), 0.0325 * away, true}).stick);
+}
+
+TEST(JudgeBySamples, KnowsWhetherASphereCouldMoveInASlit) {
+  constexpr double kRadius = 0.002, kHalf = 0.00015;
+  const CsgTree tree = TreeChain(box_shape(0.06, 0.06, 0.06))
+                           .cut(box_shape(2.0 * kHalf, 0.08, 0.06), moved(0.0, 0.0, 0.02))
+                           .tree();
+  JudgeSettings settings;
+  settings.tip_radius = kRadius;
+  ContactJudge judge({judged_by_samples(tree)}, settings);
+  const double height = 0.03 + std::sqrt(kRadius * kRadius - kHalf * kHalf) + 1e-11;
+  for (int i = 0; i < 100; ++i) {
+    const double y = 1e-4 * i;
+    EXPECT_TRUE(approved(judge.judge({{0.0005, y, 0.029}, {0.0, y, height}, true}))) << i;
+  }
+  EXPECT_EQ(judge.judge({{0.0005, 0.012, 0.029}, {0.0, 0.01, height}, true}).stick, true);
+  EXPECT_TRUE(judge.judge({{0.0, 0.01, 0.025}, {0.0, 0.01, height - 0.0004}, true}).pop);
+}
+
 }  // namespace
 }  // namespace icome::haptics

@@ -5,6 +5,8 @@
 
 #include "geometry/geodesic_sphere.h"
 #include "haptics/contact_world.h"
+#include "haptics/csg_world.h"
+#include "haptics/plain_cells.h"
 #include "haptics/witness_tree.h"
 
 namespace icome::haptics {
@@ -136,6 +138,67 @@ TEST(PlainSolid, FindsTheNearestOfItsPlaces) {
     EXPECT_NEAR((*found - place).norm(), distance, 2e-5);
     EXPECT_TRUE(solid.inside(*found, 0.0));
   }
+}
+
+TEST(PlainSolid, FindsTheSameNearestPlaceWhateverWasAskedBefore) {
+  constexpr double kReach = 0.02, kFineness = 2e-4;
+  Random random(21);
+  int found = 0;
+  for (int round = 0; round < 6; ++round) {
+    const CsgTree tree = random_plain_tree(random, 2 + round, round % 2 == 0);
+    const MembershipSolid asked = plain_solid(tree);
+    for (int i = 0; i < repeats(60); ++i) {
+      const Vector3 place = place_about(random, 0.06);
+      const auto now = asked.nearest(place, kReach, kFineness);
+      const auto afresh = plain_solid(tree).nearest(place, kReach, kFineness);
+      ASSERT_EQ(now.has_value(), afresh.has_value()) << round;
+      if (!now) continue;
+      ++found;
+      ASSERT_TRUE(geometry::inside(tree, *now));
+      ASSERT_NEAR((*now - place).norm(), (*afresh - place).norm(), kFineness);
+    }
+  }
+  EXPECT_GT(found, repeats(60));
+}
+
+TEST(PlainSolid, KnowsHowFarASlitIsBelowASphereThatRestsOnIt) {
+  // A sphere on both edges of a slit sinks in by some micrometres: less than cubes are small.
+  constexpr double kWide = 0.0003, kRadius = 0.002;
+  const CsgTree tree =
+      TreeChain(box_shape(0.06, 0.06, 0.06)).cut(box_shape(kWide, 0.08, 0.06), moved(0.0, 0.0, 0.02)).tree();
+  const MembershipSolid solid = plain_solid(tree);
+  const double height = std::sqrt(kRadius * kRadius - 0.25 * kWide * kWide);
+  Random random(22);
+  for (int i = 0; i < repeats(200); ++i) {
+    const double off = random.uniform(-2e-4, 2e-4), up = random.uniform(-1e-4, 3e-4);
+    const Vector3 centre(off, random.uniform(-0.02, 0.02), 0.03 + height + up);
+    const double expected = std::hypot(std::max(0.0, 0.5 * kWide - std::abs(off)), height + up);
+    const auto found = solid.nearest(centre, 0.0025, 4e-5);
+    ASSERT_TRUE(found);
+    ASSERT_GE((*found - centre).norm(), expected - 1e-12);
+    ASSERT_LE((*found - centre).norm(), expected + 2.0 * 4e-5);  // to a cube, and within it
+    ASSERT_FALSE(solid.nearest(centre, expected - 1e-9, 4e-5));
+  }
+}
+
+TEST(PlainCells, AreForgottenWhenThereAreTooMany) {
+  std::vector<PlainStep> ball(1);
+  ball[0].bound = [](const Vector3& place) { return place.norm() - 0.05; };
+  PlainCells cells(ball);
+  Random random(23);
+  std::size_t most = 0, last = 0;
+  bool forgotten = false;
+  for (int i = 0; i < 20'000 && !forgotten; ++i) {
+    const Vector3 place = 0.0505 * random.direction();
+    const auto found = cells.nearest(place, 0.002, 2e-6);
+    ASSERT_TRUE(found);
+    ASSERT_NEAR((*found - place).norm(), 0.0005, 2e-6);
+    forgotten = cells.kept() < last;
+    last = cells.kept();
+    most = std::max(most, last);
+  }
+  EXPECT_TRUE(forgotten);
+  EXPECT_LT(most, PlainCells::kMostKept + PlainCells::kMostKept / 8);
 }
 
 TEST(PlainSolid, TellsTheJudgeOfANeedleInASphereTip) {
