@@ -65,15 +65,17 @@ class ClockedRun {
     return info.index < last_index_;
   }
 
-  /// Puts down what has come so far; returns the time of the last row, s.
-  void drain(TouchDiary& diary) {
-    while (const auto row = rows_.try_pop()) {
+  /// Puts down what has come so far, until the user ends the run: rows may come faster than they are judged.
+  void drain(TouchDiary& diary, StatusLine& status, double seconds) {
+    while (!interrupted()) {
+      status.progress("Touching", std::round(time_ * 10.0) / 10.0, seconds, "s");
+      const auto row = rows_.try_pop();
+      if (!row) return;
       diary.add(*row);
       time_ = row->t;
     }
   }
 
-  double time() const { return time_; }                   // s, of the last row put down
   std::uint64_t lost_rows() const { return lost_rows_; }  // once the loop has ended
 
  private:
@@ -82,7 +84,7 @@ class ClockedRun {
   std::uint64_t last_index_;
   realtime::MessagePipe<TickRow> rows_;
   std::uint64_t lost_rows_ = 0;  // the loop's
-  double time_ = 0.0;            // the diary's
+  double time_ = 0.0;            // s, of the last row put down
 };
 
 RunOutcome outcome_of(const realtime::LoopRunner& loop) {
@@ -130,12 +132,13 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
       block.push_back(row_of(report, times[row]));
     }
     for (const TickRow& it : block) {
+      if (interrupted()) break;
       diary.add(it);
       if (static_cast<double>(it.own_ns) * 1e-9 > period) ++outcome.overruns;
+      status.progress("Replaying", static_cast<double>(diary.ticks()), static_cast<double>(rows), "rows");
     }
     block.clear();
-    outcome.interrupted = interrupted() && row < rows;
-    status.progress("Replaying", static_cast<double>(row), static_cast<double>(rows), "rows");
+    outcome.interrupted = diary.ticks() < row || (interrupted() && row < rows);
   }
   outcome.wall_seconds = watch.seconds();
   outcome.capped = capped_feel(models, options, servo);
@@ -161,18 +164,15 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
   const auto loop = realtime::LoopRunner::create(
       loop_settings, [&run](const realtime::TickInfo& info) { return run.tick(info); });
   if (!loop) return tl::unexpected(loop.error());
-  bool cut_short = false;
-  while ((*loop)->running() && !cut_short) {
+  while ((*loop)->running() && !interrupted()) {
     std::this_thread::sleep_for(kDiaryPeriod);
-    run.drain(diary);
-    status.progress("Touching", std::round(run.time() * 10.0) / 10.0, seconds, "s");
-    cut_short = interrupted();
+    run.drain(diary, status, seconds);
   }
   (*loop)->stop();
-  run.drain(diary);
+  run.drain(diary, status, seconds);
   status.clear();
   RunOutcome outcome = outcome_of(**loop);
-  outcome.interrupted = cut_short;
+  outcome.interrupted = interrupted();
   outcome.lost_rows = run.lost_rows();
   outcome.wall_seconds = watch.seconds();
   outcome.capped = capped_feel(models, options, servo);
