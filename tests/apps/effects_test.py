@@ -228,6 +228,8 @@ class EffectsTest(ProgramTest):
                                ("friction:0.3,0.4", "STATIC"),
                                ("recess:0,0,0,0,0,1,0.02,0.01,1", "RIM"),
                                ("curve:0,0,0;1,2,x", "point 2: number 3 (Z m)"),
+                               ("curve:0,0,0", "it has one point"),
+                               ("curve:0,0,0;300,2", "it has one point"),
                                ("field:x,y", "three formulas"),
                                ("field:x,y,z+", "formula 3"),
                                ("wel:1", "did you mean 'well'?"),

@@ -140,6 +140,8 @@ base::Result<WrittenCurve> read_curve(std::string_view text) {
     if (!point) return base::fail(fmt::format("point {}: {}", points.size() + 1, point.error().message));
     points.push_back(vector_in(*point));
   }
+  if (points.size() == 1)
+    return base::fail("it has one point; a curve has at least two, and point:X,Y,Z draws to one.");
   return WrittenCurve{std::move(points), spring};
 }
 
