@@ -117,6 +117,7 @@ TEST(CsgCut, PlateHasItsThicknessEverywhere) {
 
 TEST(CsgCut, RandomTreesEncloseWhatTheTreeDoes) {
   Random random(11);
+  int cut = 0, enclosed = 0;
   for (std::size_t i = 0; i < 15 / kLongShare; ++i) {
     SCOPED_TRACE(i);
     RandomTreeOptions options;
@@ -130,12 +131,15 @@ TEST(CsgCut, RandomTreesEncloseWhatTheTreeDoes) {
     ASSERT_TRUE(made.has_value()) << made.error().message;
     expect_manifold(*made);
     if (made->triangles.empty()) continue;
+    ++cut;
     const TriangleTree triangles(*made);
     int wrong = 0;
     constexpr int kThrows = 2000;
     for (int k = 0; k < kThrows; ++k) {
       const Vector3 point(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-      if (triangles.encloses(point) == inside(tree, point)) continue;
+      const bool expected = inside(tree, point);
+      enclosed += expected;
+      if (triangles.encloses(point) == expected) continue;
       // Chords: wrong only next to the surface.
       EXPECT_TRUE(triangles.nearest(point, 0.3 * cell)) << point.transpose();
       ++wrong;
@@ -143,6 +147,8 @@ TEST(CsgCut, RandomTreesEncloseWhatTheTreeDoes) {
     EXPECT_LT(wrong, kThrows / 50);
     if (HasFailure()) return;
   }
+  EXPECT_GT(cut, int(7 / kLongShare));
+  EXPECT_GT(enclosed, 100);
 }
 
 TEST(CsgCut, FlushFacesLeaveNoSkin) {

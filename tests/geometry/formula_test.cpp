@@ -168,6 +168,7 @@ TEST(Formula, RangesHoldValuesAndDerivatives) {
   for (const std::string& text : texts) {
     const Formula formula = formula_of(text);
     base::Random random(3);
+    int slopes = 0;
     for (int i = 0; i < 200; ++i) {
       const double size = std::pow(10.0, random.uniform(-7.0, 0.5));
       Formula::Box4 box;
@@ -195,12 +196,14 @@ TEST(Formula, RangesHoldValuesAndDerivatives) {
         if (std::isinf(slope.value)) continue;
         ASSERT_TRUE(at.range.value.contains(slope.value)) << text << " at " << p.transpose() << " " << t;
         if (!at.range.total) continue;
+        ++slopes;
         for (int axis = 0; axis < 3; ++axis) {
           ASSERT_TRUE(at.slope[static_cast<std::size_t>(axis)].contains(slope.gradient[axis]))
               << text << " axis " << axis;
         }
       }
     }
+    EXPECT_GT(slopes, 200) << text;
   }
 }
 
@@ -208,6 +211,7 @@ TEST(Formula, RangesAlongLinesAndPatchesHoldThoseOfTheirPoints) {
   for (const ValueCase& each : value_cases()) {
     const Formula formula = formula_of(each.text);
     base::Random random(4);
+    int on_lines = 0, on_patches = 0;
     for (int i = 0; i < 50; ++i) {
       const Vector3 p = random_place(random), u = random.direction(), v = random.direction();
       const double t = random.uniform(0.1, 0.9), size = std::pow(10.0, random.uniform(-6.0, -0.5));
@@ -217,11 +221,13 @@ TEST(Formula, RangesAlongLinesAndPatchesHoldThoseOfTheirPoints) {
         const double s = random.uniform(0.0, size), h = random.uniform(-size, size);
         const Formula::LineSlope on_line = formula.on_line(p, u, s, t);
         if (line.range.total) {
+          ++on_lines;
           ASSERT_TRUE(line.range.value.contains(on_line.value)) << each.text;
           ASSERT_TRUE(line.slope[0].contains(on_line.slope)) << each.text;
           ASSERT_TRUE(formula.point_range(p, u, s, t).value.contains(on_line.value)) << each.text;
         }
         if (!patch.range.total) continue;
+        ++on_patches;
         const Formula::Slope at = formula.slope(p + s * u + h * v, t);
         const double rounding = 1e-13 * (1.0 + at.gradient.norm());
         ASSERT_TRUE(patch.range.value.contains(at.value)) << each.text;
@@ -231,6 +237,8 @@ TEST(Formula, RangesAlongLinesAndPatchesHoldThoseOfTheirPoints) {
         ASSERT_GE(patch.slope[1].hi, at.gradient.dot(v) - rounding) << each.text;
       }
     }
+    EXPECT_GT(on_lines, 100) << each.text;
+    EXPECT_GT(on_patches, 100) << each.text;
   }
 }
 

@@ -97,6 +97,7 @@ TEST(ImplicitPieces, MeetInEdgesAimedAt) {
   for (const char* text : {"max(x, z)", "min(x, z)", "z - abs(x)", "z + abs(x)", "z - max(x, -2*x)"}) {
     const auto surface = *ImplicitSurface::create(text, piece_box());
     const auto whole = *Formula::parse(text);
+    int aimed = 0;
     for (int i = 0; i < 2000; ++i) {
       // To places within rounding of the edge x = z = 0.
       const Vector3 off(random.uniform(-1e-15, 1e-15), 0.0, random.uniform(-1e-15, 1e-15));
@@ -106,7 +107,9 @@ TEST(ImplicitPieces, MeetInEdgesAimedAt) {
       const auto entry = first_of_pieces(*surface, edge - way, 2.0 * way, false);
       ASSERT_TRUE(entry) << text << " " << i;
       ASSERT_NEAR(entry->t, 0.5, 1e-9) << text << " " << i;
+      ++aimed;
     }
+    EXPECT_GT(aimed, 100) << text;
   }
 }
 

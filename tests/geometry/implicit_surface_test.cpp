@@ -312,6 +312,7 @@ TEST(ImplicitSurface, LeavesNoCrackBetweenFormulaAndSides) {
   for (const std::string& formula : {kWaves, kGyroid, std::string("x + 2*y + z - 0.1")}) {
     const Surface surface = surface_of(formula);
     const Bounds around = cube(0.15);
+    int tried = 0;
     for (int i = 0; i < 20'000; ++i) {
       Vector3 start = random_in(around, random), end = random_in(surface->box(), random);
       if (i % 2 == 0) {  // aimed at an edge between a side and the formula's surface
@@ -321,12 +322,14 @@ TEST(ImplicitSurface, LeavesNoCrackBetweenFormulaAndSides) {
         end = down->place.point - 1e-11 * random.uniform() * down->place.normal;
       }
       if (surface->inside(start, 0.0) || !surface->inside(end, 0.0)) continue;
+      ++tried;
       bool met = false;
       for (std::uint32_t piece = 0; piece <= 6 && !met; ++piece) {
         met = surface->entry(piece, start, end - start, false, 0.0, kFieldSlack).has_value();
       }
       ASSERT_TRUE(met || distance_to(*surface, end) < 2 * kFieldSlack) << formula << " segment " << i;
     }
+    EXPECT_GT(tried, 1000) << formula;
   }
 }
 
@@ -574,9 +577,11 @@ TEST(ImplicitSurface, CanBeSampledForMeshing) {
   EXPECT_TRUE(half_ball.inside({0, 0, 0.01}));
   EXPECT_FALSE(half_ball.inside({0, 0, -0.01}));
   base::Random random(24);
+  int crossed = 0;
   for (int i = 0; i < 500; ++i) {
     const Vector3 in = random_in(cube(0.05), random), out = random_in(cube(0.1), random);
     if (!half_ball.inside(in) || half_ball.inside(out)) continue;
+    ++crossed;
     const SurfacePoint at = half_ball.crossing(out, in);
     if (at.normal == Vector3(0, 0, -1)) {
       ASSERT_NEAR(at.point.z(), 0.0, 1e-14);
@@ -587,6 +592,7 @@ TEST(ImplicitSurface, CanBeSampledForMeshing) {
       ASSERT_GE(at.point.z(), -1e-14);
     }
   }
+  EXPECT_GT(crossed, 50);
 }
 
 }  // namespace

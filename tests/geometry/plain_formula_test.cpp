@@ -20,6 +20,7 @@ TEST(PlainFormula, AgreesWithTheCompiledOne) {
     const auto compiled = Formula::parse(text);
     const auto plain = plain_formula(text);
     ASSERT_TRUE(compiled && plain) << text;
+    int defined = 0;
     for (int i = 0; i < 500; ++i) {
       const base::Vector3 place(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
       const double time = random.uniform(0, 5);
@@ -28,8 +29,10 @@ TEST(PlainFormula, AgreesWithTheCompiledOne) {
         EXPECT_EQ(std::isnan(expected), std::isnan(actual)) << text << " at " << place.transpose();
       } else {
         EXPECT_NEAR(actual, expected, 1e-12 * (1.0 + std::abs(expected))) << text;
+        ++defined;
       }
     }
+    EXPECT_GT(defined, 20) << text;
   }
 }
 
