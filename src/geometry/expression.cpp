@@ -78,8 +78,8 @@ bool commutes(Operation operation) {
 
 std::size_t Expression::Hash::operator()(const Step& step) const {
   std::uint64_t hash = static_cast<std::uint64_t>(step.operation);
-  for (const std::uint64_t part :
-       {std::uint64_t{step.a}, std::uint64_t{step.b}, std::bit_cast<std::uint64_t>(step.constant)}) {
+  for (const std::uint64_t part : {std::uint64_t{step.a}, std::uint64_t{step.b}, std::uint64_t{step.c},
+                                   std::bit_cast<std::uint64_t>(step.constant)}) {
     hash = (hash ^ part) * 0x9e3779b97f4a7c15ULL;
     hash ^= hash >> 29;
   }
@@ -139,6 +139,12 @@ Expression::Node Expression::binary(Operation operation, Node a, Node b) {
   }
   if (commutes(operation) && b < a) std::swap(a, b);
   return shared({operation, a, b, 0.0});
+}
+
+Expression::Node Expression::select(Node condition, Node a, Node b) {
+  if (a == b) return a;
+  if (is_constant(condition)) return value(condition) <= 0.0 ? a : b;
+  return shared({Operation::Select, a, b, 0.0, condition});
 }
 
 Expression::Node Expression::rebuilt(const Step& step, Node a, Node b) {

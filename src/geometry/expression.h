@@ -6,15 +6,15 @@
 
 namespace icome::geometry {
 
-/// What a step of a formula computes, from `a`, from `a` and `b`, or from `a` and a constant c.
+/// What a step of a formula computes, from `a`, from `a` and `b`, or from `a` and a constant.
 enum class Operation : std::uint8_t {
   Variable,  // x, y, z, t: number `a`
-  Constant,  // c
+  Constant,
   Negate,
   AddConstant,
   Scale,
-  IntegerPower,   // a^c, c whole, 2 or more
-  ConstantPower,  // a^c, c not whole; undefined for a < 0
+  IntegerPower,   // of `a`, the constant whole, 2 or more
+  ConstantPower,  // of `a`, the constant not whole; undefined for a < 0
   Reciprocal,
   Abs,
   Sqrt,
@@ -29,7 +29,7 @@ enum class Operation : std::uint8_t {
   Sinh,
   Cosh,
   Tanh,
-  Add,  // from here on of two
+  Add,  // from here on of two or more
   Subtract,
   Multiply,
   Divide,
@@ -38,9 +38,11 @@ enum class Operation : std::uint8_t {
   Hypot,
   Min,
   Max,
+  Select,  // of three: where `c` is zero or less `a`, where it is more `b`
 };
 
 inline bool is_binary(Operation operation) { return operation >= Operation::Add; }
+inline bool is_ternary(Operation operation) { return operation == Operation::Select; }
 inline bool is_leaf(Operation operation) { return operation <= Operation::Constant; }
 
 /// A formula while it is read: a graph of operations in which equal parts are one, constants are folded,
@@ -53,6 +55,7 @@ class Expression {
     Operation operation;
     Node a, b;        // operands; 0 where there is none
     double constant;  // 0 where there is none
+    Node c = 0;       // of Select
     bool operator==(const Step&) const = default;
   };
 
@@ -61,7 +64,9 @@ class Expression {
   Node unary(Operation operation, Node a);
   /// Also Power with a constant exponent.
   Node binary(Operation operation, Node a, Node b);
-  /// What `step` computes, of other operands (`b` counts where it has two).
+  /// Where `condition` is zero or less `a`, where it is more `b`; undefined where it is.
+  Node select(Node condition, Node a, Node b);
+  /// What `step`, no Select, computes of other operands (`b` counts where it has two).
   Node rebuilt(const Step& step, Node a, Node b);
 
   const std::vector<Step>& steps() const { return steps_; }

@@ -55,15 +55,41 @@ void set(Number& number, double value, int variable) {
   number.first[static_cast<std::size_t>(variable)] = jets::exactly<decltype(Number::value)>(1.0);
 }
 
+/// Of numbers with their derivatives.
+template <typename Number>
+Number selected(const Number& condition, const Number& a, const Number& b) {
+  using Scalar = decltype(Number::value);
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (std::isnan(condition.value)) return constant_number<Number>(condition.value);
+    return condition.value <= 0.0 ? a : b;
+  } else {
+    if (condition.value.hi <= 0.0) return a;
+    if (condition.value.lo > 0.0) return b;
+    return jets::each(a, b, [](const Interval& one, const Interval& other) { return hull(one, other); });
+  }
+}
+
+/// What is doubtful about a Select in a range of its condition, by what is about its operands.
+Doubts doubts_of_select(const Interval& range, const Doubts& condition, const Doubts& a, const Doubts& b) {
+  if (range.hi <= 0.0) return {condition.some || a.some, condition.all || a.all};
+  if (range.lo > 0.0) return {condition.some || b.some, condition.all || b.all};
+  return {true, condition.all || (a.all && b.all)};
+}
+
 }  // namespace
 
 template <typename Scalar, int Variables, int Order>
 Jet<Scalar, Variables, Order> Formula::run(Registers<Jet<Scalar, Variables, Order>>& registers) const {
   using Number = Jet<Scalar, Variables, Order>;
   for (const Instruction& next : program_) {
-    registers[next.to] = next.operation == Operation::Constant
-                             ? constant_number<Number>(next.constant)
-                             : compute(next.operation, next.constant, registers[next.a], registers[next.b]);
+    Number& to = registers[next.to];
+    if (next.operation == Operation::Constant) {
+      to = constant_number<Number>(next.constant);
+    } else if (is_ternary(next.operation)) {
+      to = selected(registers[next.c], registers[next.a], registers[next.b]);
+    } else {
+      to = compute(next.operation, next.constant, registers[next.a], registers[next.b]);
+    }
   }
   return registers[result_];
 }
@@ -72,21 +98,30 @@ template <int Variables, int Order>
 Jet<Interval, Variables, Order> Formula::run_watched(Registers<Jet<Interval, Variables, Order>>& registers,
                                                      Range& range) const {
   using Number = Jet<Interval, Variables, Order>;
-  bool some = false, never = false;
+  Registers<Doubts> doubts{};
   for (const Instruction& next : program_) {
     Number& to = registers[next.to];
     if (next.operation == Operation::Constant) {
       to = constant_number<Number>(next.constant);
+      doubts[next.to] = {};
       continue;
     }
-    const Doubts doubts = doubts_of(next.operation, registers[next.a].value, registers[next.b].value);
-    some |= doubts.some;
-    never |= doubts.all;
-    to = compute(next.operation, next.constant, registers[next.a], registers[next.b]);
+    const Number &a = registers[next.a], &b = registers[next.b];
+    const Doubts &of_a = doubts[next.a], &of_b = doubts[next.b];
+    Doubts own;
+    if (is_ternary(next.operation)) {
+      own = doubts_of_select(registers[next.c].value, doubts[next.c], of_a, of_b);
+      to = selected(registers[next.c], a, b);
+    } else {
+      own = doubts_of(next.operation, a.value, b.value);
+      own = {own.some || of_a.some || of_b.some, own.all || of_a.all || of_b.all};
+      to = compute(next.operation, next.constant, a, b);
+    }
     // Beyond the largest number, differences and products of doubles may be NaN.
-    some |= !(to.value.hi - to.value.lo <= rounding::kLargest);
+    own.some |= !(to.value.hi - to.value.lo <= rounding::kLargest);
+    doubts[next.to] = own;
   }
-  range = {registers[result_].value, !some, never};
+  range = {registers[result_].value, !doubts[result_].some, doubts[result_].all};
   return registers[result_];
 }
 
@@ -187,6 +222,7 @@ std::vector<std::uint32_t> last_uses(const std::vector<Expression::Step>& steps,
     if (last[i] == 0 || is_leaf(steps[i].operation)) continue;
     last[steps[i].a] = std::max(last[steps[i].a], i);
     if (is_binary(steps[i].operation)) last[steps[i].b] = std::max(last[steps[i].b], i);
+    if (is_ternary(steps[i].operation)) last[steps[i].c] = std::max(last[steps[i].c], i);
   }
   return last;
 }
@@ -226,9 +262,11 @@ base::Result<Formula> Formula::compile(const Expression& expression, Expression:
     }
     const bool binary = is_binary(step.operation), leaf = is_leaf(step.operation);
     const std::uint16_t a = leaf ? std::uint16_t{0} : home[step.a], b = binary ? home[step.b] : a;
-    // The result may take an operand's register: it is written after both have been read.
+    const std::uint16_t c = is_ternary(step.operation) ? home[step.c] : a;
+    // The result may take an operand's register: it is written after all have been read.
     if (!leaf && last[step.a] == i && a >= 4) pool.give_back(a);
-    if (binary && step.b != step.a && last[step.b] == i && b >= 4) pool.give_back(b);
+    if (b != a && last[step.b] == i && b >= 4) pool.give_back(b);
+    if (c != a && c != b && last[step.c] == i && c >= 4) pool.give_back(c);
     home[i] = pool.take();
     if (home[i] >= kMostRegisters) {
       return base::fail(
@@ -236,7 +274,7 @@ base::Result<Formula> Formula::compile(const Expression& expression, Expression:
                       "products from left to right, without parentheses around their ends",
                       kMostRegisters));
     }
-    formula.program_.push_back({step.operation, home[i], a, b, step.constant});
+    formula.program_.push_back({step.operation, home[i], a, b, c, step.constant});
     if (formula.program_.size() > kMostSteps) {
       return base::fail(fmt::format(
           "the formula takes more than {} operations, too many for a haptic loop: simplify it", kMostSteps));

@@ -18,7 +18,10 @@ namespace icome::geometry {
 ///
 /// It may use the numbers pi and e; + - * / ^ and parentheses (-x^2 is -(x^2), x^y^z is x^(y^z)); sin cos
 /// tan asin acos atan atan2(y, x) sinh cosh tanh exp log ln (both to the base e) log10 sqrt abs hypot pow
-/// min max (the last two of any number of values). Undefined operations give NaN, and NaN stays.
+/// min max (the last two of any number of values), and if(condition, a, b). Conditions are comparisons by <
+/// <= > >=, and put together of those by &&, ||, ! and parentheses; && binds before ||, and what the first
+/// operand of either decides needs no second. Undefined operations give NaN, and NaN stays, but in the
+/// operand that an if does not take.
 class Formula {
  public:
   static constexpr std::size_t kMostCharacters = 16384;
@@ -86,7 +89,7 @@ class Formula {
  private:
   struct Instruction {
     Operation operation;
-    std::uint16_t to, a, b;  // registers; the first four hold x, y, z, t
+    std::uint16_t to, a, b, c;  // registers; the first four hold x, y, z, t
     double constant;
   };
   template <typename Number>

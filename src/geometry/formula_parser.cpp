@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstring>
 #include <numbers>
+#include <vector>
 
 #include "geometry/formula.h"
 
@@ -20,11 +21,20 @@ namespace {
 
 using ReadNode = Expression::Node;
 
+/// What an if asks. Numbers of other conditions are of those before.
+struct IfCondition {
+  enum class Kind { NotAbove, Not, And, Or };
+  Kind kind;
+  std::uint32_t a, b = 0;  // NotAbove: is the node `a` zero or less? Else numbers of conditions
+};
+
 /// Where the operators of the parser that runs on this thread build. muParser's operators and literals
 /// carry no user data.
 struct FormulaSite {
   Expression* expression;
-  const char* literal_too_large;  // where in the text
+  const char* literal_too_large = nullptr;  // where in the text
+  std::vector<IfCondition> conditions = {};
+  const char* misuse = nullptr;  // of a condition, or of a value in place of one
 };
 thread_local FormulaSite* current_site = nullptr;
 
@@ -37,8 +47,65 @@ class AtSite {
   AtSite& operator=(const AtSite&) = delete;
 };
 
+void note_misuse(const char* what) {
+  if (current_site->misuse == nullptr) current_site->misuse = what;
+}
+
+// Nodes are 0 and more, conditions are -1 and less.
 double as_value(ReadNode node) { return node; }
-ReadNode as_node(double value) { return static_cast<ReadNode>(value); }
+ReadNode as_node(double value) {
+  if (value >= 0.0) return static_cast<ReadNode>(value);
+  note_misuse("a comparison makes sense as the condition of if(...) only");
+  return current_site->expression->constant(0.0);
+}
+
+double as_value(const IfCondition& condition) {
+  current_site->conditions.push_back(condition);
+  return -static_cast<double>(current_site->conditions.size());
+}
+
+std::uint32_t as_condition(double value) {
+  if (value < 0.0) return static_cast<std::uint32_t>(-value) - 1;
+  note_misuse("if(...), &&, || and ! take comparisons, such as x < y");
+  return as_condition(as_value(IfCondition{IfCondition::Kind::NotAbove, as_node(value)}));
+}
+
+/// Is `a` no greater than `b`?
+double not_greater(double a, double b) {
+  const ReadNode difference = current_site->expression->binary(Operation::Subtract, as_node(a), as_node(b));
+  return as_value(IfCondition{IfCondition::Kind::NotAbove, difference});
+}
+
+double not_step(double a) { return as_value(IfCondition{IfCondition::Kind::Not, as_condition(a)}); }
+double less_equal_step(double a, double b) { return not_greater(a, b); }
+double greater_equal_step(double a, double b) { return not_greater(b, a); }
+double less_step(double a, double b) { return not_step(not_greater(b, a)); }
+double greater_step(double a, double b) { return not_step(not_greater(a, b)); }
+
+template <IfCondition::Kind kKind>
+double joined_step(double a, double b) {
+  return as_value(IfCondition{kKind, as_condition(a), as_condition(b)});
+}
+
+/// `a` where the condition holds, else `b`: one Select for each comparison that it takes to tell.
+ReadNode selected_node(std::uint32_t number, ReadNode a, ReadNode b) {
+  const IfCondition condition = current_site->conditions[number];
+  switch (condition.kind) {
+    case IfCondition::Kind::Not:
+      return selected_node(condition.a, b, a);
+    case IfCondition::Kind::And:
+      return selected_node(condition.a, selected_node(condition.b, a, b), b);
+    case IfCondition::Kind::Or:
+      return selected_node(condition.a, a, selected_node(condition.b, a, b));
+    default:
+      return current_site->expression->select(condition.a, a, b);
+  }
+}
+
+double if_step(double condition, double a, double b) {
+  const ReadNode first = as_node(a), second = as_node(b);
+  return as_value(selected_node(as_condition(condition), first, second));
+}
 
 template <Operation kOperation>
 double unary_step(double a) {
@@ -82,9 +149,9 @@ int read_literal(const char* text, int* position, double* value) {
   return 1;
 }
 
-constexpr std::array<const char*, 20> kFunctions{"abs", "acos",  "asin", "atan", "atan2", "cos", "cosh",
-                                                 "exp", "hypot", "ln",   "log",  "log10", "max", "min",
-                                                 "pow", "sin",   "sinh", "sqrt", "tan",   "tanh"};
+constexpr std::array<const char*, 21> kFunctions{"abs", "acos",  "asin", "atan", "atan2", "cos",   "cosh",
+                                                 "exp", "hypot", "if",   "ln",   "log",   "log10", "max",
+                                                 "min", "pow",   "sin",  "sinh", "sqrt",  "tan",   "tanh"};
 
 class FormulaParser : public mu::ParserBase {
  public:
@@ -104,8 +171,8 @@ class FormulaParser : public mu::ParserBase {
  protected:
   void InitCharSets() override {  // NOLINT(readability-identifier-naming): muParser's name
     DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
-    DefineOprtChars("+-*/^");
-    DefineInfixOprtChars("+-");
+    DefineOprtChars("+-*/^<>=&|");
+    DefineInfixOprtChars("+-!");
   }
   void InitOprt() override {  // NOLINT(readability-identifier-naming)
     DefineOprt("+", binary_step<Operation::Add>, mu::prADD_SUB);
@@ -113,6 +180,13 @@ class FormulaParser : public mu::ParserBase {
     DefineOprt("*", binary_step<Operation::Multiply>, mu::prMUL_DIV);
     DefineOprt("/", binary_step<Operation::Divide>, mu::prMUL_DIV);
     DefineOprt("^", binary_step<Operation::Power>, mu::prPOW, mu::oaRIGHT);
+    DefineOprt("<", less_step, mu::prCMP);
+    DefineOprt("<=", less_equal_step, mu::prCMP);
+    DefineOprt(">", greater_step, mu::prCMP);
+    DefineOprt(">=", greater_equal_step, mu::prCMP);
+    DefineOprt("&&", joined_step<IfCondition::Kind::And>, mu::prLAND);
+    DefineOprt("||", joined_step<IfCondition::Kind::Or>, mu::prLOR);
+    DefineInfixOprt("!", not_step, mu::prINFIX, false);
     DefineInfixOprt("-", unary_step<Operation::Negate>, mu::prINFIX, false);
     DefineInfixOprt("+", plus_sign, mu::prINFIX, false);
   }
@@ -124,6 +198,7 @@ class FormulaParser : public mu::ParserBase {
     DefineFun("cos", unary_step<Operation::Cos>, false);
     DefineFun("cosh", unary_step<Operation::Cosh>, false);
     DefineFun("exp", unary_step<Operation::Exp>, false);
+    DefineFun("if", if_step, false);
     DefineFun("ln", unary_step<Operation::Log>, false);
     DefineFun("log", unary_step<Operation::Log>, false);
     DefineFun("sin", unary_step<Operation::Sin>, false);
@@ -150,7 +225,7 @@ std::string wrong_character(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (letter || (c != '\0' && std::strchr("_.,+-*/^() \t\r\n", c) != nullptr)) continue;
+    if (letter || (c != '\0' && std::strchr("_.,+-*/^<>=&|!() \t\r\n", c) != nullptr)) continue;
     const bool printable = c > 0x20 && c < 0x7f;
     return at_column(static_cast<std::ptrdiff_t>(i),
                      printable ? fmt::format("'{}' has no meaning in a formula", c)
@@ -167,7 +242,7 @@ std::string shown(std::string token) {
 }
 
 std::string unknown(const std::string& token) {
-  if (token.empty() || std::strchr("+-*/^", token[0]) != nullptr) {
+  if (token.empty() || std::strchr("+-*/^<>=&|", token[0]) != nullptr) {
     return fmt::format("a value is missing before \"{}\"", token);
   }
   for (const char* function : kFunctions) {
@@ -234,7 +309,7 @@ base::Result<ReadNode> read_formula(const std::string& text, Expression& express
   if (std::string complaint = wrong_character(text); !complaint.empty()) {
     return base::fail(std::move(complaint));
   }
-  FormulaSite site{&expression, nullptr};
+  FormulaSite site{&expression};
   const AtSite here(site);
   ReadNode root = 0;
   try {
@@ -243,6 +318,7 @@ base::Result<ReadNode> read_formula(const std::string& text, Expression& express
     int results = 0;
     const double* values = parser.Eval(results);
     root = as_node(values[0]);
+    if (site.misuse != nullptr) return base::fail(fmt::format("formula: {}", site.misuse));
     if (results != 1) {
       return base::fail(at_column(static_cast<std::ptrdiff_t>(bare_comma(text)),
                                   "a comma makes sense between a function's values only"));

@@ -1,6 +1,7 @@
 #include "geometry/formula_pieces.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace icome::geometry {
 namespace {
@@ -14,7 +15,8 @@ constexpr std::size_t kMostCases = 256;  // of one part of a formula
 constexpr std::size_t kMostChoices = 64;
 
 bool chooses(Operation operation) {
-  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max;
+  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max ||
+         operation == Operation::Atan2 || operation == Operation::Select;
 }
 
 /// What a part of a formula is where choices were made so.
@@ -58,6 +60,7 @@ class FormulaSplitter {
       if (!used[i] || is_leaf(steps[i].operation)) continue;
       used[steps[i].a] = true;
       if (is_binary(steps[i].operation)) used[steps[i].b] = true;
+      if (is_ternary(steps[i].operation)) used[steps[i].c] = true;
     }
     return used;
   }
@@ -66,7 +69,9 @@ class FormulaSplitter {
     const std::vector<SmoothPart> as_it_is{{node, {0, 0}}};
     if (is_leaf(step.operation)) return as_it_is;
     if (chooses(step.operation) && choices_.size() == kMostChoices) return as_it_is;
-    std::vector<SmoothPart> parts = chooses(step.operation) ? chosen(step) : combined(step);
+    std::vector<SmoothPart> parts = step.operation == Operation::Atan2 ? angles(step)
+                                    : chooses(step.operation)          ? chosen(step)
+                                                                       : combined(step);
     return parts.size() > kMostCases ? as_it_is : parts;
   }
 
@@ -84,6 +89,29 @@ class FormulaSplitter {
         if (result.size() > kMostCases) return result;
       }
     }
+    return result;
+  }
+
+  /// atan2(y, x) where y is zero or more, and where it is less: turned by a quarter so that what jumps is on
+  /// the other side.
+  std::vector<SmoothPart> angles(const Expression::Step& step) {
+    constexpr double kQuarter = 0.5 * std::numbers::pi;
+    const ChoiceSet bit = ChoiceSet{1} << choices_.size();
+    std::vector<SmoothPart> result;
+    for (const SmoothPart& y : parts_[step.a]) {
+      for (const SmoothPart& x : parts_[step.b]) {
+        if (!agree(y.by, x.by)) continue;
+        const Case by{y.by.made | x.by.made | bit, y.by.second | x.by.second};
+        const Node minus_y = expression_.unary(Operation::Negate, y.node);
+        const Node above = expression_.binary(Operation::Atan2, x.node, y.node);
+        const Node below = expression_.binary(Operation::Atan2, x.node, minus_y);
+        result.push_back(
+            {expression_.binary(Operation::Subtract, expression_.constant(kQuarter), above), by});
+        result.push_back({expression_.binary(Operation::Subtract, below, expression_.constant(kQuarter)),
+                          {by.made, by.second | bit}});
+      }
+    }
+    choices_.push_back(expression_.unary(Operation::Negate, step.a));
     return result;
   }
 
@@ -105,6 +133,7 @@ class FormulaSplitter {
   /// Zero or less where the first operand is chosen.
   Node choice_function(const Expression::Step& step) {
     if (step.operation == Operation::Abs) return expression_.unary(Operation::Negate, step.a);
+    if (step.operation == Operation::Select) return step.c;
     const bool smaller = step.operation == Operation::Min;
     return expression_.binary(Operation::Subtract, smaller ? step.a : step.b, smaller ? step.b : step.a);
   }
@@ -118,6 +147,8 @@ class FormulaSplitter {
       case Operation::Power:
       case Operation::Atan2:
         return add_zeros_of(step.a);
+      case Operation::Select:
+        return add_zeros_of(step.c);
       case Operation::Divide:
         return add_zeros_of(step.b);
       case Operation::Asin:

@@ -7,10 +7,12 @@
 
 namespace icome::geometry {
 
-/// A formula taken apart into smooth functions. Each abs, min and max in it is a choice between two operands
-/// (abs(a): a or -a); with every choice made, what is left is smooth: z - abs(x) is z - x or z + x. Where a
-/// formula may jump, or begin to have values, is the zero of a smooth function too: the denominator's, or
-/// that of what a root is taken of.
+/// A formula taken apart into smooth functions. Each abs, min, max and if in it is a choice between two
+/// operands (abs(a): a or -a); with every choice made, what is left is smooth: z - abs(x) is z - x or z + x.
+/// So is each atan2(y, x), by the sign of y: what it is there goes on smoothly beyond, so that a spiral or a
+/// star has no edge where the angle jumps by 2 pi unless it jumps there itself. Where a formula may jump, or
+/// begin to have values, is the zero of a smooth function too: the denominator's, or that of what a root is
+/// taken of.
 struct FormulaPieces {
   using ChoiceSet = std::uint64_t;  // a bit for each choice
 

@@ -3,6 +3,7 @@
 #include <muParser.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -30,6 +31,21 @@ double greatest_value(const double* values, int count) {
   return extreme(values, count, [](double a, double b) { return a > b; });
 }
 
+/// Compares; what is undefined makes the outcome undefined.
+template <typename Compare>
+double compared(double a, double b, Compare&& holds) {
+  if (std::isnan(a) || std::isnan(b)) return kNoValue;
+  return holds(a, b) ? 1.0 : 0.0;
+}
+
+/// What the first operand decides needs no second.
+double both(double a, double b) { return std::isnan(a) || a == 0.0 ? a : b; }
+double either(double a, double b) { return std::isnan(a) || a != 0.0 ? a : b; }
+double chosen_value(double condition, double a, double b) {
+  if (std::isnan(condition)) return kNoValue;
+  return condition != 0.0 ? a : b;
+}
+
 /// A parser and the numbers that its variables are bound to.
 struct BoundParser {
   mu::Parser parser;
@@ -51,8 +67,37 @@ struct BoundParser {
         "pow", +[](double a, double b) { return std::pow(a, b); });
     parser.DefineFun("min", least_value);
     parser.DefineFun("max", greatest_value);
+    define_operators();
     parser.SetExpr(text);
     parser.Eval();
+  }
+
+  /// muParser's own comparisons take what is undefined for false; it has all of its operators or none.
+  void define_operators() {
+    parser.EnableBuiltInOprt(false);
+    parser.DefineOprt(
+        "+", +[](double a, double b) { return a + b; }, mu::prADD_SUB);
+    parser.DefineOprt(
+        "-", +[](double a, double b) { return a - b; }, mu::prADD_SUB);
+    parser.DefineOprt(
+        "*", +[](double a, double b) { return a * b; }, mu::prMUL_DIV);
+    parser.DefineOprt(
+        "/", +[](double a, double b) { return a / b; }, mu::prMUL_DIV);
+    parser.DefineOprt(
+        "^", +[](double a, double b) { return std::pow(a, b); }, mu::prPOW, mu::oaRIGHT);
+    parser.DefineOprt(
+        "<", +[](double a, double b) { return compared(a, b, std::less<>()); }, mu::prCMP);
+    parser.DefineOprt(
+        "<=", +[](double a, double b) { return compared(a, b, std::less_equal<>()); }, mu::prCMP);
+    parser.DefineOprt(
+        ">", +[](double a, double b) { return compared(a, b, std::greater<>()); }, mu::prCMP);
+    parser.DefineOprt(
+        ">=", +[](double a, double b) { return compared(a, b, std::greater_equal<>()); }, mu::prCMP);
+    parser.DefineOprt("&&", both, mu::prLAND);
+    parser.DefineOprt("||", either, mu::prLOR);
+    parser.DefineInfixOprt(
+        "!", +[](double a) { return std::isnan(a) ? a : (a == 0.0 ? 1.0 : 0.0); }, mu::prINFIX);
+    parser.DefineFun("if", chosen_value);
   }
 };
 

@@ -27,8 +27,12 @@ TEST(FormulaPieces, AreTheSmoothFunctionsOfAFormula) {
   EXPECT_EQ(count("max(abs(x), abs(y), abs(z)) - 0.05"), 6U);
   EXPECT_EQ(count("abs(x) + 2*abs(x)"), 2U);           // one choice, made once
   EXPECT_EQ(count("max(x, y, z, x + y, x - y)"), 5U);  // not what does not matter then
-  EXPECT_EQ(count("max(x, -0.01)"), 1U);               // a constant has no surface
-  EXPECT_EQ(count("z + sqrt(min(x, -1))"), 1U);        // nor has what is never defined
+  EXPECT_EQ(count("if(x < 0, z, z + x)"), 2U);
+  EXPECT_EQ(count("if(x < 0 && y < 0 || z < -1, z, z + x)"), 2U);
+  EXPECT_EQ(count("z - 0.01*atan2(y, x)"), 2U);
+  EXPECT_EQ(count("sin(5*atan2(y, x)) + z*cos(5*atan2(y, x))"), 2U);
+  EXPECT_EQ(count("max(x, -0.01)"), 1U);         // a constant has no surface
+  EXPECT_EQ(count("z + sqrt(min(x, -1))"), 1U);  // nor has what is never defined
 }
 
 TEST(FormulaPieces, LeavesPartsWithTooManyCombinationsAsTheyAre) {
@@ -66,6 +70,37 @@ TEST(FormulaPieces, HaveTheFormulasValueWhereTheirChoicesAreMade) {
       }
       ASSERT_EQ(made, 1) << formula.text;
     }
+  }
+}
+
+TEST(FormulaPieces, AreOneAtEveryPlaceOfConditionsAndAngles) {
+  base::Random random(32);
+  for (const char* text :
+       {"if(x < y, z, x)", "if(x < 0 && y < 0 || z >= 0.2, x + y, if(!(x > z), -z, 2*y))",
+        "z - 0.01*atan2(y, x)", "atan2(abs(x) - 0.2, y - z) + if(atan2(x, z) < 1, x, atan2(x, z))"}) {
+    const FormulaPieces pieces = taken_apart(text);
+    for (int k = 0; k < 1000; ++k) {
+      const Vector3 point = random.uniform(0.0, 1.0) * random.direction();
+      const FormulaPieces::ChoiceSet second = choices_at(pieces, point);
+      int made = 0;
+      for (const FormulaPieces::Piece& piece : pieces.pieces) {
+        for (const FormulaPieces::Case& it : piece.cases) {
+          if ((it.made & (it.second ^ second)) != 0) continue;
+          ++made;
+          ASSERT_NEAR(piece.formula.value(point, 0.0), pieces.whole.value(point, 0.0), 1e-13) << text;
+        }
+      }
+      ASSERT_EQ(made, 1) << text;
+    }
+  }
+}
+
+TEST(FormulaPieces, GoOnSmoothlyWhereAnAngleJumps) {
+  const FormulaPieces star = taken_apart("sqrt(x^2 + y^2) - 0.03 - 0.005*sin(5*atan2(y, x))");
+  for (const FormulaPieces::Piece& piece : star.pieces) {
+    const auto at = piece.formula.range({{{-0.04, -0.03}, {-0.001, 0.001}, {0.0, 0.0}, {0.0, 0.0}}});
+    EXPECT_TRUE(at.total);
+    EXPECT_LT(at.value.hi - at.value.lo, 0.02);
   }
 }
 

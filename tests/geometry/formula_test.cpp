@@ -60,6 +60,14 @@ const std::vector<ValueCase>& value_cases() {
       {"acos(x*t)", [](double x, double, double, double t) { return std::acos(x * t); }},
       {"atan(x/y)", [](double x, double y, double, double) { return std::atan(x / y); }},
       {"atan2(y-0.5*t, x)", [](double x, double y, double, double t) { return std::atan2(y - 0.5 * t, x); }},
+      {"if(x < y, x*y, z)", [](double x, double y, double z, double) { return x < y ? x * y : z; }},
+      {"if(x > 2*y || !(z > t), 1 - x, if(x <= y && z >= x, y, z^2))",
+       [](double x, double y, double z, double t) {
+         if (x > 2 * y || !(z > t)) return 1 - x;
+         return x <= y && z >= x ? y : z * z;
+       }},
+      {"if(x < y, 1, 1 + sqrt(x-y))",  // of what is not taken nothing counts
+       [](double x, double y, double, double) { return x < y ? 1 : 1 + std::sqrt(x - y); }},
       {"sinh(x*y)", [](double x, double y, double, double) { return std::sinh(x * y); }},
       {"cosh(x-y)", [](double x, double y, double, double) { return std::cosh(x - y); }},
       {"tanh(x*y-z)", [](double x, double y, double z, double) { return std::tanh(x * y - z); }},
@@ -271,6 +279,12 @@ TEST(Formula, NamesTheColumnOfWhatIsWrong) {
       {"sin()", "column 5"},
       {"sin(x,y)", "column 8"},
       {"atan2(x)", "column 8"},
+      {"x < y", "a comparison makes sense"},
+      {"(x < y) + 1", "a comparison makes sense"},
+      {"if(x, 1, 2)", "take comparisons"},
+      {"if(x < y && z, 1, 2)", "take comparisons"},
+      {"if(x < y, 1)", "takes more values"},
+      {"if(x = y, 1, 2)", "column 6"},
       {"(x", "column 3"},
       {"x)", "column 2"},
       {"x*/y", "column 3"},

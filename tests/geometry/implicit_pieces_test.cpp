@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geometry/implicit_surface.h"
+#include "geometry/plain_formula.h"
 #include "geometry/plane_formulas.h"
 
 namespace icome::geometry {
@@ -116,11 +117,29 @@ TEST(ImplicitPieces, MeetInEdgesAimedAt) {
 TEST(ImplicitPieces, EndInWallsWhereTheFormulaJumpsOrBegins) {
   base::Random random(43);
   EntryCounts counts;
-  for (const char* text : {"1/x", "-1/x", "z - 0.001/x", "z - sqrt(x)", "sqrt(x) - 0.1", "z - 0.01*log(30*x)",
-                           "z - 0.01*tan(40*x)", "asin(20*x) + z", "max(z, -sqrt(x))", "y/x - 0.5",
-                           "1/(x*y) + 1000", "x/(x^2 + y^2 + z^2) - 20", "1/abs(x) - 20", "-(x^0.3)"}) {
-    const Formula whole = *Formula::parse(text);
-    const auto inside = [&](const Vector3& p) { return whole.value(p, 0.0) < 0.0; };
+  for (const char* text : {"1/x",
+                           "-1/x",
+                           "z - 0.001/x",
+                           "z - sqrt(x)",
+                           "sqrt(x) - 0.1",
+                           "z - 0.01*log(30*x)",
+                           "z - 0.01*tan(40*x)",
+                           "asin(20*x) + z",
+                           "max(z, -sqrt(x))",
+                           "y/x - 0.5",
+                           "1/(x*y) + 1000",
+                           "x/(x^2 + y^2 + z^2) - 20",
+                           "1/abs(x) - 20",
+                           "-(x^0.3)",
+                           "z - 0.01*atan2(y, x)",
+                           "atan2(z, x) - 0.05*y",
+                           "if(x < 0.02, z, z - 0.03)",
+                           "if(x < 0 && y < 0, 1, z)",
+                           "if(x^2 + y^2 < 0.0016 || z < -0.05, -1, 1)",
+                           "if(z < 0, if(x < y, -1, 1), 1)",
+                           "if(x > 0, z - sqrt(x), z + 0.02)"}) {
+    const auto whole = *plain_formula(text);
+    const auto inside = [&](const Vector3& p) { return whole(p, 0.0) < 0.0; };
     const int before = counts.met;
     expect_entries_as_sampled(text, inside, random, 100, counts);
     if (testing::Test::HasFatalFailure()) return;
@@ -137,6 +156,51 @@ TEST(ImplicitPieces, ReachJustBeyondTheirEdges) {
     EXPECT_NEAR(entry->t, 0.5, 1e-9);
   }
   EXPECT_FALSE(first_of_pieces(*surface, {0.05, 0, 3.0 * kPieceSlack}, {-0.1, 0, 0}, false));
+}
+
+/// A condition on planes: comparisons, put together.
+std::string random_condition(base::Random& random, int comparisons) {
+  if (comparisons > 1) {
+    const int left = 1 + int(random.index(std::size_t(comparisons - 1)));
+    const std::string a = random_condition(random, left), b = random_condition(random, comparisons - left);
+    return (random.index(4) == 0 ? "!(" : "(") + a + (random.index(2) == 0 ? " && " : " || ") + b + ")";
+  }
+  const char* compare[] = {"<", "<=", ">", ">="};
+  return fmt::format("{:.3f}*x + {:.3f}*y {} {:.3f}*z + {:.3f}", random.uniform(-1, 1), random.uniform(-1, 1),
+                     compare[random.index(4)], random.uniform(-1, 1), random.uniform(-0.03, 0.03));
+}
+
+TEST(ImplicitPieces, MeetWithoutCracksWhereConditionsChoose) {
+  base::Random random(45);
+  EntryCounts counts;
+  for (int i = 0; i < 40; ++i) {
+    const std::string text = fmt::format("if({}, {}, {})", random_condition(random, 1 + i % 4),
+                                         random_plane_formula(random, 1 + i % 2, 0.05).text,
+                                         random_plane_formula(random, 1, 0.05).text);
+    const auto value = *plain_formula(text);
+    expect_entries_as_sampled(
+        text, [&](const Vector3& p) { return value(p, 0.0) < 0.0; }, random, 40, counts);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_GT(counts.met, 200);
+  EXPECT_LT(counts.earlier, counts.met / 50);
+}
+
+TEST(ImplicitPieces, HaveNoEdgeWhereAnAngleJumpsUnfelt) {
+  const auto star =
+      *ImplicitSurface::create("sqrt(x^2 + y^2) - 0.03 - 0.005*sin(5*atan2(y, x))", piece_box());
+  int met = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double z = 1e-3 * (i % 100 - 50), off = i < 100 ? 0.0 : 1e-13;
+    const auto entry = first_of_pieces(*star, {-0.06, off, z}, {0.05, 0.0, 0.0}, false);
+    ASSERT_TRUE(entry) << i;
+    ASSERT_NEAR(entry->place.point.x(), -0.03, 1e-11) << i;
+    // Radius and angle: x falls as y grows by the star's slope.
+    ASSERT_LT((entry->place.normal - Vector3(-1.0, -25.0 / 30.0, 0.0).normalized()).norm(), 1e-8) << i;
+    ++met;
+    ASSERT_FALSE(first_of_pieces(*star, {-0.0305, -0.001, z}, {-0.001, 0.002, 0.0}, true));
+  }
+  EXPECT_EQ(met, 200);
 }
 
 TEST(ImplicitPieces, HaveNoSheetsWithoutThickness) {

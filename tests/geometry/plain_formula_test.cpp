@@ -16,7 +16,9 @@ TEST(PlainFormula, AgreesWithTheCompiledOne) {
        {"x^2 + y^2 + z^2 - 0.05^2", "-x^2 + y^z^2", "z - 0.01*sin(50*x + t)*cos(pi*y)",
         "log(x) + log10(y) - ln(z)", "max(x, y, -z) - min(x, t)", "atan2(y, x) + hypot(x, z) - pow(2, x)",
         "1/x - sqrt(y)*e", "abs(x) - tanh(y) + exp(-z) / cosh(t) * sinh(x)",
-        "asin(x) + acos(y) - atan(z) + tan(t)", "-(x - +y) * 1e-3"}) {
+        "asin(x) + acos(y) - atan(z) + tan(t)", "-(x - +y) * 1e-3", "if(x < y, z, -z)",
+        "if(x <= 0.5 && !(y > z) || z >= 1, sqrt(x), x*y)", "if(log(x) > y, if(z < 0, 1, x), log(y))",
+        "2 - 3 - if(x^2 + y^2 < z^2 || sqrt(y) > 1 && x < 0, atan2(y, x), 2^-x)"}) {
     const auto compiled = Formula::parse(text);
     const auto plain = plain_formula(text);
     ASSERT_TRUE(compiled && plain) << text;

@@ -170,6 +170,25 @@ Field begin_field() {
   return {"Begin", "sqrt(x) - 0.1", [](const Vector3& p) { return std::abs(p.x() - 0.005) - 0.005; }, 1.0};
 }
 
+/// On a star the angle jumps without a trace.
+Field star_field() {
+  return {"Star", "max(sqrt(x^2 + y^2) - 0.03 - 0.005*sin(5*atan2(y, x)), abs(z) - 0.04)",
+          [](const Vector3& p) {
+            const double turned = std::sin(5.0 * std::atan2(p.y(), p.x()));
+            return std::max(std::hypot(p.x(), p.y()) - 0.03 - 0.005 * turned, std::abs(p.z()) - 0.04);
+          },
+          2.0};
+}
+
+Field step_field() {
+  return {"Step", "if(x < 0.01 && y < 0.02, z, z + 0.02)",
+          [](const Vector3& p) {
+            const double over = std::max(p.x() - 0.01, p.y() - 0.02);
+            return std::min(std::max(p.z(), over), p.z() + 0.02);
+          },
+          1.0};
+}
+
 // ---- Random presses and slides
 
 class TouchedFields : public testing::TestWithParam<Field> {};
@@ -178,7 +197,8 @@ INSTANTIATE_TEST_SUITE_P(Fields, TouchedFields,
                          testing::Values(ball_field(), ring_field(), gyroid_field(), blend_field(),
                                          wave_field(), valley_field(), waves_and_wall_field(),
                                          joined_balls_field(), lens_field(), octahedron_field(), cube_field(),
-                                         cross_field(), smooth_join_field(), pole_field(), begin_field()),
+                                         cross_field(), smooth_join_field(), pole_field(), begin_field(),
+                                         star_field(), step_field()),
                          [](const auto& it) { return it.param.name; });
 
 TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
