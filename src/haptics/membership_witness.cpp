@@ -75,7 +75,7 @@ class MembershipWitness final : public Witness {
     const auto look = [&](const Vector3& direction) { look_at(point + least * direction); };
     for (const Vector3& direction : around_) look(direction);
     if (solid_.nearest) {  // what lies between the directions, or ends within the ball, too
-      if (const auto place = solid_.nearest(point, least, resolution_.wall)) look_at(*place);
+      if (const auto place = solid_.nearest(point, least, fineness(radius))) look_at(*place);
     }
     for (double angle = 0.3; angle > 1e-4 && least < radius; angle *= 0.6) {
       const Vector3 side = nearest.unitOrthogonal(), other = nearest.cross(side), centre = nearest;
@@ -89,7 +89,7 @@ class MembershipWitness final : public Witness {
 
   bool overlaps(const Vector3& point, double radius) const override {
     if (inside(point)) return true;
-    return (solid_.nearest && solid_.nearest(point, radius, resolution_.wall)) ||
+    return (solid_.nearest && solid_.nearest(point, radius, fineness(radius))) ||
            overlap(point, radius) > 0.0;
   }
 
@@ -98,6 +98,9 @@ class MembershipWitness final : public Witness {
   }
 
  private:
+  /// Small against walls, and against what a ball of that radius cuts off from an edge.
+  double fineness(double radius) const { return std::min(resolution_.wall, 0.02 * radius); }
+
   /// Shares of a way: free at the one, in the solid at the other.
   struct Stretch {
     double free, solid;

@@ -207,5 +207,20 @@ TEST(JudgeBySamples, KnowsWhetherASphereCouldMoveInASlit) {
   EXPECT_TRUE(judge.judge({{0.0, 0.01, 0.025}, {0.0, 0.01, height - 0.0004}, true}).pop);
 }
 
+TEST(JudgeBySamples, ApprovesASmallSphereBesideASlit) {
+  // At rest on the flat, where the nearest place of the way into the slit would be the slit's edge.
+  constexpr double kRadius = 0.0001, kHalf = 0.00015;
+  const CsgTree tree = TreeChain(box_shape(0.06, 0.06, 0.06))
+                           .cut(box_shape(2.0 * kHalf, 0.08, 0.06), moved(0.0, 0.0, 0.02))
+                           .tree();
+  JudgeSettings settings;
+  settings.tip_radius = kRadius;
+  ContactJudge judge({judged_by_samples(tree)}, settings);
+  for (int i = 0; i < 100; ++i) {
+    const double x = kHalf + 1e-6 * (100 - i), y = 0.0088 + 5e-6 * i;
+    EXPECT_TRUE(approved(judge.judge({{x, y, 0.026}, {x, y, 0.03 + kRadius + 1e-11}, true}))) << i;
+  }
+}
+
 }  // namespace
 }  // namespace icome::haptics
