@@ -1,5 +1,6 @@
 """The simulated hand: it finds and touches every kind of model, leaves a picture, and Ctrl-C ends it."""
 import json
+import math
 import signal
 import subprocess
 import time
@@ -57,6 +58,25 @@ class ExploreTest(ProgramTest):
         report = json.loads(output)
         self.assertLess(report["ticks"], 200 * 2000)
         self.assertEqual(len(trace.read_text().splitlines()), report["ticks"] + 1)
+        self.assertIn("interrupted", messages)
+
+    def test_a_check_that_takes_long_ends_between_two_ticks(self):
+        # A sphere tip in a groove is slow to judge; rows are touched by the thousand before they are judged.
+        rods = "".join(f"multmatrix([[1,0,0,{x}],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {{ "
+                       "cylinder(h = 60, r1 = 10, r2 = 10, center = true); } " for x in (-10, 10))
+        groove = self.write("groove.csg", f"union() {{ {rods} }}")
+        path = self.path_file([(0.002 * math.sin(i / 400), 0.006 + 0.002 * math.sin(i / 111), 0.01 * math.sin(i / 700))
+                               for i in range(20000)])
+        trace = self.folder / "trace.csv"
+        process = subprocess.Popen([PROGRAM, "touch", groove, "--radius", "0.002", "--path", path, "--check", "--json",
+                                    "--trace", trace], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        while process.poll() is None and not any(file.stat().st_size for file in self.folder.glob("trace*")):
+            time.sleep(0.05)  # until the first rows are on disk
+        process.send_signal(signal.SIGTERM)
+        output, messages = process.communicate(timeout=200)
+        self.assertEqual(process.returncode, 130, messages)
+        self.assertLess(json.loads(output)["ticks"], 8192)
         self.assertIn("interrupted", messages)
 
 
