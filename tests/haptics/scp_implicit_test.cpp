@@ -172,10 +172,10 @@ Field begin_field() {
 
 /// On a star the angle jumps without a trace.
 Field star_field() {
-  return {"Star", "max(sqrt(x^2 + y^2) - 0.03 - 0.005*sin(5*atan2(y, x)), abs(z) - 0.04)",
+  return {"Star", "max(sqrt(x^2 + y^2) - 0.03 - 0.001*sin(5*atan2(y, x)), abs(z) - 0.04)",
           [](const Vector3& p) {
             const double turned = std::sin(5.0 * std::atan2(p.y(), p.x()));
-            return std::max(std::hypot(p.x(), p.y()) - 0.03 - 0.005 * turned, std::abs(p.z()) - 0.04);
+            return std::max(std::hypot(p.x(), p.y()) - 0.03 - 0.001 * turned, std::abs(p.z()) - 0.04);
           },
           2.0};
 }
