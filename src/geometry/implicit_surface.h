@@ -14,11 +14,11 @@ namespace icome::geometry {
 /// the formula has no value, there is nothing; where it begins to have negative ones, or jumps to them (at a
 /// pole), the solid ends in a wall.
 ///
-/// Where abs, min, max and if choose, the surface consists of pieces that are smooth each and meet in edges and
-/// grooves, as faces of a CSG solid do. Piece 0 is the first of them, or all of a smooth formula's surface;
-/// it goes on beyond its edges and the box (covers() knows), as the others do, which are pieces 7, 8, ...,
-/// with walls the last. Pieces 1 to 6 are the sides of the box towards -x, +x, -y, +y, -z, +z where they
-/// bound the solid.
+/// Where abs, min, max and if choose, the surface consists of pieces that are smooth each and meet in edges
+/// and grooves, as faces of a CSG solid do. Piece 0 is the first of them, or all of a smooth formula's
+/// surface; it goes on beyond its edges and the box (covers() knows), as the others do, which are pieces 7,
+/// 8, ..., with walls the last. Pieces 1 to 6 are the sides of the box towards -x, +x, -y, +y, -z, +z where
+/// they bound the solid.
 class ImplicitSurface final : public SmoothSurface {
  public:
   /// Fails on a formula that cannot be read, naming the column, on an empty or infinite box, and if there
