@@ -28,13 +28,17 @@ DampingRange stable_damping_range(double stiffness, double effective_mass, doubl
 
 double stable_stiffness(double effective_mass, double dt, double requested) {
   assert(effective_mass > 0.0 && dt > 0.0);
-  return std::min(requested, kLargestRelativeStiffness * effective_mass / (dt * dt));
+  // The upper end of the range is at most 2 m/dt.
+  const double payable = 2.0 * kDampingShare * effective_mass / (dt * leak_seconds(dt));
+  return std::min({requested, kLargestRelativeStiffness * effective_mass / (dt * dt), payable});
 }
+
+double leak_seconds(double dt) { return std::max(kLeakTicks * dt, kLimiterLag); }
 
 double stable_damping(double stiffness, double effective_mass, double dt, double requested) {
   const DampingRange range = stable_damping_range(stiffness, effective_mass, dt);
   const double wanted = requested < 0.0 ? std::sqrt(stiffness * effective_mass) : requested;
-  const double paid = std::max(wanted, kLeakTicks * stiffness * dt);
+  const double paid = std::max(wanted, leak_seconds(dt) * stiffness);
   return std::min(paid, kDampingShare * range.most);
 }
 

@@ -51,9 +51,10 @@ struct DampingRange {
 /// Real-time safe.
 DampingRange stable_damping_range(double stiffness, double effective_mass, double dt);
 
-/// The hardest wall (N/m, at most `requested`) that is stable also when the device answers a tick late:
-/// K dt^2/m <= 0.1. At 1 kHz this is above every device's nominal stiffness; a slower loop must be softer
-/// (thesis 5.3.2: stiff walls need a higher rate). Real-time safe.
+/// The hardest wall (N/m, at most `requested`) that is stable also when the device answers a tick late,
+/// K dt^2/m <= 0.1, and the damping of which may be as much as leak_seconds() asks for. At 1 kHz this is
+/// above every device's nominal stiffness; a slower loop must be softer (thesis 5.3.2: stiff walls need a
+/// higher rate). Real-time safe.
 double stable_stiffness(double effective_mass, double dt, double requested);
 
 /// "stiffness 5000 N/m is felt as 1000 N/m, damping 60 N s/m as 5 N s/m": of a spring with this stiffness
@@ -65,10 +66,18 @@ std::string capped_spring(double effective_mass, double dt, double stiffness, do
 /// that answers one tick late a whole one (stable_damping).
 constexpr double kLeakTicks = 2.0;
 
+/// How long a force may lag behind that reaches the device's maximum, as ForceLimiter changes forces in
+/// steps, s: damping must pay for that, too, or a spring that is far harder than the device is strong feeds
+/// the hand. (Eight springs of 8 kN/m at 4 kHz threw a bare omega.x at 35 m/s; with this they hold it.)
+constexpr double kLimiterLag = 0.002;
+
+/// How many seconds of a stiffness damping must pay for at least. Real-time safe.
+double leak_seconds(double dt);
+
 /// The damping (N s/m) to use for a wall no stiffer than stable_stiffness(): `requested`, kept between
-/// 2 K dt (the hold leaks K dt/2, a tick of delay K dt) and a quarter of the upper end of the range.
-/// kAutomaticDamping gives sqrt(K m), a damping ratio of one half: as the product of the roots is k, this
-/// is exactly the geometric middle of the range. Without a stiffness (pure damping) automatic is 0.
+/// K leak_seconds() (the hold leaks K dt/2, a tick of delay K dt) and a quarter of the upper end of the
+/// range. kAutomaticDamping gives sqrt(K m), a damping ratio of one half: as the product of the roots is k,
+/// this is exactly the geometric middle of the range. Without a stiffness (pure damping) automatic is 0.
 /// Real-time safe.
 double stable_damping(double stiffness, double effective_mass, double dt, double requested);
 

@@ -28,7 +28,7 @@ Vector3 GravityWell::force(const EffectInput& input) {
   const double left = 1.0 - offset.squaredNorm() / (radius_ * radius_);
   if (left <= 0.0) return Vector3::Zero();
   const double stiffness = stable_stiffness(input.device_mass, input.dt, stiffness_) * left * left;
-  return stiffness * (offset - kLeakTicks * input.dt * input.velocity);
+  return stiffness * (offset - leak_seconds(input.dt) * input.velocity);
 }
 
 Recess::Recess(const RecessSettings& settings) : settings_(settings) {
@@ -52,7 +52,7 @@ Vector3 Recess::force(const EffectInput& input) {
   const double stiffness = stable_stiffness(input.device_mass, input.dt, slope_stiffness());
   const double peak = settings_.peak_force * stiffness / slope_stiffness();
   const Vector3 across_axis = input.velocity - input.velocity.dot(settings_.axis) * settings_.axis;
-  return inwards * (peak * wave * wave / r) - kLeakTicks * input.dt * stiffness * wave * across_axis;
+  return inwards * (peak * wave * wave / r) - leak_seconds(input.dt) * stiffness * wave * across_axis;
 }
 
 }  // namespace icome::haptics

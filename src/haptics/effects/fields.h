@@ -30,8 +30,8 @@ class ForceField final : public Effect {
 
 /// Attracts the tip to a point from within a radius: F(r) = k r (1 - (r/R)^2)^2, which begins at the rim
 /// without a jump in force or slope and is a spring of k at the centre. The strongest pull is 0.286 k R,
-/// at r = R/sqrt(5). It gives back all the energy it takes but for a little damping, 2 k dt at the centre and
-/// none at the rim, which pays for what the hold of a tick leaks (kLeakTicks). k is kept within what is
+/// at r = R/sqrt(5). It gives back all the energy it takes but for a little damping, k leak_seconds() at the
+/// centre and none at the rim, which pays for what the hold of a tick leaks. k is kept within what is
 /// stable for the device and the tick.
 class GravityWell final : public Effect {
  public:

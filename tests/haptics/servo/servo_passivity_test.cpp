@@ -221,6 +221,64 @@ std::vector<std::size_t> felts_with_effects() {
 INSTANTIATE_TEST_SUITE_P(Feels, ServoPassivity, testing::Range(std::size_t{0}, felts().size()), felt_name);
 INSTANTIATE_TEST_SUITE_P(Feels, EffectPassivity, testing::ValuesIn(felts_with_effects()), felt_name);
 
+struct Rest {
+  double farthest = 0.0;  // m, from where it was let go, at any time
+  double speed = 0.0;     // m/s, the highest of the last tenth
+};
+
+/// A hand that pulls to where the effects hold, from 20 mm beside.
+Rest let_go(const DeviceInfo& device, double rate, bool bare, const std::vector<PlacedEffect>& effects,
+            double seconds) {
+  SimulatedSettings hand;
+  hand.info = device;
+  hand.rate = rate;
+  hand.start = Vector3(0.02, 0, 0);
+  hand.trajectory = [](double t) { return Vector3(t < 0.1 ? 0.02 : 0.0, 0, 0); };
+  if (bare) hand.hand.mass = hand.hand.damping = 0.0;
+  SimulatedDevice simulated(hand);
+  ServoSettings settings;
+  settings.rate_hz = rate;
+  settings.limiter.ramp_seconds = 0.0;
+  Servo servo(simulated, settings);
+  servo.publish_effects(effects);
+  Rest rest;
+  const int ticks = int(seconds * rate);
+  for (int tick = 0; tick < ticks; ++tick) {
+    servo.tick(1.0 / rate);
+    rest.farthest = std::max(rest.farthest, std::abs(simulated.true_position().x()));
+    if (10 * tick > 9 * ticks) rest.speed = std::max(rest.speed, simulated.true_velocity().norm());
+  }
+  return rest;
+}
+
+// A third of a millimetre off, the limiter gives all that the device has, and it takes 2 ms to get there.
+TEST(EffectsTogether, SpringsFarHarderThanTheDeviceIsStrongHoldIt) {
+  std::vector<PlacedEffect> springs;
+  for (std::uint64_t id = 1; id <= 8; ++id) springs.push_back({id, "point:0,0,0,8000"});
+  for (const double rate : {500.0, 1000.0, 4000.0, 10000.0}) {
+    for (const DeviceInfo& device : devices::device_profiles()) {
+      for (const bool bare : {false, true}) {
+        SCOPED_TRACE(device.name + " at " + std::to_string(int(rate)) + " Hz" + (bare ? ", bare" : ""));
+        const Rest rest = let_go(device, rate, bare, springs, 1.0);
+        EXPECT_LT(rest.speed, 1e-4);
+        EXPECT_LT(rest.farthest, 0.021);
+      }
+    }
+  }
+}
+
+TEST(EffectsTogether, AHeavyMassOnASpringComesToRest) {
+  const std::vector<PlacedEffect> heavy = {{1, "inertia:5,100"}, {2, "point:0,0,0,1000,5"}};
+  for (const double rate : {500.0, 1000.0, 4000.0}) {
+    for (const DeviceInfo& device : devices::device_profiles()) {
+      SCOPED_TRACE(device.name + " at " + std::to_string(int(rate)) + " Hz");
+      const Rest rest = let_go(device, rate, true, heavy, 4.0);
+      EXPECT_LT(rest.speed, 5e-3);
+      EXPECT_LT(rest.farthest, 0.021);
+    }
+  }
+}
+
 // Round and round a lumpy ball of few triangles, slowly and at one depth: the walk ends where it began, so
 // what the hand gave is what was lost. The device reads places in steps of `encoder` (m), zero: exactly.
 double energy_of_walk(bool shading, double direction, double encoder, int ticks_around) {
