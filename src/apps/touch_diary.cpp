@@ -19,7 +19,7 @@ std::uint32_t saturated(std::int64_t nanoseconds) {
 void TouchDiary::add(const TickRow& row) {
   if (trace_ != nullptr) trace_->add(row);
   if (judge_ != nullptr) {
-    haptics::JudgedTick tick{row.tip, row.scp, row.touching(), row.elapsed};
+    haptics::JudgedTick tick{row.tip, row.scp, row.touching(), row.moment};
     if (forces_of_surfaces_) tick.force = row.force;
     judge_->judge(tick);
   }

@@ -46,7 +46,7 @@ std::size_t rows_within(const std::vector<double>& times, const std::optional<do
 TickRow row_of(const haptics::TickReport& report, double t) {
   const std::int32_t object =
       report.contact.touching ? static_cast<std::int32_t>(report.object.index) : kNothingTouched;
-  return {t, report.tip, report.contact.scp, report.force, object, report.elapsed, report.own_ns()};
+  return {t, report.tip, report.contact.scp, report.force, object, report.time, report.own_ns()};
 }
 
 /// The loop's side and the diary's side of a run on the clock.

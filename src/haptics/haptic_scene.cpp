@@ -11,13 +11,6 @@
 namespace icome::haptics {
 namespace {
 
-/// A turn by the vector's length about its direction.
-base::Quaternion turn(const Vector3& rotation) {
-  const double angle = rotation.norm();
-  if (angle <= 0.0) return base::Quaternion::Identity();
-  return base::Quaternion(Eigen::AngleAxisd(angle, rotation / angle));
-}
-
 /// Where the tree should sort an unlimited box: anywhere, but at a number.
 Eigen::Vector3f sorting_point(const Bounds& bounds) {
   const Vector3 centre = bounds.center();
@@ -35,9 +28,10 @@ double own_size(const Bounds& box) {
 
 }  // namespace
 
-std::shared_ptr<const HapticScene> HapticScene::compile(std::vector<HapticObject> objects) {
+std::shared_ptr<const HapticScene> HapticScene::compile(std::vector<HapticObject> objects, double moment) {
   std::shared_ptr<HapticScene> scene(new HapticScene());
   scene->objects_ = std::move(objects);
+  scene->moment_ = moment;
   const auto count = std::uint32_t(scene->objects_.size());
   std::vector<Eigen::Vector3f> places(count);
   for (std::uint32_t i = 0; i < count; ++i) places[i] = sorting_point(scene->object_bounds(i));
@@ -51,8 +45,9 @@ std::shared_ptr<const HapticScene> HapticScene::compile(std::vector<HapticObject
   return scene;
 }
 
-std::shared_ptr<const HapticScene> HapticScene::moved(std::span<const Move> moves) const {
+std::shared_ptr<const HapticScene> HapticScene::moved(std::span<const Move> moves, double moment) const {
   std::shared_ptr<HapticScene> scene(new HapticScene(*this));
+  scene->moment_ = moment;
   for (const Move& move : moves) {
     const std::optional<std::uint32_t> object = find(move.id);
     if (!object) continue;
@@ -93,8 +88,9 @@ Bounds HapticScene::object_bounds(std::uint32_t object) const {
   Vector3 reach = it.world_from_object.linear().cwiseAbs() * (0.5 * local.sizes());
   if (!it.motion.still()) {
     const double turn_radius = local.center().norm() + 0.5 * local.sizes().norm();
-    const double chord = std::min(2.0, it.motion.angular.norm() * kMotionHorizon) * turn_radius;
-    reach += it.motion.linear.cwiseAbs() * kMotionHorizon + Vector3::Constant(chord);
+    const double longest = std::max(it.motion.arrives, it.motion.ends - it.motion.arrives);  // s
+    const double chord = std::min(2.0, it.motion.angular.norm() * longest) * turn_radius;
+    reach += it.motion.linear.cwiseAbs() * longest + Vector3::Constant(chord);
   }
   return {centre - reach, centre + reach};
 }
@@ -160,12 +156,7 @@ Pose HapticScene::pose_in(const Vector3& origin, std::uint32_t object, double el
 
 Pose HapticScene::pose(std::uint32_t object, double elapsed) const {
   const HapticObject& it = objects_[object];
-  if (it.motion.still()) return it.world_from_object;
-  const double time = std::clamp(elapsed, 0.0, kMotionHorizon);
-  Pose result = it.world_from_object;
-  result.linear() = turn(it.motion.angular * time) * result.linear();
-  result.translation() += it.motion.linear * time;
-  return result;
+  return haptics::moved(it.world_from_object, it.motion, elapsed);
 }
 
 std::optional<std::uint32_t> HapticScene::find(ObjectId id) const {

@@ -6,21 +6,13 @@
 
 #include "base/object_id.h"
 #include "geometry/box_tree.h"
+#include "haptics/motion.h"
 #include "haptics/shape.h"
 #include "haptics/surface_force.h"
 
 namespace icome::haptics {
 
 using base::ObjectId;
-
-/// How an object goes on moving after the moment for which its pose was given. It holds still after
-/// HapticScene::kMotionHorizon, so that a program that stops answering cannot drag a hand along.
-struct Motion {
-  Vector3 linear = Vector3::Zero();   // m/s, world frame, of the object's origin
-  Vector3 angular = Vector3::Zero();  // rad/s, world frame, about the object's origin
-
-  bool still() const { return linear.isZero(0.0) && angular.isZero(0.0); }
-};
 
 /// One thing that can be touched.
 struct HapticObject {
@@ -29,26 +21,24 @@ struct HapticObject {
   Pose world_from_object = Pose::Identity();
   Motion motion;
   Surface surface;
-  double time = 0.0;  // s, the own time of a shape that changes, at the moment of the pose
+  double time = 0.0;  // s, the own time of a shape that changes, at the moment 0
 };
 
 /// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the
 /// shapes. The servo may read it while any other thread does too.
 class HapticScene {
  public:
-  static constexpr double kMotionHorizon = 0.1;  // s
+  /// Compiles a scene for the moment `moment` (s) of the shapes' own times. Ids must differ.
+  static std::shared_ptr<const HapticScene> compile(std::vector<HapticObject> objects, double moment = 0.0);
 
-  /// Compiles a scene. Ids must differ.
-  static std::shared_ptr<const HapticScene> compile(std::vector<HapticObject> objects);
-
-  /// The scene with other poses for some objects: the broad phase is refitted, not built anew. Ids
-  /// that the scene does not hold are passed over.
+  /// The scene at a moment (s), with other poses for some objects: the broad phase is refitted, not built
+  /// anew. Ids that the scene does not hold are passed over.
   struct Move {
     ObjectId id;
     Pose world_from_object;
     Motion motion;
   };
-  std::shared_ptr<const HapticScene> moved(std::span<const Move> moves) const;
+  std::shared_ptr<const HapticScene> moved(std::span<const Move> moves, double moment = 0.0) const;
 
   /// Fills a region that was started for this scene. Real-time safe.
   void gather(ContactRegion& region) const;
@@ -66,15 +56,22 @@ class HapticScene {
   }
 
   /// The own time of an object's shape then, s. Real-time safe.
-  double time(std::uint32_t object, double elapsed) const { return objects_[object].time + elapsed; }
+  double time(std::uint32_t object, double elapsed) const {
+    return objects_[object].time + moment_ + elapsed;
+  }
 
-  /// Does the object move, or its shape change? Real-time safe.
-  bool restless(std::uint32_t object) const {
-    return !objects_[object].motion.still() || objects_[object].shape->changes();
+  /// Does the object move from then on, or its shape change? Real-time safe.
+  bool restless(std::uint32_t object, double elapsed = 0.0) const {
+    return objects_[object].motion.moves(elapsed) || objects_[object].shape->changes();
   }
 
   /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
   Pose pose(std::uint32_t object, double elapsed) const;
+
+  /// How fast the object moves as a whole at a place then, m/s. Real-time safe.
+  Vector3 velocity(std::uint32_t object, double elapsed, const Vector3& place) const {
+    return velocity_at(pose(object, elapsed), objects_[object].motion, elapsed, place);
+  }
 
   /// What contact arithmetic does not tell apart at a place on the object (in its frame). Real-time safe.
   Tolerance tolerance_near(std::uint32_t object, const Vector3& place) const;
@@ -93,6 +90,8 @@ class HapticScene {
   double extent() const { return extent_; }
   /// What arithmetic with any coordinate of the scene does not tell apart.
   Tolerance tolerance() const { return Tolerance::for_size(extent_); }
+  /// The moment of the poses, s, on the clock of shapes that change.
+  double moment() const { return moment_; }
   /// Is any object restless?
   bool moves() const { return moves_; }
   /// The box around all limited objects; empty when there are none.
@@ -111,6 +110,7 @@ class HapticScene {
   std::vector<std::uint32_t> by_id_;  // objects in the order of their ids
   std::vector<double> sizes_;         // how far each object reaches from its middle, m
   geometry::BoxTree tree_;
+  double moment_ = 0.0;  // s
   double extent_ = 1.0;  // m
   Bounds bounds_;
   bool moves_ = false;

@@ -191,7 +191,7 @@ void ScpSolver::carry(double from, double to) {
   Vector3 target = position_;
   std::uint32_t pusher = kNoObject;
   for (Element& contact : contacts_.all()) {
-    if (!scene_->restless(contact.object)) continue;
+    if (!scene_->restless(contact.object, from)) continue;
     const Pose now_from_before = pose(contact.object, to) * pose(contact.object, from).inverse();
     contact = transformed(now_from_before, contact);
     contact.time = scene_->time(contact.object, to);
@@ -206,7 +206,7 @@ void ScpSolver::carry(double from, double to) {
   bool near_moving = false;
   const Vector3 at = origin_ + position_;
   scene_->near(at, at, std::max(0.0, region_.reach()) + settings_.tip_radius, [&](std::uint32_t object) {
-    near_moving = scene_->restless(object);
+    near_moving = scene_->restless(object, from);
     return !near_moving;
   });
   if (near_moving) region_.invalidate();
@@ -750,12 +750,8 @@ void ScpSolver::report_contact(const Vector3& pull) {
     const Vector3 press = pull - contacts_.constrained(position_, pull, tolerance());
     if (press.squaredNorm() > 0.0) state_.normal = -press.normalized();
   }
-  const HapticObject& object = scene_->objects()[state_.object];
-  if (!object.motion.still() && elapsed_ < HapticScene::kMotionHorizon) {
-    const Vector3 arm = position_ - pose(state_.object, elapsed_).translation();
-    state_.surface_velocity = object.motion.linear + object.motion.angular.cross(arm);
-  }
-  if (object.shape->changes()) state_.surface_velocity += swell();
+  state_.surface_velocity = scene_->velocity(state_.object, elapsed_, origin_ + position_);
+  if (scene_->objects()[state_.object].shape->changes()) state_.surface_velocity += swell();
 }
 
 /// How fast a changing surface itself moves under the SCP.

@@ -125,7 +125,7 @@ TouchedWorld lift() {
   TouchedWorld world = block();
   world.objects[0].motion.linear = kRise * Vector3::UnitZ();
   world.judged[0].motion = [](double time) {
-    return translation(0.0, 0.0, kRise * std::min(time, HapticScene::kMotionHorizon));
+    return translation(0.0, 0.0, kRise * std::min(time, Motion::kHorizon));
   };
   world.path.assign(130, Vector3(0.01, 0.02, kTop + 0.5e-3));
   return world;

@@ -71,6 +71,7 @@ class Inertia final : public Effect {
   Vector3 force(const EffectInput& input) override;
   void reset() override { memory_->started = false; }
   void continue_from(const Effect& before) override;
+  bool rides() const override { return false; }
   void reframe(const base::Pose& new_from_old) override;
   double mass_needed(double device_mass, double dt) const override;
 

@@ -10,7 +10,7 @@ struct EffectInput {
   double time = 0.0;                   // s since the servo started
   double dt = 0.001;                   // s, this tick's length
   Vector3 position = Vector3::Zero();  // m, of the tip
-  Vector3 velocity = Vector3::Zero();  // m/s, of the tip
+  Vector3 velocity = Vector3::Zero();  // m/s, of the tip; past the effect's frame where that moves (rides())
   Vector3 scp = Vector3::Zero();       // m, surface contact point; the tip when nothing is touched
   bool touching = false;
   double device_mass =
@@ -29,6 +29,9 @@ class Effect {
   /// Goes on with what another effect remembers, if it is of the same kind: its numbers have been changed
   /// while it was felt. Before this one is felt; the other is not felt any more then.
   virtual void continue_from(const Effect& /*before*/) {}
+  /// Does it belong to the thing that carries its frame, so that it pulls along, holds back and sticks to
+  /// what moves with that? Else the tip's own way is what counts, as for what the hand holds. Real-time safe.
+  virtual bool rides() const { return true; }
   /// The frame of its input is another one from now on: what it remembers of places and ways is to be where
   /// it was in the world. Real-time safe.
   virtual void reframe(const base::Pose& /*new_from_old*/) {}

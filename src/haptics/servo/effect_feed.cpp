@@ -9,13 +9,23 @@
 namespace icome::haptics {
 namespace {
 
-EffectInput seen_from(const base::Pose& world_from_effect, const EffectInput& world) {
+/// From a frame that is there, and moves with `velocity` (m/s, world) where the tip is.
+EffectInput seen_from(const base::Pose& world_from_effect, const Vector3& velocity,
+                      const EffectInput& world) {
   const base::Pose effect_from_world = world_from_effect.inverse();
   EffectInput input = world;
   input.position = effect_from_world * world.position;
-  input.velocity = effect_from_world.linear() * world.velocity;
+  input.velocity = effect_from_world.linear() * (world.velocity - velocity);
   input.scp = effect_from_world * world.scp;
   return input;
+}
+
+/// Where it can act before the next version.
+Reach reach_of(const PlacedEffect& placed, const Effect& effect) {
+  Reach reach = transformed(placed.world_from_effect, effect.reach());
+  const Vector3 velocity = velocity_at(placed.world_from_effect, placed.motion, 0.0, reach.centre);
+  reach.radius += Motion::kHorizon * velocity.norm();
+  return reach;
 }
 
 }  // namespace
@@ -30,9 +40,10 @@ std::shared_ptr<EffectFeed::Felt> EffectFeed::felt_as(const PlacedEffect& placed
   if (!made) return nullptr;
   if (!goes_on)
     return std::make_shared<Felt>(
-        Felt{std::move(*made), std::make_shared<base::Pose>(placed.world_from_effect)});
+        Felt{std::move(*made),
+             std::make_shared<Whereabouts>(Whereabouts{placed.world_from_effect, placed.world_from_effect})});
   (*made)->continue_from(*last->felt->effect);
-  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->world_from_effect});
+  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->whereabouts});
 }
 
 void EffectFeed::publish(const std::vector<PlacedEffect>& effects) {
@@ -41,8 +52,8 @@ void EffectFeed::publish(const std::vector<PlacedEffect>& effects) {
   for (const PlacedEffect& placed : effects) {
     auto felt = felt_as(placed);
     if (!felt) continue;
-    needs.push_back({felt->effect->mass_needed(limits_.effective_mass, limits_.dt),
-                     transformed(placed.world_from_effect, felt->effect->reach())});
+    needs.push_back(
+        {felt->effect->mass_needed(limits_.effective_mass, limits_.dt), reach_of(placed, *felt->effect)});
     next.members.push_back({placed, std::move(felt), needs.back().mass});
   }
   const std::vector<double> together = needed_together(needs);
@@ -64,22 +75,40 @@ std::vector<CappedEffect> EffectFeed::capped(double beside) const {
   return capped;
 }
 
-void EffectFeed::follow() {
-  if (!newest_.update()) return;
-  for (const Member& it : newest_.read().members) {
-    const base::Pose& now = it.placed.world_from_effect;
-    base::Pose& before = *it.felt->world_from_effect;
-    if (now.matrix() == before.matrix()) continue;
-    it.felt->effect->reframe(now.inverse() * before);
-    before = now;
+void EffectFeed::follow(double dt) {
+  const bool newer = newest_.update();
+  elapsed_ = newer ? 0.0 : elapsed_ + dt;
+  for (const Member& it : newest_.read().members) bring(it, dt, newer);
+}
+
+/// To where it is felt in this tick, with what it remembers.
+void EffectFeed::bring(const Member& member, double dt, bool newer) {
+  const PlacedEffect& placed = member.placed;
+  Whereabouts& is = *member.felt->whereabouts;
+  if (newer && placed.world_from_effect.matrix() != is.put.matrix()) {
+    is.put = placed.world_from_effect;
+    is.left = kGlideSeconds;
   }
+  const base::Pose before = is.at;
+  const base::Pose carried = moved(before, is.goes_on, dt);
+  const base::Pose goal = moved(placed.world_from_effect, placed.motion, elapsed_);
+  is.at = is.left > dt ? between(carried, goal, dt / is.left) : goal;
+  is.left = std::max(0.0, is.left - dt);
+  is.goes_on = placed.motion.moves(elapsed_) ? placed.motion : Motion{};
+  is.goes_on.arrives = 0.0;
+  is.goes_on.ends = dt;
+  Effect& effect = *member.felt->effect;
+  const base::Pose& stays = effect.rides() ? carried : before;
+  if (is.at.matrix() != stays.matrix()) effect.reframe(is.at.inverse() * stays);
 }
 
 Vector3 EffectFeed::force(const EffectInput& input, double beside) {
   Vector3 sum = Vector3::Zero();
   for (const Member& it : newest_.read().members) {
-    const base::Pose& pose = it.placed.world_from_effect;
-    EffectInput own = seen_from(pose, input);
+    const base::Pose& pose = it.felt->whereabouts->at;
+    Vector3 carried = Vector3::Zero();
+    if (it.felt->effect->rides()) carried = velocity_at(pose, it.placed.motion, elapsed_, input.position);
+    EffectInput own = seen_from(pose, carried, input);
     own.device_mass = mass_share(input.device_mass, it.needs, it.together + beside);
     const Vector3 force = pose.linear() * it.felt->effect->force(own);
     if (force.allFinite()) sum += force;

@@ -5,20 +5,22 @@
 #include <vector>
 
 #include "haptics/effects/effect.h"
+#include "haptics/motion.h"
 #include "haptics/servo/scene_feed.h"
 #include "realtime/latest_value.h"
 
 namespace icome::haptics {
 
-/// An effect of a design, where its object is.
+/// An effect of a design, where its object is and how that moves.
 struct PlacedEffect {
   std::uint64_t id = 0;  // of its object; 0: it has none
   std::string text;      // for make_effect(), which takes it
   base::Pose world_from_effect = base::Pose::Identity();
+  Motion motion = {};
 
   bool operator==(const PlacedEffect& other) const {
     return id == other.id && text == other.text &&
-           world_from_effect.matrix() == other.world_from_effect.matrix();
+           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion;
   }
 };
 
@@ -36,6 +38,10 @@ struct CappedEffect {
 /// however many versions the servo missed, the box holds three.
 class EffectFeed {
  public:
+  /// Over so long an effect goes, evenly, to where its object was put: longer than main takes from one edit
+  /// to the next while something is dragged, so that the force has no steps.
+  static constexpr double kGlideSeconds = 0.02;  // s
+
   /// Effects share what is stable on this device; see mass_shares.h.
   explicit EffectFeed(const DeviceLimits& limits = {}) : limits_(limits) {}
 
@@ -50,9 +56,10 @@ class EffectFeed {
   /// mass_needed() of these. The main thread calls this.
   double published_mass_needed() const { return published_.mass_needed; }
 
-  /// Goes over to the newest ones. What an effect remembers stays in the world where it is when its object
-  /// moves. The servo calls this once a tick. Real-time safe.
-  void follow();
+  /// Goes over to the newest ones, and on by `dt` (s). What an effect remembers stays in the world where it
+  /// is when its object is put elsewhere, and goes along with a motion. The servo calls this once a tick.
+  /// Real-time safe.
+  void follow(double dt);
   /// Their sum, beside forces that need `beside` kg of the device's mass. The servo calls this at most once a
   /// tick. Real-time safe.
   Vector3 force(const EffectInput& input, double beside);
@@ -62,10 +69,17 @@ class EffectFeed {
   void reset();
 
  private:
+  /// Where effects of one object are felt; the servo's. World frame.
+  struct Whereabouts {
+    base::Pose at;        // in the last tick
+    base::Pose put;       // where its object was put last
+    double left = 0.0;    // s, until it is there
+    Motion goes_on = {};  // of the last tick, for one more
+  };
   /// An effect that versions with the same object and text share.
   struct Felt {
-    std::unique_ptr<Effect> effect;                 // never null
-    std::shared_ptr<base::Pose> world_from_effect;  // of its object, as it was felt last; the servo's
+    std::unique_ptr<Effect> effect;            // never null
+    std::shared_ptr<Whereabouts> whereabouts;  // never null
   };
   struct Member {
     PlacedEffect placed;
@@ -78,10 +92,12 @@ class EffectFeed {
     double mass_needed = 0.0;  // kg, the most of `together`
   };
   std::shared_ptr<Felt> felt_as(const PlacedEffect& placed) const;
+  void bring(const Member& member, double dt, bool newer);
 
   DeviceLimits limits_;
   Version published_;  // main's own copy of the newest
   realtime::LatestValue<Version> newest_;
+  double elapsed_ = 0.0;  // s, since the newest were taken; the servo's
 };
 
 }  // namespace icome::haptics

@@ -70,7 +70,7 @@ const TickReport& Servo::tick(double dt) {
   if (has_state_) report_stylus();
   clock.ends(Stage::Read);
   follow_scene(dt);
-  effect_feed_.follow();
+  effect_feed_.follow(dt);
   follow_grip();
   clock.ends(Stage::Scene);
   if (fresh || (has_state_ && (carried || state_.parked))) find_contact();
@@ -134,11 +134,7 @@ bool Servo::move_workspace(double dt) {
     world_from_device_ = goal;
     return true;
   }
-  const devices::Quaternion from(world_from_device_.linear());
-  const Vector3 origin = world_from_device_.translation();
-  world_from_device_.linear() =
-      from.slerp(share, devices::Quaternion(goal.linear())).normalized().toRotationMatrix();
-  world_from_device_.translation() = origin + share * (goal.translation() - origin);
+  world_from_device_ = between(world_from_device_, goal, share);
   return true;
 }
 
@@ -166,7 +162,7 @@ void Servo::find_contact() {
     return;
   }
   report_.contact = solver_->step(report_.tip, elapsed_);
-  report_.elapsed = elapsed_;
+  report_.time = (scene_ == nullptr ? 0.0 : scene_->scene->moment()) + elapsed_;
   if (!report_.contact.touching) return;
   const HapticObject& object = scene_->scene->objects()[report_.contact.object];
   report_.object = object.id;

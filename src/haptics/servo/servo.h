@@ -41,7 +41,7 @@ struct TickReport {
   std::uint32_t buttons = 0;                                    // bit i: button i is down
   Vector3 force = Vector3::Zero();                              // N, as written, in the world frame
   ScpState contact;
-  double elapsed = 0.0;          // s since the moment of the scene's poses: when the contact was found
+  double time = 0.0;             // s, on the scene's clock (HapticScene::moment): when the contact was found
   ObjectId object;               // what is touched, when contact.touching
   double asked_stiffness = 0.0;  // N/m, of what is touched as it was made, or the device's nominal one
   double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable

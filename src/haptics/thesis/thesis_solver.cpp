@@ -158,11 +158,7 @@ void ThesisSolver::report(const Found* found, const Vector3& tip) {
   if ((state_.scp - tip).norm() <= scene_->tolerance().touching()) return;
   state_.touching = true;
   state_.object = found->object;
-  const HapticObject& object = scene_->objects()[found->object];
-  if (!object.motion.still() && elapsed_ < HapticScene::kMotionHorizon) {
-    const Vector3 arm = state_.scp - scene_->pose(found->object, elapsed_).translation();
-    state_.surface_velocity = object.motion.linear + object.motion.angular.cross(arm);
-  }
+  state_.surface_velocity = scene_->velocity(found->object, elapsed_, state_.scp);
 }
 
 }  // namespace icome::haptics

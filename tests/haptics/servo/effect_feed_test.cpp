@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/servo_fixture.h"
 #include "realtime/guard/guard.h"
@@ -26,7 +27,7 @@ Pose turned_at(const Vector3& place) {
 Vector3 felt_at(EffectFeed& feed, const Vector3& position) {
   EffectInput input;
   input.position = input.scp = position;
-  feed.follow();
+  feed.follow(1e-3);
   return feed.force(input, 0.0);
 }
 
@@ -79,7 +80,7 @@ double largest_step(const std::string& effect, bool moved) {
     const bool elsewhere = moved && tick >= 200;
     const std::string text = effect + (elsewhere ? "" : " ");  // the same, written otherwise
     feed.publish({{1, text, elsewhere ? turned_at({0.03, -0.02, 0.01}) : Pose::Identity()}});
-    feed.follow();
+    feed.follow(1e-3);
     const double t = 0.001 * tick;
     input.position = 0.01 * Vector3(std::sin(5.0 * t), std::cos(3.0 * t), t);
     input.velocity = 0.01 * Vector3(5.0 * std::cos(5.0 * t), -3.0 * std::sin(3.0 * t), 1.0);
@@ -97,11 +98,149 @@ TEST(EffectFeed, AnEffectWithoutAPlaceDoesNotKickWhenItsObjectIsMovedAndTurned) 
   }
 }
 
+// A drag as main does it: an edit every 16 ticks.
+constexpr int kTicksAnEdit = 16;
+
+Pose dragged_to(int tick) {
+  const double t = 0.001 * (tick / kTicksAnEdit) * kTicksAnEdit;
+  return Pose(Eigen::Translation3d(0.01 * std::sin(6.0 * t), 0.004 * std::sin(15.0 * t), 0.0));
+}
+
+/// Where what is dragged is felt: evenly on the way to where it was put last, 20 ms from there.
+class Glide {
+ public:
+  Vector3 at(int tick) {
+    const Vector3 put = dragged_to(tick).translation();
+    if (put != put_) left_ = 20;
+    put_ = put;
+    at_ += (put_ - at_) / std::max(left_, 1);
+    left_ = std::max(0, left_ - 1);
+    return at_;
+  }
+
+ private:
+  Vector3 at_ = dragged_to(0).translation(), put_ = at_;
+  int left_ = 0;
+};
+
+TEST(EffectFeed, ADraggedSpringFollowsWithoutSteps) {
+  EffectFeed feed;
+  Glide glide;
+  double last = 0.0, fastest = 0.0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    if (tick % kTicksAnEdit == 0) feed.publish({{1, "point:0,0,0,100,0", dragged_to(tick)}});
+    const Vector3 force = felt_at(feed, Vector3::Zero());
+    EXPECT_NEAR((force - 100.0 * glide.at(tick)).norm(), 0.0, 1e-9) << tick;
+    if (tick > 0) fastest = std::max(fastest, std::abs(force.x() - last));
+    last = force.x();
+  }
+  // 60 mm/s at most: 6 mN a tick, where edits felt at once step by 96 mN.
+  EXPECT_LT(fastest, 0.012);
+  EXPECT_GT(fastest, 0.004);
+}
+
+/// Energy (J) of a tip in an effect whose middle is `offset` (m) from it.
+using DraggedEnergy = double (*)(const Vector3& offset);
+
+double dragged_spring_energy(const Vector3& offset) { return 50.0 * offset.squaredNorm(); }
+
+double dragged_well_energy(const Vector3& offset) {
+  const double radius = 0.02, stiffness = 1.5 * 25.0 * std::sqrt(5.0) / (16.0 * radius);
+  const double s = offset.squaredNorm() / (radius * radius);
+  return s < 1.0 ? -stiffness * radius * radius / 6.0 * std::pow(1.0 - s, 3) : 0.0;
+}
+
+// What the hand and who drags give, less what is stored, is never negative. The dragger's part is what the
+// energy of the tip grows by where the effect alone moves.
+void expect_passive_drag(const std::string& effect, DraggedEnergy stored) {
+  for (const double mass : {0.05, 0.2}) {
+    devices::SimulatedSettings settings;
+    settings.info.effective_mass = mass;
+    settings.hand = {.mass = 0.0, .stiffness = 100.0, .damping = 0.0};
+    settings.trajectory = [](double t) { return Vector3(0.006 * std::sin(11.0 * t), 0.0, 0.002); };
+    devices::SimulatedDevice device(settings);
+    EffectFeed feed({.nominal_stiffness = 2000.0, .effective_mass = mass, .dt = 1e-3});
+    Glide glide;
+    EffectInput input;
+    input.device_mass = mass;
+    devices::PointerState state;
+    Vector3 tip = device.true_position(), held = Vector3::Zero(), middle = glide.at(0);
+    const double first = stored(tip - middle);
+    double given = 0.0, least = 0.0, strongest = 0.0;
+    for (int tick = 1; tick < 6000; ++tick) {
+      device.read(state);
+      given -= held.dot(device.true_position() - tip);
+      tip = device.true_position();
+      if (tick == 1 || tick % kTicksAnEdit == 0) feed.publish({{1, effect, dragged_to(tick)}});
+      feed.follow(1e-3);
+      const Vector3 next = glide.at(tick);
+      given += stored(tip - next) - stored(tip - middle);
+      middle = next;
+      input.position = input.scp = state.position;
+      input.velocity = state.velocity;
+      held = feed.force(input, 0.0);
+      device.write(held);
+      least = std::min(least, given - (stored(tip - middle) - first));
+      strongest = std::max(strongest, held.norm());
+    }
+    EXPECT_GE(least, -1e-6) << effect << " " << mass;
+    EXPECT_GT(strongest, 0.3) << effect;
+  }
+}
+
+TEST(EffectFeed, ADraggedSpringGivesNoMoreThanItsDragger) {
+  expect_passive_drag("point:0,0,0,100", dragged_spring_energy);
+}
+
+TEST(EffectFeed, ADraggedWellGivesNoMoreThanItsDragger) {
+  expect_passive_drag("well:0,0,0,0.02,1.5", dragged_well_energy);
+}
+
+PlacedEffect on_a_belt(const std::string& text) {
+  PlacedEffect effect{1, text};
+  effect.motion.linear = {0.1, 0.0, 0.0};
+  return effect;
+}
+
+/// With the tip at rest, `ticks` after they were published.
+Vector3 felt_on_a_belt(const std::string& text, int ticks) {
+  EffectFeed feed;
+  feed.publish({on_a_belt(text)});
+  Vector3 force;
+  for (int tick = 0; tick <= ticks; ++tick) force = felt_at(feed, Vector3::Zero());
+  return force;
+}
+
+TEST(EffectFeed, AMotionCarriesWhatItsEffectHoldsAndRemembers) {
+  // 10 mm away after 0.1 s, and there it stays.
+  EXPECT_NEAR(felt_on_a_belt("point:0,0,0,100,0", 50).x(), 0.5 + 0.2 * 0.1, 1e-9) << "2 K dt of damping";
+  EXPECT_NEAR(felt_on_a_belt("point:0,0,0,100,0", 99).x(), 0.99 + 0.2 * 0.1, 1e-9);
+  EXPECT_NEAR(felt_on_a_belt("point:0,0,0,100,0", 200).x(), 1.0, 1e-9);
+  EXPECT_NEAR(felt_on_a_belt("viscous:2", 50).x(), 0.2, 1e-9) << "syrup that flows";
+  EXPECT_NEAR(felt_on_a_belt("viscous:2", 200).x(), 0.0, 1e-12);
+  EXPECT_NEAR(felt_on_a_belt("friction:0.5,0.4", 50).x(), 0.4, 1e-9) << "a conveyor belt";
+  EXPECT_NEAR(felt_on_a_belt("inertia:1", 50).norm(), 0.0, 1e-12) << "the hand's own";
+}
+
+TEST(EffectFeed, AMotionThatIsSaidAnewGoesOnWithoutAKick) {
+  for (const char* const text : {"point:0,0,0,100,0", "friction:0.5,0.4", "viscous:2", "well:0,0,0,0.02,1"}) {
+    EffectFeed feed, once;
+    once.publish({on_a_belt(text)});
+    for (int tick = 0; tick < 95; ++tick) {
+      PlacedEffect effect = on_a_belt(text);
+      effect.world_from_effect.translation().x() = 1e-4 * tick;
+      if (tick % 10 == 0) feed.publish({effect});
+      EXPECT_NEAR((felt_at(feed, Vector3::Zero()) - felt_at(once, Vector3::Zero())).norm(), 0.0, 1e-9)
+          << text << " " << tick;
+    }
+  }
+}
+
 TEST(EffectFeed, TakesThousandsOfChangesWhileItIsFelt) {
   EffectFeed feed;
   for (int i = 0; i < 5000; ++i) {
     const double x = 0.001 * (i % 7);
-    feed.publish({{1, "constant:0.1,0,0"}, {2, "point:0,0,0", Pose(Eigen::Translation3d(x, 0, 0))}});
+    feed.publish({{1, "constant:0.1,0,0"}, {2, "point:" + std::to_string(x) + ",0,0"}});
     if (i % 3 == 0) {
       EXPECT_NEAR(felt_at(feed, Vector3::Zero()).x(), 0.1 + 200.0 * x, 1e-9);
     }
