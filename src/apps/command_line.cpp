@@ -118,6 +118,14 @@ void add_feel_options(CLI::App& touch, Entries& entries) {
       ->type_name("KIND:NUMBERS")
       ->expected(1)
       ->take_all();
+  touch
+      .add_option(
+          "--motion", options.motions,
+          "How a MODEL, numbered from 0, moves: formulas in t (s) for its way in m and, after that, for "
+          "its turn about the world's origin in rad, such as \"0:0.02*sin(3*t),0,0\"; once for each")
+      ->type_name("MODEL:X,Y,Z[,RX,RY,RZ]")
+      ->expected(1)
+      ->take_all();
   touch.add_option("--radius", options.radius, "Radius of the tip in metres (default 0: a point)")
       ->type_name("R");
 }

@@ -58,6 +58,7 @@ std::vector<haptics::PlacedEffect> effects_of(const std::vector<TouchModel>& mod
   for (const std::string& text : options.effects) effects.push_back({.text = text});
   for (const TouchModel& model : models)
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
+  for (std::size_t i = 0; i < effects.size(); ++i) effects[i].id = i + 1;  // two designs have the same ids
   return effects;
 }
 

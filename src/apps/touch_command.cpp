@@ -75,9 +75,14 @@ base::Result<void> load(const TouchOptions& options, StatusLine& status, Prepare
   return {};
 }
 
-haptics::JudgedObject judged(const TouchBody& body, const haptics::Surface& surface) {
+haptics::JudgedObject judged(const TouchModel& model, const TouchBody& body,
+                             const haptics::Surface& surface) {
   haptics::JudgedObject object;
   object.world_from_object = body.world_from_body;
+  if (model.motion)
+    object.motion = [of = model.motion, first = body.world_from_body](double time) {
+      return carried(*of, first, time);
+    };
   if (body.primitive) {
     object.surface = *body.primitive;
   } else if (body.membership) {
@@ -98,7 +103,7 @@ haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const Tou
     for (const TouchBody& body : model.bodies) {
       const haptics::Surface surface = surface_of(body, options);
       settings.static_friction = std::max(settings.static_friction, surface.static_friction);
-      objects.push_back(judged(body, surface));
+      objects.push_back(judged(model, body, surface));
     }
   }
   return {objects, settings};

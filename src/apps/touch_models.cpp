@@ -139,6 +139,7 @@ base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
     if (!model) return tl::unexpected(model.error());
     models.push_back(std::move(*model));
   }
+  set_going(models, options);
   return models;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/model_motion.h"
 #include "apps/touch_eye.h"
 #include "apps/touch_options.h"
 #include "base/result.h"
@@ -44,11 +45,12 @@ struct TouchModel {
   std::string kind;  // "binary PLY", "primitive" and so on
   /// Of all but designs, one; of a design that has effects alone, none.
   std::vector<TouchBody> bodies = std::vector<TouchBody>(1);
-  std::size_t triangles = 0;                        // that are touched
-  std::vector<haptics::PlacedEffect> effects = {};  // that a design has
-  std::vector<std::string> repairs = {};            // what the reader did and found, one sentence each
-  double read_seconds = 0.0;                        // s, reading and repairing
-  double build_seconds = 0.0;                       // s, building what the servo touches
+  std::size_t triangles = 0;                            // that are touched
+  std::vector<haptics::PlacedEffect> effects = {};      // that a design has
+  std::shared_ptr<const ModelMotion> motion = nullptr;  // null: it stands where it is
+  std::vector<std::string> repairs = {};                // what the reader did and found, one sentence each
+  double read_seconds = 0.0;                            // s, reading and repairing
+  double build_seconds = 0.0;                           // s, building what the servo touches
 
   TouchBody& body() { return bodies.front(); }
   const TouchBody& body() const { return bodies.front(); }

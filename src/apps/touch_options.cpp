@@ -8,6 +8,7 @@
 
 #include "apps/effect_options.h"
 #include "apps/exact_models.h"
+#include "apps/model_motion.h"
 #include "apps/touch_models.h"
 #include "files/mesh_reader.h"
 
@@ -129,6 +130,7 @@ base::Result<void> check(const TouchOptions& options) {
   if (const auto checked = check_exact(options); !checked) return checked;
   if (const auto checked = check_use(options); !checked) return checked;
   if (const auto checked = check_effects(options); !checked) return checked;
+  if (const auto checked = check_motions(options); !checked) return checked;
   if (friction.sliding > friction.at_rest) {
     return base::fail(
         fmt::format("--friction {},{}: the first, static coefficient must not be below the second, "

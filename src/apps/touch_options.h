@@ -40,6 +40,7 @@ struct TouchOptions {
   std::optional<double> seconds;              // s, after which a run ends; none: see kDefaultSeconds
   std::optional<std::filesystem::path> path;  // tip positions to replay
   double radius = 0.0;                        // m, of the tip; 0 is a point
+  std::vector<std::string> motions;           // of models: ModelMotion::parse
 
   std::optional<haptics::TouchableSides> sides;  // none: front of closed bodies, both of open ones
   std::optional<double> stiffness;     // N/m; 0: the device's nominal stiffness; none: the models' own

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -65,9 +66,12 @@ class ClockedRun {
     return info.index < last_index_;
   }
 
-  /// Puts down what has come so far, until the user ends the run: rows may come faster than they are judged.
-  void drain(TouchDiary& diary, StatusLine& status, double seconds) {
-    while (!interrupted()) {
+  /// Puts down what has come so far, until the user ends the run or `most` (s) has gone by: rows may come faster
+  /// than they are judged. `seconds`: of the whole run.
+  void drain(TouchDiary& diary, StatusLine& status, double seconds,
+             double most = std::numeric_limits<double>::infinity()) {
+    const Stopwatch watch;
+    while (!interrupted() && watch.seconds() < most) {
       status.progress("Touching", std::round(time_ * 10.0) / 10.0, seconds, "s");
       const auto row = rows_.try_pop();
       if (!row) return;
@@ -97,6 +101,15 @@ RunOutcome outcome_of(const realtime::LoopRunner& loop) {
   return outcome;
 }
 
+/// Says to the servo where things are at a row of a path; returns when it is to hear that again, s.
+double publish_from(const MovingScene& moving, haptics::Servo& servo, const std::vector<double>& times,
+                    std::size_t row) {
+  const double following = row + 1 < times.size() ? times[row + 1] : times[row];
+  const double next = std::max(times[row] + MovingScene::kPeriod, following);
+  moving.publish(servo, times[row] - times.front(), next - times.front());
+  return moving.moves() ? next : std::numeric_limits<double>::infinity();
+}
+
 devices::SimulatedSettings simulated_settings(const Exploration& exploration,
                                               const devices::DeviceInfo& device, double rate_hz) {
   devices::SimulatedSettings settings;
@@ -115,8 +128,7 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
                   const std::vector<TouchModel>& models, const TouchOptions& options, TouchDiary& diary,
                   StatusLine& status) {
   haptics::Servo servo(player, servo_settings(options));
-  servo.publish(scene);
-  servo.publish_effects(effects_of(models, options));
+  const MovingScene moving(models, options, scene);
   RunOutcome outcome;
   const std::vector<double>& times = player.times();
   const std::size_t rows = rows_within(times, options.seconds);
@@ -125,9 +137,11 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
   block.reserve(std::min(kBlockRows, rows));
   const double period = 1.0 / options.rate_hz;
   const Stopwatch watch;
+  double due = times.front();  // when the servo is to hear where things are
   for (std::size_t row = 0; row < rows && !outcome.interrupted;) {
     const std::size_t end = std::min(rows, row + kBlockRows);
     for (; row < end; ++row) {
+      if (times[row] >= due) due = publish_from(moving, servo, times, row);
       const haptics::TickReport& report = servo.tick(row == 0 ? period : times[row] - times[row - 1]);
       block.push_back(row_of(report, times[row]));
     }
@@ -155,8 +169,8 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
   haptics::ServoSettings settings = servo_settings(options);
   settings.world_from_device.translation() = exploration.centre();
   haptics::Servo servo(hand, settings);
-  servo.publish(scene);
-  servo.publish_effects(effects_of(models, options));
+  const MovingScene moving(models, options, scene);
+  moving.publish(servo, 0.0, MovingScene::kPeriod);
   ClockedRun run(servo, options, seconds);
   const Stopwatch watch;
   realtime::LoopSettings loop_settings;
@@ -164,9 +178,12 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
   const auto loop = realtime::LoopRunner::create(
       loop_settings, [&run](const realtime::TickInfo& info) { return run.tick(info); });
   if (!loop) return tl::unexpected(loop.error());
+  const Stopwatch started;
   while ((*loop)->running() && !interrupted()) {
     std::this_thread::sleep_for(kDiaryPeriod);
-    run.drain(diary, status, seconds);
+    const double now = started.seconds();
+    if (moving.moves()) moving.publish(servo, now, now + MovingScene::kPeriod);
+    run.drain(diary, status, seconds, MovingScene::kPeriod);
   }
   (*loop)->stop();
   run.drain(diary, status, seconds);

@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "geometry/formula.h"
+#include "haptics/servo/servo.h"
+
+namespace icome::apps {
+
+struct TouchModel;
+struct TouchOptions;
+
+/// How a MODEL moves, as --motion says it: "0:0.02*sin(3*t),0,0" or "1:0,0,0,0,0,2*t". Immutable.
+class ModelMotion {
+ public:
+  /// A number from 0, a colon, and three or six formulas in t (s): the way of the model (m), and the turn
+  /// about the world's origin (rad, a vector along the axis), world frame. Fails with a sentence.
+  static base::Result<ModelMotion> parse(const std::string& text);
+
+  std::size_t model() const { return model_; }  // its number on the command line
+  /// Where the world's frame is then if it goes along with the model.
+  base::Pose at(double time) const;
+
+ private:
+  ModelMotion() = default;
+
+  std::size_t model_ = 0;
+  std::vector<geometry::Formula> formulas_;  // three or six; finite at t = 0
+};
+
+/// Are all --motion well written, each of another MODEL that there is?
+base::Result<void> check_motions(const TouchOptions& options);
+
+/// Gives the models their motions, and puts them where these begin.
+void set_going(std::vector<TouchModel>& models, const TouchOptions& options);
+
+/// Where a body or an effect is then that began at `first`.
+base::Pose carried(const ModelMotion& motion, const base::Pose& first, double time);
+
+/// What a servo feels of models, some of which move: main says again and again where they are and how they go
+/// on. One thread owns it; models and options outlive it.
+class MovingScene {
+ public:
+  /// How long main usually takes from one moment to the next, s.
+  static constexpr double kPeriod = 0.01;
+
+  /// `scene` is that of the models.
+  MovingScene(const std::vector<TouchModel>& models, const TouchOptions& options,
+              std::shared_ptr<const haptics::HapticScene> scene);
+
+  /// Does anything move?
+  bool moves() const { return moves_; }
+  /// Brings to the servo where everything is at `moment` (s) and, evenly, until `next`. What does not move
+  /// needs this once.
+  void publish(haptics::Servo& servo, double moment, double next) const;
+
+ private:
+  const std::vector<TouchModel>& models_;
+  std::shared_ptr<const haptics::HapticScene> scene_;
+  std::vector<haptics::PlacedEffect> effects_;  // as they are at the moment 0
+  std::vector<const ModelMotion*> carriers_;    // of each effect; null: it stays
+  bool moves_ = false;
+};
+
+}  // namespace icome::apps
