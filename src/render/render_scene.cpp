@@ -72,7 +72,9 @@ void tally(RenderScene::Block& block) {
 }  // namespace
 
 RenderScenePointer ScenePublisher::publish(const World& world) {
+  const double time = time_;
   *this = ScenePublisher(scene_, stage_from_world_);
+  time_ = time;
   make_shapes(world);
   show_roots(world);
   return version(world);
@@ -114,6 +116,24 @@ RenderScenePointer ScenePublisher::update(const World& world, const world::Chang
   return version(world);
 }
 
+std::vector<world::GeometryId> ScenePublisher::changing_shapes(const World& world) const {
+  std::vector<world::GeometryId> ids;
+  for (const auto& [id, made] : shapes_) {
+    const world::GeometryObject* const geometry = world.find(id);
+    if (geometry && render::changes(*geometry->shape)) ids.push_back(id);
+  }
+  return ids;
+}
+
+RenderScenePointer ScenePublisher::at_time(const World& world, double time) {
+  time_ = time;
+  world::Changes changes;
+  changes.geometries = changing_shapes(world);
+  if (changes.geometries.empty()) return nullptr;
+  forget(world, changes);
+  return version(world);
+}
+
 /// Drops what was made of things that have changed, and shows anew the objects that use them.
 void ScenePublisher::forget(const World& world, const world::Changes& changes) {
   std::unordered_set<world::GeometryId> shapes(changes.geometries.begin(), changes.geometries.end());
@@ -151,7 +171,7 @@ void ScenePublisher::make_shapes(const World& world) {
   }
   std::vector<base::Result<RenderShapePointer>> made(shapes.size());
   base::parallel_for(shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) made[i] = make_render_shape(*shapes[i]);
+    for (std::size_t i = begin; i < end; ++i) made[i] = make_render_shape(*shapes[i], time_);
   });
   for (const auto id : ids) {
     const base::Result<RenderShapePointer>& its = made[places.at(world.find(id)->shape.get())];
@@ -168,7 +188,7 @@ const ScenePublisher::Made& ScenePublisher::shape(const World& world, world::Geo
   const auto [found, is_new] = shapes_.try_emplace(id);
   const world::GeometryObject* geometry = world.find(id);
   if (!is_new || !geometry) return found->second;
-  auto made = make_render_shape(*geometry->shape);
+  auto made = make_render_shape(*geometry->shape, time_);
   if (made) {
     found->second.shape = std::move(*made);
   } else {

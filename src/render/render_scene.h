@@ -121,6 +121,11 @@ class ScenePublisher {
   RenderScenePointer update(const world::World& world, const world::Changes& changes);
   /// Another scene of the same world (none: all objects), of the shapes that are made already.
   RenderScenePointer show_scene(const world::World& world, world::SceneId scene);
+  /// Makes anew, as it is at `time` (s), what changes with time; from now on everything is made for then.
+  /// Null where nothing does.
+  RenderScenePointer at_time(const world::World& world, double time);
+  /// Is there something that changes with time?
+  bool changes(const world::World& world) const { return !changing_shapes(world).empty(); }
 
  private:
   struct Made {
@@ -132,6 +137,7 @@ class ScenePublisher {
     std::string remark;
   };
 
+  std::vector<world::GeometryId> changing_shapes(const world::World& world) const;
   void make_shapes(const world::World& world);
   const Made& shape(const world::World& world, world::GeometryId id);
   const std::shared_ptr<const RenderMaterial>& material(const world::World& world, world::MaterialId id);
@@ -151,6 +157,7 @@ class ScenePublisher {
 
   world::SceneId scene_;
   base::Pose stage_from_world_;
+  double time_ = 0.0;  // s, of what changes
   std::unordered_map<world::GeometryId, Made> shapes_;
   std::unordered_map<world::MaterialId, std::shared_ptr<const RenderMaterial>> materials_;
   std::unordered_map<world::TextureId, MadePicture> pictures_;

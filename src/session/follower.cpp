@@ -21,10 +21,11 @@ Follower::~Follower() { thread_.join(); }
 void Follower::run() {
   constexpr std::size_t kLongestName = 15;
   pthread_setname_np(pthread_self(), name_.substr(0, kLongestName).c_str());
-  while (reader_.wait() && !given_up_.load(std::memory_order_relaxed)) {
+  while (wait() && !given_up_.load(std::memory_order_relaxed)) {
     try {
       take_all();
       bring_up_to_date();
+      if (!lost_) representation_->go_on(replica_);
       if (!lost_) note("");
     } catch (const std::exception& error) {
       note(error.what());
@@ -38,6 +39,12 @@ void Follower::run() {
     rounds_.store(rounds_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     followed_.store(taken_, std::memory_order_release);
   }
+}
+
+/// For posts, or until the representation goes on by itself; false when there will be no more.
+bool Follower::wait() {
+  const auto pause = lost_ || half_way_ ? std::nullopt : representation_->pause(replica_);
+  return pause ? reader_.wait_for(*pause) : reader_.wait();
 }
 
 void Follower::take_all() {

@@ -46,6 +46,7 @@ class Follower {
   using Trouble = std::array<char, 128>;
 
   void run();
+  bool wait();
   void take_all();
   void take(Edited& edited);
   void bring_up_to_date();

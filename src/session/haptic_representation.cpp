@@ -145,17 +145,22 @@ class HapticRepresentation::Update {
       release_slot(owner_, member);
       return;
     }
-    if (!member.slot) take_slot(id, member);
+    const bool fresh = !member.slot;
+    if (fresh) take_slot(id, member);
     haptics::HapticObject& object = owner_.slots_[*member.slot].object;
     const haptics::Surface surface = owner_.surface_of(world_, member);
-    if (object.shape != member.felt->shape || differ(object.surface, surface)) {
+    const bool same_shape = !fresh && object.shape == member.felt->shape;
+    if (!same_shape || differ(object.surface, surface)) {
       object.shape = member.felt->shape;
       object.surface = surface;
       owner_.stale_ = true;
     }
-    if (object.world_from_object.matrix() == world_from_felt.matrix()) return;
-    object.world_from_object = world_from_felt;
-    if (!owner_.stale_) owner_.moves_.push_back({object.id, world_from_felt, {}});
+    if (same_shape) {
+      owner_.put(*member.slot, world_from_felt);
+    } else {
+      object.world_from_object = world_from_felt;
+      object.motion = {};
+    }
   }
 
   static bool differ(const haptics::Surface& a, const haptics::Surface& b) {
@@ -191,6 +196,7 @@ class HapticRepresentation::Update {
     slot.world_id = {};
     slot.object.shape = nullptr;
     slot.object.surface = {};
+    slot.object.motion = {};
     owner.free_slots_.push_back(*member.slot);
     member.slot.reset();
     owner.names_.reset();
@@ -222,6 +228,7 @@ void HapticRepresentation::open(const World& world, world::SceneId scene) {
   for (std::size_t i = slots_.size(); i-- > 0;) {
     slots_[i].object.shape = nullptr;
     slots_[i].object.surface = {};
+    slots_[i].object.motion = {};
     slots_[i].world_id = {};
     free_slots_.push_back(std::uint32_t(i));  // the first are given away first, as in a new one
   }
@@ -384,6 +391,41 @@ haptics::Surface HapticRepresentation::surface_of(const World& world, const Memb
   return surface;
 }
 
+/// Lets an object that was touchable before go to where it is now.
+void HapticRepresentation::put(std::uint32_t slot, const base::Pose& world_from_felt) {
+  Slot& it = slots_[slot];
+  haptics::HapticObject& object = it.object;
+  if (object.world_from_object.matrix() == world_from_felt.matrix()) return;
+  moved_.push_back(slot);
+  if (settings_.glide_seconds > 0.0) {
+    const double now = settings_.clock();
+    object.motion.arrives = object.motion.ends = settings_.glide_seconds;
+    const base::Pose here = haptics::moved(object.world_from_object, object.motion, now - it.set_off);
+    object.motion = haptics::motion_between(here, world_from_felt, settings_.glide_seconds);
+    it.set_off = now;
+    going_.push_back(slot);
+  }
+  object.world_from_object = world_from_felt;
+}
+
+/// Of objects on their way, how far they still have to go.
+void HapticRepresentation::go_on() {
+  const double now = settings_.clock();
+  std::vector<std::uint32_t> still_going;
+  for (const std::uint32_t slot : std::exchange(going_, {})) {
+    Slot& it = slots_[slot];
+    if (!it.world_id || it.object.motion.still()) continue;
+    const double left = std::max(0.0, it.set_off + settings_.glide_seconds - now);
+    it.object.motion.arrives = it.object.motion.ends = left;
+    if (left <= 0.0) it.object.motion = {};
+    if (left > 0.0) still_going.push_back(slot);
+    moved_.push_back(slot);
+  }
+  std::ranges::sort(still_going);
+  still_going.erase(std::ranges::unique(still_going).begin(), still_going.end());
+  going_ = std::move(still_going);
+}
+
 bool HapticRepresentation::placeable(const Member& effect) {
   return effect.world_from_object.matrix().allFinite();
 }
@@ -405,20 +447,27 @@ void HapticRepresentation::list_effects() {
 
 void HapticRepresentation::publish() {
   if (std::exchange(effects_stale_, false)) list_effects();
+  go_on();
+  const double now = settings_.clock();
   if (stale_) {
     std::vector<haptics::HapticObject> objects;
     objects.reserve(slots_.size() - free_slots_.size());
     for (const Slot& slot : slots_) {
       if (slot.world_id) objects.push_back(slot.object);
     }
-    scene_ = haptics::HapticScene::compile(std::move(objects));
+    scene_ = haptics::HapticScene::compile(std::move(objects), now);
     ++work_.compiled;
-  } else if (!moves_.empty()) {
-    scene_ = scene_->moved(moves_);
+  } else if (!moved_.empty()) {
+    std::vector<haptics::HapticScene::Move> moves;
+    for (const std::uint32_t slot : moved_) {
+      const haptics::HapticObject& it = slots_[slot].object;
+      moves.push_back({it.id, it.world_from_object, it.motion});
+    }
+    scene_ = scene_->moved(moves, now);
     ++work_.moved;
   }
   stale_ = false;
-  moves_.clear();
+  moved_.clear();
 }
 
 std::optional<base::ObjectId> HapticRepresentation::haptic_id(world::ObjectId object) const {

@@ -22,6 +22,11 @@ struct HapticRepresentationSettings {
   /// The haptic texture of a name; null for one that is not known.
   std::function<std::shared_ptr<const haptics::HapticTexture>(std::string_view name)> texture =
       [](std::string_view name) { return haptics::make_texture(name).value_or(nullptr); };
+  /// Over so long (s) an object goes, evenly, to where an edit has put it, so that what is dragged pushes a
+  /// hand without steps; 0: it is there at once.
+  double glide_seconds = 0.0;
+  /// The time (s) of what moves and changes; never goes back.
+  std::function<double()> clock = [] { return 0.0; };
 };
 
 /// Which objects of a world the ids of its haptic scene name. Immutable.
@@ -97,6 +102,7 @@ class HapticRepresentation {
   struct Slot {
     haptics::HapticObject object;
     world::ObjectId world_id = {};  // none: free
+    double set_off = 0.0;           // s, when it was put where it is
   };
   struct ShapeKey {
     world::GeometryId geometry;
@@ -118,6 +124,8 @@ class HapticRepresentation {
   void forget(world::ObjectId id);
   void outdate_shapes(world::GeometryId geometry);
   void forget_unused();
+  void put(std::uint32_t slot, const base::Pose& world_from_felt);
+  void go_on();
   std::shared_ptr<const haptics::HapticTexture> texture(const std::string& name);
   haptics::Surface surface_of(const world::World& world, const Member& member);
   void publish();
@@ -133,9 +141,10 @@ class HapticRepresentation {
   std::map<std::string, std::shared_ptr<const haptics::HapticTexture>> textures_;  // null: not known
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
-  std::shared_ptr<const TouchedNames> names_;      // null: to be made anew
-  std::vector<haptics::HapticScene::Move> moves_;  // since the last published scene
-  bool stale_ = false;                             // moving objects is not enough
+  std::shared_ptr<const TouchedNames> names_;  // null: to be made anew
+  std::vector<std::uint32_t> going_;           // slots with a motion, and others that had one
+  std::vector<std::uint32_t> moved_;           // slots, since the last published scene
+  bool stale_ = false;                         // moving objects is not enough
   bool effects_stale_ = false;
   std::vector<haptics::PlacedEffect> effects_;
   std::uint64_t surveys_ = 0;

@@ -1,4 +1,7 @@
 #pragma once
+#include <chrono>
+#include <optional>
+
 #include "world/changes.h"
 
 namespace icome::session {
@@ -16,6 +19,11 @@ class Representation {
   virtual void show(const world::World& world, world::SceneId shown) = 0;
   /// The world has been through edits that may have changed this.
   virtual void follow(const world::World& world, const world::Changes& changes) = 0;
+  /// How long it waits, at most, until it goes on by itself, as it shows time; none: it waits for edits
+  /// alone.
+  virtual std::optional<std::chrono::nanoseconds> pause(const world::World& /*world*/) const { return {}; }
+  /// The world is the same, and time has passed: called after each pause, and perhaps sooner.
+  virtual void go_on(const world::World& /*world*/) {}
 };
 
 }  // namespace icome::session

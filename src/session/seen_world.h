@@ -1,4 +1,7 @@
 #pragma once
+#include <functional>
+#include <utility>
+
 #include "realtime/latest_value.h"
 #include "render/render_scene.h"
 #include "session/display_feed.h"
@@ -9,13 +12,17 @@ namespace icome::session {
 /// Keeps the world before the eye: brings each version of what is drawn to the display, and to main.
 class SeenWorld final : public Representation {
  public:
-  /// The feed and the box outlive this; it alone publishes scenes to them.
-  SeenWorld(DisplayFeed& display, realtime::LatestValue<render::RenderScenePointer>& newest)
-      : display_(display), newest_(newest) {}
+  /// The feed and the box outlive this; it alone publishes scenes to them. `clock` tells the time (s) of what
+  /// changes; empty: it is drawn as at t = 0.
+  SeenWorld(DisplayFeed& display, realtime::LatestValue<render::RenderScenePointer>& newest,
+            std::function<double()> clock)
+      : display_(display), newest_(newest), clock_(std::move(clock)) {}
 
   void open(const world::World& world, world::SceneId shown) override;
   void show(const world::World& world, world::SceneId shown) override;
   void follow(const world::World& world, const world::Changes& changes) override;
+  std::optional<std::chrono::nanoseconds> pause(const world::World& world) const override;
+  void go_on(const world::World& world) override;
 
  private:
   void publish(const render::RenderScenePointer& scene);
@@ -23,6 +30,8 @@ class SeenWorld final : public Representation {
   render::ScenePublisher publisher_;
   DisplayFeed& display_;
   realtime::LatestValue<render::RenderScenePointer>& newest_;
+  std::function<double()> clock_;
+  double due_ = 0.0;  // s on the clock: when what changes is to be drawn anew
 };
 
 }  // namespace icome::session

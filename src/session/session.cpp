@@ -25,6 +25,9 @@ HapticRepresentationSettings felt_settings(const haptics::ServoSettings& servo) 
   HapticRepresentationSettings settings;
   settings.felt.tip_radius = servo.scp.tip_radius;
   settings.felt.interpolate_normals = servo.force_shading;
+  settings.glide_seconds = haptics::EffectFeed::kGlideSeconds;
+  settings.clock = session_seconds;
+  settings.felt.with_time = true;
   return settings;
 }
 
@@ -79,8 +82,10 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
 void Session::Parts::start_followers() {
   followers.push_back(std::make_unique<Follower>(
       queue, std::make_unique<FeltWorld>(felt_settings(settings.servo), hands.servos(), felt), "felt world"));
+  // A tip with a radius feels what changes as it is at t = 0, and so it is seen.
+  const auto clock = settings.servo.scp.tip_radius > 0.0 ? std::function<double()>() : session_seconds;
   followers.push_back(
-      std::make_unique<Follower>(queue, std::make_unique<SeenWorld>(display, seen), "seen world"));
+      std::make_unique<Follower>(queue, std::make_unique<SeenWorld>(display, seen, clock), "seen world"));
   if (!settings.autosave_folder.empty())
     journal =
         std::make_unique<AutosaveJournal>(queue.add_reader(), AutosaveSettings{settings.autosave_folder});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/clock.h"
 #include "devices/simulated/simulated_device.h"
 #include "session/autosave_journal.h"
 #include "session/claimed_work.h"
@@ -21,6 +22,12 @@
 #include "session/user_interaction.h"
 
 namespace icome::session {
+
+/// The time of what moves and changes in sessions: the same for hand, eye and main. Any thread.
+inline double session_seconds() {
+  static const std::int64_t kStart = base::steady_nanoseconds();
+  return 1e-9 * double(base::steady_nanoseconds() - kStart);
+}
 
 /// What a session is made of. All of it is main's, but for what threads of its own have.
 struct Session::Parts {

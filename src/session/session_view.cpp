@@ -202,7 +202,7 @@ void Session::park_hand() { parts_->hand_is_aimed = false; }
 
 std::optional<Session::Picked> Session::pick(const interaction::Ray& ray) const {
   const FeltVersion& felt = parts_->felt.read();
-  const auto thing = session::pick(*felt.scene, ray);
+  const auto thing = session::pick(*felt.scene, ray, session_seconds() - felt.scene->moment());
   if (!thing) return std::nullopt;
   const auto object = felt.names->object(thing->object);
   if (!object) return std::nullopt;

@@ -85,7 +85,11 @@ base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
 }
 
 base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
-  auto contoured = geometry::contour(geometry::sampled(*surface_, 0.0), options_for(tolerance, bounds()));
+  return triangles_at(0.0, tolerance);
+}
+
+base::Result<Triangles> ImplicitGeometry::triangles_at(double time, double tolerance) const {
+  auto contoured = geometry::contour(geometry::sampled(*surface_, time), options_for(tolerance, bounds()));
   if (!contoured) return tl::unexpected(contoured.error());
   return share(std::move(contoured->mesh));
 }

@@ -62,6 +62,8 @@ class ImplicitGeometry final : public Geometry {
 
   const std::string& formula() const { return formula_; }
   const std::shared_ptr<const geometry::ImplicitSurface>& surface() const { return surface_; }
+  /// As triangles() at a time (s), for a surface that changes; see Geometry::triangles.
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles_at(double time, double tolerance) const;
 
   std::string_view kind() const override { return "implicit"; }
   Bounds bounds() const override { return surface_->bounds(); }
