@@ -57,6 +57,8 @@ std::string shape_name(const World& world, world::GeometryId id) {
   return "A shape";
 }
 
+constexpr double kRigid = 1e-12;  // of what turns and moves without stretching
+
 /// The work of a version: how much there is, and where.
 void tally(RenderScene::Block& block) {
   block.bounds.setEmpty();
@@ -121,6 +123,13 @@ std::vector<world::GeometryId> ScenePublisher::changing_shapes(const World& worl
   for (const auto& [id, made] : shapes_) {
     const world::GeometryObject* const geometry = world.find(id);
     if (geometry && render::changes(*geometry->shape)) ids.push_back(id);
+  }
+  if (ids.empty()) return ids;
+  // What is stretched is felt as triangles, as it is at t = 0: so it is seen, and all that share its shape.
+  for (const auto& [id, object] : world.objects()) {
+    const base::Matrix3 stretch = stage_from_object(world, id).linear();
+    if ((stretch.transpose() * stretch).isIdentity(kRigid) && stretch.determinant() > 0.0) continue;
+    std::erase(ids, object.geometry);
   }
   return ids;
 }

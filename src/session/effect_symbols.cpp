@@ -255,4 +255,14 @@ render::SceneOverlay EffectSymbols::overlay(const World& world, world::SceneId s
   return overlay;
 }
 
+base::Bounds EffectSymbols::bounds(const World& world, world::SceneId shown) const {
+  base::Bounds bounds;
+  const render::SceneOverlay symbols = overlay(world, shown);
+  for (const auto& line : symbols.lines)
+    for (const Vector3& point : line.points) bounds.extend(point);
+  for (const auto& arrow : symbols.arrows) bounds.extend(arrow.from).extend(arrow.to);
+  for (const auto& ball : symbols.balls) bounds.extend(ball.centre);
+  return bounds;
+}
+
 }  // namespace icome::session

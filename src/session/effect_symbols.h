@@ -18,6 +18,9 @@ class EffectSymbols {
   /// Those of the scene, or of the whole world where there is none, the first 256. World frame.
   render::SceneOverlay overlay(const world::World& world, world::SceneId shown) const;
 
+  /// Around them, world frame.
+  base::Bounds bounds(const world::World& world, world::SceneId shown) const;
+
   bool empty() const { return effects_.empty(); }
 
  private:

@@ -142,6 +142,7 @@ void Session::Parts::go_home() {
   base::Bounds bounds;
   for (const world::ObjectId id : scene ? scene->roots : world.roots())
     bounds.extend(world::bounds(world, id));
+  bounds.extend(effects.bounds(world, shown_scene));
   user.fly_to(interaction::fitted(user.view(), bounds, iso.toward_eye, iso.up, aspect));
 }
 

@@ -29,6 +29,7 @@ class OneEffect {
   world::ObjectId id() const { return id_; }
   EffectSymbols& symbols() { return symbols_; }
   render::SceneOverlay overlay() const { return symbols_.overlay(world_, {}); }
+  base::Bounds bounds() const { return symbols_.bounds(world_, {}); }
 
  private:
   world::World world_;
@@ -45,6 +46,14 @@ base::Bounds bounds_of(const render::SceneOverlay& overlay) {
   for (const auto& arrow : overlay.arrows) bounds.extend(arrow.from).extend(arrow.to);
   for (const auto& ball : overlay.balls) bounds.extend(ball.centre);
   return bounds;
+}
+
+TEST(EffectSymbols, LieWithinTheirBounds) {
+  const OneEffect well("well:0,0,0,0.02,1.5", world::at(1.0, 2.0, 3.0));
+  const base::Bounds bounds = well.bounds();
+  EXPECT_NEAR((bounds.center() - Vector3(1.0, 2.0, 3.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(bounds.sizes().maxCoeff(), 0.04, 1e-9);
+  EXPECT_TRUE(EffectSymbols().bounds({}, {}).isEmpty());
 }
 
 TEST(EffectSymbols, EveryKindIsSeenInSpaceAndNoTwoAlike) {

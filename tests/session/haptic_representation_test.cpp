@@ -216,6 +216,50 @@ TEST(HapticRepresentation, AnEditOfOneOfVeryManyObjectsIsCheap) {
   EXPECT_EQ(felt.work().moved, 1U);
 }
 
+TEST(HapticRepresentation, WhatIsDraggedGoesEvenlyToWhereItIsPut) {
+  double now = 5.0;  // s
+  HapticRepresentationSettings settings;
+  settings.glide_seconds = 0.02;
+  settings.clock = [&] { return now; };
+  World world;
+  IdSource ids;
+  const auto table = add_object(world, ids, "table", box(1.0));
+  HapticRepresentation felt(settings);
+  felt.show(world);
+  const auto place = [&](double later) {
+    const auto& scene = *felt.scene();
+    const auto index = scene.find(felt.haptic_id(table).value()).value();
+    return scene.pose(index, now + later - scene.moment()).translation().x();
+  };
+  const auto speed = [&](double later) {
+    const auto& scene = *felt.scene();
+    const auto index = scene.find(felt.haptic_id(table).value()).value();
+    return scene.velocity(index, now + later - scene.moment(), Vector3::Zero()).x();
+  };
+  edit(world, felt, world::PlaceObject{table, at(0.02, 0.0, 0.0)});
+  EXPECT_NEAR(place(0.0), 0.0, 1e-12);
+  EXPECT_NEAR(place(0.005), 0.005, 1e-12);
+  EXPECT_NEAR(speed(0.005), 1.0, 1e-9);
+  EXPECT_NEAR(place(0.5), 0.02, 1e-12);
+  EXPECT_EQ(speed(0.021), 0.0);
+  // On the way it is put elsewhere, and a new object makes the scene anew: it goes on from where it is.
+  now += 0.01;
+  edit(world, felt, world::PlaceObject{table, at(0.05, 0.0, 0.0)});
+  EXPECT_NEAR(place(0.0), 0.01, 1e-12);
+  EXPECT_NEAR(speed(0.0), 2.0, 1e-9);
+  now += 0.005;
+  const auto other = ids.next<world::ObjectId>();
+  edit(world, felt,
+       world::CreateObject{other, 1, {.name = "other", .geometry = world.find(table)->geometry}});
+  EXPECT_NEAR(place(0.0), 0.02, 1e-12);
+  EXPECT_NEAR(place(0.01), 0.04, 1e-12);
+  EXPECT_NEAR(place(0.5), 0.05, 1e-12);
+  now += 1.0;
+  edit(world, felt, world::RenameObject{table, "board"});
+  EXPECT_EQ(place(0.0), 0.05);
+  EXPECT_TRUE(object(felt, table).motion.still());
+}
+
 TEST(HapticRepresentation, TakesWhatIsBelowAlong) {
   World world;
   IdSource ids;
