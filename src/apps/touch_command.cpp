@@ -109,11 +109,12 @@ haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const Tou
   return {objects, settings};
 }
 
-/// Are surfaces all that pushes the tip, each with its plain force?
+/// Are surfaces all that pushes the tip, each with its plain force? (Under a tip at rest, one that draws back
+/// leaves no force, as damping takes it.)
 bool surfaces_alone(const std::vector<TouchModel>& models, const TouchOptions& options) {
   const auto plain = [&](const TouchBody& body) { return surface_of(body, options).texture == nullptr; };
   return options.effects.empty() && std::ranges::all_of(models, [&](const TouchModel& model) {
-           return model.effects.empty() && std::ranges::all_of(model.bodies, plain);
+           return !model.motion && model.effects.empty() && std::ranges::all_of(model.bodies, plain);
          });
 }
 
