@@ -9,6 +9,19 @@ namespace icome::geometry {
 
 using detail::kRounding;
 
+namespace {
+
+FourFloats magnitude(FourFloats v) { return v < 0.0f ? -v : v; }
+
+FourFloats positive(FourFloats v) { return v > 0.0f ? v : FourFloats{}; }
+
+FourFloats square_root(FourFloats v) {
+  for (unsigned i = 0; i < FourBoxes::kCount; ++i) v[i] = std::sqrt(v[i]);
+  return v;
+}
+
+}  // namespace
+
 FloatBox FloatBox::empty() {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
@@ -81,40 +94,40 @@ void BoxTree::set_child(std::size_t level, std::size_t child, const FloatBox& bo
 // Separating axes between a box grown by the radius and a segment: the three cross products of the
 // segment with the box axes (Ericson, Real-Time Collision Detection, 5.3.3); the box axes themselves
 // are what overlap_mask tested.
-bool FourBoxes::beside(unsigned which, const SegmentQuery& query) const {
-  std::array<float, 3> middle{};
-  std::array<float, 3> extent{};
+unsigned FourBoxes::beside_mask(const SegmentQuery& query) const {
+  std::array<FourFloats, 3> middle{};
+  std::array<FourFloats, 3> extent{};
   for (int axis = 0; axis < 3; ++axis) {
-    middle[axis] = 0.5f * lo[axis][which] + 0.5f * hi[axis][which] - query.centre[axis];
-    extent[axis] = 0.5f * hi[axis][which] - 0.5f * lo[axis][which] + query.radius;
+    middle[axis] = 0.5f * lo[axis] + 0.5f * hi[axis] - query.centre[axis];
+    extent[axis] = 0.5f * hi[axis] - 0.5f * lo[axis] + query.radius;
     // The box may be much larger than the way: then its middle is rounded by more than the way is long.
-    extent[axis] += 8.0f * kRounding * (std::abs(lo[axis][which]) + std::abs(hi[axis][which]));
+    extent[axis] += 8.0f * kRounding * (magnitude(lo[axis]) + magnitude(hi[axis]));
   }
+  detail::FourTruths apart{};
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
-    const float apart = std::abs(middle[u] * query.half[v] - middle[v] * query.half[u]);
-    const float reach = extent[u] * std::abs(query.half[v]) + extent[v] * std::abs(query.half[u]);
-    if (apart > reach) return false;
+    const FourFloats distance = magnitude(middle[u] * query.half[v] - middle[v] * query.half[u]);
+    apart |= distance > extent[u] * std::abs(query.half[v]) + extent[v] * std::abs(query.half[u]);
   }
-  return true;
+  return detail::mask_of(~apart);
 }
 
 // The place of the box nearest to the middle of the segment, and the plane through it at right angles to the
 // way there: the box lies behind the plane, and no point of the segment is nearer to that than its ends are.
-bool FourBoxes::within(unsigned which, const SegmentQuery& query) const {
-  float squared = 0.0f;
-  float along = 0.0f;
+unsigned FourBoxes::within_mask(const SegmentQuery& query) const {
+  FourFloats squared{};
+  FourFloats along{};
   float slack = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const float p = query.centre[axis];
-    const float off = std::max(lo[axis][which] - p, 0.0f) - std::max(p - hi[axis][which], 0.0f);
+    const FourFloats off = positive(lo[axis] - p) - positive(p - hi[axis]);
     squared += off * off;
     along += off * query.half[axis];
     slack += std::abs(query.half[axis]);
   }
-  const float distance = std::sqrt(squared);
-  return distance * (distance - query.radius) <= std::abs(along) + query.rounding * slack;
+  const FourFloats distance = square_root(squared);
+  return detail::mask_of(distance * (distance - query.radius) <= magnitude(along) + query.rounding * slack);
 }
 
 double BoxTree::distance_squared(const Node& node, unsigned child, const FloatPoint& point) {

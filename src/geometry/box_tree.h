@@ -28,8 +28,11 @@ inline FloatBox float_box(const Bounds& bounds);
 
 struct SegmentQuery;
 
+/// Four numbers that one instruction works on.
+using FourFloats [[gnu::vector_size(16)]] = float;
+
 /// Four boxes, transposed so that one instruction looks at all of them. Empty when default-constructed.
-struct alignas(16) FourBoxes {
+struct FourBoxes {
   static constexpr unsigned kCount = 4;
 
   FourBoxes();
@@ -38,15 +41,15 @@ struct alignas(16) FourBoxes {
   FloatBox enclosing() const;
   /// Bit i is set when box i meets `box`. Real-time safe.
   unsigned overlap_mask(const FloatBox& box) const;
-  /// Does box `which`, which meets the query's box, come near the query's segment? Real-time safe.
-  bool comes_near(unsigned which, const SegmentQuery& query) const;
+  /// Bit i is set when box i comes near the query's segment. Real-time safe.
+  unsigned near_mask(const SegmentQuery& query) const;
 
-  float lo[3][kCount];
-  float hi[3][kCount];
+  FourFloats lo[3];
+  FourFloats hi[3];
 
  private:
-  bool beside(unsigned which, const SegmentQuery& query) const;
-  bool within(unsigned which, const SegmentQuery& query) const;
+  unsigned beside_mask(const SegmentQuery& query) const;
+  unsigned within_mask(const SegmentQuery& query) const;
 };
 
 /// "Which boxes come within `radius` of the segment from `a` to `b`?" A ball where a equals b.
@@ -130,6 +133,20 @@ inline float above(double value) {
   return rounded + (std::abs(rounded) * kRounding + kTiny);
 }
 
+/// What comparing FourFloats gives: all bits of a number are set where it holds.
+using FourTruths = decltype(FourFloats() < FourFloats());
+
+/// Bit i is set where number i holds.
+inline unsigned mask_of(const FourTruths& truths) {
+#if defined(__SSE2__)
+  return unsigned(_mm_movemask_ps(_mm_castsi128_ps(__m128i(truths))));
+#else
+  unsigned mask = 0;
+  for (unsigned i = 0; i < FourBoxes::kCount; ++i) mask |= unsigned(truths[i] != 0) << i;
+  return mask;
+#endif
+}
+
 }  // namespace detail
 
 inline FloatBox float_box(const Bounds& bounds) {
@@ -147,29 +164,16 @@ inline void FourBoxes::set(unsigned which, const FloatBox& box) {
 }
 
 inline unsigned FourBoxes::overlap_mask(const FloatBox& box) const {
-#if defined(__SSE2__)
-  __m128 in = _mm_cmple_ps(_mm_load_ps(lo[0]), _mm_set1_ps(box.hi[0]));
-  in = _mm_and_ps(in, _mm_cmpge_ps(_mm_load_ps(hi[0]), _mm_set1_ps(box.lo[0])));
-  for (int axis = 1; axis < 3; ++axis) {
-    in = _mm_and_ps(in, _mm_cmple_ps(_mm_load_ps(lo[axis]), _mm_set1_ps(box.hi[axis])));
-    in = _mm_and_ps(in, _mm_cmpge_ps(_mm_load_ps(hi[axis]), _mm_set1_ps(box.lo[axis])));
-  }
-  return unsigned(_mm_movemask_ps(in));
-#else
-  unsigned mask = 0;
-  for (unsigned which = 0; which < kCount; ++which) {
-    bool in = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      in = in && lo[axis][which] <= box.hi[axis] && hi[axis][which] >= box.lo[axis];
-    }
-    mask |= unsigned(in) << which;
-  }
-  return mask;
-#endif
+  auto in = (lo[0] <= box.hi[0]) & (hi[0] >= box.lo[0]);
+  for (int axis = 1; axis < 3; ++axis) in &= (lo[axis] <= box.hi[axis]) & (hi[axis] >= box.lo[axis]);
+  return detail::mask_of(in);
 }
 
-inline bool FourBoxes::comes_near(unsigned which, const SegmentQuery& query) const {
-  return (!query.slanted || beside(which, query)) && (!query.round || within(which, query));
+inline unsigned FourBoxes::near_mask(const SegmentQuery& query) const {
+  unsigned mask = overlap_mask(query.box);
+  if (mask != 0 && query.slanted) mask &= beside_mask(query);
+  if (mask != 0 && query.round) mask &= within_mask(query);
+  return mask;
 }
 
 template <typename Visit>
@@ -181,9 +185,8 @@ void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
   while (depth > 0) {
     const Place place = stack[--depth];
     const Node& node = nodes_[start_[place.level] + place.index];
-    for (unsigned mask = node.overlap_mask(query.box); mask != 0; mask &= mask - 1) {
+    for (unsigned mask = node.near_mask(query); mask != 0; mask &= mask - 1) {
       const auto child = unsigned(__builtin_ctz(mask));
-      if (!node.comes_near(child, query)) continue;
       const std::uint32_t index = place.index * kWidth + child;
       if (place.level == 0) {
         if (!visit(index)) return;

@@ -2,12 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "haptics/haptic_scene.h"
+#include "haptics/smooth_element.h"
 
 namespace icome::haptics {
 
 using geometry::FourBoxes;
+
+namespace {
+
+constexpr double kShareKept = 0.999;  // of a way out of a region: what is left is surely within
+
+/// Where a line from `offset` by t * `step` leaves a ball around the origin, or a cylinder when both are at
+/// right angles to its axis: t, if it meets it at all.
+std::optional<double> exit_from(const Vector3& offset, const Vector3& step, double radius) {
+  const double a = step.squaredNorm();
+  const double b = offset.dot(step);
+  const double discriminant = b * b - a * (offset.squaredNorm() - radius * radius);
+  if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
+  return (std::sqrt(discriminant) - b) / a;
+}
+
+}  // namespace
 
 ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::kCount) {
   elements_.reserve(kElements);
@@ -84,14 +102,33 @@ double ContactRegion::clearance(const Vector3& position) const {
   return reach_ - (a_ + t * along - position).norm();
 }
 
+// The region is the union of two balls and of the cylinder between them, and convex: the way out of it is the
+// farthest of the ways out of those.
+double ContactRegion::share_within(const Vector3& position, const Vector3& step) const {
+  double share = 0.0;
+  for (const Vector3& centre : {a_, b_}) {
+    const std::optional<double> out = exit_from(position - centre, step, reach_);
+    if (out) share = std::max(share, *out);
+  }
+  const Vector3 along = b_ - a_;
+  const double squared = along.squaredNorm();
+  if (squared > 0.0) {
+    const auto beside = [&](const Vector3& v) { return Vector3(v - along * (along.dot(v) / squared)); };
+    const std::optional<double> out = exit_from(beside(position - a_), beside(step), reach_);
+    const double at = out ? along.dot(position - a_ + *out * step) : -1.0;
+    if (at >= 0.0 && at <= squared) share = std::max(share, *out);
+  }
+  share *= kShareKept;
+  return share >= 1.0 ? 1.0 : clearance(position + share * step) >= 0.0 ? share : 0.0;
+}
+
 std::size_t ContactRegion::around(const Vector3& position, double distance, std::span<Element> into) {
   const geometry::SegmentQuery here = relative_query(position, position, distance);
   const Tolerance near = Tolerance::reaching(distance);
   std::size_t count = 0;
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
-    for (unsigned mask = boxes_[block].overlap_mask(here.box); mask != 0; mask &= mask - 1) {
+    for (unsigned mask = boxes_[block].near_mask(here); mask != 0; mask &= mask - 1) {
       const auto which = unsigned(__builtin_ctz(mask));
-      if (!boxes_[block].comes_near(which, here)) continue;
       const std::span<const Element> elements = elements_of(pieces_[block * FourBoxes::kCount + which]);
       looked_at_ += elements.size();
       for (const Element& element : elements) {
@@ -110,24 +147,37 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
                               std::uint32_t ignored_object) {
   const geometry::SegmentQuery path =
       relative_query(start, start + step, tolerance_.touching() + edge_dip(frame_.tip));
+  const auto is_ignored = [&](const Element& element) {
+    return std::any_of(ignored.begin(), ignored.end(),
+                       [&](const Element& contact) { return same_surface(contact, element); });
+  };
   SweepHit first;
+  const Element* met = nullptr;  // what `first` is about, unless its contact is set already
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
-    for (unsigned mask = boxes_[block].overlap_mask(path.box); mask != 0; mask &= mask - 1) {
-      const auto which = unsigned(__builtin_ctz(mask));
-      Piece& piece = pieces_[block * FourBoxes::kCount + which];
-      if (!boxes_[block].comes_near(which, path)) continue;
+    for (unsigned mask = boxes_[block].near_mask(path); mask != 0; mask &= mask - 1) {
+      Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
       if (piece.object == ignored_object) continue;
       const std::span<const Element> elements = elements_of(piece);
       looked_at_ += elements.size();
       for (const Element& element : elements) {
-        const auto same = [&](const Element& contact) { return same_surface(contact, element); };
-        if (std::any_of(ignored.begin(), ignored.end(), same)) continue;
-        Element met = facing(element, start);
-        const auto t = haptics::sweep(met, start, step, tolerance_);
-        if (t && (*t < first.t || !first.met)) first = {*t, true, met};
+        if (element.smooth()) {
+          if (is_ignored(element)) continue;
+          Element found = element;
+          const auto t = smooth_sweep(found, start, step, tolerance_);
+          if (!t || (first.met && *t >= first.t)) continue;
+          first = {*t, true, found};
+          met = nullptr;
+        } else {
+          const auto t = haptics::sweep(element, start, step, tolerance_);
+          if (!t || (first.met && *t >= first.t) || is_ignored(element)) continue;
+          first.t = *t;
+          first.met = true;
+          met = &element;
+        }
       }
     }
   }
+  if (met != nullptr) first.contact = facing(*met, start);
   return first;
 }
 

@@ -60,6 +60,9 @@ class ContactRegion {
   /// How far the tip may go from `position` in any direction without leaving; negative outside.
   double clearance(const Vector3& position) const;
 
+  /// How much of a step from a position in the region stays in it, or hardly less: in [0, 1].
+  double share_within(const Vector3& position, const Vector3& step) const;
+
   /// The first element that a tip moving from `start` by `step` comes to rest on, other than the
   /// surfaces of `ignored` and those of `ignored_object`. Both ends lie in the region.
   SweepHit sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,

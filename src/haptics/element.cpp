@@ -98,6 +98,11 @@ bool covers_cone(const Element& e, const Vector3& position, double rim) {
   return along >= -rim && along <= e.b + rim;
 }
 
+/// Is the free side of a sheet, as it is given, the other one?
+bool faces_away(const Element& e, const Vector3& position) {
+  return e.two_sided && e.flat() && e.axis.dot(position - e.origin) < 0.0;
+}
+
 /// The first t in [0, 1] at which the distance to an axis-free quadric centre falls to `reach`:
 /// |offset + t step| = reach, entering (or, from within, leaving).
 std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& step, double reach,
@@ -105,6 +110,7 @@ std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& ste
   const double a = step.squaredNorm();
   const double b = offset.dot(step);
   const double c = offset.squaredNorm() - reach * reach;
+  if (!leaving && b >= 0.0 && c > 0.0) return std::nullopt;  // from outside, further away
   const double discriminant = b * b - a * c;
   if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
   const double root = std::sqrt(discriminant);
@@ -201,11 +207,12 @@ std::optional<double> entry(const Element& e, const Vector3& start, const Vector
   return t <= 1.0 && comes_over(e, start + t * step, tolerance) ? std::optional(t) : std::nullopt;
 }
 
-std::optional<double> sweep_flat(const Element& e, const Vector3& start, const Vector3& step, double h0,
+std::optional<double> sweep_flat(const Element& e, const Vector3& start, const Vector3& step,
                                  const Tolerance& tolerance) {
+  const double h0 = e.axis.dot(start - e.origin) - e.radius;
   const double fall = e.axis.dot(step);
   const double h1 = h0 + fall;
-  if (h1 >= 0.5 * tolerance.gap) return std::nullopt;
+  if (h1 >= 0.5 * tolerance.gap || h0 + e.tip < -tolerance.behind()) return std::nullopt;
   // A sphere tip comes round a convex edge, below the face's plane until it is over the face.
   if (e.tip > 0.0 && h0 < 0.5 * tolerance.gap && !covers(e, start, tolerance))
     return entry(e, start, step, tolerance);
@@ -328,22 +335,19 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
 }
 
 Element facing(const Element& element, const Vector3& position) {
-  if (!element.two_sided || !element.flat() || element.axis.dot(position - element.origin) >= 0.0)
-    return element;
-  Element turned = element;
-  turned.axis = -element.axis;
-  return turned;
+  Element result = element;
+  if (faces_away(element, position)) result.axis = -element.axis;
+  return result;
 }
 
-std::optional<double> sweep(Element& e, const Vector3& start, const Vector3& step,
+std::optional<double> sweep(const Element& e, const Vector3& start, const Vector3& step,
                             const Tolerance& tolerance) {
-  if (e.smooth()) return smooth_sweep(e, start, step, tolerance);
+  if (faces_away(e, start)) return sweep_flat(facing(e, start), start, step, tolerance);
+  if (e.flat()) return sweep_flat(e, start, step, tolerance);
   const double h0 = height(e, start);
   // The two sides of a curved shell are two pieces, a gap to either side of it.
-  const double behind = e.two_sided && !e.flat() ? tolerance.rim() : tolerance.behind();
-  if (h0 + e.tip < -behind) return std::nullopt;
-  if (e.flat()) return sweep_flat(e, start, step, h0, tolerance);
-  if (h0 > step.norm() + tolerance.gap) return std::nullopt;
+  const double behind = e.two_sided ? tolerance.rim() : tolerance.behind();
+  if (h0 + e.tip < -behind || h0 > step.norm() + tolerance.gap) return std::nullopt;
   std::optional<double> t = 0.0;
   if (h0 > tolerance.gap || normal(e, start).dot(step) >= 0.0)
     t = curved_crossing(e, start, step, tolerance.gap);

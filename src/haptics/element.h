@@ -128,9 +128,8 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
 Element facing(const Element& element, const Vector3& position);
 
 /// When the tip's centre moves from `start` by t * `step`, t in [0, 1]: the first t at which it comes
-/// to rest on the piece. `element` is as facing(element, start) gives it; a smooth one is told where it
-/// was met.
-std::optional<double> sweep(Element& element, const Vector3& start, const Vector3& step,
+/// to rest on the piece, felt from `start`. Not for smooth ones (smooth_sweep).
+std::optional<double> sweep(const Element& element, const Vector3& start, const Vector3& step,
                             const Tolerance& tolerance);
 
 /// Do both describe the same thickened surface (a shared edge or corner counts once)?

@@ -634,22 +634,10 @@ Vector3 ScpSolver::within_stride(const Vector3& step) const {
                                                                     : step;
 }
 
-/// How much of a step stays in the region, which is convex.
-double ScpSolver::part_within_region(const Vector3& step) const {
-  double within = 0.0;
-  double beyond = 1.0;
-  while (beyond - within > kLeastShare * beyond) {
-    const double middle = 0.5 * (within + beyond);
-    (region_.clearance(position_ + middle * step) >= 0.0 ? within : beyond) = middle;
-    if (beyond * step.norm() <= tolerance().gap) break;
-  }
-  return within;
-}
-
 /// The beginning of a step that would leave the region.
 Vector3 ScpSolver::within_region(const Vector3& step) {
   if (region_.clearance(position_ + step) >= 0.0) return step;
-  const double part = part_within_region(step);
+  const double part = region_.share_within(position_, step);
   if (contacts_.size() > 1 && (contacts_.any_smooth() || contacts_.any_guarded())) {
     return rest_within(0.5 * part * step.norm(), step);
   }

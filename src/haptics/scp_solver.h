@@ -52,7 +52,6 @@ class ScpSolver final : public ContactSolver {
   void converge(const Vector3& tip);
   bool nearer(const Vector3& from, const Vector3& tip) const;
   bool advance(const Vector3& wanted);
-  double part_within_region(const Vector3& step) const;
   Vector3 within_stride(const Vector3& step) const;
   Vector3 within_region(const Vector3& step);
   Vector3 next_step(const Vector3& tip, bool& exact);
