@@ -143,6 +143,14 @@ std::size_t ContactRegion::around(const Vector3& position, double distance, std:
   return count;
 }
 
+void ContactRegion::make_ready(const Vector3& start, const Vector3& step) {
+  const geometry::SegmentQuery path = relative_query(start, start + step, step.norm());
+  for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+    for (unsigned mask = boxes_[block].near_mask(path); mask != 0; mask &= mask - 1)
+      elements_of(pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))]);
+  }
+}
+
 SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                               std::uint32_t ignored_object) {
   const geometry::SegmentQuery path =

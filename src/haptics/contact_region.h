@@ -68,6 +68,9 @@ class ContactRegion {
   SweepHit sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                  std::uint32_t ignored_object = kNoObject);
 
+  /// Makes the elements now that a sweep from `start` by about `step` will look at.
+  void make_ready(const Vector3& start, const Vector3& step);
+
   /// The flat elements within `distance` of a position in the region, and all curved ones that may be, facing
   /// it: as many as fit in `into`; how many there are.
   std::size_t around(const Vector3& position, double distance, std::span<Element> into);

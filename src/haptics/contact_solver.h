@@ -42,6 +42,10 @@ class ContactSolver {
   /// finite (m, world). Real-time safe.
   virtual const ScpState& step(const Vector3& tip, double elapsed) = 0;
 
+  /// Makes ready what the next step will probably need, when the force of this one is out: what it costs is
+  /// load of the servo, but no delay of the force. The state stays as it is. Real-time safe.
+  virtual void look_ahead() {}
+
   virtual const ScpState& state() const = 0;
 };
 

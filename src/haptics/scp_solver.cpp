@@ -16,6 +16,7 @@ constexpr std::size_t kFewPieces = 12;
 constexpr std::size_t kManyPieces = 48;
 constexpr double kTicksAhead = 4.0;
 constexpr double kLeastShare = 1e-3;
+constexpr double kLeastRoom = 0.25;    // of a region's reach: what a way on may well leave
 constexpr double kLeastOfTip = 1e-3;   // of its radius: how little a region reaches at least
 constexpr double kLargestReach = 0.1;  // of the scene's extent
 constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin: then that is moved
@@ -133,6 +134,14 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   drift_ = position_ - before;
   report(tip);
   return state_;
+}
+
+/// Gathers the region of the next tick now if the SCP, going on as in this one, would need another. Near what
+/// moves a region serves no longer than a tick.
+void ScpSolver::look_ahead() {
+  if (!started_ || scene_->moves()) return;
+  if (region_.clearance(position_ + drift_) < least_room()) surround(drift_);
+  region_.make_ready(position_, drift_);
 }
 
 /// To where the SCP is. Contacts are found again by the next sweep, and have all their digits then.
@@ -498,7 +507,7 @@ bool ScpSolver::advance(const Vector3& wanted) {
   const double room = region_.clearance(position_);
   const bool leaves = room < 0.0 || region_.clearance(position_ + wanted) < 0.0;
   const bool long_way = !falling() && (contacts_.empty() || wanted.norm() > region_.reach());
-  if (leaves && (long_way || room < 0.25 * std::max(reach_, region_.reach()))) surround(wanted);
+  if (leaves && (long_way || room < least_room())) surround(wanted);
   Vector3 step = within_stride(within_region(wanted));
   const Vector3 from = position_;
   lifted_ = 0.0;
@@ -680,6 +689,9 @@ void ScpSolver::surround(const Vector3& step) {
   if (region_.size() < kFewPieces)
     reach_ = std::min({1.4 * reach_, largest_reach(), std::max(least_reach, region_.smallest())});
 }
+
+/// With less room than this (m) in its region the SCP had better have another.
+double ScpSolver::least_room() const { return kLeastRoom * std::max(reach_, region_.reach()); }
 
 /// Is the SCP in the air between two places of a surface? Then its step points at the tip, which says
 /// little about how far it will go.

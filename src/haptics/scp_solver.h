@@ -31,6 +31,7 @@ class ScpSolver final : public ContactSolver {
   void reset() override;
   void adopt(const HapticScene& scene, std::span<const SceneChange> changes) override;
   const ScpState& step(const Vector3& tip, double elapsed) override;
+  void look_ahead() override;
   const ScpState& state() const override { return state_; }
 
  private:
@@ -73,6 +74,7 @@ class ScpSolver final : public ContactSolver {
   double slip(double along, double press);
   double held_gain() const;
   void surround(const Vector3& step);
+  double least_room() const;
   bool falling() const;
   Vector3 way_ahead(const Vector3& step);
   double largest_reach() const;

@@ -36,10 +36,12 @@ class StageClock {
 
 }  // namespace
 
-std::int64_t TickReport::own_ns() const {
+std::int64_t TickReport::delay_ns() const {
   return std::accumulate(stage_ns.begin() + std::size_t(Stage::Scene),
                          stage_ns.begin() + std::size_t(Stage::Write), std::int64_t{0});
 }
+
+std::int64_t TickReport::own_ns() const { return delay_ns() + stage_ns[std::size_t(Stage::Ahead)]; }
 
 Servo::Servo(devices::PointerDevice& device, const ServoSettings& settings)
     : device_(device),
@@ -88,6 +90,8 @@ const TickReport& Servo::tick(double dt) {
       device_.write(world_from_device_.linear().transpose() * report_.force);
   if (written == devices::DeviceStatus::Lost) report_.status = written;
   clock.ends(Stage::Write);
+  solver_->look_ahead();
+  clock.ends(Stage::Ahead);
   time_ += dt;
   return report_;
 }

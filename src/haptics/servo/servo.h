@@ -29,8 +29,8 @@ struct ServoSettings {
 };
 
 /// The stages of a tick, in their order.
-enum class Stage : std::uint8_t { Read, Scene, Contact, Force, Effects, Limit, Write };
-constexpr std::size_t kStages = 7;
+enum class Stage : std::uint8_t { Read, Scene, Contact, Force, Effects, Limit, Write, Ahead };
+constexpr std::size_t kStages = 8;
 
 /// What happened in a tick; world frame.
 struct TickReport {
@@ -47,6 +47,8 @@ struct TickReport {
   double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
 
+  /// What lay between device input and output, ns: by how much the force was late.
+  std::int64_t delay_ns() const;
   /// All that the tick took except device input and output, ns.
   std::int64_t own_ns() const;
 };
