@@ -10,6 +10,42 @@ namespace {
 using Kind = Element::Kind;
 
 constexpr double kLift = 1.0 / 16.0;  // of the length of a way: how high stations stand above their edge
+constexpr double kAlong = 1e-9;       // how fast a way along an edge may near another that is parallel to it
+
+/// As height() says of flat pieces under a point tip, which are all there are here.
+double above(const Element& e, const Vector3& position) { return e.axis.dot(position - e.origin); }
+
+/// Calls `visit(inward, least)` for each edge of the element: inward . (place - origin) >= least within it.
+template <typename Visit>
+void for_each_rim(const Element& e, Visit&& visit) {
+  if (e.kind == Kind::Triangle) {
+    visit(e.u, e.a);
+    visit(e.v, e.b);
+    visit(e.w, e.c);
+  } else if (e.kind == Kind::Parallelogram) {
+    visit(e.u, -e.a);
+    visit(-e.u, -e.a);
+    visit(e.v, -e.b);
+    visit(-e.v, -e.b);
+  }
+}
+
+/// A way by t * along, t from `first` to `last`; none when `last` is less.
+struct Stretch {
+  double first, last;  // m
+};
+
+/// How much of the line from `foot` along an edge of the element belongs to that, no farther than `reach`.
+Stretch edge_within(const Element& e, const Vector3& foot, const Vector3& along, double reach) {
+  Stretch part{-reach, reach};
+  for_each_rim(e, [&](const Vector3& inward, double least) {
+    const double rate = inward.dot(along);
+    if (std::abs(rate) <= kAlong) return;
+    const double end = (least - inward.dot(foot - e.origin)) / rate;
+    (rate > 0.0 ? part.first : part.last) = rate > 0.0 ? std::max(part.first, end) : std::min(part.last, end);
+  });
+  return part;
+}
 
 }  // namespace
 
@@ -25,27 +61,18 @@ ContactFan::ContactFan(std::span<const Element> elements, const Vector3& positio
   find_ways(pull);
 }
 
-/// Calls `visit(foot, along)` for each edge of the element that comes near: the point of its line nearest to
-/// the SCP, and its unit direction.
+/// Calls `visit(foot, along, inward)` for each edge of the element whose line comes within `reach`: the point
+/// of it nearest to the SCP, its unit direction, and the one at right angles to it into the element.
 template <typename Visit>
-void ContactFan::for_each_edge(std::size_t element, Visit&& visit) const {
+void ContactFan::for_each_edge(std::size_t element, double reach, Visit&& visit) const {
   const Element& e = elements_[element];
   const Vector3 offset = position_ - e.origin;
   const Vector3 foot = position_ - e.axis * e.axis.dot(offset);
-  const auto edge = [&](const Vector3& inward, double least) {
+  for_each_rim(e, [&](const Vector3& inward, double least) {
     const double inside = inward.dot(offset) - least;
-    if (std::abs(inside) <= length_) visit(Vector3(foot - inside * inward), Vector3(e.axis.cross(inward)));
-  };
-  if (e.kind == Kind::Triangle) {
-    edge(e.u, e.a);
-    edge(e.v, e.b);
-    edge(e.w, e.c);
-  } else if (e.kind == Kind::Parallelogram) {
-    edge(e.u, -e.a);
-    edge(-e.u, -e.a);
-    edge(e.v, -e.b);
-    edge(-e.v, -e.b);
-  }
+    if (std::abs(inside) <= reach)
+      visit(Vector3(foot - inside * inward), Vector3(e.axis.cross(inward)), inward);
+  });
 }
 
 void ContactFan::find_ways(const Vector3& pull) {
@@ -54,10 +81,10 @@ void ContactFan::find_ways(const Vector3& pull) {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Vector3& normal = elements_[i].axis;
     const Vector3 along_face = direction - normal.dot(direction) * normal;
-    consider(along_face, direction, i, std::max(0.0, tolerance_.gap - height(elements_[i], position_)));
+    consider(along_face, direction, i, std::max(0.0, tolerance_.gap - above(elements_[i], position_)));
     // Along an edge no face comes nearer, so that none must be risen above: between the walls of a slot there
     // may be no room for it.
-    for_each_edge(i, [&](const Vector3&, const Vector3& along_edge) {
+    for_each_edge(i, length_, [&](const Vector3&, const Vector3& along_edge, const Vector3&) {
       consider(along_edge.dot(direction) * along_edge, direction, i, 0.0);
     });
   }
@@ -80,7 +107,8 @@ std::optional<FanWay> ContactFan::steepest(double held) {
   for (const FanWay& way : std::span(ways_).first(way_count_)) {
     if (looks_ <= 0) break;
     if (way.on != FanWay::kNone && way.gain <= held) continue;
-    if (sees(position_, way.end) || (!buried(way.end) && reachable(way.end))) return way;
+    if (sees(position_, way.end)) return way;
+    if (!below_floor(way.end) && !buried(way.end) && reachable(way.end)) return way;
   }
   return std::nullopt;
 }
@@ -89,8 +117,8 @@ std::optional<FanWay> ContactFan::steepest(double held) {
 /// cannot be told.
 ContactFan::Passage ContactFan::passage(const Element& e, const Vector3& from, const Vector3& to) const {
   --looks_;
-  const double before = height(e, from);
-  const double after = height(e, to);
+  const double before = above(e, from);
+  const double after = above(e, to);
   if ((before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0)) return Passage::Free;
   const double share = before == after ? 0.5 : std::clamp(before / (before - after), 0.0, 1.0);
   const Vector3 crossing = from + share * (to - from);
@@ -115,6 +143,70 @@ bool ContactFan::buried(const Vector3& place) const {
   return passed % 2 == 1;
 }
 
+/// Is the place below an element that all others stand on? All of that side is then within the solid: in a
+/// valley or a pit, where a tip rests most often, the search for a way is over at once.
+bool ContactFan::below_floor(const Vector3& place) {
+  if (!has_floors_) find_floors();
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    if (floor_[i] && above(elements_[i], place) < -tolerance_.behind()) return true;
+  }
+  return false;
+}
+
+void ContactFan::find_floors() {
+  has_floors_ = true;
+  for (std::size_t i = 0; i < elements_.size(); ++i) find_extremes(i);
+  const std::span<const Vector3> all = std::span(extremes_).first(extreme_first_[elements_.size()]);
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const Element& e = elements_[i];
+    floor_[i] = !e.two_sided && leads_on(i) && std::all_of(all.begin(), all.end(), [&](const Vector3& place) {
+      return above(e, place) >= -tolerance_.touching();
+    });
+  }
+}
+
+/// The ends of the element's edges in the neighbourhood and the places farthest from these; of one without an
+/// edge there, four around the SCP's foot.
+void ContactFan::find_extremes(std::size_t element) {
+  const Element& e = elements_[element];
+  const double reach = kNeighbourhood * length_;
+  std::size_t count = extreme_first_[element];
+  const std::size_t first = count;
+  for_each_edge(element, reach, [&](const Vector3& foot, const Vector3& along, const Vector3& inward) {
+    const Stretch part = edge_within(e, foot, along, reach);
+    if (part.first > part.last) return;
+    extremes_[count++] = foot + part.first * along;
+    extremes_[count++] = foot + part.last * along;
+    const Vector3 middle = foot + 0.5 * (part.first + part.last) * along + reach * inward;
+    if (covers(e, middle, tolerance_)) extremes_[count++] = middle;
+  });
+  if (count == first) {
+    const Vector3 foot = position_ - above(e, position_) * e.axis;
+    const Vector3 side = reach * e.axis.unitOrthogonal();
+    const Vector3 other = e.axis.cross(side);
+    for (const Vector3& away : {side, Vector3(-side), other, Vector3(-other)})
+      extremes_[count++] = foot + away;
+  }
+  extreme_first_[element + 1] = count;
+}
+
+/// Does each edge of the element in the neighbourhood belong to another one too? Beyond the rim of a sheet
+/// one could come to its other side.
+bool ContactFan::leads_on(std::size_t element) const {
+  const double reach = kNeighbourhood * length_;
+  bool shared = true;
+  for_each_edge(element, reach, [&](const Vector3& foot, const Vector3& along, const Vector3&) {
+    const Stretch part = edge_within(elements_[element], foot, along, reach);
+    if (part.first > part.last) return;
+    const Vector3 middle = foot + 0.5 * (part.first + part.last) * along;
+    shared = shared && std::any_of(elements_.begin(), elements_.end(), [&](const Element& other) {
+               return &other != &elements_[element] && std::abs(above(other, middle)) <= tolerance_.gap &&
+                      covers(other, middle, tolerance_);
+             });
+  });
+  return shared;
+}
+
 /// Above each edge as seen from each of its faces, a way's length along it, and at its foot.
 void ContactFan::find_stations() {
   has_stations_ = true;
@@ -128,7 +220,7 @@ void ContactFan::find_stations() {
     if (e.two_sided) add(on_edge - kLift * length_ * e.axis);
   };
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    for_each_edge(i, [&](const Vector3& foot, const Vector3& along) {
+    for_each_edge(i, length_, [&](const Vector3& foot, const Vector3& along, const Vector3&) {
       add_above(elements_[i], foot + length_ * along);
       add_above(elements_[i], foot - length_ * along);
     });

@@ -45,19 +45,24 @@ class ContactFan {
  private:
   static constexpr std::size_t kMostWays = 1 + 5 * kCapacity;
   static constexpr std::size_t kMostStations = 8 * kCapacity;
+  static constexpr std::size_t kMostExtremes = 12 * kCapacity;
 
   static constexpr int kMostLooks = 4'000;  // at an element, some 10 ns each: then there is no way
 
   enum class Passage : std::uint8_t { Free, AtAnEdge, Through };
 
   template <typename Visit>
-  void for_each_edge(std::size_t element, Visit&& visit) const;
+  void for_each_edge(std::size_t element, double reach, Visit&& visit) const;
   void find_ways(const Vector3& pull);
   void consider(const Vector3& along, const Vector3& pull, std::size_t on, double risen);
   void find_stations();
   Passage passage(const Element& element, const Vector3& from, const Vector3& to) const;
   bool sees(const Vector3& from, const Vector3& to) const;
   bool buried(const Vector3& place) const;
+  bool below_floor(const Vector3& place);
+  void find_floors();
+  void find_extremes(std::size_t element);
+  bool leads_on(std::size_t element) const;
   bool reachable(const Vector3& place);
   void look_around(const Vector3& from);
 
@@ -74,6 +79,12 @@ class ContactFan {
   std::size_t seen_count_ = 0;
   std::size_t looked_from_ = 0;  // of those seen, how many have been looked around from
   bool has_stations_ = false;
+  // The outermost places of the elements in the neighbourhood, those of element i from extreme_first_[i] on;
+  // and which elements are floors.
+  std::array<Vector3, kMostExtremes> extremes_;
+  std::array<std::size_t, kCapacity + 1> extreme_first_{};
+  std::array<bool, kCapacity> floor_{};
+  bool has_floors_ = false;
   mutable int looks_ = kMostLooks;  // that are left
 };
 
