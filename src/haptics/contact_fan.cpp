@@ -107,8 +107,8 @@ std::optional<FanWay> ContactFan::steepest(double held) {
   for (const FanWay& way : std::span(ways_).first(way_count_)) {
     if (looks_ <= 0) break;
     if (way.on != FanWay::kNone && way.gain <= held) continue;
-    if (sees(position_, way.end)) return way;
-    if (!below_floor(way.end) && !buried(way.end) && reachable(way.end)) return way;
+    if (below_floor(way.end)) continue;
+    if (sees(position_, way.end) || (!buried(way.end) && reachable(way.end))) return way;
   }
   return std::nullopt;
 }
@@ -146,23 +146,23 @@ bool ContactFan::buried(const Vector3& place) const {
 /// Is the place below an element that all others stand on? All of that side is then within the solid: in a
 /// valley or a pit, where a tip rests most often, the search for a way is over at once.
 bool ContactFan::below_floor(const Vector3& place) {
-  if (!has_floors_) find_floors();
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    if (floor_[i] && above(elements_[i], place) < -tolerance_.behind()) return true;
+    if (above(elements_[i], place) < -tolerance_.behind() && is_floor(i)) return true;
   }
   return false;
 }
 
-void ContactFan::find_floors() {
-  has_floors_ = true;
-  for (std::size_t i = 0; i < elements_.size(); ++i) find_extremes(i);
-  const std::span<const Vector3> all = std::span(extremes_).first(extreme_first_[elements_.size()]);
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const Element& e = elements_[i];
-    floor_[i] = !e.two_sided && leads_on(i) && std::all_of(all.begin(), all.end(), [&](const Vector3& place) {
-      return above(e, place) >= -tolerance_.touching();
-    });
+bool ContactFan::is_floor(std::size_t element) {
+  std::optional<bool>& known = floor_[element];
+  if (known) return *known;
+  if (extreme_count_ == 0) {
+    for (std::size_t i = 0; i < elements_.size(); ++i) find_extremes(i);
   }
+  const Element& e = elements_[element];
+  const auto stands = [&](const Vector3& place) { return above(e, place) >= -tolerance_.touching(); };
+  known = !e.two_sided && std::all_of(extremes_.begin(), extremes_.begin() + extreme_count_, stands) &&
+          leads_on(element);
+  return *known;
 }
 
 /// The ends of the element's edges in the neighbourhood and the places farthest from these; of one without an
@@ -170,24 +170,22 @@ void ContactFan::find_floors() {
 void ContactFan::find_extremes(std::size_t element) {
   const Element& e = elements_[element];
   const double reach = kNeighbourhood * length_;
-  std::size_t count = extreme_first_[element];
-  const std::size_t first = count;
+  const std::size_t first = extreme_count_;
   for_each_edge(element, reach, [&](const Vector3& foot, const Vector3& along, const Vector3& inward) {
     const Stretch part = edge_within(e, foot, along, reach);
     if (part.first > part.last) return;
-    extremes_[count++] = foot + part.first * along;
-    extremes_[count++] = foot + part.last * along;
+    extremes_[extreme_count_++] = foot + part.first * along;
+    extremes_[extreme_count_++] = foot + part.last * along;
     const Vector3 middle = foot + 0.5 * (part.first + part.last) * along + reach * inward;
-    if (covers(e, middle, tolerance_)) extremes_[count++] = middle;
+    if (covers(e, middle, tolerance_)) extremes_[extreme_count_++] = middle;
   });
-  if (count == first) {
+  if (extreme_count_ == first) {
     const Vector3 foot = position_ - above(e, position_) * e.axis;
     const Vector3 side = reach * e.axis.unitOrthogonal();
     const Vector3 other = e.axis.cross(side);
     for (const Vector3& away : {side, Vector3(-side), other, Vector3(-other)})
-      extremes_[count++] = foot + away;
+      extremes_[extreme_count_++] = foot + away;
   }
-  extreme_first_[element + 1] = count;
 }
 
 /// Does each edge of the element in the neighbourhood belong to another one too? Beyond the rim of a sheet

@@ -60,7 +60,7 @@ class ContactFan {
   bool sees(const Vector3& from, const Vector3& to) const;
   bool buried(const Vector3& place) const;
   bool below_floor(const Vector3& place);
-  void find_floors();
+  bool is_floor(std::size_t element);
   void find_extremes(std::size_t element);
   bool leads_on(std::size_t element) const;
   bool reachable(const Vector3& place);
@@ -79,12 +79,11 @@ class ContactFan {
   std::size_t seen_count_ = 0;
   std::size_t looked_from_ = 0;  // of those seen, how many have been looked around from
   bool has_stations_ = false;
-  // The outermost places of the elements in the neighbourhood, those of element i from extreme_first_[i] on;
-  // and which elements are floors.
+  // The outermost places of the elements in the neighbourhood, once asked for; and which elements are floors,
+  // as far as that has been asked.
   std::array<Vector3, kMostExtremes> extremes_;
-  std::array<std::size_t, kCapacity + 1> extreme_first_{};
-  std::array<bool, kCapacity> floor_{};
-  bool has_floors_ = false;
+  std::size_t extreme_count_ = 0;
+  std::array<std::optional<bool>, kCapacity> floor_{};
   mutable int looks_ = kMostLooks;  // that are left
 };
 

@@ -78,14 +78,12 @@ const TickReport& Servo::tick(double dt) {
   if (fresh || (has_state_ && (carried || state_.parked))) find_contact();
   clock.ends(Stage::Contact);
   Vector3 wanted = surface_force();
-  clock.ends(Stage::Force);
   wanted += effect_force(dt);
   if (!gives_forces_.load(std::memory_order_relaxed)) wanted.setZero();
-  clock.ends(Stage::Effects);
   report_.force = limiter_.limit(
       wanted, dt, {fresh, report_.status != devices::DeviceStatus::Lost, report_.contact.started_inside});
   shading_.acts(wanted.isZero(0.0) ? 0.0 : std::min(1.0, report_.force.norm() / wanted.norm()));
-  clock.ends(Stage::Limit);
+  clock.ends(Stage::Force);
   const devices::DeviceStatus written =
       device_.write(world_from_device_.linear().transpose() * report_.force);
   if (written == devices::DeviceStatus::Lost) report_.status = written;
