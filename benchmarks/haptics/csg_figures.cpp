@@ -177,6 +177,7 @@ Row tick_row(const std::string& name, const CsgTree& tree, const Vector3& start,
   row.median = run.tick.us.median;
   row.p999 = run.tick.us.p999;
   row.solver = run.solver_us;
+  row.load = run.load_us;
   row.noise = run.tick.noise;
   row.to_reach = to_reach;
   Faults faults;

@@ -71,6 +71,7 @@ Row lattice_row(std::size_t count, const Extent& extent) {
   row.median = run.tick.us.median;
   row.p999 = run.tick.us.p999;
   row.solver = run.solver_us;
+  row.load = run.load_us;
   row.noise = run.tick.noise;
   row.faults = judge_visits(lattice, visits, run.scps);
   row.to_reach = count <= 10'000 ? 1.0 : 2.0;

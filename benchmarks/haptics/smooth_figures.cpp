@@ -29,6 +29,7 @@ Row tick_row(const std::string& name, const TouchRun& run, const Faults& faults)
   row.median = run.tick.us.median;
   row.p999 = run.tick.us.p999;
   row.solver = run.solver_us;
+  row.load = run.load_us;
   row.noise = run.tick.noise;
   row.faults = faults;
   return row;

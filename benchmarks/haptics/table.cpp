@@ -52,12 +52,15 @@ std::string processor() {
   return "unknown processor";
 }
 
-constexpr const char* kLine = "{:<47} {:>10} {:>16} {:>16} {:>6} {:>10} {:>10} {:>26} {:>14}\n";
+constexpr const char* kLine = "{:<47} {:>10} {:>16} {:>16} {:>16} {:>6} {:>10} {:>10} {:>26} {:>14}\n";
 
 void print_row(const Row& row) {
-  const auto solver = row.solver ? pair(row.solver->median, row.solver->p999) : std::string();
-  fmt::print(fmt::runtime(kLine), row.figure, row.unit, pair(row.median, row.p999), solver, number(row.noise),
-             faults(row), pair(row.to_reach, row.p999_to_reach), ratio(row), row.elsewhere);
+  const auto both = [](const std::optional<Quantiles>& of) {
+    return of ? pair(of->median, of->p999) : std::string();
+  };
+  fmt::print(fmt::runtime(kLine), row.figure, row.unit, pair(row.median, row.p999), both(row.solver),
+             both(row.load), number(row.noise), faults(row), pair(row.to_reach, row.p999_to_reach),
+             ratio(row), row.elsewhere);
 }
 
 nlohmann::ordered_json to_json(const Row& row) {
@@ -71,6 +74,7 @@ nlohmann::ordered_json to_json(const Row& row) {
   put("to_reach", row.to_reach);
   put("p999_to_reach", row.p999_to_reach);
   if (row.solver) json["solver"] = {{"median", row.solver->median}, {"p999", row.solver->p999}};
+  if (row.load) json["load"] = {{"median", row.load->median}, {"p999", row.load->p999}};
   if (row.faults) json["pops"] = row.faults->pops, json["sticks"] = row.faults->sticks;
   if (row.ours) put("times_our_tick", over(row.median, row.ours->median));
   if (!row.elsewhere.empty()) json["best_open_toolkit"] = row.elsewhere;
@@ -81,8 +85,8 @@ nlohmann::ordered_json to_json(const Row& row) {
 
 void print_table(const std::vector<Section>& sections) {
   fmt::print("{}, {} cores seen\n\n", processor(), std::thread::hardware_concurrency());
-  fmt::print(fmt::runtime(kLine), "figure", "unit", "median / p99.9", "solver alone", "noise", "pop/stick",
-             "to reach", "of it", "elsewhere (*)");
+  fmt::print(fmt::runtime(kLine), "figure", "unit", "median / p99.9", "solver alone", "load", "noise",
+             "pop/stick", "to reach", "of it", "elsewhere (*)");
   for (const Section& section : sections) {
     fmt::print("-- {}\n", section.title);
     for (const Row& row : section.rows) print_row(row);
@@ -90,9 +94,11 @@ void print_table(const std::vector<Section>& sections) {
   fmt::print(
       "\nTimes are of the repetition with the best p99.9, as other programs disturb the others; noise is the "
       "worst\n"
-      "repetition's p99.9 over the best one's. A tick is all that the servo does except device input and "
-      "output;\n"
-      "every stage of it is timed, which is part of the time. Pops: ticks with the surface contact point "
+      "repetition's p99.9 over the best one's. A tick is what the servo does from device input to "
+      "output:\n"
+      "by that much the force is late. The load also counts what is made ready for the next tick when the "
+      "force is\n"
+      "out. Every stage is timed, which is part of the time. Pops: ticks with the surface contact point "
       "(SCP) more\n"
       "than 0.3 mm inside; sticks: more than 2 mm farther from the tip than the surface is (in a slide 2 mm "
       "deep:\n"

@@ -15,7 +15,8 @@ struct Row {
   std::optional<double> median = std::nullopt;  // or the only value there is
   std::optional<double> p999 = std::nullopt;
   std::optional<Quantiles> solver = std::nullopt;  // the contact stage of it
-  std::optional<double> noise = std::nullopt;      // see BestRun
+  std::optional<Quantiles> load = std::nullopt;  // with what is made ready for the next tick after the output
+  std::optional<double> noise = std::nullopt;    // see BestRun
   std::optional<Faults> faults = std::nullopt;
   std::optional<double> to_reach = std::nullopt;  // by median
   std::optional<double> p999_to_reach = std::nullopt;

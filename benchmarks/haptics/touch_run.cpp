@@ -37,29 +37,33 @@ std::shared_ptr<const haptics::HapticScene> scene_of(std::shared_ptr<const hapti
 TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double tip_radius,
                const std::vector<Vector3>& tips, int repeats) {
   TouchRun result;
-  std::vector<std::vector<std::int32_t>> own(repeats);
+  std::vector<std::vector<std::int32_t>> delay(repeats);
   std::vector<std::vector<std::int32_t>> solver(repeats);
+  std::vector<std::vector<std::int32_t>> load(repeats);
   for (int run = 0; run < repeats; ++run) {
     ListDevice device(tips);
     haptics::ServoSettings settings;
     settings.scp.tip_radius = tip_radius;
     haptics::Servo servo(device, settings);
     servo.publish(scene);
-    own[run].resize(tips.size());
+    delay[run].resize(tips.size());
     solver[run].resize(tips.size());
+    load[run].resize(tips.size());
     result.scps.resize(tips.size());
     std::size_t touching = 0;
     for (std::size_t i = 0; i < tips.size(); ++i) {
       const haptics::TickReport& report = servo.tick(kTick);
-      own[run][i] = std::int32_t(report.own_ns());
+      delay[run][i] = std::int32_t(report.delay_ns());
+      load[run][i] = std::int32_t(report.own_ns());
       solver[run][i] = std::int32_t(report.stage_ns[std::size_t(haptics::Stage::Contact)]);
       result.scps[i] = report.contact.scp;
       touching += report.contact.touching;
     }
     result.touching = double(touching) / double(tips.size());
   }
-  result.tick = best_run(own);
+  result.tick = best_run(delay);
   result.solver_us = quantiles_us(std::move(solver[result.tick.index]));
+  result.load_us = quantiles_us(std::move(load[result.tick.index]));
   return result;
 }
 

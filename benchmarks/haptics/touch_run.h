@@ -11,8 +11,9 @@ using base::Vector3;
 
 /// A servo run along a path: what it cost and where the surface contact point (SCP) was.
 struct TouchRun {
-  BestRun tick;               // all that Servo::tick does except device input and output
+  BestRun tick;               // from device input to output: by how much the force is late
   Quantiles solver_us;        // of the same run: the contact stage alone
+  Quantiles load_us;          // of the same run: all that Servo::tick does except device input and output
   std::vector<Vector3> scps;  // by tick, m, of the tip's centre; the tip's own place without contact
   double touching = 0.0;      // share of the ticks
 };
