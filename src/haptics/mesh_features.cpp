@@ -163,15 +163,25 @@ class Bends {
     return found ? std::optional(sum.stableNormalized()) : std::nullopt;
   }
 
-  /// As the triangles run around `out`, seen against it: counter-clockwise, and it is in front of them.
+  /// As the triangles run around `out`, seen against it: counter-clockwise, and it is in front of them. They
+  /// are projected from the vertex on a plane across, where their sides stay straight: unit vectors could
+  /// turn the other way round where some of them lie nearly across. A way that leads up lies in a flat face
+  /// of more than half a turn, beside which no place has the vertex as its nearest.
   Sides side_of(std::uint32_t vertex, const Vector3& out) const {
     double turn = 0.0;
+    double whole = 0.0;
     for (const std::uint32_t triangle : incidence_.at(vertex)) {
       const auto& corners = mesh_.triangles[triangle];
       const auto which = unsigned(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
-      turn += way(vertex, corners[(which + 1) % 3]).cross(way(vertex, corners[(which + 2) % 3])).dot(out);
+      const Vector3 one = way(vertex, corners[(which + 1) % 3]);
+      const Vector3 other = way(vertex, corners[(which + 2) % 3]);
+      const double rise = std::max(one.dot(out), other.dot(out));
+      if (rise > -kFlat) return rise > kFlat ? 0 : kFrontBit | kBackBit;
+      const double part = one.cross(other).dot(out) / (one.dot(out) * other.dot(out));
+      turn += part;
+      whole += std::abs(part);
     }
-    return turn > kFlat ? kFrontBit : turn < -kFlat ? kBackBit : kFrontBit | kBackBit;
+    return turn > kFlat * whole ? kFrontBit : turn < -kFlat * whole ? kBackBit : kFrontBit | kBackBit;
   }
 
   std::array<std::uint32_t, 2> edge(std::uint32_t triangle, unsigned which) const {

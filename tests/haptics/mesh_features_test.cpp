@@ -97,6 +97,24 @@ TEST(MeshFeatures, ASmoothBallHasAllAndAHollowNone) {
   EXPECT_EQ(counts(ball).both.edges, edges);
 }
 
+// The end of a horn, as modellers make them: two of its edges lead away and three lie nearly across.
+TEST(MeshFeatures, AnApexIsFoundThoughSomeEdgesLieNearlyAcross) {
+  TriangleMesh horn;
+  horn.positions = {{0, 0, 0},           {-0.39, -0.90, -0.03}, {0.17, -0.44, -1.41},
+                    {1.03, 0.30, -0.15}, {2.12, 3.10, -0.40},   {0.92, 1.70, -0.41}};
+  horn.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}};
+  const Vector3 out = away_from_edges(horn, 0);
+  ASSERT_FALSE(out.isZero(0.0));
+  for (const bool turned : {false, true}) {
+    if (turned) {
+      for (auto& triangle : horn.triangles) std::swap(triangle[1], triangle[2]);
+    }
+    const MeshFeatures first = mesh_features(horn).front();
+    EXPECT_EQ(first.front >> 3 & 1, turned ? 0 : 1);
+    EXPECT_EQ(first.both >> 3 & 1, 1);
+  }
+}
+
 // On rough balls: whatever is nearest to some position is handed out, once; what is handed out is the nearest
 // to some position, but for a few corners whose directions are too narrow for the search.
 TEST(MeshFeatures, AreThoseThatAreNearestSomewhere) {
@@ -105,7 +123,8 @@ TEST(MeshFeatures, AreThoseThatAreNearestSomewhere) {
   unsigned edges = 0, convex_sides = 0;
   for (int shape = 0; shape < repeats(20); ++shape) {
     TriangleMesh mesh = geometry::bumpy_geodesic_sphere(4, 0.05, 0.0, 0);
-    for (Vector3& p : mesh.positions) p *= random.uniform(0.9, 1.1);
+    const double rough = shape % 2 == 0 ? 0.1 : 0.6;
+    for (Vector3& p : mesh.positions) p *= random.uniform(1.0 - rough, 1.0 + rough);
     const std::vector<MeshFeatures> features = mesh_features(mesh);
     std::vector<int> handed_out(mesh.positions.size(), 0);
     const double near = 1e-5;
