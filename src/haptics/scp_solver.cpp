@@ -627,8 +627,9 @@ bool ScpSolver::holds(const Element& element) const {
                      [&](const Element& contact) { return same_surface(contact, element); });
 }
 
-/// A step along the contacts about `length` long, in the direction of a longer one.
+/// A step along the contacts about `length` long, in the direction of a longer one; none in that of none.
 Vector3 ScpSolver::rest_within(double length, const Vector3& step) {
+  if (step.isZero(0.0)) return step;
   const Vector3 part = (length / step.norm()) * step;
   return contacts_.rest(position_, position_ + part, tolerance()).place - position_;
 }
