@@ -40,6 +40,7 @@ class LoopSurface final : public SmoothSurface {
   base::Result<TriangleMesh> tessellate(int level) const;
 
   bool closed() const;
+  const LoopPatches& patches() const { return *patches_; }
 
   Bounds bounds() const override;
   void near(const Vector3& a, const Vector3& b, double reach, double time, PieceVisitor visit) const override;
