@@ -23,11 +23,13 @@ double tolerance_for(const world::Geometry& shape, const Bounds& box) {
   return (sampled ? kSampledCell : kSmoothOff) * box.sizes().maxCoeff();
 }
 
-TriangleMesh triangles_of(const world::Geometry& shape, const base::Matrix3& felt_from_geometry) {
+/// In the frame of what is felt.
+TriangleMesh triangles_of(const world::Geometry& shape, const session::FeltShape& felt) {
   const auto triangles = shape.triangles(tolerance_for(shape, shape.bounds()));
   if (!triangles) return {};
   TriangleMesh mesh = (*triangles)->mesh;
-  session::stretch(mesh, felt_from_geometry);
+  session::stretch(mesh, felt.felt_from_geometry);
+  for (Vector3& position : mesh.positions) position -= felt.middle;
   return mesh;
 }
 
@@ -37,7 +39,7 @@ std::shared_ptr<TouchEye> make_eye(const world::GeometryPointer& shape,
     return std::make_shared<TouchEye>(mesh_shape);
   if (shape->kind() == "csg" && felt->solid) return nullptr;
   if (felt->primitive) return eye_of(*felt->primitive);
-  return std::make_shared<TouchEye>([=] { return triangles_of(*shape, felt->felt_from_geometry); });
+  return std::make_shared<TouchEye>([=] { return triangles_of(*shape, *felt); });
 }
 
 /// Around a placed shape, as tight as the shape can tell.

@@ -16,7 +16,9 @@
 #include "geometry/csg_solid.h"
 #include "geometry/implicit_surface.h"
 #include "geometry/loop_levels.h"
+#include "geometry/loop_offset.h"
 #include "geometry/loop_surface.h"
+#include "geometry/mesh_frame.h"
 #include "geometry/mesh_topology.h"
 #include "geometry/plain_formula.h"
 #include "haptics/mesh_shape.h"
@@ -96,6 +98,7 @@ base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options
 }
 
 base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const TouchOptions& options) {
+  model.body().world_from_body.translation() = geometry::bring_near(made);
   const auto tree = std::make_shared<const geometry::CsgTree>(std::move(made));
   model.body().csg = tree;
   if (geometry::bounds(*tree).isEmpty())
@@ -153,6 +156,19 @@ geometry::ControlMesh control_mesh(const geometry::TriangleMesh& mesh, const Tou
   if (options.crease_degrees)
     control.creases = sharp_edges(mesh, *options.crease_degrees * std::numbers::pi / 180.0);
   return control;
+}
+
+/// What a sphere tip feels of a Loop surface: exactly, unless that takes too much.
+void touch_offset(TouchModel& model, const std::shared_ptr<const geometry::LoopSurface>& surface,
+                  const TouchOptions& options) {
+  const auto centres = geometry::LoopOffset::create(surface, options.radius);
+  if (!centres) {
+    touch_mesh(model, options, ": " + centres.error().message);
+    return;
+  }
+  model.repairs.push_back(
+      fmt::format("a tip with a radius feels it exactly: {} tiles", (*centres)->tile_count()));
+  model.body().shape = std::make_shared<const haptics::SmoothShape>(*centres, options.radius);
 }
 
 int picture_level(std::size_t control_triangles) {
@@ -233,7 +249,11 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
   if (model.body().closed) {
     model.body().membership = haptics::MembershipSolid{
         [surface = *surface](const base::Vector3& point, double) { return surface->inside(point); },
-        (*surface)->bounds()};
+        (*surface)->bounds(),
+        [eye = model.body().eye](const base::Vector3& point, double limit, double) {
+          const auto hit = eye->tree().nearest(point, limit);
+          return hit ? std::optional(hit->point) : std::nullopt;
+        }};
   } else if (options.check) {
     return base::fail(model.name + ": --check cannot judge an open subdivision surface: leave it out.");
   }
@@ -246,7 +266,8 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
     model.body().shape = *shape;
     model.build_seconds = watch.seconds();
   } else if (options.radius > 0.0) {
-    touch_mesh(model, options, "");
+    touch_offset(model, *surface, options);
+    model.build_seconds = watch.seconds();
   } else {
     model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
   }

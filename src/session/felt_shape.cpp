@@ -8,6 +8,7 @@
 #include "geometry/csg_emptiness.h"
 #include "geometry/csg_offset.h"
 #include "geometry/csg_solid.h"
+#include "geometry/loop_offset.h"
 #include "geometry/mesh_frame.h"
 #include "geometry/mesh_repair.h"
 #include "haptics/mesh_shape.h"
@@ -142,6 +143,14 @@ class FeltShapeMaker {
   /// A tree as the tip feels it: of triangles where a tip with a radius has no surface in closed form.
   Felt of_tree(const world::Geometry& shape, geometry::CsgTree tree, const std::string& what,
                double tolerance_of_size) const {
+    const Vector3 middle = geometry::bring_near(tree);
+    Felt felt = of_near_tree(shape, std::move(tree), what, tolerance_of_size);
+    if (felt->exact) felt->middle = middle;
+    return felt;
+  }
+
+  Felt of_near_tree(const world::Geometry& shape, geometry::CsgTree tree, const std::string& what,
+                    double tolerance_of_size) const {
     if (!sphere_tip()) return of_tree(std::move(tree));
     const auto centres = geometry::CsgOffset::create(tree, settings_.tip_radius);
     if (!centres) {
@@ -168,12 +177,20 @@ class FeltShapeMaker {
   Felt of_loop(const world::LoopGeometry& shape) const {
     if (shape.control.mesh.triangles.empty()) return untouchable("is empty: there is nothing to touch");
     if (!world::complaint(shape).empty()) return untouchable("is damaged and cannot be touched");
-    if (sphere_tip()) return of_triangles(shape, "a Loop surface and the tip has a radius");
-    const auto surface = geometry::LoopSurface::create(stretched(shape.control, map_));
-    if (!surface) return untouchable("cannot be touched: " + surface.error().message);
+    geometry::ControlMesh control = stretched(shape.control, map_);
     auto felt = std::make_shared<FeltShape>();
+    felt->middle = geometry::bring_near(control.mesh);
+    const auto surface = geometry::LoopSurface::create(control);
+    if (!surface) return untouchable("cannot be touched: " + surface.error().message);
     felt->closed = (*surface)->closed();
-    felt->shape = std::make_shared<haptics::SmoothShape>(*surface);
+    if (sphere_tip()) {
+      const auto centres = geometry::LoopOffset::create(*surface, settings_.tip_radius);
+      if (!centres)
+        return of_triangles(shape, "a Loop surface and the tip has a radius: " + centres.error().message);
+      felt->shape = std::make_shared<haptics::SmoothShape>(*centres, settings_.tip_radius);
+    } else {
+      felt->shape = std::make_shared<haptics::SmoothShape>(*surface);
+    }
     if (felt->closed)
       felt->inside = [it = *surface](const Vector3& point, double) { return it->inside(point); };
     return felt;

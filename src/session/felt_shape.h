@@ -27,7 +27,7 @@ struct FeltShape {
   bool exact = true;   // touched as what it is, also if that is a mesh; else as triangles of it
   std::string remark;  // a clause about what cannot be touched or is not quite itself; empty: nothing
 
-  /// m, where the frame of what is felt lies in the felt frame: not at its origin where a mesh has
+  /// m, where the frame of what is felt lies in the felt frame: not at its origin where it has
   /// coordinates far larger than itself.
   base::Vector3 middle = base::Vector3::Zero();
 
@@ -53,8 +53,8 @@ FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_fr
 /// The shape as it is felt. Exact where that is possible: a mesh's vertices go along with the place, so do
 /// control meshes and CSG trees; a primitive stays one where its stretched self is, and else becomes a CSG
 /// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and, under a tip with a
-/// radius, Loop and implicit surfaces and trees that geometry::CsgOffset refuses are felt as triangles:
-/// 1/2000 of their size off at most, or sampled at 100 places along their longest side.
+/// radius, implicit surfaces and what geometry::CsgOffset and geometry::LoopOffset refuse are felt as
+/// triangles: 1/2000 of their size off at most, or sampled at 100 places along their longest side.
 ///
 /// `before`, where given, is what was made of it with the same settings before an edit. A sound mesh whose
 /// vertices alone have moved follows it, many times as soon as one made anew: its surface stays as it was

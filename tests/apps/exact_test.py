@@ -135,6 +135,18 @@ class LoopTest(ExactTest):
         self.assertIn("0 sharp edges", smooth)
         self.assertIn("12 sharp edges", sharp)
 
+    def test_a_tip_with_a_radius_feels_the_exact_limit(self):
+        file = self.write("o.obj", OCTAHEDRON)
+        arguments = ("--fit", "0.1", "--subdivide", "limit", "--radius", "0.002")
+        self.assertIn("feels it exactly", self.succeeds("touch", file, *arguments, "--seconds", "0.1").stdout)
+        self.assert_sound(self.touched(file, *arguments))
+        # By Loop's limit mask, a vertex among four others that balance goes to 1 - 4 / (4 + 3 / (8 beta)) of its
+        # place, with 4 beta = 5/8 - (3/8)^2.
+        beta = (5 / 8 - (3 / 8) ** 2) / 4
+        top = 0.05 * (1 - 4 / (4 + 3 / (8 * beta)))
+        path = self.path_file([(0, 0, 0.08 - 0.0001 * i) for i in range(700)])
+        self.assertAlmostEqual(self.trace(file, *arguments, "--path", path)[-1]["scp_z"], top + 0.002, delta=1e-8)
+
     def test_the_thesis_renders_levels(self):
         report = self.touched(self.write("o.obj", OCTAHEDRON), "--fit", "0.1", "--subdivide", "thesis:3")
         self.assertGreater(report["touch_fraction"], 0.05)

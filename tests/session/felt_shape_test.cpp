@@ -243,6 +243,33 @@ TEST(FeltShape, OfASolidUnderASphereTipIsExactWhereThatCanBe) {
   EXPECT_TRUE(make_felt_shape(*primitive(geometry::Sphere{1.0}), Matrix3::Identity(), settings)->primitive);
 }
 
+TEST(FeltShape, OfALoopSurfaceUnderASphereTipIsExact) {
+  const world::LoopGeometry shape(
+      geometry::ControlMesh{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}, {}, {}});
+  const auto felt = make_felt_shape(shape, Matrix3::Identity(), {.tip_radius = 0.01});
+  ASSERT_TRUE(felt->shape);
+  EXPECT_FALSE(felt->mesh);
+  EXPECT_EQ(felt->remark, "");
+  const auto hit = felt->shape->cast(Vector3(0.5, 0.5, 1.0), Vector3(0, 0, -2), 0.0);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->point.z(), 0.01, 1e-9);  // where the tip's centre is
+}
+
+TEST(FeltShape, FarOffIsMadeAboutTheOrigin) {
+  const Vector3 far(0x1p20, -0x1p19, 0x1p10);
+  geometry::CsgTree tree;
+  tree.add_leaf(geometry::Primitive(geometry::Sphere{1.0}), Affine3(Eigen::Translation3d(far)));
+  const auto solid = make_felt_shape(world::CsgGeometry(tree), Matrix3::Identity(), {});
+  EXPECT_EQ(solid->middle, far);
+  EXPECT_TRUE(solid->inside(Vector3(0, 0, 0.999), 0.0));
+  EXPECT_FALSE(solid->inside(Vector3(0, 0, 1.001), 0.0));
+  geometry::ControlMesh sheet{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}, {}, {}};
+  for (Vector3& position : sheet.mesh.positions) position += far;
+  const auto surface = make_felt_shape(world::LoopGeometry(sheet), Matrix3::Identity(), {});
+  EXPECT_LT((surface->middle - far).norm(), 2.0);
+  EXPECT_LT(surface->shape->bounds().max().norm(), 4.0);
+}
+
 TEST(FeltShape, OfAnOpenMeshIsTouchedFromBothSides) {
   const auto felt = make_felt_shape(*world::one_triangle(), Matrix3::Identity(), {});
   EXPECT_FALSE(felt->closed);
