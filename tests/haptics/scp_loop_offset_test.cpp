@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Controls, BallsOnLoops,
 
 TEST_P(BallsOnLoops, KeepTheirRadiusFromTheSurface) {
   const auto& [named, radius] = GetParam();
-  const BruteLoop loop(named.control, 60'000 / kSanitizerShare);
+  const BruteLoop loop(named.control, 12'000 / kSanitizerShare);
   Toucher toucher =
       ball_on_loop(named.control, radius, loop.closed() ? TouchableSides::Front : TouchableSides::Both);
   const auto count = std::size_t(std::max(150, repeats(600)));
@@ -100,7 +100,7 @@ TEST(BallOnLoop, RollsOverALevelSheetAndRoundItsRim) {
 TEST(BallOnLoop, RestsOnBothWallsOfANarrowGroove) {
   const ControlMesh ground{
       height_field(0.1, 20, [](double x, double) { return -0.01 * std::exp(-x * x / 2e-5); }), {}, {}};
-  const BruteLoop loop(ground, 60'000 / kSanitizerShare);
+  const BruteLoop loop(ground, 12'000 / kSanitizerShare);
   const double radius = 0.01, margin = 2.0 * loop.margin() + 1e-7;
   Toucher toucher = ball_on_loop(ground, radius);
   toucher.step({0.0, -0.02, 0.02});
@@ -117,7 +117,7 @@ TEST(BallOnLoop, RestsOnBothWallsOfANarrowGroove) {
 TEST(BallOnLoop, ComesOutWhereItOverlapsAtTheStart) {
   Random random(3);
   for (const ControlMesh& control : {icosahedron(), quad_torus(10, 6), creased_box()}) {
-    const BruteLoop loop(control, 20'000 / kSanitizerShare);
+    const BruteLoop loop(control, 12'000 / kSanitizerShare);
     for (int i = 0; i < std::max(4, repeats(20)); ++i) {
       const double radius = random.uniform(1e-3, 6e-3);
       const Vector3 tip = 0.06 * random.uniform(0.0, 1.0) * random.direction();
