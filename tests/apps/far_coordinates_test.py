@@ -1,4 +1,4 @@
-"""What has the coordinates of a map in its file is touched as finely as what lies about its origin."""
+"""A mesh whose file has the coordinates of a map is touched as finely as one about its origin."""
 import math
 import unittest
 
@@ -16,46 +16,27 @@ def cube(offset):
         f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces)
 
 
-def solid(offset):
-    """A cube with a corner taken off by a ball; files of solids are in millimetres."""
-    millimetres = [1000 * c for c in offset]
-    return (f"multmatrix([[1,0,0,{millimetres[0]!r}],[0,1,0,{millimetres[1]!r}],[0,0,1,{millimetres[2]!r}],[0,0,0,1]]) {{"
-            f"difference() {{ cube({2000 * HALF}, center = true); "
-            "multmatrix([[1,0,0,40],[0,1,0,0],[0,0,1,40],[0,0,0,1]]) { sphere(r = 20); } } }")
-
-
 class FarCoordinatesTest(ProgramTest):
-    def touched(self, file, offset, *arguments):
+    def touched(self, name, offset, *arguments):
         """The trace of a tip that wanders on and over the edges of a cube, less the offset."""
         def tip(t):
             way = (0.05 * math.sin(3 * t), 0.03 * math.cos(5 * t), 0.06 - 0.02 * min(1.0, t))
             return [round(c * 2 ** 28) / 2 ** 28 + o for c, o in zip(way, offset)]
-        path = self.path_file([tip(i / 1000) for i in range(3000)], name=f"{file.stem}.csv")
-        report = self.report(file, "--path", path, "--check", *arguments)
+        path = self.path_file([tip(i / 1000) for i in range(3000)], name=f"{name}.csv")
+        mesh = self.write(f"{name}.obj", cube(offset))
+        report = self.report(mesh, "--path", path, "--check", *arguments)
         self.assertEqual((report["pops"], report["sticks"]), (0, 0))
         self.assertGreater(report["touch_fraction"], 0.5)
-        rows = self.trace(file, "--path", path, *arguments, name=f"{file.stem}-trace.csv")
+        rows = self.trace(mesh, "--path", path, *arguments, name=f"{name}-trace.csv")
         return [[a - b for a, b in zip(point(row, "scp"), offset)] + list(point(row, "force")) for row in rows]
-
-    def assert_same(self, ending, text, *arguments):
-        near = self.touched(self.write("near" + ending, text((0, 0, 0))), (0, 0, 0), *arguments)
-        far = self.touched(self.write("far" + ending, text(FAR)), FAR, *arguments)
-        worst = max(abs(a - b) for one, other in zip(near, far) for a, b in zip(one[:3], other[:3]))
-        self.assertLess(worst, 3e-9, "the world's coordinates themselves have steps of 1e-9 m there")
-        force = max(abs(a - b) for one, other in zip(near, far) for a, b in zip(one[3:], other[3:]))
-        self.assertLess(force, 1e-5)
 
     def test_the_trace_is_that_of_a_near_mesh(self):
         for arguments in ((), ("--radius", "0.001")):
-            self.assert_same(".obj", cube, *arguments)
-
-    def test_the_trace_is_that_of_a_near_subdivision_surface(self):
-        for arguments in ((), ("--radius", "0.001")):
-            self.assert_same(".obj", cube, "--subdivide", "limit", *arguments)
-
-    def test_the_trace_is_that_of_a_near_solid(self):
-        for arguments in ((), ("--radius", "0.001")):
-            self.assert_same(".csg", solid, *arguments)
+            near, far = self.touched("near", (0, 0, 0), *arguments), self.touched("far", FAR, *arguments)
+            worst = max(abs(a - b) for one, other in zip(near, far) for a, b in zip(one[:3], other[:3]))
+            self.assertLess(worst, 3e-9, "the world's coordinates themselves have steps of 1e-9 m there")
+            force = max(abs(a - b) for one, other in zip(near, far) for a, b in zip(one[3:], other[3:]))
+            self.assertLess(force, 1e-5)
 
 
 if __name__ == "__main__":
