@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace icome::geometry {
 namespace {
 
@@ -178,6 +180,25 @@ Formula::SlopeRange<3> Formula::slope_range(const Box4& box) const {
   SlopeRange<3> result;
   result.slope = run_watched(registers, result.range).first;
   return result;
+}
+
+Formula::BendRange Formula::bend_range(const Box4& box) const {
+  Registers<Jet<Interval, 3, 2>> registers;
+  for (std::size_t i = 0; i < 4; ++i) {
+    set(registers[i], 0.0, i < 3 ? static_cast<int>(i) : -1);
+    registers[i].value = box[i];
+  }
+  BendRange result;
+  const auto end = run_watched(registers, result.range);
+  result.slope = end.first;
+  result.bend = end.second;
+  return result;
+}
+
+bool Formula::is_smooth() const {
+  return std::none_of(program_.begin(), program_.end(), [](const Instruction& it) {
+    return it.operation == Operation::Abs || it.operation == Operation::Min || it.operation == Operation::Max;
+  });
 }
 
 Formula::SlopeRange<1> Formula::line_range(const Vector3& start, const Vector3& step, const Interval& s,

@@ -72,6 +72,13 @@ class Formula {
   };
   /// With respect to x, y, z.
   SlopeRange<3> slope_range(const Box4& box) const;
+  struct BendRange {
+    Range range;
+    std::array<Interval, 3> slope;
+    std::array<Interval, 6> bend;  // second derivatives: xx, xy, xz, yy, yz, zz
+  };
+  /// The same with second derivatives.
+  BendRange bend_range(const Box4& box) const;
   /// At `start` + s * `step`, with respect to s.
   SlopeRange<1> line_range(const base::Vector3& start, const base::Vector3& step, const Interval& s,
                            double time) const;
@@ -83,6 +90,8 @@ class Formula {
   /// Does it depend on x, y or z? On t?
   bool uses_place() const { return used_[0] || used_[1] || used_[2]; }
   bool uses_time() const { return used_[3]; }
+  /// Has it neither abs, min nor max, and so no creases but where its derivatives are unbounded?
+  bool is_smooth() const;
   std::size_t steps() const { return program_.size(); }
   std::size_t bytes() const { return sizeof(*this) + program_.capacity() * sizeof(Instruction); }
 
