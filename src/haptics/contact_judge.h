@@ -17,9 +17,10 @@ struct MembershipSolid {
   std::function<bool(const base::Vector3& point, double time)> inside;
   base::Bounds bounds;  // around it at all times
   /// A place of the solid nearer to `point` than `limit` (m), and at most some `fineness` (m) farther than
-  /// the nearest; nothing where there is none. Parts thinner than that may be overlooked. Empty where nobody
-  /// knows: then a sphere tip is judged by samples in some directions.
-  std::function<std::optional<base::Vector3>(const base::Vector3& point, double limit, double fineness)>
+  /// the nearest, at that time (s); nothing where there is none. Parts thinner than that may be overlooked.
+  /// Empty where nobody knows: then a sphere tip is judged by samples in some directions.
+  std::function<std::optional<base::Vector3>(const base::Vector3& point, double time, double limit,
+                                             double fineness)>
       nearest = {};
 };
 

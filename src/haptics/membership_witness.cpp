@@ -75,7 +75,7 @@ class MembershipWitness final : public Witness {
     const auto look = [&](const Vector3& direction) { look_at(point + least * direction); };
     for (const Vector3& direction : around_) look(direction);
     if (solid_.nearest) {  // what lies between the directions, or ends within the ball, too
-      if (const auto place = solid_.nearest(point, least, fineness(radius))) look_at(*place);
+      if (const auto place = solid_.nearest(point, time_, least, fineness(radius))) look_at(*place);
     }
     for (double angle = 0.3; angle > 1e-4 && least < radius; angle *= 0.6) {
       const Vector3 side = nearest.unitOrthogonal(), other = nearest.cross(side), centre = nearest;

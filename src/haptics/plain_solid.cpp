@@ -183,7 +183,7 @@ MembershipSolid plain_solid(const CsgTree& tree) {
   const auto plain = std::make_shared<const PlainTree>(tree);
   const auto cells = std::make_shared<PlainCells>(plain->steps());
   return {[plain](const Vector3& point, double) { return plain->inside(point); }, geometry::bounds(tree),
-          [cells](const Vector3& point, double limit, double fineness) {
+          [cells](const Vector3& point, double, double limit, double fineness) {
             return cells->nearest(point, limit, fineness);
           }};
 }

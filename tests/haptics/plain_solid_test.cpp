@@ -132,7 +132,7 @@ TEST(PlainSolid, FindsTheNearestOfItsPlaces) {
     const double beside = std::hypot(place.x(), place.y()) - 0.0005;
     const double above = std::max(0.0, place.z() - 0.035);
     const double distance = std::min(place.z() - 0.005, std::hypot(std::max(0.0, beside), above));
-    const auto found = solid.nearest(place, 0.02, 2e-5);
+    const auto found = solid.nearest(place, 0.0, 0.02, 2e-5);
     EXPECT_EQ(found.has_value(), distance < 0.02);
     if (!found) continue;
     EXPECT_NEAR((*found - place).norm(), distance, 2e-5);
