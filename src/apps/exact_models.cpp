@@ -14,6 +14,7 @@
 #include "geometry/csg_mesh.h"
 #include "geometry/csg_offset.h"
 #include "geometry/csg_solid.h"
+#include "geometry/implicit_offset.h"
 #include "geometry/implicit_surface.h"
 #include "geometry/loop_levels.h"
 #include "geometry/loop_offset.h"
@@ -22,6 +23,7 @@
 #include "geometry/mesh_topology.h"
 #include "geometry/plain_formula.h"
 #include "haptics/mesh_shape.h"
+#include "haptics/plain_field.h"
 #include "haptics/plain_solid.h"
 #include "haptics/smooth_shape.h"
 #include "haptics/thesis/thesis_shapes.h"
@@ -182,8 +184,7 @@ int picture_level(std::size_t control_triangles) {
 base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula, const base::Bounds& box) {
   const auto value = geometry::plain_formula(formula);
   if (!value) return tl::unexpected(value.error());
-  return haptics::MembershipSolid{
-      [value = *value](const base::Vector3& point, double time) { return value(point, time) < 0.0; }, box};
+  return haptics::plain_solid(*value, box);
 }
 
 bool names_csg(const std::string& text) {
@@ -293,12 +294,22 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
     return base::fail("--implicit: there is no solid in the box; it is where the formula is negative.");
   take_mesh(model, std::move(contoured->mesh));
   if (options.radius > 0.0) {
-    if ((*surface)->changes())
-      return base::fail("--radius: a surface that changes with time is touched with a point; leave it out.");
-    touch_mesh(model, options, fmt::format(", within {}", in_millimetres(contoured->error)));
-    return model;
+    const auto centres = geometry::ImplicitOffset::create(*options.implicit, *options.bounds, options.radius);
+    if (!centres) {
+      const std::string& reason = centres.error().message;
+      if ((*surface)->changes())
+        return base::fail(
+            "--radius: this surface changes with time and can only be touched with a point, as " + reason +
+            ": leave it out.");
+      touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(contoured->error), reason));
+      return model;
+    }
+    model.repairs.push_back(
+        fmt::format("a tip with a radius feels it exactly: {} parts", (*centres)->part_count()));
+    model.body().shape = std::make_shared<haptics::SmoothShape>(*centres, options.radius);
+  } else {
+    model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
   }
-  model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
   auto solid = negative_inside(*options.implicit, *options.bounds);
   if (!solid) return base::fail("--implicit: " + solid.error().message);
   model.body().membership = std::move(*solid);

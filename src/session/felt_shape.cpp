@@ -8,6 +8,7 @@
 #include "geometry/csg_emptiness.h"
 #include "geometry/csg_offset.h"
 #include "geometry/csg_solid.h"
+#include "geometry/implicit_offset.h"
 #include "geometry/loop_offset.h"
 #include "geometry/mesh_frame.h"
 #include "geometry/mesh_repair.h"
@@ -197,13 +198,21 @@ class FeltShapeMaker {
   }
 
   Felt of_implicit(const world::ImplicitGeometry& shape) const {
-    if (sphere_tip()) return of_triangles(shape, "an implicit surface and the tip has a radius", kCellOfSize);
     if (map_ != Matrix3::Identity()) return of_triangles(shape, "a stretched implicit surface", kCellOfSize);
     auto felt = std::make_shared<FeltShape>();
     std::shared_ptr<const geometry::SmoothSurface> surface = shape.surface();
+    if (sphere_tip()) {
+      const auto centres =
+          geometry::ImplicitOffset::create(shape.formula(), shape.surface()->box(), settings_.tip_radius);
+      if (!centres) {
+        const std::string why = "an implicit surface and the tip has a radius: " + centres.error().message;
+        return of_triangles(shape, why, kCellOfSize);
+      }
+      surface = *centres;
+    }
     const bool stilled = surface->changes() && !settings_.with_time;
     if (stilled) surface = std::make_shared<const StillSurface>(std::move(surface));
-    felt->shape = std::make_shared<haptics::SmoothShape>(std::move(surface));
+    felt->shape = std::make_shared<haptics::SmoothShape>(std::move(surface), settings_.tip_radius);
     felt->inside = [it = shape.surface(), stilled](const Vector3& point, double time) {
       if (stilled) time = 0.0;
       return it->bounds().contains(point) && it->value(point, time).value < 0.0;

@@ -53,7 +53,7 @@ FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_fr
 /// The shape as it is felt. Exact where that is possible: a mesh's vertices go along with the place, so do
 /// control meshes and CSG trees; a primitive stays one where its stretched self is, and else becomes a CSG
 /// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and, under a tip with a
-/// radius, implicit surfaces and what geometry::CsgOffset and geometry::LoopOffset refuse are felt as
+/// radius, what geometry::CsgOffset, geometry::ImplicitOffset and geometry::LoopOffset refuse are felt as
 /// triangles: 1/2000 of their size off at most, or sampled at 100 places along their longest side.
 ///
 /// `before`, where given, is what was made of it with the same settings before an edit. A sound mesh whose

@@ -200,6 +200,30 @@ class ImplicitTest(ExactTest):
         self.assertLess(max(off), 0.0002)  # as far as the groove moves in a tick
         self.assertLess(sorted(off)[-len(off) // 100], 1e-8)
 
+    def test_a_tip_with_a_radius_feels_the_exact_surface(self):
+        said = self.succeeds("touch", *self.VALLEY, "--radius", "0.002", "--seconds", "0.1").stdout
+        self.assertIn("feels it exactly", said)
+        places = [(0.0, 0.0, 0.045 - min(0.055, 0.0005 * i)) for i in range(200)]
+        last = self.trace(*self.VALLEY, "--radius", "0.002", "--path", self.way("ball.csv", places))[-1]
+        # In the groove, a radius from both of its sides.
+        x, z = last["scp_x"], last["scp_z"]
+        self.assertAlmostEqual((z - x) / math.sqrt(2), 0.002, delta=1e-9)
+        self.assertAlmostEqual((z + 2 * x) / math.sqrt(5), 0.002, delta=1e-9)
+
+    def test_waves_that_move_lift_a_tip_with_a_radius(self):
+        formula = "z - 0.01*sin(50*x + 4*t)"
+        path = self.way("lifted.csv", [(0.0, 0.0, 0.04 - min(0.045, 0.0005 * i)) for i in range(300)])
+        rows = self.trace("--implicit", formula, "--bounds", "0.1", "--radius", "0.002", "--path", path)
+        for row in rows[100:]:
+            near = min(math.hypot(x - row["scp_x"], 0.01 * math.sin(50 * x + 4 * row["t"]) - row["scp_z"])
+                       for x in (row["scp_x"] + 1e-5 * i for i in range(-250, 251)))
+            self.assertAlmostEqual(near, 0.002, delta=1e-7)
+
+    def test_a_tip_with_a_radius_says_why_it_feels_a_mesh_of_a_formula(self):
+        cone = ("--implicit", "x^2 + y^2 - z^2", "--bounds", "0.1", "--radius", "0.002")
+        said = self.succeeds("touch", *cone, "--seconds", "0.1").stdout
+        self.assertIn("comes to a point", said)
+
     def test_bad_formulas_name_the_column(self):
         self.fails("touch", "--implicit", "x + * y", "--bounds", "0.1", code=1, saying="column")
 

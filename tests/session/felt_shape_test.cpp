@@ -224,6 +224,21 @@ TEST(FeltShape, SaysWhatCannotBeTouched) {
   expect(make_felt_shape(world::LoopGeometry({fin, {}, {}}), one, {}), "cannot be touched");
 }
 
+TEST(FeltShape, OfAFormulaUnderASphereTipIsExactWhereThatCanBe) {
+  const FeltSettings settings{.tip_radius = 0.01};
+  const base::Bounds box(Vector3::Constant(-0.1), Vector3::Constant(0.1));
+  const auto felt_of = [&](const std::string& formula) {
+    return make_felt_shape(**world::ImplicitGeometry::create(formula, box), Matrix3::Identity(), settings);
+  };
+  const auto ball = felt_of("x^2 + y^2 + z^2 - 0.05^2");
+  EXPECT_FALSE(ball->mesh);
+  EXPECT_EQ(ball->remark, "");
+  EXPECT_NEAR(ball->shape->cast({0.0, 0.0, 0.2}, {0.0, 0.0, -0.3}, 0.0)->point.z(), 0.06, 1e-9);
+  const auto cone = felt_of("x^2 + y^2 - z^2");
+  EXPECT_TRUE(cone->mesh);
+  EXPECT_NE(cone->remark.find("comes to a point"), std::string::npos) << cone->remark;
+}
+
 TEST(FeltShape, OfASolidUnderASphereTipIsExactWhereThatCanBe) {
   const FeltSettings settings{.tip_radius = 0.01};
   geometry::CsgTree round;
