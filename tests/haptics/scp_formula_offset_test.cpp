@@ -1,0 +1,175 @@
+// Sphere tips on the solids of formulas: their centre against distances in closed form, and against grids on
+// the surface that zoom in on the nearest place.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "base/random.h"
+#include "geometry/implicit_offset.h"
+#include "haptics/plain_field.h"
+#include "haptics/scp_solver.h"
+#include "haptics/smooth_shape.h"
+
+namespace icome::haptics {
+namespace {
+
+using geometry::ImplicitOffset;
+using OffsetDistance = std::function<double(const Vector3& point, double time)>;
+
+Bounds offset_box() { return {Vector3(-0.06, -0.06, -0.03), Vector3(0.06, 0.06, 0.03)}; }
+
+/// To random places around and in the box, at 0.01 to 5 m/s.
+std::vector<Vector3> offset_path(std::uint64_t seed, std::size_t ticks) {
+  base::Random random(seed);
+  std::vector<Vector3> path{Vector3(0.0, 0.0, 0.06)};
+  while (path.size() < ticks) {
+    const Vector3 from = path.back();
+    const Vector3 to = 0.055 * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const double step = 1e-3 * std::pow(10.0, path.size() == 1 ? 0.7 : random.uniform(-2.0, 0.7));
+    const int count = std::min(60, 1 + int((to - from).norm() / step));
+    for (int i = 1; i <= count; ++i)
+      path.push_back(from + std::min(1.0, i * step / (to - from).norm()) * (to - from));
+  }
+  return path;
+}
+
+/// Holds the centre at the distance of the radius where it touches, and never nearer.
+void expect_centre_at_distance(const std::string& formula, double radius, std::uint64_t seed,
+                               std::size_t ticks, double doubt, const OffsetDistance& distance) {
+  const auto centres = ImplicitOffset::create(formula, offset_box(), radius);
+  ASSERT_TRUE(centres) << formula << ": " << centres.error().message;
+  HapticObject object;
+  object.id = {1, 0};
+  object.shape = std::make_shared<SmoothShape>(*centres, radius);
+  const auto scene = HapticScene::compile({object});
+  ScpSolver solver({.tip_radius = radius});
+  solver.adopt(*scene, {});
+  std::size_t touching = 0;
+  double time = 0.0;
+  for (const Vector3& tip : offset_path(seed, ticks)) {
+    const ScpState& state = solver.step(tip, time);
+    const double apart = distance(state.scp, time) - radius;
+    ASSERT_GT(apart, -doubt) << formula << " " << radius << " at " << time << ": " << tip.transpose();
+    ASSERT_TRUE(state.touching ? apart < 10.0 * doubt : state.scp == tip) << apart << " " << tip.transpose();
+    touching += state.touching;
+    time += 1e-3;
+  }
+  EXPECT_GT(touching, ticks / 60) << formula;
+}
+
+double box_distance(const Vector3& over) {
+  return over.cwiseMax(0.0).norm() + std::min(over.maxCoeff(), 0.0);
+}
+
+class FormulaTips : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Radii, FormulaTips, testing::Values(1e-4, 1e-3, 5e-3, 1e-2),
+                         [](const auto& it) { return std::to_string(int(1e6 * it.param)) + "um"; });
+
+TEST_P(FormulaTips, RollRoundABall) {
+  expect_centre_at_distance("x^2 + y^2 + z^2 - 0.025^2", GetParam(), 1, 1500, 1e-9,
+                            [](const Vector3& p, double) { return p.norm() - 0.025; });
+}
+
+TEST_P(FormulaTips, RollRoundAndThroughARing) {
+  expect_centre_at_distance(
+      "(sqrt(x^2 + y^2) - 0.035)^2 + z^2 - 0.015^2", std::min(GetParam(), 5e-3), 2, 1500, 1e-9,
+      [](const Vector3& p, double) { return std::hypot(std::hypot(p.x(), p.y()) - 0.035, p.z()) - 0.015; });
+}
+
+TEST_P(FormulaTips, RollOverTheRimWhereTheBoxCutsACylinder) {
+  expect_centre_at_distance("x^2 + y^2 - 0.03^2", GetParam(), 3, 1500, 1e-9, [](const Vector3& p, double) {
+    return box_distance({std::hypot(p.x(), p.y()) - 0.03, std::abs(p.z()) - 0.03, -1.0});
+  });
+}
+
+TEST_P(FormulaTips, RollOverTheEdgesAndCornersThatMaxAndAbsMake) {
+  expect_centre_at_distance(
+      "max(abs(x) - 0.03, max(abs(y) - 0.02, abs(z) - 0.01))", GetParam(), 4, 1500, 1e-9,
+      [](const Vector3& p, double) { return box_distance(p.cwiseAbs() - Vector3(0.03, 0.02, 0.01)); });
+}
+
+TEST_P(FormulaTips, RestInTheGrooveThatMinMakes) {
+  expect_centre_at_distance("min((x + 0.012)^2 + y^2 + z^2 - 0.02^2, (x - 0.012)^2 + y^2 + z^2 - 0.02^2)",
+                            GetParam(), 5, 1500, 1e-9, [](const Vector3& p, double) {
+                              const Vector3 aside(0.012, 0.0, 0.0);
+                              return std::min((p - aside).norm(), (p + aside).norm()) - 0.02;
+                            });
+}
+
+/// To the solid below z = height(x, y) in the box, by grids that zoom in on the nearest place. Of what is in
+/// the column below a place, the nearest is as high as the point, or the top.
+double distance_to_ground(const std::function<double(double, double)>& height, const Vector3& point,
+                          double wide) {
+  const Bounds box = offset_box();
+  double least = std::numeric_limits<double>::infinity();
+  Vector3 middle = point;
+  for (int level = 0; level < 8; ++level, wide *= 0.12) {
+    const int across = level == 0 ? 40 : 12;
+    const Vector3 from = middle;
+    for (int i = -across; i <= across; ++i) {
+      for (int j = -across; j <= across; ++j) {
+        const double x = std::clamp(from.x() + wide * i / across, box.min().x(), box.max().x());
+        const double y = std::clamp(from.y() + wide * j / across, box.min().y(), box.max().y());
+        const double top = std::min(height(x, y), box.max().z());
+        if (top < box.min().z()) continue;
+        const Vector3 place(x, y, std::clamp(point.z(), box.min().z(), top));
+        if ((place - point).norm() >= least) continue;
+        least = (place - point).norm();
+        middle = place;
+      }
+    }
+  }
+  return least;
+}
+
+TEST_P(FormulaTips, FeelWavesValleysAndRidges) {
+  const double radius = GetParam();
+  const auto ground = [&](const std::string& formula, std::uint64_t seed, auto&& height) {
+    expect_centre_at_distance(formula, radius, seed, 500, 1e-8, [&](const Vector3& p, double time) {
+      return distance_to_ground([&](double x, double y) { return height(x, y, time); }, p, 2.5 * radius);
+    });
+  };
+  ground("z - 0.01*sin(50*x)", 6, [](double x, double, double) { return 0.01 * std::sin(50.0 * x); });
+  ground("z - max(x, -2*x)", 7, [](double x, double, double) { return std::max(x, -2.0 * x); });
+  ground("z + abs(x) + 0.01*sin(60*y)", 8,
+         [](double x, double y, double) { return -std::abs(x) - 0.01 * std::sin(60.0 * y); });
+  ground("z - 0.01*sin(50*x + 4*t)", 9,
+         [](double x, double, double t) { return 0.01 * std::sin(50.0 * x + 4.0 * t); });
+}
+
+// In a hollow of a radius of 3.7 mm a ball of 10 mm rests on two flanks.
+TEST(ScpOfFormulaTips, RestsOnTheFlanksOfAHollowThatIsNarrower) {
+  expect_centre_at_distance("z - 0.003*sin(300*x)", 5e-3, 10, 170, 1e-8, [](const Vector3& p, double) {
+    return distance_to_ground([](double x, double) { return 0.003 * std::sin(300.0 * x); }, p, 0.012);
+  });
+}
+
+TEST(ScpOfFormulaTips, SaysWhyASurfaceIsNotTakenApart) {
+  const auto reason = [](const std::string& formula) {
+    const auto centres = ImplicitOffset::create(formula, offset_box(), 1e-3);
+    return centres ? std::string() : centres.error().message;
+  };
+  EXPECT_NE(reason("1/x").find("a pole"), std::string::npos);
+  EXPECT_NE(reason("x^2 + y^2 - z^2").find("comes to a point"), std::string::npos);
+  EXPECT_FALSE(reason("z - 0.001*sin(20000*x)").empty());
+}
+
+// The judge's own search: the nearest place of a solid that is known by its values only.
+TEST(PlainField, FindsTheNearestPlaceOfASolid) {
+  const MembershipSolid ball = plain_solid(
+      [](const Vector3& p, double time) { return p.squaredNorm() - 4e-4 - 1e-4 * time; }, offset_box());
+  base::Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    const double time = random.uniform(0.0, 1.0), size = std::sqrt(4e-4 + 1e-4 * time);
+    const Vector3 point = (size + random.uniform(1e-4, 4e-3)) * random.direction();
+    const auto found = ball.nearest(point, time, 5e-3, 2e-5);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR((*found - point).norm(), point.norm() - size, 6e-5);
+    EXPECT_FALSE(ball.nearest(point, time, 0.9 * (point.norm() - size), 2e-5));
+  }
+}
+
+}  // namespace
+}  // namespace icome::haptics
