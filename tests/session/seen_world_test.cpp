@@ -23,7 +23,7 @@ double drawn_height(const Session& session) {
 
 double picked_height(const Session& session) {
   const auto picked = session.pick({Vector3(0.01, 0.5, 0.01), -Vector3::UnitY()});
-  return picked ? picked->place.y() : -1.0;
+  return picked ? picked->place.point.y() : -1.0;
 }
 
 TEST(SeenWorld, WhatChangesIsDrawnAsItIsFelt) {
