@@ -197,7 +197,8 @@ Formula::BendRange Formula::bend_range(const Box4& box) const {
 
 bool Formula::is_smooth() const {
   return std::none_of(program_.begin(), program_.end(), [](const Instruction& it) {
-    return it.operation == Operation::Abs || it.operation == Operation::Min || it.operation == Operation::Max;
+    return it.operation == Operation::Abs || it.operation == Operation::Min ||
+           it.operation == Operation::Max || it.operation == Operation::Select;
   });
 }
 

@@ -11,7 +11,7 @@ using Node = Expression::Node;
 
 constexpr std::size_t kMostWays = 256;
 constexpr std::size_t kMostTerms = 64;
-constexpr const char* kTooManyWays = "its abs, min and max have too many combinations";
+constexpr const char* kTooManyWays = "its abs, min, max, if and atan2 have too many combinations";
 
 /// The least, over the ways, of the greatest of some smooth functions.
 using MinMax = std::vector<std::vector<Node>>;
@@ -32,8 +32,9 @@ bool is_rising(Operation operation) {
   }
 }
 
-bool chooses_one(Operation operation) {
-  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max;
+bool chooses(Operation operation) {
+  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max ||
+         operation == Operation::Atan2 || operation == Operation::Select;
 }
 
 /// Takes an expression apart; every function of this class gives nothing where that leads to too much, or
@@ -48,7 +49,7 @@ class MinMaxSplitter {
     const auto a = split(step.a);
     const auto b = is_binary(step.operation) ? split(step.b) : a;
     if (!a || !b) return std::nullopt;
-    if (is_smooth(*a) && is_smooth(*b) && !chooses_one(step.operation)) return MinMax{{node}};
+    if (is_smooth(*a) && is_smooth(*b) && !chooses(step.operation)) return MinMax{{node}};
     switch (step.operation) {
       case Operation::Min:
         return joined(*a, *b);
