@@ -251,7 +251,7 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
     model.body().membership = haptics::MembershipSolid{
         [surface = *surface](const base::Vector3& point, double) { return surface->inside(point); },
         (*surface)->bounds(),
-        [eye = model.body().eye](const base::Vector3& point, double limit, double) {
+        [eye = model.body().eye](const base::Vector3& point, double, double limit, double) {
           const auto hit = eye->tree().nearest(point, limit);
           return hit ? std::optional(hit->point) : std::nullopt;
         }};

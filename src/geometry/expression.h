@@ -43,6 +43,11 @@ enum class Operation : std::uint8_t {
 
 inline bool is_binary(Operation operation) { return operation >= Operation::Add; }
 inline bool is_ternary(Operation operation) { return operation == Operation::Select; }
+/// Is it smooth only between places where it takes another operand, or another branch?
+inline bool chooses(Operation operation) {
+  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max ||
+         operation == Operation::Atan2 || operation == Operation::Select;
+}
 inline bool is_leaf(Operation operation) { return operation <= Operation::Constant; }
 
 /// A formula while it is read: a graph of operations in which equal parts are one, constants are folded,

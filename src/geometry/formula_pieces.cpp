@@ -14,11 +14,6 @@ constexpr std::size_t kMostBorders = 512;
 constexpr std::size_t kMostCases = 256;  // of one part of a formula
 constexpr std::size_t kMostChoices = 64;
 
-bool chooses(Operation operation) {
-  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max ||
-         operation == Operation::Atan2 || operation == Operation::Select;
-}
-
 /// What a part of a formula is where choices were made so.
 struct SmoothPart {
   Node node;

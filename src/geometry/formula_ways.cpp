@@ -32,11 +32,6 @@ bool is_rising(Operation operation) {
   }
 }
 
-bool chooses(Operation operation) {
-  return operation == Operation::Abs || operation == Operation::Min || operation == Operation::Max ||
-         operation == Operation::Atan2 || operation == Operation::Select;
-}
-
 /// Takes an expression apart; every function of this class gives nothing where that leads to too much, or
 /// where a choice is made within what neither rises nor falls with it.
 class MinMaxSplitter {

@@ -89,8 +89,8 @@ class MembershipWitness final : public Witness {
 
   bool overlaps(const Vector3& point, double radius) const override {
     if (inside(point)) return true;
-    return (solid_.nearest && solid_.nearest(point, radius, fineness(radius))) ||
-           overlap(point, radius) > 0.0;
+    const auto place = solid_.nearest ? solid_.nearest(point, time_, radius, fineness(radius)) : std::nullopt;
+    return (place && inside(*place)) || overlap(point, radius) > 0.0;
   }
 
   bool deep(const Vector3& point, double depth) const override {
