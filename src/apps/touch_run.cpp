@@ -66,8 +66,8 @@ class ClockedRun {
     return info.index < last_index_;
   }
 
-  /// Puts down what has come so far, until the user ends the run or `most` (s) has gone by: rows may come faster
-  /// than they are judged. `seconds`: of the whole run.
+  /// Puts down what has come so far, until the user ends the run or `most` (s) has gone by: rows may come
+  /// faster than they are judged. `seconds`: of the whole run.
   void drain(TouchDiary& diary, StatusLine& status, double seconds,
              double most = std::numeric_limits<double>::infinity()) {
     const Stopwatch watch;

@@ -68,7 +68,7 @@ constexpr double kLeakTicks = 2.0;
 
 /// How long a force may lag behind that reaches the device's maximum, as ForceLimiter changes forces in
 /// steps, s: damping must pay for that, too, or a spring that is far harder than the device is strong feeds
-/// the hand. (Eight springs of 8 kN/m at 4 kHz threw a bare omega.x at 35 m/s; with this they hold it.)
+/// the hand. (Eight springs of 8 kN/m at 4 kHz shook an omega.x in a hand by 5 mm; with this they hold it.)
 constexpr double kLimiterLag = 0.002;
 
 /// How many seconds of a stiffness damping must pay for at least. Real-time safe.

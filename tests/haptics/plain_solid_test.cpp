@@ -149,8 +149,8 @@ TEST(PlainSolid, FindsTheSameNearestPlaceWhateverWasAskedBefore) {
     const MembershipSolid asked = plain_solid(tree);
     for (int i = 0; i < repeats(60); ++i) {
       const Vector3 place = place_about(random, 0.06);
-      const auto now = asked.nearest(place, kReach, kFineness);
-      const auto afresh = plain_solid(tree).nearest(place, kReach, kFineness);
+      const auto now = asked.nearest(place, 0.0, kReach, kFineness);
+      const auto afresh = plain_solid(tree).nearest(place, 0.0, kReach, kFineness);
       ASSERT_EQ(now.has_value(), afresh.has_value()) << round;
       if (!now) continue;
       ++found;
@@ -173,11 +173,11 @@ TEST(PlainSolid, KnowsHowFarASlitIsBelowASphereThatRestsOnIt) {
     const double off = random.uniform(-2e-4, 2e-4), up = random.uniform(-1e-4, 3e-4);
     const Vector3 centre(off, random.uniform(-0.02, 0.02), 0.03 + height + up);
     const double expected = std::hypot(std::max(0.0, 0.5 * kWide - std::abs(off)), height + up);
-    const auto found = solid.nearest(centre, 0.0025, 4e-5);
+    const auto found = solid.nearest(centre, 0.0, 0.0025, 4e-5);
     ASSERT_TRUE(found);
     ASSERT_GE((*found - centre).norm(), expected - 1e-12);
     ASSERT_LE((*found - centre).norm(), expected + 2.0 * 4e-5);  // to a cube, and within it
-    ASSERT_FALSE(solid.nearest(centre, expected - 1e-9, 4e-5));
+    ASSERT_FALSE(solid.nearest(centre, 0.0, expected - 1e-9, 4e-5));
   }
 }
 

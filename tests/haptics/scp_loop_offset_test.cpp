@@ -73,7 +73,7 @@ TEST_P(BallsOnLoops, KeepTheirRadiusFromTheSurface) {
       ASSERT_GT(exact_distance(loop, state.scp), radius * (1.0 - 1e-5) - 1e-9) << tick;
     }
   }
-  EXPECT_GT(touching, count / 10);
+  EXPECT_GT(touching, count / 20);
 }
 
 // The limit of a level control mesh is level, and its straight sides stay where they are.

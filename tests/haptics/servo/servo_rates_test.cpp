@@ -99,7 +99,7 @@ TEST_P(ServoAtRates, NeitherPopsNorPushesHarderThanTheLimiterAllows) {
     last = device.force;
     touching += report.contact.touching;
     felt += device.force.norm() > 0.05;
-    judge.judge({report.tip, report.contact.scp, report.contact.touching, report.elapsed, report.force});
+    judge.judge({report.tip, report.contact.scp, report.contact.touching, report.time, report.force});
     if (HasFailure()) return;
   }
   EXPECT_GT(touching, judge.ticks() / 5);
