@@ -16,8 +16,9 @@ class LoopSurface;
 /// offsets run into each other, and the pieces of both hold. Pieces from count / 2 on are the same tiles,
 /// touched from behind. A sheet's rim is rolled round from one side to the other.
 ///
-/// The ball never comes nearer than its radius to a place of a tile that is `tame`; nor, by more than 1e-5 of
-/// its radius, to one that is so small that it need not be.
+/// The ball never comes nearer than its radius to a place of a tile that is `tame`. The others are small:
+/// there it may come nearer by about 1e-5 of its radius, and of degenerate tiles, which are not cut for ever,
+/// nothing is proved.
 ///
 /// Immutable; its points are places of the centre.
 class LoopOffset final : public SmoothSurface {
