@@ -18,7 +18,7 @@ constexpr double kLibrary = 8 * rounding::kRelative;
 
 Interval monotone(double at_lo, double at_hi) { return {down(at_lo, kLibrary), up(at_hi, kLibrary)}; }
 
-Interval clamped(const Interval& a, double lo, double hi) {
+Interval within_range(const Interval& a, double lo, double hi) {
   return {std::clamp(a.lo, lo, hi), std::clamp(a.hi, lo, hi)};
 }
 
@@ -35,7 +35,7 @@ Interval wave(const Interval& a, double at_lo, double at_hi, double top) {
   Interval image = monotone(std::min(at_lo, at_hi), std::max(at_lo, at_hi));
   if (may_hold_phase(a, top, 2 * pi)) image.hi = 1.0;
   if (may_hold_phase(a, top + pi, 2 * pi)) image.lo = -1.0;
-  return clamped(image, -1.0, 1.0);
+  return within_range(image, -1.0, 1.0);
 }
 
 /// Too wide, too far out, or infinite: not worth asking where the tops are.
@@ -70,7 +70,7 @@ Interval abs(const Interval& a) {
 }
 
 Interval sqrt(const Interval& a) {
-  const Interval domain = clamped(a, 0.0, kUnbounded);
+  const Interval domain = within_range(a, 0.0, kUnbounded);
   return {std::max(0.0, down(std::sqrt(domain.lo))), up(std::sqrt(domain.hi))};
 }
 
@@ -80,7 +80,7 @@ Interval exp(const Interval& a) {
 }
 
 Interval log(const Interval& a) {
-  const Interval domain = clamped(a, 0.0, kUnbounded);
+  const Interval domain = within_range(a, 0.0, kUnbounded);
   return {domain.lo > 0.0 ? down(std::log(domain.lo), kLibrary) : -kUnbounded,
           domain.hi > 0.0 ? up(std::log(domain.hi), kLibrary) : -kLargest};
 }
@@ -113,12 +113,12 @@ Interval tan(const Interval& a) {
 }
 
 Interval asin(const Interval& a) {
-  const Interval domain = clamped(a, -1.0, 1.0);
+  const Interval domain = within_range(a, -1.0, 1.0);
   return monotone(std::asin(domain.lo), std::asin(domain.hi));
 }
 
 Interval acos(const Interval& a) {
-  const Interval domain = clamped(a, -1.0, 1.0);
+  const Interval domain = within_range(a, -1.0, 1.0);
   const Interval image = monotone(std::acos(domain.hi), std::acos(domain.lo));
   return {std::max(0.0, image.lo), image.hi};
 }
@@ -133,7 +133,9 @@ Interval cosh(const Interval& a) {
   return {std::max(1.0, image.lo), image.hi};
 }
 
-Interval tanh(const Interval& a) { return clamped(monotone(std::tanh(a.lo), std::tanh(a.hi)), -1.0, 1.0); }
+Interval tanh(const Interval& a) {
+  return within_range(monotone(std::tanh(a.lo), std::tanh(a.hi)), -1.0, 1.0);
+}
 
 Interval atan2(const Interval& y, const Interval& x) {
   const bool over_cut = x.lo <= 0.0 && y.lo <= 0.0 && y.hi >= 0.0;  // or over the origin
@@ -166,7 +168,7 @@ Interval integer_power(const Interval& a, double n) {
 }
 
 Interval power(const Interval& a, const Interval& b) {
-  const Interval base = clamped(a, 0.0, kUnbounded);
+  const Interval base = within_range(a, 0.0, kUnbounded);
   // Monotone in each of the two: the extremes are at the corners.
   const double p = std::pow(base.lo, b.lo), q = std::pow(base.lo, b.hi);
   const double r = std::pow(base.hi, b.lo), s = std::pow(base.hi, b.hi);

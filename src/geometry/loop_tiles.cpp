@@ -14,13 +14,14 @@ namespace {
 constexpr double kNarrow = 0.26;       // sine of the angle between a tile's normals and its axis: 15 degrees
 constexpr double kTameBend = 0.9;      // of the ball's own curvature
 constexpr double kFoldedBend = 1.001;  // the same, where the ball surely cannot touch
-constexpr double kNegligible = 1e-5;   // of the radius: how far two nearest places of a small tile may differ
-constexpr double kLeastWide = 1e-5;    // of the surface: tiles are not cut further
-constexpr int kMostTileDepth = 12;     // bisections
-constexpr int kMostBlindDepth = 8;     // where the surface is degenerate, so that nothing bounds how it bends
-constexpr int kApexRings = 4;          // by which the surface around an extraordinary vertex is judged
-constexpr int kMostApexLevels = 12;    // rings cut off one by one
-constexpr double kApexRoom = 1.5;      // curvatures around it grow, but slowly
+constexpr double kNegligibleGap =
+    1e-5;                            // of the radius: how far two nearest places of a small tile may differ
+constexpr double kLeastWide = 1e-5;  // of the surface: tiles are not cut further
+constexpr int kMostTileDepth = 12;   // bisections
+constexpr int kMostBlindDepth = 8;   // where the surface is degenerate, so that nothing bounds how it bends
+constexpr int kApexRings = 4;        // by which the surface around an extraordinary vertex is judged
+constexpr int kMostApexLevels = 12;  // rings cut off one by one
+constexpr double kApexRoom = 1.5;    // curvatures around it grow, but slowly
 constexpr double kTileRounding = 1e-14;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -348,7 +349,7 @@ class LoopTiles::Builder {
   bool small(const LoopTile& tile) const {
     if (tile.wide < kLeastWide * patches_.size()) return true;
     const double turn = tile.wide * std::max(tile.bend[0], tile.bend[1]);
-    return tile.spread <= kNarrow && tile.wide * turn * turn * curvature_ < kNegligible;
+    return tile.spread <= kNarrow && tile.wide * turn * turn * curvature_ < kNegligibleGap;
   }
 
   /// Does the side from corner `which` on lie on a rim or a crease?

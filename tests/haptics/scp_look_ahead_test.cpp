@@ -7,7 +7,7 @@
 namespace icome::haptics {
 namespace {
 
-constexpr double kRadius = 0.05;  // m
+constexpr double kBumpyRadius = 0.05;  // m
 
 /// A mesh that counts how often it was asked for what is near.
 class CountingShape final : public Shape {
@@ -44,18 +44,18 @@ struct Slides {
 };
 
 Slides slide(double speed, int ticks) {
-  const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(60, kRadius, 0.04, 9));
+  const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(60, kBumpyRadius, 0.04, 9));
   const auto ahead_shape = std::make_shared<CountingShape>(mesh);
   const auto plain_shape = std::make_shared<CountingShape>(mesh);
   Toucher ahead(HapticScene::compile({object(1, ahead_shape)}));
   Toucher plain(HapticScene::compile({object(1, plain_shape)}));
   Slides result;
   for (int i = 0; i < ticks; ++i) {
-    const double turn = speed * i / kRadius;
+    const double turn = speed * i / kBumpyRadius;
     const double polar = 1.5 + 0.3 * std::sin(0.23 * turn);
     const Vector3 out(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
     const double depth = std::min(0.002, 2e-5 * i - 0.003);  // m, once it has come down
-    const Vector3 tip = (kRadius - depth) * out;
+    const Vector3 tip = (kBumpyRadius - depth) * out;
     const int before = ahead_shape->gathers;
     const Vector3 one = ahead.step(tip).scp;
     result.gathered_in_steps += ahead_shape->gathers - before;
