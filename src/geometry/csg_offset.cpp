@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "geometry/csg_edges.h"
 #include "geometry/hilbert.h"
+#include "geometry/straight_way_out.h"
 
 namespace icome::geometry {
 namespace {
 
 using Kind = CsgAtom::Kind;
 
-constexpr double kMostTurn = 0.3;    // rad, of one walk round a tube
-constexpr double kInTouch = 1e-9;    // of the bounds: who overlaps by less is at the surface
-constexpr double kMarchShare = 0.2;  // of the radius: steps in which a way out is looked for
-constexpr int kMostMarch = 256;
-constexpr int kMostHalvings = 48;
-constexpr int kMostPushes = 8;  // from one piece to the next
+constexpr double kMostTurn = 0.3;  // rad, of one walk round a tube
+constexpr double kInTouch = 1e-9;  // of the bounds: who overlaps by less is at the surface
+constexpr int kMostPushes = 8;     // from one piece to the next
 
 /// Why the surface at a distance is not known in closed form; empty where it is.
 std::string reason_against(const CsgProgram& program, double radius) {
@@ -178,34 +175,8 @@ std::optional<SurfacePlace> CsgOffset::way_out(const Vector3& point, double time
     at = farthest->point + clear * farthest->normal;
     if (!inside(at, time)) return SurfacePlace{at, farthest->normal};
   }
-  return straight_out(point);
-}
-
-/// The nearest free place along some straight lines.
-std::optional<SurfacePlace> CsgOffset::straight_out(const Vector3& point) const {
-  std::optional<SurfacePlace> best;
-  const double stride = std::max(kMarchShare * radius(), bounds().sizes().norm() / kMostMarch);
-  // Where the direction runs along the surface, so much less of it leads away.
-  const double clear = 20.0 * kInTouch * bounds().sizes().maxCoeff();
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 27; ++i) {
-    const Vector3 towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (towards.isZero(0.0)) continue;
-    const Vector3 direction = towards.normalized();
-    double within = 0.0, free = stride;
-    while (free < least && inside(point + free * direction)) {
-      within = free;
-      free += stride;
-    }
-    if (free >= least) continue;
-    for (int j = 0; j < kMostHalvings; ++j) {
-      const double middle = 0.5 * (within + free);
-      (inside(point + middle * direction) ? within : free) = middle;
-    }
-    least = free;
-    best = SurfacePlace{point + (free + clear) * direction, direction};
-  }
-  return best;
+  return straight_way_out(point, bounds(), radius(), 20.0 * kInTouch * bounds().sizes().maxCoeff(),
+                          [&](const Vector3& centre) { return inside(centre, time); });
 }
 
 std::size_t CsgOffset::bytes() const {

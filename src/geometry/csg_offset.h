@@ -43,7 +43,6 @@ class CsgOffset final : public SmoothSurface {
   SurfacePlace on_tube(std::uint32_t piece, double s, const Vector3& normal) const;
   template <typename Visit>
   void overlapped(const Vector3& point, Visit&& visit) const;
-  std::optional<SurfacePlace> straight_out(const Vector3& point) const;
   bool overlaps(const Vector3& point) const;
 
   CsgFaces walls_;                    // the solid's own faces, by which its distance is told

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/implicit_walk.h"
+#include "geometry/straight_way_out.h"
 
 namespace icome::geometry {
 namespace {
@@ -19,9 +20,6 @@ constexpr double kMostRoundTurn = 0.3;  // rad, of one walk round an edge or a c
 constexpr double kSurfaceDepth = 1e-9;  // of the size: who overlaps by less is at the surface
 constexpr double kTouchShare = 0.1;     // of the slack: who is as near has arrived
 constexpr double kOffFoot = 1e-6;       // of a distance: how far beside its foot a place may be
-constexpr double kOutwardShare = 0.2;   // of the radius: steps in which a way out is looked for
-constexpr int kMostOutward = 256;
-constexpr int kOutwardHalvings = 40;
 constexpr int kMostAdvances = 64;
 constexpr int kMostPartPushes = 16;  // from one part to the next
 
@@ -271,33 +269,8 @@ std::optional<SurfacePlace> ImplicitOffset::way_out(const Vector3& point, double
     out = farthest->normal;
     at = farthest->point + clear * out;
   }
-  return straight_out(point, time);
-}
-
-/// The nearest free place along some straight lines.
-std::optional<SurfacePlace> ImplicitOffset::straight_out(const Vector3& point, double time) const {
-  std::optional<SurfacePlace> best;
-  const double stride = std::max(kOutwardShare * radius_, bounds().sizes().norm() / kMostOutward);
-  const double clear = 20.0 * in_touch();
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 27; ++i) {
-    const Vector3 towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (towards.isZero(0.0)) continue;
-    const Vector3 direction = towards.normalized();
-    double within = 0.0, free = stride;
-    while (free < least && inside(point + free * direction, time)) {
-      within = free;
-      free += stride;
-    }
-    if (free >= least) continue;
-    for (int j = 0; j < kOutwardHalvings; ++j) {
-      const double middle = 0.5 * (within + free);
-      (inside(point + middle * direction, time) ? within : free) = middle;
-    }
-    least = free;
-    best = SurfacePlace{point + (free + clear) * direction, direction};
-  }
-  return best;
+  return straight_way_out(point, bounds(), radius_, 20.0 * in_touch(),
+                          [&](const Vector3& centre) { return inside(centre, time); });
 }
 
 std::size_t ImplicitOffset::bytes() const {

@@ -51,7 +51,6 @@ class ImplicitOffset final : public SmoothSurface {
   std::uint32_t moved_to(std::uint32_t piece, const Vector3& place) const;
   template <typename Visit>
   void overlapped(const Vector3& point, double time, Visit&& visit) const;
-  std::optional<SurfacePlace> straight_out(const Vector3& point, double time) const;
   double in_touch() const;
 
   std::shared_ptr<const ImplicitSurface> walls_;  // by which it is told what is in the solid itself

@@ -8,19 +8,17 @@
 #include "geometry/loop_foot.h"
 #include "geometry/loop_sample.h"
 #include "geometry/loop_surface.h"
+#include "geometry/straight_way_out.h"
 
 namespace icome::geometry {
 namespace {
 
-constexpr double kMostRoll = 0.3;        // rad, of one walk round an edge or a fold
-constexpr int kMostRollHalvings = 6;     // of such a walk
-constexpr double kLeastRoom = 0.02;      // of the ball's curvature: less room than this is a fold
-constexpr double kAlongNormal = 1e-6;    // sine between normal and goal of a foot that is one
-constexpr double kOverlapNoise = 1e-9;   // of the bounds: who overlaps by less is at the surface
-constexpr int kMostPushesOut = 8;        // from one place to the next
-constexpr double kStraightStride = 0.2;  // of the radius: steps in which a way out is looked for
-constexpr int kMostStrides = 256;
-constexpr int kStraightHalvings = 40;
+constexpr double kMostRoll = 0.3;       // rad, of one walk round an edge or a fold
+constexpr int kMostRollHalvings = 6;    // of such a walk
+constexpr double kLeastRoom = 0.02;     // of the ball's curvature: less room than this is a fold
+constexpr double kAlongNormal = 1e-6;   // sine between normal and goal of a foot that is one
+constexpr double kOverlapNoise = 1e-9;  // of the bounds: who overlaps by less is at the surface
+constexpr int kMostPushesOut = 8;       // from one place to the next
 constexpr double kNeighbourTurn = 0.8;  // cosine between the axes of tiles that are one smooth sheet
 
 /// The part of a pull that leads round a ball from where its centre lies at `out`, no longer than a walk.
@@ -194,7 +192,8 @@ bool LoopOffset::inside(const Vector3& point, double /*time*/) const {
 std::optional<SurfacePlace> LoopOffset::way_out(const Vector3& point, double time) const {
   if (!inside(point, time)) return std::nullopt;
   if (const auto pushed = pushed_out(point)) return pushed;
-  return straight_out(point);
+  return straight_way_out(point, bounds(), radius_, 20.0 * kOverlapNoise * surface_->patches().size(),
+                          [&](const Vector3& centre) { return inside(centre, time); });
 }
 
 /// Out of the nearest place, again and again.
@@ -210,32 +209,6 @@ std::optional<SurfacePlace> LoopOffset::pushed_out(const Vector3& point) const {
     if (!inside(at)) return SurfacePlace{at, out};
   }
   return std::nullopt;
-}
-
-/// The nearest free place along some straight lines.
-std::optional<SurfacePlace> LoopOffset::straight_out(const Vector3& point) const {
-  std::optional<SurfacePlace> best;
-  const double stride = std::max(kStraightStride * radius_, bounds().sizes().norm() / double(kMostStrides));
-  const double clear = 20.0 * kOverlapNoise * surface_->patches().size();
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 27; ++i) {
-    const Vector3 towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (towards.isZero(0.0)) continue;
-    const Vector3 direction = towards.normalized();
-    double within = 0.0, free = stride;
-    while (free < least && inside(point + free * direction)) {
-      within = free;
-      free += stride;
-    }
-    if (free >= least) continue;
-    for (int j = 0; j < kStraightHalvings; ++j) {
-      const double middle = 0.5 * (within + free);
-      (inside(point + middle * direction) ? within : free) = middle;
-    }
-    least = free;
-    best = SurfacePlace{point + (free + clear) * direction, direction};
-  }
-  return best;
 }
 
 std::size_t LoopOffset::bytes() const { return sizeof(*this) + surface_->bytes() + tiles_.bytes(); }

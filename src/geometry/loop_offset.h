@@ -63,7 +63,6 @@ class LoopOffset final : public SmoothSurface {
   bool holds(const LoopSpot& spot, const Vector3& out, LoopSide side) const;
   std::optional<Contact> contact_towards(const LoopSpot& from, const Vector3& goal, LoopSide side) const;
   std::optional<SurfacePlace> pushed_out(const Vector3& point) const;
-  std::optional<SurfacePlace> straight_out(const Vector3& point) const;
 
   std::shared_ptr<const LoopSurface> surface_;
   LoopTiles tiles_;
