@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "geometry/smooth_surface.h"
@@ -19,7 +18,7 @@ std::optional<SurfacePlace> straight_way_out(const Vector3& centre, const Bounds
   constexpr int kMostHalvings = 48;
   const double stride = std::max(kStrideShare * radius, bounds.sizes().norm() / kMostStrides);
   std::optional<SurfacePlace> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = bounds.sizes().norm() + stride;  // no line leads farther within the bounds
   for (int i = 0; i < 27; ++i) {
     const Vector3 towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (towards.isZero(0.0)) continue;
