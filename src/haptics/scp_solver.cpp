@@ -237,7 +237,8 @@ void ScpSolver::surface_through(std::uint32_t object) {
                                                               scene_->time(object, elapsed_));
   if (!place) return;
   const Vector3 out = from_object.linear() * place->normal;
-  shove(from_object * place->point + out * gap_on(object, place->point), object);
+  const double above = settings_.tip_radius + gap_on(object, place->point);
+  shove(from_object * place->point + out * above, object);
 }
 
 // Seen from the object, the SCP moved from where it would be had it gone along to where it is.

@@ -140,6 +140,31 @@ TEST_P(FormulaTips, FeelWavesValleysAndRidges) {
 }
 
 // In a hollow of a radius of 3.7 mm a ball of 10 mm rests on two flanks.
+// The tip stands still, or gives way more slowly than the ground comes up.
+TEST_P(FormulaTips, AreLiftedByGroundThatRisesUnderThem) {
+  const double radius = GetParam();
+  const auto centres = ImplicitOffset::create("z - 0.02*t + 0.015", offset_box(), radius);
+  ASSERT_TRUE(centres) << centres.error().message;
+  HapticObject object;
+  object.id = {1, 0};
+  object.shape = std::make_shared<SmoothShape>(*centres, radius);
+  const auto scene = HapticScene::compile({object});
+  for (const double speed : {0.0, 0.005}) {
+    ScpSolver solver({.tip_radius = radius});
+    solver.adopt(*scene, {});
+    int touching = 0;
+    for (int tick = 0; tick < 2000; ++tick) {
+      const double time = 1e-3 * tick;
+      const Vector3 tip(0.01 + speed * time, 0.0, 0.002 + speed * time);
+      const ScpState& state = solver.step(tip, time);
+      const double lowest = 0.02 * time - 0.015 + radius;
+      ASSERT_NEAR(state.scp.z(), std::max(tip.z(), lowest), 1e-8) << tick;
+      touching += state.touching;
+    }
+    EXPECT_GT(touching, 200);
+  }
+}
+
 TEST(ScpOfFormulaTips, RestsOnTheFlanksOfAHollowThatIsNarrower) {
   expect_centre_at_distance("z - 0.003*sin(300*x)", 5e-3, 10, 170, 1e-8, [](const Vector3& p, double) {
     return distance_to_ground([](double x, double) { return 0.003 * std::sin(300.0 * x); }, p, 0.012);
