@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -203,7 +204,10 @@ void Session::park_hand() { parts_->hand_is_aimed = false; }
 
 std::optional<Session::Picked> Session::pick(const interaction::Ray& ray) const {
   const FeltVersion& felt = parts_->felt.read();
-  const auto thing = session::pick(*felt.scene, ray, session_seconds() - felt.scene->moment());
+  // Things are picked where they are seen: at the end of their glide.
+  const double elapsed =
+      std::max(session_seconds() - felt.scene->moment(), haptics::EffectFeed::kGlideSeconds);
+  const auto thing = session::pick(*felt.scene, ray, elapsed);
   if (!thing) return std::nullopt;
   const auto object = felt.names->object(thing->object);
   if (!object) return std::nullopt;

@@ -1,13 +1,11 @@
 // A session as the desktop, tools and studies drive it.
 #include "session/session.h"
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <new>
-#include <thread>
 
 #include "autosave_samples.h"
 #include "devices/simulated/simulated_navigation.h"
@@ -40,7 +38,6 @@ TEST(Session, ShowsAndFeelsWhatIsEdited) {
   ASSERT_TRUE(session->perform(world::PlaceObject{id, at(2.0, 0.0, 0.0)}, "Move box"));
   session->settle();
   EXPECT_EQ(session->drawn()->bounds().center(), Vector3(2.0, 0.0, 0.0));
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // it glides there for 20 ms
   EXPECT_FALSE(session->pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()}));
   ASSERT_TRUE(session->undo());
   session->settle();
