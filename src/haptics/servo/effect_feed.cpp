@@ -28,6 +28,12 @@ Reach reach_of(const PlacedEffect& placed, const Effect& effect) {
   return reach;
 }
 
+/// In its direction.
+Vector3 at_most(const Vector3& force, double newtons) {
+  const double length = force.norm();
+  return length > newtons ? Vector3(force * (newtons / length)) : force;
+}
+
 }  // namespace
 
 /// Null where the text makes no effect.
@@ -43,7 +49,7 @@ std::shared_ptr<EffectFeed::Felt> EffectFeed::felt_as(const PlacedEffect& placed
         Felt{std::move(*made),
              std::make_shared<Whereabouts>(Whereabouts{placed.world_from_effect, placed.world_from_effect})});
   (*made)->continue_from(*last->felt->effect);
-  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->whereabouts});
+  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->whereabouts, true});
 }
 
 void EffectFeed::publish(const std::vector<PlacedEffect>& effects) {
@@ -111,13 +117,34 @@ Vector3 EffectFeed::force(const EffectInput& input, double beside) {
     EffectInput own = seen_from(pose, carried, input);
     own.device_mass = mass_share(input.device_mass, it.needs, it.together + beside);
     const Vector3 force = pose.linear() * it.felt->effect->force(own);
-    if (force.allFinite()) sum += force;
+    if (force.allFinite()) sum += eased(*it.felt, force, own);
   }
   return sum;
 }
 
+/// What it asks for, and what is left of what it gave before its numbers or its piece of the device were
+/// changed. A constant push that fades adds no stiffness and no damping: what is stable stays so.
+Vector3 EffectFeed::eased(Felt& felt, const Vector3& asked, const EffectInput& own) const {
+  Whereabouts& is = *felt.whereabouts;
+  const double most = std::max(0.0, limits_.max_force);
+  const bool changed = std::exchange(felt.changed, false);
+  const bool other_share = std::exchange(is.share, own.device_mass) != own.device_mass;
+  // What is above all that the device has would take long to fade, and nobody would feel why.
+  if (is.felt && (changed || other_share)) is.still = at_most(is.gave, most) - at_most(asked, most);
+  const double fades = most * own.dt / kEaseSeconds;
+  const double left = is.still.norm();
+  is.still = left > fades ? Vector3(is.still * (1.0 - fades / left)) : Vector3(Vector3::Zero());
+  is.felt = true;
+  is.gave = is.still.isZero(0.0) ? asked : Vector3(at_most(asked, most) + is.still);
+  return is.gave;
+}
+
 void EffectFeed::reset() {
-  for (const Member& it : newest_.read().members) it.felt->effect->reset();
+  for (const Member& it : newest_.read().members) {
+    it.felt->effect->reset();
+    it.felt->whereabouts->felt = false;
+    it.felt->whereabouts->still.setZero();
+  }
 }
 
 }  // namespace icome::haptics
