@@ -32,7 +32,7 @@ constexpr int kAround = 48;          // pieces of a circle
 /// Draws in the frame of an effect.
 class Pen {
  public:
-  Pen(const base::Pose& world_from_effect, const Colour& colour, render::SceneOverlay& overlay)
+  Pen(const base::Affine3& world_from_effect, const Colour& colour, render::SceneOverlay& overlay)
       : world_from_effect_(world_from_effect), colour_(colour), overlay_(overlay) {}
 
   void line(std::vector<Vector3> points) {
@@ -64,7 +64,7 @@ class Pen {
   }
 
  private:
-  base::Pose world_from_effect_;
+  base::Affine3 world_from_effect_;  // a turn, or one of what is mirrored
   Colour colour_;
   render::SceneOverlay& overlay_;
 };
@@ -207,6 +207,12 @@ void draw_effect(const std::string& text, Pen& pen) {
   }
 }
 
+base::Affine3 place_of(const TurnPart& part) {
+  base::Affine3 place(part.world_from_turned.matrix());
+  if (part.mirrored) place.linear().col(0) *= -1.0;
+  return place;
+}
+
 const world::ForceEffect* effect_at(const World& world, ObjectId id) {
   const world::PhysicalObject* object = world.find(id);
   return object && object->fixture ? std::get_if<world::ForceEffect>(object->fixture.get()) : nullptr;
@@ -248,7 +254,7 @@ render::SceneOverlay EffectSymbols::overlay(const World& world, world::SceneId s
     const base::Affine3 place = world::world_from_object(world, id);
     if (!place.matrix().allFinite() || !stands_in(world, shown, id)) continue;
     const world::ForceEffect& effect = *effect_at(world, id);
-    Pen pen(rigid_part(place).world_from_felt, kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
+    Pen pen(place_of(turn_part(place)), kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
     draw_effect(effect.text, pen);
     ++drawn;
   }

@@ -80,6 +80,15 @@ TEST(EffectSymbols, AWellIsSeenAsFarAsItReachesWhereItsObjectStands) {
   EXPECT_LT((bounds.sizes() - Vector3::Constant(0.04)).norm(), 1e-9);
 }
 
+TEST(EffectSymbols, AMirrorShowsWhatItMirrors) {
+  base::Affine3 place = base::Affine3::Identity();
+  place.linear().diagonal() = Vector3(3, -3, 3);
+  const auto arrows = OneEffect("constant:0,2,1", place).overlay().arrows;
+  ASSERT_EQ(arrows.size(), 1U);
+  const Vector3 way = (arrows[0].to - arrows[0].from).normalized();
+  EXPECT_LT((way - Vector3(0, -2, 1).normalized()).norm(), 1e-9) << way.transpose();
+}
+
 TEST(EffectSymbols, FollowsEditsAndShowsWhatIsOffFaintly) {
   OneEffect effect("viscous:1");
   const double solid = effect.overlay().lines.front().colour.alpha;

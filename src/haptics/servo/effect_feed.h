@@ -17,12 +17,17 @@ struct PlacedEffect {
   std::string text;      // for make_effect(), which takes it
   base::Pose world_from_effect = base::Pose::Identity();
   Motion motion = {};
+  bool mirrored = false;  // its own x is turned round before its place turns it
 
   bool operator==(const PlacedEffect& other) const {
     return id == other.id && text == other.text &&
-           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion;
+           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion &&
+           mirrored == other.mirrored;
   }
 };
+
+/// Where it acts while it stays there, world frame.
+Reach reach_in_world(const PlacedEffect& placed, const Effect& effect);
 
 /// An effect that is felt softer than it was asked for.
 struct CappedEffect {
@@ -83,7 +88,7 @@ class EffectFeed {
     Vector3 gave = Vector3::Zero();   // N, in the last tick
     Vector3 still = Vector3::Zero();  // N, what is left of what it gave before it was changed
   };
-  /// An effect that versions with the same object and text share.
+  /// An effect that versions with the same object, text and mirror share.
   struct Felt {
     std::unique_ptr<Effect> effect;            // never null
     std::shared_ptr<Whereabouts> whereabouts;  // never null

@@ -73,7 +73,7 @@ TEST(EffectFeed, TheSameObjectKeepsWhatItsEffectKnows) {
 }
 
 // A tip on a curved way, and after half of it the effect's object is elsewhere and turned.
-double largest_step(const std::string& effect, bool moved) {
+double largest_step(const std::string& effect, bool moved, bool mirrored) {
   EffectFeed feed;
   EffectInput input;
   double largest = 0.0;
@@ -81,7 +81,7 @@ double largest_step(const std::string& effect, bool moved) {
   for (int tick = 0; tick < 400; ++tick) {
     const bool elsewhere = moved && tick >= 200;
     const std::string text = effect + (elsewhere ? "" : " ");  // the same, written otherwise
-    feed.publish({{1, text, elsewhere ? turned_at({0.03, -0.02, 0.01}) : Pose::Identity()}});
+    feed.publish({{1, text, elsewhere ? turned_at({0.03, -0.02, 0.01}) : Pose::Identity(), {}, mirrored}});
     feed.follow(1e-3);
     const double t = 0.001 * tick;
     input.position = 0.01 * Vector3(std::sin(5.0 * t), std::cos(3.0 * t), t);
@@ -95,8 +95,11 @@ double largest_step(const std::string& effect, bool moved) {
 
 TEST(EffectFeed, AnEffectWithoutAPlaceDoesNotKickWhenItsObjectIsMovedAndTurned) {
   for (const char* const effect : {"friction:0.5,0.4", "inertia:0.5", "viscous:2"}) {
-    EXPECT_NEAR(largest_step(effect, true), largest_step(effect, false), 1e-9) << effect;
-    EXPECT_GT(largest_step(effect, false), 1e-4) << effect;
+    for (const bool mirrored : {false, true}) {
+      const double unmoved = largest_step(effect, false, mirrored);
+      EXPECT_NEAR(largest_step(effect, true, mirrored), unmoved, 1e-9) << effect << " " << mirrored;
+      EXPECT_GT(unmoved, 1e-4) << effect;
+    }
   }
 }
 
