@@ -346,8 +346,7 @@ std::vector<haptics::Reach> reaches_of(const std::vector<TouchModel>& models) {
   std::vector<haptics::Reach> reaches;
   for (const TouchModel& model : models) {
     for (const haptics::PlacedEffect& effect : model.effects) {
-      const haptics::Reach own = haptics::make_effect(effect.text).value()->reach();
-      reaches.push_back(transformed(effect.world_from_effect, own));
+      reaches.push_back(reach_in_world(effect, *haptics::make_effect(effect.text).value()));
     }
   }
   return reaches;

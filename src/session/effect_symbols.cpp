@@ -32,7 +32,7 @@ constexpr int kAround = 48;          // pieces of a circle
 /// Draws in the frame of an effect.
 class Pen {
  public:
-  Pen(const base::Pose& world_from_effect, const Colour& colour, render::SceneOverlay& overlay)
+  Pen(const base::Affine3& world_from_effect, const Colour& colour, render::SceneOverlay& overlay)
       : world_from_effect_(world_from_effect), colour_(colour), overlay_(overlay) {}
 
   void line(std::vector<Vector3> points) {
@@ -64,7 +64,7 @@ class Pen {
   }
 
  private:
-  base::Pose world_from_effect_;
+  base::Affine3 world_from_effect_;  // a turn, or one of what is mirrored
   Colour colour_;
   render::SceneOverlay& overlay_;
 };
@@ -207,9 +207,53 @@ void draw_effect(const std::string& text, Pen& pen) {
   }
 }
 
+base::Affine3 place_of(const TurnPart& part) {
+  base::Affine3 place(part.world_from_turned.matrix());
+  if (part.mirrored) place.linear().col(0) *= -1.0;
+  return place;
+}
+
 const world::ForceEffect* effect_at(const World& world, ObjectId id) {
   const world::PhysicalObject* object = world.find(id);
   return object && object->fixture ? std::get_if<world::ForceEffect>(object->fixture.get()) : nullptr;
+}
+
+void draw_symbol(const World& world, ObjectId id, render::SceneOverlay& overlay) {
+  const world::ForceEffect& effect = *effect_at(world, id);
+  Pen pen(place_of(turn_part(world::world_from_object(world, id))),
+          kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
+  draw_effect(effect.text, pen);
+}
+
+/// What a symbol is drawn of: straight pieces with a radius.
+template <typename Visit>
+void for_each_stroke(const render::SceneOverlay& symbol, Visit&& visit) {
+  for (const auto& line : symbol.lines)
+    for (std::size_t i = 1; i < line.points.size(); ++i) visit(line.points[i - 1], line.points[i], 0.0);
+  for (const auto& arrow : symbol.arrows) visit(arrow.from, arrow.to, arrow.radius);
+  for (const auto& ball : symbol.balls) visit(ball.centre, ball.centre, ball.radius);
+}
+
+/// Where a ray passes a piece of a symbol.
+struct Passed {
+  interaction::PickedPoint place;
+  double off = 0.0;  // rad, small: how far beside it
+};
+
+/// Nothing where the piece is behind the ray's origin.
+std::optional<Passed> passed(const interaction::Ray& ray, const Vector3& from, const Vector3& to,
+                             double radius) {
+  const auto across = [&](const Vector3& way) -> Vector3 {
+    return way - way.dot(ray.direction) * ray.direction;
+  };
+  const Vector3 off = across(from - ray.origin), along = across(to - from);
+  const double squared = along.squaredNorm();
+  const double share = squared > 0.0 ? std::clamp(-off.dot(along) / squared, 0.0, 1.0) : 0.0;
+  const Vector3 place = from + share * (to - from);
+  const double depth = (place - ray.origin).dot(ray.direction);
+  if (!(depth > 0.0)) return std::nullopt;
+  const double distance = std::max(0.0, (off + share * along).norm() - radius);
+  return Passed{{place, -ray.direction, depth}, distance / depth};
 }
 
 bool stands_in(const World& world, world::SceneId scene, ObjectId id) {
@@ -240,19 +284,38 @@ void EffectSymbols::follow(const World& world, const world::Changes* changes) {
   for (const ObjectId id : changes->objects) note(world, id);
 }
 
+/// Those that have a symbol.
+std::vector<ObjectId> EffectSymbols::seen(const World& world, world::SceneId shown) const {
+  std::vector<ObjectId> ids;
+  for (const ObjectId id : effects_) {
+    if (ids.size() == kMostSymbols) break;
+    if (world::world_from_object(world, id).matrix().allFinite() && stands_in(world, shown, id))
+      ids.push_back(id);
+  }
+  return ids;
+}
+
 render::SceneOverlay EffectSymbols::overlay(const World& world, world::SceneId shown) const {
   render::SceneOverlay overlay;
-  std::size_t drawn = 0;
-  for (const ObjectId id : effects_) {
-    if (drawn == kMostSymbols) break;
-    const base::Affine3 place = world::world_from_object(world, id);
-    if (!place.matrix().allFinite() || !stands_in(world, shown, id)) continue;
-    const world::ForceEffect& effect = *effect_at(world, id);
-    Pen pen(rigid_part(place).world_from_felt, kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
-    draw_effect(effect.text, pen);
-    ++drawn;
-  }
+  for (const ObjectId id : seen(world, shown)) draw_symbol(world, id, overlay);
   return overlay;
+}
+
+std::optional<EffectSymbols::Picked> EffectSymbols::pick(const World& world, world::SceneId shown,
+                                                         const interaction::Ray& ray, double slack) const {
+  std::optional<Picked> best;
+  double least = slack;
+  for (const ObjectId id : seen(world, shown)) {
+    render::SceneOverlay symbol;
+    draw_symbol(world, id, symbol);
+    for_each_stroke(symbol, [&](const Vector3& from, const Vector3& to, double radius) {
+      const auto place = passed(ray, from, to, radius);
+      if (!place || !(place->off <= slack) || (best && place->off >= least)) return;
+      least = place->off;
+      best = Picked{id, place->place};
+    });
+  }
+  return best;
 }
 
 base::Bounds EffectSymbols::bounds(const World& world, world::SceneId shown) const {

@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "interaction/mouse_hand.h"
 #include "render/scene_renderer.h"
 #include "world/changes.h"
 #include "world/world.h"
@@ -21,10 +23,20 @@ class EffectSymbols {
   /// Around them, world frame.
   base::Bounds bounds(const world::World& world, world::SceneId shown) const;
 
+  struct Picked {
+    world::ObjectId object;
+    interaction::PickedPoint place;  // world frame, towards the ray's origin
+  };
+  /// The symbol, of those that overlay() gives, whose lines the ray passes nearest, within `slack` (rad);
+  /// nothing where there is none.
+  std::optional<Picked> pick(const world::World& world, world::SceneId shown, const interaction::Ray& ray,
+                             double slack) const;
+
   bool empty() const { return effects_.empty(); }
 
  private:
   void note(const world::World& world, world::ObjectId id);
+  std::vector<world::ObjectId> seen(const world::World& world, world::SceneId shown) const;
 
   std::vector<world::ObjectId> effects_;  // sorted
 };

@@ -441,7 +441,11 @@ void HapticRepresentation::list_effects() {
     const auto& effect = std::get<world::ForceEffect>(*member.effect);
     if (!effect.on || !placeable(member) || !haptics::make_effect(effect.text)) continue;
     if (effects_.size() == kMostEffects) break;
-    effects_.push_back({id.value, effect.text, rigid_part(member.world_from_object).world_from_felt});
+    const TurnPart place = turn_part(member.world_from_object);
+    effects_.push_back({.id = id.value,
+                        .text = effect.text,
+                        .world_from_effect = place.world_from_turned,
+                        .mirrored = place.mirrored});
   }
 }
 

@@ -49,4 +49,18 @@ RigidPart rigid_part(const base::Affine3& world_from_shape) {
   return part;
 }
 
+TurnPart turn_part(const base::Affine3& world_from_object) {
+  TurnPart part;
+  part.world_from_turned.translation() = world_from_object.translation();
+  Matrix3 turn = world_from_object.linear();
+  if (!is_turn(turn)) {
+    const base::SingularValues parts = base::singular_values(turn);
+    turn = parts.u * parts.v.transpose();
+  }
+  part.mirrored = turn.determinant() < 0.0;
+  if (part.mirrored) turn.col(0) *= -1.0;
+  part.world_from_turned.linear() = turn;
+  return part;
+}
+
 }  // namespace icome::session

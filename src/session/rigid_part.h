@@ -17,4 +17,14 @@ struct RigidPart {
 /// to 2^-40 of its largest entry), so that clones share what is felt. A diagonal stretch stays diagonal.
 RigidPart rigid_part(const base::Affine3& world_from_shape);
 
+/// How a place turns what has a size of its own, such as an effect: without its stretch.
+struct TurnPart {
+  base::Pose world_from_turned = base::Pose::Identity();
+  bool mirrored = false;  // what is in the place has its own x turned round first
+};
+
+/// The turn and the mirror nearest to a place, of finite numbers: its orthogonal polar factor, so that places
+/// that are nearly equal turn nearly alike.
+TurnPart turn_part(const base::Affine3& world_from_object);
+
 }  // namespace icome::session

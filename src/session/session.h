@@ -241,6 +241,8 @@ class Session {
     interaction::PickedPoint place;
   };
   std::optional<Picked> pick(const interaction::Ray& ray) const;
+  /// The same of what can be seen: the symbols of effects, too, where the ray passes one by a few pixels.
+  std::optional<Picked> pick_seen(const interaction::Ray& ray) const;
   ServoHealth servo() const;
   /// Force over time of the first pointer since the last call, oldest first, some 200 a second.
   std::vector<ForceSample> take_forces();

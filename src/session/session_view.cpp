@@ -16,6 +16,7 @@ constexpr render::Colour kHandleColour{0.10, 0.35, 0.80};
 constexpr render::Colour kHandleLineColour{0.30, 0.40, 0.60, 0.7};
 constexpr render::Colour kMarkedHandleColour{1.0, 0.55, 0.10};
 constexpr std::size_t kMostHandledObjects = 32;
+constexpr double kSymbolSlack = 0.01;  // of the field of view: some 6 pixels of 600
 
 /// Bit by bit: places that are not finite equal themselves.
 bool same_bits(const std::vector<base::Vector3>& one, const std::vector<base::Vector3>& other) {
@@ -212,6 +213,14 @@ std::optional<Session::Picked> Session::pick(const interaction::Ray& ray) const 
   const auto object = felt.names->object(thing->object);
   if (!object) return std::nullopt;
   return Picked{*object, thing->place};
+}
+
+std::optional<Session::Picked> Session::pick_seen(const interaction::Ray& ray) const {
+  auto surface = pick(ray);
+  const auto symbol =
+      parts_->effects.pick(parts_->world, parts_->shown_scene, ray, kSymbolSlack * view().field);
+  if (!symbol || (surface && surface->place.distance <= symbol->place.distance)) return surface;
+  return Picked{symbol->object, symbol->place};
 }
 
 std::vector<ForceSample> Session::take_forces() { return parts_->hands.take_forces(); }

@@ -215,7 +215,7 @@ void MainWindow::show_count() {
 
 void MainWindow::show_scene_menu(QPointF at) {
   const SceneInput input{.at = at, .size = scene_->size()};
-  if (const auto picked = session_.pick(input.ray(session_.view()))) {
+  if (const auto picked = session_.pick_seen(input.ray(session_.view()))) {
     const auto& selected = session_.selection();
     if (std::find(selected.begin(), selected.end(), picked->object) == selected.end())
       session_.select({picked->object});

@@ -14,7 +14,7 @@ using world::ObjectId;
 
 void MoveTool::press(const SceneInput& input) {
   finish();
-  press_ = Press{input, session_.pick(input.ray(session_.view()))};
+  press_ = Press{input, session_.pick_seen(input.ray(session_.view()))};
 }
 
 void MoveTool::follow(const SceneInput& input) {

@@ -91,7 +91,7 @@ void SceneTools::double_click(const SceneInput& input) {
     return;
   }
   finish();
-  if (const auto picked = session_.pick(input.ray(session_.view())))
+  if (const auto picked = session_.pick_seen(input.ray(session_.view())))
     zoom_to(session_, picked->object, input.aspect());
 }
 
@@ -228,7 +228,7 @@ void SceneTools::look_for_hovered() {
   if (!mouse_ || view_drag_.active() || busy()) return;
   if (tool_ == Tool::Touch) {
     if (session_.pointers() > 0) hovered_ = session_.touched(0);
-  } else if (const auto picked = session_.pick(mouse_->ray(session_.view()))) {
+  } else if (const auto picked = session_.pick_seen(mouse_->ray(session_.view()))) {
     hovered_ = picked->object;
   }
 }

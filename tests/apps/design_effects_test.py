@@ -95,6 +95,17 @@ class DesignEffectsTest(ProgramTest):
         self.assertIn("stiffness 5000 N/m is felt as 3333.33 N/m", report["capped"][0])
         self.assertIn("stiffness 50000 N/m is felt as 6666.67 N/m", report["capped"][1])
 
+    def test_effects_of_a_file_that_make_no_sense_are_each_told_and_the_others_are_felt(self):
+        wrong = {"magnet:1": 'no effect "magnet"', "well:0,0,0,0,1": "RADIUS", "curve:0,0,0": "it has one point",
+                 "constant:nan,0,0": '"nan"', "viscous:-2": "DAMPING"}
+        nodes = [{"extras": {"icome": {"effect": {"text": text}}}} for text in (*wrong, "constant:0,0.5,0")]
+        design = self.write("wrong.gltf", json.dumps({"asset": {"version": "2.0"}, "scene": 0, "nodes": nodes,
+                                                      "scenes": [{"nodes": list(range(len(nodes)))}]}))
+        self.assertLess(distance(self.force_at(design), (0.0, 0.5, 0.0)), 1e-9)
+        told = self.succeeds("touch", design, "--path", self.path_file([TIP] * 10)).stdout
+        for number, why in enumerate(wrong.values(), 1):
+            self.assertRegex(told, f"Object {number} is an effect that is not felt: .*{why}")
+
     def test_what_makes_no_sense_is_told(self):
         for operation, saying in [({**WIND, "force": "wel:1"}, "did you mean 'well'"),
                                   ({**WIND, "force": "viscous:x"}, "number 1"),

@@ -208,6 +208,24 @@ class EffectsTest(ProgramTest):
         self.assertGreater(max(abs(row["force_x"]) for row in across), 0.1)
         self.assertLess(max(abs(row["force_x"]) for row in along), 1e-9)
 
+    def test_combinations_give_a_force_that_the_device_can_give(self):
+        well, recess = "well:0.05,0.02,0.03,0.02,1.5", "recess:0.05,0.02,0.03,0,0,1,0.0005,0.01,1"
+        push = self.path_file([START] * RAMPED + line(START, (0.052, 0.02, 0.03), 100))
+        ridged = ["box:0.2x0.2x0.06", "--texture", "ridges:0.0005,0.002", "--motion", "0:0.01*sin(3*t),0,0"]
+        for model, effects in (([FAR], [well, recess]), (ridged, [well, recess]), (ridged, ["viscous:2", well]),
+                               ([FAR], ["inertia:5", "point:0.05,0.02,0.03,1e6", "viscous:1000"]),
+                               ([FAR], ["friction:0.5,0.4", "viscous:5", "inertia:0.5"]),
+                               ([FAR], ["point:1e6,0,0,1e6"]), ([FAR], ["curve:0,0,0;0,0,0", well]),
+                               ([FAR], ["constant:1000,0,0", "constant:-1000,0,0", "viscous:2"]),
+                               ([FAR], ["field:1/(x-0.05),0,0", "constant:0.1,0,0"]),
+                               ([FAR], ["point:0.05,0.02,0.03"] * 1000)):
+            options = [option for text in effects for option in ("--effect", text)]
+            rows = self.trace(*model, "--device", "omega.x", "--path", push, *options)
+            lengths = [length(point(row, "force")) for row in rows]
+            self.assertTrue(all(math.isfinite(it) for it in lengths), effects[:3])
+            self.assertLessEqual(max(lengths), 12.0, effects[:3])  # an omega.x's peak
+            self.assertGreater(max(lengths), 0.01, effects[:3])
+
     def test_the_help_lists_every_effect_and_its_examples_work(self):
         text = self.succeeds("touch", "--help").stdout
         examples = [row.split("such as ")[1] for row in text.splitlines() if "      such as " in row]
@@ -224,6 +242,15 @@ class EffectsTest(ProgramTest):
                                ("viscous:-1", "number 1 (DAMPING) is -1"),
                                ("viscous:nan", "number 1 (DAMPING N s/m) is \"nan\""),
                                ("viscous:1,2", "not 2"),
+                               ("viscous", "number 1 (DAMPING) is missing"),
+                               ("", "no effect \"\""),
+                               ("magnet:1", "no effect \"magnet\""),
+                               ("constant:inf,0,0", "number 1 (FX N) is \"inf\""),
+                               ("point:1e400,0,0", "number 1 (X m) is \"1e400\""),
+                               ("well:0,0,0,0,1", "number 4 (RADIUS) is 0"),
+                               ("well:0,0,0,0.01,-1", "number 5 (FORCE) is -1"),
+                               ("recess:0,0,0,0,0,1,0.01,0.01,1", "RIM"),
+                               ("field:1/0,0,0", "formula 1"),
                                ("line:0,0,0,0,0,0", "numbers 4 to 6"),
                                ("friction:0.3,0.4", "STATIC"),
                                ("recess:0,0,0,0,0,1,0.02,0.01,1", "RIM"),

@@ -131,6 +131,24 @@ TEST(GravityWell, ForceAndItsSlopeAreContinuousAtTheRim) {
   EXPECT_LT(inside / 1e-6, 0.1);  // N/m, of a spring with 100 at its centre
 }
 
+// What pays for the limiter's 2 ms: K 2 ms of damping, as much as the pull is left of it.
+TEST(GravityWell, DampsInAllDirectionsAndLessTowardsItsRim) {
+  GravityWell well(Vector3(0, 0, 0.1), 0.02, 100.0);
+  expect_force(well, tip_at(Vector3(0, 0, 0.1), Vector3(0.1, 0, -0.2)), Vector3(-0.02, 0, 0.04));
+  // Half way to the rim (3/4)^2 of it.
+  expect_force(well, tip_at(Vector3(0, 0, 0.11), Vector3(0.1, 0, 0)), Vector3(-0.01125, 0, -0.5625));
+}
+
+TEST(Recess, DampsOnItsSlopeAcrossItsAxis) {
+  Recess recess({});  // 1 N from 8 to 12 mm: a slope of at most 785.4 N/m
+  const double damping = std::numbers::pi / 0.004 * 0.002;
+  expect_force(recess, tip_at(Vector3(0.010, 0, 0), Vector3(0, 0.1, 0.5)), Vector3(-1.0, -0.1 * damping, 0));
+  // A quarter up: sin(45) of the slope, sin^2(45) of the peak.
+  expect_force(recess, tip_at(Vector3(0.009, 0, 0), Vector3(0, 0.1, 0.5)),
+               Vector3(-0.5, -0.1 * damping * std::sqrt(0.5), 0));
+  expect_force(recess, tip_at(Vector3(0.004, 0, 0), Vector3(0, 0.1, 0.5)), Vector3::Zero());
+}
+
 TEST(Recess, FloorAndOutsideAreFreeAndTheSlopePushesInwards) {
   const RecessSettings settings{.centre = Vector3(0.1, 0, 0),
                                 .axis = Vector3(0, 0, 3),
@@ -190,6 +208,13 @@ TEST(FrictionEffect, SticksUpToStaticThenSlidesAgainstDynamicForce) {
   EXPECT_NEAR(peak, 0.5, 0.02);
   EXPECT_LE(peak, 0.5 + kEffectTolerance);
   EXPECT_NEAR(forces.back(), 0.3, 1e-9);
+}
+
+TEST(FrictionEffect, DampsATipThatSticksByNoMoreThanItHolds) {
+  FrictionEffect friction({.static_force = 0.5, .dynamic_force = 0.3, .stiffness = 1000.0});
+  // sqrt(K m) of 1000 N/m and 100 g: 10 N s/m.
+  expect_force(friction, tip_at(Vector3::Zero(), Vector3(0.01, 0, 0)), Vector3(-0.1, 0, 0));
+  expect_force(friction, tip_at(Vector3::Zero(), Vector3(0, 1.0, 0)), Vector3(0, -0.5, 0));
 }
 
 TEST(FrictionEffect, HoldsAStillTipWithoutDrift) {
@@ -271,6 +296,18 @@ TEST(Inertia, TheTipFeelsAsHeavyAsItSays) {
       const double speed = speed_after_push(inertia, 1.0, 0.1, 2.0, encoder);
       // a = F/(m + M); the low-pass lets the first moments pass lighter.
       EXPECT_NEAR(speed, 2.0 / (0.1 + felt), 0.1 * 2.0 / (0.1 + felt)) << felt << " " << encoder;
+    }
+  }
+}
+
+TEST(Inertia, AnswersAStepOfAccelerationAsItsCornerSays) {
+  for (const double corner : {20.0, 80.0}) {
+    Inertia inertia(0.01, corner);
+    inertia.force(tip_at(Vector3::Zero()));
+    for (int tick = 1; tick <= 20; ++tick) {
+      const double answered = 1.0 - std::exp(-2.0 * std::numbers::pi * corner * 1e-3 * tick);
+      const double force = inertia.force(tip_at(Vector3::Zero(), Vector3(0, 2e-3 * tick, 0))).y();
+      EXPECT_NEAR(force, -0.01 * 2.0 * answered, 1e-12) << corner << " " << tick;
     }
   }
 }

@@ -26,8 +26,10 @@ class OneEffect {
   }
 
   world::World& world() { return world_; }
+  const world::World& world() const { return world_; }
   world::ObjectId id() const { return id_; }
   EffectSymbols& symbols() { return symbols_; }
+  const EffectSymbols& symbols() const { return symbols_; }
   render::SceneOverlay overlay() const { return symbols_.overlay(world_, {}); }
   base::Bounds bounds() const { return symbols_.bounds(world_, {}); }
 
@@ -78,6 +80,31 @@ TEST(EffectSymbols, AWellIsSeenAsFarAsItReachesWhereItsObjectStands) {
   const base::Bounds bounds = bounds_of(OneEffect("well:0,0,0.05,0.02,1.5", place).overlay());
   EXPECT_LT((bounds.center() - Vector3(0.3, 0.2, 0.15)).norm(), 1e-9);
   EXPECT_LT((bounds.sizes() - Vector3::Constant(0.04)).norm(), 1e-9);
+}
+
+TEST(EffectSymbols, AMirrorShowsWhatItMirrors) {
+  base::Affine3 place = base::Affine3::Identity();
+  place.linear().diagonal() = Vector3(3, -3, 3);
+  const auto arrows = OneEffect("constant:0,2,1", place).overlay().arrows;
+  ASSERT_EQ(arrows.size(), 1U);
+  const Vector3 way = (arrows[0].to - arrows[0].from).normalized();
+  EXPECT_LT((way - Vector3(0, -2, 1).normalized()).norm(), 1e-9) << way.transpose();
+}
+
+TEST(EffectSymbols, ARayPicksTheLinesThatItPassesAndNotWhatLiesBetweenThem) {
+  const OneEffect well("well:0,0,0,0.1,1", world::at(1.0, 0.0, 0.0));
+  const auto picked = [&](double x, double y, double slack) {
+    return well.symbols().pick(well.world(), {}, {Vector3(x, y, 2.0), -Vector3::UnitZ()}, slack);
+  };
+  const auto rim = picked(1.1005, 0.0, 1e-3);
+  ASSERT_TRUE(rim);
+  EXPECT_EQ(rim->object, well.id());
+  EXPECT_LT((rim->place.point - Vector3(1.1, 0.0, 0.0)).norm(), 1e-9) << rim->place.point.transpose();
+  EXPECT_NEAR(rim->place.distance, 2.0, 1e-9);
+  EXPECT_FALSE(picked(1.1005, 0.0, 2e-4)) << "0.5 mm off at 2 m";
+  EXPECT_FALSE(picked(1.04, 0.03, 1e-3)) << "between its circles";
+  EXPECT_FALSE(well.symbols().pick(well.world(), {}, {Vector3(1.1, 0.0, -2.0), -Vector3::UnitZ()}, 1e-3))
+      << "behind the eye";
 }
 
 TEST(EffectSymbols, FollowsEditsAndShowsWhatIsOffFaintly) {

@@ -2,8 +2,10 @@
 
 #include <numeric>
 
+#include "haptics/effects/effect_text.h"
 #include "haptics/mesh_shape.h"
 #include "haptics/renderer.h"
+#include "haptics/servo/effect_feed.h"
 #include "world/random_edits.h"
 
 namespace icome::session {
@@ -350,6 +352,65 @@ TEST(HapticRepresentation, HasTheEffectsOfItsObjectsWhereTheyAre) {
   EXPECT_EQ(felt.effects().size(), 1U);
   edit(world, felt, delete_subtree(world, group));
   EXPECT_TRUE(felt.effects().empty());
+}
+
+/// The orthogonal matrix nearest to this one, by Higham's iteration.
+base::Matrix3 nearest_turn(base::Matrix3 matrix) {
+  for (int i = 0; i < 100; ++i) matrix = 0.5 * (matrix + matrix.inverse().transpose()).eval();
+  return matrix;
+}
+
+Affine3 random_stretch(base::Random& random, int i) {
+  Affine3 place = Affine3::Identity();
+  if (i % 3 > 0) place.rotate(Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()));
+  Vector3 scale(random.uniform(0.3, 3.0), random.uniform(0.3, 3.0), random.uniform(0.3, 3.0));
+  if (i % 2 == 0) scale = Vector3::Constant(scale.x());
+  for (int axis = 0; axis < 3; ++axis)
+    if (random.uniform(0.0, 1.0) < 0.4) scale[axis] = -scale[axis];
+  place.scale(scale);
+  place.translation() = 0.05 * random.direction();
+  return place;
+}
+
+// A group that is stretched, turned and mirrored, and in it an effect that is turned and mirrored: it keeps
+// its numbers, and turns and mirrors as the nearest orthogonal matrix does.
+TEST(HapticRepresentation, EffectsBelowStretchedAndMirroredGroupsKeepTheirNumbers) {
+  base::Random random(17);
+  int mirrored = 0;
+  for (int i = 0; i < 60; ++i) {
+    World world;
+    IdSource ids;
+    const Affine3 outer = random_stretch(random, i), inner = random_stretch(random, i / 3);
+    const auto group = add_object(world, ids, "group", nullptr, {}, outer);
+    const auto model = add_object(world, ids, "effect", nullptr, group, inner);
+    const std::string texts[] = {"point:0.01,0.02,-0.01,100,0", "line:0.01,0,0,1,2,3,100,0",
+                                 "constant:0.1,0.2,0.3", "recess:0.01,0,0,1,0.2,0,0.001,0.3,1",
+                                 "field:x,0,10*y*z"};
+    const std::string& text = texts[i % 5];
+    applied(world,
+            world::ChangeFixture{model, std::make_shared<const world::Fixture>(world::ForceEffect{text})});
+    HapticRepresentation felt;
+    felt.show(world);
+    ASSERT_EQ(felt.effects().size(), 1U);
+    haptics::EffectFeed feed;
+    feed.publish(felt.effects());
+    feed.follow(1e-3);
+    const Affine3 place = outer * inner;
+    const base::Matrix3 turn = nearest_turn(place.linear());
+    if (turn.determinant() < 0.0) ++mirrored;
+    const auto alone = haptics::make_effect(text).value();
+    for (int k = 0; k < 20; ++k) {
+      haptics::EffectInput input;
+      input.position = input.scp = place.translation() + random.uniform(0.0, 0.1) * random.direction();
+      input.velocity = 0.1 * random.direction();
+      haptics::EffectInput own = input;
+      own.position = own.scp = turn.transpose() * (input.position - place.translation());
+      own.velocity = turn.transpose() * input.velocity;
+      const Vector3 expected = turn * alone->force(own);
+      EXPECT_LT((feed.force(input, 0.0) - expected).norm(), 1e-9) << text << "\n" << place.matrix();
+    }
+  }
+  EXPECT_GT(mirrored, 10);
 }
 
 TEST(HapticRepresentation, LeavesOutEffectsThatCannotBePlacedOrAreTooMany) {

@@ -120,6 +120,25 @@ TEST_F(SceneToolsTest, ADragMovesWithTheMouseAndIsOneAction) {
   EXPECT_EQ(refused_, "");
 }
 
+TEST_F(SceneToolsTest, TheSymbolOfAnEffectIsSelectedAndDraggedAndTheDragUndone) {
+  const auto well = session().ids().next<ObjectId>();
+  world::PhysicalObject object{.name = "well"};
+  object.fixture = std::make_shared<const world::Fixture>(world::ForceEffect{"well:0,0,0,0.05,1"});
+  perform(world::CreateObject{well, 0, object});
+  settle();
+  const QPointF rim = pixel(Vector3(0.0, 0.05, 0.0));
+  click(rim);
+  EXPECT_EQ(session().selection(), std::vector{well});
+  click(QPointF(400.0, 10.0));
+  EXPECT_TRUE(session().selection().empty());
+  drag(rim, pixel(Vector3(0.0, 0.25, 0.0)));
+  EXPECT_LT((at(well) - Vector3(0.0, 0.2, 0.0)).norm(), 1e-3) << at(well).transpose();
+  EXPECT_EQ(session().history().undo_name(), "Move well");
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(at(well), Vector3(Vector3::Zero()));
+  EXPECT_EQ(refused_, "");
+}
+
 TEST_F(SceneToolsTest, ADragOfOneMovesAllThatIsSelected) {
   session().select({left_, right_});
   drag(face(left_), pixel(Vector3(-0.4, 0.0, 0.1)));

@@ -9,41 +9,67 @@
 namespace icome::haptics {
 namespace {
 
+/// From one side of its mirror to the other, where it has one.
+Vector3 across(bool mirrored, const Vector3& vector) {
+  return mirrored ? Vector3(-vector.x(), vector.y(), vector.z()) : vector;
+}
+
+base::Pose across(bool mirrored, base::Pose pose) {
+  if (!mirrored) return pose;
+  pose.matrix().row(0) *= -1.0;
+  pose.matrix().col(0) *= -1.0;
+  return pose;
+}
+
 /// From a frame that is there, and moves with `velocity` (m/s, world) where the tip is.
-EffectInput seen_from(const base::Pose& world_from_effect, const Vector3& velocity,
+EffectInput seen_from(const base::Pose& world_from_effect, bool mirrored, const Vector3& velocity,
                       const EffectInput& world) {
   const base::Pose effect_from_world = world_from_effect.inverse();
   EffectInput input = world;
-  input.position = effect_from_world * world.position;
-  input.velocity = effect_from_world.linear() * (world.velocity - velocity);
-  input.scp = effect_from_world * world.scp;
+  input.position = across(mirrored, Vector3(effect_from_world * world.position));
+  input.velocity = across(mirrored, Vector3(effect_from_world.linear() * (world.velocity - velocity)));
+  input.scp = across(mirrored, Vector3(effect_from_world * world.scp));
   return input;
 }
 
 /// Where it can act before the next version.
 Reach reach_of(const PlacedEffect& placed, const Effect& effect) {
-  Reach reach = transformed(placed.world_from_effect, effect.reach());
+  Reach reach = reach_in_world(placed, effect);
   const Vector3 velocity = velocity_at(placed.world_from_effect, placed.motion, 0.0, reach.centre);
   reach.radius += Motion::kHorizon * velocity.norm();
   return reach;
 }
 
+/// In its direction.
+Vector3 at_most(const Vector3& force, double newtons) {
+  const double length = force.norm();
+  return length > newtons ? Vector3(force * (newtons / length)) : force;
+}
+
 }  // namespace
+
+Reach reach_in_world(const PlacedEffect& placed, const Effect& effect) {
+  Reach reach = effect.reach();
+  reach.centre = across(placed.mirrored, reach.centre);
+  reach.axis = across(placed.mirrored, reach.axis);
+  return transformed(placed.world_from_effect, reach);
+}
 
 /// Null where the text makes no effect.
 std::shared_ptr<EffectFeed::Felt> EffectFeed::felt_as(const PlacedEffect& placed) const {
   const auto last = std::ranges::find_if(
       published_.members, [&](const Member& it) { return placed.id != 0 && it.placed.id == placed.id; });
   const bool goes_on = last != published_.members.end();
-  if (goes_on && last->placed.text == placed.text) return last->felt;
+  const bool as_mirrored = goes_on && last->placed.mirrored == placed.mirrored;
+  if (as_mirrored && last->placed.text == placed.text) return last->felt;
   auto made = make_effect(placed.text);
   if (!made) return nullptr;
   if (!goes_on)
     return std::make_shared<Felt>(
         Felt{std::move(*made),
              std::make_shared<Whereabouts>(Whereabouts{placed.world_from_effect, placed.world_from_effect})});
-  (*made)->continue_from(*last->felt->effect);
-  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->whereabouts});
+  if (as_mirrored) (*made)->continue_from(*last->felt->effect);
+  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->whereabouts, true});
 }
 
 void EffectFeed::publish(const std::vector<PlacedEffect>& effects) {
@@ -99,7 +125,7 @@ void EffectFeed::bring(const Member& member, double dt, bool newer) {
   is.goes_on.ends = dt;
   Effect& effect = *member.felt->effect;
   const base::Pose& stays = effect.rides() ? carried : before;
-  if (is.at.matrix() != stays.matrix()) effect.reframe(is.at.inverse() * stays);
+  if (is.at.matrix() != stays.matrix()) effect.reframe(across(placed.mirrored, is.at.inverse() * stays));
 }
 
 Vector3 EffectFeed::force(const EffectInput& input, double beside) {
@@ -108,16 +134,37 @@ Vector3 EffectFeed::force(const EffectInput& input, double beside) {
     const base::Pose& pose = it.felt->whereabouts->at;
     Vector3 carried = Vector3::Zero();
     if (it.felt->effect->rides()) carried = velocity_at(pose, it.placed.motion, elapsed_, input.position);
-    EffectInput own = seen_from(pose, carried, input);
+    EffectInput own = seen_from(pose, it.placed.mirrored, carried, input);
     own.device_mass = mass_share(input.device_mass, it.needs, it.together + beside);
-    const Vector3 force = pose.linear() * it.felt->effect->force(own);
-    if (force.allFinite()) sum += force;
+    const Vector3 force = pose.linear() * across(it.placed.mirrored, it.felt->effect->force(own));
+    if (force.allFinite()) sum += eased(*it.felt, force, own);
   }
   return sum;
 }
 
+/// What it asks for, and what is left of what it gave before its numbers or its piece of the device were
+/// changed. A constant push that fades adds no stiffness and no damping: what is stable stays so.
+Vector3 EffectFeed::eased(Felt& felt, const Vector3& asked, const EffectInput& own) const {
+  Whereabouts& is = *felt.whereabouts;
+  const double most = std::max(0.0, limits_.max_force);
+  const bool changed = std::exchange(felt.changed, false);
+  const bool other_share = std::exchange(is.share, own.device_mass) != own.device_mass;
+  // What is above all that the device has would take long to fade, and nobody would feel why.
+  if (is.felt && (changed || other_share)) is.still = at_most(is.gave, most) - at_most(asked, most);
+  const double fades = most * own.dt / kEaseSeconds;
+  const double left = is.still.norm();
+  is.still = left > fades ? Vector3(is.still * (1.0 - fades / left)) : Vector3(Vector3::Zero());
+  is.felt = true;
+  is.gave = is.still.isZero(0.0) ? asked : Vector3(at_most(asked, most) + is.still);
+  return is.gave;
+}
+
 void EffectFeed::reset() {
-  for (const Member& it : newest_.read().members) it.felt->effect->reset();
+  for (const Member& it : newest_.read().members) {
+    it.felt->effect->reset();
+    it.felt->whereabouts->felt = false;
+    it.felt->whereabouts->still.setZero();
+  }
 }
 
 }  // namespace icome::haptics

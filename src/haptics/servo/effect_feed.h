@@ -17,12 +17,17 @@ struct PlacedEffect {
   std::string text;      // for make_effect(), which takes it
   base::Pose world_from_effect = base::Pose::Identity();
   Motion motion = {};
+  bool mirrored = false;  // its own x is turned round before its place turns it
 
   bool operator==(const PlacedEffect& other) const {
     return id == other.id && text == other.text &&
-           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion;
+           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion &&
+           mirrored == other.mirrored;
   }
 };
+
+/// Where it acts while it stays there, world frame.
+Reach reach_in_world(const PlacedEffect& placed, const Effect& effect);
 
 /// An effect that is felt softer than it was asked for.
 struct CappedEffect {
@@ -41,13 +46,16 @@ class EffectFeed {
   /// Over so long an effect goes, evenly, to where its object was put: longer than main takes from one edit
   /// to the next while something is dragged, so that the force has no steps.
   static constexpr double kGlideSeconds = 0.02;  // s
+  /// What an effect gives goes over to what its changed numbers ask for no faster than by all that the device
+  /// has in so long: a slider that is thrown to its end is felt at once, and does not kick.
+  static constexpr double kEaseSeconds = 0.05;  // s
 
   /// Effects share what is stable on this device; see mass_shares.h.
   explicit EffectFeed(const DeviceLimits& limits = {}) : limits_(limits) {}
 
   /// Makes these the ones that are felt. One whose object was among the last goes on, wherever it is now and
-  /// with whatever numbers: what is stuck in dry friction stays stuck, where it is. The main thread calls
-  /// this.
+  /// with whatever numbers: what is stuck in dry friction stays stuck, where it is, and its force goes over
+  /// to the changed one without a step (kEaseSeconds). The main thread calls this.
   void publish(const std::vector<PlacedEffect>& effects);
 
   /// Of these, those that the device cannot render stably as they were asked for, beside forces that need
@@ -69,17 +77,22 @@ class EffectFeed {
   void reset();
 
  private:
-  /// Where effects of one object are felt; the servo's. World frame.
+  /// Where effects of one object are felt, and what they give; the servo's. World frame.
   struct Whereabouts {
-    base::Pose at;        // in the last tick
-    base::Pose put;       // where its object was put last
-    double left = 0.0;    // s, until it is there
-    Motion goes_on = {};  // of the last tick, for one more
+    base::Pose at;                    // in the last tick
+    base::Pose put;                   // where its object was put last
+    double left = 0.0;                // s, until it is there
+    Motion goes_on = {};              // of the last tick, for one more
+    bool felt = false;                // has it given a force since it was placed or reset?
+    double share = 0.0;               // kg, its piece of the device in the last tick
+    Vector3 gave = Vector3::Zero();   // N, in the last tick
+    Vector3 still = Vector3::Zero();  // N, what is left of what it gave before it was changed
   };
-  /// An effect that versions with the same object and text share.
+  /// An effect that versions with the same object, text and mirror share.
   struct Felt {
     std::unique_ptr<Effect> effect;            // never null
     std::shared_ptr<Whereabouts> whereabouts;  // never null
+    bool changed = false;                      // its numbers, and not felt since; the servo's once published
   };
   struct Member {
     PlacedEffect placed;
@@ -93,6 +106,7 @@ class EffectFeed {
   };
   std::shared_ptr<Felt> felt_as(const PlacedEffect& placed) const;
   void bring(const Member& member, double dt, bool newer);
+  Vector3 eased(Felt& felt, const Vector3& asked, const EffectInput& own) const;
 
   DeviceLimits limits_;
   Version published_;  // main's own copy of the newest

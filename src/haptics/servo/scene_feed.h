@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,9 +23,10 @@ struct PublishedScene {
 
 /// What surfaces and effects are fitted to: the device that renders them.
 struct DeviceLimits {
-  double nominal_stiffness = 1000.0;  // N/m, for surfaces that name none
-  double effective_mass = 0.1;        // kg
-  double dt = 0.001;                  // s, the tick
+  double nominal_stiffness = 1000.0;                           // N/m, for surfaces that name none
+  double effective_mass = 0.1;                                 // kg
+  double dt = 0.001;                                           // s, the tick
+  double max_force = std::numeric_limits<double>::infinity();  // N, peak
 };
 
 /// Brings scenes from one thread (main) to the servo: a latest-value box, so neither waits. Owns the

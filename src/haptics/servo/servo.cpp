@@ -10,7 +10,7 @@ namespace icome::haptics {
 namespace {
 
 DeviceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
-  return {device.nominal_stiffness, device.effective_mass, 1.0 / rate_hz};
+  return {device.nominal_stiffness, device.effective_mass, 1.0 / rate_hz, device.max_force};
 }
 
 /// Over so long a workspace moves to where it is carried: longer than main takes from one call to the next,

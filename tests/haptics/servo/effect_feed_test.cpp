@@ -10,8 +10,10 @@
 #include <numbers>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "devices/simulated/simulated_device.h"
+#include "haptics/effects/effect_text.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/servo_fixture.h"
 #include "realtime/guard/guard.h"
@@ -71,7 +73,7 @@ TEST(EffectFeed, TheSameObjectKeepsWhatItsEffectKnows) {
 }
 
 // A tip on a curved way, and after half of it the effect's object is elsewhere and turned.
-double largest_step(const std::string& effect, bool moved) {
+double largest_step(const std::string& effect, bool moved, bool mirrored) {
   EffectFeed feed;
   EffectInput input;
   double largest = 0.0;
@@ -79,7 +81,7 @@ double largest_step(const std::string& effect, bool moved) {
   for (int tick = 0; tick < 400; ++tick) {
     const bool elsewhere = moved && tick >= 200;
     const std::string text = effect + (elsewhere ? "" : " ");  // the same, written otherwise
-    feed.publish({{1, text, elsewhere ? turned_at({0.03, -0.02, 0.01}) : Pose::Identity()}});
+    feed.publish({{1, text, elsewhere ? turned_at({0.03, -0.02, 0.01}) : Pose::Identity(), {}, mirrored}});
     feed.follow(1e-3);
     const double t = 0.001 * tick;
     input.position = 0.01 * Vector3(std::sin(5.0 * t), std::cos(3.0 * t), t);
@@ -93,8 +95,11 @@ double largest_step(const std::string& effect, bool moved) {
 
 TEST(EffectFeed, AnEffectWithoutAPlaceDoesNotKickWhenItsObjectIsMovedAndTurned) {
   for (const char* const effect : {"friction:0.5,0.4", "inertia:0.5", "viscous:2"}) {
-    EXPECT_NEAR(largest_step(effect, true), largest_step(effect, false), 1e-9) << effect;
-    EXPECT_GT(largest_step(effect, false), 1e-4) << effect;
+    for (const bool mirrored : {false, true}) {
+      const double unmoved = largest_step(effect, false, mirrored);
+      EXPECT_NEAR(largest_step(effect, true, mirrored), unmoved, 1e-9) << effect << " " << mirrored;
+      EXPECT_GT(unmoved, 1e-4) << effect;
+    }
   }
 }
 
@@ -260,6 +265,94 @@ TEST(EffectFeed, HoldsFewVersionsWhileTheHandIsLaidAside) {
   const std::size_t before = mallinfo2().uordblks;
   for (int i = 0; i < 20000; ++i) change(i);
   EXPECT_LT(mallinfo2().uordblks, before + 100'000) << "bytes";
+}
+
+constexpr int kSlideEdit = 300;  // the tick of the edit
+constexpr int kSlideTicks = 700;
+
+/// The forces on a tip that stays where it is, with a velocity that grows by 1 m/s a second, in an effect
+/// whose text is changed once.
+std::vector<Vector3> slide_forces(const std::string& before, const std::string& after) {
+  ScriptedDevice device;
+  device.position = {0.009, 0.002, 0.062};
+  ServoSettings settings;
+  settings.limiter.ramp_seconds = 0.0;
+  Servo servo(device, settings);
+  servo.publish_effects({{1, before}});
+  std::vector<Vector3> forces;
+  for (int tick = 0; tick < kSlideTicks; ++tick) {
+    if (tick == kSlideEdit) servo.publish_effects({{1, after}});
+    device.velocity.x() = 1e-3 * tick;
+    servo.tick(1e-3);
+    forces.push_back(device.force);
+  }
+  return forces;
+}
+
+/// How much the force changes in all, after it has been seen to go there evenly.
+double expect_no_kick(const std::string& before, const std::string& after) {
+  const std::vector<Vector3> forces = slide_forces(before, after);
+  const double all = devices::DeviceInfo().max_force;
+  // What eases, and 50 N s/m, the most that is stable here, against what the velocity grows by.
+  const double step = all * 1e-3 / EffectFeed::kEaseSeconds + 50.0 * 1e-3 + 1e-9;
+  double largest = 0.0;
+  for (int tick = kSlideEdit; tick < kSlideTicks; ++tick) {
+    const auto now = std::size_t(tick);
+    largest = std::max(largest, (forces[now] - forces[now - 1]).norm());
+  }
+  EXPECT_LE(largest, step) << before << " to " << after;
+  EXPECT_NEAR((forces.back() - slide_forces(after, after).back()).norm(), 0.0, 5e-3)
+      << before << " to " << after;
+  return (forces.back() - forces[std::size_t(kSlideEdit - 1)]).norm();
+}
+
+/// Whose number with this place is so much.
+std::string with_number(const EffectKind& kind, std::size_t place, double value) {
+  std::vector<double> numbers;
+  for (const EffectNumber& it : effect_numbers(kind.example)) numbers.push_back(it.value);
+  numbers[place] = value;
+  return effect_of_numbers(kind.name, numbers);
+}
+
+// The limiter alone lets a slider that is thrown to its end bring half of the device's force in one tick.
+TEST(EffectFeed, ASliderThatIsThrownFromEndToEndDoesNotKick) {
+  for (const EffectKind& kind : effect_kinds()) {
+    const std::vector<EffectNumber> numbers = effect_numbers(kind.example);
+    double most = 0.0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const std::string least = with_number(kind, i, numbers[i].least);
+      const std::string largest = with_number(kind, i, numbers[i].most);
+      if (!make_effect(least) || !make_effect(largest)) continue;
+      most = std::max({most, expect_no_kick(least, largest), expect_no_kick(largest, least)});
+    }
+    if (!numbers.empty()) {
+      EXPECT_GT(most, 0.2) << kind.name << ": nothing was seen of it";
+    }
+  }
+  EXPECT_GT(expect_no_kick("curve:0,0,0.06;0.05,0,0.06;0,0", "curve:0,0,0.06;0.05,0,0.06;1e6,9"), 2.0);
+  EXPECT_GT(expect_no_kick("field:-1000,0,0", "field:1000,0,0"), 6.0);
+  EXPECT_GT(expect_no_kick("viscous:1000", "constant:3,0,0"), 6.0) << "another kind";
+}
+
+// A neighbour that takes half of the device makes a spring half as hard.
+TEST(EffectFeed, AnEffectThatHasToShareDoesNotKick) {
+  ScriptedDevice device;
+  device.position = {1e-4, 0.0, 0.0};
+  ServoSettings settings;
+  settings.limiter.ramp_seconds = 0.0;
+  Servo servo(device, settings);
+  const PlacedEffect spring{1, "point:0,0,0,10000,0"};
+  servo.publish_effects({spring});
+  for (int tick = 0; tick < 20; ++tick) servo.tick(1e-3);
+  Vector3 last = device.force;
+  EXPECT_NEAR(last.x(), -1.0, 1e-9);
+  servo.publish_effects({spring, {2, "viscous:1000"}});
+  for (int tick = 0; tick < 100; ++tick, last = device.force) {
+    servo.tick(1e-3);
+    EXPECT_LE((device.force - last).norm(),
+              devices::DeviceInfo().max_force * 1e-3 / EffectFeed::kEaseSeconds + 1e-9);
+  }
+  EXPECT_NEAR(last.x(), -0.5, 1e-9);
 }
 
 TEST(EffectFeed, TheNewestIsFeltHoweverManyTheServoMissed) {

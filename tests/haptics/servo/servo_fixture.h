@@ -14,6 +14,7 @@ class ScriptedDevice final : public devices::PointerDevice {
   DeviceStatus read(devices::PointerState& state) override {
     if (status != DeviceStatus::Ok) return status;
     state.position = position;
+    state.velocity = velocity;
     state.orientation = orientation;
     state.buttons = buttons;
     state.jumped = jumped;
@@ -26,6 +27,7 @@ class ScriptedDevice final : public devices::PointerDevice {
   }
 
   Vector3 position = Vector3::Zero();
+  Vector3 velocity = Vector3::Zero();
   Vector3 force = Vector3::Zero();
   devices::Quaternion orientation = devices::Quaternion::Identity();
   std::uint32_t buttons = 0;
