@@ -145,8 +145,11 @@ base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
   if (ending.packed && !format->may_be_packed)
     return cannot_read(path, fmt::format("{} files cannot be read packed: unpack it first", format->ending));
   if (options.progress && !options.progress(0.0)) return base::fail("interrupted");
+  const auto stamp = stamp_of(path);
   auto design = format->read(path, options);
-  if (design) tell_of_moving_shapes(*design);
+  if (!design) return design;
+  tell_of_moving_shapes(*design);
+  design->stamp = stamp;
   return design;
 } catch (const std::bad_alloc&) {
   return base::fail(path.string() + ": there is not enough memory to read it");

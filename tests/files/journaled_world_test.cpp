@@ -162,7 +162,7 @@ TEST(JournaledWorld, MendsDamageAndKeepsWhatIsLost) {
       JournaledWorld journal = opened(path);
       const JournalReport& report = journal.report();
       ASSERT_FALSE(report.damage.empty()) << at;
-      const std::string lost = bytes.substr(bytes.size() - report.lost_bytes);
+      const std::string lost = bytes.substr(report.damaged_from);
       EXPECT_EQ(report.lost_bytes > 0 ? content_of(report.set_aside) : "", lost) << at;
       performed(journal, world::CreateScene{{900}, "later"});
       last = hash(journal.world());
@@ -176,7 +176,7 @@ TEST(JournaledWorld, NamesWhatIsLostAnewEachTime) {
   const ScratchFolder folder;
   const auto path = folder.path() / "design.icome";
   for (const char* name : {"design.icome.lost", "design.icome.lost-2", "design.icome.lost-3"}) {
-    folder.write("design.icome", sample_journal().bytes + "\x8aRE tail");
+    folder.write("design.icome", sample_journal().bytes + "\x8aRE " + name);
     const JournaledWorld journal = opened(path);
     EXPECT_EQ(journal.report().set_aside, std::filesystem::canonical(folder.path()) / name);
   }
