@@ -327,8 +327,7 @@ TEST(JournaledWorld, StaysAsItIsWhereItCannotBeCompacted) {
   // Writing where all names are those of folders is as impossible as without room, and edits can still be
   // written.
   std::vector<std::string> beside{path.string() + ".part-" + std::to_string(::getpid())};
-  for (int i = 1; i <= 100; ++i)
-    beside.push_back(beside[0] + (i < 10 ? "00" : i < 100 ? "0" : "") + std::to_string(i));
+  for (int i = 1; i <= 100; ++i) beside.push_back(beside[0] + "-" + std::to_string(i));
   for (const std::string& name : beside) std::filesystem::create_directory(name);
   EXPECT_FALSE(journal.compact());
   for (int i = 0; i < 200; ++i) performed(journal, world::CreateScene{{std::uint64_t(100 + i)}, ""});
