@@ -35,6 +35,9 @@ base::Result<Remarks> write_flat(const std::filesystem::path& path, const World&
   Remarks remarks;
   const auto objects = shown_objects(world, remarks);
   if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
+  if (objects->size() > 1)
+    remarks.push_back(
+        {{}, 0, fmt::format("This format holds one mesh: {} objects become one.", objects->size())});
   if (!with_colours && !world.materials().empty())
     remarks.push_back({{}, 0, "This format knows no materials: they are left out."});
   if (const base::Result<void> done = write(flatten(world, *objects, with_colours), *file); !done)
