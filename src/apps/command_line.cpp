@@ -194,6 +194,7 @@ void add_convert_options(CLI::App& convert, ConvertOptions& options) {
   convert.add_option("IN", options.in, kDesignFileHelp)->required()->type_name("");
   convert.add_option("OUT", options.out, kDesignOutHelp)->required()->type_name("");
   add_design_unit(convert, options.unit);
+  convert.add_flag("--force", options.force, kForceHelp);
   convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
 }
 
@@ -216,6 +217,7 @@ void add_edit_options(CLI::App& edit, EditOptions& options) {
           ->type_name("[OP]")
           ->expected(0, 1);
   add_design_unit(edit, options.unit);
+  edit.add_flag("--force", options.force, kForceHelp);
   edit.add_flag("--json", options.json, "Print what was done, or the operations, as JSON (fields below)");
   edit.callback([&options, help, in, apply, replay, out] {
     options.help_ops = help->count() > 0;

@@ -44,6 +44,8 @@ int run_convert(const ConvertOptions& options) {
     return end_without_result(able.error(), status);
   const auto design = read_for_person(options.in, options.unit, status);
   if (!design) return end_without_result(design.error(), status);
+  if (const auto free = check_can_replace(options.out, options.in, *design); !options.force && !free)
+    return end_without_result(free.error(), status);
   status.say("Writing " + options.out.string());
   const auto losses = files::write_design(options.out, design->world);
   if (!losses) return end_without_result(losses.error(), status);

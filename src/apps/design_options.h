@@ -17,6 +17,7 @@ struct ConvertOptions {
   std::filesystem::path in;
   std::filesystem::path out;
   std::string unit = "m";
+  bool force = false;  // replaces a file that holds what would be lost
   bool json = false;
 };
 
@@ -28,6 +29,7 @@ struct EditOptions {
   std::filesystem::path out;
   std::string unit = "m";
   bool keep_going = false;
+  bool force = false;     // replaces a file that holds what would be lost
   bool help_ops = false;  // only tell what operations there are
   std::string operation;  // then: only this one; empty: all
   bool json = false;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/interrupt.h"
+#include "files/file_ending.h"
 #include "files/mesh_reader.h"
 
 namespace icome::apps {
@@ -25,6 +26,20 @@ base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& f
   status.clear();
   if (design && interrupted()) return base::fail("interrupted");
   return design;
+}
+
+base::Result<void> check_can_replace(const std::filesystem::path& out, const std::filesystem::path& in,
+                                     const files::LoadedDesign& design) {
+  std::error_code error;
+  const bool same = std::filesystem::equivalent(in, out, error) && !error;
+  const auto why = files::why_not_replace(out, same ? design.stamp : std::nullopt);
+  if (!why) return {};
+  return base::fail(*why + " Write to another name, or insist with --force.");
+}
+
+base::Result<void> check_picture_name(const std::filesystem::path& picture) {
+  if (files::ending_of(picture).type == ".png") return {};
+  return base::fail(picture.string() + ": pictures are written as PNG: give it a name that ends in .png.");
 }
 
 int end_without_result(const base::Error& error, StatusLine& status) {

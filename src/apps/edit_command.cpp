@@ -142,6 +142,8 @@ int run_edit(const EditOptions& options) {
   report.design.world = std::move(design->world);
   if (!report.outcome.errors.empty()) return end_with_errors(options, report, status);
 
+  if (const auto free = check_can_replace(options.out, options.in, *design); !options.force && !free)
+    return end_without_result(free.error(), status);
   status.say("Writing " + options.out.string());
   const auto losses = files::write_design(options.out, report.design.world);
   if (!losses) return end_without_result(losses.error(), status);

@@ -167,6 +167,10 @@ constexpr const char* kDesignOutHelp =
     "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), OBJ, PLY, STL, "
     "OFF or ICOME's own .icome";
 
+constexpr const char* kForceHelp =
+    "Write OUT even where a damaged design, or one that another program has changed meanwhile, is lost by "
+    "that";
+
 constexpr const char* kInfoSummary =
     "Look into a design: its objects and what they share, materials, size, and what could not be read";
 

@@ -118,6 +118,7 @@ std::string shot_text(const ShotFigures& figures, const ShotOptions& options) {
 }
 
 base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& status) {
+  if (const auto png = check_picture_name(options.out); !png) return tl::unexpected(png.error());
   // An impossible path is told before the work.
   auto out = files::NewFile::create(options.out);
   if (!out) return tl::unexpected(out.error());

@@ -38,6 +38,8 @@ int run_techniques(const TechniquesOptions& options) {
   // An impossible path is told before the work.
   std::optional<files::NewFile> out;
   if (!options.picture.empty()) {
+    if (const auto named = check_picture_name(options.picture); !named)
+      return end_without_result(named.error(), status);
     auto created = files::NewFile::create(options.picture);
     if (!created) return end_without_result(created.error(), status);
     out.emplace(std::move(*created));

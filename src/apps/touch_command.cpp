@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/design_models.h"
+#include "apps/design_work.h"
 #include "apps/effect_options.h"
 #include "apps/exact_models.h"
 #include "apps/exploration.h"
@@ -54,6 +55,7 @@ base::Result<devices::DeviceInfo> chosen_device(const std::string& name) {
 }
 
 base::Result<void> check_picture_place(const std::filesystem::path& path) {
+  if (const auto named = check_picture_name(path); !named) return named;
   std::filesystem::path folder = path.parent_path();
   if (folder.empty()) folder = ".";
   std::error_code error;

@@ -35,6 +35,9 @@ base::Result<Remarks> write_flat(const std::filesystem::path& path, const World&
   Remarks remarks;
   const auto objects = shown_objects(world, remarks);
   if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
+  if (objects->size() > 1)
+    remarks.push_back(
+        {{}, 0, fmt::format("This format holds one mesh: {} objects become one.", objects->size())});
   if (!with_colours && !world.materials().empty())
     remarks.push_back({{}, 0, "This format knows no materials: they are left out."});
   if (const base::Result<void> done = write(flatten(world, *objects, with_colours), *file); !done)
@@ -145,8 +148,11 @@ base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
   if (ending.packed && !format->may_be_packed)
     return cannot_read(path, fmt::format("{} files cannot be read packed: unpack it first", format->ending));
   if (options.progress && !options.progress(0.0)) return base::fail("interrupted");
+  const auto stamp = stamp_of(path);
   auto design = format->read(path, options);
-  if (design) tell_of_moving_shapes(*design);
+  if (!design) return design;
+  tell_of_moving_shapes(*design);
+  design->stamp = stamp;
   return design;
 } catch (const std::bad_alloc&) {
   return base::fail(path.string() + ": there is not enough memory to read it");

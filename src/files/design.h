@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "files/file_stamp.h"
 #include "world/world.h"
 
 namespace icome::files {
@@ -16,6 +18,9 @@ struct Remark {
   std::string file;  // whose name helps to find it; empty: the one that was asked for
   int line = 0;      // of a text file, from 1; 0: it belongs to no line
   std::string text;  // a sentence
+  /// Of a file that was written: does it lack what is seen, felt or chosen in the design? Not where only
+  /// leftovers that nothing uses are gone, or other programs may not understand it.
+  bool loses = true;
 
   bool operator==(const Remark&) const = default;
 };
@@ -38,6 +43,7 @@ struct LoadedDesign {
   world::World world;
   std::string format = {};  // for people: "VRML 2.0", "binary PLY, xz" and so on
   std::vector<Remark> remarks = {};
+  std::optional<FileStamp> stamp = {};  // of the file before it was read
 };
 
 /// Reads a design by the ending of its name: VRML 2.0 (.wrl, .vrml), glTF 2.0 (.glb, .gltf), OBJ, PLY, STL,

@@ -83,14 +83,15 @@ class GltfMaking {
     if (model_.buffers[0].data.empty()) model_.buffers.clear();
     if (sheared_ > 0)
       remark(fmt::format("{} sheared: some programs cannot show that.",
-                         sheared_ == 1 ? "1 object is" : fmt::format("{} objects are", sheared_)));
+                         sheared_ == 1 ? "1 object is" : fmt::format("{} objects are", sheared_)),
+             false);
     return std::move(model_);
   }
 
   std::vector<Remark> remarks() { return std::move(remarks_); }
 
  private:
-  void remark(std::string text) { remarks_.push_back({{}, 0, std::move(text)}); }
+  void remark(std::string text, bool loses = true) { remarks_.push_back({{}, 0, std::move(text), loses}); }
 
   void add_texture(TextureId id) {
     const world::Texture& it = *world_.find(id);
@@ -99,8 +100,9 @@ class GltfMaking {
     image.mimeType = it.media_type;
     image.bufferView = buffer_.add_view(it.bytes->data(), it.bytes->size(), 0);
     if (it.media_type != "image/png" && it.media_type != "image/jpeg")
-      remark(fmt::format("The picture \"{}\" is neither PNG nor JPEG: other programs may not show it.",
-                         it.name));
+      remark(
+          fmt::format("The picture \"{}\" is neither PNG nor JPEG: other programs may not show it.", it.name),
+          false);
     tinygltf::Sampler sampler;
     sampler.wrapS = it.repeats[0] ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     sampler.wrapT = it.repeats[1] ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;

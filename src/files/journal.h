@@ -19,9 +19,11 @@ struct JournalReport {
   std::uint64_t snapshot_bytes = 0;  // that make the world as it once was
   std::uint64_t edit_bytes = 0;      // of the edits since
   std::uint64_t edits = 0;           // done again since the snapshot
-  std::uint64_t lost_bytes = 0;      // from the first damage to the end of the file
-  std::uint64_t lost_edits = 0;      // whole ones behind the damage, left out as what they build on is lost
-  /// A copy of the lost bytes; empty where nothing was lost or the file was only read.
+  std::uint64_t damaged_from = 0;    // where the first damage begins; the size of a whole file
+  std::uint64_t lost_bytes = 0;      // that are damaged, or of edits that could not be done
+  std::uint64_t lost_edits = 0;      // whole ones that could not be done, as what they build on is lost
+  bool is_torn = false;              // all that is lost is the last edit, cut off as the program stopped
+  /// A copy of all from the first damage on; empty where nothing was lost or the file was only read.
   std::filesystem::path set_aside = {};
   std::vector<Remark> damage = {};  // what is wrong and what was done about it; none for a whole journal
 };
@@ -34,13 +36,17 @@ struct ReadJournal {
   JournalReport report;
 };
 
-/// Reads a journal and changes nothing on disk; the world is that before the first damage. Whatever the
-/// bytes are, memory stays in proportion to their number. Fails for what is no journal, for one that a newer
-/// version wrote, where the disk fails, and when it is stopped. One that another program works with can be
-/// read.
+/// Reads a journal and changes nothing on disk; of a damaged one the world is made of all that is whole
+/// before and behind the damage. Whatever the bytes are, memory stays in proportion to their number. Fails
+/// for what is no journal, for one that a newer version wrote, where the disk fails, and when it is stopped.
+/// One that another program works with can be read.
 base::Result<ReadJournal> read_journal(const std::filesystem::path& path,
                                        const world::GeometryFactory& factory,
                                        const JournalProgress& progress = {});
+
+/// Is every record of it there and undamaged? What is not a journal at all is not whole. Reads all its bytes,
+/// and makes nothing of them. Fails where the disk does.
+base::Result<bool> is_whole_journal(const std::filesystem::path& path);
 
 /// Writes a world as a fresh journal in place of what was there, which stays if not all can be written: a
 /// shape may be of a kind that cannot. Fails while somebody works with the journal.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "files/journal.h"
+#include "files/journal_lost.h"
+#include "files/journal_replay.h"
 
 namespace icome::files {
 
@@ -14,9 +16,16 @@ base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path
     return base::fail(
         fmt::format("{}: is larger than the limit of {} MB.", path.string(), options.size_limit >> 20U));
   }
-  auto journal = read_journal(path, world::GeometryFactory(), options.progress);
+  const auto file = OpenFile::open(path, OpenFile::Use::Read);
+  if (!file) return tl::unexpected(file.error());
+  auto journal = replay_journal(*file, world::GeometryFactory(), options.progress);
   if (!journal) return tl::unexpected(journal.error());
-  return LoadedDesign{std::move(journal->world), "ICOME journal", std::move(journal->report.damage)};
+  JournalReport& report = journal->report;
+  if (const auto kept = keep_what_is_lost(*file, report); !kept) {
+    report.damage.push_back(
+        {{}, 0, "What is lost could not be copied to a file beside it: " + kept.error().message});
+  }
+  return LoadedDesign{std::move(journal->world), "ICOME journal", std::move(report.damage)};
 }
 
 base::Result<std::vector<Remark>> write_journal_design(const std::filesystem::path& path,

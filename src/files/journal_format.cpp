@@ -19,8 +19,8 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place) {
 }
 
 bool known(char kind) {
-  return kind == char(JournalKind::Snapshot) || kind == char(JournalKind::SnapshotEnd) ||
-         kind == char(JournalKind::Edit);
+  return kind == char(JournalKind::Contents) || kind == char(JournalKind::Snapshot) ||
+         kind == char(JournalKind::SnapshotEnd) || kind == char(JournalKind::Edit);
 }
 
 }  // namespace
@@ -52,6 +52,30 @@ std::optional<JournalFrame> read_journal_frame(std::string_view bytes) {
                       .length = number_at(bytes, 4),
                       .number = load<std::uint64_t>(bytes.data() + 8, kOrder),
                       .checksum = number_at(bytes, 16)};
+}
+
+std::string journal_names_to_bytes(const JournalNames& names) {
+  std::string bytes;
+  for (const auto& [id, name] : names) {
+    store(id.value, kOrder, bytes);
+    store(std::uint32_t(name.size()), kOrder, bytes);
+    bytes += name;
+  }
+  return bytes;
+}
+
+JournalNames journal_names_from_bytes(std::string_view bytes) {
+  constexpr std::size_t kHead = 12;
+  JournalNames names;
+  while (bytes.size() >= kHead) {
+    const world::ObjectId id{load<std::uint64_t>(bytes.data(), kOrder)};
+    const std::uint32_t length = number_at(bytes, 8);
+    bytes.remove_prefix(kHead);
+    if (length > bytes.size()) break;
+    names.emplace_back(id, bytes.substr(0, length));
+    bytes.remove_prefix(length);
+  }
+  return names;
 }
 
 void add_journal_record(JournalKind kind, std::uint64_t number, std::string_view content,

@@ -4,6 +4,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "world/id.h"
 
 namespace icome::files {
 
@@ -14,16 +18,19 @@ namespace icome::files {
 //            from 0), CRC-32 of content and padding, CRC-32 of these 20 bytes; the content; zeros up to a
 //            multiple of 8
 //
-// The first records make the world as it was when the file was written (kinds 'S', then one 'N' to say that
+// The first record ('C', none where there are no objects) names all objects that the file began with, so that
+// what a damage took can be told: id (u64), length of the name (u32), name, one after the other. The next
+// make the world as it was when the file was written (kinds 'S', then one 'N', without content, to say that
 // this is all), the others ('E') are what was done since, in order. The content of 'S' and 'E' is an edit
-// (world::to_bytes); 'N' has none.
+// (world::to_bytes); that of 'S' a single one, so that a damage takes one thing. Files of version 1 have no
+// 'C', and groups of up to 256 edits in 'S'.
 
-inline constexpr std::uint32_t kJournalVersion = 1;
+inline constexpr std::uint32_t kJournalVersion = 2;
 inline constexpr std::size_t kJournalHeaderBytes = 16;
 inline constexpr std::size_t kJournalFrameBytes = 24;  // of a record before its content
 inline constexpr std::string_view kJournalMarker = "\x8aRE";
 
-enum class JournalKind : char { Snapshot = 'S', SnapshotEnd = 'N', Edit = 'E' };
+enum class JournalKind : char { Contents = 'C', Snapshot = 'S', SnapshotEnd = 'N', Edit = 'E' };
 
 std::string journal_header();
 
@@ -45,6 +52,12 @@ struct JournalFrame {
 
 /// Nothing for bytes that are no frame, or damaged ones. As many bytes as a frame has.
 std::optional<JournalFrame> read_journal_frame(std::string_view bytes);
+
+/// The names of objects, as 'C' has them.
+using JournalNames = std::vector<std::pair<world::ObjectId, std::string>>;
+std::string journal_names_to_bytes(const JournalNames& names);
+/// Those before the first that is none.
+JournalNames journal_names_from_bytes(std::string_view bytes);
 
 /// Appends a whole record to `bytes`. The content is shorter than 4 GB.
 void add_journal_record(JournalKind kind, std::uint64_t number, std::string_view content, std::string& bytes);

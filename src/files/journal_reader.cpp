@@ -26,13 +26,20 @@ base::Result<JournalReader> JournalReader::create(const OpenFile& file) {
   if (!first) return tl::unexpected(first.error());
   reader.header_is_good_ = false;
   if (*first && (*first)->number == 0) return reader;
+  if (const auto skipped = reader.skip_damage(); !skipped) return tl::unexpected(skipped.error());
+  const bool has_records = !reader.at_end();
+  reader.position_ = reader.number_ = 0;
+  if (has_records) return reader;
   if (header == JournalHeader::SomethingElse) return base::fail(name + ": is not a design of ICOME.");
   return base::fail(name + ": is damaged from its first bytes on; nothing of it can be read.");
 }
 
 base::Result<std::string_view> JournalReader::view(std::uint64_t offset, std::size_t count) {
-  if (offset < window_offset_ || offset + count > window_offset_ + window_.size()) {
-    const std::uint64_t start = offset / kWord * kWord;
+  const bool is_there = offset >= window_offset_ && offset + count <= window_offset_ + window_.size();
+  if (!is_there || (position_ - window_offset_) % kWord != 0) {
+    // Words begin where records do, which is anywhere behind bytes that were cut out.
+    const std::uint64_t over = (offset - position_ % kWord) % kWord;
+    const std::uint64_t start = offset < over ? 0 : offset - over;
     const std::uint64_t least = offset + count - start;
     window_offset_ = start;
     window_.resize(std::min(size_ - start, std::max<std::uint64_t>(least, kWindow)));
@@ -87,25 +94,46 @@ base::Result<bool> JournalReader::is_cut_off() {
   return *frame && (*frame)->number == number_ && (*frame)->padded_length() > left - kJournalFrameBytes;
 }
 
-base::Result<std::uint64_t> JournalReader::whole_edits_behind(std::uint64_t from) {
-  std::uint64_t count = 0;
-  // Honest bytes are looked at once; others may pretend that very many long records begin everywhere.
-  std::uint64_t work = 4 * (size_ - from);
-  while (true) {
-    const auto found = next_marker(from);
+/// Honest bytes are looked at once or twice; others may pretend that very many long records begin everywhere.
+base::Result<bool> JournalReader::go_on_at(std::uint64_t offset) {
+  const auto frame = frame_at(offset);
+  if (!frame) return tl::unexpected(frame.error());
+  if (!*frame || (*frame)->number < number_) return false;
+  const std::uint64_t length = (*frame)->padded_length();
+  if (length > work_) return false;
+  work_ -= length;
+  const auto whole = is_whole(**frame, offset);
+  if (!whole || !*whole) return whole;
+  position_ = offset;
+  number_ = (*frame)->number;
+  return true;
+}
+
+base::Result<void> JournalReader::skip_damage() {
+  // It may be whole itself, and those before it are gone.
+  const auto here = go_on_at(position_);
+  if (!here) return tl::unexpected(here.error());
+  if (*here) return {};
+  const auto frame = frame_at(position_);
+  if (!frame) return tl::unexpected(frame.error());
+  // What lies within a record may look like one, such as a journal that is somebody's picture.
+  if (const std::uint64_t left = size_ - position_;
+      *frame && (*frame)->padded_length() <= left - kJournalFrameBytes) {
+    const auto found = go_on_at(position_ + kJournalFrameBytes + (*frame)->padded_length());
     if (!found) return tl::unexpected(found.error());
-    if (!*found) return count;
-    from = **found;
-    const auto frame = frame_at(from);
-    if (!frame) return tl::unexpected(frame.error());
-    const std::uint64_t length = *frame ? (*frame)->padded_length() : 0;
-    if (length > work) return count;
-    work -= length;
-    const auto whole = *frame ? is_whole(**frame, from) : base::Result<bool>(false);
-    if (!whole) return tl::unexpected(whole.error());
-    count += *whole && (*frame)->kind != JournalKind::SnapshotEnd ? 1 : 0;
-    from += *whole ? kJournalFrameBytes + length : 1;
+    if (*found) return {};
   }
+  for (std::uint64_t from = position_ + 1;;) {
+    const auto marker = next_marker(from);
+    if (!marker) return tl::unexpected(marker.error());
+    if (!*marker) break;
+    const auto found = go_on_at(**marker);
+    if (!found) return tl::unexpected(found.error());
+    if (*found) return {};
+    from = **marker + 1;
+  }
+  position_ = size_;
+  return {};
 }
 
 base::Result<std::optional<std::uint64_t>> JournalReader::next_marker(std::uint64_t from) {

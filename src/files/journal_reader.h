@@ -30,24 +30,27 @@ class JournalReader {
   /// The next record if it is whole and the one that must come next, else nothing and no step further. Fails
   /// where the disk does.
   base::Result<std::optional<Record>> next();
+  /// Goes on behind a damage: to the next whole record that comes later than those before, wherever it
+  /// begins, or to the end of the file.
+  base::Result<void> skip_damage();
   /// Does the file end within the record that begins here, as when it was being written?
   base::Result<bool> is_cut_off();
 
-  /// How many whole edits lie behind `from`, wherever they begin.
-  base::Result<std::uint64_t> whole_edits_behind(std::uint64_t from);
-
  private:
-  explicit JournalReader(const OpenFile& file, std::uint64_t size) : file_(&file), size_(size) {}
+  explicit JournalReader(const OpenFile& file, std::uint64_t size)
+      : file_(&file), size_(size), work_(4 * size) {}
   base::Result<std::optional<JournalFrame>> frame_at(std::uint64_t offset);
   base::Result<bool> is_whole(const JournalFrame& frame, std::uint64_t offset);
   base::Result<std::string_view> view(std::uint64_t offset, std::size_t count);
   base::Result<std::optional<std::uint64_t>> next_marker(std::uint64_t from);
+  base::Result<bool> go_on_at(std::uint64_t offset);
 
   const OpenFile* file_;
   std::uint64_t size_;
   bool header_is_good_ = true;
   std::uint64_t position_ = kJournalHeaderBytes;
   std::uint64_t number_ = 0;  // of the next record
+  std::uint64_t work_;        // that skipping may still take, bytes to look at
   std::string window_;        // the part of the file that was read last
   std::uint64_t window_offset_ = 0;
 };

@@ -2,27 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "files/journal_mending.h"
+
 namespace icome::files {
 namespace {
 
-/// Replays records until the end or the first that cannot be.
+std::string without_full_stop(std::string sentence) {
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
+/// Replays all records that are whole and that the world takes.
 class JournalReplay {
  public:
   JournalReplay(JournalReader& reader, const world::GeometryFactory& factory, const JournalProgress& progress)
       : reader_(reader), factory_(factory), progress_(progress) {}
 
   base::Result<ReplayedJournal> run() {
+    result_.report.bytes = result_.report.damaged_from = reader_.size();
     if (!reader_.header_is_good()) result_.fault = JournalFault::Header;
-    bool more = true;
-    while (more) {
-      result_.end = reader_.position();
+    while (!reader_.at_end()) {
+      const std::uint64_t start = reader_.position();
       const auto record = reader_.next();
       if (!record) return tl::unexpected(record.error());
-      more = *record && take(**record);
+      if (*record) {
+        take(**record, start);
+      } else if (const auto skipped = skip(start); !skipped) {
+        return tl::unexpected(skipped.error());
+      }
       if (!go_on()) return base::fail("interrupted");
     }
-    const auto judged = judge_end();
-    if (!judged) return tl::unexpected(judged.error());
+    if (!has_snapshot_) {
+      result_.fault = std::max(result_.fault, JournalFault::Unfinished);
+      mending_.compare(names_);
+    }
+    result_.report.is_torn = result_.fault == JournalFault::CutOff;
+    tell();
     return std::move(result_);
   }
 
@@ -34,86 +51,89 @@ class JournalReplay {
     return progress_(double(told_) / double(reader_.size()));
   }
 
-  /// Gives false for what cannot be replayed.
-  bool take(const JournalReader::Record& record) {
+  /// What begins here is no whole record.
+  base::Result<void> skip(std::uint64_t start) {
+    const auto cut_off = reader_.is_cut_off();
+    if (!cut_off) return tl::unexpected(cut_off.error());
+    if (const auto skipped = reader_.skip_damage(); !skipped) return skipped;
+    const bool all_else_is_good = has_snapshot_ && result_.fault == JournalFault::None;
+    // What follows a record that was cut off is no journal that was only ever added to.
+    const bool torn = *cut_off && reader_.at_end();
+    lose(torn && all_else_is_good ? JournalFault::CutOff : JournalFault::Damaged, start,
+         reader_.position() - start,
+         torn ? "it ends there within an edit" : "its bytes are not what was written");
+    return {};
+  }
+
+  void take(const JournalReader::Record& record, std::uint64_t start) {
     const bool in_snapshot = record.kind != JournalKind::Edit;
-    if (in_snapshot == has_snapshot_) return stop(JournalFault::Damaged, "its parts are out of order");
-    if (record.kind == JournalKind::SnapshotEnd) {
-      has_snapshot_ = true;
-    } else {
-      const auto edit = world::edit_from_bytes(record.content, factory_);
-      if (!edit) return stop(JournalFault::Unknown, edit.error().message);
-      if (const auto done = world::replay(result_.world, *edit); !done)
-        return stop(JournalFault::Refused, done.error().message);
+    if (in_snapshot && has_snapshot_) {
+      lose(JournalFault::Damaged, start, record.bytes, "its parts are out of order");
+      return;
+    }
+    // Where a damage took the end of the snapshot, that is as it should be.
+    if (!in_snapshot && !has_snapshot_ && places_ == 0)
+      lose(JournalFault::Damaged, start, 0, "its parts are out of order");
+    if (!has_snapshot_ && (!in_snapshot || record.kind == JournalKind::SnapshotEnd)) end_snapshot();
+    if (record.kind == JournalKind::Contents) {
+      names_ = journal_names_from_bytes(record.content);
+    } else if (record.kind != JournalKind::SnapshotEnd && !perform(record, start)) {
+      return;
     }
     (in_snapshot ? result_.report.snapshot_bytes : result_.report.edit_bytes) += record.bytes;
     result_.report.edits += in_snapshot ? 0 : 1;
     ++result_.records;
-    return true;
   }
 
-  bool stop(JournalFault fault, std::string why) {
-    result_.fault = fault;
-    why_ = std::move(why);
-    return false;
+  void end_snapshot() {
+    has_snapshot_ = true;
+    if (places_ > 0) mending_.compare(names_);
   }
 
-  base::Result<void> judge_end() {
+  /// Gives false for what could not be done, not even in part.
+  bool perform(const JournalReader::Record& record, std::uint64_t start) {
+    const auto edit = world::edit_from_bytes(record.content, factory_);
+    if (!edit) {
+      lose(JournalFault::Unknown, start, record.bytes, edit.error().message);
+      return false;
+    }
+    const auto done = world::replay(result_.world, *edit);
+    if (done) return true;
+    const auto refused = mending_.perform(*edit);
+    if (!refused && places_ > 0) return true;
+    lose(JournalFault::Refused, start, refused ? record.bytes : 0, done.error().message);
+    result_.report.lost_edits += refused ? 1 : 0;
+    return !refused;
+  }
+
+  void lose(JournalFault fault, std::uint64_t start, std::uint64_t bytes, std::string why) {
     JournalReport& report = result_.report;
-    report.bytes = reader_.size();
-    report.lost_bytes = reader_.size() - result_.end;
-    if (why_.empty() && report.lost_bytes > 0) {
-      const auto cut_off = reader_.is_cut_off();
-      if (!cut_off) return tl::unexpected(cut_off.error());
-      const bool all_else_is_good = has_snapshot_ && reader_.header_is_good();
-      stop(*cut_off && all_else_is_good ? JournalFault::CutOff : JournalFault::Damaged,
-           *cut_off ? "it ends there within an edit" : "its bytes are not what was written");
-    }
-    if (report.lost_bytes == 0 && !has_snapshot_) result_.fault = JournalFault::Unfinished;
-    if (report.lost_bytes > 0) {
-      const auto behind = reader_.whole_edits_behind(result_.end);
-      if (!behind) return tl::unexpected(behind.error());
-      report.lost_edits = *behind;
-      // What follows a record that was cut off is no journal that was only ever added to.
-      if (*behind > 0 && result_.fault == JournalFault::CutOff)
-        stop(JournalFault::Damaged, "its bytes are not what was written");
-    }
-    tell();
-    return {};
+    result_.fault = std::max(result_.fault, fault);
+    report.lost_bytes += bytes;
+    ++places_;
+    if (start >= report.damaged_from) return;
+    report.damaged_from = start;
+    why_ = without_full_stop(std::move(why));
   }
 
   void tell() {
-    const JournalReport& report = result_.report;
-    const auto add = [&](std::string text) { result_.report.damage.push_back({{}, 0, std::move(text)}); };
+    JournalReport& report = result_.report;
+    const auto add = [&](std::string text) { report.damage.push_back({{}, 0, std::move(text)}); };
     if (!reader_.header_is_good()) add("Its first bytes are damaged; what follows them is not lost.");
-    const std::string kept = has_snapshot_ ? fmt::format("{} edits before that are kept", report.edits)
-                                           : std::string("only a part of the design before that is kept");
-    switch (result_.fault) {
-      case JournalFault::None:
-      case JournalFault::Header:
-        break;
-      case JournalFault::CutOff:
-        add(
-            fmt::format("The last edit was cut off while it was written, so its {} bytes from byte {} on are "
-                        "lost; {}.",
-                        report.lost_bytes, result_.end, kept));
-        break;
-      case JournalFault::Unfinished:
-        add("It ends before the whole design was written; only a part of it is kept.");
-        break;
-      case JournalFault::Damaged:
-      case JournalFault::Refused:
-      case JournalFault::Unknown:
-        add(
-            fmt::format("It is damaged from byte {} on ({}); {}, the {} bytes behind are lost, among them {} "
-                        "whole edits.",
-                        result_.end, without_full_stop(why_), kept, report.lost_bytes, report.lost_edits));
+    if (result_.fault == JournalFault::CutOff) {
+      add(
+          fmt::format("The last edit was cut off while it was written, so its {} bytes from byte {} on are "
+                      "lost; {} edits before that are kept.",
+                      report.lost_bytes, report.damaged_from, report.edits));
+    } else if (places_ > 0) {
+      add(fmt::format(
+          "It is damaged from byte {} on ({}){}: {} bytes are lost, among them {} whole edits; what is "
+          "whole before and behind is kept.",
+          report.damaged_from, why_, places_ > 1 ? fmt::format(", at {} places", places_) : std::string(),
+          report.lost_bytes, report.lost_edits));
     }
-  }
-
-  static std::string without_full_stop(std::string sentence) {
-    if (sentence.ends_with('.')) sentence.pop_back();
-    return sentence;
+    if (!has_snapshot_) add("Its end is missing: there may have been more than what is kept.");
+    for (Remark& it : mending_.remarks()) report.damage.push_back(std::move(it));
   }
 
   JournalReader& reader_;
@@ -121,8 +141,11 @@ class JournalReplay {
   const JournalProgress& progress_;
   std::uint64_t told_ = 0;  // how far progress was told, bytes
   ReplayedJournal result_;
+  JournalMending mending_{result_.world};
+  JournalNames names_;
   bool has_snapshot_ = false;
-  std::string why_;
+  std::size_t places_ = 0;  // that are damaged
+  std::string why_;         // the first is
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace icome::files {
 
-/// Why no more of a journal could be had.
+/// What is wrong with a journal; of several, the last of this list.
 enum class JournalFault {
   None,
   Header,      // only its first bytes are damaged
@@ -19,11 +19,10 @@ struct ReplayedJournal {
   world::World world = {};
   JournalReport report = {};
   JournalFault fault = JournalFault::None;
-  std::uint64_t end = 0;      // of what was replayed, bytes
   std::uint64_t records = 0;  // that were replayed
 };
 
-/// Makes the world of a journal.
+/// Makes the world of a journal, of all that is whole before and behind damages.
 base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory,
                                              const JournalProgress& progress = {});
 

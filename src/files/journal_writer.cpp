@@ -1,10 +1,28 @@
 #include "files/journal_writer.h"
 
+#include <algorithm>
+
 #include "files/journal.h"
 #include "files/open_file.h"
 #include "world/edits_of.h"
 
 namespace icome::files {
+namespace {
+
+JournalNames names_of(const world::World& world) {
+  // A record is shorter than 4 GB, and this one is only for telling what is lost.
+  constexpr std::size_t kMostBytes = 64U << 20U;
+  JournalNames names;
+  std::size_t bytes = 0;
+  for (const auto& [id, object] : world.objects()) {
+    names.emplace_back(id, object.name);
+    bytes += object.name.size();
+  }
+  std::sort(names.begin(), names.end());
+  return bytes > kMostBytes ? JournalNames{} : names;
+}
+
+}  // namespace
 
 base::Result<JournalSnapshot> write_snapshot(const world::World& world, NewFile& file) {
   JournalSnapshot snapshot;
@@ -14,6 +32,10 @@ base::Result<JournalSnapshot> write_snapshot(const world::World& world, NewFile&
     snapshot.bytes += bytes.size();
     bytes.clear();
   };
+  if (const JournalNames names = names_of(world); !names.empty()) {
+    add_journal_record(JournalKind::Contents, snapshot.records++, journal_names_to_bytes(names), bytes);
+    write();
+  }
   for (const world::Edit& edit : world::edits_of(world)) {
     const auto written = world::to_bytes(edit);
     if (!written) return base::fail(file.path().string() + ": " + written.error().message);

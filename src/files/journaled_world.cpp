@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "files/journal_lost.h"
 #include "files/journal_replay.h"
 #include "files/journal_writer.h"
 
@@ -43,28 +44,14 @@ base::Result<void> begin_journal(const OpenFile& file) {
 /// Compaction writes a whole file beside the journal, which is left there when the program is killed. Whoever
 /// has the journal's lock may take such a file away.
 void remove_left_behind(const std::filesystem::path& path) {
-  const std::string prefix = path.filename().string() + ".part-";
+  const std::string whole = path.filename().string();
   std::error_code error;
   std::vector<std::filesystem::path> left;
   for (std::filesystem::directory_iterator it(path.parent_path(), error), end; !error && it != end;
        it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    const bool numbered = name.size() > prefix.size() &&
-                          name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-    if (name.starts_with(prefix) && numbered) left.push_back(it->path());
+    if (is_part_of(it->path().filename().string(), whole)) left.push_back(it->path());
   }
   for (const std::filesystem::path& it : left) std::filesystem::remove(it, error);
-}
-
-/// A name for what is lost that nothing has yet.
-std::filesystem::path free_name_beside(const std::filesystem::path& path) {
-  std::filesystem::path name = path;
-  name += ".lost";
-  for (int i = 2; std::filesystem::exists(name); ++i) {
-    name = path;
-    name += fmt::format(".lost-{}", i);
-  }
-  return name;
 }
 
 }  // namespace
@@ -94,17 +81,18 @@ base::Result<void> JournaledWorld::start(const world::GeometryFactory& factory) 
   if (!replayed) return tl::unexpected(replayed.error());
   report_ = std::move(replayed->report);
   if (replayed->fault == JournalFault::Unknown) {
-    return base::fail(sentence(report_.damage.back(), path().string()) +
+    return base::fail(sentence(report_.damage.front(), path().string()) +
                       " Nothing was changed: a newer version or one that knows the shape can open it.");
   }
   world_ = std::move(replayed->world);
-  end_ = replayed->end;
+  end_ = report_.damaged_from;
   records_ = replayed->records;
   snapshot_ = report_.snapshot_bytes + kJournalHeaderBytes;
   edits_ = report_.edit_bytes;
   remove_left_behind(path());
-  if (report_.lost_bytes > 0) {
-    if (const auto kept = set_aside(replayed->end); !kept) return kept;
+  if (const auto kept = keep_what_is_lost(file_, report_); !kept) {
+    return base::fail(sentence(report_.damage.front(), path().string()) +
+                      " Nothing was changed, as what is lost cannot be kept: " + kept.error().message);
   }
   if (replayed->fault == JournalFault::CutOff) {
     if (const auto cut = file_.cut_to(end_); !cut) return cut;
@@ -112,27 +100,6 @@ base::Result<void> JournaledWorld::start(const world::GeometryFactory& factory) 
   }
   if (replayed->fault != JournalFault::None) return compact();
   compact_if_due();
-  return {};
-}
-
-base::Result<void> JournaledWorld::set_aside(std::uint64_t from) {
-  constexpr std::uint64_t kPiece = 1U << 20U;
-  const std::filesystem::path name = free_name_beside(path());
-  const auto failed = [&](const base::Error& error) {
-    return base::fail(sentence(report_.damage.back(), path().string()) +
-                      " Nothing was changed, as they cannot be kept: " + error.message);
-  };
-  auto copy = NewFile::create(name);
-  if (!copy) return failed(copy.error());
-  std::string piece;
-  for (std::uint64_t at = from; at < report_.bytes; at += piece.size()) {
-    piece.resize(std::min(kPiece, report_.bytes - at));
-    if (const auto read = file_.read(at, piece.data(), piece.size()); !read) return failed(read.error());
-    copy->write(piece);
-  }
-  if (const auto finished = copy->finish(); !finished) return failed(finished.error());
-  report_.set_aside = name;
-  report_.damage.push_back({{}, 0, fmt::format("The lost bytes are in {}.", name.string())});
   return {};
 }
 

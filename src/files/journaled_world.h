@@ -25,11 +25,11 @@ struct JournalOptions {
 /// between, and none by halves.
 class JournaledWorld {
  public:
-  /// Opens a journal and does its edits again. Where it is damaged, the world is that before the first
-  /// damage; what is behind is copied to a file beside it (`report`) before it is taken out. Fails, changing
-  /// nothing, for what is no journal, for one that somebody else works with or a newer version wrote, for
-  /// one with edits or shapes that this program does not know (read_journal gives what is before them), and
-  /// where the disk fails or has no room for that copy.
+  /// Opens a journal and does its edits again. Of a damaged one the world is made of all that is whole; the
+  /// bytes from the first damage on are copied to a file beside it (`report`) before it is mended. Fails,
+  /// changing nothing, for what is no journal, for one that somebody else works with or a newer version
+  /// wrote, for one with edits or shapes that this program does not know (read_journal gives what is before
+  /// them), and where the disk fails or has no room for that copy.
   static base::Result<JournaledWorld> open(const std::filesystem::path& path,
                                            const world::GeometryFactory& factory,
                                            const JournalOptions& options = {});
@@ -68,7 +68,6 @@ class JournaledWorld {
  private:
   JournaledWorld(OpenFile file, const JournalOptions& options) : file_(std::move(file)), options_(options) {}
   base::Result<void> start(const world::GeometryFactory& factory);
-  base::Result<void> set_aside(std::uint64_t from);
   base::Result<void> append(std::string_view content);
   base::Result<void> write_anew(const world::World& world);
   void compact_if_due();

@@ -4,15 +4,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "files/open_file.h"
 
 namespace icome::files {
 namespace {
+
+constexpr std::string_view kPart = ".part-";
+constexpr std::string_view kPartDigits = "0123456789";
 
 tl::unexpected<base::Error> cannot_write(const std::filesystem::path& path, const char* why) {
   return base::fail(fmt::format("{}: cannot be written ({}).", path.string(), why));
@@ -24,14 +31,47 @@ std::FILE* open_beside(const std::filesystem::path& path, std::filesystem::path&
   constexpr int kMostTries = 100;
   for (int i = 0;; ++i) {
     beside = path;
-    beside += fmt::format(".part-{}", ::getpid());
-    if (i > 0) beside += fmt::format("{:03}", i);
+    beside += fmt::format("{}{}", kPart, ::getpid());
+    if (i > 0) beside += fmt::format("-{}", i);
     std::FILE* const file = std::fopen(beside.c_str(), "wbxe");
     if (file != nullptr || errno != EEXIST || i == kMostTries) return file;
   }
 }
 
+/// Is there no process of the number with which the text begins?
+bool is_gone(std::string_view text) {
+  pid_t process = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), process);
+  if (error != std::errc() || process <= 0) return true;
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// Takes away what processes that are gone left beside the path.
+void remove_parts_of_the_gone(const std::filesystem::path& path) {
+  const std::string whole = path.filename().string();
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::vector<std::filesystem::path> left;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (is_part_of(name, whole) && is_gone(std::string_view(name).substr(whole.size() + kPart.size())))
+      left.push_back(it->path());
+  }
+  for (const std::filesystem::path& it : left) std::filesystem::remove(it, error);
+}
+
 }  // namespace
+
+bool is_part_of(std::string_view name, std::string_view whole) {
+  if (!name.starts_with(whole)) return false;
+  name.remove_prefix(whole.size());
+  if (!name.starts_with(kPart)) return false;
+  name.remove_prefix(kPart.size());
+  const std::size_t process = std::min(name.find_first_not_of(kPartDigits), name.size());
+  const std::string_view which = name.substr(process);
+  return process > 0 && (which.empty() || (which.size() > 1 && which.front() == '-' &&
+                                           which.find_first_not_of(kPartDigits, 1) == which.npos));
+}
 
 base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
   // Renaming over a device such as /dev/null would replace it, and so it would a link.
@@ -41,6 +81,7 @@ base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
     return cannot_write(path, "not an ordinary file");
   std::filesystem::path real = there ? std::filesystem::canonical(path, error) : path;
   if (error) return cannot_write(path, error.message().c_str());
+  remove_parts_of_the_gone(real);
   std::filesystem::path beside;
   std::FILE* const file = open_beside(real, beside);
   if (file == nullptr) return cannot_write(path, std::strerror(errno));

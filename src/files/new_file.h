@@ -12,7 +12,8 @@ namespace icome::files {
 class NewFile {
  public:
   /// Opens the file beside `path`. The error names the path and what the system said, so an impossible path
-  /// is told before the work, not after it.
+  /// is told before the work, not after it. What a program that was killed left beside `path`, half written,
+  /// is taken away.
   static base::Result<NewFile> create(const std::filesystem::path& path);
 
   NewFile(NewFile&&) noexcept = default;
@@ -38,5 +39,9 @@ class NewFile {
   std::unique_ptr<std::FILE, Close> file_;  // null once finished or moved from
   int write_error_ = 0;                     // errno of the first failure
 };
+
+/// Is `name` that of a file that is written beside one called `whole`, to be renamed? "a.obj.part-1234" for
+/// "a.obj", and "a.obj.part-1234-2" where process 1234 writes several.
+bool is_part_of(std::string_view name, std::string_view whole);
 
 }  // namespace icome::files

@@ -1,5 +1,6 @@
 // Designs as OBJ files.
 #include <fmt/format.h>
+#include <lzma.h>
 
 #include <algorithm>
 #include <bit>
@@ -7,10 +8,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "files/file_bytes.h"
 #include "files/mtl_library.h"
 #include "files/new_file.h"
 #include "files/number_text.h"
 #include "files/obj_design.h"
+#include "files/open_file.h"
 #include "files/picture_folder.h"
 #include "files/shown_world.h"
 
@@ -221,19 +224,24 @@ class ObjWriting {
 
 using NamedMaterials = std::unordered_map<MaterialId, std::string>;
 
-/// Writes the materials of objects into a library beside; names them.
-base::Result<NamedMaterials> write_library(const std::filesystem::path& path, const World& world,
-                                           const std::filesystem::path& design) {
+/// The materials of objects as a library beside the design says them.
+struct ObjLibrary {
+  NamedMaterials names;
+  std::string text;  // empty: there are none
+};
+
+constexpr std::string_view kObjLibraryHead = "# made by ICOME\n";
+
+/// Writes pictures into a folder beside.
+base::Result<ObjLibrary> make_library(const World& world, const std::filesystem::path& design) {
   std::vector<MaterialId> ids;
   for (const auto& [id, material] : world.materials()) ids.push_back(id);
   std::sort(ids.begin(), ids.end());
-  NamedMaterials named;
-  if (ids.empty()) return named;
-  auto file = NewFile::create(path);
-  if (!file) return tl::unexpected(file.error());
+  ObjLibrary library;
+  if (ids.empty()) return library;
   PictureFolder pictures(design);
   ObjNames names;
-  file->write("# made by ICOME\n");
+  library.text = kObjLibraryHead;
   for (const MaterialId id : ids) {
     const world::Material& material = *world.find(id);
     const world::Texture* const texture = world.find(material.texture);
@@ -243,11 +251,61 @@ base::Result<NamedMaterials> write_library(const std::filesystem::path& path, co
       if (!written) return tl::unexpected(written.error());
       url = std::move(*written);
     }
-    named[id] = names.unique(material.name, "material", false);
-    file->write(mtl_text(material, named[id], url, texture ? texture->repeats : std::array{true, true}));
+    library.names[id] = names.unique(material.name, "material", false);
+    library.text +=
+        mtl_text(material, library.names[id], url, texture ? texture->repeats : std::array{true, true});
   }
+  return library;
+}
+
+/// Is that what the file holds?
+bool holds_text(const std::filesystem::path& path, const std::string& text) {
+  const auto bytes = read_bytes(path, text.size());
+  return bytes && *bytes == text;
+}
+
+/// Writes a library under a name that no design refers to yet, so that a design that is there keeps its own
+/// until it is replaced: table.mtl, or with a number made of what it holds, table_0123abcd.mtl. Other
+/// people's files stay.
+base::Result<std::filesystem::path> write_library(const std::string& text,
+                                                  const std::filesystem::path& design) {
+  std::error_code error;
+  std::filesystem::path path = std::filesystem::path(design).replace_extension(".mtl");
+  const std::uint32_t sum =
+      lzma_crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), std::uint32_t{0});
+  for (std::uint32_t i = 0; std::filesystem::exists(path, error); ++i) {
+    if (holds_text(path, text)) return path;
+    path.replace_filename(fmt::format("{}_{:08x}.mtl", design.stem().string(), sum + i));
+  }
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  file->write(text);
   if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
-  return named;
+  return path;
+}
+
+/// Is it a name that write_library gives?
+bool is_library_of(const std::filesystem::path& path, const std::filesystem::path& design) {
+  const std::string stem = design.stem().string(), name = path.filename().string();
+  if (name == stem + ".mtl") return true;
+  constexpr std::size_t kDigits = 8;
+  return name.size() == stem.size() + 1 + kDigits + 4 && name.starts_with(stem + "_") &&
+         name.ends_with(".mtl") &&
+         name.find_first_not_of("0123456789abcdef", stem.size() + 1) == stem.size() + 1 + kDigits;
+}
+
+/// Takes away libraries that ICOME wrote for what stood here before.
+void remove_old_libraries(const std::filesystem::path& design, const std::filesystem::path& current) {
+  const std::filesystem::path folder = design.has_parent_path() ? design.parent_path() : ".";
+  std::vector<std::filesystem::path> old;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().filename() == current.filename() || !is_library_of(it->path(), design)) continue;
+    std::string head(kObjLibraryHead.size(), '\0');
+    const auto file = OpenFile::open(it->path(), OpenFile::Use::Read);
+    if (file && file->read(0, head.data(), head.size()) && head == kObjLibraryHead) old.push_back(it->path());
+  }
+  for (const std::filesystem::path& it : old) std::filesystem::remove(it, error);
 }
 
 bool has_touch(const World& world) {
@@ -264,19 +322,22 @@ base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& 
   const auto objects = shown_objects(world, remarks);
   if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
   if (has_touch(world)) remarks.push_back({{}, 0, "OBJ cannot say how a material feels: that is left out."});
-  const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
-  const auto materials = write_library(library, world, path);
-  if (!materials) return tl::unexpected(materials.error());
+  const auto library = make_library(world, path);
+  if (!library) return tl::unexpected(library.error());
+  const auto beside = library->text.empty() ? base::Result<std::filesystem::path>(std::filesystem::path())
+                                            : write_library(library->text, path);
+  if (!beside) return tl::unexpected(beside.error());
   ObjWriting writing(*file);
-  writing.begin(materials->empty() ? "" : library.filename().string());
+  writing.begin(beside->filename().string());
   ObjNames names;
   for (const ShownObject& it : *objects) {
     const world::PhysicalObject& object = *world.find(it.object);
     writing.add(it, names.unique(object.name, "object", true),
-                object.material ? materials->at(object.material) : "");
+                object.material ? library->names.at(object.material) : "");
   }
   writing.finish();
   if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
+  remove_old_libraries(path, *beside);
   return remarks;
 }
 

@@ -355,7 +355,7 @@ void VrmlWriter::tell_what_is_left() {
   const auto unused = [&](const auto& table, const char* what) {
     const auto count =
         std::count_if(table.begin(), table.end(), [](const auto& it) { return it.second.users == 0; });
-    if (count > 0) remarks_.push_back({"", 0, fmt::format("{} {} left out.", count, what)});
+    if (count > 0) remarks_.push_back({"", 0, fmt::format("{} {} left out.", count, what), false});
   };
   if (inert_left_out_ > 0)
     remarks_.push_back(

@@ -31,17 +31,13 @@ constexpr std::string_view kNoteHead = "ICOME autosave, work on:\n";
 
 fs::path with_ending(fs::path journal, std::string_view ending) { return journal.replace_extension(ending); }
 
-bool is_number(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
-}
-
 /// The journal that a file which only makes sense beside it belongs to; empty for all others.
 fs::path journal_of(const fs::path& path) {
   std::string name = path.filename().string();
   if (!name.starts_with(kPrefix)) return {};
   bool belongs = false;
   const std::size_t half = name.rfind(kHalfDone);
-  if (half != name.npos && is_number(std::string_view(name).substr(half + kHalfDone.size()))) {
+  if (half != name.npos && files::is_part_of(name, std::string_view(name).substr(0, half))) {
     name.resize(half);
     belongs = name.ends_with(kJournalEnding);
   }

@@ -42,7 +42,7 @@ void AutosaveKeeper::replace(const Edited& edited, Time now) {
 void AutosaveKeeper::note_saved(const SavedWork& saved) {
   if (saved.number < whole_) return;  // of a world that is gone
   design_ = saved.design;
-  if (last_edit_ <= saved.number) {
+  if (last_edit_ <= saved.number && !saved.in_part) {
     if (follows_) part();
     discard();
   } else if (journal_) {

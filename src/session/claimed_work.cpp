@@ -43,7 +43,7 @@ base::Result<files::LoadedDesign> ClaimedWork::read(const files::DesignReadOptio
   auto journal = files::read_journal(work_.journal, world::GeometryFactory(), options.progress);
   if (!journal) return tl::unexpected(journal.error());
   files::LoadedDesign design{std::move(journal->world), "recovered work", std::move(journal->report.damage)};
-  has_more_ = journal->report.lost_edits > 0;
+  has_more_ = journal->report.lost_bytes > 0 && !journal->report.is_torn;
   if (has_more_) {
     design.remarks.push_back(
         {{}, 0, fmt::format("The damaged file will be kept as {}.", damaged_name(work_.journal).string())});

@@ -17,11 +17,11 @@ class ClaimedWork {
   static base::Result<std::shared_ptr<ClaimedWork>> claim(const RecoverableWork& work);
 
   const RecoverableWork& work() const { return work_; }
-  /// The world as it was after the last edit that is whole. Remarks tell what was lost, if anything. Takes
+  /// The world that all whole edits make. Remarks tell what was lost, if anything. Takes
   /// its time; any one thread. Fails, leaving all as it is, for what cannot be read.
   base::Result<files::LoadedDesign> read(const files::DesignReadOptions& options);
-  /// The work is safe elsewhere, or not wanted: takes it away. Of a damaged journal that still has edits
-  /// which could not be done the file stays, as "....damaged". Any one thread, after reading.
+  /// The work is safe elsewhere, or not wanted: takes it away. A damaged journal (but not one whose last edit
+  /// was cut off as the program stopped) stays, as "....damaged". Any one thread, after reading.
   void discard();
 
  private:

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,7 +22,16 @@ class DesignSaver {
     std::uint64_t number = 0;  // as given to save()
     /// What the format cannot hold; or why there is no new file, and what to do.
     base::Result<std::vector<files::Remark>> result = {};
+    /// There is no new file as that would lose what is there: a person decides, and may save with
+    /// `Replace::Anyway`.
+    bool asks = false;
   };
+  enum class Replace : std::uint8_t {
+    Safely,  // not what another program has changed, nor a damaged journal (files::why_not_replace)
+    Anyway,
+  };
+  /// Saves that may wait for their turn; each holds a world, which shares with others what did not change.
+  static constexpr std::size_t kMostWaiting = 8;
 
   DesignSaver();
   /// Writes what is still waiting.
@@ -31,7 +41,12 @@ class DesignSaver {
 
   /// Writes the world as it is now, behind what is being written. `number` comes back with the outcome: the
   /// last post of the EditedQueue that is in this world.
-  void save(const std::filesystem::path& design, world::World world, std::uint64_t number = 0);
+  /// Precondition: can_save().
+  void save(const std::filesystem::path& design, world::World world, std::uint64_t number = 0,
+            Replace replace = Replace::Safely);
+  bool can_save() const { return waiting_.size() < kMostWaiting; }
+  /// A design was opened that was this file: what others change in it from now on is not replaced unasked.
+  void has_read(const std::filesystem::path& design, const std::optional<files::FileStamp>& stamp);
 
   bool busy() const { return writing_ != nullptr || !waiting_.empty(); }
   /// How the oldest ended, once each, in the order of saving. Begins with the next.
@@ -44,6 +59,7 @@ class DesignSaver {
     std::filesystem::path design;
     world::World world;
     std::uint64_t number = 0;
+    Replace replace = Replace::Safely;
   };
   struct Writing;
 
@@ -51,6 +67,7 @@ class DesignSaver {
 
   std::unique_ptr<Writing> writing_;  // null: none is under way
   std::deque<Order> waiting_;
+  std::map<std::filesystem::path, files::FileStamp> seen_;  // files as they were read or written here last
 };
 
 }  // namespace icome::session

@@ -1,9 +1,22 @@
 #include "session/edited_queue.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
+#include "world/edit_memory.h"
+
 namespace icome::session {
+namespace {
+
+std::uint64_t memory_of_edits(const Edited& edited) {
+  std::uint64_t bytes = edited.edit ? world::memory_of(*edited.edit) : 0;
+  if (edited.for_replicas && edited.for_replicas != edited.edit)
+    bytes += world::memory_of(*edited.for_replicas);
+  return bytes;
+}
+
+}  // namespace
 
 bool EditedQueue::Reader::wait() {
   for (;;) {
@@ -28,6 +41,7 @@ bool EditedQueue::Reader::wait_for(std::chrono::nanoseconds longest) {
 
 std::optional<Edited> EditedQueue::Reader::take() {
   if (!look()) return std::nullopt;
+  taken_bytes_.fetch_add(next_->bytes, std::memory_order_relaxed);
   return std::exchange(next_, std::nullopt);
 }
 
@@ -58,9 +72,17 @@ EditedQueue::Reader& EditedQueue::add_reader() {
   return *readers_.emplace_back(std::make_unique<Reader>());
 }
 
+bool EditedQueue::has_room() const {
+  return std::all_of(readers_.begin(), readers_.end(), [this](const auto& reader) {
+    return posted_bytes_ - reader->taken_bytes_.load(std::memory_order_relaxed) <= most_bytes_;
+  });
+}
+
 std::uint64_t EditedQueue::post(Edited edited) {
   assert(!closed_);
   edited.number = ++posted_;
+  edited.bytes = memory_of_edits(edited);
+  posted_bytes_ += edited.bytes;
   for (const auto& reader : readers_) {
     reader->kept_.push_back(edited);
     reader->hand_on();

@@ -20,6 +20,7 @@ class ClaimedWork;
 struct SavedWork {
   std::filesystem::path design = {};  // the file; empty: there is none yet
   std::uint64_t number = 0;           // what was posted up to here is in it; a `whole` that comes along, too
+  bool in_part = false;               // the format cannot hold all: the work counts as unsaved
   /// Not null: the `whole` that comes along is in no file but this work, recovered of a session that crashed,
   /// which goes when it is kept anew.
   std::shared_ptr<ClaimedWork> recovered = nullptr;
@@ -35,12 +36,14 @@ struct Edited {
   std::shared_ptr<const world::Edit> for_replicas = nullptr;
   std::optional<world::SceneId> shown = {};  // another scene (none: the whole world) is looked at and touched
   std::shared_ptr<const SavedWork> saved = nullptr;  // not null: the design was saved, opened or recovered
+  std::uint64_t bytes =
+      0;  // of memory that its edits may take, as world::memory_of counts; the queue counts them
 };
 
 /// The EditedQueue of thesis 5.6.1: what was edited is queued once, and each representation of the world (for
 /// hand, eye, disk, colleagues) takes what it needs, on a thread of its own and in its own time. One thread
 /// (main) posts and never waits, however far behind a reader is; what does not fit into a reader's pipe is
-/// kept for it. Owns the readers.
+/// kept for it. Who edits asks has_room() first, so that what is kept has a bound. Owns the readers.
 class EditedQueue {
  public:
   /// One representation's end of the queue; one thread uses it.
@@ -63,13 +66,21 @@ class EditedQueue {
     realtime::MessagePipe<Edited> pipe_{kRoom};
     std::counting_semaphore<> news_{0};
     std::atomic<bool> closed_ = false;
+    std::atomic<std::uint64_t> taken_bytes_ = 0;  // of edits, since the first
     std::deque<Edited>
         kept_;  // did not fit; the posting thread's until the queue is closed, then the reader's
     std::optional<Edited> next_;  // the reader's
   };
 
+  /// What a reader that is behind may keep from being freed; one post more may come on top.
+  static constexpr std::uint64_t kMostBytes = 1ULL << 30U;
+  explicit EditedQueue(std::uint64_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
+
   /// For one more representation. Before the first post; lives as long as the queue.
   Reader& add_reader();
+
+  /// Is no reader so far behind that editing on would take too much memory?
+  bool has_room() const;
 
   /// Queues it for all readers and gives it its number.
   std::uint64_t post(Edited edited);
@@ -82,7 +93,9 @@ class EditedQueue {
 
  private:
   std::vector<std::unique_ptr<Reader>> readers_;
+  std::uint64_t most_bytes_;
   std::uint64_t posted_ = 0;
+  std::uint64_t posted_bytes_ = 0;
   bool closed_ = false;
 };
 

@@ -51,8 +51,10 @@ struct SessionEvent {
     Opened,      // a design was read; details: what was skipped or put right
     OpenFailed,  // the world is what it was before
     OpenCancelled,
-    Saved,           // details: what the format cannot hold
+    Saved,           // all that counts; details: leftovers that the format cannot hold
+    SavedInPart,     // the design counts as changed still; details: what the format cannot hold
     SaveFailed,      // the work is still there, as is the old file
+    SaveAsks,        // the same: a person says whether what is there may be lost, and then saves anyway
     Recovered,       // work of a session that ended without closing
     AutosaveFailed,  // work goes on, but a crash would lose it
     AutosaveResumed,
@@ -127,13 +129,16 @@ class Session {
   void cancel_open();
   /// The part that is done, [0, 1], while a design is being read.
   std::optional<double> opening() const;
-  /// Starts writing what the world is now, there from now on.
-  void save(const std::filesystem::path& design);
+  /// Starts writing what the world is now, there from now on. What another program has changed there since,
+  /// and a damaged file, are only replaced `anyway`; the event SaveAsks tells.
+  void save(const std::filesystem::path& design, bool anyway = false);
   bool saving() const;
   /// Of the design; empty: it has never been saved.
   const std::filesystem::path& path() const;
   /// Would closing lose something?
   bool modified() const;
+  /// What the file does not hold, as its format cannot, in sentences; empty: it was saved whole, or not yet.
+  const std::vector<std::string>& left_out() const;
   /// Waits until nothing is being read or written, and all threads have caught up with the world. For tests
   /// and command-line tools.
   void settle();

@@ -33,6 +33,7 @@ void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
   } else {
     files::LoadedDesign& loaded = **outcome.result;
     std::vector<std::string> details = sentences(loaded.remarks, outcome.design);
+    saver.has_read(outcome.design, loaded.stamp);
     open_world(std::move(loaded.world), outcome.design, work);
     if (work) {
       tell(SessionEvent::Kind::Recovered,
@@ -44,21 +45,42 @@ void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
   }
 }
 
+void Session::Parts::tell_of_saved(const DesignSaver::Outcome& outcome,
+                                   const std::vector<std::string>& missing) {
+  const std::string name = shown_name(outcome.design);
+  if (missing.empty()) {
+    tell(SessionEvent::Kind::Saved, fmt::format("{} was saved.", name),
+         sentences(*outcome.result, outcome.design));
+  } else {
+    tell(SessionEvent::Kind::SavedInPart,
+         fmt::format(
+             "{} was written, but cannot hold all of your design, which still counts as changed: save it "
+             "as .icome, too.",
+             name),
+         missing);
+  }
+}
+
 void Session::Parts::take_saved(DesignSaver::Outcome& outcome) {
   const std::uint64_t revision = saving_revisions.front();
   saving_revisions.pop_front();
   if (!outcome.result) {
-    tell(SessionEvent::Kind::SaveFailed, outcome.result.error().message);
+    tell(outcome.asks ? SessionEvent::Kind::SaveAsks : SessionEvent::Kind::SaveFailed,
+         outcome.result.error().message);
     return;
   }
-  tell(SessionEvent::Kind::Saved, fmt::format("{} was saved.", shown_name(outcome.design)),
-       sentences(*outcome.result, outcome.design));
+  std::vector<std::string> missing;
+  for (const files::Remark& it : *outcome.result)
+    if (it.loses) missing.push_back(files::sentence(it, outcome.design.filename().string()));
+  tell_of_saved(outcome, missing);
   // Of a design that is not open any more.
   if (outcome.number < opened_number) return;
   path = outcome.design;
-  saved_revision = revision;
+  left_out = std::move(missing);
+  if (left_out.empty()) saved_revision = revision;
   Edited edited;
-  edited.saved = std::make_shared<const SavedWork>(SavedWork{outcome.design, outcome.number});
+  edited.saved = std::make_shared<const SavedWork>(
+      SavedWork{.design = outcome.design, .number = outcome.number, .in_part = !left_out.empty()});
   queue.post(std::move(edited));
 }
 
@@ -99,18 +121,31 @@ void Session::cancel_open() { parts_->loader.cancel(); }
 
 std::optional<double> Session::opening() const { return parts_->loader.part(); }
 
-void Session::save(const std::filesystem::path& design) {
+void Session::save(const std::filesystem::path& design, bool anyway) {
+  if (!parts_->saver.can_save()) {
+    parts_->tell(
+        SessionEvent::Kind::SaveFailed,
+        fmt::format("{} was not saved, as {} saves before it are still being written: try again in a "
+                    "moment.",
+                    shown_name(design), DesignSaver::kMostWaiting));
+    return;
+  }
   world::World world = parts_->world;
   if (stands_on_z(design)) lay_down(world);
   parts_->saving_revisions.push_back(parts_->revisions.now());
-  parts_->saver.save(design, std::move(world), parts_->queue.posted());
+  parts_->saver.save(design, std::move(world), parts_->queue.posted(),
+                     anyway ? DesignSaver::Replace::Anyway : DesignSaver::Replace::Safely);
 }
 
 bool Session::saving() const { return parts_->saver.busy(); }
 
 const std::filesystem::path& Session::path() const { return parts_->path; }
 
-bool Session::modified() const { return parts_->revisions.now() != parts_->saved_revision; }
+bool Session::modified() const {
+  return parts_->revisions.now() != parts_->saved_revision || !parts_->left_out.empty();
+}
+
+const std::vector<std::string>& Session::left_out() const { return parts_->left_out; }
 
 void Session::close() {
   if (parts_->journal) parts_->journal->close();

@@ -49,6 +49,7 @@ struct Session::Parts {
   // session_files.cpp
   void take_opened(DesignLoader::Outcome& outcome);
   void take_saved(DesignSaver::Outcome& outcome);
+  void tell_of_saved(const DesignSaver::Outcome& outcome, const std::vector<std::string>& missing);
   void take_files();
   void finish_saving();
 
@@ -88,6 +89,7 @@ struct Session::Parts {
   Revisions revisions;
   Surroundings surroundings{world};
   std::uint64_t saved_revision = 0;
+  std::vector<std::string> left_out;           // of what was saved last, as its format cannot hold it
   std::deque<std::uint64_t> saving_revisions;  // on their way to disk
   std::uint64_t opened_number = 0;             // of the post with this world
   std::shared_ptr<ClaimedWork> recovering;     // not null: it is what the loader reads

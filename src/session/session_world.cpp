@@ -27,6 +27,8 @@ Edited one_after_the_other(const Edited& first, const Edited& then) {
 /// Performs on main's world, and keeps what is to be posted.
 world::EditSink Session::Parts::sink() {
   return world::EditSink([this](const world::Edit& edit) -> base::Result<world::Edit> {
+    if (!queue.has_room())
+      return base::fail("The program is too far behind with your edits: wait a moment, then do it again.");
     auto shared = perform_shared(world, edit);
     if (!shared) return tl::unexpected(shared.error());
     performed.emplace();
@@ -85,11 +87,13 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
   revisions.restart();
   constexpr std::uint64_t kNever = 0;  // what was recovered is in no file
   saved_revision = recovered ? kNever : revisions.now();
+  left_out.clear();
   path = design;
   shown_scene = {};
   Edited edited;
   edited.whole = std::make_shared<const world::World>(world);
-  edited.saved = std::make_shared<const SavedWork>(SavedWork{design, queue.posted() + 1, recovered});
+  edited.saved = std::make_shared<const SavedWork>(
+      SavedWork{.design = design, .number = queue.posted() + 1, .recovered = recovered});
   opened_number = queue.post(std::move(edited));
   const bool had_selection = !std::exchange(selection, {}).empty();
   outline_is_new = look_is_new = true;

@@ -13,6 +13,18 @@
 namespace icome::ui {
 
 using session::SessionEvent;
+namespace {
+
+QString text_of_some(const std::vector<std::string>& sentences) {
+  constexpr std::size_t kMost = 3;
+  QStringList some;
+  for (std::size_t i = 0; i < sentences.size() && i < kMost; ++i)
+    some.push_back(QString::fromStdString(sentences[i]));
+  return some.join(' ') +
+         (sentences.size() > kMost ? QString(" (and %1 more)").arg(sentences.size() - kMost) : "");
+}
+
+}  // namespace
 
 FileActions::FileActions(session::Session& session, QSettings& settings, QWidget& window)
     : session_(session), window_(window), recent_(settings) {
@@ -203,7 +215,12 @@ void FileActions::ask(const std::function<void()>& then) {
                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box->setObjectName("save_changes");
   box->setTextFormat(Qt::PlainText);
-  box->setInformativeText("Without saving, what you did since the last time is lost.");
+  const auto& left_out = session_.left_out();
+  box->setInformativeText(
+      left_out.empty() ? QString("Without saving, what you did since the last time is lost.")
+                       : QString("%1 cannot hold all of your design: %2\nSave it as .icome, or what is left "
+                                 "out is lost.")
+                             .arg(design_name(), text_of_some(left_out)));
   box->button(QMessageBox::Discard)->setText("&Don\u2019t Save");
   box->setDefaultButton(QMessageBox::Save);
   box->setAttribute(Qt::WA_DeleteOnClose);
@@ -213,7 +230,31 @@ void FileActions::ask(const std::function<void()>& then) {
       then();
     } else if (answer == QMessageBox::Save) {
       then_ = then;
-      save();
+      // The same format would leave out the same again.
+      session_.left_out().empty() ? save() : save_as();
+    }
+  });
+  box->open();
+}
+
+/// A person decides about what another program wrote, or what a damaged file still holds.
+void FileActions::ask_to_replace(const SessionEvent& event) {
+  auto* box = new QMessageBox(QMessageBox::Warning, "Replace the File?", QString::fromStdString(event.text),
+                              QMessageBox::Cancel, &window_);
+  box->setObjectName("replace_file");
+  box->setTextFormat(Qt::PlainText);
+  box->setInformativeText("Your work is still open here, and the file is as it was.");
+  const auto* replace = box->addButton("&Replace", QMessageBox::DestructiveRole);
+  const auto* elsewhere = box->addButton("Save &As\u2026", QMessageBox::AcceptRole);
+  box->setDefaultButton(QMessageBox::Cancel);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  QObject::connect(box, &QMessageBox::finished, &window_, [=, this, design = saved_] {
+    if (box->clickedButton() == replace) {
+      session_.save(design, true);
+    } else if (box->clickedButton() == elsewhere) {
+      save_as();
+    } else {
+      then_ = nullptr;
     }
   });
   box->open();
@@ -242,6 +283,7 @@ Note FileActions::hear(const SessionEvent& event) {
   switch (event.kind) {
     case SessionEvent::Kind::Opened:
     case SessionEvent::Kind::Saved:
+    case SessionEvent::Kind::SavedInPart:
       if (!session_.path().empty()) recent_.add(session_.path());
       if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
       if (event.kind == SessionEvent::Kind::Opened) opened_.clear();
@@ -258,12 +300,16 @@ Note FileActions::hear(const SessionEvent& event) {
     case SessionEvent::Kind::SaveFailed:
       then_ = nullptr;
       break;
+    case SessionEvent::Kind::SaveAsks:
+      ask_to_replace(event);
+      break;
     default:
       break;
   }
   // Asks again if the work has gone on meanwhile. What waits to be written comes first.
-  if (event.kind == SessionEvent::Kind::Saved && then_ && !session_.saving())
-    when_safe(std::exchange(then_, nullptr));
+  const bool written =
+      event.kind == SessionEvent::Kind::Saved || event.kind == SessionEvent::Kind::SavedInPart;
+  if (written && then_ && !session_.saving()) when_safe(std::exchange(then_, nullptr));
   if (event.kind == SessionEvent::Kind::Recovered && recovered_)
     return note_of_recovered(*std::exchange(recovered_, std::nullopt), event.details);
   return note_of(event);

@@ -60,6 +60,7 @@ class FileActions {
   void begin_save(const std::filesystem::path& design);
   Note hear_of_cancelled(const session::SessionEvent& event);
   void ask(const std::function<void()>& then);
+  void ask_to_replace(const session::SessionEvent& event);
 
   session::Session& session_;
   QWidget& window_;

@@ -71,10 +71,18 @@ Note note_of(const SessionEvent& event) {
     case SessionEvent::Kind::Saved:
       note.topic = "file";
       note.weight = event.details.empty() ? Weight::Passing : Weight::Plain;
-      if (!event.details.empty()) {
-        note.text += counted(event.details.size(), "thing cannot be kept in this format",
-                             "things cannot be kept in this format");
-      }
+      break;
+    case SessionEvent::Kind::SavedInPart:
+      note.topic = "file";
+      note.weight = Weight::Warning;
+      note.text += counted(event.details.size(), "thing cannot be kept in this format",
+                           "things cannot be kept in this format");
+      note.remedies = {Remedy::SaveAs};
+      break;
+    case SessionEvent::Kind::SaveAsks:
+      note.topic = "file";
+      note.weight = Weight::Warning;
+      note.remedies = {Remedy::SaveAs};
       break;
     case SessionEvent::Kind::SaveFailed:
       note.topic = "file";

@@ -6,9 +6,8 @@
 namespace icome::world {
 
 /// The edits that make an equal world of an empty one: the same ids, orders and scenes, and no number is
-/// given twice. In groups of bounded size, which hold one shape or picture each where those are large; the
-/// same world gives the same edits. They share the world's shapes, and make copies that nobody has changed as
-/// copies again.
+/// given twice. None is a group, and the same world gives the same edits. They share the world's shapes, and
+/// make copies that nobody has changed as copies again.
 std::vector<Edit> edits_of(const World& world);
 
 }  // namespace icome::world

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "world/edit_memory.h"
+
 namespace icome::world {
 namespace {
 
@@ -38,12 +40,31 @@ bool covers_both(const Edit& older, const Edit& newer) {
 
 }  // namespace
 
+History::Action History::action_of(const std::string& name, Edit inverse) {
+  const std::size_t bytes = memory_of(inverse);
+  Action action{name, {}, bytes};
+  action.inverses.push_back(std::move(inverse));
+  return action;
+}
+
+void History::forget_oldest() {
+  std::size_t bytes = 0;
+  std::size_t kept = 0;
+  while (kept < done_.size()) {
+    bytes += done_[done_.size() - 1 - kept].bytes;
+    if (kept > 0 && bytes > most_bytes_) break;
+    ++kept;
+  }
+  done_.erase(done_.begin(), done_.end() - std::ptrdiff_t(kept));
+}
+
 base::Result<void> History::perform(const EditSink& sink, const Edit& edit, const std::string& name) {
   auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   keep();
   undone_.clear();
-  done_.push_back({name, {std::move(*inverse)}});
+  done_.push_back(action_of(name, std::move(*inverse)));
+  forget_oldest();
   return {};
 }
 
@@ -52,7 +73,8 @@ base::Result<void> History::try_out(const EditSink& sink, const Edit& edit, cons
   auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   aside_ = std::exchange(undone_, {});
-  done_.push_back({name, {std::move(*inverse)}});
+  done_.push_back(action_of(name, std::move(*inverse)));
+  forget_oldest();
   return {};
 }
 
@@ -70,8 +92,11 @@ base::Result<void> History::extend(const EditSink& sink, const Edit& edit) {
   auto inverse = sink(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   keep();
-  std::vector<Edit>& inverses = done_.back().inverses;
-  if (!covers_both(inverses.back(), *inverse)) inverses.push_back(std::move(*inverse));
+  Action& action = done_.back();
+  if (covers_both(action.inverses.back(), *inverse)) return {};
+  action.bytes += memory_of(*inverse);
+  action.inverses.push_back(std::move(*inverse));
+  forget_oldest();
   return {};
 }
 
@@ -97,7 +122,7 @@ base::Result<Edit> History::turn(const EditSink& sink, std::vector<Action>& from
     return base::fail(fmt::format("\"{}\" stays as it is, as the design has changed since: {}", action.name,
                                   inverse.error().message));
   }
-  to.push_back({action.name, {std::move(*inverse)}});
+  to.push_back(action_of(action.name, std::move(*inverse)));
   from.pop_back();
   return edit;
 }

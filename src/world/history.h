@@ -8,9 +8,16 @@
 namespace icome::world {
 
 /// What a person did and can take back: one entry for each action, whatever edits it took. Owns the
-/// inverses; knows the world, or whatever performs its edits, only while it is called.
+/// inverses; knows the world, or whatever performs its edits, only while it is called. Where they take more
+/// memory than they may, the oldest actions cannot be taken back any more; the last one always can.
 class History {
  public:
+  static constexpr std::size_t kMostBytes = std::size_t{256}
+                                            << 20U;  // of what can be undone, as memory_of counts
+
+  History() = default;
+  explicit History(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
   /// Performs what an action called `name` ("Move leg") does. What was undone can then not be redone.
   base::Result<void> perform(const EditSink& sink, const Edit& edit, const std::string& name);
   /// The same for more of the last action, such as the next step of a drag, which must not be undone.
@@ -41,10 +48,14 @@ class History {
   struct Action {
     std::string name;
     std::vector<Edit> inverses;  // the last one first to be applied
+    std::size_t bytes = 0;
   };
+  static Action action_of(const std::string& name, Edit inverse);
+  void forget_oldest();
   static base::Result<Edit> turn(const EditSink& sink, std::vector<Action>& from, std::vector<Action>& to,
                                  const char* nothing);
 
+  std::size_t most_bytes_ = kMostBytes;
   std::vector<Action> done_, undone_;
   std::optional<std::vector<Action>> aside_;  // what can be redone once what is tried out was taken back
 };

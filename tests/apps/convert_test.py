@@ -1,10 +1,12 @@
 """`icome convert` writes designs in other formats, whole or not at all, and tells what was lost."""
 import json
 import os
+import pathlib
 import unittest
 
 from icome_program import ProgramTest
 
+DEMO = pathlib.Path(__file__).resolve().parents[2] / "data" / "demo.wrl"
 CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0.3\n1 0 0.3\n1 1 0.3\n0 1 0.3\n"
         "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
 ENDINGS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".icome")
@@ -67,6 +69,44 @@ class ConvertTest(ProgramTest):
         self.fails("convert", self.folder / "none.obj", old, code=1, saying="none.obj")
         self.assertEqual(old.read_text(), "of another day\n")
         self.assertEqual(sorted(it.name for it in self.folder.iterdir()), ["bad.off", "old.ply"])
+
+    def damaged(self, cut):
+        """A design of many objects, cut short; and how many it had."""
+        whole = self.folder / "whole.icome"
+        self.succeeds("convert", DEMO, whole)
+        count = json.loads(self.succeeds("info", whole, "--json").stdout)["objects"]
+        bad = self.folder / "bad.icome"
+        bad.write_bytes(whole.read_bytes()[:-cut])
+        return bad, count
+
+    def test_a_damaged_design_gives_all_but_what_is_damaged(self):
+        bad, count = self.damaged(100)
+        told = json.loads(self.succeeds("info", bad, "--json").stdout)
+        self.assertGreaterEqual(told["objects"], count - 1)
+        self.assertTrue(any("damaged" in warning or "cut off" in warning for warning in told["warnings"]), told)
+        data = bytearray((self.folder / "whole.icome").read_bytes())
+        for share in (0.2, 0.5, 0.8):
+            flipped = bytearray(data)
+            flipped[int(len(data) * share)] ^= 4
+            bad.write_bytes(flipped)
+            told = json.loads(self.succeeds("info", bad, "--json").stdout)
+            self.assertGreaterEqual(told["objects"], count - 1)
+            self.assertTrue(any("is damaged" in warning for warning in told["warnings"]), told)
+
+    def test_a_damaged_design_is_not_replaced_unasked(self):
+        bad, _ = self.damaged(100)
+        before = bad.read_bytes()
+        source = self.write("cube.off", CUBE)
+        script = self.write("none.jsonl", "")
+        self.fails("convert", source, bad, code=1, saying="--force")
+        self.fails("edit", bad, "--apply", script, "--out", bad, code=1, saying="--force")
+        self.assertEqual(bad.read_bytes(), before)
+        kept = self.folder / "bad.icome.lost"
+        self.assertTrue(before.endswith(kept.read_bytes()))
+        self.succeeds("edit", bad, "--apply", script, "--out", bad, "--force")
+        self.assertNotEqual(bad.read_bytes(), before)
+        self.assertEqual(json.loads(self.succeeds("info", bad, "--json").stdout)["warnings"], [])
+        self.assertTrue(kept.exists())
 
     def test_places_that_cannot_be_written_are_named(self):
         source = self.write("cube.off", CUBE)

@@ -123,6 +123,15 @@ class ShotTest(ProgramTest):
         self.fails("shot", file, file, code=2, saying="replace the design")
         self.assertEqual(os.listdir(self.folder), ["p.obj"])
 
+    def test_other_endings_are_refused(self):
+        file = self.write("p.obj", PLATES)
+        for name in ("p.jpg", "p.png.jpeg", "p", "p.webp"):
+            self.fails("shot", file, self.folder / name, code=1, saying="ends in .png")
+        self.fails("touch", file, "--picture", self.folder / "p.jpg", code=1, saying="ends in .png")
+        self.fails("techniques", "--picture", self.folder / "p.jpg", code=1, saying="ends in .png")
+        self.assertEqual(os.listdir(self.folder), ["p.obj"])
+        self.succeeds("shot", file, self.folder / "P.PNG", "--size", "8x8")
+
     def test_what_cannot_be_done_leaves_nothing_behind(self):
         self.out.write_text("of another day\n")
         file = self.write("p.obj", PLATES)

@@ -11,7 +11,7 @@ TEST(JournalDesign, IsReadAndWrittenLikeOtherFormats) {
   const auto design = read_design(path);
   ASSERT_TRUE(design) << design.error().message;
   EXPECT_EQ(hash(design->world), sample_journal().hashes.back());
-  ASSERT_EQ(design->remarks.size(), 1u);
+  ASSERT_EQ(design->remarks.size(), 2u) << "what is lost, and where it is kept";
   EXPECT_NE(sentence(design->remarks[0], "torn.icome").find("torn.icome: The last edit was cut off"),
             std::string::npos);
   const auto copy = folder.path() / "copy.icome";

@@ -162,7 +162,7 @@ TEST(JournaledWorld, MendsDamageAndKeepsWhatIsLost) {
       JournaledWorld journal = opened(path);
       const JournalReport& report = journal.report();
       ASSERT_FALSE(report.damage.empty()) << at;
-      const std::string lost = bytes.substr(bytes.size() - report.lost_bytes);
+      const std::string lost = bytes.substr(report.damaged_from);
       EXPECT_EQ(report.lost_bytes > 0 ? content_of(report.set_aside) : "", lost) << at;
       performed(journal, world::CreateScene{{900}, "later"});
       last = hash(journal.world());
@@ -176,7 +176,7 @@ TEST(JournaledWorld, NamesWhatIsLostAnewEachTime) {
   const ScratchFolder folder;
   const auto path = folder.path() / "design.icome";
   for (const char* name : {"design.icome.lost", "design.icome.lost-2", "design.icome.lost-3"}) {
-    folder.write("design.icome", sample_journal().bytes + "\x8aRE tail");
+    folder.write("design.icome", sample_journal().bytes + "\x8aRE " + name);
     const JournaledWorld journal = opened(path);
     EXPECT_EQ(journal.report().set_aside, std::filesystem::canonical(folder.path()) / name);
   }
@@ -327,8 +327,7 @@ TEST(JournaledWorld, StaysAsItIsWhereItCannotBeCompacted) {
   // Writing where all names are those of folders is as impossible as without room, and edits can still be
   // written.
   std::vector<std::string> beside{path.string() + ".part-" + std::to_string(::getpid())};
-  for (int i = 1; i <= 100; ++i)
-    beside.push_back(beside[0] + (i < 10 ? "00" : i < 100 ? "0" : "") + std::to_string(i));
+  for (int i = 1; i <= 100; ++i) beside.push_back(beside[0] + "-" + std::to_string(i));
   for (const std::string& name : beside) std::filesystem::create_directory(name);
   EXPECT_FALSE(journal.compact());
   for (int i = 0; i < 200; ++i) performed(journal, world::CreateScene{{std::uint64_t(100 + i)}, ""});

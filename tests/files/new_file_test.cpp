@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "files/file_bytes.h"
 #include "files/sample_files.h"
@@ -60,6 +62,29 @@ TEST(NewFile, GoesWhereALinkLeadsAndKeepsPermissions) {
   struct stat status = {};
   ASSERT_EQ(::stat(target.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 07777U, 0640U);
+}
+
+TEST(NewFile, TakesAwayWhatProcessesThatAreGoneLeft) {
+  const ScratchFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  const std::string gone = std::to_string(child), here = std::to_string(::getppid());
+  for (const std::string& name : {"a.txt.part-" + gone, "a.txt.part-" + gone + "-7", "a.txt.part-" + here,
+                                  "a.txt.part-" + here + "-1", "a.txt.part-x" + gone, "b.txt.part-" + gone})
+    folder.write(name, "half");
+  write_at(folder.path() / "a.txt", "whole");
+  EXPECT_EQ(read_bytes(folder.path() / "a.txt", 9).value(), "whole");
+  const auto is_there = [&](const std::string& name) {
+    return std::filesystem::exists(folder.path() / name);
+  };
+  EXPECT_FALSE(is_there("a.txt.part-" + gone));
+  EXPECT_FALSE(is_there("a.txt.part-" + gone + "-7"));
+  EXPECT_TRUE(is_there("a.txt.part-" + here)) << "its process may still write it";
+  EXPECT_TRUE(is_there("a.txt.part-" + here + "-1"));
+  EXPECT_TRUE(is_there("a.txt.part-x" + gone)) << "somebody else's";
+  EXPECT_TRUE(is_there("b.txt.part-" + gone)) << "of another file";
 }
 
 TEST(NewFile, SaysWhyItCannotBeWritten) {

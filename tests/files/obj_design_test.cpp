@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "files/damage.h"
@@ -127,6 +128,54 @@ TEST(ObjDesign, FlatWorldsComeBack) {
   World unshared = through_obj(world);
   EXPECT_EQ(unshared.geometries().size(), 4U);
   EXPECT_EQ(difference(world, unshared, {.shapes = true, .texture_names = false}), "");
+}
+
+std::string text_in(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+World painted(const std::string& paint) {
+  World world;
+  IdSource ids;
+  const auto material = ids.next<MaterialId>();
+  applied(world, CreateMaterial{material, Material{.name = paint}});
+  applied(world, ChooseMaterial{add_object(world, ids, "thing", one_triangle()), material});
+  return world;
+}
+
+TEST(ObjDesign, ALibraryOfSomebodyElseStays) {
+  const ScratchFolder folder;
+  const auto foreign = folder.write("a.mtl", "newmtl theirs\n");
+  const auto numbered = folder.write("a_oak.mtl", "# made by ICOME\nnewmtl of another design\n");
+  for (const char* const paint : {"red", "blue", "blue"}) {
+    ASSERT_TRUE(write_design(folder.path() / "a.obj", painted(paint)));
+    EXPECT_EQ(text_in(foreign), "newmtl theirs\n");
+    const auto back = read_design(folder.path() / "a.obj");
+    ASSERT_TRUE(back) << back.error().message;
+    ASSERT_EQ(back->world.materials().size(), 1U);
+    EXPECT_EQ(back->world.materials().begin()->second.name, paint);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 4)
+        << "the design, its library, and those of others";
+  }
+  EXPECT_TRUE(std::filesystem::exists(numbered));
+}
+
+/// Whatever stands beside an old design when it is replaced, it still says the same until then.
+TEST(ObjDesign, AnOldDesignKeepsItsLibraryUntilItIsReplaced) {
+  const ScratchFolder folder;
+  const auto design = folder.path() / "a.obj";
+  ASSERT_TRUE(write_design(design, painted("red")));
+  for (const char* const paint : {"blue", "green", "red"}) {
+    const std::string before = text_in(design);
+    ASSERT_TRUE(write_design(design, painted(paint)));
+    const std::string after = text_in(design);
+    EXPECT_NE(before.substr(0, before.find("\no ")), after.substr(0, after.find("\no ")))
+        << "a new library has a name that the old design does not refer to";
+    EXPECT_EQ(read_design(design)->world.materials().begin()->second.name, paint);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2)
+        << "nothing is left over";
+  }
 }
 
 TEST(ObjDesign, ObjectsOfOneNameStayApartAndMirrorsKeepTheirOutside) {

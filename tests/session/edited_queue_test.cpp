@@ -61,6 +61,28 @@ TEST(EditedQueue, KeepsWhatAReaderThatSleepsDoesNotTake) {
   ASSERT_FALSE(asleep.take());
 }
 
+TEST(EditedQueue, HasNoRoomWhileTheSlowestReaderIsTooFarBehind) {
+  const auto picture = std::make_shared<std::string>(std::string(1000, 'x'));
+  Edited edited;
+  edited.edit = std::make_shared<const world::Edit>(world::CreateTexture{{1}, {"a", "image/png", picture}});
+  edited.for_replicas = edited.edit;
+  EditedQueue queue(10'000);
+  EditedQueue::Reader& quick = queue.add_reader();
+  EditedQueue::Reader& slow = queue.add_reader();
+  int posted = 0;
+  for (; queue.has_room(); ++posted) {
+    ASSERT_LT(posted, 20);
+    queue.post(edited);
+    ASSERT_TRUE(quick.take());
+  }
+  EXPECT_GE(posted, 5) << "what an edit takes beside the picture is not much";
+  ASSERT_TRUE(slow.take());
+  EXPECT_TRUE(queue.has_room());
+  while (slow.take()) {
+  }
+  EXPECT_TRUE(queue.has_room());
+}
+
 TEST(EditedQueue, GivesTheRestAfterItIsClosedAndThenEnds) {
   EditedQueue queue;
   EditedQueue::Reader& reader = queue.add_reader();

@@ -149,6 +149,52 @@ TEST(Session, OpensAndSavesInTheBackground) {
   EXPECT_EQ(session->drawn()->object_count(), 2U);
 }
 
+TEST(Session, ASaveThatLeavesThingsOutCountsAsChanged) {
+  const ScratchFolder folder, autosave;
+  SessionSettings settings = quiet_settings();
+  settings.autosave_folder = autosave.path();
+  const auto session = start(std::move(settings));
+  add_box(*session, at(0.0, 0.0, -3.0), "kept");
+  ASSERT_TRUE(session->perform(
+      world::CreateMaterial{session->ids().next<world::MaterialId>(), {.name = "oak"}}, "Make material"));
+  session->save(folder.path() / "a.stl");
+  auto events = run_until(*session, [&] { return !session->saving(); });
+  const auto more = session->update();
+  EXPECT_EQ(count(events, Kind::SavedInPart) + count(more, Kind::SavedInPart), 1U);
+  EXPECT_TRUE(session->modified());
+  EXPECT_FALSE(session->left_out().empty());
+  session->settle();
+  EXPECT_FALSE(std::filesystem::is_empty(autosave.path())) << "the work is still kept against a crash";
+  session->save(folder.path() / "a.wrl");
+  events = run_until(*session, [&] { return !session->saving(); });
+  EXPECT_EQ(count(events, Kind::Saved) + count(session->update(), Kind::Saved), 1U)
+      << "nothing is made of oak";
+  session->settle();
+  EXPECT_FALSE(session->modified());
+  EXPECT_TRUE(session->left_out().empty());
+  EXPECT_TRUE(std::filesystem::is_empty(autosave.path()));
+}
+
+TEST(Session, AsksBeforeItReplacesADamagedDesign) {
+  const ScratchFolder folder;
+  const auto session = start();
+  add_box(*session, at(0.0, 0.0, -3.0), "kept");
+  const auto path = folder.path() / "a.icome";
+  ASSERT_TRUE(files::write_journal(path, session->world()));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 30);
+  const auto bytes = std::filesystem::file_size(path);
+  session->save(path);
+  const auto events = run_until(*session, [&] { return !session->saving(); });
+  EXPECT_EQ(count(events, Kind::SaveAsks) + count(session->update(), Kind::SaveAsks), 1U);
+  EXPECT_TRUE(session->modified());
+  EXPECT_EQ(std::filesystem::file_size(path), bytes);
+  session->save(path, true);
+  run_until(*session, [&] { return !session->saving(); });
+  session->update();
+  EXPECT_FALSE(session->modified());
+  EXPECT_GT(std::filesystem::file_size(path), bytes);
+}
+
 TEST(Session, KeepsTheWorldWhenADesignCannotBeOpenedOrSaved) {
   const ScratchFolder folder;
   const auto session = start();

@@ -39,9 +39,7 @@ class DesktopTest : public ::testing::Test {
     EXPECT_TRUE(done) << done.error().message;
   }
   /// Makes the session's empty world equal to another.
-  void load(const world::World& other) {
-    for (const world::Edit& edit : world::edits_of(other)) perform(edit, "Load");
-  }
+  void load(const world::World& other) { perform(world::EditGroup{world::edits_of(other)}, "Load"); }
 
  private:
   std::unique_ptr<session::Session> session_;

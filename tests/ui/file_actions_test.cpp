@@ -104,6 +104,64 @@ TEST_F(FileActionsTest, AFailedSaveDoesNotGoOn) {
   EXPECT_TRUE(session().modified());
 }
 
+TEST_F(FileActionsTest, WhatAFormatCannotHoldKeepsTheQuestionWithTheReason) {
+  change();
+  perform(world::CreateMaterial{session().ids().next<world::MaterialId>(), {.name = "oak"}});
+  session().save(file("a.off"));
+  finish_files();
+  EXPECT_TRUE(session().modified());
+  bool done = false;
+  files_.when_safe([&] { done = true; });
+  auto* const box = window_.findChild<QMessageBox*>("save_changes");
+  ASSERT_TRUE(box);
+  EXPECT_TRUE(box->informativeText().contains("a.off cannot hold all of your design"))
+      << qPrintable(box->informativeText());
+  EXPECT_TRUE(box->informativeText().contains("materials")) << qPrintable(box->informativeText());
+  EXPECT_TRUE(answer(QMessageBox::Cancel));
+  session().save(file("a.icome"));
+  finish_files();
+  EXPECT_FALSE(session().modified());
+  files_.when_safe([&] { done = true; });
+  EXPECT_TRUE(done);
+}
+
+TEST_F(FileActionsTest, AsksBeforeItReplacesWhatAnotherProgramWrote) {
+  change();
+  session().save(file("a.icome"));
+  finish_files();
+  const auto write = [&](const char* text) { std::ofstream(file("a.icome")) << text; };
+  write("# somebody else's\nv 0 0 0\n");
+  change();
+  bool done = false;
+  files_.when_safe([&] { done = true; });
+  EXPECT_TRUE(answer(QMessageBox::Save));
+  finish_files();
+  auto* box = window_.findChild<QMessageBox*>("replace_file");
+  ASSERT_TRUE(box);
+  EXPECT_TRUE(box->text().contains("another program has changed this file")) << qPrintable(box->text());
+  box->button(QMessageBox::Cancel)->click();
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_FALSE(done);
+  EXPECT_TRUE(session().modified());
+  std::string first;
+  std::getline(std::ifstream(file("a.icome")), first);
+  EXPECT_EQ(first, "# somebody else's");
+
+  files_.save();
+  finish_files();
+  box = window_.findChild<QMessageBox*>("replace_file");
+  ASSERT_TRUE(box);
+  for (QAbstractButton* button : box->buttons())
+    if (box->buttonRole(button) == QMessageBox::DestructiveRole) button->click();
+  finish_files();
+  std::getline(std::ifstream(file("a.icome")), first);
+  EXPECT_EQ(first, "\x89ICOME\r");
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  files_.save();
+  finish_files();
+  EXPECT_FALSE(window_.findChild<QMessageBox*>("replace_file")) << "what was saved here is known";
+}
+
 TEST_F(FileActionsTest, OpensAndRemembersWhatWasOpened) {
   change();
   session().save(file("a.icome"));

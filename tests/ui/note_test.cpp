@@ -43,8 +43,9 @@ TEST(Note, CountsRemarksAndStaysForThem) {
   EXPECT_EQ(one.text, "a.wrl was opened. 1 thing in it was skipped or put right.");
   const Note two = note_of({.kind = Kind::Opened, .text = "a.wrl was opened.", .details = {"A.", "B."}});
   EXPECT_EQ(two.text, "a.wrl was opened. 2 things in it were skipped or put right.");
-  const Note saved = note_of({.kind = Kind::Saved, .text = "a.stl was saved.", .details = {"A.", "B."}});
-  EXPECT_EQ(saved.text, "a.stl was saved. 2 things cannot be kept in this format.");
+  const Note saved =
+      note_of({.kind = Kind::SavedInPart, .text = "a.stl was written.", .details = {"A.", "B."}});
+  EXPECT_EQ(saved.text, "a.stl was written. 2 things cannot be kept in this format.");
 }
 
 TEST(Note, OfOneTopicFollowsAnother) {

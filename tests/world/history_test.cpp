@@ -182,5 +182,25 @@ TEST(History, GoesBackThroughRandomEdits) {
   }
 }
 
+TEST(History, ForgetsTheOldestActionsBeyondItsMemoryButNeverTheLast) {
+  World world;
+  IdSource ids;
+  const ObjectId object = add_object(world, ids, std::string(1000, 'a'), box(1.0));
+  History history(5000);
+  for (int i = 0; i < 50; ++i)
+    ASSERT_TRUE(
+        history.perform(world, RenameObject{object, std::string(1000, char('b' + i % 20))}, "Rename"));
+  int undone = 0;
+  while (history.can_undo()) {
+    ASSERT_TRUE(history.undo(world));
+    ++undone;
+  }
+  EXPECT_GE(undone, 2);
+  EXPECT_LE(undone, 4) << "names of 1,000 bytes in 5,000";
+  History small(1);
+  ASSERT_TRUE(small.perform(world, RenameObject{object, std::string(9000, 'x')}, "Rename"));
+  EXPECT_TRUE(small.undo(world)) << "what was done last can always be taken back";
+}
+
 }  // namespace
 }  // namespace icome::world
