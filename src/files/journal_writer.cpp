@@ -11,7 +11,7 @@ namespace {
 
 JournalNames names_of(const world::World& world) {
   // A record is shorter than 4 GB, and this one is only for telling what is lost.
-  constexpr std::size_t kMostBytes = 64U << 20U;
+  constexpr std::size_t kMostRecordBytes = 64U << 20U;
   JournalNames names;
   std::size_t bytes = 0;
   for (const auto& [id, object] : world.objects()) {
@@ -19,7 +19,7 @@ JournalNames names_of(const world::World& world) {
     bytes += object.name.size();
   }
   std::sort(names.begin(), names.end());
-  return bytes > kMostBytes ? JournalNames{} : names;
+  return bytes > kMostRecordBytes ? JournalNames{} : names;
 }
 
 }  // namespace
