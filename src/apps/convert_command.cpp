@@ -55,8 +55,8 @@ int run_convert(const ConvertOptions& options) {
     warnings.push_back(sentence(remark, options.in.string()));
   for (const files::Remark& remark : *losses) warnings.push_back(sentence(remark, options.out.string()));
   if (!options.json) return print_answer(convert_text(options, design->world.objects().size(), warnings));
-  const auto figures =
-      figures_of(*design, options.in.string(), [](std::size_t, std::size_t) { return true; });
+  const auto figures = figures_of(*design, options.in.string(), files::written_triangles(options.out),
+                                  [](std::size_t, std::size_t) { return true; });
   return print_answer(convert_json(options, *figures, warnings));
 }
 

@@ -120,6 +120,14 @@ base::Result<void> make_mesh(CsgWork& work, const CsgOptions& options, StatusLin
         "a smaller --cell.",
         work.figures.file, how.cell / kMillimetre));
   }
+  if (const auto& place = made->lost) {
+    return base::fail(
+        fmt::format("{}: parts of the solid are lost in cells of {} mm, as at ({:.4g}, {:.4g}, {:.4g}) mm; "
+                    "give a smaller "
+                    "--cell.",
+                    work.figures.file, how.cell / kMillimetre, place->x() / kMillimetre,
+                    place->y() / kMillimetre, place->z() / kMillimetre));
+  }
   if (const auto written = files::write_stl(made->mesh, kMillimetre, *work.stl); !written) return written;
   if (const auto finished = work.stl->finish(); !finished) return finished;
   work.figures.mesh = {*options.mesh, made->mesh.triangles.size(), how.cell, made->error};

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "files/shown_world.h"
-
 namespace icome::apps {
 namespace {
 
@@ -46,8 +44,8 @@ void count_tables(const World& world, DesignFigures& figures) {
 /// Walks down the tree, measuring what is shown.
 class Measuring {
  public:
-  Measuring(const World& world, DesignFigures& figures)
-      : world_(world), figures_(figures), shapes_(world, files::shown_triangles) {}
+  Measuring(const World& world, DesignFigures& figures, files::ShownShapes::Maker maker)
+      : world_(world), figures_(figures), shapes_(world, maker) {}
 
   base::Result<void> run(const std::function<bool(std::size_t, std::size_t)>& go_on) {
     std::size_t done = 0;
@@ -92,13 +90,14 @@ class Measuring {
 }  // namespace
 
 base::Result<DesignFigures> figures_of(const files::LoadedDesign& design, const std::string& file,
+                                       files::ShownShapes::Maker maker,
                                        const std::function<bool(std::size_t, std::size_t)>& go_on) {
   DesignFigures figures;
   figures.file = file;
   figures.format = design.format;
   count_tables(design.world, figures);
   for (const files::Remark& remark : design.remarks) figures.warnings.push_back(sentence(remark, file));
-  if (const auto measured = Measuring(design.world, figures).run(go_on); !measured)
+  if (const auto measured = Measuring(design.world, figures, maker).run(go_on); !measured)
     return tl::unexpected(measured.error());
   return figures;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/design.h"
+#include "files/shown_world.h"
 
 namespace icome::apps {
 
@@ -26,8 +27,10 @@ struct DesignFigures {
   std::vector<std::string> warnings;
 };
 
-/// `go_on` is asked between shapes, which may take long to be made triangles; fails when it says no.
+/// `maker` makes what is shown, and counted. `go_on` is asked between shapes, which may take long to be made
+/// triangles; fails when it says no.
 base::Result<DesignFigures> figures_of(const files::LoadedDesign& design, const std::string& file,
+                                       files::ShownShapes::Maker maker,
                                        const std::function<bool(std::size_t done, std::size_t all)>& go_on);
 
 std::string json_report(const DesignFigures& figures);

@@ -80,8 +80,8 @@ std::string edit_json(const EditOptions& options, const EditReport& report) {
   json["errors"] = Json::array();
   for (const EditError& error : report.outcome.errors)
     json["errors"].push_back({{"line", error.line}, {"op", error.operation}, {"message", error.message}});
-  const auto figures =
-      figures_of(report.design, options.out.string(), [](std::size_t, std::size_t) { return true; });
+  const auto figures = figures_of(report.design, options.out.string(), files::written_triangles(options.out),
+                                  [](std::size_t, std::size_t) { return true; });
   json["objects"] = figures->objects;
   json["triangles"] = figures->triangles;
   json["bytes"] = report.written ? std::filesystem::file_size(options.out) : 0;

@@ -92,6 +92,9 @@ base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options
   if (made->mesh.triangles.empty())
     return base::fail(model.name +
                       ": the solid is empty, or so thin that its mesh is: touch it with a point.");
+  if (made->lost)
+    return base::fail(model.name +
+                      ": parts of the solid are too thin for a mesh of it: touch it with a point.");
   const Stopwatch watch;
   take_mesh(model, std::move(made->mesh));
   touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(made->error), reason));

@@ -14,10 +14,11 @@ int run_info(const InfoOptions& options) {
   const auto design = read_for_person(options.file, options.unit, status);
   if (!design) return end_without_result(design.error(), status);
   const double read_seconds = watch.seconds();
-  auto figures = figures_of(*design, options.file.string(), [&](std::size_t done, std::size_t all) {
+  const auto go_on = [&](std::size_t done, std::size_t all) {
     status.progress("Measuring", double(done), double(all), "objects");
     return !interrupted();
-  });
+  };
+  auto figures = figures_of(*design, options.file.string(), files::shown_triangles, go_on);
   if (!figures) return end_without_result(figures.error(), status);
   status.clear();
   figures->read_seconds = read_seconds;

@@ -266,6 +266,9 @@ class GltfMaking {
       const int exact = object.geometry ? exact_shape(object.geometry) : -1;
       if (exact >= 0) extras["shape"] = Value(exact);
       if (object.geometry && exact < 0) remark("A shape without triangles is left out.");
+      if (exact >= 0)
+        remark(fmt::format("{} is not seen by other programs: {}", object_name(object),
+                           shown_.why(object.geometry)));
       if (object.material) extras["material"] = Value(materials_.at(object.material));
     }
     if (object.fixture)

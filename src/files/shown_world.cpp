@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
+
+#include "files/file_ending.h"
 
 namespace icome::files {
 namespace {
@@ -17,14 +21,13 @@ using world::PhysicalObject;
 using world::World;
 using MadeTriangles = base::Result<std::shared_ptr<const MeshGeometry>>;
 
+const char* const kNothingOfIt =
+    "no triangles stand for it: it is empty, or nothing of it is large enough to be found.";
+
 /// The longest side of the box around it. Endless shapes, which have no triangles, say so themselves.
 double size_of(const world::Geometry& shape) {
   const double longest = shape.bounds().sizes().maxCoeff();
   return std::isfinite(longest) && longest > 0.0 ? longest : 1.0;
-}
-
-std::string object_name(const PhysicalObject& object) {
-  return object.name.empty() ? "An object without a name" : fmt::format("\"{}\"", object.name);
 }
 
 bool has_colours(const World& world, const std::vector<ShownObject>& objects) {
@@ -131,6 +134,10 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
 
 }  // namespace
 
+std::string object_name(const PhysicalObject& object) {
+  return object.name.empty() ? "An object without a name" : fmt::format("\"{}\"", object.name);
+}
+
 MadeTriangles shown_triangles(const world::Geometry& shape) {
   // As parts of the shape's size. Solids that have to be sampled take their time, by its third power.
   const double finest = shape.kind() == "csg" || shape.kind() == "implicit" ? 1.0 / 28.0 : 1.0 / 500.0;
@@ -139,10 +146,21 @@ MadeTriangles shown_triangles(const world::Geometry& shape) {
   constexpr int kMostTries = 5;
   if (shape.bounds().isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
   double tolerance = finest * size_of(shape);
-  for (int i = 1;; ++i, tolerance *= kCoarser) {
+  auto best = shape.triangles(tolerance);
+  for (int i = 1; best && (*best)->mesh.triangles.size() > kEnough && i < kMostTries; ++i) {
+    tolerance *= kCoarser;
     auto made = shape.triangles(tolerance);
-    if (!made || (*made)->mesh.triangles.size() <= kEnough || i == kMostTries) return made;
+    // Solids lose parts when they get too coarse, and do not become smaller without end.
+    if (!made || (*made)->mesh.triangles.size() >= (*best)->mesh.triangles.size()) break;
+    best = std::move(made);
   }
+  return best;
+}
+
+ShownShapes::Maker written_triangles(const std::filesystem::path& path) {
+  static constexpr std::array<std::string_view, 4> kFlat{".obj", ".ply", ".stl", ".off"};
+  const FileEnding ending = ending_of(path);
+  return std::find(kFlat.begin(), kFlat.end(), ending.type) != kFlat.end() ? fine_triangles : shown_triangles;
 }
 
 MadeTriangles fine_triangles(const world::Geometry& shape) {
@@ -157,10 +175,12 @@ std::shared_ptr<const MeshGeometry> ShownShapes::triangles(world::GeometryId id)
   const auto [found, is_new] = shown_.try_emplace(shape);
   if (!is_new) return found->second;
   auto made = make_(*shape);
-  if (made) {
-    found->second = std::move(*made);
-  } else {
+  if (!made) {
     refusals_[shape] = made.error().message;
+  } else if ((*made)->mesh.triangles.empty() && shape->kind() != "mesh") {
+    refusals_[shape] = kNothingOfIt;
+  } else {
+    found->second = std::move(*made);
   }
   return found->second;
 }

@@ -1,5 +1,7 @@
 #pragma once
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -22,7 +24,7 @@ class ShownShapes {
   using Maker = base::Result<std::shared_ptr<const world::MeshGeometry>> (*)(const world::Geometry&);
   ShownShapes(const world::World& world, Maker maker) : world_(world), make_(maker) {}
 
-  /// Null where nothing can be shown; why() says why then.
+  /// Null where nothing can be shown, as of an empty solid; why() says why then.
   std::shared_ptr<const world::MeshGeometry> triangles(world::GeometryId id);
   const std::string& why(world::GeometryId id) const { return refusals_.at(world_.find(id)->shape.get()); }
 
@@ -33,12 +35,18 @@ class ShownShapes {
   std::unordered_map<const world::Geometry*, std::string> refusals_;
 };
 
+/// What write_design() makes triangles by, for a file of this name.
+ShownShapes::Maker written_triangles(const std::filesystem::path& path);
+
 /// An object's triangles where they are in the world.
 struct ShownObject {
   world::ObjectId object;
   std::shared_ptr<const world::MeshGeometry> mesh;
   base::Affine3 world_from_object = base::Affine3::Identity();
 };
+
+/// For remarks: the name in quotes, or that there is none.
+std::string object_name(const world::PhysicalObject& object);
 
 /// All objects of a world that have triangles, parents before children, in the order that people see.
 /// Remarks tell what cannot be shown and, once each, what else formats without a hierarchy lose. Fails for

@@ -13,6 +13,7 @@
 #include "base/decompositions.h"
 #include "geometry/csg_part.h"
 #include "geometry/csg_tets.h"
+#include "geometry/flat_merge.h"
 #include "geometry/mesh_sheets.h"
 
 namespace icome::geometry {
@@ -24,6 +25,7 @@ using Triangle = TriangleMesh::Triangle;
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 constexpr double kOnSurface = 1e-10;  // of the coordinates: so near, a point is on a surface
 constexpr double kRootExact = 1e-4;   // of that: so near, a cut is as exact as can be
+constexpr double kHighEnough = 10.0;  // of that: triangles that merging may leave
 constexpr int kRootSteps = 80;
 constexpr std::size_t kTetsATriangle = 4;  // more tetrahedra than this for each triangle allowed are too many
 constexpr std::size_t kMostTets = 1'500'000;   // however many triangles are allowed: they take some seconds
@@ -86,7 +88,9 @@ class CsgCutter {
     TriangleMesh result;
     for (const CutPoint& point : points_) result.positions.push_back(point.place);
     result.triangles = std::move(triangles_);
-    return separate_sheets(result);
+    std::vector<std::uint32_t> planes;
+    for (const Triangle& triangle : result.triangles) planes.push_back(plane_of(triangle));
+    return merge_flat_faces(separate_sheets(result), planes, kHighEnough * on_);
   }
 
  private:
@@ -158,6 +162,16 @@ class CsgCutter {
     Corners4 carrier{kNoPoint, kNoPoint, kNoPoint, kNoPoint};
     std::copy(both.begin(), std::min(end, both.begin() + 4), carrier.begin());
     return carrier;
+  }
+
+  /// The plane that the triangle was cut along; kNoPlane where a bent surface was.
+  std::uint32_t plane_of(const Triangle& triangle) const {
+    for (const std::uint32_t atom : open_at_[points_[triangle[0]].carrier[0]]) {
+      if (program_.atoms()[atom].kind != CsgAtom::Kind::Plane) continue;
+      if (std::all_of(triangle.begin(), triangle.end(), [&](auto corner) { return side(corner, atom) == 0; }))
+        return atom;
+    }
+    return kNoPlane;
   }
 
   /// Where the atom's surface crosses the edge, between points on either side of it.
@@ -325,6 +339,11 @@ base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t
   return mesh;
 }
 
+bool is_flat(const CsgProgram& program) {
+  return std::all_of(program.atoms().begin(), program.atoms().end(),
+                     [](const CsgAtom& atom) { return atom.kind == CsgAtom::Kind::Plane; });
+}
+
 bool csg_can_cut(const CsgProgram& program) {
   return std::none_of(program.atoms().begin(), program.atoms().end(), [](const CsgAtom& atom) {
     return atom.kind == CsgAtom::Kind::Mesh || atom.kind == CsgAtom::Kind::Custom;
@@ -343,7 +362,8 @@ bool is_thin(const CsgProgram& program, double thickness) {
       if (!place) continue;
       ++places;
       for (const double depth : {0.25, 0.5, 0.75, 1.0}) {
-        if (program.inside(place->point - depth * thickness * place->normal)) continue;
+        const Vector3 way = depth * thickness * place->normal;
+        if (program.inside(place->point - way) && !program.inside(place->point + way)) continue;
         ++thin;
         break;
       }

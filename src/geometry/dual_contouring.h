@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 #include "base/result.h"
 #include "geometry/primitive.h"
@@ -37,6 +38,8 @@ struct ContourMesh {
   /// the cell's diagonal counts. 0 where it is not to be measured. How far the surface is from the mesh,
   /// where it has parts that the mesh lacks (those thinner than a cell), is not in it.
   double error = 0.0;
+  /// A place of the solid's surface that the mesh lacks, m, if one was found; only of CSG trees (csg_mesh.h).
+  std::optional<Vector3> lost = std::nullopt;
 };
 
 /// A closed, watertight triangle mesh of the solid's surface that keeps its sharp edges and corners: dual

@@ -185,24 +185,27 @@ void ScenePublisher::make_shapes(const World& world) {
   for (const auto id : ids) {
     const base::Result<RenderShapePointer>& its = made[places.at(world.find(id)->shape.get())];
     Made& it = shapes_[id];
-    if (its) {
-      it.shape = *its;
-    } else {
-      it.remark = fmt::format("{} is not drawn: {}", shape_name(world, id), its.error().message);
-    }
+    keep(world, id, its, it);
   }
+}
+
+void ScenePublisher::keep(const World& world, world::GeometryId id,
+                          const base::Result<RenderShapePointer>& made, Made& as) {
+  if (!made) {
+    as.remark = fmt::format("{} is not drawn: {}", shape_name(world, id), made.error().message);
+    return;
+  }
+  as.shape = *made;
+  if (as.shape->lacks_parts)
+    as.remark = fmt::format("{} is drawn without its thinnest parts: it has too many to be meshed.",
+                            shape_name(world, id));
 }
 
 const ScenePublisher::Made& ScenePublisher::shape(const World& world, world::GeometryId id) {
   const auto [found, is_new] = shapes_.try_emplace(id);
   const world::GeometryObject* geometry = world.find(id);
   if (!is_new || !geometry) return found->second;
-  auto made = make_render_shape(*geometry->shape, time_);
-  if (made) {
-    found->second.shape = std::move(*made);
-  } else {
-    found->second.remark = fmt::format("{} is not drawn: {}", shape_name(world, id), made.error().message);
-  }
+  keep(world, id, make_render_shape(*geometry->shape, time_), found->second);
   return found->second;
 }
 

@@ -129,7 +129,7 @@ class ScenePublisher {
 
  private:
   struct Made {
-    RenderShapePointer shape;  // null: cannot be drawn
+    RenderShapePointer shape;  // null: cannot be drawn; the remark says what is not
     std::string remark;
   };
   struct MadePicture {
@@ -139,6 +139,9 @@ class ScenePublisher {
 
   std::vector<world::GeometryId> changing_shapes(const world::World& world) const;
   void make_shapes(const world::World& world);
+  /// What was made of a shape, or why not, and what it lacks.
+  static void keep(const world::World& world, world::GeometryId id,
+                   const base::Result<RenderShapePointer>& made, Made& as);
   const Made& shape(const world::World& world, world::GeometryId id);
   const std::shared_ptr<const RenderMaterial>& material(const world::World& world, world::MaterialId id);
   const MadePicture& picture(const world::World& world, world::TextureId id);

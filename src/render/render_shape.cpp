@@ -217,6 +217,7 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape,
     const auto drawn = make_drawn_solid(*csg);
     if (!drawn) return tl::unexpected(drawn.error());
     const auto made = make_from_surface(*drawn->surface, kSolidCrease, drawn->solid);
+    made->lacks_parts = drawn->lacks_parts;
     // Colours of operands end at edges: they must not be averaged.
     return made->colours.empty() ? with_levels(made) : made;
   }

@@ -19,6 +19,7 @@ struct RenderShape {
   std::vector<ShapeLevel> coarser;              ///< without places in a picture
   base::Bounds bounds;                          ///< m, the shape's frame, of what is drawn; empty for nothing
   std::vector<base::Vector3> extremes;          ///< m, outermost vertices all round, to frame a view by
+  bool lacks_parts = false;                     ///< a solid whose thin parts cannot be drawn
   std::shared_ptr<const RenderSolid> solid;     ///< null: has no images; else in the same frame as the mesh
 
   std::size_t triangle_count() const { return mesh.indices.size() / 3; }

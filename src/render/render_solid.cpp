@@ -95,15 +95,15 @@ DrawnSolid with_triangles(const world::CsgGeometry& shape, CsgGeometry images, d
   DrawnSolid drawn;
   std::optional<Surface> made;
   if (usual_seconds(solid->images) <= kLongestLiveView) {
-    if (auto coarse = shape.triangles(size * kCoarse);
-        coarse && is_whole(**coarse, solid->images, shape.tree, size * kCoarse))
-      made = *coarse;
+    if (auto coarse = shape.surface(size * kCoarse);
+        coarse && !coarse->lost && is_whole(*coarse->mesh, solid->images, shape.tree, size * kCoarse))
+      made = coarse->mesh;
   }
   if (!made) {
-    auto fine = shape.triangles(size * kFine);
-    const bool whole = fine && is_whole(**fine, solid->images, shape.tree, size * kFine);
+    auto fine = shape.surface(size * kFine);
+    const bool whole = fine && !fine->lost && is_whole(*fine->mesh, solid->images, shape.tree, size * kFine);
     solid->triangles = whole ? RenderSolid::Triangles::Fine : RenderSolid::Triangles::Partial;
-    made = fine ? *fine : std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
+    made = fine ? fine->mesh : std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
   }
   return {std::move(solid), coloured_by_operands(shape.tree, *made)};
 }
@@ -116,9 +116,9 @@ base::Result<DrawnSolid> make_drawn_solid(const world::CsgGeometry& shape) {
   const double unit = std::isfinite(size) && size > 0.0 ? size : 1.0;
   auto images = make_csg_geometry(shape.tree);
   if (images && !images->products.empty()) return with_triangles(shape, std::move(*images), unit);
-  auto surface = shape.triangles(unit * kFine);
+  auto surface = shape.surface(unit * kFine);
   if (!surface) return tl::unexpected(surface.error());
-  return DrawnSolid{nullptr, coloured_by_operands(shape.tree, *surface)};
+  return DrawnSolid{nullptr, coloured_by_operands(shape.tree, surface->mesh), surface->lost.has_value()};
 }
 
 }  // namespace icome::render

@@ -26,6 +26,7 @@ struct RenderSolid {
 struct DrawnSolid {
   std::shared_ptr<const RenderSolid> solid;            ///< null: has no images
   std::shared_ptr<const world::MeshGeometry> surface;  ///< never null; coloured as the operands are
+  bool lacks_parts = false;                            ///< there are no images, and thin parts are missing
 };
 
 /// Makes the images, unless the solid has too many operands, and as many triangles as are needed beside them.

@@ -1,4 +1,6 @@
 // What every built-in kind of shape looks like as triangles.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,12 +78,25 @@ base::Result<Triangles> PrimitiveGeometry::triangles(double tolerance) const {
   return share(std::move(mesh));
 }
 
-base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
+base::Result<CsgGeometry::Surface> CsgGeometry::surface(double tolerance) const {
   const Bounds box = bounds();
-  if (box.isEmpty()) return share({});
+  if (box.isEmpty()) return Surface{share({}), std::nullopt};
   auto contoured = geometry::contour(tree, options_for(tolerance, box));
   if (!contoured) return tl::unexpected(contoured.error());
-  return share(std::move(contoured->mesh));
+  return Surface{share(std::move(contoured->mesh)), contoured->lost};
+}
+
+base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
+  auto made = surface(tolerance);
+  if (!made) return tl::unexpected(made.error());
+  if (const auto& place = made->lost) {
+    return base::fail(fmt::format(
+        "Parts of the solid are too thin or too many to be made triangles, as at ({:.4g}, {:.4g}, "
+        "{:.4g}) m of its own frame: make several solids of it, or keep it in a format that holds "
+        "solids, such as .icome.",
+        place->x(), place->y(), place->z()));
+  }
+  return std::move(made->mesh);
 }
 
 base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {

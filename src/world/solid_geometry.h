@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/result.h"
@@ -49,6 +50,13 @@ struct CsgGeometry final : public Geometry {
   /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
+  /// With what could be made of the solid, and a place that is missing there (m), if any.
+  struct Surface {
+    std::shared_ptr<const MeshGeometry> mesh;  // never null
+    std::optional<Vector3> lost;
+  };
+  base::Result<Surface> surface(double tolerance) const;
+  /// Fails, too, where a part of the solid would be lost.
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 };

@@ -56,6 +56,28 @@ class ConvertTest(ProgramTest):
         for key in ("objects", "clones", "triangles", "materials", "textures", "bounds", "shapes", "depth"):
             self.assertEqual(first[key], last[key], key)
 
+    def test_thin_solids_come_whole_and_are_counted_as_they_are_written(self):
+        plate = self.write("plate.csg", "difference() { cube(size = [1000, 18, 1000], center = true);\n"
+                           "cylinder(h = 3000, r1 = 100, r2 = 100, center = true, $fn = 0, $fa = 12, $fs = 2); }\n")
+        slit = self.write("slit.csg", "difference() { cube(size = [1000, 1000, 1000], center = true);\n"
+                          "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 100], [0, 0, 0, 1]]) {\n"
+                          "cube(size = [2, 3000, 1000], center = true); } }\n")
+        for solid, least, most in ((plate, 8, 60000), (slit, 12, 60)):
+            for ending in (".glb", ".stl", ".obj", ".ply"):
+                out = self.folder / f"out{ending}"
+                done = json.loads(self.succeeds("convert", solid, out, "--json").stdout)
+                self.assertEqual(done["triangles"], self.info(out)["triangles"], ending)
+                self.assertGreaterEqual(done["triangles"], least)
+                self.assertLessEqual(done["triangles"], most)
+
+    def test_a_shape_without_triangles_is_told(self):
+        nothing = self.write("nothing.csg", "difference() { cube(size = [10, 10, 10], center = true);\n"
+                             "cube(size = [20, 20, 20], center = true); }\n")
+        for ending in (".glb", ".stl", ".obj"):
+            done = json.loads(self.succeeds("convert", nothing, self.folder / f"out{ending}", "--json").stdout)
+            self.assertEqual(done["triangles"], 0)
+            self.assertTrue(any("no triangles" in it for it in done["warnings"]), (ending, done["warnings"]))
+
     def test_losses_are_told(self):
         solid = self.write("solid.csg", "cube(size = [10, 20, 30], center = false);\n")
         done = json.loads(self.succeeds("convert", solid, self.folder / "solid.ply", "--json").stdout)

@@ -2,6 +2,7 @@
 
 #include "clutter.h"
 #include "interaction/object_move.h"
+#include "world/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -246,6 +247,59 @@ TEST(StoppedMove, RefusesWhatCannotBe) {
   // Nobody is there: nothing is in the way.
   EXPECT_EQ(moved(room.index, {ObjectId{}, ObjectId{77}}, {1.0, -2.0, 0.0}).offset, Vector3(1.0, -2.0, 0.0));
   EXPECT_EQ(moved(room.index, {}, Vector3::Zero()).offset, Vector3::Zero());
+}
+
+/// A plate 1 m x 1 m, its top at z = 0, with holes of 30 mm in rows 200 mm apart.
+geometry::CsgTree drilled_plate(double thickness, int rows) {
+  geometry::CsgTree tree;
+  auto root = tree.add_leaf(geometry::Primitive(geometry::Box{{0.5, 0.5, 0.5 * thickness}}),
+                            at(0.0, 0.0, -0.5 * thickness));
+  for (int i = 0; i < rows; ++i) {
+    for (int k = 0; k < rows; ++k) {
+      const double x = 0.2 * (i - 0.5 * (rows - 1)), y = 0.2 * (k - 0.5 * (rows - 1));
+      const auto hole = tree.add_leaf(geometry::Primitive(geometry::Cylinder{0.015, 0.1}), at(x, y, 0.0));
+      root = tree.add(geometry::CsgOperator::Difference, root, hole);
+    }
+  }
+  return tree;
+}
+
+TEST(Landing, OfBallsOnADrilledPlateIsOnItHoweverThinItIs) {
+  base::Random random(12);
+  for (const double thickness : {0.018, 0.005, 0.0005}) {
+    for (const int rows : {1, 3}) {
+      const geometry::CsgTree tree = drilled_plate(thickness, rows);
+      Clutter clutter;
+      clutter.add(std::make_shared<world::CsgGeometry>(tree), Affine3::Identity());
+      const double radius = 0.05;
+      const ObjectId ball = clutter.add(solid(geometry::Sphere{radius}), at(0.0, 0.0, 0.4));
+      CollisionIndex index(clutter.world);
+      for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << thickness << " " << rows << " " << i);
+        const Vector3 above(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 0.4);
+        const world::Edit edit = world::PlaceObject{ball, Affine3(Eigen::Translation3d(above))};
+        applied(clutter.world, edit);
+        index.follow(clutter.world, changes_of(edit));
+        const auto landed = landing(index, std::vector{ball}, {.direction = -Vector3::UnitZ()});
+        ASSERT_TRUE(landed) << landed.error().message;
+        // Above a hole it dips in by less than 2.4 mm; what it touches there are chords of the rim.
+        const Vector3 centre = above + landed->offset;
+        EXPECT_LE(centre.z(), radius + 1e-6);
+        EXPECT_GE(centre.z(), std::sqrt(radius * radius - 0.015 * 0.015) - 1e-4);
+        // By the tree itself: nothing of the ball but for those chords is in the plate, something below it
+        // is.
+        bool below = false;
+        for (int k = 0; k < 400; ++k) {
+          const Vector3 way = random.direction();
+          EXPECT_FALSE(geometry::inside(tree, centre + (radius - 4e-4) * way));
+          below = below ||
+                  geometry::inside(tree, centre + (radius + 2e-3) * (way - Vector3::UnitZ()).normalized());
+        }
+        EXPECT_TRUE(below);
+        if (HasFailure()) return;
+      }
+    }
+  }
 }
 
 TEST(Landing, FallsAlongAnyDirectionAndToTheFloor) {
