@@ -1,6 +1,11 @@
 #pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "base/result.h"
+#include "geometry/triangle_mesh.h"
 #include "table.h"
 
 namespace icome::benchmarks {
@@ -23,6 +28,19 @@ struct Extent {
 
 /// Slides and stabs on meshes with a point and a sphere tip, building trees, and the packaged peers.
 std::vector<Section> mesh_figures(const Extent& extent);
+
+/// A mesh that somebody else made.
+struct RealMesh {
+  std::string name;
+  std::shared_ptr<const geometry::TriangleMesh> mesh;
+  bool closed;
+};
+
+/// Reads a mesh file and makes its longest side 0.1 m. Fails as files::read_mesh does.
+base::Result<RealMesh> read_real_mesh(const std::filesystem::path& file);
+
+/// Slides over real meshes with a point and a sphere tip. Closed ones are judged.
+std::vector<Section> real_mesh_figures(const Extent& extent, const std::vector<RealMesh>& meshes);
 
 /// Large scenes of primitives, of which one is touched.
 Section primitive_figures(const Extent& extent);

@@ -19,4 +19,8 @@ constexpr double kStick = 0.002;  // m: in a slide 2 mm deep, 4 mm from the tip
 Faults judge(const EmbreeMesh& mesh, double tip_radius, const std::vector<Vector3>& tips,
              const std::vector<Vector3>& scps);
 
+/// The same for any closed mesh: inside is decided by how often rays in three directions cross it. Sticks are
+/// not counted, as on such a mesh the nearest place of the surface is not always where the tip would be held.
+Faults judge_closed(const EmbreeMesh& mesh, double tip_radius, const std::vector<Vector3>& scps);
+
 }  // namespace icome::benchmarks

@@ -39,17 +39,6 @@ std::vector<Motion> motions(const Extent& extent) {
           {"stabs", stab_path(kBumpySphere, kStabDepth, extent.stabs)}};
 }
 
-Row touch_row(const std::string& figure, const TouchRun& run, const Faults& faults) {
-  Row row{.figure = figure};
-  row.median = run.tick.us.median;
-  row.p999 = run.tick.us.p999;
-  row.solver = run.solver_us;
-  row.load = run.load_us;
-  row.noise = run.tick.noise;
-  row.faults = faults;
-  return row;
-}
-
 /// What is to be reached at 1.06M triangles.
 void set_targets(Row& row, double tip_radius, bool slow) {
   if (tip_radius > 0.0) {

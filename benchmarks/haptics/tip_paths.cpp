@@ -6,14 +6,16 @@
 
 #include "base/decompositions.h"
 #include "base/random.h"
+#include "geometry/triangle_tree.h"
 
 namespace icome::benchmarks {
 namespace {
 
 constexpr double kAir = 0.003;  // m, above the surface, where a slide begins
 
-/// Appends the positions from `from` (left out) to `to` at `speed` m/s.
-void go(std::vector<Vector3>& tips, const Vector3& from, const Vector3& to, double speed) {
+/// Appends the positions from `from` (left out) to `to` at `speed` m/s. By value, since `from` may be the
+/// last of the tips, which move when there is no more room.
+void go(std::vector<Vector3>& tips, Vector3 from, Vector3 to, double speed) {
   const int steps = std::max(1, int(std::ceil((to - from).norm() / (speed * kTick))));
   for (int i = 1; i <= steps; ++i) tips.push_back(from + double(i) / steps * (to - from));
 }
@@ -51,6 +53,20 @@ class Wanderer {
   int until_turn_ = 0;    // ticks
 };
 
+/// Of unit length; `otherwise` for a sliver whose normal drowns in rounding.
+Vector3 face_normal(const geometry::TriangleMesh& mesh, std::size_t face, const Vector3& otherwise) {
+  const Vector3 a = mesh.corner(face, 0);
+  const Vector3 normal =
+      (mesh.corner(face, 1) - a).stableNormalized().cross((mesh.corner(face, 2) - a).stableNormalized());
+  return normal.norm() > 1e-9 ? normal.normalized() : otherwise;
+}
+
+/// The part of a vector along a surface with that unit normal, as a direction; any one where nothing is left.
+Vector3 along(const Vector3& vector, const Vector3& normal) {
+  const Vector3 rest = vector - vector.dot(normal) * normal;
+  return rest.norm() > 1e-6 ? rest.normalized() : normal.unitOrthogonal();
+}
+
 }  // namespace
 
 double BumpySphere::surface(const Vector3& direction) const {
@@ -68,6 +84,34 @@ std::vector<Vector3> slide_path(const BumpySphere& sphere, double speed, double 
     below = std::min(depth, below + speed * kTick);
     wanderer.walk(speed * kTick / sphere.radius);
   }
+  return tips;
+}
+
+std::vector<Vector3> mesh_walk_path(const geometry::TriangleMesh& mesh, double speed, double depth,
+                                    std::size_t ticks) {
+  constexpr double kStep = 0.0005;  // m, on the surface
+  constexpr double kTurn = 0.25;    // rad, the largest of a step
+  const geometry::TriangleTree tree(mesh);
+  base::Random random(5);
+  geometry::MeshHit at{.point = *std::max_element(mesh.positions.begin(), mesh.positions.end(),
+                                                  [](const auto& a, const auto& b) { return a.z() < b.z(); }),
+                       .triangle = 0,
+                       .parameter = 0.0};
+  at = *tree.nearest(at.point);
+  Vector3 normal = face_normal(mesh, at.triangle, Vector3::UnitZ());
+  Vector3 heading = along(random.direction(), normal);
+  std::vector<Vector3> tips{at.point + kAir * Vector3::UnitZ()};
+  go(tips, tips.back(), at.point - depth * normal, speed);
+  while (tips.size() < ticks) {
+    const geometry::MeshHit next = *tree.nearest(at.point + kStep * heading);
+    if ((next.point - at.point).norm() < 0.1 * kStep) heading = random.direction();
+    at = next;
+    normal = face_normal(mesh, at.triangle, normal);
+    const double turn = random.uniform(-kTurn, kTurn);
+    heading = along(std::cos(turn) * heading + std::sin(turn) * normal.cross(heading), normal);
+    go(tips, tips.back(), at.point - depth * normal, speed);
+  }
+  tips.resize(ticks);
   return tips;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "geometry/triangle_mesh.h"
 
 namespace icome::benchmarks {
 
@@ -29,6 +30,12 @@ inline constexpr double kSlow = 0.1;          // m/s
 /// Wanders over the sphere at `speed` (m/s), its depth below the surface `depth` (m, radial), once it has
 /// come down from the air above.
 std::vector<Vector3> slide_path(const BumpySphere& sphere, double speed, double depth, std::size_t ticks);
+
+/// Wanders over any mesh at `speed` (m/s), `depth` (m) below the surface along the normal of the face that it
+/// is on, once it has come down from the air above the highest vertex. It turns a little at each step of 0.5
+/// mm, and back where the surface ends.
+std::vector<Vector3> mesh_walk_path(const geometry::TriangleMesh& mesh, double speed, double depth,
+                                    std::size_t ticks);
 
 /// Straight stabs at random places, up to 45 degrees oblique, at 0.1 to 2 m/s, until `depth` (m, radial)
 /// below the surface and out again; from one to the next through the air.

@@ -67,4 +67,15 @@ TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double 
   return result;
 }
 
+Row touch_row(const std::string& figure, const TouchRun& run, const std::optional<Faults>& faults) {
+  Row row{.figure = figure};
+  row.median = run.tick.us.median;
+  row.p999 = run.tick.us.p999;
+  row.solver = run.solver_us;
+  row.load = run.load_us;
+  row.noise = run.tick.noise;
+  row.faults = faults;
+  return row;
+}
+
 }  // namespace icome::benchmarks

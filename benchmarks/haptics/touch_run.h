@@ -1,9 +1,12 @@
 #pragma once
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "haptics/haptic_scene.h"
 #include "measure.h"
+#include "table.h"
 
 namespace icome::benchmarks {
 
@@ -24,5 +27,8 @@ std::shared_ptr<const haptics::HapticScene> scene_of(std::shared_ptr<const hapti
 /// Runs the servo at 1 kHz ticks, as fast as it goes, along `tips` (m), `repeats` times anew.
 TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double tip_radius,
                const std::vector<Vector3>& tips, int repeats);
+
+/// The line of the table that tells of a run.
+Row touch_row(const std::string& figure, const TouchRun& run, const std::optional<Faults>& faults);
 
 }  // namespace icome::benchmarks
