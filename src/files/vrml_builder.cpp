@@ -181,7 +181,7 @@ class VrmlBuilder {
       object.material = material(std::size_t(nodes_[std::size_t(node.look_from)].look));
     }
     if (node.fixture_from >= 0) {
-      const PlacedFixture& placed = nodes_[std::size_t(node.fixture_from)].fixture;
+      const PlacedFixture& placed = *nodes_[std::size_t(node.fixture_from)].fixture;
       object.fixture = placed.fixture;
       object.parent_from_object = object.parent_from_object * placed.parent_from_fixture;
     }

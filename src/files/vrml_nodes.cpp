@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "files/vrml_names.h"
 #include "files/vrml_scanner.h"
@@ -20,12 +22,18 @@ bool keeps_volume(const base::Affine3& frame) {
   return frame.matrix().allFinite() && std::isfinite(volume) && volume != 0.0;
 }
 
+std::unique_ptr<const PlacedFixture> kept(PlacedFixture fixture) {
+  return std::make_unique<const PlacedFixture>(std::move(fixture));
+}
+
 class NodeReader {
  public:
   NodeReader(const flat::Scene& scene, world::FlatReader& reader) : scene_(scene), reader_(reader) {}
 
   std::vector<VrmlNode> read() {
     if (!scene_.nodes()) return {};
+    nodes_.reserve(scene_.nodes()->size());
+    generations_.reserve(scene_.nodes()->size());
     for (const flat::Node* from : *scene_.nodes()) {
       add(*from);
       if (!reader_.fault().empty()) return {};
@@ -55,11 +63,13 @@ class NodeReader {
     if (node.name == node.def) node.name = said_by(node.def);
     node.reused = from.reused();
     read_place(from, node);
-    if (from.lamp() && node.piece == VrmlNode::kNone) node.fixture = fixture_of(*from.lamp());
-    if (from.eye() && node.piece == VrmlNode::kNone) node.fixture = fixture_of(*from.eye());
+    if (from.lamp() && node.piece == VrmlNode::kNone) node.fixture = kept(fixture_of(*from.lamp()));
+    if (from.eye() && node.piece == VrmlNode::kNone) node.fixture = kept(fixture_of(*from.eye()));
     if (from.force() && node.piece == VrmlNode::kNone) {
-      node.fixture.fixture = std::make_shared<const world::Fixture>(
+      PlacedFixture effect;
+      effect.fixture = std::make_shared<const world::Fixture>(
           world::ForceEffect{reader_.text(from.force()->text()), from.force()->on()});
+      node.fixture = kept(std::move(effect));
     }
     std::uint32_t generation = 0;
     if (node.parent != VrmlNode::kNone) {
@@ -100,14 +110,14 @@ class NodeReader {
       VrmlNode& node = nodes_[i];
       const auto self = std::int32_t(i);
       if (node.piece != VrmlNode::kNone) node.shape_from = self;
-      if (node.fixture.fixture) node.fixture_from = self;
+      if (node.fixture) node.fixture_from = self;
       if (!is_bare(node)) continue;
       VrmlNode& parent = nodes_[std::size_t(node.parent)];
       if (node.piece != VrmlNode::kNone) {
         node.is_merged = shapes[std::size_t(node.parent)] == 1 && parent.shape_from == VrmlNode::kNone;
         if (node.is_merged) parent.shape_from = self;
-      } else if (node.fixture.fixture) {
-        node.is_merged = node.fixture.parent_from_fixture.matrix().isIdentity(0.0) &&
+      } else if (node.fixture) {
+        node.is_merged = node.fixture->parent_from_fixture.matrix().isIdentity(0.0) &&
                          parent.fixture_from == VrmlNode::kNone;
         if (node.is_merged) parent.fixture_from = self;
       } else if (node.look != VrmlNode::kNone) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct VrmlNode {
   std::string name = {};
   std::string def = {};
   base::Affine3 parent_from_node = base::Affine3::Identity();
-  PlacedFixture fixture = {};
+  std::unique_ptr<const PlacedFixture> fixture = {};  // null on nearly all
   std::size_t children = 0;
   bool reused = false;
   bool is_object = true;              // not a scene

@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <time.h>
 
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "realtime/locked_memory.h"
 
 namespace icome::realtime {
 namespace {
@@ -123,8 +123,7 @@ void LoopRunner::prepare_thread() {
   // Without SCHED_FIFO the kernel may wake a sleeper 50 us late to save power; ask for 1 ns.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   if (settings_.realtime_priority) report_.realtime_priority = ask_for_realtime_priority(settings_.priority);
-  // Not MCL_FUTURE: under a limit, every later allocation of the whole program could then fail.
-  if (settings_.lock_memory) report_.memory_locked = mlockall(MCL_CURRENT) == 0;
+  if (settings_.lock_memory) report_.memory_locked = lock_memory();
   report_.notice = notice_for(settings_, report_);
 }
 

@@ -1,0 +1,85 @@
+#include "realtime/locked_memory.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace icome::realtime {
+namespace {
+
+constexpr std::size_t kStack = 256 * 1024;  // bytes that ticks may use of the thread's stack
+
+/// A line of /proc/self/maps.
+struct Mapping {
+  std::uintptr_t begin = 0, end = 0;
+  std::string access;  // such as "rw-p"
+  std::string path;    // empty for memory without a file
+
+  static Mapping of(const std::string& line) {
+    Mapping mapping;
+    std::istringstream words(line);
+    std::string offset, device, inode;
+    char dash = 0;
+    words >> std::hex >> mapping.begin >> dash >> mapping.end >> mapping.access >> offset >> device >>
+        inode >> std::ws;
+    std::getline(words, mapping.path);
+    return mapping;
+  }
+};
+
+/// Libraries that any code of ours may call into.
+bool is_of_the_language(const std::string& path) {
+  constexpr std::string_view kNames[] = {"libc.so", "libm.so", "libstdc++.so", "libgcc_s.so", "ld-linux"};
+  const std::string name = std::filesystem::path(path).filename().string();
+  return std::any_of(std::begin(kNames), std::end(kNames), [&](auto it) { return name.starts_with(it); });
+}
+
+/// Thread stacks begin behind a page that nobody may touch. Each has 8 MB, of which little is ever used.
+bool is_stack(const Mapping& mapping, const Mapping& before) {
+  return mapping.path.empty() && before.path.empty() && before.access.starts_with("---") &&
+         before.end == mapping.begin;
+}
+
+bool may_be_needed_by_a_tick(const Mapping& mapping, const Mapping& before, const std::string& program) {
+  if (!mapping.access.starts_with("r")) return false;
+  if (mapping.path.empty()) return !is_stack(mapping, before);
+  return mapping.path == "[heap]" || mapping.path == program || is_of_the_language(mapping.path);
+}
+
+/// Uses the stack once, so that its pages are there.
+[[gnu::noinline]] void touch_stack() {
+  char stack[kStack];
+  volatile char* bytes = stack;
+  for (std::size_t i = 0; i < kStack; i += 1024) bytes[i] = 0;
+}
+
+}  // namespace
+
+bool lock_memory() {
+  // Not MCL_FUTURE: under a limit, every later allocation of the whole program could then fail.
+  if (mlockall(MCL_CURRENT | MCL_ONFAULT) != 0) return false;
+  touch_stack();
+  std::error_code unknown;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", unknown).string();
+  std::ifstream maps("/proc/self/maps");
+  Mapping before;
+  for (std::string line; std::getline(maps, line);) {
+    const Mapping mapping = Mapping::of(line);
+    if (may_be_needed_by_a_tick(mapping, before, program)) {
+      // Refused for what another thread has given back meanwhile, which nobody needs.
+      static_cast<void>(mlock(reinterpret_cast<const void*>(mapping.begin), mapping.end - mapping.begin));
+    }
+    before = mapping;
+  }
+  return true;
+}
+
+}  // namespace icome::realtime
