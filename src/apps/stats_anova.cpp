@@ -18,8 +18,6 @@ namespace {
 using stats::Anova;
 using stats::AnovaTerm;
 
-constexpr double kEffectConfidence = 0.90;  // leaves out 0 just where p < .05 (Steiger 2004)
-
 StatsJson effect_interval_json(const AnovaTerm& term, const Anova& anova) {
   const auto interval = stats::partial_eta_sq_interval(term.f, term.df, anova.residual.df, kEffectConfidence);
   return interval ? StatsJson({interval->low, interval->high}) : StatsJson(nullptr);

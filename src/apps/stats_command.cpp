@@ -34,6 +34,12 @@ base::Result<StatsReport> answered(const StatsOptions& options) {
   return base::fail(fmt::format("there is no test \"{}\".", options.test));
 }
 
+/// Whether both are one file, however they are written.
+bool is_same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code failed;
+  return one == other || std::filesystem::equivalent(one, other, failed);
+}
+
 /// Whether values of one person are taken for such.
 bool pairs_people(const StatsOptions& options) {
   if (options.test == "anova") return !options.within.empty();
@@ -54,11 +60,19 @@ std::string misfit(const StatsOptions& options) {
   if (!options.plot.empty() && !is_chart_name(options.plot))
     return fmt::format("--plot {} ends neither in .svg nor in .png.", options.plot.string());
   if (options.plot.empty() && !options.plot_kind.empty()) return "--plot-kind goes with --plot.";
-  if (!options.plot.empty() && options.plot == options.data)
+  if (!options.plot.empty() && is_same_file(options.plot, options.data))
     return "the plot would replace the data; give another name.";
   if (!options.subject.empty() && !pairs_people(options))
     return fmt::format("--subject goes with {}; without that, each row is taken for another person.",
                        options.test == "anova" ? "--within" : "--paired");
+  if (options.within.empty() && !(options.post_hoc.empty() && options.simple.empty()))
+    return fmt::format("{} goes with --within; pairs of separate groups: icome stats tukey.",
+                       options.post_hoc.empty() ? "--simple" : "--post-hoc");
+  if (!options.z_table.empty() && is_same_file(options.z_table, options.data))
+    return "--z would replace the data; give another name.";
+  if (!options.z_table.empty() && options.z_table.extension() != ".csv" &&
+      options.z_table.extension() != ".tsv")
+    return fmt::format("--z {} ends neither in .csv nor in .tsv.", options.z_table.string());
   if (!options.within.empty() && (options.no_interactions || options.welch))
     return fmt::format("{} goes without --within.", options.welch ? "--welch" : "--no-interactions");
   if (!(options.confidence > 0.0 && options.confidence < 1.0))

@@ -25,6 +25,18 @@ void add_output(CLI::App& command, StatsOptions& options, const char* kinds) {
   command.add_flag("--json", options.json, "Print the result as JSON (fields: icome stats --help)");
 }
 
+void add_levels(CLI::App& command, StatsOptions& options) {
+  command
+      .add_option(
+          "--levels", options.levels,
+          "The order of a factor's levels, each named: dose=low,mid,high; or dose alone: as they come "
+          "in the data (default: numbers ascending, texts as they come)")
+      ->type_name("COLUMN=A,B,...")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
 void add_confidence(CLI::App& command, StatsOptions& options) {
   command.add_option("--confidence", options.confidence, "Of intervals (default 0.95)")->type_name("SHARE");
 }
@@ -44,6 +56,7 @@ void add_groups(CLI::App& command, StatsOptions& options, bool matched) {
   add_names(command, "--factor", options.factors, "Whose levels are the groups");
   add_names(command, "--column", options.columns,
             "In place of both: columns that are the groups, each of them");
+  add_levels(command, options);
   if (!matched) return;
   command.add_option("--subject", options.subject, "Whose values belong together, with --response")
       ->type_name("COLUMN");
@@ -63,6 +76,13 @@ void add_describe(CLI::App& stats, StatsOptions& options) {
             "What to describe; several times (default: all of numbers)");
   command.add_option("--response", options.response, "The same")->type_name("COLUMN");
   add_names(command, "--factor", options.factors, "Describe each of its levels");
+  add_levels(command, options);
+  command
+      .add_option(
+          "--z", options.z_table,
+          "Write the table with a column of z scores beside it for each that is described: how many SD "
+          "a value is from the mean (of its level, with --factor)")
+      ->type_name("OUT.csv|tsv");
   add_confidence(command, options);
   add_output(command, options, "box|bars");
 }
@@ -80,6 +100,13 @@ void add_anova(CLI::App& stats, StatsOptions& options) {
   command.add_option("--type", options.type, "Of the sums of squares where cells are unequal (default 2)")
       ->type_name("1|2|3")
       ->check(CLI::IsMember({1, 2, 3}));
+  add_names(command, "--post-hoc", options.post_hoc,
+            "With --within: which levels of this factor differ, averaged over all else, by t-tests of pairs "
+            "(paired for --within, Welch's for --factor) after Holm");
+  add_names(command, "--simple", options.simple,
+            "With --within: the simple effects of this factor, alone at each combination of levels of the "
+            "others, and its pairs there, each after Holm. For a factor in a significant interaction");
+  add_levels(command, options);
   command.add_flag("--no-interactions", options.no_interactions, "Main effects of --factor only");
   command.add_flag("--welch", options.welch, "Of one factor: Welch's test beside it, for unequal variances");
   add_confidence(command, options);
@@ -122,6 +149,7 @@ void add_counts(CLI::App& command, StatsOptions& options) {
   add_names(command, "--factor", options.factors, "What is counted; a second one is told by columns");
   command.add_option("--weight", options.weight, "How often a row counts (default: once)")
       ->type_name("COLUMN");
+  add_levels(command, options);
   command.add_option("--counts", options.counts, "The counts themselves, rows parted by /")
       ->type_name("63,180/16,180");
 }
@@ -150,6 +178,8 @@ void add_count_tests(CLI::App& stats, StatsOptions& options) {
   add_output(binomial, options, "shares");
   CLI::App& mcnemar = add_test(stats, options, "mcnemar", kMcNemarSummary);
   add_counts(mcnemar, options);
+  mcnemar.add_flag("--yates", options.yates,
+                   "Yates's correction of 2 x 2 counts, as R's default is; the exact p is told either way");
   add_output(mcnemar, options, "shares");
 }
 

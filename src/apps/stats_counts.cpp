@@ -65,7 +65,7 @@ base::Result<Counted> counts_in_table(const stats::DataTable& table, const Stats
   if (names.empty() || names.size() > 2) return tl::unexpected(missing_option(table, "one or two --factor"));
   std::vector<stats::Factor> factors;
   for (const std::string& name : names) {
-    auto factor = factor_column(table, name);
+    auto factor = factor_column(table, name, options);
     if (!factor) return tl::unexpected(factor.error());
     factors.push_back(std::move(*factor));
   }
@@ -295,15 +295,23 @@ base::Result<StatsReport> report_mcnemar(const StatsOptions& options) {
   auto counted = read_counts(options);
   if (!counted) return tl::unexpected(counted.error());
   make_square(*counted);
-  const auto test = stats::mcnemar_test(counted->counts);
+  const auto test =
+      stats::mcnemar_test(counted->counts, options.yates ? stats::Yates::On : stats::Yates::Off);
   if (!test) return base::fail(fmt::format("{}: {}", counted->source, test.error().message));
-  StatsJson json = {{"test", "McNemar"},        {"chi_squared", test->chi_squared},
-                    {"df", test->df},           {"p", test->p},
-                    {"exact_p", test->exact_p}, {"odds_ratio", test->odds_ratio}};
+  const bool corrected = options.yates && counted->counts.size() == 2;
+  StatsJson json = {{"test", "McNemar"},
+                    {"chi_squared", test->chi_squared},
+                    {"df", test->df},
+                    {"p", test->p},
+                    {"yates", corrected},
+                    {"exact_p", test->exact_p},
+                    {"odds_ratio", test->odds_ratio}};
   std::string sentence = fmt::format("\u03c7\u00b2({}, N = {:g}) = {}, {}", df_text(test->df),
                                      total_of(*counted), fixed_text(test->chi_squared, 2), p_text(test->p));
   if (!std::isnan(test->exact_p)) sentence += fmt::format("; exact {}", p_text(test->exact_p));
-  return counts_report(*counted, std::move(json), "McNemar's test", sentence, options);
+  return counts_report(*counted, std::move(json),
+                       corrected ? "McNemar's test, Yates's correction" : "McNemar's test", sentence,
+                       options);
 }
 
 }  // namespace icome::apps

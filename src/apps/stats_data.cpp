@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -46,7 +47,7 @@ base::Result<LongForm> read_long_form(const stats::DataTable& table, const Stats
   if (named.size() != 1) return tl::unexpected(missing_option(table, "one --factor"));
   auto values = number_column(table, options.response);
   if (!values) return tl::unexpected(values.error());
-  auto factor = factor_column(table, named.front());
+  auto factor = factor_column(table, named.front(), options);
   if (!factor) return tl::unexpected(factor.error());
   return LongForm{std::move(*values), std::move(*factor)};
 }
@@ -70,7 +71,7 @@ base::Result<Samples> matched_by_subject(const stats::DataTable& table, const St
   if (!data) return tl::unexpected(data.error());
   if (options.subject.empty())
     return tl::unexpected(missing_option(table, "--subject, whose values belong together,"));
-  const auto subject = factor_column(table, options.subject);
+  const auto subject = factor_column(table, options.subject, options);
   if (!subject) return tl::unexpected(subject.error());
   const std::size_t groups = data->factor.levels.size();
   std::vector<PersonCells> people(subject->levels.size(),
@@ -124,6 +125,94 @@ base::Result<Samples> matched_by_row(const stats::DataTable& table, const StatsO
   return samples;
 }
 
+/// The factor with its levels in that order, which names each once.
+stats::Factor reordered(stats::Factor factor, const std::vector<int>& order) {
+  std::vector<int> place(factor.levels.size());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[std::size_t(order[i])] = int(i);
+    names.push_back(factor.levels[std::size_t(order[i])]);
+  }
+  factor.levels = std::move(names);
+  for (int& level : factor.of)
+    if (level != stats::kNoLevel) level = place[std::size_t(level)];
+  return factor;
+}
+
+/// In the order in which levels appear.
+std::vector<int> levels_of_data(const stats::Factor& factor) {
+  std::vector<int> order;
+  std::vector<bool> seen(factor.levels.size());
+  for (const int level : factor.of) {
+    if (level == stats::kNoLevel || seen[std::size_t(level)]) continue;
+    seen[std::size_t(level)] = true;
+    order.push_back(level);
+  }
+  return order;
+}
+
+/// The texts between commas; between quotation marks one may hold commas, and "" is a mark.
+std::vector<std::string> parted_by_commas(std::string_view text) {
+  std::vector<std::string> parts(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"')
+      parts.back() += text[++i];
+    else if (text[i] == '"' && (quoted || parts.back().empty()))
+      quoted = !quoted;
+    else if (text[i] == ',' && !quoted)
+      parts.emplace_back();
+    else
+      parts.back() += text[i];
+  }
+  return parts;
+}
+
+/// The factor with the levels in the order that a person tells, who names each of them once.
+base::Result<stats::Factor> told_order(const stats::DataTable& table, stats::Factor factor,
+                                       std::string_view told) {
+  std::string names;
+  for (const std::string& level : factor.levels)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", stats::quoted_cell(level));
+  const auto wrong = [&](const std::string& what) {
+    return base::fail(fmt::format("{}: --levels of {}: {}; name each of these once: {}.", table.source(),
+                                  stats::quoted_cell(factor.name), what, names));
+  };
+  std::vector<int> order;
+  for (const std::string& name : parted_by_commas(told)) {
+    const auto level = std::ranges::find(factor.levels, name);
+    if (level == factor.levels.end()) return wrong(fmt::format("there is no {}", stats::quoted_cell(name)));
+    order.push_back(int(level - factor.levels.begin()));
+    if (std::ranges::count(order, order.back()) > 1)
+      return wrong(fmt::format("{} is there twice", stats::quoted_cell(name)));
+  }
+  if (order.size() < factor.levels.size())
+    return wrong(fmt::format("{} of {} are named", order.size(), factor.levels.size()));
+  return reordered(std::move(factor), order);
+}
+
+/// Fails where --levels names no factor of the test, which would go unnoticed.
+base::Result<void> check_told_levels(const stats::DataTable& table, const StatsOptions& options) {
+  std::vector<std::string> used = options.factors;
+  used.insert(used.end(), options.within.begin(), options.within.end());
+  // Columns are factors in tests of counts; in others they are the groups themselves, in the order given.
+  constexpr std::array kCountTests = {"chisq", "fisher", "binomial", "mcnemar"};
+  if (std::ranges::find(kCountTests, options.test) != kCountTests.end())
+    used.insert(used.end(), options.columns.begin(), options.columns.end());
+  for (const std::string& told : options.levels) {
+    const auto names = [&](const std::string& name) {
+      return told == name ||
+             (told.starts_with(name) && told.size() > name.size() && told[name.size()] == '=');
+    };
+    if (std::ranges::none_of(used, names))
+      return base::fail(
+          fmt::format("{}: --levels {} names no factor of this test; write --levels "
+                      "COLUMN=first,second,... of one of its factors.",
+                      table.source(), stats::quoted_cell(told)));
+  }
+  return {};
+}
+
 }  // namespace
 
 base::Result<stats::DataTable> open_table(StatsOptions& options) {
@@ -135,6 +224,8 @@ base::Result<stats::DataTable> open_table(StatsOptions& options) {
     options.response = table->columns().back().name();
     options.factors = {table->columns().front().name()};
   }
+  if (table)
+    if (const auto told = check_told_levels(*table, options); !told) return tl::unexpected(told.error());
   return table;
 }
 
@@ -144,7 +235,8 @@ base::Result<std::vector<double>> number_column(const stats::DataTable& table, c
   return table.numbers(**column);
 }
 
-base::Result<stats::Factor> factor_column(const stats::DataTable& table, const std::string& name) {
+base::Result<stats::Factor> factor_column(const stats::DataTable& table, const std::string& name,
+                                          const StatsOptions& options) {
   const auto column = table.find(name);
   if (!column) return tl::unexpected(column.error());
   stats::Levels levels = table.levels(**column);
@@ -156,6 +248,11 @@ base::Result<stats::Factor> factor_column(const stats::DataTable& table, const s
   factor.of.reserve(levels.of.size());
   for (const std::size_t level : levels.of)
     factor.of.push_back(level == stats::Levels::kMissing ? stats::kNoLevel : int(level));
+  for (const std::string& told : options.levels) {
+    if (told == name) return reordered(factor, levels_of_data(factor));
+    if (told.starts_with(name) && told.size() > name.size() && told[name.size()] == '=')
+      return told_order(table, std::move(factor), told.substr(name.size() + 1));
+  }
   return factor;
 }
 

@@ -19,8 +19,9 @@ base::Result<stats::DataTable> open_table(StatsOptions& options);
 /// A column's numbers, NaN where one is missing.
 base::Result<std::vector<double>> number_column(const stats::DataTable& table, const std::string& name);
 
-/// A column's levels.
-base::Result<stats::Factor> factor_column(const stats::DataTable& table, const std::string& name);
+/// A column's levels, in the order that --levels tells; else numbers ascending and texts as they come.
+base::Result<stats::Factor> factor_column(const stats::DataTable& table, const std::string& name,
+                                          const StatsOptions& options);
 
 /// Values of two or more groups.
 struct Samples {

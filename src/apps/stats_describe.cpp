@@ -1,12 +1,16 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "apps/stats_data.h"
 #include "apps/stats_report.h"
 #include "apps/stats_text.h"
 #include "base/utf8.h"
+#include "files/new_file.h"
 #include "stats/descriptives.h"
 
 namespace icome::apps {
@@ -20,8 +24,10 @@ constexpr std::size_t kMostModes = 3;
 /// A column, or what of it belongs to a level of --factor.
 struct Described {
   std::string name;
-  std::vector<double> values;   // NaN: missing
-  std::vector<std::size_t> at;  // lines of the file
+  std::vector<double> values;     // NaN: missing
+  std::vector<std::size_t> at;    // lines of the file
+  std::vector<std::size_t> rows;  // of the table
+  std::size_t column = 0;         // which of those that are described it is of
 };
 
 StatsJson description_json(const Description& it) {
@@ -63,8 +69,11 @@ base::Result<std::vector<Described>> columns_to_describe(const stats::DataTable&
   for (const std::string& name : names) {
     auto values = number_column(table, name);
     if (!values) return tl::unexpected(values.error());
-    Described described{name, std::move(*values), {}};
-    for (std::size_t row = 0; row < table.rows(); ++row) described.at.push_back(table.line(row));
+    Described described{name, std::move(*values), {}, {}, all.size()};
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      described.at.push_back(table.line(row));
+      described.rows.push_back(row);
+    }
     all.push_back(std::move(described));
   }
   return all;
@@ -76,12 +85,17 @@ std::vector<Described> parted(const std::vector<Described>& columns, const stats
   for (const Described& column : columns) {
     const std::size_t first = all.size();
     for (const std::string& level : factor.levels)
-      all.push_back({columns.size() > 1 ? fmt::format("{}, {}", column.name, level) : level, {}, {}});
+      all.push_back({columns.size() > 1 ? fmt::format("{}, {}", column.name, level) : level,
+                     {},
+                     {},
+                     {},
+                     column.column});
     for (std::size_t row = 0; row < column.values.size(); ++row) {
       if (factor.of[row] == stats::kNoLevel) continue;
       Described& part = all[first + std::size_t(factor.of[row])];
       part.values.push_back(column.values[row]);
       part.at.push_back(column.at[row]);
+      part.rows.push_back(row);
     }
   }
   return all;
@@ -151,6 +165,80 @@ base::Result<StatsChart> describe_chart(const std::vector<Described>& all, const
   return chart;
 }
 
+/// A cell as it may stand in a table whose cells that sign parts.
+std::string table_cell(std::string_view text, char separator) {
+  const bool plain = text.find_first_of("\"\r\n") == std::string_view::npos &&
+                     text.find(separator) == std::string_view::npos && !text.starts_with(' ') &&
+                     !text.ends_with(' ');
+  if (plain) return std::string(text);
+  std::string cell = "\"";
+  for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+  return cell + '"';
+}
+
+/// A heading that no column has yet.
+std::string free_heading(const std::string& wanted, const std::vector<std::string>& taken) {
+  std::string heading = wanted;
+  for (int i = 2; std::ranges::find(taken, heading) != taken.end(); ++i)
+    heading = fmt::format("{} ({})", wanted, i);
+  return heading;
+}
+
+/// A column of z scores for each column that is described, NaN where there is none.
+std::vector<std::vector<double>> z_columns(const stats::DataTable& table, const std::vector<Described>& all,
+                                           std::size_t columns, std::vector<std::string>& warnings) {
+  std::vector<std::vector<double>> scores(
+      columns, std::vector<double>(table.rows(), std::numeric_limits<double>::quiet_NaN()));
+  for (const Described& described : all) {
+    const auto z = stats::z_scores(described.values);
+    if (!z) {
+      warnings.push_back(fmt::format("{} has no z scores: {}.", described.name, z.error().message));
+      continue;
+    }
+    for (std::size_t i = 0; i < z->size(); ++i) scores[described.column][described.rows[i]] = (*z)[i];
+  }
+  return scores;
+}
+
+/// Writes the table as it was read, with the z scores beside it.
+base::Result<void> add_z_scores(StatsReport& report, const stats::DataTable& table,
+                                const std::vector<Described>& all, const std::vector<std::string>& names,
+                                const std::filesystem::path& out) {
+  auto file = files::NewFile::create(out);
+  if (!file) return tl::unexpected(file.error());
+  const bool comma = table.decimal_comma() && out.extension() == ".csv";
+  const char separator = out.extension() == ".tsv" ? '\t' : (comma ? ';' : ',');
+  const std::vector<std::vector<double>> scores = z_columns(table, all, names.size(), report.warnings);
+  std::vector<std::string> headings;
+  for (const stats::Column& column : table.columns()) headings.push_back(column.name());
+  report.json["z_columns"] = StatsJson::array();
+  for (const std::string& name : names) {
+    headings.push_back(free_heading(fmt::format("z of {}", name), headings));
+    report.json["z_columns"].push_back(base::as_utf8(headings.back()));
+  }
+  std::string line;
+  const auto end_line = [&] {
+    line.back() = '\n';
+    file->write(line);
+    line.clear();
+  };
+  for (const std::string& heading : headings) line += table_cell(heading, separator) + separator;
+  end_line();
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (const stats::Column& column : table.columns())
+      line += table_cell(column.cell(row), separator) + separator;
+    for (const std::vector<double>& of : scores) {
+      std::string number = std::isnan(of[row]) ? std::string() : fmt::format("{}", of[row]);
+      if (comma) std::ranges::replace(number, '.', ',');
+      line += number + separator;
+    }
+    end_line();
+  }
+  report.text += fmt::format("\nz scores: {} in {}\n",
+                             fmt::join(std::span(headings).last(names.size()), ", "), out.string());
+  return file->finish();
+}
+
 }  // namespace
 
 base::Result<StatsReport> report_describe(const StatsOptions& asked) {
@@ -159,9 +247,11 @@ base::Result<StatsReport> report_describe(const StatsOptions& asked) {
   if (!table) return tl::unexpected(table.error());
   auto all = columns_to_describe(*table, options);
   if (!all) return tl::unexpected(all.error());
+  std::vector<std::string> columns;
+  for (const Described& described : *all) columns.push_back(described.name);
   if (options.factors.size() > 1) return base::fail("describe takes one --factor at most.");
   if (!options.factors.empty()) {
-    const auto factor = factor_column(*table, options.factors.front());
+    const auto factor = factor_column(*table, options.factors.front(), options);
     if (!factor) return tl::unexpected(factor.error());
     all = parted(*all, *factor);
   }
@@ -182,6 +272,10 @@ base::Result<StatsReport> report_describe(const StatsOptions& asked) {
                             tables.centre.text(), tables.spread.text());
   report.text += fmt::format("\nOutliers, more than 2 SD from the mean\n{}",
                              tables.outliers.empty() ? std::string("  none\n") : tables.outliers);
+  if (!options.z_table.empty()) {
+    if (const auto written = add_z_scores(report, *table, *all, columns, options.z_table); !written)
+      return tl::unexpected(written.error());
+  }
   if (options.plot.empty()) return report;
   auto chart = describe_chart(*all, options);
   if (!chart) return tl::unexpected(chart.error());

@@ -3,6 +3,9 @@
 
 namespace icome::apps {
 
+/// Of intervals of shares of variance: they leave out 0 just where p < .05 (Steiger 2004).
+inline constexpr double kEffectConfidence = 0.90;
+
 /// {"df", "ss", "ms"}.
 inline StatsJson squares_json(int df, double ss, double ms) { return {{"df", df}, {"ss", ss}, {"ms", ms}}; }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "apps/stats_data.h"
@@ -14,6 +15,7 @@
 #include "stats/cells.h"
 #include "stats/descriptives.h"
 #include "stats/sums.h"
+#include "stats/within_intervals.h"
 
 namespace icome::apps {
 namespace {
@@ -123,6 +125,49 @@ void add_normality(StatsReport& report, StatsJson& json, const FactorialData& da
            : fmt::format("  normal residuals, Shapiro-Wilk: not tested: {}\n", test.error().message);
 }
 
+/// The observations of people who have one in each cell within subjects, with the differences between people
+/// taken off and Morey's growth, group by group; NaN of others.
+std::vector<double> without_people(const FactorialData& data) {
+  std::vector<std::vector<int>> groups, columns;
+  const std::size_t count = data.values.size();
+  const std::vector<int> group =
+      data.factors.empty() ? std::vector<int>(count, 0) : stats::combined_levels(data.factors, count, groups);
+  const std::vector<int> column = stats::combined_levels(data.within, count, columns);
+  // By group and person the observation in each column.
+  std::map<std::pair<int, int>, std::vector<std::size_t>> people;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (group[i] == stats::kNoLevel || column[i] == stats::kNoLevel || std::isnan(data.values[i])) continue;
+    auto& row = people[{group[i], data.subject.of[i]}];
+    row.resize(columns.size(), count);
+    row[std::size_t(column[i])] = i;
+  }
+  std::map<int, std::vector<const std::vector<std::size_t>*>> rows;
+  for (const auto& [who, row] : people)
+    if (std::ranges::find(row, count) == row.end()) rows[who.first].push_back(&row);
+  std::vector<double> moved(count, std::numeric_limits<double>::quiet_NaN());
+  for (const auto& [number, of_group] : rows) {
+    std::vector<std::vector<double>> values;
+    for (const std::vector<std::size_t>* row : of_group) {
+      values.emplace_back();
+      for (const std::size_t at : *row) values.back().push_back(data.values[at]);
+    }
+    const auto left = stats::without_person_differences(values);
+    if (!left) continue;
+    for (std::size_t row = 0; row < of_group.size(); ++row)
+      for (std::size_t i = 0; i < of_group[row]->size(); ++i) moved[(*of_group[row])[i]] = (*left)[row][i];
+  }
+  return moved;
+}
+
+/// Descriptions by cell, in the order of describe_cells() of the values themselves: their intervals of means
+/// are within-subject ones. Empty where there are no factors within subjects.
+std::vector<stats::CellDescription> within_cells(const FactorialData& data,
+                                                 std::span<const stats::Factor> factors, double confidence) {
+  if (data.within.empty()) return {};
+  auto cells = stats::describe_cells(without_people(data), factors, confidence);
+  return cells ? std::move(*cells) : std::vector<stats::CellDescription>();
+}
+
 StatsJson cell_json(const stats::CellDescription& cell, std::span<const stats::Factor> factors) {
   StatsJson levels = StatsJson::object();
   for (std::size_t i = 0; i < factors.size(); ++i)
@@ -172,7 +217,7 @@ base::Result<FactorialData> read_factorial(const stats::DataTable& table, const 
     if (!used.insert(name).second)
       return base::fail(fmt::format("{}: the column {} is named for two roles; name it once.", table.source(),
                                     stats::quoted_cell(name)));
-    return factor_column(table, name);
+    return factor_column(table, name, options);
   };
   for (const auto& [names, into] :
        {std::pair(&options.factors, &data.factors), {&options.within, &data.within}}) {
@@ -223,6 +268,9 @@ void add_cells(StatsReport& report, const FactorialData& data, double confidence
   for (const std::string& heading : {std::string("n"), std::string("mean"), std::string("SD"),
                                      fmt::format("{} CI of the mean", percent_text(confidence))})
     headings.push_back(heading);
+  const auto within = within_cells(data, factors, confidence);
+  const bool has_within = within.size() == cells->size();
+  if (has_within) headings.push_back(fmt::format("within-subject {} CI", percent_text(confidence)));
   TextTable table(headings);
   double least_deviation = std::numeric_limits<double>::infinity();
   for (const stats::CellDescription& cell : *cells)
@@ -230,7 +278,10 @@ void add_cells(StatsReport& report, const FactorialData& data, double confidence
       least_deviation = std::min(least_deviation, cell.description.standard_deviation);
   const int decimals = decimals_for(least_deviation);
   for (std::size_t i = 0; i < cells->size(); ++i) {
-    report.json["cells"].push_back(cell_json((*cells)[i], factors));
+    StatsJson json = cell_json((*cells)[i], factors);
+    if (has_within)
+      json["within_interval"] = {within[i].description.mean_low, within[i].description.mean_high};
+    report.json["cells"].push_back(std::move(json));
     if (i >= kMostCellLines) continue;
     const stats::Description& it = (*cells)[i].description;
     std::vector<std::string> row;
@@ -239,6 +290,8 @@ void add_cells(StatsReport& report, const FactorialData& data, double confidence
     row.insert(row.end(), {std::to_string(it.n), fixed_text(it.mean, decimals),
                            fixed_text(it.standard_deviation, decimals),
                            interval_text(it.mean_low, it.mean_high, decimals)});
+    if (has_within)
+      row.push_back(interval_text(within[i].description.mean_low, within[i].description.mean_high, decimals));
     table.add(std::move(row));
   }
   report.text += fmt::format("\nMeans\n{}", table.text());
@@ -273,7 +326,11 @@ base::Result<StatsChart> factorial_chart(const FactorialData& data, const StatsO
   chart.y_label = data.response;
   chart.groups = all.front().levels;
   chart.confidence = options.confidence;
-  set_series(chart, cells_of(data, all), all, series_factors);
+  // The moved values are no independent ones if a mark pools several cells of each person.
+  chart.within_people = !data.within.empty() && *kind != ChartKind::Box && series_factors + 1 == all.size();
+  FactorialData drawn = data;
+  if (chart.within_people) drawn.values = without_people(data);
+  set_series(chart, cells_of(drawn, all), all, series_factors);
   return chart;
 }
 

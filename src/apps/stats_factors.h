@@ -24,7 +24,8 @@ base::Result<FactorialData> read_factorial(const stats::DataTable& table, const 
 /// lacks a value, a level or a person is left out.
 FactorialData people_means(const FactorialData& data);
 
-/// Means and their intervals by cell, to text and JSON ("cells").
+/// Means and their intervals by cell, to text and JSON ("cells"). Of data with factors within subjects, which
+/// are people_means(), within-subject intervals too (Cousineau 2005, Morey 2008), group by group.
 void add_cells(StatsReport& report, const FactorialData& data, double confidence);
 
 /// Brown and Forsythe's, Levene's and Shapiro and Wilk's tests, to text and JSON ("assumptions"). Residuals
@@ -32,7 +33,8 @@ void add_cells(StatsReport& report, const FactorialData& data, double confidence
 /// the mean where there are subjects.
 void add_assumptions(StatsReport& report, const FactorialData& data, bool full_model);
 
-/// The values by factors, without a title: boxes of one factor, else lines of means.
+/// The values by factors, without a title: boxes of one factor, else lines of means. With factors within
+/// subjects the intervals of means are within-subject ones.
 base::Result<StatsChart> factorial_chart(const FactorialData& data, const StatsOptions& options);
 
 }  // namespace icome::apps

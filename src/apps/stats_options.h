@@ -13,9 +13,12 @@ struct StatsOptions {
   std::string response;
   std::vector<std::string> factors, within, measured, columns;
   std::string subject, weight;
-  std::string counts;            // "63,180/16,180": in place of data
-  std::vector<double> expected;  // shares
-  int type = 2;                  // of sums of squares
+  std::string counts;                         // "63,180/16,180": in place of data
+  std::vector<double> expected;               // shares
+  std::vector<std::string> levels;            // "dose=low,high": the order of a factor's; "dose": of the data
+  std::vector<std::string> post_hoc, simple;  // factors whose levels are compared
+  std::filesystem::path z_table;              // of describe
+  int type = 2;                               // of sums of squares
   bool no_interactions = false;
   bool paired = false;
   bool pooled = false;

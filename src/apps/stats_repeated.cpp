@@ -8,8 +8,10 @@
 #include "apps/stats_data.h"
 #include "apps/stats_effects.h"
 #include "apps/stats_factors.h"
+#include "apps/stats_levels.h"
 #include "apps/stats_report.h"
 #include "apps/stats_text.h"
+#include "stats/effect_sizes.h"
 #include "stats/repeated_measures.h"
 
 namespace icome::apps {
@@ -28,8 +30,31 @@ StatsJson sphericity_json(const RepeatedMeasuresTerm& term) {
           {"lower_bound", it.lower_bound}};
 }
 
+/// A share of variance that a term explains, and the population's interval of it.
+struct EffectShare {
+  const char* name;  // of the member in JSON
+  const char* sign;  // in text
+  double value;
+  base::Result<stats::EffectInterval> interval;
+};
+
+std::vector<EffectShare> shares_of(const RepeatedMeasuresTerm& term) {
+  const auto interval = [&](double rest) {
+    return stats::share_interval(term.f, term.df, term.error_df, term.error_ms, rest, kEffectConfidence);
+  };
+  return {{"partial_eta_sq", "\u03b7\u00b2p", term.partial_eta_sq,
+           stats::partial_eta_sq_interval(term.f, term.df, term.error_df, kEffectConfidence)},
+          {"generalised_eta_sq", "\u03b7\u00b2G", term.generalised_eta_sq,
+           interval(term.generalised_eta_sq_rest)},
+          {"omega_sq", "\u03c9\u00b2", term.omega_sq, interval(term.omega_sq_rest)},
+          {"partial_omega_sq", "\u03c9\u00b2p", term.partial_omega_sq, interval(term.partial_omega_sq_rest)}};
+}
+
 StatsJson repeated_term_json(const RepeatedMeasuresTerm& term) {
   StatsJson json = effect_json(term);
+  for (const EffectShare& share : shares_of(term))
+    json[fmt::format("{}_interval", share.name)] =
+        share.interval ? StatsJson({share.interval->low, share.interval->high}) : StatsJson(nullptr);
   json["error"] = squares_json(term.error_df, term.error_ss, term.error_ms);
   json["sphericity"] = sphericity_json(term);
   json["p_greenhouse_geisser"] = term.p_greenhouse_geisser;
@@ -76,9 +101,13 @@ std::string repeated_table_text(const RepeatedMeasures& analysis) {
 std::string repeated_sentence(const RepeatedMeasuresTerm& it) {
   const bool doubtful = it.sphericity && it.sphericity->p < 0.05;
   const double epsilon = doubtful ? it.sphericity->greenhouse_geisser : 1.0;
-  return fmt::format("F({}, {}) = {}, {}, \u03b7\u00b2p = {}{}", df_text(it.df * epsilon),
+  const auto interval = stats::partial_eta_sq_interval(it.f, it.df, it.error_df, kEffectConfidence);
+  return fmt::format("F({}, {}) = {}, {}, \u03b7\u00b2p = {}{}{}", df_text(it.df * epsilon),
                      df_text(it.error_df * epsilon), fixed_text(it.f, 2),
                      p_text(doubtful ? it.p_greenhouse_geisser : it.p), share_text(it.partial_eta_sq),
+                     interval ? fmt::format(", {} CI [{}, {}]", percent_text(kEffectConfidence),
+                                            share_text(interval->low), share_text(interval->high))
+                              : std::string(),
                      doubtful ? ", after Greenhouse and Geisser" : "");
 }
 
@@ -93,6 +122,41 @@ std::string sphericity_text(const RepeatedMeasures& analysis) {
                share_text(std::min(it.sphericity->huynh_feldt, 1.0), 3)});
   }
   return any ? table.text() : std::string();
+}
+
+/// Every share of variance with its interval, a row a term.
+std::string effects_text(const RepeatedMeasures& analysis) {
+  std::vector<std::string> headings = {""};
+  for (const EffectShare& share : shares_of(analysis.terms.front())) {
+    headings.emplace_back(share.sign);
+    headings.push_back(fmt::format("{} CI", percent_text(kEffectConfidence)));
+  }
+  TextTable table(headings);
+  for (const RepeatedMeasuresTerm& term : analysis.terms) {
+    std::vector<std::string> row = {term.term};
+    for (const EffectShare& share : shares_of(term)) {
+      row.push_back(share_text(share.value));
+      row.push_back(share.interval ? fmt::format("[{}, {}]", share_text(share.interval->low),
+                                                 share_text(share.interval->high))
+                                   : std::string("-"));
+    }
+    table.add(std::move(row));
+  }
+  return fmt::format("\nEffect sizes, partial, generalised and omega squared\n{}", table.text());
+}
+
+/// Says why a share can stand outside of its interval, where one does.
+void note_shares(StatsReport& report, const RepeatedMeasures& analysis) {
+  const auto stands_outside = [](const EffectShare& share) {
+    return share.interval && (share.value < share.interval->low || share.value > share.interval->high);
+  };
+  if (std::ranges::any_of(analysis.terms, [&](const RepeatedMeasuresTerm& term) {
+        return std::ranges::any_of(shares_of(term), stands_outside);
+      }))
+    report.warnings.emplace_back(
+        "Intervals of effect sizes are of the population's, which are not below 0 and less than what few "
+        "values "
+        "show; so a value itself can stand outside.");
 }
 
 /// Takes the values of these subjects away, so that means, checks and chart are of those who were analysed.
@@ -128,11 +192,15 @@ base::Result<StatsReport> report_repeated_measures(const StatsOptions& asked) {
   report.text += repeated_table_text(*analysis) + "\n";
   for (const RepeatedMeasuresTerm& it : analysis->terms)
     report.text += fmt::format("  {}: {}\n", it.term, repeated_sentence(it));
+  report.text += effects_text(*analysis);
+  note_shares(report, *analysis);
   leave_out(*data, analysis->left_out);
   *data = people_means(*data);
   add_cells(report, *data, options.confidence);
   add_assumptions(report, *data, true);
   report.text += sphericity_text(*analysis);
+  if (const auto compared = add_level_comparisons(report, *data, options); !compared)
+    return base::fail(fmt::format("{}: {}", table->source(), compared.error().message));
   if (!options.plot.empty()) {
     auto chart = factorial_chart(*data, options);
     if (!chart) return tl::unexpected(chart.error());

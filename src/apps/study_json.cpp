@@ -50,11 +50,9 @@ StatsJson control_json(const study::Study& study) {
 StatsJson hypotheses_json(const study::Study& study, const study::StudyCheck& check) {
   StatsJson all = StatsJson::array();
   for (const study::Hypothesis& hypothesis : study.hypotheses) {
-    StatsJson one = {{"id", hypothesis.id},
-                     {"dependent", hypothesis.dependent},
-                     {"factor", hypothesis.factor},
-                     {"alpha", hypothesis.alpha},
-                     {"test", test_word(hypothesis.test)}};
+    StatsJson one = {
+        {"id", hypothesis.id},       {"dependent", hypothesis.dependent},  {"factor", hypothesis.factor},
+        {"alpha", hypothesis.alpha}, {"test", test_word(hypothesis.test)}, {"primary", hypothesis.primary}};
     const auto power = std::ranges::find(check.powers, hypothesis.id, &study::HypothesisPower::hypothesis);
     if (power != check.powers.end()) {
       one["effect"] = power->effect;

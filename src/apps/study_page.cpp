@@ -43,22 +43,8 @@ void write_summary(StudyPage& page) {
     page.raw("</div>\n");
   }
   std::vector<std::string> lines;
-  for (const study::HypothesisResult& result : page.analysis().hypotheses) {
-    const study::Hypothesis& hypothesis = page.data().study.hypotheses[result.hypothesis];
-    const std::string text = name_of(hypothesis.text, hypothesis.id);
-    if (!result.test.result) {
-      lines.push_back(fmt::format("{} Not computed: {}", text, result.test.why));
-      continue;
-    }
-    const study::TestResult& test = *result.test.result;
-    const std::string statistic =
-        test.statistic.empty() ? "" : fmt::format("{}, ", unbroken(statistic_text(test)));
-    lines.push_back(fmt::format("{} {}: {}{}.", text,
-                                result.decision == study::Decision::Shown      ? "Shown"
-                                : result.decision == study::Decision::NotShown ? "Not shown"
-                                                                               : "The opposite is shown",
-                                statistic, unbroken(p_text(test.p))));
-  }
+  for (const study::HypothesisResult& result : page.analysis().hypotheses)
+    lines.push_back(conclusion_text(page.data().study, result));
   if (lines.empty()) return;
   page.heading("In short");
   if (page.data().simulated) page.stamped_paragraph("What the tests say of people who were simulated:");

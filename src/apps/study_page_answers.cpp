@@ -37,10 +37,12 @@ std::string tested_sentence(const study::Study& study, const study::QuestionSumm
     return test.why.empty() ? no_test_sentence(item_of(study, question), question)
                             : fmt::format("No test: {}", test.why);
   const study::TestResult& result = *test.result;
-  std::string text =
-      fmt::format("{}: {}, {}", result.test, unbroken(statistic_text(result)), unbroken(p_text(result.p)));
+  std::string text = fmt::format("{}: {}, {}", result.test,
+                                 result.counts.empty() ? unbroken(statistic_text(result)) : result.counts,
+                                 unbroken(p_text(result.p)));
   if (!result.effect.empty()) text += fmt::format("; {}", effect_text(result));
   text += fmt::format("; n = {}.", result.people);
+  for (const std::string& doubt : result.doubts) text += fmt::format(" {}", as_sentence(doubt));
   for (const std::string& note : result.notes) text += fmt::format(" {}", as_sentence(note));
   return text;
 }

@@ -60,8 +60,10 @@ void write_expectations(StudyPage& page) {
   table.headings = {"Hypothesis", "Expected", "Test", "\u03b1"};
   table.left_columns = 3;
   for (const study::Hypothesis& hypothesis : study.hypotheses)
-    table.rows.push_back({name_of(hypothesis.text, hypothesis.id), expectation_text(study, hypothesis),
-                          test_word(hypothesis.test), share_text(hypothesis.alpha)});
+    table.rows.push_back(
+        {name_of(hypothesis.text, hypothesis.id), expectation_text(study, hypothesis),
+         fmt::format("{}{}", test_word(hypothesis.test), hypothesis.primary ? ", primary" : ""),
+         share_text(hypothesis.alpha)});
   page.table(table);
 }
 

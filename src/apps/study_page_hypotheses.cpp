@@ -18,11 +18,10 @@ void write_computed(StudyPage& page) {
     const study::TestResult& test = *result.test.result;
     table.rows.push_back({name_of(hypothesis.text, hypothesis.id), test.test, statistic_text(test),
                           p_cell(test.p), result.p_holm ? p_cell(*result.p_holm) : "-",
-                          share_text(hypothesis.alpha), decision_text(result.decision)});
+                          share_text(hypothesis.alpha),
+                          decision_text(result.decision) + reservation_text(result)});
   }
-  table.notes = {
-      "P (Holm) is adjusted for all hypotheses that were tested (Holm 1979); the result is that of "
-      "the plain P."};
+  table.notes = {decision_rule(study, page.analysis())};
   page.table(table);
 }
 
@@ -57,12 +56,11 @@ void write_hypotheses(StudyPage& page) {
   std::vector<std::string> lines;
   for (const study::HypothesisResult& result : page.analysis().hypotheses) {
     const study::Hypothesis& hypothesis = page.data().study.hypotheses[result.hypothesis];
-    if (!result.test.result)
-      lines.push_back(
-          fmt::format("{} Not computed: {}", name_of(hypothesis.text, hypothesis.id), result.test.why));
-    else
-      for (const std::string& note : result.test.result->notes)
-        lines.push_back(fmt::format("{} {}", name_of(hypothesis.text, hypothesis.id), as_sentence(note)));
+    if (!result.test.result || !result.test.result->doubts.empty() || result.held_back || result.beside)
+      lines.push_back(conclusion_text(page.data().study, result));
+    if (!result.test.result) continue;
+    for (const std::string& note : result.test.result->notes)
+      lines.push_back(fmt::format("{} {}", name_of(hypothesis.text, hypothesis.id), as_sentence(note)));
   }
   page.list(lines);
 }

@@ -15,8 +15,8 @@ StatsJson interval_json(const study::TestResult& test) {
 /// The members of a test; nulls with "why" where there is none.
 StatsJson test_json(const study::Tested& tested) {
   if (!tested.result)
-    return {{"test", nullptr},   {"statistic", nullptr}, {"df", StatsJson::array()}, {"p", nullptr},
-            {"effect", nullptr}, {"effect_ci", nullptr}, {"why", tested.why}};
+    return {{"test", nullptr},   {"statistic", nullptr}, {"df", StatsJson::array()},     {"p", nullptr},
+            {"effect", nullptr}, {"effect_ci", nullptr}, {"doubts", StatsJson::array()}, {"why", tested.why}};
   const study::TestResult& test = *tested.result;
   StatsJson json = {{"test", test.test},
                     {"statistic", test.statistic.empty() ? StatsJson(nullptr) : StatsJson(test.value)},
@@ -28,6 +28,8 @@ StatsJson test_json(const study::Tested& tested) {
                     {"effect_ci", interval_json(test)},
                     {"confidence", test.confidence},
                     {"people", test.people},
+                    {"counts", test.counts.empty() ? StatsJson(nullptr) : StatsJson(test.counts)},
+                    {"doubts", test.doubts},
                     {"notes", test.notes}};
   return json;
 }
@@ -159,9 +161,13 @@ StatsJson hypothesis_results_json(const study::StudyData& data, const study::Ana
     one.append(test_json(result.test));
     one["p_holm"] = result.p_holm ? StatsJson(*result.p_holm) : StatsJson(nullptr);
     one["alpha"] = hypothesis.alpha;
+    one["primary"] = result.primary;
+    one["held_back"] = result.held_back;
+    one["beside"] = result.beside ? test_json({result.beside, {}}) : StatsJson(nullptr);
     one["one_sided"] = result.one_sided;
     one["as_expected"] = result.as_expected ? StatsJson(*result.as_expected) : StatsJson(nullptr);
     one["decision"] = decision_text(result.decision);
+    one["conclusion"] = conclusion_text(data.study, result);
     hypotheses.push_back(one);
   }
   return hypotheses;

@@ -8,6 +8,8 @@
 #include "study/counterbalancing.h"
 #include "study/needs.h"
 #include "study/session_length.h"
+#include "study/simulated_person.h"
+#include "study/steps.h"
 
 namespace icome::apps {
 namespace {
@@ -40,6 +42,8 @@ std::string participants_text(const StudyPage& page) {
   std::string all;
   for (const std::string& part : parts) all.append(all.empty() ? " (" : "; ").append(part);
   text.append(all).append(all.empty() ? "" : ")");
+  if (page.data().simulated)
+    return fmt::format("{}; {} went through all of the study.", text, people.complete);
   return fmt::format(
       "{}; {} completed the session. [Say how they were recruited and whether they were paid.]", text,
       people.complete);
@@ -155,7 +159,21 @@ bool gives_forces(const study::Study& study) {
   return study.task && study.task->forces && !always_set;
 }
 
-std::string apparatus_text(const study::Study& study) {
+std::string apparatus_of_simulation(const study::Study& study) {
+  std::vector<std::string> missing;
+  for (const study::UnmetNeed& need : study::unmet_needs(study))
+    if (std::ranges::find(missing, need.what) == missing.end()) missing.push_back(need.what);
+  std::string text = "There was no device: ICOME moved a simulated hand";
+  if (gives_forces(study)) text += ", with forces computed at 1 kHz that nobody felt";
+  if (!missing.empty())
+    text += fmt::format(". The study also asks for {}, which {} not there", joined(missing),
+                        missing.size() == 1 ? "was" : "were");
+  return text + ".";
+}
+
+std::string apparatus_text(const StudyPage& page) {
+  const study::Study& study = page.data().study;
+  if (page.data().simulated) return apparatus_of_simulation(study);
   const std::vector<std::string> ids = all_needs(study);
   std::vector<std::string> needs;
   for (const study::Capability& capability : study::capabilities())
@@ -193,22 +211,66 @@ bool is_asked(const study::Study& study, study::AskWhen when) {
          study.questionnaires.end();
 }
 
+/// "in each condition 3 practice trials and 10 measured trials".
+std::string trials_phrase(const study::Study& study) {
+  std::vector<std::string> trials;
+  if (study.trials.practice > 0)
+    trials.push_back(count_text(std::size_t(study.trials.practice), "practice trial"));
+  trials.push_back(count_text(study::trials_a_condition(study.trials), "measured trial"));
+  const bool several = study::crossings(study, false).size() > 1;
+  return fmt::format("{}{}", several ? "in each condition " : "", joined(trials));
+}
+
 /// How a session began and what a condition was.
 std::string trials_sentence(const study::Study& study) {
   std::vector<std::string> before;
   if (!study.consent.empty()) before.emplace_back("giving consent");
   if (is_asked(study, study::AskWhen::Before)) before.emplace_back("answering a first questionnaire");
   if (!study.instructions.empty()) before.emplace_back("reading written instructions");
-  std::vector<std::string> trials;
-  if (study.trials.practice > 0)
-    trials.push_back(count_text(std::size_t(study.trials.practice), "practice trial"));
-  trials.push_back(count_text(study::trials_a_condition(study.trials), "measured trial"));
-  const bool several = study::crossings(study, false).size() > 1;
-  return fmt::format("{}eople had {}{}.", before.empty() ? "P" : fmt::format("After {}, p", joined(before)),
-                     several ? "in each condition " : "", joined(trials));
+  return fmt::format("{}eople had {}.", before.empty() ? "P" : fmt::format("After {}, p", joined(before)),
+                     trials_phrase(study));
+}
+
+/// The rests that people had, as their pages were on the screen.
+std::string rest_text(const StudyPage& page) {
+  const double planned = page.data().study.trials.rest;
+  std::size_t rests = 0, shorter = 0;
+  double least = planned;
+  for (const study::StudyData::Person& person : page.data().people) {
+    for (const study::EventRecord& event : person.progress.events) {
+      if (event.kind != study::EventKind::Page || event.name != study::page_name(study::PageKind::Rest))
+        continue;
+      ++rests;
+      // A page that is left when its time is over can be a frame short of it.
+      if (event.duration < planned - 0.1) ++shorter;
+      least = std::min(least, event.duration);
+    }
+  }
+  if (rests == 0)
+    return fmt::format(" A rest of {:g} s between conditions was planned; none is on record.", planned);
+  if (shorter == 0) return fmt::format(" Between conditions there was a rest of {:g} s or more.", planned);
+  return fmt::format(
+      " Between conditions a rest of {:g} s was planned; {} of {} were shorter, down to {:.0f} s.", planned,
+      shorter, rests, least);
+}
+
+/// How simulated people did trials, and what of the protocol they did not do.
+std::string procedure_of_simulation(const StudyPage& page) {
+  const study::Study& study = page.data().study;
+  const study::Trials& trials = study.trials;
+  std::string text = fmt::format("Simulated hands did {}.{}", trials_phrase(study), criterion_text(page));
+  text += fmt::format(" Before each trial they were held for {:g} s", study::kSimulatedHold);
+  if (trials.hold > 0.0) text += fmt::format("; for people the study has {:g} s", trials.hold);
+  text += ".";
+  if (study.task)
+    text += fmt::format(" A trial that was not done after {:g} s was ended.", study.task->limit);
+  text += " Nobody agreed to anything, read anything or rested";
+  if (!study.questionnaires.empty()) text += ", and answers to questions were drawn by chance";
+  return text + ".";
 }
 
 std::string procedure_text(const StudyPage& page) {
+  if (page.data().simulated) return procedure_of_simulation(page);
   const study::Study& study = page.data().study;
   const study::Trials& trials = study.trials;
   const bool several = study::crossings(study, false).size() > 1;
@@ -218,8 +280,7 @@ std::string procedure_text(const StudyPage& page) {
                         trials.beep ? ", and a beep told its release" : "");
   if (study.task)
     text += fmt::format(" A trial that was not done after {:g} s was ended.", study.task->limit);
-  if (trials.rest > 0.0 && several)
-    text += fmt::format(" Between conditions there was a rest of {:g} s.", trials.rest);
+  if (trials.rest > 0.0 && several) text += rest_text(page);
   if (is_asked(study, study::AskWhen::AfterCondition))
     text += several ? " A questionnaire followed each condition." : " A questionnaire followed the trials.";
   if (is_asked(study, study::AskWhen::AfterLast) || is_asked(study, study::AskWhen::End))
@@ -260,11 +321,9 @@ std::string tests_text(const StudyPage& page) {
     add_new(alphas, share_text(page.data().study.hypotheses[result.hypothesis].alpha));
   }
   if (tests.empty()) return {};
-  return fmt::format(
-      " Hypotheses were tested by {}. Their P-values are given plain and adjusted by Holm's method; the "
-      "plain "
-      "ones decide, at \u03b1 = {}{}.",
-      joined(tests), joined(alphas), alphas.size() > 1 ? ", as the study file has it for each" : "");
+  return fmt::format(" Hypotheses were tested by {}, at \u03b1 = {}{}. {}", joined(tests), joined(alphas),
+                     alphas.size() > 1 ? ", as the study file has it for each" : "",
+                     decision_rule(page.data().study, page.analysis()));
 }
 
 /// Who is not in the tests of quantities.
@@ -329,7 +388,7 @@ void write_methods(StudyPage& page) {
   page.heading("Methods, ready to edit");
   write_part(page, "Participants", participants_text(page));
   write_part(page, "Design", design_sentence(study) + balance_text(page) + left_out_sentence(study));
-  write_part(page, "Apparatus", apparatus_text(study));
+  write_part(page, "Apparatus", apparatus_text(page));
   write_part(page, "Procedure", procedure_text(page));
   write_part(page, "Measures", measures_text(study));
   write_part(page, "Analysis", analysis_text(page));

@@ -41,6 +41,28 @@ base::Result<std::string> picture_address(const StatsChart& chart, PageForm form
   return fmt::format("data:image/svg+xml;base64,{}", base64({bytes, svg->size()}));
 }
 
+/// Which answer a binomial test expects more often.
+std::string answers_expectation(const study::Study& study, const study::Hypothesis& hypothesis) {
+  const auto dependent =
+      std::ranges::find(study.dependent, hypothesis.dependent, &study::DependentVariable::id);
+  study::ItemPlace place;
+  if (dependent == study.dependent.end() || !study::find_item(study, dependent->from, place))
+    return "one answer more often than another";
+  const study::Item& item = study.questionnaires[place.questionnaire].items[place.item];
+  std::vector<std::string> named = hypothesis.answers;
+  const bool differ = hypothesis.direction == study::Direction::Differ;
+  if (!differ) named = {hypothesis.first, hypothesis.second};
+  if (named.empty())
+    for (const study::Level& choice : item.choices) named.push_back(choice.id);
+  for (std::string& name : named)
+    for (const study::Level& choice : item.choices)
+      if (choice.id == name) name = name_of(choice.name, choice.id);
+  if (named.size() != 2) return "one answer more often than another";
+  if (hypothesis.direction == study::Direction::Less) std::swap(named[0], named[1]);
+  if (differ) return fmt::format("\u201c{}\u201d and \u201c{}\u201d not equally often", named[0], named[1]);
+  return fmt::format("\u201c{}\u201d more often than \u201c{}\u201d", named[0], named[1]);
+}
+
 /// A cell of the tag "td" or "th"; the scope says what such a name is of: "col", "row".
 std::string cell(std::string_view tag, std::string_view scope, bool left, const std::string& text,
                  const char* kind) {
@@ -187,7 +209,7 @@ std::string quantity_name(const study::DependentVariable& variable) {
 }
 
 std::string statistic_text(const study::TestResult& result) {
-  if (result.statistic.empty()) return "-";
+  if (result.statistic.empty()) return result.counts.empty() ? "-" : result.counts;
   std::string df;
   for (const double number : result.df) df.append(df.empty() ? "(" : ", ").append(df_text(number));
   return fmt::format("{}{}{} = {}", result.statistic, df, df.empty() ? "" : ")", fixed_text(result.value, 2));
@@ -215,6 +237,59 @@ const char* decision_text(study::Decision decision) {
   return "";
 }
 
+std::string conclusion_text(const study::Study& study, const study::HypothesisResult& result) {
+  const study::Hypothesis& hypothesis = study.hypotheses[result.hypothesis];
+  const std::string name = name_of(hypothesis.text, hypothesis.id);
+  if (!result.test.result) return fmt::format("{} Not computed: {}", name, result.test.why);
+  const study::TestResult& test = *result.test.result;
+  std::string decision = decision_text(result.decision);
+  decision.front() = char(decision.front() - 'a' + 'A');
+  std::string text = fmt::format("{} {}: ", name, decision);
+  if (!test.statistic.empty()) text += unbroken(statistic_text(test)) + ", ";
+  if (!test.counts.empty()) text += test.counts + ", ";
+  text += unbroken(p_text(test.p));
+  if (result.primary)
+    text += ", as the primary hypothesis by this alone";
+  else if (result.p_holm)
+    text += fmt::format(", p (Holm) {}", unbroken(p_text(*result.p_holm).substr(2)));
+  if (result.held_back) text += ", not decided as the primary hypothesis is not shown";
+  for (std::size_t i = 0; i < test.doubts.size(); ++i)
+    text += fmt::format("; {}{}", i == 0 ? "but " : "", test.doubts[i]);
+  if (result.beside)
+    text +=
+        fmt::format("; beside it, deciding nothing, {} over all answers given: {}, {}", result.beside->test,
+                    unbroken(statistic_text(*result.beside)), unbroken(p_text(result.beside->p)));
+  return text + ".";
+}
+
+std::string reservation_text(const study::HypothesisResult& result) {
+  return std::string(result.test.result && !result.test.result->doubts.empty() ? ", with reservations" : "");
+}
+
+std::string decision_rule(const study::Study& study, const study::Analysis& analysis) {
+  std::size_t tested = 0;
+  const study::HypothesisResult* primary = nullptr;
+  for (const study::HypothesisResult& result : analysis.hypotheses) {
+    if (result.primary) primary = &result;
+    if (result.test.result && !result.primary) ++tested;
+  }
+  const std::string others =
+      tested == 1 ? "one hypothesis that was" : fmt::format("{} hypotheses that were", tested);
+  if (primary == nullptr)
+    return fmt::format(
+        "P adjusted by Holm's (1979) method over the {} tested decides; plain P stands beside it.", others);
+  const study::Hypothesis& hypothesis = study.hypotheses[primary->hypothesis];
+  std::string text = fmt::format("The primary hypothesis, \u201c{}\u201d, is decided by its plain P",
+                                 name_of(hypothesis.text, hypothesis.id));
+  if (tested > 0)
+    text += fmt::format(
+        "; P adjusted by Holm's (1979) method over the {} tested beside it decides about {}, and only where "
+        "the "
+        "primary one is shown",
+        others, tested == 1 ? "that" : "those");
+  return text + ".";
+}
+
 std::string condition_name(const study::Study& study, bool between, std::size_t crossing) {
   const auto factors = study::factors_of(study, between);
   const auto all = study::crossings(study, between);
@@ -228,6 +303,7 @@ std::string condition_name(const study::Study& study, bool between, std::size_t 
 }
 
 std::string expectation_text(const study::Study& study, const study::Hypothesis& hypothesis) {
+  if (hypothesis.test == study::Test::Binomial) return answers_expectation(study, hypothesis);
   if (hypothesis.factor.empty()) return "answers are not spread evenly";
   std::string factor_name = hypothesis.factor, first = hypothesis.first, second = hypothesis.second;
   for (const study::IndependentVariable& factor : study.independent) {

@@ -100,6 +100,13 @@ std::string statistic_text(const study::TestResult& result);
 std::string effect_text(const study::TestResult& result);
 /// "shown", "not shown", "the opposite is shown", "not computed".
 const char* decision_text(study::Decision decision);
+/// The hypothesis and what became of it, in one sentence with both P-values and all that speaks against it:
+/// "New is faster. Shown: t(9) = 3.1, p = .012, p (Holm) = .024; but differences are not normal (...)."
+std::string conclusion_text(const study::Study& study, const study::HypothesisResult& result);
+/// Stands beside the decision where there are doubts, else empty: ", with reservations".
+std::string reservation_text(const study::HypothesisResult& result);
+/// How hypotheses are decided: which P-value, over how many.
+std::string decision_rule(const study::Study& study, const study::Analysis& analysis);
 /// "Point and click, with forces": names of levels; "everybody" of the empty crossing.
 std::string condition_name(const study::Study& study, bool between, std::size_t crossing);
 /// "less in new than in old"; "differs".

@@ -211,7 +211,8 @@ void write_results(StudyPage& page) {
   const study::ParticipantSummary& people = page.analysis().participants;
   page.paragraph(fmt::format(
       "Values are means of people's means over measured trials; a person counts who has done all trials of "
-      "every condition that is compared, and has a number there. {}",
+      "every condition that is compared, and has a number there. P-values of tables are plain and decide "
+      "nothing: the hypotheses below do. {}",
       people.not_completed == 0
           ? fmt::format("All {} measured trials were completed.", people.trials)
           : fmt::format("{} of {} measured trials were not completed: they do not count in times.",

@@ -17,9 +17,10 @@ std::string hypotheses_table(const study::StudyData& data, const study::Analysis
     }
     const study::TestResult& test = *result.test.result;
     table.add({id, test.test, statistic_text(test), p_cell(test.p),
-               result.p_holm ? p_cell(*result.p_holm) : "-", decision_text(result.decision)});
+               result.p_holm ? p_cell(*result.p_holm) : "-",
+               decision_text(result.decision) + reservation_text(result)});
   }
-  return fmt::format("\n{}", table.text());
+  return fmt::format("\n{}  {}\n", table.text(), decision_rule(data.study, analysis));
 }
 
 }  // namespace
@@ -34,6 +35,8 @@ std::string study_page_text(const study::StudyData& data, const study::Analysis&
   for (const study::HypothesisResult& result : analysis.hypotheses)
     if (!result.test.result)
       notes.push_back(fmt::format("{}: {}", data.study.hypotheses[result.hypothesis].id, result.test.why));
+    else if (!result.test.result->doubts.empty() || result.held_back || result.beside)
+      notes.push_back(conclusion_text(data.study, result));
   return text + notes_text(notes);
 }
 

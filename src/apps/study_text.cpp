@@ -50,7 +50,17 @@ std::string variables_text(const study::Study& study) {
   return text;
 }
 
+/// ": old > new", of the answers to a question.
+std::string answers_compared(const study::Hypothesis& hypothesis) {
+  if (hypothesis.direction != study::Direction::Differ)
+    return fmt::format(": {} {} {}", hypothesis.first,
+                       hypothesis.direction == study::Direction::Less ? "<" : ">", hypothesis.second);
+  if (hypothesis.answers.empty()) return ": one answer more often than the other";
+  return fmt::format(": {} and {} not equally often", hypothesis.answers.front(), hypothesis.answers.back());
+}
+
 std::string expectation(const study::Hypothesis& hypothesis) {
+  if (hypothesis.test == study::Test::Binomial) return hypothesis.dependent + answers_compared(hypothesis);
   if (hypothesis.factor.empty()) return hypothesis.dependent + ": answers differ from equal shares";
   if (hypothesis.direction == study::Direction::Differ)
     return fmt::format("{} differs by {}", hypothesis.dependent, hypothesis.factor);
@@ -62,8 +72,8 @@ std::string hypotheses_text(const study::Study& study) {
   if (study.hypotheses.empty()) return {};
   std::string text = "\nHypotheses\n";
   for (const study::Hypothesis& hypothesis : study.hypotheses)
-    text += fmt::format("  {}: {} ({}, \u03b1 = {:g})\n", hypothesis.id, expectation(hypothesis),
-                        test_word(hypothesis.test), hypothesis.alpha);
+    text += fmt::format("  {}: {} ({}, \u03b1 = {:g}{})\n", hypothesis.id, expectation(hypothesis),
+                        test_word(hypothesis.test), hypothesis.alpha, hypothesis.primary ? ", primary" : "");
   return text;
 }
 

@@ -10,7 +10,7 @@ constexpr std::array kScaleWords = {"nominal", "ordinal", "interval", "ratio"};
 constexpr std::array kOrderWords = {"full", "latin-square", "random", "fixed"};
 constexpr std::array kBetterWords = {"neither", "lower", "higher"};
 constexpr std::array kTestWords = {"none",     "anova", "ttest",  "wilcoxon", "kruskal",
-                                   "friedman", "chisq", "fisher", "mcnemar"};
+                                   "friedman", "chisq", "fisher", "mcnemar",  "binomial"};
 constexpr std::array kWhenWords = {"before", "after-condition", "after-last", "end"};
 
 }  // namespace

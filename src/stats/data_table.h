@@ -48,6 +48,8 @@ class DataTable {
       : source_(std::move(source)), decimal_comma_(decimal_comma) {}
 
   const std::string& source() const { return source_; }
+  /// Whether the comma is the decimal sign, and semicolons part the cells.
+  bool decimal_comma() const { return decimal_comma_; }
   std::size_t rows() const { return lines_.size(); }
   const std::vector<Column>& columns() const { return columns_; }
   /// The line of the source on which a row begins, counted from 1.

@@ -66,4 +66,16 @@ base::Result<EffectInterval> eta_sq_interval(double share, double df, double err
   return partial_eta_sq_interval(share / df * error_df / (1.0 - share), df, error_df, confidence);
 }
 
+base::Result<EffectInterval> share_interval(double f, double df, double error_df, double error_ms,
+                                            double rest, double confidence) {
+  const auto interval = noncentrality_interval(f, df, error_df, confidence);
+  if (!interval) return interval;
+  if (!(error_ms > 0.0) || !(rest > 0.0) || !std::isfinite(rest))
+    return base::fail("there is no variance that the effect could be a share of: see the table's warnings");
+  const auto share = [&](double noncentrality) {
+    return noncentrality * error_ms / (noncentrality * error_ms + rest);
+  };
+  return EffectInterval{share(interval->low), share(interval->high)};
+}
+
 }  // namespace icome::stats

@@ -28,4 +28,12 @@ base::Result<EffectInterval> partial_eta_sq_interval(double f, double df, double
 base::Result<EffectInterval> eta_sq_interval(double share, double df, double error_df,
                                              double confidence = 0.90);
 
+/// The interval of a share of variance that has more in its denominator than the effect and its error: with
+/// the noncentrality times `error_ms` for the effect, and `rest` for all else there (RepeatedMeasuresTerm
+/// has it for each share), which is taken as it is. Leaves out 0 exactly where partial_eta_sq_interval()
+/// does. Supposes sphericity, as the F does. Fails as noncentrality_interval() does, and when error_ms or
+/// rest is not above 0.
+base::Result<EffectInterval> share_interval(double f, double df, double error_df, double error_ms,
+                                            double rest, double confidence = 0.90);
+
 }  // namespace icome::stats

@@ -167,6 +167,7 @@ void add_generalised_etas(RepeatedMeasures& result, const SubjectTable& table, d
   }
   for (RepeatedMeasuresTerm& row : result.terms) {
     const double all = is_row_measured(row, table) ? others : others + row.ss;
+    row.generalised_eta_sq_rest = all - row.ss;
     row.generalised_eta_sq = row.df > 0 ? row.ss / all : std::numeric_limits<double>::quiet_NaN();
   }
 }
@@ -183,8 +184,12 @@ void add_shares_of_total(RepeatedMeasures& result, const SubjectTable& table) {
     const double excess = has_share ? row.ss - row.df * row.error_ms : kNone;
     const double other_ss = row.within.empty() ? 0.0 : row.error_ss;  // subjects' is its error otherwise
     row.eta_sq = has_share ? row.ss / result.total_ss : kNone;
-    row.omega_sq = excess / (result.total_ss + subjects.ms);
-    row.partial_omega_sq = excess / (row.ss + other_ss + subjects.ss + subjects.ms);
+    const double total = result.total_ss + subjects.ms;
+    const double partial = row.ss + other_ss + subjects.ss + subjects.ms;
+    row.omega_sq = excess / total;
+    row.partial_omega_sq = excess / partial;
+    row.omega_sq_rest = total - excess;
+    row.partial_omega_sq_rest = partial - excess;
   }
 }
 

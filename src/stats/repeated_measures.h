@@ -19,12 +19,15 @@ struct RepeatedMeasuresTerm {
   double ss = 0.0, ms = 0.0;
   int error_df = 0;  // its own error: of subjects, or of subjects by the within factors in it
   double error_ss = 0.0, error_ms = 0.0;
-  double f = 0.0, p = 0.0;               // p: as if spherical
-  double eta_sq = 0.0;                   // SS / total SS
-  double partial_eta_sq = 0.0;           // SS / (SS + error SS)
-  double generalised_eta_sq = 0.0;       // Olejnik and Algina (2003)
-  double omega_sq = 0.0;                 // (SS - df error MS) / (total SS + subjects' MS)
-  double partial_omega_sq = 0.0;         // the same over SS + error SS + subjects' SS and MS, each once
+  double f = 0.0, p = 0.0;          // p: as if spherical
+  double eta_sq = 0.0;              // SS / total SS
+  double partial_eta_sq = 0.0;      // SS / (SS + error SS)
+  double generalised_eta_sq = 0.0;  // Olejnik and Algina (2003)
+  double omega_sq = 0.0;            // (SS - df error MS) / (total SS + subjects' MS)
+  double partial_omega_sq = 0.0;    // the same over SS + error SS + subjects' SS and MS, each once
+  // The rest of what each of these shares divides by, without the effect (its SS; of omega what it exceeds
+  // its error by); for share_interval().
+  double generalised_eta_sq_rest = 0.0, omega_sq_rest = 0.0, partial_omega_sq_rest = 0.0;
   std::optional<Sphericity> sphericity;  // of a within part with more than one degree of freedom
   double p_greenhouse_geisser = 0.0;     // with both degrees of freedom times epsilon; p where there is none
   double p_huynh_feldt = 0.0;            // the same, epsilon at most 1

@@ -24,6 +24,8 @@ struct TestResult {
   double confidence = 0.95;  // of the interval
   std::size_t people = 0;    // that count
   double direction = 0.0;  // of two levels: above 0 where the first tends to greater values, below 0 to less
+  std::string counts;      // what was counted, of tests without a statistic: "16 old, 6 new, 0 ties"
+  std::vector<std::string> doubts;  // why not to take it at its word: clauses that may follow "but"
   std::vector<std::string> notes;
 };
 
@@ -116,8 +118,11 @@ enum class Decision : std::uint8_t { NotComputed, NotShown, Shown, Opposite };
 struct HypothesisResult {
   std::size_t hypothesis = 0;  // of Study::hypotheses
   Tested test;
-  std::optional<double> p_holm;     // over all hypotheses that were tested
-  std::optional<bool> as_expected;  // what the test found has the direction that was given
+  std::optional<double> p_holm;  // which decides: over all hypotheses that were tested, less the primary one
+  bool primary = false;          // its own p decides, which p_holm is then
+  bool held_back = false;        // not shown for the sole reason that the primary hypothesis is not
+  std::optional<TestResult> beside;  // Hypothesis::beside, where it finds the difference too; decides nothing
+  std::optional<bool> as_expected;   // what the test found has the direction that was given
   bool one_sided = false;
   Decision decision = Decision::NotComputed;
 };

@@ -35,7 +35,8 @@ void add_residuals(const std::vector<std::vector<double>>& rows, std::vector<dou
   }
 }
 
-/// Of the test of a factor: what should be normally distributed.
+}  // namespace
+
 std::vector<double> residuals_of(const PersonTable& table, const IndependentVariable& factor) {
   std::vector<double> residuals;
   for (const std::vector<std::size_t>& rows : rows_by_group(table)) {
@@ -54,6 +55,15 @@ std::vector<double> residuals_of(const PersonTable& table, const IndependentVari
   return residuals;
 }
 
+std::vector<std::vector<double>> means_by_group(const PersonTable& table) {
+  std::vector<std::vector<double>> groups;
+  for (const std::vector<std::size_t>& rows : rows_by_group(table))
+    groups.push_back(person_means(rows_of(table, rows)));
+  return groups;
+}
+
+namespace {
+
 AssumptionCheck shapiro_of(const PersonTable& table, const IndependentVariable& factor,
                            AssumptionCheck check) {
   const auto test = stats::shapiro_wilk(residuals_of(table, factor));
@@ -66,12 +76,8 @@ AssumptionCheck shapiro_of(const PersonTable& table, const IndependentVariable& 
   return check;
 }
 
-/// Over the groups that there are people of: of several factors, the crossings of their levels.
 AssumptionCheck levene_of(const PersonTable& table, AssumptionCheck check) {
-  std::vector<std::vector<double>> groups;
-  for (const std::vector<std::size_t>& rows : rows_by_group(table))
-    groups.push_back(person_means(rows_of(table, rows)));
-  const auto test = stats::levene_test(groups);
+  const auto test = stats::levene_test(means_by_group(table));
   if (!test) {
     check.why = test.error().message;
     return check;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "stats/binomial_test.h"
 #include "stats/contingency.h"
 #include "stats/fisher_exact.h"
 #include "stats/sums.h"
@@ -77,7 +78,7 @@ base::Result<TestResult> contingency_of(const stats::CountTable& counts) {
   result.effect = "Cramér's V";
   result.effect_size = test->cramers_v;
   result.effect_interval = {w.low / side, std::min(1.0, w.high / side)};
-  if (!test->warning.empty()) result.notes.push_back(test->warning);
+  if (!test->warning.empty()) result.doubts.push_back(test->warning);
   return result;
 }
 
@@ -126,15 +127,53 @@ base::Result<TestResult> mcnemar_of(const Question& question, const Item& item, 
   return result;
 }
 
+/// How many people chose each of a question that was asked once.
+std::vector<std::size_t> all_counts(const Question& question, const Item& item, const ItemPlace& place) {
+  std::vector<std::string> texts;
+  for (const GivenAnswer& answer : answers_to(question.data, place)) texts.push_back(answer.text);
+  return counts_of(item, texts);
+}
+
+/// The sign test (Dixon and Mood 1946): who chose neither of the two is a tie, which is told and not counted.
+base::Result<TestResult> sign_test_of(const Question& question, const Item& item, const ItemPlace& place) {
+  if (question.factor != nullptr)
+    return base::fail("a binomial test compares two answers of a question; leave `factor` out.");
+  if (item.kind != ItemKind::Choice)
+    return base::fail(
+        "a binomial test compares choices, and this is a rating; test = \"wilcoxon\" compares those.");
+  const auto compared = compared_answers(question.hypothesis, item);
+  if (!compared)
+    return base::fail("a binomial test compares two answers; write which, as answers = [\"a\", \"b\"].");
+  const std::vector<std::size_t> counts = all_counts(question, item, place);
+  const std::size_t first = counts[compared->first], second = counts[compared->second];
+  std::size_t ties = 0;
+  for (const std::size_t count : counts) ties += count;
+  ties -= first + second;
+  if (first + second == 0) return base::fail("nobody chose either of the two answers.");
+  stats::BinomialTestSettings settings;
+  if (question.hypothesis.direction != Direction::Differ)
+    settings.alternative = question.hypothesis.direction == Direction::Less ? stats::Alternative::Less
+                                                                            : stats::Alternative::Greater;
+  const auto test = stats::sign_test(double(first), double(second), settings);
+  if (!test) return tl::unexpected(test.error());
+  TestResult result = plain_result("sign test", {}, 0.0, {}, test->p, first + second);
+  const std::string name = plain_name(item.choices[compared->first]);
+  result.counts = fmt::format("{} {}, {} {}, {} {}", first, name, second,
+                              plain_name(item.choices[compared->second]), ties, ties == 1 ? "tie" : "ties");
+  result.effect = fmt::format("share of {}", name);
+  result.effect_size = test->share;
+  result.effect_interval = test->interval;
+  result.direction = double(first) - double(second);
+  return result;
+}
+
 /// Of a question that was asked once, in groups of people or, without a factor, against equal shares.
 base::Result<TestResult> answers_given_once(const Question& question, const Item& item,
                                             const ItemPlace& place) {
   if (question.factor == nullptr) {
     if (question.test == Test::Fisher)
       return base::fail("Fisher's test compares groups of people; test = \"chisq\" does without a factor.");
-    std::vector<std::string> texts;
-    for (const GivenAnswer& answer : answers_to(question.data, place)) texts.push_back(answer.text);
-    return even_shares(counts_of(item, texts));
+    return even_shares(all_counts(question, item, place));
   }
   if (!question.factor->between) return base::fail("the question was asked once, not in each condition.");
   const auto counts = counts_by_group(question, item, place);
@@ -158,8 +197,37 @@ base::Result<TestResult> changes_of_answers(const Question& question, const Item
 
 }  // namespace
 
+std::optional<std::pair<std::size_t, std::size_t>> compared_answers(const Hypothesis& hypothesis,
+                                                                    const Item& item) {
+  std::vector<std::string> named = hypothesis.answers;
+  if (hypothesis.direction != Direction::Differ) named = {hypothesis.first, hypothesis.second};
+  if (named.empty() && item.choices.size() == 2) return std::pair<std::size_t, std::size_t>{0, 1};
+  if (named.size() != 2 || named.front() == named.back()) return {};
+  const auto place_of = [&](const std::string& id) {
+    return std::size_t(std::ranges::find(item.choices, id, &Level::id) - item.choices.begin());
+  };
+  const std::size_t first = place_of(named.front()), second = place_of(named.back());
+  if (std::max(first, second) >= item.choices.size()) return {};
+  return std::pair{first, second};
+}
+
+std::optional<TestResult> shares_that_agree(const Question& question) {
+  ItemPlace place;
+  if (!find_item(question.data.study, question.dependent.from, place)) return {};
+  const Item& item = question.data.study.questionnaires[place.questionnaire].items[place.item];
+  const auto compared = compared_answers(question.hypothesis, item);
+  if (!compared) return {};
+  std::vector<std::size_t> counts = all_counts(question, item, place);
+  const auto pair = even_shares({counts[compared->first], counts[compared->second]});
+  std::erase(counts, std::size_t{0});
+  auto all = even_shares(counts);
+  const double alpha = question.hypothesis.alpha;
+  if (!all || !pair || all->p >= alpha || pair->p >= alpha) return {};
+  return std::move(*all);
+}
+
 base::Result<TestResult> test_counts(const Question& question) {
-  if (question.hypothesis.direction != Direction::Differ)
+  if (question.hypothesis.direction != Direction::Differ && question.test != Test::Binomial)
     return base::fail("counts of answers have no direction; leave `expected` out, or ask for a rating.");
   ItemPlace place;
   if (!find_item(question.data.study, question.dependent.from, place))
@@ -174,6 +242,7 @@ base::Result<TestResult> test_counts(const Question& question) {
   const bool repeated =
       questionnaire.when == AskWhen::AfterCondition && crossings(question.data.study, false).size() > 1;
   if (question.test == Test::McNemar) return changes_of_answers(question, item, place, repeated);
+  if (!repeated && question.test == Test::Binomial) return sign_test_of(question, item, place);
   if (!repeated) return answers_given_once(question, item, place);
   if (question.factor != nullptr && !question.factor->between)
     return base::fail("the same people answered in each condition; test = \"mcnemar\" compares those.");

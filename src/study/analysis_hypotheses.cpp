@@ -22,7 +22,7 @@ Test test_of(const Hypothesis& hypothesis, const DependentVariable& dependent,
 }
 
 bool counts_answers(Test test) {
-  return test == Test::ChiSquared || test == Test::Fisher || test == Test::McNemar;
+  return test == Test::ChiSquared || test == Test::Fisher || test == Test::McNemar || test == Test::Binomial;
 }
 
 /// Whether what the test found, means or ranks, has the direction that the hypothesis gives.
@@ -33,8 +33,8 @@ std::optional<bool> as_expected(const Question& question, const Tested& test) {
 }
 
 Decision decide(const HypothesisResult& result, double alpha) {
-  if (!result.test.result) return Decision::NotComputed;
-  if (result.test.result->p >= alpha) return Decision::NotShown;
+  if (!result.p_holm) return Decision::NotComputed;
+  if (*result.p_holm >= alpha || result.held_back) return Decision::NotShown;
   // On one side nothing but what was expected can be found.
   return result.one_sided || result.as_expected.value_or(true) ? Decision::Shown : Decision::Opposite;
 }
@@ -53,16 +53,36 @@ HypothesisResult test_hypothesis(const StudyData& data, std::size_t index) {
   const IndependentVariable* const factor = found == data.study.independent.end() ? nullptr : &*found;
   const Question question{data, hypothesis, *dependent, factor, test_of(hypothesis, *dependent, factor)};
   result.test = tested(counts_answers(question.test) ? test_counts(question) : test_numbers(question));
-  const bool of_means = question.test == Test::Anova || question.test == Test::TTest;
-  if (of_means && dependent->scale == Scale::Ordinal && result.test.result)
-    result.test.result->notes.emplace_back(
-        "these are means of an ordinal variable; a test of ranks fits it.");
+  result.primary = hypothesis.primary;
+  if (hypothesis.beside == Test::ChiSquared && result.test.result)
+    result.beside = shares_that_agree(question);
   result.as_expected = as_expected(question, result.test);
-  result.one_sided = hypothesis.direction != Direction::Differ &&
-                     (question.test == Test::TTest || question.test == Test::Wilcoxon);
+  result.one_sided =
+      hypothesis.direction != Direction::Differ &&
+      (question.test == Test::TTest || question.test == Test::Wilcoxon || question.test == Test::Binomial);
   if (result.one_sided && result.test.result) result.test.result->test += ", one-sided";
-  result.decision = decide(result, hypothesis.alpha);
   return result;
+}
+
+/// Holm's (1979) p of all hypotheses that were tested; where one is primary its own p is its adjusted one,
+/// and the others, adjusted among each other, are shown only after it (serial gatekeeping: Westfall and
+/// Krishen 2001). Either way the probability that any is shown for no reason stays below the level.
+void adjust_p(const Study& study, std::vector<HypothesisResult>& results) {
+  std::vector<double> p;
+  bool open = true;
+  for (HypothesisResult& result : results) {
+    const std::optional<TestResult>& test = result.test.result;
+    p.push_back(test && !result.primary ? test->p : std::numeric_limits<double>::quiet_NaN());
+    if (!result.primary) continue;
+    if (test) result.p_holm = test->p;
+    open = test && test->p < study.hypotheses[result.hypothesis].alpha;
+  }
+  const std::vector<double> adjusted = stats::holm(p);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i].test.result || results[i].primary) continue;
+    results[i].p_holm = adjusted[i];
+    results[i].held_back = !open && adjusted[i] < study.hypotheses[results[i].hypothesis].alpha;
+  }
 }
 
 }  // namespace
@@ -80,15 +100,10 @@ std::optional<std::pair<std::size_t, std::size_t>> compared_levels(const Questio
 
 std::vector<HypothesisResult> test_hypotheses(const StudyData& data) {
   std::vector<HypothesisResult> results;
-  std::vector<double> p;
-  for (std::size_t i = 0; i < data.study.hypotheses.size(); ++i) {
-    results.push_back(test_hypothesis(data, i));
-    const std::optional<TestResult>& test = results.back().test.result;
-    p.push_back(test ? test->p : std::numeric_limits<double>::quiet_NaN());
-  }
-  const std::vector<double> adjusted = stats::holm(p);
-  for (std::size_t i = 0; i < results.size(); ++i)
-    if (results[i].test.result) results[i].p_holm = adjusted[i];
+  for (std::size_t i = 0; i < data.study.hypotheses.size(); ++i) results.push_back(test_hypothesis(data, i));
+  adjust_p(data.study, results);
+  for (HypothesisResult& result : results)
+    result.decision = decide(result, data.study.hypotheses[result.hypothesis].alpha);
   return results;
 }
 

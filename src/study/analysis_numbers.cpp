@@ -121,17 +121,6 @@ base::Result<TestResult> variance_test(const Question& question, const PersonTab
   return result;
 }
 
-/// "F(1.31, 7.88) = 13.34, P = .003": a test of all levels, beside one of two.
-std::string result_words(const TestResult& result) {
-  std::string df;
-  for (const double number : result.df)
-    df += fmt::format("{}{:.{}f}", df.empty() ? "" : ", ", number, number == std::round(number) ? 0 : 2);
-  const std::string p = result.p < 0.001    ? "< .001"
-                        : result.p > 0.9994 ? "> .999"
-                                            : fmt::format("= .{:03.0f}", 1000.0 * result.p);
-  return fmt::format("{}({}) = {:.2f}, P {}", result.statistic, df, result.value, p);
-}
-
 /// An expectation of two out of more levels: these two decide, as the test of all can be significant for the
 /// sake of the others. That one is told in a note.
 base::Result<TestResult> decided_by_pair(const Question& question, const PersonTable& table,
@@ -157,29 +146,35 @@ base::Result<TestResult> decided_by_pair(const Question& question, const PersonT
   return pair;
 }
 
+base::Result<TestResult> test_table(const Question& question, const PersonTable& table) {
+  const bool between = question.factor->between;
+  switch (question.test) {
+    case Test::TTest:
+      return t_test(question, table, alternative_of(question.hypothesis));
+    case Test::Wilcoxon:
+      return wilcoxon_test(question, table, alternative_of(question.hypothesis));
+    case Test::Kruskal:
+      if (!between)
+        return base::fail(
+            "Kruskal and Wallis's test compares different people; test = \"friedman\" the same.");
+      return decided_by_pair(question, table, kruskal_test(question, table));
+    case Test::Friedman:
+      if (between)
+        return base::fail("Friedman's test compares the same people; test = \"kruskal\" different ones.");
+      return decided_by_pair(question, table, friedman_of(by_level(table, *question.factor)));
+    default:
+      return decided_by_pair(question, table, variance_test(question, table));
+  }
+}
+
 }  // namespace
 
 base::Result<TestResult> test_numbers(const Question& question) {
   const auto table = numbers_of(question);
   if (!table) return tl::unexpected(table.error());
-  const bool between = question.factor->between;
-  switch (question.test) {
-    case Test::TTest:
-      return t_test(question, *table, alternative_of(question.hypothesis));
-    case Test::Wilcoxon:
-      return wilcoxon_test(question, *table, alternative_of(question.hypothesis));
-    case Test::Kruskal:
-      if (!between)
-        return base::fail(
-            "Kruskal and Wallis's test compares different people; test = \"friedman\" the same.");
-      return decided_by_pair(question, *table, kruskal_test(question, *table));
-    case Test::Friedman:
-      if (between)
-        return base::fail("Friedman's test compares the same people; test = \"kruskal\" different ones.");
-      return decided_by_pair(question, *table, friedman_of(by_level(*table, *question.factor)));
-    default:
-      return decided_by_pair(question, *table, variance_test(question, *table));
-  }
+  auto result = test_table(question, *table);
+  if (result) result->doubts = doubts_of(question, *table, *result);
+  return result;
 }
 
 }  // namespace icome::study

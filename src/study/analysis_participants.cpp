@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 
 #include "stats/data_table.h"
 #include "study/analysis_parts.h"
+#include "study/needs.h"
 
 namespace icome::study {
 namespace {
@@ -79,6 +81,25 @@ std::size_t unpractised(const StudyData& data) {
   }));
 }
 
+/// A sentence for each thing that the study needs and simulated people did without: what differs by it in the
+/// study did not differ for them.
+void tell_what_was_not_there(const Study& study, std::vector<std::string>& warnings) {
+  std::vector<std::string> told;
+  const std::vector<UnmetNeed> unmet = unmet_needs(study);
+  for (const UnmetNeed& need : unmet) {
+    if (std::ranges::find(told, need.id) != told.end()) continue;
+    told.push_back(need.id);
+    std::vector<std::string> of;
+    for (const UnmetNeed& same : unmet)
+      if (same.id == need.id) of.push_back(same.of);
+    std::string name = need.id;
+    std::ranges::replace(name, '-', ' ');
+    warnings.push_back(
+        fmt::format("In this simulation {} was not there ({}), which {} {}: trials were run without it.",
+                    name, need.what, fmt::join(of, " and "), of.size() == 1 ? "needs" : "need"));
+  }
+}
+
 std::string people_text(std::size_t count, const char* one, const char* more) {
   return count == 1 ? fmt::format("one person {}", one) : fmt::format("{} people {}", count, more);
 }
@@ -116,6 +137,7 @@ std::vector<std::string> warnings_of(const StudyData& data, const ParticipantSum
   std::vector<std::string> warnings;
   if (data.simulated)
     warnings.emplace_back("The participants are simulated: these results say nothing about people.");
+  if (data.simulated) tell_what_was_not_there(data.study, warnings);
   for (const std::string& need : data.study.without)
     warnings.push_back(fmt::format("The study was run without {}.", need));
   if (participants.people == 0) warnings.emplace_back("Nobody has taken part yet.");

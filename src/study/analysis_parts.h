@@ -38,6 +38,21 @@ struct MainEffect {
 base::Result<MainEffect> main_effect_with_sphericity(const PersonTable& table,
                                                      const IndependentVariable& factor);
 
+/// A term of that analysis in which the factor stands with others.
+struct Interaction {
+  std::vector<std::string> factors;  // ids, the factor's among them
+  TestResult result;
+};
+/// Those that can be computed; none of a table of one factor.
+std::vector<Interaction> interactions_of(const PersonTable& table, const IndependentVariable& factor);
+
+/// Residuals that should be normal in that analysis: of pairs of conditions, the differences of each
+/// group less their mean; of more, what people and conditions leave; of groups, people's means less the
+/// group's.
+std::vector<double> residuals_of(const PersonTable& table, const IndependentVariable& factor);
+/// People's means in each group of which there is anybody: of several factors, the crossings of their levels.
+std::vector<std::vector<double>> means_by_group(const PersonTable& table);
+
 /// All terms of that analysis.
 VarianceAnalysis analyse_variance(const Study& study, const PersonTable& table, std::size_t variable);
 

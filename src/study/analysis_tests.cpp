@@ -213,6 +213,22 @@ VarianceAnalysis analyse_variance(const Study& study, const PersonTable& table, 
   return analysis;
 }
 
+std::vector<Interaction> interactions_of(const PersonTable& table, const IndependentVariable& factor) {
+  const auto complete = comparable_people(table);
+  if (!complete) return {};
+  const Observations observations = observations_of(*complete);
+  if (observations.within.size() + observations.between.size() < 2) return {};
+  const auto effects = effects_of(observations);
+  if (!effects) return {};
+  std::vector<Interaction> found;
+  for (const Effect& effect : *effects) {
+    if (effect.factors.size() < 2 || !effect.test.result) continue;
+    if (std::ranges::find(effect.factors, factor.id) != effect.factors.end())
+      found.push_back({effect.factors, *effect.test.result});
+  }
+  return found;
+}
+
 base::Result<TestResult> main_effect(const PersonTable& table, const IndependentVariable& factor) {
   auto effect = main_effect_with_sphericity(table, factor);
   if (!effect) return tl::unexpected(effect.error());
@@ -273,7 +289,7 @@ base::Result<TestResult> even_shares(const std::vector<std::size_t>& counts) {
   result.effect = "Cohen's w";
   result.effect_size = test->w;
   result.effect_interval = w_interval(test->chi_squared, test->df, n);
-  if (!test->warning.empty()) result.notes.push_back(test->warning);
+  if (!test->warning.empty()) result.doubts.push_back(test->warning);
   return result;
 }
 

@@ -71,26 +71,71 @@ void check_ids(const Study& study, Problems& problems) {
   }
 }
 
+/// The question that a variable is from; null: it is from none.
+const Item* item_of(const Study& study, const std::string& dependent) {
+  const auto variable = std::ranges::find(study.dependent, dependent, &DependentVariable::id);
+  if (variable == study.dependent.end()) return nullptr;
+  for (const Questionnaire& questionnaire : study.questionnaires)
+    for (const Item& item : questionnaire.items)
+      if (fmt::format("{}.{}", questionnaire.id, item.id) == variable->from) return &item;
+  return nullptr;
+}
+
+/// Checks what a hypothesis says of the answers that a binomial test compares.
+void check_answers(const Study& study, const Hypothesis& hypothesis, Problems& problems) {
+  const std::string of = fmt::format("hypothesis '{}': ", hypothesis.id);
+  const auto add = [&](const char* what) { problems.add(hypothesis.place, of + what); };
+  if (hypothesis.test != Test::Binomial) {
+    if (!hypothesis.answers.empty()) add("answers are named for test = \"binomial\" only; leave them out.");
+    if (hypothesis.beside != Test::None) add("beside goes with test = \"binomial\"; leave it out.");
+    return;
+  }
+  if (!hypothesis.factor.empty())
+    add("test = \"binomial\" compares two answers of a question; leave out factor.");
+  std::vector<std::string> compared = hypothesis.answers;
+  if (!compared.empty() && (compared.size() != 2 || compared.front() == compared.back()))
+    add("answers are the two that are compared, as answers = [\"old\", \"new\"].");
+  if (hypothesis.direction != Direction::Differ) {
+    if (!compared.empty()) add("expected names the answers already; leave out answers.");
+    if (hypothesis.first == hypothesis.second) add("expected compares an answer with itself.");
+    compared = {hypothesis.first, hypothesis.second};
+  }
+  const Item* const item = item_of(study, hypothesis.dependent);
+  if (item == nullptr || item->kind != ItemKind::Choice) return;  // which check_study() tells
+  for (const std::string& answer : compared)
+    check_named(answer, ids_of(item->choices), fmt::format("{}'{}' has no choice", of, item->id),
+                hypothesis.place, problems);
+}
+
 void check_hypothesis(const Study& study, const Hypothesis& hypothesis, Problems& problems) {
   const std::string of = fmt::format("hypothesis '{}': ", hypothesis.id);
   if (!hypothesis.dependent.empty())
     check_named(hypothesis.dependent, ids_of(study.dependent), of + "there is no dependent variable",
                 hypothesis.place, problems);
   if (hypothesis.factor.empty()) {
-    if (hypothesis.direction != Direction::Differ)
+    if (hypothesis.direction != Direction::Differ && hypothesis.test != Test::Binomial)
       problems.add(hypothesis.place, of + "expected compares levels; write the factor that has them.");
     return;
   }
   check_named(hypothesis.factor, ids_of(study.independent), of + "there is no independent variable",
               hypothesis.place, problems);
   const auto factor = std::ranges::find(study.independent, hypothesis.factor, &IndependentVariable::id);
-  if (factor == study.independent.end() || hypothesis.direction == Direction::Differ) return;
+  const bool of_answers = hypothesis.test == Test::Binomial;
+  if (factor == study.independent.end() || hypothesis.direction == Direction::Differ || of_answers) return;
   for (const std::string& level : {hypothesis.first, hypothesis.second})
     if (!level.empty())
       check_named(level, ids_of(factor->levels), fmt::format("{}'{}' has no level", of, factor->id),
                   hypothesis.place, problems);
   if (hypothesis.first == hypothesis.second && !hypothesis.first.empty())
     problems.add(hypothesis.place, of + "expected compares a level with itself.");
+}
+
+void check_primary(const Study& study, Problems& problems) {
+  const auto first = std::ranges::find(study.hypotheses, true, &Hypothesis::primary);
+  for (auto other = first; other != study.hypotheses.end(); ++other)
+    if (other != first && other->primary)
+      problems.add(other->place, fmt::format("hypothesis '{}': '{}' is primary already, and only one can be.",
+                                             other->id, first->id));
 }
 
 void check_source(const Study& study, const DependentVariable& variable, Problems& problems) {
@@ -142,7 +187,11 @@ void check_references(const Study& study, Problems& problems) {
   check_ids(study, problems);
   check_counts(study, problems);
   for (const DependentVariable& variable : study.dependent) check_source(study, variable, problems);
-  for (const Hypothesis& hypothesis : study.hypotheses) check_hypothesis(study, hypothesis, problems);
+  for (const Hypothesis& hypothesis : study.hypotheses) {
+    check_hypothesis(study, hypothesis, problems);
+    check_answers(study, hypothesis, problems);
+  }
+  check_primary(study, problems);
   if (study.task) check_task(study, *study.task, problems);
 }
 

@@ -18,7 +18,6 @@ namespace {
 using base::Vector3;
 
 constexpr double kRate = 1000.0;         // Hz
-constexpr double kHeld = 0.1;            // s, before the start
 constexpr double kClearance = 0.010;     // m, kept from what is not to be touched
 constexpr double kWayTolerance = 0.006;  // m, at corners of the way
 constexpr double kHover = 0.008;         // m, before what is to be touched
@@ -89,7 +88,7 @@ class SimulatedTrialRun {
 
   SimulatedPerson::Run go() {
     while (watch_.state() != TrialWatch::State::Holding) tick();
-    rest(kHeld);
+    rest(kSimulatedHold);
     watch_.release();
     rest(model_.reaction);
     while (!over()) {

@@ -10,6 +10,9 @@
 
 namespace icome::study {
 
+/// s, that simulated people are held before the start of a trial, whatever the study says of people.
+inline constexpr double kSimulatedHold = 0.1;
+
 /// Where simulated people do trials: what can be touched, under the names of a world.
 struct FeltScene {
   std::shared_ptr<const haptics::HapticScene> scene;
@@ -34,7 +37,8 @@ class SimulatedPerson {
     Trace trace;
   };
   /// Does a trial at 1 kHz with a simulated hand, as fast as the machine can. The time that the pointer is
-  /// held before the start is cut short to 0.1 s. The same trial of the same person gives the same bits.
+  /// held before the start is cut short to kSimulatedHold. The same trial of the same person gives the same
+  /// bits.
   Run trial(const TrialPlan& plan, const TrialGoal& goal, const FeltScene& where) const;
 
  private:

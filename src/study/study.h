@@ -90,6 +90,7 @@ enum class Test : std::uint8_t {
   ChiSquared,
   Fisher,
   McNemar,
+  Binomial,
 };
 
 struct Hypothesis {
@@ -98,9 +99,14 @@ struct Hypothesis {
   std::string dependent;
   std::string factor;  // empty: the counts of an answer are held against equal ones
   Direction direction = Direction::Differ;
-  std::string first, second;  // levels, where one is expected to be less or greater than the other
-  double alpha = 0.05;        // (0, 1)
+  std::string first,
+      second;  // levels, or answers, where one is expected to be less or greater than the other
+  std::vector<std::string>
+      answers;          // the two that Test::Binomial compares; none: those above, or all there are
+  double alpha = 0.05;  // (0, 1)
   Test test = Test::None;
+  Test beside = Test::None;  // ChiSquared: is told beside Test::Binomial where it finds the difference too
+  bool primary = false;      // decided by its own p, and the others only after it; of one hypothesis at most
   Place place;
 };
 

@@ -9,6 +9,7 @@
 #include "study/counterbalancing.h"
 #include "study/needs.h"
 #include "study/session_length.h"
+#include "study/trial_table.h"
 #include "study/untestable.h"
 
 namespace icome::study {
@@ -30,7 +31,7 @@ const DependentVariable* dependent_named(const Study& study, const std::string& 
 
 bool compares_means(Test test) { return test == Test::Anova || test == Test::TTest; }
 bool compares_counts(Test test) {
-  return test == Test::ChiSquared || test == Test::Fisher || test == Test::McNemar;
+  return test == Test::ChiSquared || test == Test::Fisher || test == Test::McNemar || test == Test::Binomial;
 }
 
 /// Why a hypothesis's test does not suit its variables; empty where it does.
@@ -39,14 +40,18 @@ std::string test_misfit(const Hypothesis& hypothesis, const DependentVariable& d
   if (hypothesis.test == Test::None) return "has no test; write which one is to decide";
   const bool counted = dependent.scale == Scale::Nominal;
   if (counted && !compares_counts(hypothesis.test))
-    return "is about a nominal variable, which has no order; its test should be chisq, fisher or mcnemar";
+    return "is about a nominal variable, which has no order; its test should be binomial, chisq, fisher or "
+           "mcnemar";
   if (dependent.scale == Scale::Ordinal && compares_means(hypothesis.test))
     return "compares means of an ordinal variable; its test should be one of ranks: wilcoxon, kruskal, "
            "friedman";
-  if (compares_counts(hypothesis.test) && hypothesis.direction != Direction::Differ)
+  const bool has_direction = hypothesis.direction != Direction::Differ && hypothesis.test != Test::Binomial;
+  if (compares_counts(hypothesis.test) && has_direction)
     return "expects less or more of counts of answers, which have no direction; leave `expected` out";
   if (factor == nullptr)
-    return hypothesis.test == Test::ChiSquared ? "" : "names no factor, which only chisq goes without";
+    return hypothesis.test == Test::ChiSquared || hypothesis.test == Test::Binomial
+               ? ""
+               : "names no factor, which only chisq and binomial go without";
   const bool pairs = hypothesis.test == Test::TTest || hypothesis.test == Test::Wilcoxon;
   if (pairs && factor->levels.size() != 2 && hypothesis.direction == Direction::Differ)
     return fmt::format("compares two levels, and '{}' has {}; write which in `expected`", factor->id,
@@ -166,8 +171,23 @@ class Checker {
       const std::string never = why_untestable(study_, hypothesis);
       if (!never.empty() && (misfit.empty() || is_tested_anyway(hypothesis, *dependent)))
         warn(hypothesis.place, fmt::format("hypothesis '{}' cannot be tested: {}.", hypothesis.id, never));
+      if (never.empty()) advise_on_shares(hypothesis, *dependent);
       if (const auto power = power_of(study_, hypothesis)) result_.powers.push_back(*power);
     }
+  }
+
+  /// A few people who gave one of three answers are enough for shares to be unequal.
+  void advise_on_shares(const Hypothesis& hypothesis, const DependentVariable& dependent) {
+    ItemPlace place;
+    if (hypothesis.test != Test::ChiSquared || !hypothesis.factor.empty()) return;
+    if (!find_item(study_, dependent.from, place)) return;
+    const Item& item = study_.questionnaires[place.questionnaire].items[place.item];
+    if (item.choices.size() < 3) return;
+    warn(hypothesis.place,
+         fmt::format("hypothesis '{}' asks whether all {} answers are given equally often, which is refuted "
+                     "where few give one of them; to hold two against each other write test = \"binomial\" "
+                     "and answers = [\"{}\", \"{}\"].",
+                     hypothesis.id, item.choices.size(), item.choices.front().id, item.choices.back().id));
   }
 
   void check_people() {
@@ -197,9 +217,14 @@ class Checker {
     for (const HypothesisPower& other : result_.powers)
       if (other.needed == power.needed)
         names.append(names.empty() ? "'" : ", '").append(other.hypothesis).append("'");
-    warn({}, fmt::format("{} people find a medium effect (d = {:g}) with power {:.2f}, {} would with {:g}: "
-                         "{}.",
-                         study_.participants, power.effect, power.power, power.needed, kWantedPower, names));
+    // A primary hypothesis is decided by its plain P, as is one that is alone beside it.
+    const bool adjusted = std::ranges::count(study_.hypotheses, false, &Hypothesis::primary) > 1;
+    warn({},
+         fmt::format(
+             "{} people find a medium effect (d = {:g}) with power {:.2f}, {} would with {:g}: "
+             "{}.{}",
+             study_.participants, power.effect, power.power, power.needed, kWantedPower, names,
+             adjusted ? " That is by plain P; Holm's adjustment for several hypotheses asks for more." : ""));
   }
 
   void check_protocol() {

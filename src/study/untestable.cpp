@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "study/analysis_question.h"
 #include "study/conditions.h"
 #include "study/trial_table.h"
 
@@ -53,6 +54,8 @@ std::string counts_misfit(const Study& study, Test test, const AskedItem& asked,
                        asked.item.id);
   if (asked.item.kind != ItemKind::Choice && asked.item.kind != ItemKind::Rating)
     return fmt::format("'{}' has no choices that could be counted", asked.item.id);
+  if (test == Test::Binomial && asked.item.kind == ItemKind::Rating)
+    return fmt::format("binomial compares choices, and '{}' is a rating; use wilcoxon", asked.item.id);
   if (test == Test::McNemar) return factor == nullptr ? std::string() : changes_misfit(study, asked, *factor);
   if (factor != nullptr && !factor->between)
     return asked.repeated ? "the same people answer in each condition; mcnemar compares those"
@@ -72,7 +75,7 @@ std::string why_untestable(const Study& study, const Hypothesis& hypothesis) {
   const auto found = std::ranges::find(study.independent, hypothesis.factor, &IndependentVariable::id);
   const IndependentVariable* const factor = found == study.independent.end() ? nullptr : &*found;
   const bool counts = hypothesis.test == Test::ChiSquared || hypothesis.test == Test::Fisher ||
-                      hypothesis.test == Test::McNemar;
+                      hypothesis.test == Test::McNemar || hypothesis.test == Test::Binomial;
   if (is_measured(*dependent))
     return counts ? fmt::format(
                         "trials measure '{}' as a number, and its test counts choices; compare means "
@@ -85,7 +88,16 @@ std::string why_untestable(const Study& study, const Hypothesis& hypothesis) {
   const bool in_conditions = questionnaire.when == AskWhen::AfterCondition;
   const AskedItem asked{questionnaire.items[place.item], in_conditions,
                         in_conditions && crossing_count(study, false, 1) > 1};
-  if (counts) return counts_misfit(study, hypothesis.test, asked, factor);
+  if (counts) {
+    std::string misfit = counts_misfit(study, hypothesis.test, asked, factor);
+    if (!misfit.empty() || hypothesis.test != Test::Binomial) return misfit;
+    return compared_answers(hypothesis, asked.item)
+               ? std::string()
+               : fmt::format(
+                     "'{}' has {} answers, and binomial compares two; write which, as answers = "
+                     "[\"a\", \"b\"]",
+                     asked.item.id, asked.item.choices.size());
+  }
   return factor == nullptr ? std::string() : numbers_misfit(asked, *factor);
 }
 

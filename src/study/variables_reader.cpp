@@ -18,10 +18,12 @@ const Words<Scale> kScales = {{"nominal", Scale::Nominal},
 
 const Words<bool> kValues = {{"discrete", true}, {"continuous", false}};
 
-const Words<Test> kTests = {{"anova", Test::Anova},       {"ttest", Test::TTest},
-                            {"wilcoxon", Test::Wilcoxon}, {"kruskal", Test::Kruskal},
-                            {"friedman", Test::Friedman}, {"chisq", Test::ChiSquared},
-                            {"fisher", Test::Fisher},     {"mcnemar", Test::McNemar}};
+const Words<Test> kTests = {
+    {"anova", Test::Anova},     {"ttest", Test::TTest},       {"wilcoxon", Test::Wilcoxon},
+    {"kruskal", Test::Kruskal}, {"friedman", Test::Friedman}, {"chisq", Test::ChiSquared},
+    {"fisher", Test::Fisher},   {"mcnemar", Test::McNemar},   {"binomial", Test::Binomial}};
+
+const Words<Test> kBesideTests = {{"chisq", Test::ChiSquared}};
 
 bool has_distances(Scale scale) { return scale == Scale::Interval || scale == Scale::Ratio; }
 
@@ -153,6 +155,9 @@ Hypothesis read_hypothesis(KeyReader& keys) {
   read_expected(keys, hypothesis);
   hypothesis.alpha = keys.number("alpha", 0.05, std::nextafter(0.0, 1.0), std::nextafter(1.0, 0.0));
   hypothesis.test = keys.word<Test>("test", kTests, Test::None);
+  hypothesis.beside = keys.word<Test>("beside", kBesideTests, Test::None);
+  hypothesis.answers = keys.strings("answers");
+  hypothesis.primary = keys.flag("primary", false);
   keys.finish();
   return hypothesis;
 }

@@ -1,4 +1,5 @@
 """`icome stats` describes tables, tests them and draws the results. Expected numbers are R 4.2's where not said otherwise."""
+import csv
 import json
 import math
 import re
@@ -40,6 +41,148 @@ class StatsTest(ProgramTest):
 
     def close(self, actual, expected, digits=9):
         self.assertTrue(math.isclose(actual, expected, rel_tol=10.0 ** -digits, abs_tol=1e-300), f"{actual} {expected}")
+
+    # ------------------------------------------------------------ people within conditions
+
+    # Seven people, four novices and three experts, with three ways of pointing at two targets; invented. Expected
+    # numbers are R 4.2's (t.test, aov, p.adjust, pf with noncentrality), as in tests/stats/level_comparisons_test.cpp.
+    MIXED = ((1.2, 2.1, 1.9, 3.2, 1.4, 2.9), (1.1, 1.8, 2.2, 3.0, 1.6, 2.5), (1.5, 2.6, 2.4, 4.1, 1.9, 3.0),
+             (0.9, 1.9, 1.7, 2.8, 1.2, 2.6), (0.8, 1.2, 1.1, 1.9, 1.3, 1.4), (0.7, 1.5, 1.4, 2.1, 0.9, 1.6),
+             (1.0, 1.4, 1.3, 1.6, 1.2, 1.9))
+
+    def mixed(self):
+        rows = (f"{person},{'novice' if person < 4 else 'expert'},{('ray', 'hand', 'wim')[i // 2]},"
+                f"{('near', 'far')[i % 2]},{value}\n"
+                for person, values in enumerate(self.MIXED) for i, value in enumerate(values))
+        return self.write("mixed.csv", "person,group,way,target,t\n" + "".join(rows))
+
+    def mixed_answer(self, *arguments):
+        return self.answer("anova", self.mixed(), "--response", "t", "--within", "way", "--within", "target", "--factor",
+                           "group", "--subject", "person", *arguments)
+
+    def test_within_subject_intervals_stand_beside_plain_ones(self):
+        report = self.mixed_answer()
+        # R: N <- X - rowMeans(X) + mean(X) of each group; sd * sqrt(6 / 5) / sqrt(n) * qt(.975, n - 1) about the mean
+        expected = {("novice", "ray", "near"): (1.04213313142918, 1.30786686857082),
+                    ("novice", "hand", "far"): (2.81298169066574, 3.73701830933426),
+                    ("expert", "wim", "near"): (0.474529271397774, 1.792137395268892)}
+        cells = {(c["levels"]["group"], c["levels"]["way"], c["levels"]["target"]): c for c in report["cells"]}
+        self.assertEqual(len(cells), 12)
+        for key, (low, high) in expected.items():
+            self.close(cells[key]["within_interval"][0], low)
+            self.close(cells[key]["within_interval"][1], high)
+        self.assertNotEqual(cells[("novice", "ray", "near")]["mean_interval"],
+                            cells[("novice", "ray", "near")]["within_interval"])
+        text = self.succeeds("stats", "anova", self.folder / "mixed.csv", "--response", "t", "--within", "way",
+                             "--within", "target", "--factor", "group", "--subject", "person").stdout
+        self.assertIn("within-subject 95 % CI", text)
+        self.assertIn("Effect sizes, partial, generalised and omega squared", text)
+
+    def test_effects_within_people_have_intervals(self):
+        rows = "".join(f"{person},{('ray', 'hand', 'wim')[way]},{(v[2 * way] + v[2 * way + 1]) / 2}\n"
+                       for person, v in enumerate(self.MIXED) for way in range(3))
+        report = self.answer("anova", self.write("ways.csv", "person,way,t\n" + rows), "--response", "t", "--within",
+                             "way", "--subject", "person")
+        (term,) = report["table"]
+        for name, value, low, high in (
+                ("partial_eta_sq", 0.828753993610224, 0.564515352975144, 0.880205314476658),
+                ("generalised_eta_sq", 0.319559325613318, 0.135876617423442, 0.471256605149769),
+                ("partial_omega_sq", 0.279892721448260, 0.118771132029773, 0.433090942604504),
+                ("omega_sq", 0.279892721448260, 0.118771132029773, 0.433090942604504)):
+            self.close(term[name], value)
+            self.close(term[name + "_interval"][0], low, 6)
+            self.close(term[name + "_interval"][1], high, 6)
+
+    def test_levels_are_compared_after_the_analysis(self):
+        report = self.mixed_answer("--post-hoc", "way", "--post-hoc", "group", "--simple", "way")
+        way, group = report["post_hoc"]
+        self.assertEqual((way["factor"], way["test"], way["adjustment"]), ("way", "paired t-test", "Holm"))
+        first = way["comparisons"][0]
+        self.assertEqual((first["first"], first["second"]), ("ray", "hand"))
+        self.close(first["t"], 6.049193494630824)
+        self.close(first["p"], 0.000924042908472241)
+        self.close(first["p_adjusted"], 0.001848085816944483)
+        self.assertEqual(group["test"], "Welch's t-test")
+        self.close(group["comparisons"][0]["p"], 0.0124639764468, 7)
+        (simple,) = report["simple_effects"]
+        self.assertEqual(len(simple["effects"]), 4)
+        there = next(e for e in simple["effects"] if e["at"] == {"target": "near", "group": "novice"})
+        self.close(there["f"], 96.3103448275859)
+        self.close(there["p"], 0.00184078832820513)
+        self.close(there["p_adjusted"], 0.00736315331282053)
+        self.close(there["comparisons"][2]["p_adjusted"], 0.00283439365124133)
+        text = self.succeeds("stats", "anova", self.folder / "mixed.csv", "--response", "t", "--within", "way",
+                             "--within", "target", "--factor", "group", "--subject", "person", "--post-hoc", "way",
+                             "--simple", "group").stdout
+        self.assertIn("way, averaged over all else: paired t-tests of pairs, after Holm over 3", text)
+        self.assertIn("Simple effects of group: Welch's test at each level of the others", text)
+
+    def test_comparisons_say_what_they_need(self):
+        file = self.mixed()
+        common = ("stats", "anova", file, "--response", "t")
+        self.fails(*common, "--factor", "way", "--post-hoc", "way", code=2, saying="--post-hoc goes with --within")
+        self.fails(*common, "--within", "way", "--subject", "person", "--post-hoc", "target", code=1,
+                   saying="'target' is no factor of this analysis")
+        self.fails(*common, "--within", "way", "--subject", "person", "--simple", "way", code=1,
+                   saying="there is no other factor")
+
+    def test_levels_stand_as_they_are_told(self):
+        rows = "".join(f"{dose},{value}\n" for dose, value in ((10, 1.0), (2, 3.0), (10, 1.5), (2, 3.5), (5, 7), (5, 8)))
+        file = self.write("doses.csv", "dose,effect\n" + rows)
+
+        def levels(*arguments):
+            report = self.answer("anova", file, "--response", "effect", "--factor", "dose", *arguments)
+            return [cell["levels"]["dose"] for cell in report["cells"]]
+
+        self.assertEqual(levels(), ["2", "5", "10"])
+        self.assertEqual(levels("--levels", "dose"), ["10", "2", "5"])
+        self.assertEqual(levels("--levels", "dose=5,10,2"), ["5", "10", "2"])
+        for told, saying in (("dose=5,10", "2 of 3 are named"), ("dose=5,10,3", 'there is no "3"'),
+                             ("dose=5,5,10,2", '"5" is there twice'), ("doses=5", "names no factor")):
+            self.fails("stats", "anova", file, "--response", "effect", "--factor", "dose", "--levels", told, code=1,
+                       saying=saying)
+        report = self.answer("ttest", self.sleep(), "--response", "extra", "--factor", "drug", "--levels", "drug=2,1")
+        self.close(report["t"], 1.860813, 5)  # of R's sleep with the groups exchanged
+        odd = self.write("odd.csv", 'kind,n\n"a,b",1\nö,2\n"a,b",3\nö,5\n')
+        report = self.answer("describe", odd, "--column", "n", "--factor", "kind", "--levels", 'kind=ö,"a,b"')
+        self.assertEqual([column["name"] for column in report["columns"]], ["ö", "a,b"])
+
+    def test_z_scores_are_a_column(self):
+        # R: (x - mean(x)) / sd(x) of 2.5, 3, 4.25, 8
+        expected = (-0.7792323356072561, -0.5781401199666739, -0.0754095808652183, 1.4327820364391484)
+        file = self.write("z.csv", 'who,"time ""s"""\n"Ann, B.",2.5\nÉva,3\nCy,\nDi,4.25\nEd,8\n')
+        out = self.folder / "with-z.csv"
+        report = self.answer("describe", file, "--column", 'time "s"', "--z", out)
+        self.assertEqual(report["z_columns"], ['z of time "s"'])
+        with open(out, encoding="utf-8", newline="") as lines:
+            rows = list(csv.DictReader(lines))
+        self.assertEqual([row["who"] for row in rows], ["Ann, B.", "Éva", "Cy", "Di", "Ed"])
+        self.assertEqual(rows[2]['z of time "s"'], "")
+        for row, z in zip([rows[0], rows[1], rows[3], rows[4]], expected):
+            self.close(float(row['z of time "s"']), z)
+        again = self.answer("describe", out, "--column", 'z of time "s"')
+        self.close(again["columns"][0]["sd"], 1.0)
+        commas = self.write("commas.csv", "who;x\na;2,5\nb;3\nc;4,25\nd;8\n")
+        self.answer("describe", commas, "--z", out)
+        self.assertEqual(out.read_text().splitlines()[0], "who;x;z of x")
+        self.close(self.answer("describe", out, "--column", "z of x")["columns"][0]["maximum"], expected[3])
+        self.fails("stats", "describe", file, "--z", file, code=2, saying="would replace the data")
+        self.fails("stats", "describe", file, "--z", file.parent / "." / ".." / file.parent.name / file.name, code=2,
+                   saying="would replace the data")
+        self.fails("stats", "describe", file, "--z", "z.txt", code=2, saying=".csv nor in .tsv")
+
+    def test_mcnemar_is_without_correction_unless_asked(self):
+        # mcnemar.test(matrix(c(30, 12, 5, 40), 2, byrow = TRUE), correct = FALSE), then TRUE; binom.test(12, 17)
+        plain = self.answer("mcnemar", "--counts", "30,12/5,40")
+        self.close(plain["chi_squared"], 2.882352941176471)
+        self.close(plain["p"], 0.0895550744136, 7)
+        self.assertFalse(plain["yates"])
+        corrected = self.answer("mcnemar", "--counts", "30,12/5,40", "--yates")
+        self.close(corrected["chi_squared"], 2.117647058823529)
+        self.close(corrected["p"], 0.145610095397, 7)
+        self.assertTrue(corrected["yates"])
+        for report in (plain, corrected):
+            self.close(report["exact_p"], 0.143463134765625)
 
     # ------------------------------------------------------------ analysis of variance
 
@@ -225,7 +368,7 @@ class StatsTest(ProgramTest):
         fisher = self.answer("fisher", "--counts", "63,180/16,180")
         self.close(fisher["p"], 8.35139245511913e-07, 7)
         self.close(fisher["odds_ratio"], 3.92611837823395, 5)
-        mcnemar = self.answer("mcnemar", "--counts", "794,86/150,570")
+        mcnemar = self.answer("mcnemar", "--counts", "794,86/150,570", "--yates")
         self.close(mcnemar["chi_squared"], 16.8177966101695)
         self.close(mcnemar["p"], 4.11456228134594e-05)
 

@@ -172,7 +172,7 @@ TEST(StudyPageMethods, TellWhoLeftPracticeUnpractised) {
 TEST(StudyPageMethods, TellWhatDecides) {
   study::StudyData data = study::drawn_data("blank", 6);
   ASSERT_FALSE(data.study.hypotheses.empty());
-  EXPECT_TRUE(has(methods_of(data), "the plain ones decide, at \u03b1 = .05."));
+  EXPECT_TRUE(has(methods_of(data), "at \u03b1 = .05. P adjusted by Holm&#39;s (1979) method over the 2"));
   data.study.hypotheses.clear();
   EXPECT_FALSE(has(methods_of(data), "Holm"));
 }
@@ -344,6 +344,79 @@ TEST(StudyPagePdf, IsAFileOfPages) {
   EXPECT_EQ(head, "%PDF-");
   std::filesystem::remove(out);
   EXPECT_FALSE(ui::write_pdf("<p>x</p>", {}, "/nowhere/at/all.pdf"));
+}
+
+/// The line about the first hypothesis at the top of the page.
+std::string first_conclusion(const study::StudyData& data) {
+  const std::string part = part_of(page_of(data), "In short");
+  const std::size_t begin = part.find("<li>");
+  return begin == std::string::npos ? part : part.substr(begin, part.find("</li>", begin) - begin);
+}
+
+/// The menu study with people of whom who clicks is faster with forces (s), and who pushes is not.
+study::StudyData interacting_data() {
+  study::StudyData data = study::data_of("menu");
+  study::plan_trials(data, 1);
+  std::erase_if(data.study.hypotheses, [](const auto& it) { return it.id != "time-haptics"; });
+  const std::vector<double> forces = {2.0, 3.1, 2.3, 2.8, 1.9, 3.3, 2.2, 3.0};
+  const std::vector<double> none = {4.1, 2.9, 4.5, 2.5, 3.9, 3.2, 4.6, 2.6};
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    study::StudyData::Person& person = study::add_person(data, i % 2);
+    study::add_trial(person, 0, forces[i]);
+    study::add_trial(person, 1, none[i]);
+  }
+  return data;
+}
+
+TEST(StudyPageConclusions, TellBothPValues) {
+  const std::string line = first_conclusion(study::drawn_data("menu", 8));
+  EXPECT_TRUE(has(line, "(Holm)")) << line;
+}
+
+TEST(StudyPageConclusions, TellAnInteractionInTheSameSentence) {
+  // summary(aov(t ~ g * h + Error(p / h))) in R 4.2.2: h F(1, 6) = 323.4, g:h F(1, 6) = 513.22, both p < .001
+  const std::string line = first_conclusion(interacting_data());
+  EXPECT_TRUE(has(line, "Shown: ")) << line;
+  EXPECT_TRUE(has(line, "interaction")) << line;
+  EXPECT_TRUE(has(line, "513.22")) << line;
+}
+
+TEST(StudyPageConclusions, TellFailedAssumptionsInTheSameSentence) {
+  study::StudyData data = study::data_of("blank");  // expects new < old, by a t-test
+  study::plan_trials(data, 1);
+  const std::vector<double> gains = {1.0, 1.1, 1.2, 0.9, 1.0, 1.1, 1.2, 1.0, 0.9, 6.0};
+  const std::vector<double> old = {8.0, 8.1, 8.2, 8.0, 8.1, 8.2, 8.05, 8.15, 8.12, 8.08};
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    study::StudyData::Person& person = study::add_person(data, 0);
+    study::add_trial(person, 0, old[i]);
+    study::add_trial(person, 1, old[i] - gains[i]);
+  }
+  const std::string line = first_conclusion(data);
+  EXPECT_TRUE(has(line, "Shown: ")) << line;
+  // shapiro.test(new - old) in R 4.2.2: W = 0.38, p < .001
+  EXPECT_TRUE(has(line, "not normal")) << line;
+  EXPECT_TRUE(has(line, "Shapiro-Wilk")) << line;
+}
+
+TEST(StudyPageMethods, OfSimulatedPeopleTellNothingThatPeopleDo) {
+  study::StudyData data = study::drawn_data("head-tracking", 4);
+  EXPECT_TRUE(has(methods_of(data), "the pointer was held at its start for 10 s"));
+  data.simulated = true;
+  const std::string methods = methods_of(data);
+  for (const char* const words : {"was held at its start for 10 s", "there was a rest", "giving consent",
+                                  "eople answered", "say on which device they were felt", "recruited"})
+    EXPECT_FALSE(has(methods, words)) << words << "\n" << methods;
+  EXPECT_TRUE(has(methods, "0.1 s")) << methods;
+}
+
+TEST(StudyPage, OfSimulatedPeopleSaysWhatWasNotThere) {
+  study::StudyData data = study::drawn_data("head-tracking", 4);
+  data.simulated = true;
+  const study::Analysis analysis = study::analyse(data);
+  for (const std::string& text :
+       {study_page(data, analysis, PageForm::Screen), study_page(data, analysis, PageForm::Paper),
+        study_page_text(data, analysis), study_page_json(data, analysis)})
+    EXPECT_TRUE(has(text, "head tracking was not there")) << text.substr(0, 4000);
 }
 
 }  // namespace

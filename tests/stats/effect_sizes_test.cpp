@@ -87,6 +87,22 @@ TEST(EffectSizes, TheIntervalHoldsTheShareAsOftenAsItSays) {
   anova_data::expect_level(outside, 0.10, 500);
 }
 
+TEST(EffectSizes, AShareOfMoreHasTheNoncentralityOfItsF) {
+  // R 4.2.2, of seven people in three conditions: F(2, 12) = 29.04; noncentralities L by uniroot() over
+  // pf(F, 2, 12, L) - c(.95, .05); generalised eta squared L * MSe / (L * MSe + SSe + SSs), partial omega
+  // squared L * MSe / (L * MSe + 2 * MSe + SSe + SSs + MSs).
+  const auto eta = share_interval(29.0373134328358, 2.0, 12.0, 0.0372222222222222, 4.6028571428571432);
+  ASSERT_TRUE(eta) << eta.error().message;
+  EXPECT_NEAR(eta->low, 0.135876617423442, 1e-7);
+  EXPECT_NEAR(eta->high, 0.471256605149769, 1e-7);
+  const auto omega = share_interval(29.0373134328358, 2.0, 12.0, 0.0372222222222222, 5.37);
+  EXPECT_NEAR(omega->low, 0.118771132029773, 1e-7);
+  EXPECT_NEAR(omega->high, 0.433090942604504, 1e-7);
+  EXPECT_EQ(share_interval(0.5, 2.0, 12.0, 0.04, 4.6)->low, 0.0);
+  EXPECT_FALSE(share_interval(2.0, 2.0, 12.0, 0.0, 4.6));
+  EXPECT_FALSE(share_interval(INFINITY, 2.0, 12.0, 0.04, 4.6));
+}
+
 TEST(FDistribution, FarTailsAndWhatIsNotThere) {
   // R 4.2: pf(1e4, 3, 20, lower.tail = FALSE), pf(5.2, 2, 1e6, lower.tail = FALSE)
   expect_digits(f_above(1e4, 3.0, 20.0), 6.37205408584167e-32, 10);

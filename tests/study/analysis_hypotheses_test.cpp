@@ -145,7 +145,8 @@ TEST(Hypotheses, MeansOfAnOrdinalVariableAreNoted) {
   const StudyData data = crossed_data(kThirdIsSlow, {0});
   const HypothesisResult result = result_of(data, "ease", "way", study::Test::Anova);
   ASSERT_TRUE(result.test.result) << result.test.why;
-  EXPECT_TRUE(notes_say(*result.test.result, "means of an ordinal variable"));
+  EXPECT_EQ(result.test.result->doubts.back(),
+            "these are means of an ordinal variable, which a test of ranks fits");
 }
 
 TEST(Hypotheses, AGroupOfNobodyIsLeftOutWithANote) {
@@ -251,6 +252,113 @@ TEST(Hypotheses, OrdinalVariablesAreRankedWhereNoTestIsNamed) {
   data.study.independent[0].levels.pop_back();
   data.study.order = OrderMethod::Fixed;
   EXPECT_EQ(test("ease", "way"), "Wilcoxon's signed rank test");
+}
+
+/// People of the study `blank` who took so long with the old and the new technique (s), and preferred one.
+StudyData techniques_data(const std::vector<double>& before, const std::vector<double>& after,
+                          std::size_t prefer_old) {
+  StudyData data = data_of("blank");  // expects new < old
+  plan_trials(data, 1);
+  for (std::size_t i = 0; i < 22; ++i) {
+    StudyData::Person& person = add_person(data, 0);
+    add_answer(person, "comparison.preferred", i < prefer_old ? "old" : "new");
+    if (i >= before.size()) continue;
+    add_trial(person, 0, before[i]);
+    add_trial(person, 1, after[i]);
+  }
+  return data;
+}
+
+const std::vector<double> kOldTimes = {3.1, 2.9, 3.6, 3.3, 2.7, 3.8, 3.0, 3.4, 2.8, 3.5};
+const std::vector<double> kNewTimes = {2.8, 3.0, 3.2, 3.4, 2.5, 3.3, 3.1, 3.0, 2.9, 3.2};
+
+TEST(Decisions, AreMadeByHolmOverAllHypotheses) {
+  StudyData data = techniques_data(kOldTimes, kNewTimes, 16);
+  data.study.hypotheses[1].test = study::Test::ChiSquared;
+  const Analysis both = analyse(data);
+  // R 4.2.2: p <- c(t.test(new, old, paired = TRUE, alternative = "less")$p.value,
+  //                 chisq.test(c(16, 6))$p.value); p.adjust(p, "holm")
+  EXPECT_NEAR(both.hypotheses[0].test.result->p, 0.0280033745363936, 1e-12);
+  EXPECT_NEAR(both.hypotheses[1].test.result->p, 0.0330062576612324, 1e-12);
+  for (const HypothesisResult& result : both.hypotheses) {
+    EXPECT_NEAR(*result.p_holm, 0.0560067490727872, 1e-12);
+    EXPECT_EQ(result.decision, Decision::NotShown);
+  }
+  data.study.hypotheses.pop_back();
+  EXPECT_EQ(analyse(data).hypotheses[0].decision, Decision::Shown) << "alone it is its own family";
+}
+
+/// Answers of the head-tracking study, whose hypotheses test them as its file says.
+HypothesisResult depth_result(std::size_t tracked, std::size_t same, std::size_t fixed) {
+  StudyData data = data_of("head-tracking");
+  std::erase_if(data.study.hypotheses, [](const Hypothesis& it) { return it.id != "felt-depth"; });
+  const auto answer = [&](std::size_t people, const char* choice) {
+    for (std::size_t i = 0; i < people; ++i) add_answer(add_person(data, 0), "comparison.depth", choice);
+  };
+  answer(tracked, "tracked");
+  answer(same, "same");
+  answer(fixed, "fixed");
+  return analyse(data).hypotheses.front();
+}
+
+TEST(Decisions, OfAPrimaryHypothesisAreByItsOwnP) {
+  StudyData data = techniques_data(kOldTimes, kNewTimes, 16);
+  data.study.hypotheses[1].test = study::Test::ChiSquared;
+  data.study.hypotheses[0].primary = true;
+  const Analysis time_first = analyse(data);
+  EXPECT_EQ(time_first.hypotheses[0].decision, Decision::Shown);
+  EXPECT_NEAR(*time_first.hypotheses[0].p_holm, 0.0280033745363936, 1e-12);
+  EXPECT_EQ(time_first.hypotheses[1].decision, Decision::Shown) << "alone among the others";
+  EXPECT_NEAR(*time_first.hypotheses[1].p_holm, 0.0330062576612324, 1e-12);
+  data.study.hypotheses[0].alpha = 0.01;
+  const Analysis not_shown = analyse(data);
+  EXPECT_EQ(not_shown.hypotheses[0].decision, Decision::NotShown);
+  EXPECT_EQ(not_shown.hypotheses[1].decision, Decision::NotShown) << "only after the primary one";
+  EXPECT_TRUE(not_shown.hypotheses[1].held_back);
+  for (StudyData::Person& person : data.people) person.progress.trials.clear();
+  const Analysis not_computed = analyse(data);
+  EXPECT_EQ(not_computed.hypotheses[0].decision, Decision::NotComputed);
+  EXPECT_TRUE(not_computed.hypotheses[1].held_back);
+}
+
+TEST(Preferences, AreNotShownByFewWhoSeeNoDifference) {
+  // binom.test(8, 20) in R 4.2.2: p = .50; chisq.test(c(8, 2, 12)): p = .03, for the sake of the two.
+  EXPECT_EQ(depth_result(8, 2, 12).decision, Decision::NotShown);
+  EXPECT_EQ(depth_result(14, 7, 1).decision, Decision::Shown);
+}
+
+TEST(Preferences, HaveTheThesissTestBesideThemOnlyWhereItFindsTheSame) {
+  EXPECT_TRUE(depth_result(14, 7, 1).beside);
+  EXPECT_TRUE(depth_result(16, 0, 6).beside);
+  EXPECT_FALSE(depth_result(8, 2, 12).beside) << "unequal for the sake of the two only";
+  EXPECT_FALSE(depth_result(12, 2, 8).beside);
+  EXPECT_FALSE(depth_result(8, 7, 7).beside);
+}
+
+TEST(Preferences, OfNobodyAreASentence) {
+  EXPECT_EQ(depth_result(0, 5, 0).test.why, "nobody chose either of the two answers.");
+  EXPECT_EQ(depth_result(0, 0, 0).test.why, "nobody chose either of the two answers.");
+  const HypothesisResult one = depth_result(1, 0, 0);
+  ASSERT_TRUE(one.test.result);
+  EXPECT_EQ(one.test.result->p, 1.0);
+  EXPECT_EQ(one.test.result->counts, "1 With head tracking, 0 Without head tracking, 0 ties");
+}
+
+TEST(Preferences, HaveTheDirectionThatIsExpected) {
+  StudyData data = techniques_data({}, {}, 6);  // 16 prefer the new one
+  data.study.hypotheses.erase(data.study.hypotheses.begin());
+  Hypothesis& preferred = data.study.hypotheses.front();
+  preferred.answers.clear();
+  preferred.direction = Direction::Greater;
+  preferred.first = "new";
+  preferred.second = "old";
+  const HypothesisResult more = analyse(data).hypotheses.front();
+  // binom.test(16, 22, alternative = "greater") in R 4.2.2
+  EXPECT_NEAR(more.test.result->p, 0.0262393951416016, 1e-12);
+  EXPECT_TRUE(more.one_sided);
+  EXPECT_EQ(more.decision, Decision::Shown);
+  preferred.direction = Direction::Less;
+  EXPECT_EQ(analyse(data).hypotheses.front().decision, Decision::NotShown);
 }
 
 }  // namespace

@@ -176,18 +176,27 @@ TEST(Analysis, AnswersOfTheHeadTrackingStudyAreSignificantAsInTheThesis) {
   answer_choices(data, "comparison.comfort", {16, 0, 6});
   const Analysis analysis = analyse(data);
   const HypothesisResult& depth = hypothesis_named(analysis, data.study, "felt-depth");
-  // chisq.test(c(14, 7, 1)) and chisq.test(c(16, 0, 6)) in R 4.2.2; section 6.5.2: below 5 %.
+  // binom.test(14, 15) and binom.test(16, 22) in R 4.2.2: of 16 against 6 not quite below 5 %.
   ASSERT_TRUE(depth.test.result) << depth.test.why;
-  EXPECT_NEAR(depth.test.result->value, 11.5454545454545, 1e-9);
-  EXPECT_NEAR(depth.test.result->p, 0.00311126067644443, 1e-12);
+  EXPECT_EQ(depth.test.result->counts, "14 With head tracking, 1 Without head tracking, 7 ties");
+  EXPECT_NEAR(depth.test.result->p, 0.000976562500000, 1e-12);
+  EXPECT_NEAR(depth.test.result->effect_size, 0.933333333333333, 1e-12);
+  EXPECT_NEAR(depth.test.result->effect_interval->low, 0.680515433421697, 1e-9);
+  EXPECT_NEAR(depth.test.result->effect_interval->high, 0.998313569758647, 1e-9);
   EXPECT_EQ(depth.decision, Decision::Shown);
   const HypothesisResult& comfort = hypothesis_named(analysis, data.study, "felt-comfort");
   ASSERT_TRUE(comfort.test.result);
-  EXPECT_NEAR(comfort.test.result->p, 0.000135154646016651, 1e-12);
-  EXPECT_EQ(comfort.decision, Decision::Shown);
+  EXPECT_NEAR(comfort.test.result->p, 0.0524787902832032, 1e-12);
+  EXPECT_EQ(comfort.decision, Decision::NotShown);
   // Of two tested hypotheses Holm doubles the smaller p.
-  EXPECT_NEAR(*comfort.p_holm, 2.0 * comfort.test.result->p, 1e-15);
-  EXPECT_NEAR(*depth.p_holm, depth.test.result->p, 1e-15);
+  EXPECT_NEAR(*depth.p_holm, 2.0 * depth.test.result->p, 1e-15);
+  EXPECT_NEAR(*comfort.p_holm, comfort.test.result->p, 1e-15);
+  // chisq.test(c(14, 7, 1)) and chisq.test(c(16, 6)) in R 4.2.2: the thesis's test, below 5 % as in 6.5.2.
+  ASSERT_TRUE(depth.beside && comfort.beside);
+  EXPECT_NEAR(depth.beside->value, 11.5454545454545, 1e-9);
+  EXPECT_NEAR(depth.beside->p, 0.00311126067644443, 1e-12);
+  EXPECT_NEAR(comfort.beside->value, 4.54545454545455, 1e-9);
+  EXPECT_NEAR(comfort.beside->p, 0.0330062576612324, 1e-12);
   EXPECT_EQ(question_named(analysis, data.study, "comparison.depth").counts[0],
             (std::vector<std::size_t>{14, 7, 1}));
 }
@@ -198,8 +207,10 @@ TEST(Analysis, SixteenOfTwentyTwoPreferOneOfTwo) {
   const Analysis analysis = analyse(data);
   const HypothesisResult& preferred = hypothesis_named(analysis, data.study, "preferred");
   ASSERT_TRUE(preferred.test.result) << preferred.test.why;
-  EXPECT_NEAR(preferred.test.result->p, 0.0330062576612324, 1e-12);  // chisq.test(c(16, 6)), R 4.2.2
-  EXPECT_EQ(preferred.decision, Decision::Shown);
+  EXPECT_NEAR(preferred.test.result->p, 0.0524787902832032, 1e-12);  // binom.test(16, 22), R 4.2.2
+  EXPECT_EQ(preferred.decision, Decision::NotShown);
+  EXPECT_FALSE(preferred.beside) << "the study does not ask for it";
+  EXPECT_EQ(question_named(analysis, data.study, "comparison.preferred").test.result->test, "sign test");
 }
 
 TEST(Analysis, TTestOfAnExpectationIsOneSided) {

@@ -240,5 +240,32 @@ TEST(Templates, AreFoundByName) {
   EXPECT_NE(study_template("blank", "not an id")->find("\nname = \"blank\""), std::string::npos);
 }
 
+TEST(StudyCheck, BinomialTestsHoldTwoAnswersAgainstEachOther) {
+  Study study = study_of("head-tracking");
+  EXPECT_FALSE(says(check_study(study).warnings, "cannot be tested"));
+  const auto depth = std::ranges::find(study.hypotheses, "felt-depth", &Hypothesis::id);
+  depth->answers.clear();
+  EXPECT_TRUE(says(check_study(study).warnings,
+                   "'felt-depth' cannot be tested: 'depth' has 3 answers, and binomial compares two"));
+  depth->dependent = "time";
+  EXPECT_TRUE(says(check_study(study).warnings, "'felt-depth' cannot be tested: trials measure 'time'"));
+}
+
+TEST(StudyCheck, SharesOfThreeAnswersAreAdvisedOn) {
+  Study study = study_of("head-tracking");
+  EXPECT_FALSE(says(check_study(study).warnings, "write test = \"binomial\""));
+  const auto depth = std::ranges::find(study.hypotheses, "felt-depth", &Hypothesis::id);
+  depth->test = study::Test::ChiSquared;
+  EXPECT_TRUE(says(check_study(study).warnings,
+                   "hypothesis 'felt-depth' asks whether all 3 answers are given equally often"));
+}
+
+TEST(StudyCheck, PowerIsToldToBeOfPlainP) {
+  Study study = study_of("blank");
+  EXPECT_TRUE(says(check_study(study).warnings, "Holm's adjustment for several hypotheses asks for more"));
+  study.hypotheses.resize(1);
+  EXPECT_FALSE(says(check_study(study).warnings, "Holm"));
+}
+
 }  // namespace
 }  // namespace icome::study

@@ -214,5 +214,63 @@ TEST(StudyReader, DamagedFilesAreReadOrTold) {
   }
 }
 
+/// The small study with a question of three answers, and a hypothesis about it that has these lines too.
+std::string with_preference(const std::string& lines) {
+  return std::string(kSmall) + R"([[questionnaires]]
+id = "end"
+title = "End"
+when = "end"
+[[questionnaires.items]]
+id = "best"
+kind = "choice"
+text = "Which?"
+choices = [{ id = "old", name = "Old" }, { id = "same", name = "Same" }, { id = "new", name = "New" }]
+[[dependent]]
+id = "best"
+name = "Best"
+type = "nominal"
+from = "end.best"
+[[hypotheses]]
+id = "p"
+text = "One is better."
+dependent = "best"
+)" + lines;
+}
+
+TEST(StudyReader, ReadsWhichAnswersAreHeldAgainstEachOther) {
+  const auto study = read_study(
+      with_preference("test = \"binomial\"\nanswers = [\"new\", \"old\"]\nbeside = \"chisq\"\n"), "s");
+  ASSERT_TRUE(study) << study.error().message;
+  EXPECT_EQ(study->hypotheses[1].test, study::Test::Binomial);
+  EXPECT_EQ(study->hypotheses[1].answers, (std::vector<std::string>{"new", "old"}));
+  EXPECT_EQ(study->hypotheses[1].beside, study::Test::ChiSquared);
+  EXPECT_EQ(error_of(with_preference("test = \"binomial\"\nexpected = \"new > old\"\n")), "read");
+}
+
+TEST(StudyReader, TellsWhatABinomialTestCannotCompare) {
+  const auto says = [](const std::string& lines, const std::string& words) {
+    const std::string error = error_of(with_preference(lines));
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  };
+  says("test = \"binomial\"\nanswers = [\"new\", \"odl\"]\n",
+       "'best' has no choice 'odl'; there are new, old, same.");
+  says("test = \"binomial\"\nanswers = [\"new\"]\n", "answers are the two that are compared");
+  says("test = \"binomial\"\nanswers = [\"new\", \"new\"]\n", "answers are the two that are compared");
+  says("test = \"binomial\"\nexpected = \"new > new\"\n", "compares an answer with itself");
+  says("test = \"binomial\"\nexpected = \"new > old\"\nanswers = [\"new\", \"old\"]\n", "leave out answers");
+  says("test = \"binomial\"\nfactor = \"way\"\n", "leave out factor");
+  says("test = \"chisq\"\nanswers = [\"new\", \"old\"]\n", "answers are named for test = \"binomial\" only");
+  says("test = \"chisq\"\nbeside = \"chisq\"\n", "beside goes with test = \"binomial\"");
+  says("test = \"chisq\"\nexpected = \"new > old\"\n", "write the factor that has them");
+}
+
+TEST(StudyReader, TellsOfASecondPrimaryHypothesis) {
+  const std::string one = with_preference("test = \"chisq\"\nprimary = true\n");
+  EXPECT_EQ(error_of(one), "read");
+  std::string two = one;
+  two.replace(two.find("expected = \"a < b\""), 0, "primary = true\n");
+  EXPECT_NE(error_of(two).find("hypothesis 'p': 'h' is primary already"), std::string::npos) << error_of(two);
+}
+
 }  // namespace
 }  // namespace icome::study
