@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "base/random.h"
@@ -193,6 +194,48 @@ TEST(PlainField, FindsTheNearestPlaceOfASolid) {
     ASSERT_TRUE(found);
     EXPECT_NEAR((*found - point).norm(), point.norm() - size, 6e-5);
     EXPECT_FALSE(ball.nearest(point, time, 0.9 * (point.norm() - size), 2e-5));
+  }
+}
+
+/// Where it was looked once, a formula need not be asked again: a judge asks some seventy questions a tick.
+TEST(PlainField, AsksAFormulaRarelyAboutOnePlace) {
+  std::size_t asked = 0;
+  const auto waves = [&](const Vector3& p, double) {
+    ++asked;
+    return p.z() - 0.01 * std::sin(50.0 * p.x());
+  };
+  const MembershipSolid ground = plain_solid(waves, offset_box(), false);
+  const double radius = 0.01;
+  const Vector3 crest(0.0314159, 0.0, 0.01);
+  const auto at = [&](double x, double height) { return Vector3(crest + Vector3(x, 0.0, radius + height)); };
+  const auto first = ground.nearest(at(0.0, 1e-5), 0.0, radius, 4e-5);
+  EXPECT_FALSE(first);
+  for (int i = 0; i < 70; ++i) {
+    const auto found = ground.nearest(at(2e-6 * i, -5e-5 - 1e-6 * i), 0.0, radius, 4e-5);
+    ASSERT_TRUE(found);
+    EXPECT_LT((*found - at(2e-6 * i, -5e-5 - 1e-6 * i)).norm(), radius);
+  }
+  EXPECT_LT(asked, 150'000U);
+}
+
+// Slopes repeat at the middles and corners of halved parts; between them the ground is as high as elsewhere.
+TEST(PlainField, IsNotDeceivedByWavesThatFitTheBox) {
+  for (const double waves : {4.0, 8.0, 16.0, 32.0}) {
+    const double steepness = waves * 2.0 * std::numbers::pi / 0.12;
+    const MembershipSolid ground =
+        plain_solid([&](const Vector3& p, double) { return p.z() - 0.002 * std::cos(steepness * p.x()); },
+                    offset_box(), false);
+    base::Random random(7);
+    for (int i = 0; i < 50; ++i) {
+      const double x = (random.index(std::size_t(waves) - 2) + 1.0) * 0.12 / waves - 0.06;
+      const double top = 0.002 * std::cos(steepness * x);
+      const Vector3 above(x, random.uniform(-0.04, 0.04), top + random.uniform(1e-4, 2e-3));
+      const auto found = ground.nearest(above, 0.0, 2.5e-3, 2e-5);
+      ASSERT_TRUE(found) << waves;
+      const double least =
+          distance_to_ground([&](double u, double) { return 0.002 * std::cos(steepness * u); }, above, 3e-3);
+      EXPECT_LT((*found - above).norm(), least + 4e-5) << waves;
+    }
   }
 }
 
