@@ -17,10 +17,12 @@ using base::Bounds;
 using base::Vector3;
 
 constexpr double kSlopeStep = 1e-4;               // of a part's half diagonal, over which slopes are measured
-constexpr double kSafety = 1.6;                   // times the change of slopes that samples show
+constexpr double kSafety = 1.6;                   // times the fall of slopes that samples show
 constexpr std::size_t kMostLooks = 20'000;        // at parts, for one question
 constexpr std::size_t kMostFieldParts = 1 << 18;  // kept; some tens of MB
 constexpr int kMostFalls = 3;
+constexpr double kNothing = 1e-7;  // of a part: how deep what is solid may be and still be left out
+constexpr double kFinest = 0.3;    // of the fineness asked for, that of parts
 
 /// Towards the corners of a part, as shares of the way: uneven, so that a wave does not repeat at them.
 constexpr std::array<double, 8> kCornerShares{0.97, 0.83, 0.91, 0.79, 0.87, 0.95, 0.76, 0.89};
@@ -36,6 +38,9 @@ class PlainField {
   /// As MembershipSolid::nearest has it: the nearest parts first.
   std::optional<Vector3> nearest(const Vector3& point, double time, double limit, double fineness) {
     make_ready(time, limit);
+    // At an edge a part may hide what is solid of it: the next one is farther by its diagonal, twice the
+    // half.
+    fineness *= kFinest;
     Nearest found{point, limit, fineness, std::nullopt};
     std::priority_queue<Waiting, std::vector<Waiting>, Later> open;
     open.push({(point - closest(root_half_, box_.center(), point)).norm(), 0, box_.center(), root_half_});
@@ -65,7 +70,7 @@ class PlainField {
     bool known = false;  // what follows is
     double value = 0.0;  // in the middle
     Vector3 slope = Vector3::Zero();
-    double change = 0.0;  // of slopes, from the middle's to any
+    double fall = 0.0;  // by how much slopes may be less on the way from the middle
   };
   /// A part to be looked at: no place of the solid in it is nearer than `least` (m).
   struct Waiting {
@@ -112,19 +117,42 @@ class PlainField {
     part.slope = slope_at(of.centre, part.value, kSlopeStep * corner);
     part.known = std::isfinite(part.value) && part.slope.allFinite();
     bool defined = !std::isnan(part.value);
+    std::array<Vector3, 9> places{Vector3::Zero()}, slopes{part.slope};
+    std::array<double, 9> values{part.value};
     for (unsigned i = 0; i < 8; ++i) {
       const Vector3 way = kCornerShares[i] * of.half.cwiseProduct(corner_direction(i));
       const double there = value_(of.centre + way, time_);
       defined = defined || !std::isnan(there);
       if (!part.known) continue;
-      const Vector3 slope = slope_at(of.centre + way, there, -kSlopeStep * corner);
-      const double off = std::abs(there - part.value - part.slope.dot(way)) / way.norm();
-      const double change = std::max((slope - part.slope).norm(), off);
-      part.known = std::isfinite(change);
-      part.change = std::max(part.change, kSafety * change);
+      places[i + 1] = way;
+      values[i + 1] = there;
+      slopes[i + 1] = slope_at(of.centre + way, there, -kSlopeStep * corner);
+      const double fall = (part.value + part.slope.dot(way) - there) / way.norm();
+      part.known = std::isfinite(fall) && slopes[i + 1].allFinite();
+      part.fall = std::max(part.fall, kSafety * fall);
     }
-    const double lowest = part.value - part.slope.cwiseAbs().dot(of.half) - part.change * corner;
+    if (part.known) part.fall = std::max(part.fall, kSafety * most_fall(places, slopes));
+    double lowest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < places.size() && part.known; ++i) {
+      const double beside = places[i].norm() + corner;
+      const double middle = values[i] - slopes[i].dot(places[i]);  // of the plane through the sample
+      lowest = std::max(lowest, middle - slopes[i].cwiseAbs().dot(of.half) - part.fall * beside);
+    }
+    lowest += kNothing * part.slope.norm() * corner;  // what only comes to zero is not solid
     part.free = part.known ? lowest > 0.0 : !defined && corner <= 0.25 * trusted_;
+  }
+
+  /// How much less steeply the values rise, or more steeply fall, at one sample than at another before it.
+  /// Where functions are joined by max they never do, however sharp the edge.
+  static double most_fall(const std::array<Vector3, 9>& places, const std::array<Vector3, 9>& slopes) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vector3 way = places[i] - places[j];
+        most = std::max(most, -(slopes[i] - slopes[j]).dot(way) / way.norm());
+      }
+    }
+    return most;
   }
 
   static Vector3 corner_direction(unsigned i) {
@@ -145,7 +173,7 @@ class PlainField {
   static double least_distance(const Part& part, const Waiting& of, const Vector3& point) {
     const double steepness = part.slope.norm();
     if (!part.known || !(steepness > 0.0)) return 0.0;
-    const double above = part.value + part.slope.dot(point - of.centre) - part.change * of.half.norm();
+    const double above = part.value + part.slope.dot(point - of.centre) - part.fall * of.half.norm();
     return above / steepness;
   }
 

@@ -172,6 +172,30 @@ TEST(ScpOfFormulaTips, RestsOnTheFlanksOfAHollowThatIsNarrower) {
   });
 }
 
+// Resting on both flanks, it goes along the hollow as the tip does, and rises out of it.
+TEST(ScpOfFormulaTips, FollowsAHollowThatIsNarrower) {
+  const double radius = 0.01;
+  const auto centres = ImplicitOffset::create("z - 0.003*sin(300*x)", offset_box(), radius);
+  ASSERT_TRUE(centres) << centres.error().message;
+  HapticObject object;
+  object.id = {1, 0};
+  object.shape = std::make_shared<SmoothShape>(*centres, radius);
+  const auto scene = HapticScene::compile({object});
+  ScpSolver solver({.tip_radius = radius});
+  solver.adopt(*scene, {});
+  const double hollow = -std::numbers::pi / 600.0;
+  for (int tick = 0; tick < 400; ++tick) {
+    const double height = tick < 100 ? 0.015 - 1e-4 * tick : 0.005;
+    const Vector3 tip(hollow + 1e-5 * std::sin(0.1 * tick), -0.03 + 1e-4 * std::max(0, tick - 100), height);
+    const ScpState& state = solver.step(tip, 0.0);
+    if (!state.touching) continue;
+    ASSERT_NEAR(state.scp.x(), hollow, 1e-6) << tick;
+    ASSERT_NEAR(state.scp.y(), tip.y(), 1e-6) << tick;
+    ASSERT_LT(state.iterations, 40) << tick;
+  }
+  EXPECT_TRUE(solver.step(Vector3(hollow, 0.0, 0.005), 0.0).touching);
+}
+
 TEST(ScpOfFormulaTips, SaysWhyASurfaceIsNotTakenApart) {
   const auto reason = [](const std::string& formula) {
     const auto centres = ImplicitOffset::create(formula, offset_box(), 1e-3);
@@ -216,6 +240,39 @@ TEST(PlainField, AsksAFormulaRarelyAboutOnePlace) {
     EXPECT_LT((*found - at(2e-6 * i, -5e-5 - 1e-6 * i)).norm(), radius);
   }
   EXPECT_LT(asked, 150'000U);
+}
+
+// A ball that lies in a bowl touches its rim with a thin sliver only.
+TEST(PlainField, FindsAnEdgeWithinTheFinenessAskedFor) {
+  const MembershipSolid wedge =
+      plain_solid([](const Vector3& p, double) { return std::max(p.x() + p.y(), p.x() - 1.3 * p.y()); },
+                  offset_box(), false);
+  base::Random random(5);
+  for (int i = 0; i < 400; ++i) {
+    const double apart = random.uniform(2e-3, 0.01), fineness = 4e-5;
+    const Vector3 place(apart, random.uniform(-0.2, 0.2) * apart, random.uniform(-0.02, 0.02));
+    const double least = std::hypot(place.x(), place.y());
+    const auto found = wedge.nearest(place, 0.0, least + fineness, fineness);
+    ASSERT_TRUE(found) << place.transpose();
+    EXPECT_LT((*found - place).norm(), least + fineness);
+  }
+}
+
+// The two functions differ much in steepness, and where they are equal within the bowl nothing is solid.
+TEST(PlainField, FindsTheRimOfABowlFromAbove) {
+  const MembershipSolid bowl = plain_solid(
+      [](const Vector3& p, double) { return std::max(p.z(), 4e-4 - p.squaredNorm()); }, offset_box(), false);
+  base::Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const double turn = random.uniform(0.0, 6.28), r = random.uniform(2e-3, 8e-3),
+                 z = random.uniform(1e-3, 3e-3);
+    const Vector3 place(r * std::cos(turn), r * std::sin(turn), z);
+    const double least = std::hypot(0.02 - r, z);
+    const auto found = bowl.nearest(place, 0.0, least + 1e-4, 4e-5);
+    ASSERT_TRUE(found) << place.transpose();
+    EXPECT_LT((*found - place).norm(), least + 4e-5);
+    EXPECT_FALSE(bowl.nearest(place, 0.0, least - 1e-6, 4e-5));
+  }
 }
 
 // Slopes repeat at the middles and corners of halved parts; between them the ground is as high as elsewhere.
