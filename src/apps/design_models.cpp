@@ -15,6 +15,7 @@
 #include "files/mesh_reader.h"
 #include "haptics/plain_solid.h"
 #include "session/haptic_representation.h"
+#include "session/stretched.h"
 #include "world/solid_geometry.h"
 
 namespace icome::apps {
@@ -75,7 +76,7 @@ class BodyMaker {
       body.csg = felt->solid;
       body.solid = std::dynamic_pointer_cast<const haptics::SmoothShape>(felt->shape);
     }
-    if (check_ && felt->inside) body.membership = membership(geometry, *felt);
+    if (check_) set_judged(body, geometry, *felt);
     body.exact = !felt->mesh;
     body.closed = felt->closed;
     body.surface = object.surface;
@@ -84,6 +85,24 @@ class BodyMaker {
   }
 
  private:
+  void set_judged(TouchBody& body, const world::Geometry& geometry, const session::FeltShape& felt) {
+    if (const auto* loop = dynamic_cast<const world::LoopGeometry*>(&geometry); loop && !felt.mesh) {
+      body.judged = limit(*loop, felt);
+    } else if (felt.inside) {
+      body.membership = membership(geometry, felt);
+    }
+  }
+
+  /// In the frame of what is felt; made once for all clones, none where the judge cannot make it.
+  const JudgedMesh& limit(const world::LoopGeometry& loop, const session::FeltShape& felt) {
+    const auto [made, fresh] = limits_.try_emplace(&felt);
+    if (!fresh) return made->second;
+    geometry::ControlMesh control = session::stretched(loop.control, felt.felt_from_geometry);
+    for (base::Vector3& position : control.mesh.positions) position -= felt.middle;
+    if (auto mesh = judged_limit(control)) made->second = std::move(*mesh);
+    return made->second;
+  }
+
   /// By plain evaluation where there is one; made once for all clones.
   const haptics::MembershipSolid& membership(const world::Geometry& geometry,
                                              const session::FeltShape& felt) {
@@ -93,7 +112,7 @@ class BodyMaker {
     if (felt.solid) {
       made->second = haptics::plain_solid(*felt.solid);
     } else if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&geometry)) {
-      if (auto solid = negative_inside(implicit->formula(), implicit->surface()->box()))
+      if (auto solid = negative_inside(implicit->formula(), *implicit->surface()))
         made->second = std::move(*solid);
     }
     return made->second;
@@ -109,6 +128,7 @@ class BodyMaker {
   bool check_;
   DesignEyes eyes_;
   std::map<const session::FeltShape*, haptics::MembershipSolid> memberships_;
+  std::map<const session::FeltShape*, JudgedMesh> limits_;
 };
 
 /// Tells the first sentences and how many there are.
@@ -161,8 +181,10 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
     model.bodies.push_back(maker.body(object));
     const TouchBody& body = model.bodies.back();
     if (!body.exact) model.triangles += body.eye->mesh()->triangles.size();
-    if (options.check && body.exact && !body.primitive && !body.membership)
-      return base::fail(text + ": --check cannot judge an open subdivision surface: leave it out.");
+    if (options.check && body.exact && !body.primitive && !body.membership && !body.judged.mesh)
+      return base::fail(text +
+                        ": --check cannot judge a subdivision surface in it, which has too many triangles, "
+                        "or edges of more than two: leave it out.");
   }
   const std::size_t count = model.bodies.size();
   model.kind = count == 0 ? fmt::format("{}, effects alone", design->format)

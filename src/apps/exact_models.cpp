@@ -24,6 +24,7 @@
 #include "geometry/plain_formula.h"
 #include "haptics/mesh_shape.h"
 #include "haptics/plain_field.h"
+#include "haptics/plain_loop.h"
 #include "haptics/plain_solid.h"
 #include "haptics/smooth_shape.h"
 #include "haptics/thesis/thesis_shapes.h"
@@ -61,7 +62,9 @@ void touch_mesh(TouchModel& model, const TouchOptions& options, const std::strin
   model.body().shape = shape;
   model.body().eye = std::make_shared<TouchEye>(shape);
   model.triangles = shape->mesh().triangles.size();
+  model.body().solid.reset();
   model.body().membership.reset();
+  model.body().judged = {};
   model.repairs.push_back(
       fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, detail));
 }
@@ -121,7 +124,6 @@ base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const T
   if (options.radius > 0.0) {
     const auto centres = geometry::CsgOffset::create(*tree, options.radius);
     if (!centres) {
-      model.body().solid.reset();
       return touch_csg_mesh(model, options, centres.error().message);
     }
     model.repairs.push_back(fmt::format("a tip with a radius feels it exactly: faces, and edges of {} arcs",
@@ -184,10 +186,17 @@ int picture_level(std::size_t control_triangles) {
 
 }  // namespace
 
-base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula, const base::Bounds& box) {
+base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula,
+                                                       const geometry::ImplicitSurface& surface) {
   const auto value = geometry::plain_formula(formula);
   if (!value) return tl::unexpected(value.error());
-  return haptics::plain_solid(*value, box);
+  return haptics::plain_solid(*value, surface.box(), surface.changes());
+}
+
+base::Result<JudgedMesh> judged_limit(const geometry::ControlMesh& control) {
+  auto plain = haptics::plain_loop(control);
+  if (!plain) return tl::unexpected(plain.error());
+  return JudgedMesh{std::make_shared<const geometry::TriangleMesh>(std::move(plain->mesh)), plain->error};
 }
 
 bool names_csg(const std::string& text) {
@@ -240,26 +249,28 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
   auto surface = geometry::LoopSurface::create(control);
   if (!surface) return base::fail(model.name + ": " + surface.error().message);
   model.build_seconds = watch.seconds();
-  auto mesh = (*surface)->tessellate(picture_level(control.mesh.triangles.size()));
-  if (!mesh) return base::fail(model.name + ": " + mesh.error().message);
   model.kind = "Loop surface, control mesh " + model.kind;
   model.body().exact = true;
   model.repairs.push_back(
       fmt::format("control mesh of {} triangles, {} sharp edges", model.triangles, control.creases.size()));
   model.triangles = 0;
   model.body().closed = (*surface)->closed();
-  take_mesh(model, std::move(*mesh));
-  // Against facets, however fine, a contact on the limit would be judged wrong by what they cut off.
-  if (model.body().closed) {
-    model.body().membership = haptics::MembershipSolid{
-        [surface = *surface](const base::Vector3& point, double) { return surface->inside(point); },
-        (*surface)->bounds(),
-        [eye = model.body().eye](const base::Vector3& point, double, double limit, double) {
-          const auto hit = eye->tree().nearest(point, limit);
-          return hit ? std::optional(hit->point) : std::nullopt;
-        }};
-  } else if (options.check) {
-    return base::fail(model.name + ": --check cannot judge an open subdivision surface: leave it out.");
+  model.body().eye =
+      std::make_shared<TouchEye>([it = *surface, level = picture_level(control.mesh.triangles.size())] {
+        return *it->tessellate(level);
+      });
+  model.body().solid = std::make_shared<const haptics::SmoothShape>(*surface);
+  if (options.check) {
+    auto judged = judged_limit(control);
+    if (!judged)
+      return base::fail(fmt::format("{}: --check cannot judge this surface, as {}: leave it out.", model.name,
+                                    judged.error().message));
+    model.body().judged = std::move(*judged);
+    const JudgedMesh& mesh = model.body().judged;
+    model.repairs.push_back(fmt::format(
+        "judged by a mesh of the judge's own, of {} triangles, within {}: faults of less than {} pass",
+        mesh.mesh->triangles.size(), in_millimetres(mesh.error),
+        in_millimetres(std::max(haptics::JudgeSettings().pop_depth, 60.0 * mesh.error))));
   }
   if (options.subdivision->thesis) {
     if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
@@ -273,7 +284,7 @@ base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& o
     touch_offset(model, *surface, options);
     model.build_seconds = watch.seconds();
   } else {
-    model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
+    model.body().shape = model.body().solid;
   }
   return model;
 }
@@ -290,12 +301,22 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
   model.kind = (*surface)->changes() ? "implicit surface that changes with time" : "implicit surface";
   model.body().exact = true;
   model.build_seconds = watch.seconds();
-  auto contoured =
-      geometry::contour(geometry::sampled(**surface, 0.0), contour_options((*surface)->bounds()));
-  if (!contoured) return base::fail("--implicit: " + contoured.error().message);
-  if (contoured->mesh.triangles.empty())
-    return base::fail("--implicit: there is no solid in the box; it is where the formula is negative.");
-  take_mesh(model, std::move(contoured->mesh));
+  std::optional<geometry::ContourMesh> mesh;  // made only where somebody needs it
+  const auto make_mesh = [&]() -> base::Result<void> {
+    if (mesh) return {};
+    auto made = geometry::contour(geometry::sampled(**surface, 0.0), contour_options((*surface)->bounds()));
+    if (!made) return base::fail("--implicit: " + made.error().message);
+    if (made->mesh.triangles.empty())
+      return base::fail("--implicit: there is no solid in the box; it is where the formula is negative.");
+    mesh = std::move(*made);
+    return {};
+  };
+  if (options.picture || !geometry::shows_solid(**surface, 0.0)) {
+    if (const auto made = make_mesh(); !made) return tl::unexpected(made.error());
+  }
+  if (options.picture) take_mesh(model, mesh->mesh);
+  model.body().solid = std::make_shared<const haptics::SmoothShape>(*surface);
+  model.body().shape = model.body().solid;
   if (options.radius > 0.0) {
     const auto centres = geometry::ImplicitOffset::create(*options.implicit, *options.bounds, options.radius);
     if (!centres) {
@@ -304,16 +325,16 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
         return base::fail(
             "--radius: this surface changes with time and can only be touched with a point, as " + reason +
             ": leave it out.");
-      touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(contoured->error), reason));
+      if (const auto made = make_mesh(); !made) return tl::unexpected(made.error());
+      take_mesh(model, std::move(mesh->mesh));
+      touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(mesh->error), reason));
       return model;
     }
     model.repairs.push_back(
         fmt::format("a tip with a radius feels it exactly: {} parts", (*centres)->part_count()));
     model.body().shape = std::make_shared<haptics::SmoothShape>(*centres, options.radius);
-  } else {
-    model.body().shape = std::make_shared<haptics::SmoothShape>(*surface);
   }
-  auto solid = negative_inside(*options.implicit, *options.bounds);
+  auto solid = negative_inside(*options.implicit, **surface);
   if (!solid) return base::fail("--implicit: " + solid.error().message);
   model.body().membership = std::move(*solid);
   return model;

@@ -2,13 +2,14 @@
 #include <string>
 
 #include "apps/touch_models.h"
+#include "geometry/implicit_surface.h"
+#include "geometry/loop_surface.h"
 
 namespace icome::apps {
 
-// MODELs that are touched without meshing them. Loop and implicit surfaces still get a mesh, for the picture
-// and for where the simulated hand looks; a CSG tree gets one only when a picture needs it. A sphere tip
-// feels a CSG tree exactly, too, unless its surface at a distance has no closed form; that, and the others,
-// it feels as a mesh. The model says so among its sentences.
+// MODELs that are touched without meshing them; a mesh is made only when a picture needs it. A sphere tip
+// feels them exactly, too, unless there is no exact surface for its centre: then it feels a mesh. The model
+// says so among its sentences.
 
 /// Does the MODEL name an OpenSCAD file?
 bool names_csg(const std::string& text);
@@ -25,8 +26,12 @@ base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& option
 /// Makes the limit of a control mesh, just read, of its file's mesh.
 base::Result<TouchModel> as_loop_surface(TouchModel control, const TouchOptions& options);
 
-/// The solid where a formula is negative, within a box, by plain evaluation: for those who judge.
-base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula, const base::Bounds& box);
+/// The solid of an implicit surface, by plain evaluation of its formula: for those who judge.
+base::Result<haptics::MembershipSolid> negative_inside(const std::string& formula,
+                                                       const geometry::ImplicitSurface& surface);
+
+/// A mesh of the limit of a control mesh, for those who judge.
+base::Result<JudgedMesh> judged_limit(const geometry::ControlMesh& control);
 
 /// The surface of --implicit.
 base::Result<TouchModel> load_implicit(const TouchOptions& options);

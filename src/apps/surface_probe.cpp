@@ -114,7 +114,7 @@ void SurfaceProbe::find_front() {
       front_ = body->world_from_body.linear() * Vector3::UnitZ();
       return;
     }
-    if (body->solid || body->primitive) {  // closed: it has no front, however large it is
+    if ((body->solid && body->closed) || body->primitive) {  // it has no front, however large it is
       sum.area += box_area(own_bounds(*body));
       continue;
     }

@@ -89,6 +89,9 @@ haptics::JudgedObject judged(const TouchModel& model, const TouchBody& body,
     object.surface = *body.primitive;
   } else if (body.membership) {
     object.surface = *body.membership;
+  } else if (body.judged.mesh) {
+    object.surface = body.judged.mesh;
+    object.error = body.judged.error;
   } else {
     object.surface = body.eye->mesh();
   }

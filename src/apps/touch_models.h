@@ -20,18 +20,25 @@
 
 namespace icome::apps {
 
+/// A mesh that stands for an exact surface before the judge, within `error` (m).
+struct JudgedMesh {
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: none
+  double error = 0.0;
+};
+
 /// A body that is touched: a MODEL is one, or a design of many. What bodies share, clones share.
 struct TouchBody {
-  std::shared_ptr<TouchEye> eye;                // what is felt, unless `exact`; null where `solid` is set
+  std::shared_ptr<TouchEye> eye;  // what is felt, unless `exact`; may be null where `solid` is set
   std::shared_ptr<const haptics::Shape> shape;  // never null
   base::Pose world_from_body = base::Pose::Identity();
   std::optional<geometry::Primitive> primitive = {};       // what a primitive is
   std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
-  /// Of a CSG tree without a mesh: tells where its surface is. Else null.
+  /// Tells where the surface is of what is touched without a mesh of it, as a point touches it. Else null.
   std::shared_ptr<const haptics::SmoothShape> solid = nullptr;
   /// What lies in it, as its model says: of solids that are touched without a mesh; else empty.
   std::optional<haptics::MembershipSolid> membership = {};
-  bool exact = false;  // touched as what it is, without a mesh; primitives are, too
+  JudgedMesh judged = {};  // of a Loop surface, in its own frame; only where somebody judges
+  bool exact = false;      // touched as what it is, without a mesh; primitives are, too
   bool closed = true;
   haptics::Surface surface = {};              // what the model itself says; the options come before it
   std::optional<render::Colour> colour = {};  // none: the picture's own

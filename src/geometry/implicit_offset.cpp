@@ -36,26 +36,36 @@ Vector3 turned_towards(const Vector3& from, const Vector3& to) {
   return std::cos(kMostRoundTurn) * from + std::sin(kMostRoundTurn) * across;
 }
 
+/// The first t > 0 at which a + b t - c t^2 is no longer positive.
+double first_fall(double a, double b, double c) {
+  const double square = b * b + 4.0 * a * c;
+  if (b < 0.0)
+    return square < 0.0 ? std::numeric_limits<double>::infinity() : 2.0 * a / (std::sqrt(square) - b);
+  return c <= 0.0 ? std::numeric_limits<double>::infinity()
+                  : (b + std::sqrt(std::max(0.0, square))) / (2.0 * c);
+}
+
 /// How far along `step` a ball's centre surely stays clear, as a share; from where the nearest place of a
 /// part is known.
 double clear_share(const ImplicitPart::Nearest& nearest, const Vector3& centre, const Vector3& step,
                    double radius) {
+  constexpr double kSteepBowl = 0.05;  // of a sphere around the centre
   const double distance = nearest.distance, length = step.norm();
   const Vector3 out = (centre - nearest.place) / distance;
   const double gap = distance - radius, along = out.dot(step);
-  if (nearest.spread > 1.0) {
-    // All of the part lies below a plane a little above the place.
-    const double above = 0.5 * nearest.spread / distance * nearest.width * nearest.width;
-    if (gap <= above) return gap / length;
-    return along < 0.0 ? (gap - above) / -along : std::numeric_limits<double>::infinity();
+  const base::Matrix3& bowl = nearest.bowl;
+  const double corner = bowl(0, 0) * bowl(1, 1) - bowl(0, 1) * bowl(1, 0);
+  if (bowl(0, 0) > kSteepBowl && corner > kSteepBowl * bowl(0, 0) &&
+      bowl.determinant() > kSteepBowl * corner) {
+    // With w from the nearest place to another one, distance^2 + w'bowl w - 2 w.s + 2 distance out.s + s^2
+    // bounds its square from the centre moved by s; it is least for w = bowl^-1 s.
+    const double bent = step.dot(bowl.inverse() * step) - step.squaredNorm();
+    return first_fall(std::max(0.0, gap * (distance + radius)), 2.0 * distance * along, bent);
   }
-  // The part lies outside of a ball that touches it there from the centre's side; so far from its rim, the
-  // centre's height a - b t^2 + c t over what is near the radius stays above zero.
-  const double curved = 0.5 * nearest.spread / distance;
-  const double a = gap * (1.0 - curved * (distance + radius)), b = curved * length * length;
-  const double c = along * (1.0 - nearest.spread);
-  const double root = std::sqrt(std::max(0.0, c * c + 4.0 * a * b));
-  return c > 0.0 ? (c + root) / (2.0 * b) : 2.0 * a / (root - c);
+  // All of the part lies below a plane a little above the place.
+  const double above = 0.5 * std::max(0.0, nearest.spread) / distance * nearest.width * nearest.width;
+  if (gap <= above) return gap / length;
+  return along < 0.0 ? (gap - above) / -along : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

@@ -117,23 +117,23 @@ std::optional<ImplicitPart::Nearest> ImplicitPart::solve_in(const Bounds& cell, 
   const double size = parts_.box().diagonal().norm();
   const double reach = cell.sizes().squaredNorm();
   Vector3 at = point.cwiseMax(cell.min()).cwiseMin(cell.max());
-  std::array<double, SmallProgram::kMostRows> push{};
+  SmallProgram::Solution last_step{Vector3::Zero(), {}};
+  const std::array<double, SmallProgram::kMostRows>& push = last_step.push;
   std::array<unsigned, kConditions> row_of{};
   for (int i = 0; i < kMostSolves; ++i) {
     SmallProgram program, relaxed;
     base::Matrix3 bend = base::Matrix3::Identity();
-    std::array<double, kConditions> hollow{};
+    std::array<double, kConditions> hollow{}, steepness{};
     for (unsigned k = 0; k < conditions_.size(); ++k) {
       const ImplicitParts::Condition& it = conditions_[k];
       const Formula::Bend there = it.formula->bend(at, time_);
-      const double steepness = there.gradient.norm();
-      if (!(steepness > 0.0) || !std::isfinite(there.value) || !there.hessian.allFinite())
-        return std::nullopt;
+      const double slope = steepness[k] = there.gradient.norm();
+      if (!(slope > 0.0) || !std::isfinite(there.value) || !there.hessian.allFinite()) return std::nullopt;
       row_of[k] = unsigned(program.size());
-      const Vector3 normal = (it.sign / steepness) * there.gradient;
-      const double most = -it.sign * there.value / steepness;
-      hollow[k] = it.bend / steepness;
-      bend += push[row_of[k]] * (it.sign / steepness) * there.hessian;
+      const Vector3 normal = (it.sign / slope) * there.gradient;
+      const double most = -it.sign * there.value / slope;
+      hollow[k] = it.bend / slope;
+      bend += push[row_of[k]] * (it.sign / slope) * there.hessian;
       program.add({normal, most});
       relaxed.add({normal, most + 0.5 * hollow[k] * reach});
       if (forbids(relaxed.row(k), cell, at)) return std::nullopt;
@@ -146,19 +146,20 @@ std::optional<ImplicitPart::Nearest> ImplicitPart::solve_in(const Bounds& cell, 
     }
     const Vector3 pull = at - point;
     const double doubt = kBroken * size;
-    auto step = program.solve(inverse_upwards(bend), pull, doubt);
+    auto step = program.solve(inverse_upwards(bend), pull, doubt, &last_step);
     const bool whole = step.has_value();
-    if (!whole) step = relaxed.solve(base::Matrix3::Identity(), pull, doubt);
+    if (!whole) step = relaxed.solve(base::Matrix3::Identity(), pull, doubt, &last_step);
     if (!step) return std::nullopt;
     at += step->y;
-    push = step->push;
+    last_step = *step;
     const bool last = i + 1 == kMostSolves;
     if (!whole || !(step->y.norm() <= (last ? kNearly : kExactly) * size)) continue;
-    Nearest nearest{at, (at - point).norm(), 0, 0.0, std::sqrt(reach), false};
+    Nearest nearest{at, (at - point).norm(), 0, 0.0, base::Matrix3::Identity(), std::sqrt(reach), false};
     for (unsigned k = 0; k < conditions_.size(); ++k) {
       if (push[row_of[k]] <= 0.0) continue;
       nearest.active |= 1U << k;
       nearest.spread += push[row_of[k]] * hollow[k];
+      nearest.bowl += push[row_of[k]] / steepness[k] * conditions_[k].least;
     }
     for (unsigned side = 0; side < 6; ++side) {
       if (push[conditions_.size() + side] <= 0.0) continue;

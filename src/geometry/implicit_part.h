@@ -22,8 +22,10 @@ class ImplicitPart {
     Vector3 place;
     double distance;   // m; 0 within the part
     ActiveSet active;  // what bounds the solid there; none where only the cell ends
-    /// No place x of the part is nearer than the root of distance^2 + (1 - spread) * |x - place|^2.
+    /// No place x of the part is nearer than the root of distance^2 + (1 - spread) * |x - place|^2, nor than
+    /// that of distance^2 + (x - place)' bowl (x - place).
     double spread;
+    base::Matrix3 bowl;
     double width;  // m, of what was looked at around the place
     bool cut;      // the part ends there for no reason but its cell's: the next part is as near
 

@@ -1,7 +1,9 @@
 #include "geometry/implicit_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -19,6 +21,11 @@ constexpr double kSmallestCell = 1.0 / 4000.0;
 constexpr double kMostGradientTurn = 0.5;  // of a gradient in a cell, as part of its length
 constexpr double kGentle = 0.5;            // radius of a ball, of the surface's own in a hollow
 constexpr double kNeighbours = 1.0;        // cells around one
+constexpr double kTame = 0.9;              // of the ball's own curvature, a hollow has less
+// Where a hollow curves in about as much as the ball, cells are cut until they are as small, in radii;
+// coarser ones are tried where that makes too many parts.
+constexpr std::array<double, 3> kFoldCells{1.0 / 12.0, 1.0 / 3.0, std::numeric_limits<double>::infinity()};
+constexpr const char* kTooManyParts = "it takes too many small parts to follow its surface";
 
 /// What is known about a function in a cell, at all times.
 struct CellShape {
@@ -27,18 +34,41 @@ struct CellShape {
   double most_bend;    // of the second derivatives', as a matrix
   double hollow;       // as Condition::bend
   std::array<Interval, 3> slope;
+  base::Matrix3 least = base::Matrix3::Zero();  // as Condition::least
+  double most_slope = 0.0;
+  Vector3 inwards = Vector3::Zero();  // unit: along this the function bends down most, in the middle of what
+  double least_bend = 0.0, largest_bend = 0.0,
+         doubt = 0.0;  // is known: so much, at most so much, and so unsure
+
+  /// Along some tangent, at every place of the cell, a surface of the function curves in by at least this
+  /// (1/m).
+  double least_hollow() const;
 };
+
+// The direction in which it bends down most, less its part along the gradient, is a tangent w of the length
+// sqrt(1 - c^2), where c is the cosine between it and the gradient; and w'Hw = least (1 - 2 c^2) + c^2 g'Hg.
+double CellShape::least_hollow() const {
+  Interval along{0.0, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) along = along + slope[i] * inwards[Eigen::Index(i)];
+  const double c = std::max(std::abs(along.lo), std::abs(along.hi)) / least_slope;
+  if (!(c < 0.7) || !(least_bend < 0.0)) return 0.0;
+  const double bend = least_bend * (1.0 - 2.0 * c * c) + c * c * std::max(0.0, largest_bend);
+  return std::max(0.0, -bend - doubt) / most_slope;
+}
 
 CellShape shape_of(const Formula& formula, double sign, const Bounds& cell) {
   const Formula::BendRange at = formula.bend_range(always_in(cell));
   CellShape shape{at.range.total, 0.0, 0.0, 0.0, {}};
-  double square = 0.0;
+  double square = 0.0, most_square = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     shape.slope[i] = at.slope[i] * sign;
     const double least = std::max({0.0, at.slope[i].lo, -at.slope[i].hi});
+    const double most = std::max(std::abs(at.slope[i].lo), std::abs(at.slope[i].hi));
     square += least * least;
+    most_square += most * most;
   }
   shape.least_slope = std::sqrt(square);
+  shape.most_slope = std::sqrt(most_square);
   base::Matrix3 middle, doubt;
   for (Eigen::Index i = 0, k = 0; i < 3; ++i) {
     for (Eigen::Index j = i; j < 3; ++j, ++k) {
@@ -49,10 +79,17 @@ CellShape shape_of(const Formula& formula, double sign, const Bounds& cell) {
   }
   if (!middle.allFinite() || !doubt.allFinite() || !std::isfinite(square)) shape.tame = false;
   if (!shape.tame) return shape;
-  const Vector3 values = base::symmetric_eigen(middle).values;
+  const base::SymmetricEigen axes = base::symmetric_eigen(middle);
+  const Vector3& values = axes.values;
   const double doubtful = doubt.rowwise().sum().maxCoeff();
   shape.most_bend = values.cwiseAbs().maxCoeff() + doubtful;
-  shape.hollow = std::max(0.0, doubtful - values[0]);
+  // Less what each row may be off in all, a matrix is less by every one that is off so.
+  shape.least = middle - base::Matrix3(doubt.rowwise().sum().asDiagonal());
+  shape.hollow = std::max(0.0, -base::symmetric_eigen(shape.least).values[0]);
+  shape.inwards = axes.vectors.col(0);
+  shape.least_bend = values[0];
+  shape.largest_bend = values[2];
+  shape.doubt = doubtful;
   return shape;
 }
 
@@ -75,7 +112,9 @@ struct SignedFormula {
 /// Cuts a solid into parts, one way of choosing after the other.
 class ImplicitPartsMaker {
  public:
-  ImplicitPartsMaker(ImplicitParts& parts, double radius) : parts_(parts), radius_(radius) {}
+  /// `fold_cell`: the smallest cells that are cut because a hollow curves in about as much as the ball (m).
+  ImplicitPartsMaker(ImplicitParts& parts, double radius, double fold_cell)
+      : parts_(parts), radius_(radius), fold_cell_(fold_cell) {}
 
   /// Why it cannot be done; empty when it was.
   std::string run() {
@@ -101,8 +140,7 @@ class ImplicitPartsMaker {
     });
     looks_ += terms.size() + 1;
     if (free || (terms.empty() && !at_side(cell))) return {};
-    if (parts_.parts_.size() >= kMostImplicitParts || looks_ >= kMostFunctionLooks)
-      return "it takes too many small parts to follow its surface";
+    if (parts_.parts_.size() >= kMostImplicitParts || looks_ >= kMostFunctionLooks) return kTooManyParts;
     const Vector3 sizes = cell.sizes();
     const double largest = parts_.box_.sizes().maxCoeff();
     if (terms.empty() || (sizes.maxCoeff() <= kLargestCell * largest && take(cell, terms))) {
@@ -131,6 +169,9 @@ class ImplicitPartsMaker {
       shapes.push_back(shape_of(*term.formula, term.sign, cell));
       const CellShape& shape = shapes.back();
       if (!shape.tame || !(diagonal * shape.most_bend <= kMostGradientTurn * shape.least_slope)) return false;
+      const bool half_folded = terms.size() == 1 && radius_ * shape.hollow > kTame * shape.least_slope &&
+                               !(radius_ * shape.least_hollow() > 1.0);
+      if (half_folded && cell.sizes().maxCoeff() > fold_cell_) return false;
     }
     add(cell, terms, shapes);
     return true;
@@ -140,9 +181,11 @@ class ImplicitPartsMaker {
            const std::vector<CellShape>& shapes) {
     const auto first = std::uint32_t(parts_.conditions_.size());
     for (std::size_t i = 0; i < terms.size(); ++i)
-      parts_.conditions_.push_back({terms[i].formula, terms[i].sign, shapes[i].hollow});
+      parts_.conditions_.push_back({terms[i].formula, terms[i].sign, shapes[i].hollow, shapes[i].least});
     const bool gentle = terms.size() == 1 && is_gentle(cell, terms.front());
-    parts_.parts_.push_back({cell, way_number_, first, std::uint32_t(terms.size()), gentle});
+    // Around a place of a surface that curves in more, some of it is nearer to the ball's centre.
+    const bool folded = terms.size() == 1 && !at_side(cell) && radius_ * shapes.front().least_hollow() > 1.0;
+    parts_.parts_.push_back({cell, way_number_, first, std::uint32_t(terms.size()), gentle, folded});
     centres_.push_back(centres(cell, shapes));
   }
 
@@ -181,6 +224,7 @@ class ImplicitPartsMaker {
 
   ImplicitParts& parts_;
   const double radius_;
+  const double fold_cell_;
   std::vector<SignedFormula> way_;
   std::uint32_t way_number_ = 0;
   std::size_t looks_ = 0;
@@ -194,10 +238,14 @@ base::Result<ImplicitParts> ImplicitParts::create(const std::string& formula, co
                                                   double radius) {
   auto ways = FormulaWays::parse(formula);
   if (!ways) return base::fail(ways.error().message);
-  ImplicitParts parts(std::move(*ways), box);
-  if (const std::string reason = ImplicitPartsMaker(parts, radius).run(); !reason.empty())
-    return base::fail(reason);
-  return parts;
+  std::string reason = kTooManyParts;
+  for (const double fold_cell : kFoldCells) {
+    if (reason != kTooManyParts) break;
+    ImplicitParts parts(*ways, box);
+    reason = ImplicitPartsMaker(parts, radius, fold_cell * radius).run();
+    if (reason.empty()) return parts;
+  }
+  return base::fail(reason);
 }
 
 void ImplicitParts::sort(const std::vector<Bounds>& centres) {
@@ -207,7 +255,10 @@ void ImplicitParts::sort(const std::vector<Bounds>& centres) {
   for (const Part& part : parts_) middles.emplace_back(part.cell.center().cast<float>());
   std::vector<Part> sorted;
   std::vector<FloatBox> cells;
-  for (const std::uint32_t i : hilbert_order(middles)) {
+  std::vector<std::uint32_t> order = hilbert_order(middles);
+  const auto folded =
+      std::ranges::stable_partition(order, [&](std::uint32_t i) { return !parts_[i].folded; });
+  for (const std::uint32_t i : order) {
     sorted.push_back(parts_[i]);
     cells.push_back(float_box(parts_[i].cell));
     centres_.push_back(float_box(Bounds(centres[i].min() - margin, centres[i].max() + margin)));
@@ -215,6 +266,7 @@ void ImplicitParts::sort(const std::vector<Bounds>& centres) {
   }
   parts_ = std::move(sorted);
   cell_tree_ = BoxTree(cells);
+  centres_.resize(centres_.size() - folded.size());
   rest_tree_ = BoxTree(centres_);
 }
 

@@ -23,8 +23,10 @@ class ImplicitParts {
   struct Condition {
     const Formula* formula;
     double sign;
-    /// sign * (f(x) - f(a) - f'(a)(x - a)) is nowhere in the cell less than -bend * |x - a|^2 / 2.
+    /// sign * (f(x) - f(a) - f'(a)(x - a)) is nowhere in the cell less than -bend * |x - a|^2 / 2, nor less
+    /// than (x - a)' least (x - a) / 2.
     double bend;
+    base::Matrix3 least;
   };
   struct Part {
     Bounds cell;
@@ -33,6 +35,7 @@ class ImplicitParts {
     std::uint32_t count;
     bool gentle;  // below a ball of the radius that rests on it, nothing of the way's neighbouring cells
                   // is nearer
+    bool folded;  // it curves in more than the ball does, so that none can touch it
   };
 
   /// For balls of this radius (m). Fails, with a clause that says why, where the surface cannot be cut into
@@ -50,7 +53,8 @@ class ImplicitParts {
   const Bounds& bounds() const { return bounds_; }
   /// Over the cells.
   const BoxTree& cells() const { return cell_tree_; }
-  /// Over the places of a ball's centre while it rests on a part.
+  /// Over the places of a ball's centre while it rests on a part; those that are folded come last, and are
+  /// not there.
   const BoxTree& rests() const { return rest_tree_; }
   std::size_t bytes() const;
 

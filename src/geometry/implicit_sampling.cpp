@@ -1,3 +1,4 @@
+#include "base/random.h"
 #include "geometry/implicit_surface.h"
 
 namespace icome::geometry {
@@ -43,6 +44,17 @@ SurfacePoint crossing_of(const ImplicitSurface& surface, double time, const Vect
 }
 
 }  // namespace
+
+bool shows_solid(const ImplicitSurface& surface, double time) {
+  constexpr int kMostSolidLooks = 4096;
+  const Bounds box = surface.bounds();
+  base::Random random(1);
+  for (int i = 0; i < kMostSolidLooks; ++i) {
+    const Vector3 share(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
+    if (surface.inside(box.min() + share.cwiseProduct(box.sizes()), time)) return true;
+  }
+  return false;
+}
 
 SampledSolid sampled(const ImplicitSurface& surface, double time) {
   return {surface.bounds(), [&surface, time](const Vector3& point) { return surface.inside(point, time); },

@@ -63,6 +63,9 @@ class ImplicitSurface final : public SmoothSurface {
   Bounds box_;
 };
 
+/// Is some of it solid at that time? Looks at some thousand places, between which a small solid may lie.
+bool shows_solid(const ImplicitSurface& surface, double time);
+
 /// The solid at one time, for meshing; `surface` outlives it.
 SampledSolid sampled(const ImplicitSurface& surface, double time);
 

@@ -21,6 +21,18 @@ class ActiveSets {
     for (std::size_t i = 0; i < rows.size(); ++i) pushed_[i] = inverse * rows[i].normal;
   }
 
+  /// There is one solution, so that it does not matter which set finds it.
+  std::optional<SmallProgram::Solution> find_by(const SmallProgram::Solution& guess) {
+    std::array<std::size_t, 3> set{};
+    int count = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (guess.push[i] <= 0.0) continue;
+      if (count == 3) return std::nullopt;
+      set[std::size_t(count++)] = i;
+    }
+    return count > 0 && holds(count, set[0], set[1], set[2]) ? std::optional(solution_) : std::nullopt;
+  }
+
   /// One of the rows that the free least breaks is among those that hold with equality.
   std::optional<SmallProgram::Solution> find() {
     const std::size_t n = rows_.size();
@@ -84,8 +96,12 @@ class ActiveSets {
 }  // namespace
 
 std::optional<SmallProgram::Solution> SmallProgram::solve(const Matrix3& inverse_of_w, const Vector3& p,
-                                                          double doubt) const {
-  return ActiveSets(std::span(rows_).first(count_), inverse_of_w, p, doubt).find();
+                                                          double doubt, const Solution* guess) const {
+  ActiveSets sets{std::span(rows_).first(count_), inverse_of_w, p, doubt};
+  if (guess) {
+    if (const auto found = sets.find_by(*guess)) return found;
+  }
+  return sets.find();
 }
 
 }  // namespace icome::geometry

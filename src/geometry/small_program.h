@@ -27,9 +27,10 @@ class SmallProgram {
   std::size_t size() const { return count_; }
   const Row& row(std::size_t i) const { return rows_[i]; }
 
-  /// `doubt` (m): what rows may be broken by. Nothing where no place is allowed.
-  std::optional<Solution> solve(const base::Matrix3& inverse_of_w, const base::Vector3& p,
-                                double doubt) const;
+  /// `doubt` (m): what rows may be broken by. Nothing where no place is allowed. `guess`: the solution of a
+  /// program much like this one, whose active set is tried first; null: none.
+  std::optional<Solution> solve(const base::Matrix3& inverse_of_w, const base::Vector3& p, double doubt,
+                                const Solution* guess = nullptr) const;
 
  private:
   std::array<Row, kMostRows> rows_;

@@ -29,13 +29,14 @@ constexpr double kLeastCosine = 0.2588;  // of the angle between the pull and a 
 /// What is small for an object, m.
 struct Lengths {
   double noise;  // what positions may be off
+  double bumps;  // what a surface may rise and fall where it should be flat
   double pop;    // as JudgeSettings has them
   double stick;
 
-  Lengths(double size, double farthest, const JudgeSettings& settings) {
+  Lengths(double size, double farthest, double error, const JudgeSettings& settings) : bumps(2.0 * error) {
     const double small = 1e-2 * size;
-    noise = std::max(
-        {std::min(1e-6 * size, 1e-2 * std::min(settings.pop_depth, small)), 1e-9 * size, 1e-12 * farthest});
+    noise = std::max({std::min(1e-6 * size, 1e-2 * std::min(settings.pop_depth, small)), 1e-9 * size,
+                      1e-12 * farthest, 2.0 * error});
     pop = std::max(std::min(settings.pop_depth, small), kTellable * noise);
     stick = std::max(std::min(settings.stick_move, small), kTellable * noise);
   }
@@ -82,10 +83,10 @@ class Party {
   static Lengths lengths_of(const JudgedObject& object, const Bounds& box, const JudgeSettings& settings) {
     const Bounds world = placed(box, object.motion ? object.motion(0.0) : object.world_from_object);
     const bool limited = !world.isEmpty() && world.min().allFinite() && world.max().allFinite();
-    if (!limited || box.sizes().norm() <= 0.0) return {1.0, 0.0, settings};
+    if (!limited || box.sizes().norm() <= 0.0) return {1.0, 0.0, object.error, settings};
     const double farthest = std::max({world.min().cwiseAbs().maxCoeff(), world.max().cwiseAbs().maxCoeff(),
                                       box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
-    return {box.sizes().norm(), farthest, settings};
+    return {box.sizes().norm(), farthest, object.error, settings};
   }
 
   void place(const Pose& world_from_object) {
@@ -120,7 +121,7 @@ std::array<Vector3, kCount> ring(const Vector3& axis) {
 class ContactJudge::Court {
  public:
   Court(const std::vector<JudgedObject>& objects, const JudgeSettings& settings)
-      : settings_(settings), near_(1.0, 0.0, settings) {
+      : settings_(settings), near_(1.0, 0.0, 0.0, settings) {
     parties_.reserve(objects.size());
     for (const JudgedObject& object : objects) parties_.emplace_back(object, settings);
   }
@@ -150,6 +151,7 @@ class ContactJudge::Court {
       const Lengths& its = party.lengths();
       if (!near) near = its;
       near->noise = std::max(near->noise, its.noise);
+      near->bumps = std::max(near->bumps, its.bumps);
       near->pop = std::min(near->pop, its.pop);
       near->stick = std::min(near->stick, its.stick);
     }
@@ -504,15 +506,15 @@ class ContactJudge::Court {
   /// May the tip go straight from `a` to `b`?
   bool free(const Vector3& a, const Vector3& b) const { return passes(a, b) && has_room(start_at(a), b); }
 
-  /// Is there room on a way that its middle may go? A sphere may brush along what it touches already: the
-  /// noise, and a thousandth of the way, which still tells walls from gaps in a groove of a tenth of a
+  /// Is there room on a way that its middle may go? A sphere may brush along what it touches already, its
+  /// bumps, and a thousandth of the way, which still tells walls from gaps in a groove of a tenth of a
   /// degree.
   bool has_room(const Start& start, const Vector3& b) const {
     const Vector3& a = start.place;
     const double radius = settings_.tip_radius;
     if (radius <= 0.0) return true;
     const double length = (b - a).norm();
-    const double kept = radius - start.overlap - 1e-3 * length;
+    const double kept = radius - start.overlap - near_.bumps - 1e-3 * length;
     if (kept <= 0.0) return true;
     const int samples = std::max(2, int(std::ceil(2.0 * length / radius)));
     for (int i = samples; i > 0; --i) {

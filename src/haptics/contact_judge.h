@@ -30,6 +30,7 @@ struct JudgedObject {
   base::Pose world_from_object = base::Pose::Identity();
   bool closed = true;      // a mesh that encloses a solid, fronts out; primitives always do
   bool two_sided = false;  // both sides stop the tip; else only the front does
+  double error = 0.0;      // m, how far a mesh may be from the surface that it stands for
   /// Where it is at a time (s), in place of `world_from_object`; empty for one that does not move.
   std::function<base::Pose(double time)> motion = {};
 };
@@ -84,11 +85,11 @@ struct Judgement {
 ///
 /// Lengths follow each object, not the scene: for one smaller than 3 cm they shrink to 1 % of its diagonal.
 /// Positions may be off by 1e-6 of the diagonal, at most a hundredth of the pop depth (rounding in a file),
-/// and by 1e-9 of the diagonal and 1e-12 of coordinates where things are as large as that: depths of less
-/// than 30 times as much are not seen. Solids known by membership are sampled at every eighth of the pop
-/// depth: walls thinner than that may be passed unseen, and solids thinner than that along the way do not
-/// count as one. Objects that move are followed as far as they pass a place by less than half of their
-/// thickness in a tick.
+/// by 1e-9 of the diagonal and 1e-12 of coordinates where things are as large as that, and by twice the error
+/// of a mesh that stands for something else: depths of less than 30 times as much are not seen. Solids known
+/// by membership are sampled at every eighth of the pop depth: walls thinner than that may be passed unseen,
+/// and solids thinner than that along the way do not count as one. Objects that move are followed as far as
+/// they pass a place by less than half of their thickness in a tick.
 class ContactJudge {
  public:
   ContactJudge(const std::vector<JudgedObject>& objects, const JudgeSettings& settings);

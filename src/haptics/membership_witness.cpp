@@ -88,9 +88,10 @@ class MembershipWitness final : public Witness {
   }
 
   bool overlaps(const Vector3& point, double radius) const override {
+    if (!solid_.nearest) return overlap(point, radius) > 0.0;
     if (inside(point)) return true;
-    const auto place = solid_.nearest ? solid_.nearest(point, time_, radius, fineness(radius)) : std::nullopt;
-    return (place && inside(*place)) || overlap(point, radius) > 0.0;
+    if (const auto place = solid_.nearest(point, time_, radius, fineness(radius))) return inside(*place);
+    return std::ranges::any_of(around_, [&](const Vector3& it) { return inside(point + radius * it); });
   }
 
   bool deep(const Vector3& point, double depth) const override {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "base/random.h"
@@ -171,6 +172,30 @@ TEST(ScpOfFormulaTips, RestsOnTheFlanksOfAHollowThatIsNarrower) {
   });
 }
 
+// Resting on both flanks, it goes along the hollow as the tip does, and rises out of it.
+TEST(ScpOfFormulaTips, FollowsAHollowThatIsNarrower) {
+  const double radius = 0.01;
+  const auto centres = ImplicitOffset::create("z - 0.003*sin(300*x)", offset_box(), radius);
+  ASSERT_TRUE(centres) << centres.error().message;
+  HapticObject object;
+  object.id = {1, 0};
+  object.shape = std::make_shared<SmoothShape>(*centres, radius);
+  const auto scene = HapticScene::compile({object});
+  ScpSolver solver({.tip_radius = radius});
+  solver.adopt(*scene, {});
+  const double hollow = -std::numbers::pi / 600.0;
+  for (int tick = 0; tick < 400; ++tick) {
+    const double height = tick < 100 ? 0.015 - 1e-4 * tick : 0.005;
+    const Vector3 tip(hollow + 1e-5 * std::sin(0.1 * tick), -0.03 + 1e-4 * std::max(0, tick - 100), height);
+    const ScpState& state = solver.step(tip, 0.0);
+    if (!state.touching) continue;
+    ASSERT_NEAR(state.scp.x(), hollow, 1e-6) << tick;
+    ASSERT_NEAR(state.scp.y(), tip.y(), 1e-6) << tick;
+    ASSERT_LT(state.iterations, 40) << tick;
+  }
+  EXPECT_TRUE(solver.step(Vector3(hollow, 0.0, 0.005), 0.0).touching);
+}
+
 TEST(ScpOfFormulaTips, SaysWhyASurfaceIsNotTakenApart) {
   const auto reason = [](const std::string& formula) {
     const auto centres = ImplicitOffset::create(formula, offset_box(), 1e-3);
@@ -193,6 +218,81 @@ TEST(PlainField, FindsTheNearestPlaceOfASolid) {
     ASSERT_TRUE(found);
     EXPECT_NEAR((*found - point).norm(), point.norm() - size, 6e-5);
     EXPECT_FALSE(ball.nearest(point, time, 0.9 * (point.norm() - size), 2e-5));
+  }
+}
+
+/// Where it was looked once, a formula need not be asked again: a judge asks some seventy questions a tick.
+TEST(PlainField, AsksAFormulaRarelyAboutOnePlace) {
+  std::size_t asked = 0;
+  const auto waves = [&](const Vector3& p, double) {
+    ++asked;
+    return p.z() - 0.01 * std::sin(50.0 * p.x());
+  };
+  const MembershipSolid ground = plain_solid(waves, offset_box(), false);
+  const double radius = 0.01;
+  const Vector3 crest(0.0314159, 0.0, 0.01);
+  const auto at = [&](double x, double height) { return Vector3(crest + Vector3(x, 0.0, radius + height)); };
+  const auto first = ground.nearest(at(0.0, 1e-5), 0.0, radius, 4e-5);
+  EXPECT_FALSE(first);
+  for (int i = 0; i < 70; ++i) {
+    const auto found = ground.nearest(at(2e-6 * i, -5e-5 - 1e-6 * i), 0.0, radius, 4e-5);
+    ASSERT_TRUE(found);
+    EXPECT_LT((*found - at(2e-6 * i, -5e-5 - 1e-6 * i)).norm(), radius);
+  }
+  EXPECT_LT(asked, 150'000U);
+}
+
+// A ball that lies in a bowl touches its rim with a thin sliver only.
+TEST(PlainField, FindsAnEdgeWithinTheFinenessAskedFor) {
+  const MembershipSolid wedge =
+      plain_solid([](const Vector3& p, double) { return std::max(p.x() + p.y(), p.x() - 1.3 * p.y()); },
+                  offset_box(), false);
+  base::Random random(5);
+  for (int i = 0; i < 400; ++i) {
+    const double apart = random.uniform(2e-3, 0.01), fineness = 4e-5;
+    const Vector3 place(apart, random.uniform(-0.2, 0.2) * apart, random.uniform(-0.02, 0.02));
+    const double least = std::hypot(place.x(), place.y());
+    const auto found = wedge.nearest(place, 0.0, least + fineness, fineness);
+    ASSERT_TRUE(found) << place.transpose();
+    EXPECT_LT((*found - place).norm(), least + fineness);
+  }
+}
+
+// The two functions differ much in steepness, and where they are equal within the bowl nothing is solid.
+TEST(PlainField, FindsTheRimOfABowlFromAbove) {
+  const MembershipSolid bowl = plain_solid(
+      [](const Vector3& p, double) { return std::max(p.z(), 4e-4 - p.squaredNorm()); }, offset_box(), false);
+  base::Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const double turn = random.uniform(0.0, 6.28), r = random.uniform(2e-3, 8e-3),
+                 z = random.uniform(1e-3, 3e-3);
+    const Vector3 place(r * std::cos(turn), r * std::sin(turn), z);
+    const double least = std::hypot(0.02 - r, z);
+    const auto found = bowl.nearest(place, 0.0, least + 1e-4, 4e-5);
+    ASSERT_TRUE(found) << place.transpose();
+    EXPECT_LT((*found - place).norm(), least + 4e-5);
+    EXPECT_FALSE(bowl.nearest(place, 0.0, least - 1e-6, 4e-5));
+  }
+}
+
+// Slopes repeat at the middles and corners of halved parts; between them the ground is as high as elsewhere.
+TEST(PlainField, IsNotDeceivedByWavesThatFitTheBox) {
+  for (const double waves : {4.0, 8.0, 16.0, 32.0}) {
+    const double steepness = waves * 2.0 * std::numbers::pi / 0.12;
+    const MembershipSolid ground =
+        plain_solid([&](const Vector3& p, double) { return p.z() - 0.002 * std::cos(steepness * p.x()); },
+                    offset_box(), false);
+    base::Random random(7);
+    for (int i = 0; i < 50; ++i) {
+      const double x = (random.index(std::size_t(waves) - 2) + 1.0) * 0.12 / waves - 0.06;
+      const double top = 0.002 * std::cos(steepness * x);
+      const Vector3 above(x, random.uniform(-0.04, 0.04), top + random.uniform(1e-4, 2e-3));
+      const auto found = ground.nearest(above, 0.0, 2.5e-3, 2e-5);
+      ASSERT_TRUE(found) << waves;
+      const double least =
+          distance_to_ground([&](double u, double) { return 0.002 * std::cos(steepness * u); }, above, 3e-3);
+      EXPECT_LT((*found - above).norm(), least + 4e-5) << waves;
+    }
   }
 }
 
