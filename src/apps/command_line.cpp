@@ -13,6 +13,7 @@
 #include "apps/stats_help.h"
 #include "apps/study_command.h"
 #include "apps/study_help.h"
+#include "apps/terminal.h"
 #include "base/version.h"
 
 namespace icome::apps {
@@ -44,11 +45,25 @@ struct Entries {
   std::string bounds;
 };
 
+/// How far files of others are trusted.
+void add_trust_options(CLI::App& command, ReadingOptions& reading) {
+  command
+      .add_option("--memory-limit", reading.memory_mb,
+                  "Memory that reading a design may take (default: 20 times the files and 256 MB)")
+      ->type_name("MB")
+      ->check(CLI::Range(1.0, 1e9));
+  command.add_option("--seconds-limit", reading.seconds, "Time that reading a design may take (default 300)")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_flag("--urls-above", reading.urls_above,
+                   "Take in what the design names above its folder, too (../picture.png)");
+}
+
 void add_model_options(CLI::App& touch, Entries& entries) {
   TouchOptions& options = entries.touch;
   touch.add_option("MODEL", options.models, kModelHelp)->type_name("");
   touch
-      .add_option("--unit", options.unit,
+      .add_option("--unit", options.reading.unit,
                   "Unit of the numbers in the files: m, dm, cm, mm, um or in (default m)")
       ->type_name("UNIT");
   touch
@@ -65,6 +80,7 @@ void add_model_options(CLI::App& touch, Entries& entries) {
                   "Which sides stop the tip (default: front of closed models, both of open ones)")
       ->type_name("front|both")
       ->check(CLI::IsMember({"front", "both"}));
+  add_trust_options(touch, options.reading);
 }
 
 void add_exact_options(CLI::App& touch, Entries& entries) {
@@ -174,17 +190,22 @@ void add_csg_options(CLI::App& csg, Entries& entries) {
   csg.add_flag("--json", options.json, "Print the report as JSON (fields below)");
 }
 
-void add_design_unit(CLI::App& command, std::string& unit) {
+void add_reading_options(CLI::App& command, ReadingOptions& reading) {
   command
-      .add_option("--unit", unit,
+      .add_option("--unit", reading.unit,
                   "Unit of the numbers in OBJ, PLY, STL and OFF files: m, dm, cm, mm, um or in (default m)")
       ->type_name("UNIT")
       ->check(CLI::IsMember({"m", "dm", "cm", "mm", "um", "in"}));
+  command
+      .add_option("--up", reading.up, "Axis that points up in the file (default y; z in .csg and .stl files)")
+      ->type_name("y|z")
+      ->check(CLI::IsMember({"y", "z"}));
+  add_trust_options(command, reading);
 }
 
 void add_info_options(CLI::App& info, InfoOptions& options) {
   info.add_option("FILE", options.file, kDesignFileHelp)->required()->type_name("");
-  add_design_unit(info, options.unit);
+  add_reading_options(info, options.reading);
   info.add_option("--objects", options.most_objects, "Show at most N lines of the tree; 0: all (default 30)")
       ->type_name("N");
   info.add_flag("--json", options.json, "Print the report as JSON (fields below)");
@@ -193,7 +214,7 @@ void add_info_options(CLI::App& info, InfoOptions& options) {
 void add_convert_options(CLI::App& convert, ConvertOptions& options) {
   convert.add_option("IN", options.in, kDesignFileHelp)->required()->type_name("");
   convert.add_option("OUT", options.out, kDesignOutHelp)->required()->type_name("");
-  add_design_unit(convert, options.unit);
+  add_reading_options(convert, options.reading);
   convert.add_flag("--force", options.force, kForceHelp);
   convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
 }
@@ -216,7 +237,7 @@ void add_edit_options(CLI::App& edit, EditOptions& options) {
                       "List every operation with its parameters, or only OP; goes without the others")
           ->type_name("[OP]")
           ->expected(0, 1);
-  add_design_unit(edit, options.unit);
+  add_reading_options(edit, options.reading);
   edit.add_flag("--force", options.force, kForceHelp);
   edit.add_flag("--json", options.json, "Print what was done, or the operations, as JSON (fields below)");
   edit.callback([&options, help, in, apply, replay, out] {
@@ -240,15 +261,12 @@ void add_shot_options(CLI::App& shot, Entries& entries) {
                   "(default: its first, else iso)")
       ->type_name("NAME");
   shot.add_option("--scene", options.scene, "Draw this scene of the design only")->type_name("NAME");
-  shot.add_option("--up", options.up, "Axis that points up (default y; z in .csg and .stl files)")
-      ->type_name("y|z")
-      ->check(CLI::IsMember({"y", "z"}));
   shot.add_flag("--studio", options.studio,
                 "Leave the design's own lights off and light it as a studio does");
   shot.add_option("--background", entries.shot_background,
                   "#rrggbb, white, black, or none for a clear one (default: a soft gradient)")
       ->type_name("COLOR");
-  add_design_unit(shot, options.unit);
+  add_reading_options(shot, options.reading);
   shot.add_flag("--json", options.json, "Print what was drawn as JSON (fields below)");
 }
 
@@ -336,7 +354,7 @@ base::Result<TechniquesOptions> understood_techniques(const Entries& entries) {
 }
 
 CommandLine bad_usage(const std::string& sentence, const std::string& help) {
-  fmt::print(stderr, "icome: {}\nSee {}.\n", sentence, help);
+  tell(fmt::format("{}\nSee {}.", sentence, help));
   CommandLine command_line;
   command_line.exit_code = kBadUsage;
   return command_line;

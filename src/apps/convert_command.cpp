@@ -42,7 +42,7 @@ int run_convert(const ConvertOptions& options) {
   // That a format cannot be written is better told before a long read.
   if (const auto able = files::check_can_write(options.out); !able)
     return end_without_result(able.error(), status);
-  const auto design = read_for_person(options.in, options.unit, status);
+  const auto design = read_for_person(options.in, options.reading, status);
   if (!design) return end_without_result(design.error(), status);
   if (const auto free = check_can_replace(options.out, options.in, *design); !options.force && !free)
     return end_without_result(free.error(), status);

@@ -12,6 +12,7 @@
 #include "apps/points_file.h"
 #include "apps/status_line.h"
 #include "apps/stopwatch.h"
+#include "apps/terminal.h"
 #include "base/parallel.h"
 #include "files/csg_reader.h"
 #include "files/stl_writer.h"
@@ -35,8 +36,6 @@ struct CsgWork {
   std::vector<base::Vector3> points;
   std::optional<files::NewFile> stl;
 };
-
-void tell_csg(const std::string& message) { fmt::print(stderr, "icome: {}\n", message); }
 
 base::Result<void> bring_to_form(CsgWork& work, const CsgOptions& options) {
   CsgFigures& figures = work.figures;
@@ -144,16 +143,16 @@ void print_inside(const std::vector<std::uint8_t>& inside) {
 /// One thing goes to standard output: JSON, the points' answers or the report.
 bool print_csg(const CsgFigures& figures, const CsgOptions& options) {
   if (options.json) {
-    fmt::print("{}\n", json_report(figures));
+    print(json_report(figures) + "\n");
   } else if (figures.inside) {
     print_inside(*figures.inside);
-    for (const std::string& note : figures.notes) tell_csg(note);
-    if (figures.mesh) tell_csg(mesh_text(*figures.mesh));
+    for (const std::string& note : figures.notes) tell(note);
+    if (figures.mesh) tell(mesh_text(*figures.mesh));
   } else {
-    fmt::print("{}", text_report(figures));
+    print(text_report(figures));
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  tell_csg("standard output cannot be written: is the disk full?");
+  tell("standard output cannot be written: is the disk full?");
   return false;
 }
 
@@ -164,7 +163,7 @@ int run_csg(const CsgOptions& options) {
   auto work = prepare_csg(options, status);
   status.clear();
   if (!work) {
-    tell_csg(work.error().message);
+    tell(work.error().message);
     return kCsgFailed;
   }
   catch_interrupts();
@@ -173,7 +172,7 @@ int run_csg(const CsgOptions& options) {
   if (done && options.mesh) done = make_mesh(*work, options, status);
   status.clear();
   if (!done) {
-    tell_csg(interrupted() ? "interrupted: nothing was written." : done.error().message);
+    tell(interrupted() ? "interrupted: nothing was written." : done.error().message);
     return interrupted() ? kCsgInterrupted : kCsgFailed;
   }
   return print_csg(work->figures, options) ? 0 : kCsgFailed;

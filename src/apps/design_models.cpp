@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/design_eyes.h"
+#include "apps/design_work.h"
 #include "apps/exact_models.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
@@ -36,12 +37,11 @@ base::Result<void> check_design_options(const std::string& text, const TouchOpti
 }
 
 base::Result<files::LoadedDesign> read_file(const std::string& text, const TouchOptions& options) {
-  const auto unit = files::parse_unit(options.unit);
-  if (!unit) return tl::unexpected(unit.error());
-  files::DesignReadOptions how;
-  how.unit = *unit;
-  how.progress = [](double) { return !interrupted(); };
-  return files::read_design(text, how);
+  auto how = understood_reading(options.reading);
+  if (!how) return tl::unexpected(how.error());
+  how->up = files::UpAxis::Y;  // as the files have it: placing() turns
+  how->progress = [](double) { return !interrupted(); };
+  return files::read_design(text, *how);
 }
 
 /// Turned and scaled about the origin, never moved, as all MODELs are.

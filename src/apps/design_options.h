@@ -1,13 +1,23 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace icome::apps {
 
+/// How designs are read, as the command line says it.
+struct ReadingOptions {
+  std::string unit = "m";  // of numbers in formats that name none: files::parse_unit
+  std::string up;          // the axis that points up in the file: "y", "z"; empty: as its format has it
+  std::optional<double> memory_mb;  // that reading may take; none: as the file allows
+  std::optional<double> seconds;    // that reading may take
+  bool urls_above = false;          // follow urls to files above the design's folder
+};
+
 /// What a person asked `icome info` for, as the command line says it.
 struct InfoOptions {
   std::filesystem::path file;
-  std::string unit = "m";         // of numbers in formats that name none
+  ReadingOptions reading;
   std::size_t most_objects = 30;  // lines of the tree; 0: all
   bool json = false;
 };
@@ -16,7 +26,7 @@ struct InfoOptions {
 struct ConvertOptions {
   std::filesystem::path in;
   std::filesystem::path out;
-  std::string unit = "m";
+  ReadingOptions reading;
   bool force = false;  // replaces a file that holds what would be lost
   bool json = false;
 };
@@ -27,7 +37,7 @@ struct EditOptions {
   std::filesystem::path apply;   // operations, one a line; "-": standard input
   std::filesystem::path replay;  // a recorded technique, in place of them
   std::filesystem::path out;
-  std::string unit = "m";
+  ReadingOptions reading;
   bool keep_going = false;
   bool force = false;     // replaces a file that holds what would be lost
   bool help_ops = false;  // only tell what operations there are

@@ -2,22 +2,47 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "apps/interrupt.h"
+#include "apps/terminal.h"
 #include "files/file_ending.h"
 #include "files/mesh_reader.h"
 
 namespace icome::apps {
 
-base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& file, const std::string& unit,
-                                                  StatusLine& status) {
-  const auto metres = files::parse_unit(unit);
+base::Result<files::DesignReadOptions> understood_reading(const ReadingOptions& reading) {
+  const auto metres = files::parse_unit(reading.unit);
   if (!metres) return tl::unexpected(metres.error());
-  status.say("Reading " + file.string());
   files::DesignReadOptions options;
   options.unit = *metres;
+  if (!reading.up.empty()) options.up = reading.up == "z" ? files::UpAxis::Z : files::UpAxis::Y;
+  if (reading.memory_mb) options.memory_limit = std::uint64_t(1e6 * *reading.memory_mb);
+  options.seconds_limit = reading.seconds.value_or(options.seconds_limit);
+  options.follows_urls_above = reading.urls_above;
+  return options;
+}
+
+std::vector<std::string> first_sentences(const std::vector<files::Remark>& remarks, const std::string& file) {
+  constexpr std::size_t kMostSentences = 20;
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < std::min(remarks.size(), kMostSentences); ++i)
+    sentences.push_back(sentence(remarks[i], file));
+  if (remarks.size() > kMostSentences) {
+    sentences.push_back(fmt::format("{}: there are {} more remarks; icome info tells all of them.", file,
+                                    remarks.size() - kMostSentences));
+  }
+  return sentences;
+}
+
+base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& file,
+                                                  const ReadingOptions& reading, StatusLine& status) {
+  auto understood = understood_reading(reading);
+  if (!understood) return tl::unexpected(understood.error());
+  files::DesignReadOptions& options = *understood;
+  status.say("Reading " + file.string());
   options.progress = [&](double part) {
     status.progress("Reading", std::round(100.0 * part), 100.0, "%");
     return !interrupted();
@@ -44,14 +69,14 @@ base::Result<void> check_picture_name(const std::filesystem::path& picture) {
 
 int end_without_result(const base::Error& error, StatusLine& status) {
   status.clear();
-  fmt::print(stderr, "icome: {}\n", interrupted() ? "interrupted: nothing was written." : error.message);
+  tell(interrupted() ? "interrupted: nothing was written." : error.message);
   return interrupted() ? kDesignInterrupted : kDesignFailed;
 }
 
 int print_answer(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print(text);
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
-  fmt::print(stderr, "icome: standard output cannot be written: is the disk full?\n");
+  tell("standard output cannot be written: is the disk full?");
   return kDesignFailed;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "apps/design_options.h"
 #include "apps/status_line.h"
 #include "files/design.h"
 
@@ -12,9 +14,15 @@ namespace icome::apps {
 constexpr int kDesignFailed = 1;
 constexpr int kDesignInterrupted = 130;  // what shells report for Ctrl-C
 
+/// What the command line says about reading, as readers take it.
+base::Result<files::DesignReadOptions> understood_reading(const ReadingOptions& reading);
+
 /// Reads a design, telling a person who waits how far it is, until Ctrl-C; catch_interrupts() was called.
-base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& file, const std::string& unit,
-                                                  StatusLine& status);
+base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& file,
+                                                  const ReadingOptions& reading, StatusLine& status);
+
+/// The first sentences of what is remarked on a design, and how many more there are.
+std::vector<std::string> first_sentences(const std::vector<files::Remark>& remarks, const std::string& file);
 
 /// Fails where writing `out` would lose what another program wrote there since `design` was read from `in`,
 /// or what a damaged file still holds; says how to insist.

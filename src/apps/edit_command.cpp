@@ -12,6 +12,7 @@
 #include "apps/interrupt.h"
 #include "apps/operation_list.h"
 #include "apps/stopwatch.h"
+#include "apps/terminal.h"
 #include "apps/touch_report.h"
 #include "files/file_bytes.h"
 #include "interaction/techniques/technique_recording.h"
@@ -39,7 +40,7 @@ base::Result<std::string> script_text(const EditOptions& options) {
 
 base::Result<files::LoadedDesign> beginning(const EditOptions& options, StatusLine& status) {
   if (options.in == kNewDesign) return files::LoadedDesign{};
-  return read_for_person(options.in, options.unit, status);
+  return read_for_person(options.in, options.reading, status);
 }
 
 /// Does to the world what was written down, as a script or as a recording.
@@ -104,8 +105,8 @@ std::string edit_text(const EditOptions& options, const EditReport& report) {
 int end_with_errors(const EditOptions& options, const EditReport& report, StatusLine& status) {
   status.clear();
   for (const EditError& error : report.outcome.errors)
-    fmt::print(stderr, "icome: {}:{}: {}\n", options.apply.string(), error.line, error.message);
-  fmt::print(stderr, "icome: {} was not written.\n", options.out.string());
+    tell(fmt::format("{}:{}: {}", options.apply.string(), error.line, error.message));
+  tell(options.out.string() + " was not written.");
   if (options.json) print_answer(edit_json(options, report));
   return kDesignFailed;
 }

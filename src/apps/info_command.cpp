@@ -11,7 +11,7 @@ int run_info(const InfoOptions& options) {
   catch_interrupts();
   StatusLine status;
   const Stopwatch watch;
-  const auto design = read_for_person(options.file, options.unit, status);
+  const auto design = read_for_person(options.file, options.reading, status);
   if (!design) return end_without_result(design.error(), status);
   const double read_seconds = watch.seconds();
   const auto go_on = [&](std::size_t done, std::size_t all) {

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <exception>
 #include <new>
 
@@ -14,6 +11,7 @@
 #include "apps/stats_command.h"
 #include "apps/study_command.h"
 #include "apps/techniques_command.h"
+#include "apps/terminal.h"
 #include "apps/touch_command.h"
 
 int main(int argc, char** argv) {
@@ -31,10 +29,9 @@ int main(int argc, char** argv) {
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "icome: there is not enough memory for this; close other programs or use a smaller model.\n");
+    icome::apps::tell("there is not enough memory for this; close other programs or use a smaller model.");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "icome: {}\n", error.what());
+    icome::apps::tell(error.what());
   }
   return 1;
 }

@@ -11,11 +11,11 @@
 #include "apps/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
+#include "apps/terminal.h"
 #include "apps/touch_report.h"
 #include "files/new_file.h"
 #include "render/picture_of_scene.h"
 #include "render/views.h"
-#include "session/stage.h"
 
 namespace icome::apps {
 namespace {
@@ -27,10 +27,6 @@ struct ShotFigures {
   double read_seconds = 0.0, draw_seconds = 0.0;
   std::vector<std::string> remarks;
 };
-
-bool stands_on_z(const ShotOptions& options) {
-  return options.up.empty() ? session::stands_on_z(options.file) : options.up == "z";
-}
 
 /// Some names in quotes, for a sentence.
 template <typename Range, typename NameOf>
@@ -124,14 +120,14 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   if (!out) return tl::unexpected(out.error());
   ShotFigures figures;
   const Stopwatch reading;
-  auto design = read_for_person(options.file, options.unit, status);
+  auto design = read_for_person(options.file, options.reading, status);
   if (!design) return tl::unexpected(design.error());
   figures.read_seconds = reading.seconds();
   const auto id = find_scene(design->world, options.scene);
   if (!id) return tl::unexpected(id.error());
   status.say("Drawing");
   const Stopwatch drawing;
-  render::ScenePublisher publisher(*id, session::stage_from_world(stands_on_z(options)));
+  render::ScenePublisher publisher(*id);
   const render::RenderScenePointer scene = publisher.publish(design->world);
   const auto camera = choose_camera(*scene, options, figures.view);
   if (!camera) return tl::unexpected(camera.error());
@@ -146,7 +142,8 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   figures.draw_seconds = drawing.seconds();
   figures.objects = scene->object_count();
   figures.triangles = scene->triangle_count();
-  figures.remarks = scene->remarks();
+  figures.remarks = first_sentences(design->remarks, options.file.string());
+  figures.remarks.insert(figures.remarks.end(), scene->remarks().begin(), scene->remarks().end());
   if (figures.objects == 0) figures.remarks.push_back("The design has nothing to see: the picture is empty.");
   return figures;
 }
@@ -159,7 +156,7 @@ int run_shot(const ShotOptions& options) {
   const auto figures = take_shot(options, status);
   if (!figures) return end_without_result(figures.error(), status);
   status.clear();
-  for (const std::string& remark : figures->remarks) fmt::print(stderr, "icome: {}\n", remark);
+  for (const std::string& remark : figures->remarks) tell(remark);
   return print_answer(options.json ? shot_json(*figures, options) : shot_text(*figures, options));
 }
 

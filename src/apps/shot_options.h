@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/design_options.h"
 #include "base/result.h"
 
 namespace icome::apps {
@@ -11,12 +12,11 @@ namespace icome::apps {
 struct ShotOptions {
   std::filesystem::path file;
   std::filesystem::path out;
-  std::string unit = "m";              // of numbers in formats that name none
+  ReadingOptions reading;
   int width = 1280;                    // pixels
   int height = 960;                    // pixels
   std::string view;                    // a direction or a viewpoint; empty: the first viewpoint, or iso
   std::string scene;                   // empty: all objects
-  std::string up;                      // "y", "z"; empty: as the format has it
   bool studio = false;                 // light it as a studio does even if the design has lights
   bool clear = false;                  // no background
   std::optional<unsigned> background;  // 0xrrggbb; none: a soft gradient

@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "base/terminal_text.h"
+
 namespace icome::apps {
 namespace {
 
@@ -17,7 +19,7 @@ StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void StatusLine::say(const std::string& text) {
   if (!terminal_) return;
-  fmt::print(stderr, "{}{}", kEraseLine, text);
+  fmt::print(stderr, "{}{}", kEraseLine, base::terminal_text(text));
   std::fflush(stderr);
   shown_ = true;
 }

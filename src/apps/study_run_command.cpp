@@ -10,6 +10,7 @@
 #include "apps/design_work.h"
 #include "apps/desktop_command.h"
 #include "apps/interrupt.h"
+#include "apps/terminal.h"
 #include "files/file_bytes.h"
 #include "study/data_folder.h"
 #include "study/needs.h"
@@ -92,15 +93,15 @@ int simulate_people(const StudyOptions& options, const OpenedStudy& opened) {
   auto data = open_data(options, opened);
   if (!data) return end_without_result(data.error(), status);
   catch_interrupts();
-  const auto tell = [&](double share) {
+  const auto show = [&](double share) {
     status.progress("Simulating", std::round(1000.0 * share) / 10.0, 100.0, "%");
     return !interrupted();
   };
-  const auto done = study::simulate(opened.study, opened.folder, *data, options.simulate, tell);
+  const auto done = study::simulate(opened.study, opened.folder, *data, options.simulate, show);
   status.clear();
   if (!done) return end_without_result(done.error(), status);
   if (interrupted()) {
-    fmt::print(stderr, "icome: interrupted; the same command goes on with what is done.\n");
+    tell("interrupted; the same command goes on with what is done.");
     return kDesignInterrupted;
   }
   if (options.json) {
@@ -226,7 +227,7 @@ base::Result<study::SessionRun> begin_session(const StudyOptions& options, const
   if (!person) return tl::unexpected(person.error());
   auto log = data.open_log(*person);
   if (!log) return tl::unexpected(log.error());
-  for (const std::string& notice : log->notices()) fmt::print(stderr, "icome: {}\n", notice);
+  for (const std::string& notice : log->notices()) tell(notice);
   auto clock = clock_of(log->progress());
   return study::SessionRun::begin(opened.study, std::move(*log), std::move(clock), text_of(now()));
 }
@@ -236,18 +237,18 @@ void tell_end(const StudyOptions& options, const study::DataFolder& data, const 
               bool through) {
   const std::string folder = data.path().string();
   if (through) {
-    fmt::print("{} is through. Data: {}\nNext: icome study report {}\n", id, folder, folder);
+    print(fmt::format("{} is through. Data: {}\nNext: icome study report {}\n", id, folder, folder));
     return;
   }
   const auto unfinished = data.unfinished();
   if (unfinished && std::ranges::find(*unfinished, id, &study::Participant::id) == unfinished->end()) {
-    fmt::print("{} did not agree to take part, which is noted in {}.\n", id, folder);
+    print(fmt::format("{} did not agree to take part, which is noted in {}.\n", id, folder));
     return;
   }
   const std::string where = options.data.empty() ? std::string() : fmt::format(" --data {}", folder);
-  fmt::print(
+  print(fmt::format(
       "{} is not through; what is done is kept. Go on with: icome study resume {} --participant {}{}{}\n", id,
-      options.file.string(), id, where, options.pointer_alone ? " --pointer-only" : "");
+      options.file.string(), id, where, options.pointer_alone ? " --pointer-only" : ""));
 }
 
 /// Forces that nobody feels are told before somebody takes part.
@@ -257,10 +258,9 @@ void tell_of_forces(const study::Study& study) {
     return std::ranges::any_of(factor.levels, gives);
   });
   if (varied)
-    fmt::print(
-        stderr,
-        "icome: there is no force-feedback device: the mouse or a pen drives a simulated hand, which forces "
-        "push, and which nobody feels. Do not take such data for a study of force feedback.\n");
+    tell(
+        "there is no force-feedback device: the mouse or a pen drives a simulated hand, which forces "
+        "push, and which nobody feels. Do not take such data for a study of force feedback.");
 }
 
 /// Whether there is anybody who can go on.

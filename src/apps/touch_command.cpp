@@ -16,6 +16,7 @@
 #include "apps/interrupt.h"
 #include "apps/status_line.h"
 #include "apps/stopwatch.h"
+#include "apps/terminal.h"
 #include "apps/touch_diary.h"
 #include "apps/touch_figures.h"
 #include "apps/touch_models.h"
@@ -44,8 +45,6 @@ struct Prepared {
   std::optional<haptics::ContactJudge> judge;
   std::optional<TraceFile> trace;
 };
-
-void tell(const std::string& message) { fmt::print(stderr, "icome: {}\n", message); }
 
 base::Result<devices::DeviceInfo> chosen_device(const std::string& name) {
   if (name == "simulated") return devices::DeviceInfo{.name = name};
@@ -291,13 +290,13 @@ int run_touch(const TouchOptions& options) {
   const bool effects_alone = prepared->scene->objects().empty();
   if (prepared->exploration && !effects_alone) tell_little_touch(*prepared->exploration, figures);
   if (options.json) {
-    fmt::print("{}\n", json_report(figures));
+    print(json_report(figures) + "\n");
   } else {
-    fmt::print("{}", text_report(figures, prepared->models, *outcome, options));
+    print(text_report(figures, prepared->models, *outcome, options));
   }
   std::fflush(stdout);
   const bool written = write_files(*prepared, diary, figures, options, status);
-  if (!options.json && written) fmt::print("{}", names_of_files(options));
+  if (!options.json && written) print(names_of_files(options));
   if (!written) return kFailed;
   return outcome->interrupted && options.path ? kInterrupted : 0;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/design_models.h"
+#include "apps/design_work.h"
 #include "apps/effect_options.h"
 #include "apps/exact_models.h"
 #include "apps/stopwatch.h"
@@ -68,10 +69,11 @@ base::Result<TouchModel> load_primitive(const std::string& text, const TouchOpti
 }
 
 base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& options) {
-  const auto unit = files::parse_unit(options.unit);
-  if (!unit) return tl::unexpected(unit.error());
+  const auto reading = understood_reading(options.reading);
+  if (!reading) return tl::unexpected(reading.error());
   files::ReadOptions how;
-  how.unit = *unit;
+  how.unit = reading->unit;
+  how.memory_limit = reading->memory_limit;
   how.up = options.y_up ? files::UpAxis::Y : files::UpAxis::Z;
   how.fit = options.fit;
   auto loaded = files::read_mesh(text, how);

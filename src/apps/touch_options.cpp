@@ -45,7 +45,7 @@ base::Result<void> check_exact(const TouchOptions& options) {
 
 /// An option that would change nothing is a misunderstanding: better refused than ignored.
 base::Result<void> check_use(const TouchOptions& options) {
-  if (const auto unit = files::parse_unit(options.unit); !unit)
+  if (const auto unit = files::parse_unit(options.reading.unit); !unit)
     return base::fail("--unit: " + unit.error().message);
   if (options.implicit && options.models.empty() && options.fit)
     return base::fail("--fit scales models: the size of --implicit is that of its formula.");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/design_options.h"
 #include "base/result.h"
 #include "base/vector.h"
 #include "haptics/renderer.h"
@@ -31,7 +32,7 @@ struct TouchOptions {
   std::optional<Subdivision> subdivision;     // none: meshes are what they are
   std::optional<double> crease_degrees;       // edges that are sharper stay sharp
   std::optional<haptics::Renderer> renderer;  // as it was named, if it was
-  std::string unit = "m";                     // of the files: files::parse_unit
+  ReadingOptions reading;                     // of the files, but for the axis that points up
   bool y_up = false;                          // the files' y points up; else their axes are the world's
   std::optional<double> fit;                  // m, longest side of each model
 

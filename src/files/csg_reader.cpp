@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -51,18 +52,21 @@ base::Result<LoadedCsg> parse_csg(std::string_view text, const std::string& name
 }
 
 base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgReadOptions& options) try {
+  constexpr FileParts kParts = {kCsgReadPart, kCsgUnpackedPart};
+  constexpr std::uint64_t kBytesOfPrimitive = 1000;  // with the operation that takes it in
   const std::int64_t started = base::steady_nanoseconds();
   const std::string name = path.string();
   const bool packed = same_word(path.extension().string(), ".xz");
   Patience patience(options.progress);
-  patience.step(0.0, kCsgReadPart);
-  base::Result<std::string> bytes = read_bytes(path, options.size_limit, &patience);
-  patience.step(kCsgReadPart, kCsgUnpackedPart);
-  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, name, &patience);
+  MemoryBudget own;
+  MemoryBudget& memory = options.memory ? *options.memory : own;
+  const auto bytes = read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
+  CsgReadOptions limited = options;
+  limited.max_primitives = std::min<std::uint64_t>(options.max_primitives, memory.left() / kBytesOfPrimitive);
   base::Result<LoadedCsg> loaded =
-      make_csg(*bytes, name, options, packed ? kCsgUnpackedPart : kCsgReadPart, patience);
+      make_csg(*bytes, name, limited, packed ? kCsgUnpackedPart : kCsgReadPart, patience);
   if (loaded) loaded->read_seconds = 1e-9 * static_cast<double>(base::steady_nanoseconds() - started);
   return loaded;
 } catch (const std::bad_alloc&) {

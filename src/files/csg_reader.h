@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "files/memory_budget.h"
 #include "geometry/csg_tree.h"
 
 namespace icome::files {
@@ -17,6 +18,7 @@ struct CsgReadOptions {
   std::uint64_t size_limit = 256ULL << 20U;        ///< bytes, packed and unpacked, below 4 GiB
   std::size_t max_primitives = 1'000'000;          ///< about half a kilobyte each
   std::function<bool(double part)> progress = {};  ///< called now and then with [0, 1]; false stops
+  MemoryBudget* memory = nullptr;  ///< bounds unpacking and primitives; null: that of the file
 };
 
 /// A CSG tree that read_csg() brought in, in metres, with at least one primitive.

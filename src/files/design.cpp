@@ -7,16 +7,19 @@
 #include <new>
 #include <utility>
 
+#include "base/clock.h"
 #include "files/file_ending.h"
 #include "files/flat_writers.h"
 #include "files/gltf_reader.h"
 #include "files/gltf_writer.h"
 #include "files/journal_design.h"
+#include "files/memory_budget.h"
 #include "files/mesh_design.h"
 #include "files/obj_design.h"
 #include "files/stl_writer.h"
 #include "files/vrml_reader.h"
 #include "files/vrml_writer.h"
+#include "world/edit.h"
 #include "world/solid_geometry.h"
 
 namespace icome::files {
@@ -24,7 +27,8 @@ namespace {
 
 using world::World;
 using Remarks = std::vector<Remark>;
-using DesignReader = base::Result<LoadedDesign> (*)(const std::filesystem::path&, const DesignReadOptions&);
+using DesignReader = base::Result<LoadedDesign> (*)(const std::filesystem::path&, const DesignReadOptions&,
+                                                    MemoryBudget&);
 using DesignWriter = base::Result<Remarks> (*)(const std::filesystem::path&, const World&);
 
 template <typename Write>
@@ -70,21 +74,23 @@ base::Result<Remarks> write_stl_design(const std::filesystem::path& path, const 
 
 struct Format {
   const char* ending;
+  UpAxis up;           // by custom, or as the standard says
   DesignReader read;   // null: cannot be read
   bool may_be_packed;  // as .xz
   DesignWriter write;  // null: cannot be written
 };
-constexpr std::array<Format, 11> kFormats{{{".wrl", read_vrml, false, write_vrml},
-                                           {".vrml", read_vrml, false, write_vrml},
-                                           {".wrz", read_vrml, false, nullptr},
-                                           {".glb", read_gltf, true, write_gltf},
-                                           {".gltf", read_gltf, true, write_gltf},
-                                           {".obj", read_obj_design, true, write_obj_design},
-                                           {".ply", read_mesh_design, true, write_ply_design},
-                                           {".stl", read_mesh_design, true, write_stl_design},
-                                           {".off", read_mesh_design, true, write_off_design},
-                                           {".csg", read_csg_design, true, nullptr},
-                                           {".icome", read_journal_design, false, write_journal_design}}};
+constexpr std::array<Format, 11> kFormats{
+    {{".wrl", UpAxis::Y, read_vrml, false, write_vrml},
+     {".vrml", UpAxis::Y, read_vrml, false, write_vrml},
+     {".wrz", UpAxis::Y, read_vrml, false, nullptr},
+     {".glb", UpAxis::Y, read_gltf, true, write_gltf},
+     {".gltf", UpAxis::Y, read_gltf, true, write_gltf},
+     {".obj", UpAxis::Y, read_obj_design, true, write_obj_design},
+     {".ply", UpAxis::Y, read_mesh_design, true, write_ply_design},
+     {".stl", UpAxis::Z, read_mesh_design, true, write_stl_design},
+     {".off", UpAxis::Y, read_mesh_design, true, write_off_design},
+     {".csg", UpAxis::Z, read_csg_design, true, nullptr},
+     {".icome", UpAxis::Y, read_journal_design, false, write_journal_design}}};
 
 const Format* format_of(const FileEnding& ending) {
   const auto* const found = std::find_if(kFormats.begin(), kFormats.end(),
@@ -113,6 +119,43 @@ tl::unexpected<base::Error> cannot_read(const std::filesystem::path& path, const
   if (!std::filesystem::exists(path, error))
     return base::fail(path.string() + ": cannot be read: there is no such file");
   return base::fail(fmt::format("{}: {}", path.string(), why));
+}
+
+/// Has a reader do its work within the limits of memory and time, which it hears of by being stopped.
+base::Result<LoadedDesign> read_within_limits(DesignReader read, const std::filesystem::path& path,
+                                              const DesignReadOptions& options) {
+  MemoryBudget memory(options.memory_limit);
+  const std::int64_t end = base::steady_nanoseconds() + std::int64_t(1e9 * options.seconds_limit);
+  bool late = false;
+  DesignReadOptions limited = options;
+  limited.progress = [&](double part) {
+    late = late || base::steady_nanoseconds() > end;
+    return !late && !memory.is_exceeded() && (!options.progress || options.progress(part));
+  };
+  auto design = read(path, limited, memory);
+  if (design && !late && !memory.is_exceeded()) return design;
+  if (memory.is_exceeded()) return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
+  if (late) {
+    return base::fail(
+        fmt::format("{}: reading it takes longer than the {:.4g} s that it may; for a file that you trust, "
+                    "\"icome convert --seconds-limit\" allows more",
+                    path.string(), options.seconds_limit));
+  }
+  return design;
+}
+
+/// Turns all objects by a quarter about x: what pointed along z, the axis up of CAD and of printing, then
+/// points along y, or with `back` the other way round.
+void turn_up(World& world, bool back) {
+  base::Pose turn = base::Pose::Identity();
+  // Written out, so that what lies on the axes stays there to the last bit.
+  turn.linear() << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
+  if (back) turn = turn.inverse();
+  world::EditGroup turned;
+  for (const world::ObjectId root : world.roots())
+    turned.edits.push_back(world::PlaceObject{root, turn * world.find(root)->parent_from_object});
+  // Turning flattens no place that is none already.
+  (void)world::apply(world, turned);
 }
 
 void tell_of_moving_shapes(LoadedDesign& design) {
@@ -149,8 +192,13 @@ base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
     return cannot_read(path, fmt::format("{} files cannot be read packed: unpack it first", format->ending));
   if (options.progress && !options.progress(0.0)) return base::fail("interrupted");
   const auto stamp = stamp_of(path);
-  auto design = format->read(path, options);
+  auto design = read_within_limits(format->read, path, options);
   if (!design) return design;
+  if (options.up.value_or(format->up) == UpAxis::Z) {
+    turn_up(design->world, false);
+    design->remarks.push_back(
+        {{}, 0, "Its z axis points up: it was turned, so that y does, as in all designs."});
+  }
   tell_of_moving_shapes(*design);
   design->stamp = stamp;
   return design;
@@ -168,7 +216,13 @@ base::Result<void> check_can_write(const std::filesystem::path& path) {
 
 base::Result<Remarks> write_design(const std::filesystem::path& path, const World& world) try {
   if (const auto able = check_can_write(path); !able) return tl::unexpected(able.error());
-  return format_of(ending_of(path))->write(path, world);
+  const Format& format = *format_of(ending_of(path));
+  if (format.up == UpAxis::Y) return format.write(path, world);
+  World turned = world;
+  turn_up(turned, true);
+  auto remarks = format.write(path, turned);
+  if (remarks) remarks->push_back({{}, 0, "Its z axis points up, as is the custom in such files.", false});
+  return remarks;
 } catch (const std::bad_alloc&) {
   return base::fail(path.string() + ": there is not enough memory to write it");
 }

@@ -28,17 +28,25 @@ struct Remark {
 /// "part.wrl:12: A Script is kept but not run."; `file` stands in where the remark names none.
 std::string sentence(const Remark& remark, const std::string& file);
 
-/// How much a design file may ask for; guards against files made to exhaust the machine.
+/// The axis of a file that points up.
+enum class UpAxis : std::uint8_t { Z, Y };
+
+/// How a design file is understood, and how much it may ask for; guards against files made to exhaust the
+/// machine, or to take along what does not belong to them.
 struct DesignReadOptions {
-  double unit = 1.0;                               // metres per file unit for formats that name none
-  std::uint64_t size_limit = 2ULL << 30U;          // bytes of one file, packed and unpacked
-  std::uint64_t memory_limit = 8ULL << 30U;        // bytes, of the process that reads VRML
-  double seconds_limit = 300.0;                    // s, the same
+  double unit = 1.0;                       // metres per file unit for formats that name none
+  std::optional<UpAxis> up = {};           // none: as the format has it by custom
+  std::uint64_t size_limit = 2ULL << 30U;  // bytes of one file, packed and unpacked
+  /// Bytes that reading may take, here and in the process that reads VRML, each; none: MemoryBudget's.
+  std::optional<std::uint64_t> memory_limit = {};
+  double seconds_limit = 300.0;  // s
+  /// May urls of the design lead to files that lie neither beside it nor below its folder?
+  bool follows_urls_above = false;
   std::function<bool(double part)> progress = {};  // called now and then with [0, 1]; false stops
 };
 
-/// A design that was read. Coordinates are as in the file, in metres: VRML 2.0 and glTF have y up, and so
-/// has the world of a design; nothing is turned.
+/// A design that was read: in metres, and with y up, as VRML 2.0 and glTF have it. What has another axis up
+/// (.csg and .stl by custom, others if the options say so) was turned, which a remark tells.
 struct LoadedDesign {
   world::World world;
   std::string format = {};  // for people: "VRML 2.0", "binary PLY, xz" and so on
@@ -56,7 +64,7 @@ base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
 base::Result<void> check_can_write(const std::filesystem::path& path);
 
 /// Writes a design by the ending of the name, as above without .xz and .csg; what was there is replaced
-/// when all is written, and stays if not. Tells what the format cannot hold.
+/// when all is written, and stays if not; .stl has z up, as is its custom. Tells what the format cannot hold.
 base::Result<std::vector<Remark>> write_design(const std::filesystem::path& path, const world::World& world);
 
 }  // namespace icome::files

@@ -4,13 +4,18 @@
 
 #include <utility>
 
+#include "world/edit_memory.h"
 #include "world/solid_geometry.h"
 
 namespace icome::files {
 
 void DesignBuilder::put(const world::Edit& edit) {
   if (!refusal_.empty()) return;
-  if (const auto applied = world::replay(design_.world, edit); !applied) refusal_ = applied.error().message;
+  if (!memory_.take(world::memory_of(edit))) {
+    refusal_ = memory_.problem().message;
+  } else if (const auto applied = world::replay(design_.world, edit); !applied) {
+    refusal_ = applied.error().message;
+  }
 }
 
 /// The equal primitive that is there already, else the shape itself.

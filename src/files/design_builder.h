@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "files/design.h"
+#include "files/memory_budget.h"
 #include "world/edit.h"
 
 namespace icome::files {
@@ -12,6 +13,9 @@ namespace icome::files {
 /// that readers ask once.
 class DesignBuilder {
  public:
+  /// All that is added counts as memory that is taken. Refers to the budget.
+  explicit DesignBuilder(MemoryBudget& memory) : memory_(memory) {}
+
   /// Each is a shape of its own in the world; primitives that are equal lie in memory once.
   world::GeometryId add(world::GeometryPointer shape);
   world::MaterialId add(world::Material material);
@@ -20,6 +24,8 @@ class DesignBuilder {
   world::ObjectId add(world::PhysicalObject object);
   world::SceneId add_scene(const std::string& name, const std::vector<world::ObjectId>& roots);
 
+  /// Has the world refused something, or is there no memory for it? Then all that follows is in vain.
+  bool has_failed() const { return !refusal_.empty(); }
   const world::World& world() const { return design_.world; }
   void remark(std::string text, int line = 0) { design_.remarks.push_back({{}, line, std::move(text)}); }
 
@@ -30,6 +36,7 @@ class DesignBuilder {
   void put(const world::Edit& edit);
   world::GeometryPointer known(world::GeometryPointer shape);
 
+  MemoryBudget& memory_;
   LoadedDesign design_;
   world::IdSource ids_;
   std::unordered_map<std::uint64_t, world::GeometryPointer> primitives_;  // by hash

@@ -98,7 +98,7 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
 }
 
 base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name,
-                                    Patience* patience) {
+                                    Patience* patience, MemoryBudget* memory) {
   Decoder decoder;
   lzma_ret code = lzma_stream_decoder(&decoder.stream, kUnpackMemoryLimit, LZMA_CONCATENATED);
   decoder.stream.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
@@ -108,6 +108,8 @@ base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit
     const std::size_t filled = bytes.size();
     if (filled > limit)
       return base::fail(fmt::format("{}: unpacks to more than the limit of {}", name, limit_text(limit)));
+    if (memory && !memory->has_room(filled + kPiece))
+      return base::fail(fmt::format("{}: {}", name, memory->problem().message));
     if (patience && !patience->lasts(double(decoder.stream.total_in) / double(packed.size())))
       return tl::unexpected(interruption());
     bytes.resize(filled + kPiece);  // what it has room for grows by factors
@@ -119,7 +121,19 @@ base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit
   if (code != LZMA_STREAM_END) return base::fail(name + ": " + unpack_error(code));
   if (bytes.size() > limit)
     return base::fail(fmt::format("{}: unpacks to more than the limit of {}", name, limit_text(limit)));
+  if (memory) memory->take(bytes.size());
   return bytes;
+}
+
+base::Result<std::string> read_unpacked(const std::filesystem::path& path, std::uint64_t limit, bool packed,
+                                        const FileParts& parts, Patience& patience, MemoryBudget& memory) {
+  patience.step(0.0, parts.read);
+  auto bytes = read_bytes(path, limit, &patience);
+  if (bytes && !memory.add_file(bytes->size()))
+    return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
+  if (!bytes || !packed) return bytes;
+  patience.step(parts.read, parts.unpacked);
+  return unpack_xz(*bytes, limit, path.string(), &patience, &memory);
 }
 
 }  // namespace icome::files

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "files/memory_budget.h"
 #include "files/patience.h"
 
 namespace icome::files {
@@ -16,8 +17,16 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
 
 /// Unpacks xz data (all its streams) piece by piece, so that a small file which unpacks to more than
 /// `limit` bytes is refused before they are taken. `name` is for the errors. Fails also when patience (may
-/// be null) ends.
+/// be null) ends, or the memory (may be null) that is counted there.
 base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name,
-                                    Patience* patience = nullptr);
+                                    Patience* patience = nullptr, MemoryBudget* memory = nullptr);
+
+/// The content of a file of a design, unpacked where it is packed as .xz: steps of patience end at `read` and
+/// `unpacked`.
+struct FileParts {
+  double read = 0.1, unpacked = 0.4;
+};
+base::Result<std::string> read_unpacked(const std::filesystem::path& path, std::uint64_t limit, bool packed,
+                                        const FileParts& parts, Patience& patience, MemoryBudget& memory);
 
 }  // namespace icome::files

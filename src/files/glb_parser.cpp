@@ -9,7 +9,9 @@ base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& na
     return base::fail(name + ": does not begin with 'glTF', so it is not a GLB file");
   DesignReadOptions options;
   if (patience) options.progress = [&](double part) { return patience->lasts(part); };
-  const auto design = read_gltf_bytes(bytes, name, options);
+  MemoryBudget memory;
+  memory.add_file(bytes.size());
+  const auto design = read_gltf_bytes(bytes, name, options, memory);
   if (!design) return tl::unexpected(design.error());
   std::vector<Remark> losses;  // of the hierarchy, which a mesh has none of
   const auto objects = shown_objects(design->world, losses);

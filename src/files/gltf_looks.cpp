@@ -126,7 +126,7 @@ world::TextureId GltfLooks::texture(int index) {
   if (index < 0 || std::size_t(index) >= textures_.size())
     throw GltfError("a material refers to a texture that is not there");
   ReadTexture& known = textures_[std::size_t(index)];
-  if (known.read) return known.id;
+  if (known.read || builder_.has_failed()) return known.id;
   known.read = true;
   const tinygltf::Texture& it = model_.textures[std::size_t(index)];
   if (it.source < 0 || std::size_t(it.source) >= model_.images.size()) {

@@ -87,6 +87,16 @@ class PrimitiveReading {
     triangles_ = triangles_of(corners_of(model, primitive, positions_.size()), primitive.mode);
   }
 
+  /// Of memory that making the shape takes, about.
+  std::uint64_t bytes() const {
+    const bool has_normals = normals_ || !surface_.smooth;
+    const std::uint64_t of_corner = (has_normals ? sizeof(Vector3) : 0) +
+                                    (coordinates_ ? sizeof(Vector2) : 0) +
+                                    (colours_ ? sizeof(world::Colour) : 0);
+    const std::uint64_t vertices = std::min<std::uint64_t>(positions_.size(), 3 * triangles_.size());
+    return vertices * sizeof(Vector3) + triangles_.size() * (sizeof(Triangle) + 3 * of_corner);
+  }
+
   world::MeshGeometry run() {
     world::MeshGeometry shape(mesh());
     const std::size_t count = triangles_.size();
@@ -198,8 +208,11 @@ bool has_triangles(const tinygltf::Primitive& primitive) {
 
 std::shared_ptr<world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
                                                const tinygltf::Primitive& primitive,
-                                               const GltfSurface& surface, std::string& lost) {
-  world::MeshGeometry shape = PrimitiveReading(model, primitive, surface).run();
+                                               const GltfSurface& surface, MemoryBudget& memory,
+                                               std::string& lost) {
+  PrimitiveReading reading(model, primitive, surface);
+  if (!memory.has_room(reading.bytes())) throw GltfError(memory.problem().message);
+  world::MeshGeometry shape = reading.run();
   lost = drop_not_finite(shape);
   return std::make_shared<world::MeshGeometry>(std::move(shape));
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "files/memory_budget.h"
 #include "world/mesh_geometry.h"
 
 namespace tinygltf {
@@ -25,10 +26,12 @@ struct GltfSurface {
 };
 
 /// The triangles of a primitive, whose mode is triangles, a strip or a fan. Vertices that only differ in
-/// what belongs to corners become one. Throws GltfError. `lost`: a sentence, if anything was left out.
+/// what belongs to corners become one. Throws GltfError, also where that would take more memory than there is
+/// room for. `lost`: a sentence, if anything was left out.
 std::shared_ptr<world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
                                                const tinygltf::Primitive& primitive,
-                                               const GltfSurface& surface, std::string& lost);
+                                               const GltfSurface& surface, MemoryBudget& memory,
+                                               std::string& lost);
 
 /// Are its elements triangles?
 bool has_triangles(const tinygltf::Primitive& primitive);

@@ -44,6 +44,8 @@ std::string_view checked_json_chunk(std::string_view bytes) {
 struct GltfFetching {
   std::filesystem::path base;
   std::uint64_t left = 0;  // bytes that may still be read
+  MemoryBudget& memory;
+  UrlReach reach;
   std::vector<std::string> refusals;
 };
 
@@ -53,12 +55,13 @@ std::string unchanged(const std::string& path, void*) { return path; }
 
 bool fetch_for_gltf(std::vector<unsigned char>* bytes, std::string*, const std::string& url, void* user) {
   auto& fetching = *static_cast<GltfFetching*>(user);
-  const auto content = fetch_beside(fetching.base, url, fetching.left);
+  const auto content = fetch_beside(fetching.base, url, fetching.left, fetching.reach);
   if (!content) {
     fetching.refusals.push_back(content.error().message);
     return false;
   }
   fetching.left -= content->size();
+  if (!fetching.memory.add_file(content->size())) return false;
   bytes->assign(content->begin(), content->end());
   return true;
 }
@@ -83,16 +86,16 @@ std::string first_line(const std::string& text) {
 }  // namespace
 
 GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
-                    const DesignReadOptions& options) {
+                    const DesignReadOptions& options, MemoryBudget& memory) {
   const bool binary = bytes.starts_with("glTF");
   const std::string_view json = binary ? checked_json_chunk(bytes) : bytes;
   if (bytes.size() > std::numeric_limits<unsigned>::max() || json.size() > std::numeric_limits<int>::max())
     throw GltfError("it is larger than glTF files may be");
-  const auto shape = look_at_json(json, options.memory_limit);
+  const auto shape = look_at_json(json, memory.left());
   if (!shape) throw GltfError(shape.error().message);
   // Each would get a copy of the binary part.
   if (shape->own_buffers > (binary ? 1U : 0U)) throw GltfError("it has buffers without data");
-  GltfFetching fetching{path, options.size_limit, {}};
+  GltfFetching fetching{path, options.size_limit, memory, UrlReach(path, options.follows_urls_above), {}};
   tinygltf::TinyGLTF library;
   library.SetFsCallbacks({always_there, unchanged, fetch_for_gltf, refuse_to_write, &fetching});
   library.SetImageLoader(keep_picture, nullptr);
@@ -114,7 +117,10 @@ GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
   if (!good) throw GltfError(fetching.refusals.empty() ? first_line(error) : fetching.refusals.back());
   if (!model->asset.version.starts_with("2."))
     throw GltfError(fmt::format("it is of version {:.8}; only 2 can be read", model->asset.version));
-  return {std::move(model), binary ? "binary glTF 2.0" : "glTF 2.0", std::move(fetching.refusals)};
+  std::vector<std::string> notes;
+  for (const std::string& refusal : fetching.refusals) notes.push_back("Picture " + refusal + ".");
+  for (std::string& sentence : fetching.reach.sentences()) notes.push_back(std::move(sentence));
+  return {std::move(model), binary ? "binary glTF 2.0" : "glTF 2.0", std::move(notes)};
 }
 
 }  // namespace icome::files

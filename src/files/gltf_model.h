@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "files/design.h"
+#include "files/memory_budget.h"
 
 namespace tinygltf {
 class Model;
@@ -24,12 +25,12 @@ struct GltfError : std::runtime_error {
 /// been taken at its word yet but that buffers have the bytes that they say.
 struct GltfModel {
   std::shared_ptr<const tinygltf::Model> model;
-  std::string format;                    // "binary glTF 2.0", "glTF 2.0"
-  std::vector<std::string> not_fetched;  // sentences on pictures
+  std::string format;              // "binary glTF 2.0", "glTF 2.0"
+  std::vector<std::string> notes;  // sentences on pictures that are not there, and on what lies elsewhere
 };
 
 /// `bytes` are of the file at `path`, beside which buffers and pictures are looked for. Throws GltfError.
 GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
-                    const DesignReadOptions& options);
+                    const DesignReadOptions& options, MemoryBudget& memory);
 
 }  // namespace icome::files

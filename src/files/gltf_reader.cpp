@@ -43,9 +43,11 @@ bool can_be_placed(const Affine3& frame) {
 /// Reads one file into a design.
 class GltfReading {
  public:
-  GltfReading(const tinygltf::Model& model, DesignBuilder& builder, const DesignReadOptions& options)
+  GltfReading(const tinygltf::Model& model, DesignBuilder& builder, const DesignReadOptions& options,
+              MemoryBudget& memory)
       : model_(model),
         builder_(builder),
+        memory_(memory),
         options_(options),
         looks_(model, builder),
         objects_(model.nodes.size()),
@@ -217,7 +219,7 @@ class GltfReading {
     if (!is_new) return found->second;
     ask_whether_to_go_on();
     std::string lost;
-    const auto shape = gltf_mesh(model_, primitive, surface, lost);
+    const auto shape = gltf_mesh(model_, primitive, surface, memory_, lost);
     std::string recipe = text_in(extras, "recipe");
     // One that cannot be written again, or that tells of more than this part, is no good.
     if (recipe.size() <= world::kMostRecipeBytes && mesh.primitives.size() == 1)
@@ -242,9 +244,9 @@ class GltfReading {
   }
 
   GeometryId keep(const world::GeometryPointer& shape) {
-    bytes_ += shape->bytes();
-    if (bytes_ > options_.memory_limit) throw GltfError("its shapes need more memory than there is");
-    return builder_.add(shape);
+    const GeometryId id = builder_.add(shape);
+    if (memory_.is_exceeded()) throw GltfError(memory_.problem().message);
+    return id;
   }
 
   std::vector<world::FixturePointer> fixtures_of(const tinygltf::Node& node) {
@@ -358,6 +360,7 @@ class GltfReading {
 
   const tinygltf::Model& model_;
   DesignBuilder& builder_;
+  MemoryBudget& memory_;
   const DesignReadOptions& options_;
   GltfLooks looks_;
   struct NodeObject {
@@ -367,7 +370,6 @@ class GltfReading {
   std::vector<NodeObject> objects_;
   std::unordered_map<std::string, GeometryId> shapes_;
   std::unordered_map<int, GeometryId> exact_;
-  std::uint64_t bytes_ = 0;
   std::size_t steps_ = 0;
   std::size_t other_primitives_ = 0;
   std::size_t flat_nodes_ = 0;
@@ -378,15 +380,15 @@ class GltfReading {
 }  // namespace
 
 base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::filesystem::path& path,
-                                           const DesignReadOptions& options) {
+                                           const DesignReadOptions& options, MemoryBudget& memory) {
   const std::string name = path.string();
   if (ending_of(path).type == ".glb" && !bytes.starts_with("glTF"))
     return base::fail(name + ": does not begin with 'glTF', so it is not a GLB file");
   try {
-    const GltfModel loaded = load_gltf(bytes, path, options);
-    DesignBuilder builder;
-    GltfReading(*loaded.model, builder, options).run();
-    for (const std::string& sentence : loaded.not_fetched) builder.remark("Picture " + sentence + ".");
+    const GltfModel loaded = load_gltf(bytes, path, options, memory);
+    DesignBuilder builder(memory);
+    GltfReading(*loaded.model, builder, options, memory).run();
+    for (const std::string& sentence : loaded.notes) builder.remark(sentence);
     return builder.take(loaded.format, name);
   } catch (const GltfError& problem) {
     return base::fail(fmt::format("{}: is not a {} file that can be read: {}", name,
@@ -394,15 +396,15 @@ base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::fi
   }
 }
 
-base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options) {
+base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options,
+                                     MemoryBudget& memory) {
   Patience patience(options.progress);
-  patience.step(0.0, 0.0);  // next to the rest, this is soon done
-  auto bytes = read_bytes(path, options.size_limit, &patience);
+  constexpr FileParts kSoonDone = {0.0, 0.0};  // next to the rest
   const bool packed = ending_of(path).packed;
-  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, path.string(), &patience);
+  const auto bytes = read_unpacked(path, options.size_limit, packed, kSoonDone, patience, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(path.string() + ": the file is empty");
-  auto design = read_gltf_bytes(*bytes, path, options);
+  auto design = read_gltf_bytes(*bytes, path, options, memory);
   if (design && packed) design->format += ", xz";
   return design;
 }

@@ -28,7 +28,8 @@ struct Inflater {
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
-base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t limit, const std::string& name) {
+base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t limit, const std::string& name,
+                                      MemoryBudget* memory) {
   Inflater inflater;
   if (!inflater.ready) return base::fail(name + ": there is not enough memory to unpack it");
   z_stream& stream = inflater.stream;
@@ -36,7 +37,12 @@ base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t lim
   std::size_t filled = 0;
   while (true) {
     const std::size_t part = std::min<std::size_t>(packed.size(), std::numeric_limits<uInt>::max());
-    if (filled == bytes.size()) bytes.resize(filled + std::max(kFirstUnpacked, filled / 2));
+    if (filled == bytes.size()) {
+      const std::size_t more = std::max(kFirstUnpacked, filled / 2);
+      if (memory && !memory->has_room(filled + more))
+        return base::fail(fmt::format("{}: {}", name, memory->problem().message));
+      bytes.resize(filled + more);
+    }
     const std::size_t room = std::min<std::size_t>(bytes.size() - filled, std::numeric_limits<uInt>::max());
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
     stream.avail_in = static_cast<uInt>(part);
@@ -59,6 +65,7 @@ base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t lim
     }
   }
   bytes.resize(filled);
+  if (memory) memory->take(filled);
   return bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "files/memory_budget.h"
 
 namespace icome::files {
 
@@ -11,7 +12,9 @@ namespace icome::files {
 bool is_gzip(std::string_view bytes);
 
 /// Unpacks gzip data (all its members) piece by piece, so that a small file which unpacks to more than
-/// `limit` bytes is refused before they are taken. `name` is for the errors.
-base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t limit, const std::string& name);
+/// `limit` bytes is refused before they are taken. `name` is for the errors. Fails also when the memory (may
+/// be null) that is counted there ends.
+base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t limit, const std::string& name,
+                                      MemoryBudget* memory = nullptr);
 
 }  // namespace icome::files

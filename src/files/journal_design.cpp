@@ -9,7 +9,7 @@
 namespace icome::files {
 
 base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path,
-                                               const DesignReadOptions& options) {
+                                               const DesignReadOptions& options, MemoryBudget& memory) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > options.size_limit) {
@@ -18,7 +18,8 @@ base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path
   }
   const auto file = OpenFile::open(path, OpenFile::Use::Read);
   if (!file) return tl::unexpected(file.error());
-  auto journal = replay_journal(*file, world::GeometryFactory(), options.progress);
+  if (!error) memory.add_file(size);
+  auto journal = replay_journal(*file, world::GeometryFactory(), options.progress, &memory);
   if (!journal) return tl::unexpected(journal.error());
   JournalReport& report = journal->report;
   if (const auto kept = keep_what_is_lost(*file, report); !kept) {

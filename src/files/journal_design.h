@@ -1,5 +1,6 @@
 #pragma once
 #include "files/design.h"
+#include "files/memory_budget.h"
 
 namespace icome::files {
 
@@ -7,7 +8,7 @@ namespace icome::files {
 // written as a snapshot.
 
 base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path,
-                                               const DesignReadOptions& options);
+                                               const DesignReadOptions& options, MemoryBudget& memory);
 base::Result<std::vector<Remark>> write_journal_design(const std::filesystem::path& path,
                                                        const world::World& world);
 

@@ -26,7 +26,7 @@ std::optional<base::Error> JournalMending::perform(const Edit& edit) {
 }
 
 base::Result<void> JournalMending::perform_one(const Edit& edit) {
-  return world::replay(world_, std::visit([this](const auto& it) { return mended(it); }, edit.what));
+  return world::replay(world_, std::visit([this](const auto& it) { return mended(it); }, edit.what), permit_);
 }
 
 std::size_t JournalMending::siblings(world::ObjectId parent) const {

@@ -5,16 +5,16 @@
 
 #include "files/findings.h"
 #include "files/journal_format.h"
-#include "world/edit.h"
+#include "world/permit.h"
 
 namespace icome::files {
 
 /// Does to a world what can be done of edits that build on something which a damage took: an object whose
 /// parent is lost stands at the top, one whose shape or material is lost has none. Notes what is missing, for
-/// people. The world outlives it.
+/// people. World and permit outlive it.
 class JournalMending {
  public:
-  explicit JournalMending(world::World& world) : world_(world) {}
+  JournalMending(world::World& world, const world::Permit& permit) : world_(world), permit_(permit) {}
 
   /// Each edit of a group for itself. Nothing where all of it could be done, else why the first that was left
   /// out could not.
@@ -46,6 +46,7 @@ class JournalMending {
   std::size_t siblings(world::ObjectId parent) const;
 
   world::World& world_;
+  const world::Permit& permit_;
   Findings findings_;
   std::vector<LostParent> lost_parents_;
   std::unordered_map<world::ObjectId, std::string> missing_;  // that the table names, and that are not there

@@ -17,8 +17,9 @@ std::string without_full_stop(std::string sentence) {
 /// Replays all records that are whole and that the world takes.
 class JournalReplay {
  public:
-  JournalReplay(JournalReader& reader, const world::GeometryFactory& factory, const JournalProgress& progress)
-      : reader_(reader), factory_(factory), progress_(progress) {}
+  JournalReplay(JournalReader& reader, const world::GeometryFactory& factory, const JournalProgress& progress,
+                MemoryBudget* memory)
+      : reader_(reader), factory_(factory), progress_(progress), memory_(memory) {}
 
   base::Result<ReplayedJournal> run() {
     result_.report.bytes = result_.report.damaged_from = reader_.size();
@@ -32,7 +33,9 @@ class JournalReplay {
       } else if (const auto skipped = skip(start); !skipped) {
         return tl::unexpected(skipped.error());
       }
-      if (!go_on()) return base::fail("interrupted");
+      look_at_times();
+      if (memory_ && memory_->is_exceeded()) return base::fail(memory_->problem().message);
+      if (stopped_) return base::fail("interrupted");
     }
     if (!has_snapshot_) {
       result_.fault = std::max(result_.fault, JournalFault::Unfinished);
@@ -44,11 +47,24 @@ class JournalReplay {
   }
 
  private:
-  bool go_on() {
-    constexpr std::uint64_t kPiece = 1U << 20U;  // bytes between two calls
-    if (!progress_ || reader_.position() < told_ + kPiece) return true;
+  /// May it go on and take so many bytes more? Progress is told now and then, however long a record takes.
+  bool permits(std::size_t bytes) {
+    constexpr std::uint32_t kAsksForOneLook = 64;
+    if (memory_ && !memory_->take(bytes)) return false;
+    if (asked_++ % kAsksForOneLook == 0 || bytes == 0) look();
+    return !stopped_;
+  }
+
+  /// However few records there are.
+  void look_at_times() {
+    constexpr std::uint64_t kPiece = 1U << 20U;  // bytes between two looks
+    if (reader_.position() < told_ + kPiece) return;
     told_ = reader_.position();
-    return progress_(double(told_) / double(reader_.size()));
+    look();
+  }
+
+  void look() {
+    if (progress_ && !stopped_) stopped_ = !progress_(double(reader_.position()) / double(reader_.size()));
   }
 
   /// What begins here is no whole record.
@@ -92,12 +108,12 @@ class JournalReplay {
 
   /// Gives false for what could not be done, not even in part.
   bool perform(const JournalReader::Record& record, std::uint64_t start) {
-    const auto edit = world::edit_from_bytes(record.content, factory_);
+    const auto edit = world::edit_from_bytes(record.content, factory_, permit_);
     if (!edit) {
       lose(JournalFault::Unknown, start, record.bytes, edit.error().message);
       return false;
     }
-    const auto done = world::replay(result_.world, *edit);
+    const auto done = world::replay(result_.world, *edit, permit_);
     if (done) return true;
     const auto refused = mending_.perform(*edit);
     if (!refused && places_ > 0) return true;
@@ -139,9 +155,13 @@ class JournalReplay {
   JournalReader& reader_;
   const world::GeometryFactory& factory_;
   const JournalProgress& progress_;
+  MemoryBudget* memory_;  // null: any amount
+  std::uint32_t asked_ = 0;
   std::uint64_t told_ = 0;  // how far progress was told, bytes
+  bool stopped_ = false;
+  const world::Permit permit_ = [this](std::size_t bytes) { return permits(bytes); };
   ReplayedJournal result_;
-  JournalMending mending_{result_.world};
+  JournalMending mending_{result_.world, permit_};
   JournalNames names_;
   bool has_snapshot_ = false;
   std::size_t places_ = 0;  // that are damaged
@@ -151,10 +171,10 @@ class JournalReplay {
 }  // namespace
 
 base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory,
-                                             const JournalProgress& progress) {
+                                             const JournalProgress& progress, MemoryBudget* memory) {
   auto reader = JournalReader::create(file);
   if (!reader) return tl::unexpected(reader.error());
-  return JournalReplay(*reader, factory, progress).run();
+  return JournalReplay(*reader, factory, progress, memory).run();
 }
 
 }  // namespace icome::files

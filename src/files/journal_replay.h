@@ -1,6 +1,7 @@
 #pragma once
 #include "files/journal.h"
 #include "files/journal_reader.h"
+#include "files/memory_budget.h"
 
 namespace icome::files {
 
@@ -22,8 +23,10 @@ struct ReplayedJournal {
   std::uint64_t records = 0;  // that were replayed
 };
 
-/// Makes the world of a journal, of all that is whole before and behind damages.
+/// Makes the world of a journal, of all that is whole before and behind damages. Fails where it takes more
+/// memory than there is in the budget (null: any amount), or progress says stop.
 base::Result<ReplayedJournal> replay_journal(const OpenFile& file, const world::GeometryFactory& factory,
-                                             const JournalProgress& progress = {});
+                                             const JournalProgress& progress = {},
+                                             MemoryBudget* memory = nullptr);
 
 }  // namespace icome::files

@@ -17,9 +17,13 @@
 namespace icome::files {
 
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
-                                        std::uint64_t size_limit, Patience& patience) {
-  auto parsed = parse_mesh_file(path, size_limit, &patience);
+                                        std::uint64_t size_limit, Patience& patience, MemoryBudget& memory) {
+  auto parsed = parse_mesh_file(path, size_limit, patience, memory);
   if (!parsed) return tl::unexpected(parsed.error());
+  const std::uint64_t colours = parsed->colours.empty() ? 0 : sizeof(std::array<world::Colour, 3>);
+  if (!memory.has_room(parsed->mesh.positions.size() * sizeof(base::Vector3) +
+                       parsed->mesh.triangles.size() * (sizeof(parsed->mesh.triangles[0]) + colours)))
+    return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
   MeshShape result{nullptr, std::move(parsed->format), {}};
   for (const std::string& note : parsed->notes) result.remarks.push_back(as_sentence(note));
   patience.step(kParsedPart, 1.0);
@@ -45,11 +49,11 @@ base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, doubl
 }
 
 base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
-                                            const DesignReadOptions& options) {
+                                            const DesignReadOptions& options, MemoryBudget& memory) {
   Patience patience(options.progress);
-  auto read = read_mesh_shape(path, options.unit, options.size_limit, patience);
+  auto read = read_mesh_shape(path, options.unit, options.size_limit, patience, memory);
   if (!read) return tl::unexpected(read.error());
-  DesignBuilder builder;
+  DesignBuilder builder(memory);
   for (const std::string& remark : read->remarks) builder.remark(remark);
   builder.add(
       world::PhysicalObject{.name = bare_name(path), .geometry = builder.add(std::move(read->shape))});
@@ -57,13 +61,14 @@ base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
 }
 
 base::Result<LoadedDesign> read_csg_design(const std::filesystem::path& path,
-                                           const DesignReadOptions& options) {
+                                           const DesignReadOptions& options, MemoryBudget& memory) {
   CsgReadOptions limits;
   limits.progress = options.progress;
   limits.size_limit = std::min(limits.size_limit, options.size_limit);
+  limits.memory = &memory;
   auto loaded = read_csg(path, limits);
   if (!loaded) return tl::unexpected(loaded.error());
-  DesignBuilder builder;
+  DesignBuilder builder(memory);
   for (const std::string& note : loaded->notes) builder.remark(as_sentence(note));
   const auto geometry = builder.add(std::make_shared<const world::CsgGeometry>(std::move(loaded->tree)));
   builder.add(world::PhysicalObject{.name = bare_name(path), .geometry = geometry});

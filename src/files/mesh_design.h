@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/design.h"
+#include "files/memory_budget.h"
 #include "files/patience.h"
 #include "world/mesh_geometry.h"
 
@@ -20,14 +21,14 @@ struct MeshShape {
 /// Reads a file of any type that mesh_formats.h knows; `unit` is metres per unit of the file. Patience is
 /// told how far that is; when it ends, so does the reading, soon: "interrupted".
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
-                                        std::uint64_t size_limit, Patience& patience);
+                                        std::uint64_t size_limit, Patience& patience, MemoryBudget& memory);
 
 /// PLY, STL and OFF, also packed: a design of one object, named after the file.
 base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
-                                            const DesignReadOptions& options);
+                                            const DesignReadOptions& options, MemoryBudget& memory);
 
 /// OpenSCAD's .csg, also packed: a design of one solid. Millimetres become metres.
 base::Result<LoadedDesign> read_csg_design(const std::filesystem::path& path,
-                                           const DesignReadOptions& options);
+                                           const DesignReadOptions& options, MemoryBudget& memory);
 
 }  // namespace icome::files

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "files/memory_budget.h"
 #include "files/patience.h"
 #include "geometry/triangle_mesh.h"
 
@@ -28,10 +29,10 @@ inline constexpr double kFarthest = 1e15;
 inline constexpr double kParsedPart = 0.8;
 
 /// Reads a file of any type below, also packed as `.xz`, by the ending of its name.
-/// When patience (may be null) ends, so does the reading, soon: "interrupted". It takes the first kParsedPart
+/// When patience ends, so does the reading, soon: "interrupted". It takes the first kParsedPart
 /// of the work that patience is told of.
 base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
-                                         Patience* patience = nullptr);
+                                         Patience& patience, MemoryBudget& memory);
 
 // Each takes the whole file and the name to use in errors. Memory taken is bounded by the bytes that
 // are there, never by a count that they declare. Errors: one sentence, with the line in text formats.
@@ -41,7 +42,8 @@ base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std:
 base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name,
                                    Patience* patience = nullptr);
 
-/// PLY 1.0, ascii or binary of either byte order: x, y, z of `vertex`, the index list of `face`.
+/// PLY 1.0, ascii or binary of either byte order: x, y, z of `vertex`, the index lists of `face` and
+/// `tristrips`.
 base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name,
                                    Patience* patience = nullptr);
 
@@ -49,7 +51,7 @@ base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& na
 base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name,
                                    Patience* patience = nullptr);
 
-/// Ascii OFF, also with normals, colours or texture coordinates, which are left out.
+/// OFF, ascii or binary, also with normals, colours or texture coordinates, which are left out.
 base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name,
                                    Patience* patience = nullptr);
 

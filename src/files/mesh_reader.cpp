@@ -76,7 +76,9 @@ bool usable_length(double length) { return std::isfinite(length) && length > 0.0
 base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
   const std::int64_t started = base::steady_nanoseconds();
-  base::Result<ParsedMesh> parsed = parse_mesh_file(path, options.size_limit);
+  Patience patience;
+  MemoryBudget memory(options.memory_limit);
+  base::Result<ParsedMesh> parsed = parse_mesh_file(path, options.size_limit, patience, memory);
   if (!parsed) return tl::unexpected(parsed.error());
   LoadedMesh loaded;
   loaded.mesh = std::move(parsed->mesh);
@@ -101,25 +103,21 @@ base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const R
 }  // namespace
 
 base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
-                                         Patience* patience) {
-  constexpr double kReadPart = 0.1, kUnpackedPart = 0.4;
+                                         Patience& patience, MemoryBudget& memory) {
+  constexpr FileParts kParts = {0.1, 0.4};
   const std::string name = path.string();
   const FileEnding ending = ending_of(path);
   const Parser parse = parser_of(ending.type);
-  if (patience) patience->step(0.0, kReadPart);
-  base::Result<std::string> bytes = read_bytes(path, size_limit, patience);
-  if (!bytes) return tl::unexpected(bytes.error());
   if (parse == nullptr)
     return base::fail(name +
                       ": is not of a known type; .obj, .ply, .stl, .off and .glb are, also with .xz after");
-  if (bytes->empty()) return base::fail(name + ": the file is empty");
-  if (patience && ending.packed) patience->step(kReadPart, kUnpackedPart);
-  if (ending.packed) bytes = unpack_xz(*bytes, size_limit, name, patience);
+  const auto bytes = read_unpacked(path, size_limit, ending.packed, kParts, patience, memory);
   if (!bytes) return tl::unexpected(bytes.error());
-  if (bytes->empty()) return base::fail(name + ": the file is empty once unpacked");
-  if (patience) patience->step(ending.packed ? kUnpackedPart : kReadPart, kParsedPart);
-  base::Result<ParsedMesh> parsed = parse(*bytes, name, patience);
-  if (patience && !patience->lasts_now()) return tl::unexpected(interruption());
+  if (bytes->empty())
+    return base::fail(name + (ending.packed ? ": the file is empty once unpacked" : ": the file is empty"));
+  patience.step(ending.packed ? kParts.unpacked : kParts.read, kParsedPart);
+  base::Result<ParsedMesh> parsed = parse(*bytes, name, &patience);
+  if (!patience.lasts_now()) return tl::unexpected(interruption());
   if (parsed && ending.packed) parsed->format += ", xz";
   return parsed;
 }

@@ -7,21 +7,20 @@
 #include <vector>
 
 #include "base/result.h"
+#include "files/design.h"
 #include "geometry/mesh_repair.h"
 #include "geometry/triangle_mesh.h"
 
 namespace icome::files {
 
-/// Which axis of the file points up. The world's is z.
-enum class UpAxis { Z, Y };
-
 /// How a mesh file is to be understood. Mesh formats name neither their unit nor (except GLB: metres,
 /// y up) their axes, so the person who opens the file says.
 struct ReadOptions {
-  double unit = 1.0;                       ///< metres per file unit, > 0; usually 1, 0.01 or 0.001
-  UpAxis up = UpAxis::Z;                   ///< Y turns the file's y to the world's z
-  std::optional<double> fit = {};          ///< scale so that the longest side is this, m; usually 0.1
-  std::uint64_t size_limit = 2ULL << 30U;  ///< bytes, packed and unpacked; guards against xz bombs
+  double unit = 1.0;                               ///< metres per file unit, > 0; usually 1, 0.01 or 0.001
+  UpAxis up = UpAxis::Z;                           ///< of the file; Y turns the file's y to the world's z
+  std::optional<double> fit = {};                  ///< scale so that the longest side is this, m; usually 0.1
+  std::uint64_t size_limit = 2ULL << 30U;          ///< bytes, packed and unpacked; guards against xz bombs
+  std::optional<std::uint64_t> memory_limit = {};  ///< bytes that reading may take; none: MemoryBudget's
 };
 
 /// A mesh that read_mesh() brought in, in metres, repaired, with at least one triangle.

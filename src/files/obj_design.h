@@ -1,12 +1,13 @@
 #pragma once
 #include "files/design.h"
+#include "files/memory_budget.h"
 
 namespace icome::files {
 
 /// Wavefront OBJ, also packed, with the materials and pictures beside it. Each object or group becomes an
 /// object; one in several materials gets a child for each.
 base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
-                                           const DesignReadOptions& options);
+                                           const DesignReadOptions& options, MemoryBudget& memory);
 
 /// Writes all objects where they stand in the world, materials into a library beside, pictures into a
 /// folder beside. The file itself takes its place last.

@@ -168,12 +168,17 @@ class ObjMeshes {
 /// The materials that an OBJ file finds beside it.
 class ObjLooks {
  public:
-  ObjLooks(const std::filesystem::path& path, const DesignReadOptions& options, DesignBuilder& builder)
-      : path_(path), left_(options.size_limit), builder_(builder) {}
+  ObjLooks(const std::filesystem::path& path, const DesignReadOptions& options, MemoryBudget& memory,
+           DesignBuilder& builder)
+      : path_(path),
+        left_(options.size_limit),
+        memory_(memory),
+        builder_(builder),
+        reach_(path, options.follows_urls_above) {}
 
   /// The rest of the line is one name, with spaces, or several.
   void read(const ObjDocument::Library& library) {
-    if (find_beside(path_, library.url)) return read_one(library.url, library.line);
+    if (find_beside(path_, library.url, reach_)) return read_one(library.url, library.line);
     constexpr int kMostNames = 32;
     std::string_view rest = library.url;
     for (int i = 0; i < kMostNames && !rest.empty(); ++i) {
@@ -181,6 +186,10 @@ class ObjLooks {
       if (end > 0) read_one(rest.substr(0, end), library.line);
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
+  }
+
+  void tell() const {
+    for (const std::string& sentence : reach_.sentences()) builder_.remark(sentence);
   }
 
   /// None, and a remark once, for a name that no library has.
@@ -193,10 +202,11 @@ class ObjLooks {
 
  private:
   void read_one(std::string_view url, int line) {
-    const auto found = find_beside(path_, url);
-    const auto text = found ? fetch_beside(path_, url, left_) : tl::unexpected(found.error());
+    const auto found = find_beside(path_, url, reach_);
+    const auto text = found ? fetch_beside(path_, url, left_, reach_) : tl::unexpected(found.error());
     if (!text) return builder_.remark(fmt::format("Materials are left out: {}.", text.error().message), line);
     left_ -= text->size();
+    memory_.add_file(text->size());
     std::vector<std::string> notes;
     for (MtlMaterial& it : parse_mtl(*text, notes)) {
       if (materials_.count(it.material.name) > 0) continue;
@@ -209,7 +219,7 @@ class ObjLooks {
   world::TextureId texture(const std::filesystem::path& library, const MtlMaterial& it) {
     const auto [known, is_new] = textures_.try_emplace({it.picture, it.repeats});
     if (!is_new) return known->second;
-    auto bytes = fetch_beside(library, it.picture, left_);
+    auto bytes = fetch_beside(library, it.picture, left_, reach_);
     const std::string type = bytes ? std::string(picture_type(*bytes)) : "";
     if (type.empty()) {
       builder_.remark(fmt::format(
@@ -218,6 +228,7 @@ class ObjLooks {
       return {};
     }
     left_ -= bytes->size();
+    memory_.add_file(bytes->size());
     world::Texture texture{it.picture, type, std::make_shared<const std::string>(std::move(*bytes)),
                            it.repeats};
     return known->second = builder_.add(std::move(texture));
@@ -225,7 +236,9 @@ class ObjLooks {
 
   const std::filesystem::path& path_;
   std::uint64_t left_;  // bytes that may still be read
+  MemoryBudget& memory_;
   DesignBuilder& builder_;
+  UrlReach reach_;
   std::unordered_map<std::string, MaterialId> materials_;
   std::map<std::pair<std::string, std::array<bool, 2>>, world::TextureId> textures_;
 };
@@ -238,7 +251,7 @@ std::string name_of(const ObjDocument::Part& part) {
 
 /// Parts of one name in several materials are children of one object.
 void add_parts(const ObjDocument& document, ObjMeshes& meshes, ObjLooks& looks,
-               const std::filesystem::path& path, DesignBuilder& builder) {
+               const std::filesystem::path& path, const MemoryBudget& memory, DesignBuilder& builder) {
   std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>> by_name;
   std::vector<decltype(by_name)::value_type*> in_order;
   for (std::uint32_t p = 0; p < document.parts.size(); ++p) {
@@ -254,6 +267,7 @@ void add_parts(const ObjDocument& document, ObjMeshes& meshes, ObjLooks& looks,
     ObjectId parent;
     if (parts.size() > 1) parent = builder.add(world::PhysicalObject{.name = name});
     for (const std::uint32_t p : parts) {
+      if (memory.is_exceeded()) return;
       world::MeshGeometry shape = meshes.mesh_of(p);
       if (const std::string lost = drop_not_finite(shape); !lost.empty()) builder.remark(lost);
       const std::string& material = document.parts[p].material;
@@ -269,28 +283,26 @@ void add_parts(const ObjDocument& document, ObjMeshes& meshes, ObjLooks& looks,
 }  // namespace
 
 base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
-                                           const DesignReadOptions& options) {
-  constexpr double kReadPart = 0.1, kUnpackedPart = 0.3;
+                                           const DesignReadOptions& options, MemoryBudget& memory) {
+  constexpr FileParts kParts = {0.1, 0.3};
   const std::string name = path.string();
   const bool packed = ending_of(path).packed;
   Patience patience(options.progress);
-  patience.step(0.0, kReadPart);
-  auto bytes = read_bytes(path, options.size_limit, &patience);
-  patience.step(kReadPart, kUnpackedPart);
-  if (bytes && packed) bytes = unpack_xz(*bytes, options.size_limit, name, &patience);
+  const auto bytes = read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
-  patience.step(packed ? kUnpackedPart : kReadPart, kParsedPart);
+  patience.step(packed ? kParts.unpacked : kParts.read, kParsedPart);
   auto document = parse_obj_document(*bytes, name, ObjContent::All, &patience);
   if (!document) return tl::unexpected(document.error());
   patience.step(kParsedPart, 1.0);
   if (const auto scaled = scale(document->positions, options.unit, name); !scaled)
     return tl::unexpected(scaled.error());
-  DesignBuilder builder;
-  ObjLooks looks(path, options, builder);
+  DesignBuilder builder(memory);
+  ObjLooks looks(path, options, memory, builder);
   for (const ObjDocument::Library& library : document->libraries) looks.read(library);
+  looks.tell();
   ObjMeshes meshes(*document, patience);
-  add_parts(*document, meshes, looks, path, builder);
+  add_parts(*document, meshes, looks, path, memory, builder);
   if (!patience.lasts_now()) return tl::unexpected(interruption());
   for (const std::string& note : meshes.notes()) builder.remark(note);
   if (document->others > 0) builder.remark("Points, lines and free-form curves and surfaces are left out.");

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "files/byte_order.h"
+#include "files/byte_watch.h"
 #include "files/face_collector.h"
 #include "files/mesh_formats.h"
 #include "files/text_scanner.h"
@@ -63,9 +67,93 @@ std::pair<std::int64_t, std::int64_t> read_header(TextScanner& scanner) {
   return {vertices, faces};
 }
 
+/// The rest of a file that says so behind its keyword: whole numbers and singles of four bytes, the most
+/// significant first. Geomview wrote such files.
+class BinaryOff {
+ public:
+  BinaryOff(std::string_view bytes, std::size_t begin, std::string name, Patience* patience)
+      : bytes_(bytes), at_(begin), name_(std::move(name)), watch_(bytes, patience) {}
+
+  /// `more`: numbers of a vertex beside its coordinates.
+  base::Result<ParsedMesh> read(std::size_t more, Patience* patience) {
+    const std::uint32_t vertices = whole(), count = whole();
+    whole();  // edges
+    FaceCollector faces;
+    faces.reserve_positions(std::min<std::size_t>(vertices, bytes_.size() / (sizeof(float) * (3 + more))));
+    for (std::uint32_t i = 0; i < vertices && good(); ++i) {
+      const double x = number(), y = number(), z = number();
+      faces.add_position({x, y, z});
+      skip(more);
+    }
+    for (std::uint32_t i = 0; i < count && good(); ++i) add_face(faces);
+    if (!good()) return base::fail(fmt::format("{}: {}", name_, why_.empty() ? "is cut short" : why_));
+    return ParsedMesh{faces.take(patience), "binary OFF", faces.notes()};
+  }
+
+ private:
+  bool good() { return !failed_ && why_.empty() && watch_.lasts(bytes_.data() + at_); }
+
+  void add_face(FaceCollector& faces) {
+    corners_.clear();
+    const std::uint32_t size = whole();
+    for (std::uint32_t i = 0; i < size && !failed_; ++i) {
+      corners_.push_back(whole());
+      if (corners_.back() >= faces.positions() && why_.empty())
+        why_ = fmt::format("face refers to vertex {}; the {} vertices are numbered from 0", corners_.back(),
+                           faces.positions());
+    }
+    if (why_.empty() && !failed_ && !faces.add_face(corners_)) why_ = too_many_corners(corners_.size());
+    skip(whole());  // its colour
+  }
+
+  std::uint32_t whole() { return take<std::uint32_t>(); }
+  double number() { return double(take<float>()); }
+  void skip(std::size_t numbers) {
+    failed_ = failed_ || numbers > (bytes_.size() - at_) / sizeof(float);
+    if (!failed_) at_ += numbers * sizeof(float);
+  }
+  template <typename Number>
+  Number take() {
+    const std::size_t begin = at_;
+    skip(1);
+    return failed_ ? Number{} : load<Number>(bytes_.data() + begin, ByteOrder::BigEndian);
+  }
+
+  std::string_view bytes_;
+  std::size_t at_;
+  std::string name_;
+  ByteWatch watch_;
+  bool failed_ = false;
+  std::string why_;
+  std::vector<std::uint32_t> corners_;
+};
+
+/// Where the numbers of a binary file begin, and how many a vertex has beside its coordinates; nothing for an
+/// ascii one.
+std::optional<std::pair<std::size_t, std::size_t>> binary_body(std::string_view bytes) {
+  const std::size_t line = bytes.find('\n');
+  if (line == bytes.npos) return std::nullopt;
+  std::string_view head = bytes.substr(0, line);
+  while (head.ends_with('\r') || head.ends_with(' ')) head.remove_suffix(1);
+  const std::size_t word = head.find(' ');
+  if (word == head.npos || !head.ends_with(" BINARY") || !is_off_keyword(head.substr(0, word)))
+    return std::nullopt;
+  std::string_view prefix = head.substr(0, word);
+  std::size_t more = 0;
+  for (const auto& [letters, numbers] :
+       {std::pair<std::string_view, std::size_t>{"ST", 2}, {"C", 4}, {"N", 3}}) {
+    if (!prefix.starts_with(letters)) continue;
+    prefix.remove_prefix(letters.size());
+    more += numbers;
+  }
+  return std::pair(line + 1, more);
+}
+
 }  // namespace
 
 base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name, Patience* patience) {
+  if (const auto body = binary_body(bytes))
+    return BinaryOff(bytes, body->first, name, patience).read(body->second, patience);
   TextScanner scanner(bytes, name, TextScanner::Lines::Matter, '#', patience);
   const auto [vertex_count, face_count] = read_header(scanner);
   FaceCollector faces;

@@ -100,6 +100,9 @@ class AsciiRows {
   std::size_t size_;
 };
 
+/// Rows of triangles in which each shares two corners with the one before; -1 ends a strip within a row.
+constexpr const char* kStrips = "tristrips";
+
 /// The list of a face's corners, which goes by two names.
 std::optional<std::size_t> corner_column(const PlyElement& faces) {
   const std::optional<std::size_t> column = faces.column("vertex_indices");
@@ -147,10 +150,11 @@ std::string missing_from(const PlyHeader& header) {
         if (!column || element.properties[*column].length_type)
           return fmt::format("the vertices have no coordinate {}", axis);
       }
-    } else if (element.name == "face") {
+    } else if (element.name == "face" || element.name == kStrips) {
       const std::optional<std::size_t> column = corner_column(element);
       if (!column || !element.properties[*column].length_type)
-        return "the faces have no list 'vertex_indices'";
+        return fmt::format("the {} have no list 'vertex_indices'",
+                           element.name == kStrips ? kStrips : "faces");
     }
   }
   return {};
@@ -174,6 +178,8 @@ class PlyBody {
         read_vertices(element, faces);
       else if (element.name == "face")
         read_faces(element, faces);
+      else if (element.name == kStrips)
+        read_strips(element, faces);
       else if (!element.properties.empty())
         skip(element);
     }
@@ -209,6 +215,42 @@ class PlyBody {
         else
           read(element.properties[p]);
       if (!rows_.failed() && !faces.add_face(corners_)) rows_.fail(too_many_corners(corners_.size()));
+    }
+  }
+
+  void read_strips(const PlyElement& element, FaceCollector& faces) {
+    const std::size_t list = *corner_column(element);
+    for (std::uint64_t i = 0; i < element.rows && !rows_.failed(); ++i) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p)
+        if (p == list)
+          read_strip(element.properties[p], i, faces);
+        else
+          read(element.properties[p]);
+    }
+  }
+
+  void read_strip(const PlyProperty& property, std::uint64_t strip, FaceCollector& faces) {
+    const double length = read_length(property);
+    std::array<std::uint32_t, 3> last{};
+    std::size_t count = 0;  // since the strip began
+    for (double i = 0; i < length && !rows_.failed(); ++i) {
+      const double index = rows_.number(property.type);
+      const bool ends = index < 0.0 || index == 4294967295.0;
+      if (ends || rows_.failed()) {
+        count = 0;
+        continue;
+      }
+      if (!(index < static_cast<double>(vertices_)))
+        return rows_.fail(
+            fmt::format("strip {} refers to vertex {:.10g}; the {} vertices are numbered from 0", strip + 1,
+                        index, vertices_));
+      last = {last[1], last[2], static_cast<std::uint32_t>(index)};
+      if (++count < 3) continue;
+      // Every second triangle runs the other way round; repeated vertices lead from part to part.
+      const bool turned = count % 2 == 0;
+      const bool joint = last[0] == last[1] || last[1] == last[2] || last[2] == last[0];
+      corners_ = {last[0], last[turned ? 2 : 1], last[turned ? 1 : 2]};
+      if (!joint) faces.add_face(corners_);
     }
   }
 

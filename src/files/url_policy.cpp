@@ -78,7 +78,51 @@ std::string_view absolute_name(std::string_view url) {
   return url.starts_with('/') && !url.starts_with("//") ? url : std::string_view();
 }
 
+/// The place that a name means if no link stands in it, but for those in the folder it counts from.
+std::filesystem::path textual_place(const std::filesystem::path& name) {
+  std::error_code error;
+  const std::filesystem::path normal = name.lexically_normal();
+  std::filesystem::path known = normal.parent_path();
+  // What is not there has no links.
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(known, error);
+  return (error ? known : resolved) / normal.filename();
+}
+
+tl::unexpected<base::Error> leads_above(std::string_view url) {
+  return base::fail(
+      fmt::format("{} is not fetched: it leads above the folder of the design; for a design that you trust, "
+                  "\"icome convert --urls-above\" follows it",
+                  url_text(url)));
+}
+
 }  // namespace
+
+UrlReach::UrlReach(const std::filesystem::path& design, bool above) : above_(above) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(design, error);
+  folders_ = {std::filesystem::weakly_canonical(whole.parent_path(), error),
+              std::filesystem::weakly_canonical(whole, error).parent_path()};
+}
+
+bool UrlReach::is_within(const std::filesystem::path& path) const {
+  return std::any_of(folders_.begin(), folders_.end(), [&](const std::filesystem::path& folder) {
+    return !folder.empty() && is_below(folder, path);
+  });
+}
+
+void UrlReach::note(const std::filesystem::path& found) {
+  if (is_within(found)) return;
+  if (std::find(found_above_.begin(), found_above_.end(), found) == found_above_.end())
+    found_above_.push_back(found);
+}
+
+std::vector<std::string> UrlReach::sentences() const {
+  std::vector<std::string> sentences;
+  for (const std::filesystem::path& path : found_above_)
+    sentences.push_back(fmt::format(
+        "{} lies above the design's folder: it is taken in, and goes into what is saved.", path.string()));
+  return sentences;
+}
 
 bool is_below(const std::filesystem::path& folder, const std::filesystem::path& path) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
@@ -86,9 +130,10 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
 
 base::Result<std::filesystem::path> find_installed_or_beside(const std::filesystem::path& base_file,
                                                              std::string_view url,
-                                                             const std::filesystem::path& installed) {
+                                                             const std::filesystem::path& installed,
+                                                             UrlReach& reach) {
   const std::string_view name = absolute_name(url);
-  if (name.empty()) return find_beside(base_file, url);
+  if (name.empty()) return find_beside(base_file, url, reach);
   const auto refused = [&](const std::string& why) {
     return base::fail(fmt::format("{} is not fetched: {}", url_text(url), why));
   };
@@ -115,8 +160,8 @@ base::Result<std::filesystem::path> find_installed_or_beside(const std::filesyst
   return refused("there is no such file");
 }
 
-base::Result<std::filesystem::path> find_beside(const std::filesystem::path& base_file,
-                                                std::string_view url) {
+base::Result<std::filesystem::path> find_beside(const std::filesystem::path& base_file, std::string_view url,
+                                                UrlReach& reach) {
   std::string_view name = url;
   if (name.size() > 5 && name.substr(0, 5) == "file:") name.remove_prefix(5);
   // EXTERNPROTO urls name a PROTO after the file.
@@ -128,15 +173,21 @@ base::Result<std::filesystem::path> find_beside(const std::filesystem::path& bas
   const std::filesystem::path folder = base_file.has_parent_path() ? base_file.parent_path() : ".";
   for (const std::string& meaning : names) {
     std::error_code error;
-    const std::filesystem::path found = std::filesystem::canonical(folder / meaning, error);
-    if (!error && std::filesystem::is_regular_file(found, error)) return found;
+    const std::filesystem::path there = std::filesystem::absolute(folder / meaning, error);
+    // Before it is looked for, so that nothing is learnt of other places; links are seen behind that.
+    if (!reach.may_lead_above() && !reach.is_within(textual_place(there))) return leads_above(url);
+    const std::filesystem::path found = std::filesystem::canonical(there, error);
+    if (error || !std::filesystem::is_regular_file(found, error)) continue;
+    if (!reach.may_lead_above() && !reach.is_within(found)) return leads_above(url);
+    reach.note(found);
+    return found;
   }
   return base::fail(fmt::format("{} is not fetched: there is no such file", url_text(url)));
 }
 
 base::Result<std::string> fetch_beside(const std::filesystem::path& base_file, std::string_view url,
-                                       std::uint64_t limit) {
-  const auto found = find_beside(base_file, url);
+                                       std::uint64_t limit, UrlReach& reach) {
+  const auto found = find_beside(base_file, url, reach);
   if (!found) return base::fail(found.error().message);
   auto bytes = read_bytes(*found, limit);
   if (!bytes) return base::fail(fmt::format("{} is not fetched: {}", url_text(url), bytes.error().message));

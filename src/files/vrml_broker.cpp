@@ -6,7 +6,6 @@
 
 #include "files/file_bytes.h"
 #include "files/gzip_bytes.h"
-#include "files/url_policy.h"
 #include "files/vrml_header.h"
 
 namespace icome::files {
@@ -23,8 +22,8 @@ std::filesystem::path canonical_or_same(const std::filesystem::path& path) {
 
 }  // namespace
 
-VrmlBroker::VrmlBroker(const std::filesystem::path& design, std::uint64_t size_limit)
-    : bytes_left_(size_limit) {
+VrmlBroker::VrmlBroker(const std::filesystem::path& design, std::uint64_t size_limit, bool urls_above)
+    : reach_(design, urls_above), bytes_left_(size_limit) {
   files_.push_back(canonical_or_same(design));
   folder_ = files_.front().parent_path();
   depths_.push_back(0);
@@ -49,7 +48,7 @@ VrmlBroker::Reply VrmlBroker::fetch(int from, std::string_view urls) {
 
 base::Result<VrmlBroker::Reply> VrmlBroker::fetch_one(int from, std::string_view url) {
   const std::filesystem::path& base = files_[static_cast<std::size_t>(from)];
-  const auto path = find_beside(base, url);
+  const auto path = find_beside(base, url, reach_);
   if (!path) return base::fail(path.error().message);
   if (const auto known = numbers_.find(path->string()); known != numbers_.end())
     return Reply{VrmlFrame::Known, known->second, {}};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "files/url_policy.h"
 #include "files/vrml_frames.h"
 
 namespace icome::files {
@@ -16,7 +17,8 @@ namespace icome::files {
 class VrmlBroker {
  public:
   /// No file may have more than `size_limit` bytes, nor all together.
-  VrmlBroker(const std::filesystem::path& design, std::uint64_t size_limit);
+  /// `urls_above`: may urls lead above the design's folder?
+  VrmlBroker(const std::filesystem::path& design, std::uint64_t size_limit, bool urls_above);
 
   struct Reply {
     VrmlFrame kind = VrmlFrame::Refused;  // or Known, or File with its name
@@ -33,6 +35,7 @@ class VrmlBroker {
   base::Result<void> check_content(const std::filesystem::path& path, std::string_view bytes) const;
 
   std::filesystem::path folder_;
+  UrlReach reach_;
   std::uint64_t bytes_left_;
   int fetches_ = 0;
   std::vector<std::filesystem::path> files_;

@@ -48,17 +48,30 @@ const flat::Scene* verified(const world::FlatReader& reader) {
   return flat::VerifySceneBuffer(verifier) ? flat::GetScene(reader.data()) : nullptr;
 }
 
+/// Of memory, that the shape of a piece takes with all that its triangles may have.
+std::uint64_t most_bytes_of(const flat::Piece& piece) {
+  constexpr std::uint64_t kBytesOfTriangle =
+      sizeof(geometry::TriangleMesh::Triangle) +
+      3 * (sizeof(base::Vector3) + sizeof(base::Vector2) + sizeof(world::Colour));
+  if (!piece.polygons()) return 0;
+  const auto ends = std::uint64_t(std::count(piece.polygons()->begin(), piece.polygons()->end(), -1));
+  const std::uint64_t corners = piece.polygons()->size() - ends;
+  return (corners > 2 * ends ? corners - 2 * ends : 0) * kBytesOfTriangle + corners * sizeof(base::Vector3);
+}
+
 /// Makes one design.
 class VrmlBuilder {
  public:
   VrmlBuilder(const VrmlSources& sources, const flat::Scene& scene, world::FlatReader& reader,
-              Patience& patience)
+              Patience& patience, MemoryBudget& memory)
       : sources_(sources),
         scene_(scene),
         reader_(reader),
         patience_(patience),
+        memory_(memory),
         pictures_(sources.fetch_picture, sources.picture_limit, findings_),
-        meshes_(sources.find_mesh, sources.picture_limit, findings_, patience_) {}
+        meshes_(sources.find_mesh, sources.picture_limit, findings_, patience_, memory),
+        design_(memory) {}
 
   Result<LoadedDesign> build() {
     add_notes();
@@ -95,6 +108,8 @@ class VrmlBuilder {
   }
 
   tl::unexpected<base::Error> give_up() const {
+    if (memory_.is_exceeded())
+      return base::fail(fmt::format("{}: {}", sources_.name, memory_.problem().message));
     if (patience_.stopped()) return base::fail("interrupted");
     if (reader_.fault().empty())
       return base::fail(fmt::format("{}: making a design of it takes too long", sources_.name));
@@ -157,7 +172,7 @@ class VrmlBuilder {
       objects_.push_back(add_object(nodes_[i]));
       const bool lasts =
           i % 1024 == 0 ? patience_.lasts(double(i) / double(nodes_.size())) : patience_.lasts();
-      if (!lasts || !reader_.fault().empty()) return false;
+      if (!lasts || memory_.is_exceeded() || !reader_.fault().empty()) return false;
     }
     return patience_.lasts(1.0) && reader_.fault().empty();
   }
@@ -206,6 +221,8 @@ class VrmlBuilder {
       plan.shapes.assign(plan.textures.size(), shape ? design_.add(shape) : GeometryId{});
       return;
     }
+    if (!memory_.has_room(plan.textures.size() * most_bytes_of(piece)))
+      return plan.shapes.assign(plan.textures.size(), GeometryId{});
     for (const world::GeometryPointer& shape : shapes_of(piece, reader_, plan.textures, findings_, patience_))
       plan.shapes.push_back(shape ? design_.add(shape) : GeometryId{});
   }
@@ -312,6 +329,7 @@ class VrmlBuilder {
   const flat::Scene& scene_;
   world::FlatReader& reader_;
   Patience& patience_;
+  MemoryBudget& memory_;
   Findings findings_;
   std::vector<Remark> notes_;
   VrmlPictures pictures_;
@@ -327,7 +345,8 @@ class VrmlBuilder {
 
 }  // namespace
 
-Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources, Patience& patience) {
+Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources, Patience& patience,
+                                MemoryBudget& memory) {
   world::FlatReader reader(answer);
   const flat::Scene* const scene = verified(reader);
   if (!scene)
@@ -336,7 +355,7 @@ Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sour
   if (scene->error() && scene->error()->size() > 0)
     return base::fail(
         fmt::format("{}: {}", sources.name, scene->error()->string_view().substr(0, kLongestNote)));
-  return VrmlBuilder(sources, *scene, reader, patience).build();
+  return VrmlBuilder(sources, *scene, reader, patience, memory).build();
 }
 
 }  // namespace icome::files

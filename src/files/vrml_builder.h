@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "files/design.h"
+#include "files/memory_budget.h"
 #include "files/patience.h"
 #include "files/vrml_meshes.h"
 #include "files/vrml_pictures.h"
@@ -33,9 +34,9 @@ struct VrmlSources {
 ///   transforms: these are part of the texture coordinates here.
 /// - Objects whose transforms flatten them, which VRML uses to hide things, are left out with all below.
 ///
-/// Fails when the answer tells of an error, or is damaged, or patience ends. Remarks are those of the answer
-/// and of what was put right here.
-base::Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources,
-                                      Patience& patience);
+/// Fails when the answer tells of an error, or is damaged, or patience or memory ends. Remarks are those of
+/// the answer and of what was put right here.
+base::Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources, Patience& patience,
+                                      MemoryBudget& memory);
 
 }  // namespace icome::files

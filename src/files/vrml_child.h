@@ -18,6 +18,7 @@ class VrmlChild {
 
   /// Does not block.
   int socket() const { return socket_; }
+  int process() const { return process_; }
   /// Ends the process if it has not ended by itself; gives what waitpid() told, -1 where someone else has
   /// waited for it.
   int end();

@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "files/corner_table.h"
+#include "files/crease_normals.h"
 #include "files/number_text.h"
+#include "files/single.h"
 #include "geometry/mesh_topology.h"
 
 namespace icome::files {
@@ -34,6 +36,20 @@ bool looks_flat(const MeshGeometry& shape) {
     }
   }
   return true;
+}
+
+/// Will readers find no edge between faces that is a crease, and take the mesh for a smooth one? So does one
+/// with a single face: it looks alike both ways.
+bool has_no_creases(const TriangleMesh& mesh) {
+  PolygonMesh faces;
+  faces.positions.reserve(mesh.positions.size());
+  for (const Vector3& it : mesh.positions)
+    faces.positions.push_back(it.unaryExpr([](double x) { return from_single(to_single(x)); }));
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    faces.corners.insert(faces.corners.end(), triangle.begin(), triangle.end());
+    faces.begins.push_back(std::uint32_t(faces.corners.size()));
+  }
+  return crease_normals(faces, 0.0).empty();
 }
 
 std::array<float, 2> parts(const Vector2& value) { return {to_single(value.x()), to_single(value.y())}; }
@@ -88,8 +104,10 @@ void write_corners(const Corners<kParts>& corners, std::string_view node, std::s
 }
 
 void write_normals(const MeshGeometry& shape, VrmlText& text) {
-  if (shape.normals.empty()) return write_crease_angle(VrmlEdges::Smooth, text);
-  if (looks_flat(shape)) return;  // as VRML shows it when nothing is said
+  const bool flat = !shape.normals.empty() && looks_flat(shape);
+  if (shape.normals.empty() || (flat && has_no_creases(shape.mesh)))
+    return write_crease_angle(VrmlEdges::Smooth, text);
+  if (flat) return;  // as VRML shows it when nothing is said
   write_corners(gather<3>(shape.normals), "normal Normal", "vector", "normalIndex", text);
 }
 

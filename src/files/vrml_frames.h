@@ -23,7 +23,7 @@ struct VrmlFrameHead {
 };
 
 struct VrmlLimits {
-  std::uint64_t memory = 0;  // bytes
+  std::uint64_t memory = 0;  // bytes, beside what the program itself takes
   double seconds = 0.0;
   std::int64_t parent = 0;  // process id of the reader: the worker ends with it
 };

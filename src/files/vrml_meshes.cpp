@@ -62,7 +62,7 @@ base::Result<VrmlMeshes::Shape> VrmlMeshes::read(const FoundMesh& file, double u
   const std::string name = file.path.string();
   // How far a mesh is says nothing of how far the design is.
   Patience patience([this](double) { return patience_.lasts_now(); });
-  auto mesh = read_mesh_shape(file.path, unit, left_, patience);
+  auto mesh = read_mesh_shape(file.path, unit, left_, patience, memory_);
   // An error repeats what stands in the file, which may be someone else's.
   if (!mesh && !file.is_public) return base::fail(name + ": is not a mesh that can be read");
   if (!mesh) return tl::unexpected(mesh.error());

@@ -35,8 +35,9 @@ class VrmlMeshes {
  public:
   /// All files together may have `limit` bytes, and so may what they take in memory. When patience ends, no
   /// more is read.
-  VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings, Patience& patience)
-      : find_(find), left_(limit), findings_(findings), patience_(patience) {}
+  VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings, Patience& patience,
+             MemoryBudget& memory)
+      : find_(find), left_(limit), findings_(findings), patience_(patience), memory_(memory) {}
 
   /// The first of the urls that leads to a mesh; null, with a finding, when none does.
   world::GeometryPointer shape_of(const VrmlMeshNode& node);
@@ -51,6 +52,7 @@ class VrmlMeshes {
   std::uint64_t left_;  // bytes that may still be taken
   Findings& findings_;
   Patience& patience_;
+  MemoryBudget& memory_;
   std::map<std::pair<std::filesystem::path, double>, base::Result<Shape>> known_;
 };
 

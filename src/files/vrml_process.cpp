@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "files/memory_budget.h"
 #include "files/vrml_broker.h"
 #include "files/vrml_child.h"
 #include "files/vrml_frames.h"
@@ -105,6 +107,8 @@ class Inbox {
       if (in_head && head_filled_ == sizeof head_ && !is_sensible()) return State::Nonsense;
     }
   }
+  /// How many bytes an answer may have.
+  void limit(std::uint64_t bytes) { limit_ = std::min(bytes, kAnswerLimit); }
   const VrmlFrameHead& head() const { return head_; }
   /// Takes the whole frame's content and begins the next.
   std::string take() {
@@ -115,10 +119,11 @@ class Inbox {
 
  private:
   bool is_sensible() const {
-    return (head_.kind == VrmlFrame::Answer && head_.size <= kAnswerLimit) ||
+    return (head_.kind == VrmlFrame::Answer && head_.size <= limit_) ||
            (head_.kind == VrmlFrame::Fetch && head_.size <= kUrlsLimit);
   }
 
+  std::uint64_t limit_ = kAnswerLimit;
   VrmlFrameHead head_ = {};
   std::size_t head_filled_ = 0;
   std::string body_ = {};
@@ -129,10 +134,15 @@ class Inbox {
 class Talk {
  public:
   Talk(VrmlChild child, const std::filesystem::path& path, const DesignReadOptions& options)
-      : child_(std::move(child)), options_(options), broker_(path, options.size_limit) {}
+      : child_(std::move(child)),
+        options_(options),
+        broker_(path, options.size_limit, options.follows_urls_above),
+        memory_(options.memory_limit) {}
 
   base::Result<VrmlAnswer> run(std::string_view bytes) {
-    const VrmlLimits limits{options_.memory_limit, options_.seconds_limit, ::getpid()};
+    memory_.add_file(bytes.size());
+    inbox_.limit(memory_.allowed());
+    const VrmlLimits limits{memory_.allowed(), options_.seconds_limit, ::getpid()};
     outbox_.put_copy(VrmlFrame::Limits, 0, bytes_of(limits));
     outbox_.put_copy(VrmlFrame::Name, 0, broker_.files().front().string());
     outbox_.put(VrmlFrame::File, 0, bytes);
@@ -147,7 +157,8 @@ class Talk {
         case Inbox::State::Waiting:
           break;
         case Inbox::State::Whole:
-          if (inbox_.head().kind == VrmlFrame::Answer) return VrmlAnswer{inbox_.take(), broker_.files()};
+          if (inbox_.head().kind == VrmlFrame::Answer)
+            return VrmlAnswer{inbox_.take(), broker_.files(), inlined_bytes_};
           answer_fetch();
           break;
         case Inbox::State::Ended:
@@ -169,10 +180,25 @@ class Talk {
   void answer_fetch() {
     const int from = inbox_.head().file;
     VrmlBroker::Reply reply = broker_.fetch(from, inbox_.take());
-    if (reply.kind == VrmlFrame::File)
+    if (reply.kind == VrmlFrame::File) {
+      allow_for_file(reply.bytes.size());
       outbox_.put_copy(VrmlFrame::Name, reply.file,
                        broker_.files()[static_cast<std::size_t>(reply.file)].string());
+    }
     outbox_.put_copy(reply.kind, reply.file, std::move(reply.bytes));
+  }
+
+  /// The worker cannot raise its limit itself: it may be in the hands of a file.
+  void allow_for_file(std::uint64_t bytes) {
+    const std::uint64_t before = memory_.allowed();
+    inlined_bytes_ += bytes;
+    memory_.add_file(bytes);
+    inbox_.limit(memory_.allowed());
+    rlimit limit{};
+    if (::prlimit(child_.process(), RLIMIT_AS, nullptr, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+      return;
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur + (memory_.allowed() - before), limit.rlim_max);
+    ::prlimit(child_.process(), RLIMIT_AS, &limit, nullptr);
   }
 
   /// A guess that never goes back and reaches 1 only with the answer.
@@ -188,9 +214,7 @@ class Talk {
   }
 
   std::string why_ended(int status) const {
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kVrmlOutOfMemory)
-      return fmt::format("reading this file needed more than {:.3g} GiB of memory",
-                         static_cast<double>(options_.memory_limit) / static_cast<double>(1ULL << 30U));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kVrmlOutOfMemory) return memory_.problem().message;
     if (WIFEXITED(status) && WEXITSTATUS(status) == kVrmlTooDeep) return "its nodes nest too deep to be read";
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return too_long();
     if (WIFSIGNALED(status))
@@ -202,6 +226,8 @@ class Talk {
   VrmlChild child_;
   const DesignReadOptions& options_;
   VrmlBroker broker_;
+  MemoryBudget memory_;              // of the worker
+  std::uint64_t inlined_bytes_ = 0;  // of the files beside the design
   Outbox outbox_ = {};
   Inbox inbox_ = {};
   std::size_t size_ = 0;  // of the design, in bytes

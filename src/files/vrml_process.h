@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,11 +15,13 @@ namespace icome::files {
 struct VrmlAnswer {
   std::string bytes;                         // a Scene of vrml_answer.fbs, not verified
   std::vector<std::filesystem::path> files;  // that were read: `path` and what it inlines, links resolved
+  std::uint64_t inlined_bytes = 0;           // of the latter
 };
 
 /// Has the VRML 2.0 file `bytes`, which lies at `path`, parsed by a process of its own (icome-vrml-worker,
 /// beside the running program or where the environment variable ICOME_VRML_WORKER says), since no parser
-/// is proof against files made to break it: it has limits on memory and time, can open nothing, and gets
+/// is proof against files made to break it: it has limits on memory (options.memory_limit, else those of a
+/// MemoryBudget with the files that it gets) and time, can open nothing, and gets
 /// the files that are inlined from here, by the rules of url_policy.h and only if they are VRML. Fails,
 /// naming the file, when that process needs too much, crashes, talks nonsense or is not there; a file that
 /// it refuses is an answer (Scene.error). The caller's process is left as it was: no process, descriptor or

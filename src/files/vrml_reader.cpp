@@ -1,5 +1,7 @@
 #include "files/vrml_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -20,10 +22,12 @@ namespace fs = std::filesystem;
 constexpr double kReadPart = 0.1;        // of the whole work, done when the file is read
 constexpr double kVrmlParsedPart = 0.6;  // and parsed
 
-base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, bool& packed) {
+base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, bool& packed,
+                                    MemoryBudget* memory) {
   auto bytes = read_bytes(path, limit);
+  if (bytes && memory) memory->add_file(bytes->size());
   packed = bytes && is_gzip(*bytes);
-  return packed ? unpack_gzip(*bytes, limit, path.string()) : std::move(bytes);
+  return packed ? unpack_gzip(*bytes, limit, path.string(), memory) : std::move(bytes);
 }
 
 /// What the process that parses VRML may ask for and tells of its progress.
@@ -43,7 +47,7 @@ void add_remarks_of_others(const std::vector<fs::path>& files, const DesignReadO
                            std::vector<Remark>& remarks) {
   for (std::size_t i = 1; i < files.size(); ++i) {
     bool packed = false;
-    const auto text = read_text(files[i], options.size_limit, packed);
+    const auto text = read_text(files[i], options.size_limit, packed, nullptr);
     if (!text) continue;
     const auto left_out = scan_vrml(*text, files[i].string(), files[i].string());
     if (left_out) remarks.insert(remarks.end(), left_out->remarks.begin(), left_out->remarks.end());
@@ -51,25 +55,26 @@ void add_remarks_of_others(const std::vector<fs::path>& files, const DesignReadO
 }
 
 /// Fetches what lies beside a file that was read, and only such: the answer cannot name others.
-FetchPicture beside(const fs::path& path, const std::vector<fs::path>& files) {
-  return [path, files](const std::string& base, const std::string& url,
-                       std::uint64_t limit) -> base::Result<std::string> {
-    if (base.empty()) return fetch_beside(path, url, limit);
+FetchPicture beside(const fs::path& path, const std::vector<fs::path>& files, UrlReach& reach) {
+  return [path, files, &reach](const std::string& base, const std::string& url,
+                               std::uint64_t limit) -> base::Result<std::string> {
+    if (base.empty()) return fetch_beside(path, url, limit, reach);
     const auto known = std::find(files.begin(), files.end(), fs::path(base));
     if (known == files.end()) return base::fail("it is asked for by a file that was not read");
-    return fetch_beside(*known, url, limit);
+    return fetch_beside(*known, url, limit, reach);
   };
 }
 
 /// Finds meshes beside a file that was read, and among what packages have installed.
-FindMesh mesh_finder(const fs::path& path, const std::vector<fs::path>& files) {
+FindMesh mesh_finder(const fs::path& path, const std::vector<fs::path>& files, UrlReach& reach) {
   std::error_code error;
   const fs::path folder = fs::weakly_canonical(path, error).parent_path();
-  return [=](const std::string& base, const std::string& url) -> base::Result<FoundMesh> {
+  return [path, files, folder, &reach](const std::string& base,
+                                       const std::string& url) -> base::Result<FoundMesh> {
     const auto known = std::find(files.begin(), files.end(), fs::path(base));
     if (!base.empty() && known == files.end())
       return base::fail("it is asked for by a file that was not read");
-    auto found = find_installed_or_beside(base.empty() ? path : *known, url, kInstalledData);
+    auto found = find_installed_or_beside(base.empty() ? path : *known, url, kInstalledData, reach);
     if (!found) return tl::unexpected(found.error());
     const bool is_public = is_below(kInstalledData, *found) || (!folder.empty() && is_below(folder, *found));
     return FoundMesh{std::move(*found), is_public};
@@ -78,9 +83,10 @@ FindMesh mesh_finder(const fs::path& path, const std::vector<fs::path>& files) {
 
 }  // namespace
 
-base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptions& options) {
+base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptions& options,
+                                     MemoryBudget& memory) {
   bool packed = false;
-  auto text = read_text(path, options.size_limit, packed);
+  auto text = read_text(path, options.size_limit, packed, &memory);
   if (!text) return tl::unexpected(text.error());
   auto left_out = scan_vrml(*text, path.string());
   if (!left_out) return tl::unexpected(left_out.error());
@@ -89,17 +95,26 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   const auto answer = ask_vrml_worker(*text, path, options_of_worker(options, stopped));
   if (stopped) return base::fail("interrupted");
   if (!answer) return tl::unexpected(answer.error());
+  memory.give_back(text->size());
   text->clear();
   text->shrink_to_fit();
+  memory.add_file(answer->inlined_bytes);
+  memory.give_back(answer->inlined_bytes);
+  if (!memory.take(answer->bytes.size()))
+    return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
 
   std::vector<Remark> remarks = std::move(left_out->remarks);
   add_remarks_of_others(answer->files, options, remarks);
-  const VrmlSources sources = {path.string(), beside(path, answer->files), mesh_finder(path, answer->files),
-                               options.size_limit, std::move(left_out->scripts)};
+  UrlReach reach(path, options.follows_urls_above);
+  for (const fs::path& file : answer->files) reach.note(file);
+  const VrmlSources sources = {path.string(), beside(path, answer->files, reach),
+                               mesh_finder(path, answer->files, reach), options.size_limit,
+                               std::move(left_out->scripts)};
   Patience patience(options.seconds_limit, options.progress, kVrmlParsedPart);
-  auto design = build_vrml(answer->bytes, sources, patience);
+  auto design = build_vrml(answer->bytes, sources, patience, memory);
   if (!design) return design;
   if (packed) design->format += ", gzip";
+  for (std::string& sentence : reach.sentences()) remarks.push_back({{}, 0, std::move(sentence)});
   design->remarks.insert(design->remarks.begin(), remarks.begin(), remarks.end());
   return design;
 }

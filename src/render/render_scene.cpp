@@ -75,7 +75,7 @@ void tally(RenderScene::Block& block) {
 
 RenderScenePointer ScenePublisher::publish(const World& world) {
   const double time = time_;
-  *this = ScenePublisher(scene_, stage_from_world_);
+  *this = ScenePublisher(scene_);
   time_ = time;
   make_shapes(world);
   show_roots(world);
@@ -127,7 +127,7 @@ std::vector<world::GeometryId> ScenePublisher::changing_shapes(const World& worl
   if (ids.empty()) return ids;
   // What is stretched is felt as triangles, as it is at t = 0: so it is seen, and all that share its shape.
   for (const auto& [id, object] : world.objects()) {
-    const base::Matrix3 stretch = stage_from_object(world, id).linear();
+    const base::Matrix3 stretch = world::world_from_object(world, id).linear();
     if ((stretch.transpose() * stretch).isIdentity(kRigid) && stretch.determinant() > 0.0) continue;
     std::erase(ids, object.geometry);
   }
@@ -160,7 +160,7 @@ void ScenePublisher::forget(const World& world, const world::Changes& changes) {
   for (const auto& [id, object] : world.objects()) {
     if (!shapes.contains(object.geometry) && !(slots_.contains(id) && materials.contains(object.material)))
       continue;
-    if (is_shown(world, id)) show_object(world, id, stage_from_object(world, id));
+    if (is_shown(world, id)) show_object(world, id, world::world_from_object(world, id));
   }
 }
 
@@ -238,10 +238,6 @@ const std::shared_ptr<const RenderMaterial>& ScenePublisher::material(const Worl
   return made = std::make_shared<const RenderMaterial>(std::move(it));
 }
 
-Affine3 ScenePublisher::stage_from_object(const World& world, ObjectId id) const {
-  return stage_from_world_ * world::world_from_object(world, id);
-}
-
 /// Is it in the scene that is drawn?
 bool ScenePublisher::is_shown(const World& world, ObjectId id) const {
   if (!scene_) return true;
@@ -256,7 +252,7 @@ void ScenePublisher::show(const World& world, ObjectId root) {
     ObjectId id;
     Affine3 world_from_object;
   };
-  std::vector<Open> open{{root, stage_from_object(world, root)}};
+  std::vector<Open> open{{root, world::world_from_object(world, root)}};
   while (!open.empty()) {
     const Open here = open.back();
     open.pop_back();
@@ -322,7 +318,7 @@ void ScenePublisher::collect_fixtures(const World& world) {
     const world::PhysicalObject& object = *world.find(id);
     open.insert(open.end(), object.children.rbegin(), object.children.rend());
     if (!fixed_.contains(id) || !object.fixture) continue;
-    const Affine3 place = stage_from_object(world, id);
+    const Affine3 place = world::world_from_object(world, id);
     if (const auto* light = std::get_if<world::Light>(object.fixture.get()))
       lights_.push_back({*light, place});
     if (const auto* view = std::get_if<world::Viewpoint>(object.fixture.get()))

@@ -109,11 +109,8 @@ using RenderScenePointer = std::shared_ptr<const RenderScene>;
 /// materials and pictures.
 class ScenePublisher {
  public:
-  /// Of one scene of the world or, without one, of all objects. What is drawn has y up; a world that does not
-  /// is turned by `stage_from_world`, and all that is said of the world's frame is of the stage's then.
-  explicit ScenePublisher(world::SceneId scene = {},
-                          const base::Pose& stage_from_world = base::Pose::Identity())
-      : scene_(scene), stage_from_world_(stage_from_world) {}
+  /// Of one scene of the world or, without one, of all objects.
+  explicit ScenePublisher(world::SceneId scene = {}) : scene_(scene) {}
 
   /// Makes all anew. Pictures that cannot be read and shapes that cannot be drawn become remarks.
   RenderScenePointer publish(const world::World& world);
@@ -148,7 +145,6 @@ class ScenePublisher {
   void forget(const world::World& world, const world::Changes& changes);
   void hide_all();
   void show_roots(const world::World& world);
-  base::Affine3 stage_from_object(const world::World& world, world::ObjectId id) const;
   bool is_shown(const world::World& world, world::ObjectId id) const;
   void show(const world::World& world, world::ObjectId root);
   void show_object(const world::World& world, world::ObjectId id, const base::Affine3& world_from_object);
@@ -159,7 +155,6 @@ class ScenePublisher {
   RenderScenePointer version(const world::World& world);
 
   world::SceneId scene_;
-  base::Pose stage_from_world_;
   double time_ = 0.0;  // s, of what changes
   std::unordered_map<world::GeometryId, Made> shapes_;
   std::unordered_map<world::MaterialId, std::shared_ptr<const RenderMaterial>> materials_;

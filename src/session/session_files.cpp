@@ -4,7 +4,6 @@
 
 #include "files/design.h"
 #include "session/session_parts.h"
-#include "session/stage.h"
 
 namespace icome::session {
 namespace {
@@ -109,12 +108,7 @@ void Session::make_new() {
 
 void Session::open(const std::filesystem::path& design) {
   parts_->recovering.reset();
-  const auto read = [design](const files::DesignReadOptions& options) {
-    auto loaded = files::read_design(design, options);
-    if (loaded && stands_on_z(design)) set_upright(loaded->world);
-    return loaded;
-  };
-  parts_->loader.start(design, read);
+  parts_->loader.open(design);
 }
 
 void Session::cancel_open() { parts_->loader.cancel(); }
@@ -130,10 +124,8 @@ void Session::save(const std::filesystem::path& design, bool anyway) {
                     shown_name(design), DesignSaver::kMostWaiting));
     return;
   }
-  world::World world = parts_->world;
-  if (stands_on_z(design)) lay_down(world);
   parts_->saving_revisions.push_back(parts_->revisions.now());
-  parts_->saver.save(design, std::move(world), parts_->queue.posted(),
+  parts_->saver.save(design, parts_->world, parts_->queue.posted(),
                      anyway ? DesignSaver::Replace::Anyway : DesignSaver::Replace::Safely);
 }
 

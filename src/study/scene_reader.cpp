@@ -2,7 +2,6 @@
 
 #include "files/design.h"
 #include "interaction/object_edits.h"
-#include "session/stage.h"
 #include "study/trial_goal.h"
 #include "world/edit.h"
 
@@ -12,7 +11,6 @@ namespace {
 base::Result<world::World> read_onto_stage(const std::filesystem::path& file) {
   auto design = files::read_design(file);
   if (!design) return tl::unexpected(design.error());
-  if (session::stands_on_z(file)) session::set_upright(design->world);
   return std::move(design->world);
 }
 

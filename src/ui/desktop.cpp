@@ -4,6 +4,7 @@
 #include <QSettings>
 #include <cstdio>
 
+#include "base/terminal_text.h"
 #include "session/autosave_files.h"
 #include "ui/connect_display.h"
 #include "ui/main_window.h"
@@ -33,7 +34,7 @@ int run_desktop(int argc, char** argv, const DesktopOptions& options, session::S
   const bool hand_in_sight = !settings.pointers.empty();
   auto session = session::Session::create(std::move(settings));
   if (!session) {
-    std::fprintf(stderr, "icome: %s\n", session.error().message.c_str());
+    std::fprintf(stderr, "icome: %s\n", base::terminal_text(session.error().message).c_str());
     return 1;
   }
   MainWindow window(**session, kept, {.theme = theme, .hand_in_sight = hand_in_sight});

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/terminal_text.h"
 #include "study/session_length.h"
 #include "ui/connect_display.h"
 #include "ui/study_beep.h"
@@ -192,7 +193,7 @@ void StudyWindow::hear(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::DeviceBack) lost_.clear();
   if (event.kind == SessionEvent::Kind::DeviceLost || event.kind == SessionEvent::Kind::DeviceBack ||
       event.kind == SessionEvent::Kind::Notice)
-    std::fprintf(stderr, "icome: %s\n", event.text.c_str());
+    std::fprintf(stderr, "icome: %s\n", base::terminal_text(event.text).c_str());
 }
 
 void StudyWindow::show_step() {
@@ -359,7 +360,7 @@ void StudyWindow::follow_trial(State state) {
 void StudyWindow::note_broken_off(const std::string& why) {
   trial_begun_ = false;
   if (const auto noted = run_.trial_broken_off(why); !noted)
-    std::fprintf(stderr, "icome: %s\n", noted.error().message.c_str());
+    std::fprintf(stderr, "icome: %s\n", base::terminal_text(noted.error().message).c_str());
 }
 
 /// It begins again when the scene is next seen.
@@ -386,7 +387,7 @@ void StudyWindow::ask_to_interrupt() {
 }
 
 void StudyWindow::tell_trouble(const std::string& what, const std::function<void()>& again) {
-  std::fprintf(stderr, "icome: %s\n", what.c_str());
+  std::fprintf(stderr, "icome: %s\n", base::terminal_text(what).c_str());
   auto* page = new StudyPage(words_(StudyWord::TroubleTitle), stack_);
   page->add_text(words_(StudyWord::Trouble));
   page->add_text(QString::fromStdString(what));
@@ -423,7 +424,7 @@ void StudyWindow::closeEvent(QCloseEvent* event) {
 std::unique_ptr<StudyBeep> open_beep() {
   auto beep = StudyBeep::create();
   if (beep) return std::move(*beep);
-  std::fprintf(stderr, "icome: %s\n", beep.error().message.c_str());
+  std::fprintf(stderr, "icome: %s\n", base::terminal_text(beep.error().message).c_str());
   return nullptr;
 }
 
@@ -439,7 +440,7 @@ int run_study_window(int argc, char** argv, const StudyWindowOptions& options,
   if (!application) return 1;
   apply_theme(*application, theme_of(options.theme).value_or(Theme::Light));
   const auto fail = [](const base::Error& error) {
-    std::fprintf(stderr, "icome: %s\n", error.message.c_str());
+    std::fprintf(stderr, "icome: %s\n", base::terminal_text(error.message).c_str());
     return 1;
   };
   settings.autosave_folder.clear();  // what people do in trials is no design of anybody
@@ -454,7 +455,7 @@ int run_study_window(int argc, char** argv, const StudyWindowOptions& options,
   const std::size_t told = run->notices().size();
   const int code = QApplication::exec();
   for (std::size_t i = told; i < run->notices().size(); ++i)
-    std::fprintf(stderr, "icome: %s\n", run->notices()[i].c_str());
+    std::fprintf(stderr, "icome: %s\n", base::terminal_text(run->notices()[i]).c_str());
   return code;
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "world/edit.h"
 #include "world/mesh_geometry.h"
+#include "world/permit.h"
 #include "world/row.h"
 
 namespace icome::world {
@@ -35,7 +37,14 @@ std::string called(const PhysicalObject& object, ObjectId id) {
 class EditApplier {
  public:
   /// `alone`: nobody else looks at the world and at shapes that only it has.
-  EditApplier(World& world, bool alone) : world_(world), alone_(alone) {}
+  EditApplier(World& world, bool alone, Permit permit = {})
+      : world_(world), alone_(alone), permit_(std::move(permit)) {}
+
+  Result<Edit> perform(const Edit& edit) {
+    const bool is_single = !std::holds_alternative<EditGroup>(edit.what);
+    if (is_single && !permitted(sizeof(Edit))) return not_permitted();
+    return std::visit(*this, edit.what);
+  }
 
   Result<Edit> operator()(const CreateObject& it) {
     if (const auto fresh = check_new(it.id, world_.objects_, "object"); !fresh)
@@ -156,6 +165,7 @@ class EditApplier {
       if (!before) return tl::unexpected(before.error());
       return Edit(MoveVertices{it.id, it.vertices, std::move(*before)});
     }
+    if (!permitted(shape->bytes())) return not_permitted();
     auto moved = move_vertices(*shape, it.vertices, it.positions);
     if (!moved) return tl::unexpected(moved.error());
     GeometryPointer before = std::exchange(shape, std::move(moved->shape));
@@ -272,7 +282,7 @@ class EditApplier {
   Result<Edit> operator()(const EditGroup& it) {
     EditGroup back;
     for (const Edit& edit : it.edits) {
-      auto inverse = std::visit(*this, edit.what);
+      auto inverse = perform(edit);
       if (!inverse) {
         for (auto done = back.edits.rbegin(); done != back.edits.rend(); ++done)
           (void)std::visit(*this, done->what);
@@ -285,6 +295,10 @@ class EditApplier {
   }
 
  private:
+  bool permitted(std::size_t bytes) const { return !permit_ || permit_(bytes); }
+  static tl::unexpected<base::Error> not_permitted() {
+    return fail("The edit takes more memory or time than it may.");
+  }
   static tl::unexpected<base::Error> gone(const char* what) {
     return fail(fmt::format("The {} is not there any more.", what));
   }
@@ -399,14 +413,17 @@ class EditApplier {
 
   World& world_;
   bool alone_;
+  Permit permit_;
 };
 
 base::Result<Edit> apply(World& world, const Edit& edit) {
   return std::visit(EditApplier(world, false), edit.what);
 }
 
-base::Result<void> replay(World& world, const Edit& edit) {
-  const auto inverse = std::visit(EditApplier(world, true), edit.what);
+base::Result<void> replay(World& world, const Edit& edit) { return replay(world, edit, Permit()); }
+
+base::Result<void> replay(World& world, const Edit& edit, const Permit& permit) {
+  const auto inverse = EditApplier(world, true, permit).perform(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   return {};
 }

@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "world/edit.h"
 #include "world/geometry_factory.h"
+#include "world/permit.h"
 
 namespace icome::world {
 
@@ -18,7 +19,8 @@ base::Result<std::string> to_bytes(const Edit& edit);
 /// The edit that was written, its shapes made by the factory. The bytes may come from a stranger or a broken
 /// disk: whatever they are, memory and time stay in proportion to their size (but each implicit shape may
 /// take up to a second, as making one does), and what is no edit fails with a sentence. Whether a world
-/// allows the edit is for `apply` to say.
-base::Result<Edit> edit_from_bytes(std::string_view bytes, const GeometryFactory& factory);
+/// allows the edit is for `apply` to say. Waits for the permit before and after each shape that is made.
+base::Result<Edit> edit_from_bytes(std::string_view bytes, const GeometryFactory& factory,
+                                   const Permit& permit = {});
 
 }  // namespace icome::world

@@ -33,7 +33,8 @@ std::optional<double> optional_from(const flatbuffers::Optional<double>& from) {
 /// Reads edits that are verified to lie within their bytes, each kind by its own function.
 class EditReader {
  public:
-  EditReader(FlatReader& reader, const GeometryFactory& factory) : reader_(reader), factory_(factory) {}
+  EditReader(FlatReader& reader, const GeometryFactory& factory, const Permit& permit)
+      : reader_(reader), factory_(factory), permit_(permit) {}
 
   Edit make(const flat::Edit& from) {
     switch (from.what_type()) {
@@ -168,10 +169,16 @@ class EditReader {
     if (!from) return nullptr;
     const std::string kind = reader_.text(from->kind());
     const std::string_view bytes = reader_.view(*from->bytes());
-    if (!reader_.fault().empty()) return nullptr;
+    if (!permitted(0) || !reader_.fault().empty()) return nullptr;
     auto shape = factory_.read(kind, bytes);
     if (!shape) reader_.refuse(shape.error().message);
-    return shape ? std::move(*shape) : nullptr;
+    return shape && permitted((*shape)->bytes()) ? std::move(*shape) : nullptr;
+  }
+
+  bool permitted(std::size_t bytes) {
+    if (!permit_ || permit_(bytes)) return true;
+    reader_.refuse("The shapes of an edit take more memory or time than they may.");
+    return false;
   }
 
   FixturePointer fixture(const flat::Fixture* from) {
@@ -224,19 +231,21 @@ class EditReader {
 
   FlatReader& reader_;
   const GeometryFactory& factory_;
+  const Permit& permit_;
   int groups_ = 0;  // that the edit being read lies within
 };
 
 }  // namespace
 
-base::Result<Edit> edit_from_bytes(std::string_view bytes, const GeometryFactory& factory) {
+base::Result<Edit> edit_from_bytes(std::string_view bytes, const GeometryFactory& factory,
+                                   const Permit& permit) {
   FlatReader reader(bytes);
   if (bytes.size() > kMostReadBytes) return base::fail("There are more bytes than an edit can have.");
   flatbuffers::Verifier verifier(reader.data(), reader.size(), kMostTablesDeep,
                                  flatbuffers::uoffset_t(reader.size() / kFewestBytesOfEdit));
   if (!flat::VerifyEditBuffer(verifier))
     return base::fail("The bytes of an edit are damaged, or they are something else.");
-  Edit edit = EditReader(reader, factory).make(*flat::GetEdit(reader.data()));
+  Edit edit = EditReader(reader, factory, permit).make(*flat::GetEdit(reader.data()));
   if (!reader.fault().empty()) return base::fail(reader.fault());
   return edit;
 }

@@ -190,7 +190,7 @@ class JournalTest(DesignTest):
     def test_a_csg_tree_in_a_design_is_felt_without_a_mesh(self):
         design = self.folder / "solid.icome"
         self.succeeds("convert", self.write("solid.csg", self.SOLID), design)
-        row = self.contact(design, (0.02, 0, 0.1), (0.02, 0, 0.038))
+        row = self.contact(design, (0.02, 0, 0.1), (0.02, 0, 0.038), "--up", "y")
         self.assert_point(row, (0.02, 0, 0.04))
         self.assertEqual(self.report(design, "--seconds", "0.1")["triangles"], 0)
 

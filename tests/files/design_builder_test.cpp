@@ -29,7 +29,8 @@ TEST(DesignBuilder, EqualPrimitivesAreShapesOfTheirOwnThatLieInMemoryOnce) {
       {geometry::Cylinder{0.1, 0.2}, Axis::Y},
       {geometry::Cone{0.0, 0.1, 0.2}, Axis::Z},
   };
-  DesignBuilder builder;
+  MemoryBudget memory;
+  DesignBuilder builder(memory);
   std::vector<std::vector<world::GeometryId>> ids(different.size());
   for (int round = 0; round < 3; ++round) {
     for (std::size_t i = 0; i < different.size(); ++i) {

@@ -73,16 +73,16 @@ std::string rich_glb() {
   return bytes.str();
 }
 
-DesignReadOptions careful() {
+base::Result<LoadedDesign> read_carefully(const std::string& bytes) {
   DesignReadOptions options;
-  options.memory_limit = 256ULL << 20U;
   options.size_limit = 64ULL << 20U;
   options.seconds_limit = 20.0;
-  return options;
+  MemoryBudget memory(256ULL << 20U);
+  return read_gltf_bytes(bytes, "f", options, memory);
 }
 
 void read_or_refuse(const std::string& bytes) {
-  const auto design = read_gltf_bytes(bytes, "f", careful());
+  const auto design = read_carefully(bytes);
   if (design) return;
   EXPECT_EQ(design.error().message.find('\n'), std::string::npos) << design.error().message;
   EXPECT_TRUE(design.error().message.starts_with("f:")) << design.error().message;
@@ -107,7 +107,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
                                          "\"children\":[0],",
                                          "0.5"};
   const std::string good = rich_glb();
-  ASSERT_TRUE(read_gltf_bytes(good, "f", careful()));
+  ASSERT_TRUE(read_carefully(good));
   const Parts parts = parts_of(good);
   base::Random random(20261121);
   for (int i = 0; i < 1500; ++i) {
@@ -119,7 +119,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
 std::string json_with(const std::string& members) { return R"({"asset":{"version":"2.0"},)" + members + "}"; }
 
 std::string error_of_json(const std::string& members, const std::string& data = "0123456789abcdef") {
-  const auto design = read_gltf_bytes(glb_of(json_with(members), data), "f", careful());
+  const auto design = read_carefully(glb_of(json_with(members), data));
   return design ? "" : design.error().message;
 }
 

@@ -78,7 +78,7 @@ TEST(OffParser, BadLinesAreNamed) {
   EXPECT_EQ(error_of(parse_off, "OFF\n1 1 0\n0 0 0\n3 0 1 0\n"),
             "f:4: face refers to vertex 1; the 1 vertices are numbered from 0");
   EXPECT_EQ(error_of(parse_off, "OFF\n-1 1 0\n"), "f:2: -1 is not a number of vertices");
-  EXPECT_EQ(error_of(parse_off, "OFF BINARY\n"), "f:1: 'BINARY' is not a number of vertices");
+  EXPECT_EQ(error_of(parse_off, "OFF BINARY\n"), "f: is cut short");
   EXPECT_EQ(error_of(parse_off, "OFF\n4000000000000 4000000000000 0\n0 0 0\n"),
             "f:4: the file ends where a coordinate is expected: it may be cut short");
   EXPECT_EQ(error_of(parse_off, "OFF\n1 1 0\n0 0 0\n4000000000 0 0\n"),
@@ -198,6 +198,55 @@ TEST(GlbParser, MalformedFilesAreRefused) {
             kGlbError + "face refers to vertex 3; the 3 vertices are numbered from 0");
   EXPECT_EQ(error_of(parse_glb, glb_with("\"nodes\":[{", "\"nodes\":[[")),
             kGlbError + "line 1 of its JSON is malformed");
+}
+
+TEST(PlyParser, TakesStripsOfTriangles) {
+  // A square with z up of two triangles, another joined to it by repeated vertices, and one behind a -1.
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n3 0 0\n2 1 0\n3 1 0\n";
+  const auto parsed = parse_ply(head + "14 0 1 2 3 3 4 4 5 6 7 -1 0 1 2\n", "f");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(parsed->mesh.triangles.size(), 5U);
+  double up = 0.0;
+  for (std::size_t t = 0; t < parsed->mesh.triangles.size(); ++t) {
+    const auto& a = parsed->mesh.corner(t, 0);
+    up += 0.5 * (parsed->mesh.corner(t, 1) - a).cross(parsed->mesh.corner(t, 2) - a).z();
+  }
+  EXPECT_DOUBLE_EQ(up, 2.5) << "all run the same way round";
+  EXPECT_EQ(error_of(parse_ply, head + "3 0 1 8\n"),
+            "f:18: strip 1 refers to vertex 8; the 8 vertices are numbered from 0");
+}
+
+/// A square and a triangle with colours, as Geomview writes them in binary.
+std::string binary_off(const std::string& keyword, std::size_t more) {
+  std::string bytes = keyword + " BINARY\n";
+  for (const std::uint32_t count : {4U, 2U, 0U}) bytes += bytes_of(count, true);
+  for (const auto& [x, y] : {std::pair(0.0F, 0.0F), {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}}) {
+    for (const float part : {x, y, 0.0F}) bytes += bytes_of(part, true);
+    for (std::size_t i = 0; i < more; ++i) bytes += bytes_of(0.5F, true);
+  }
+  for (const std::uint32_t number : {4U, 0U, 1U, 2U, 3U, 0U, 3U, 0U, 1U, 2U, 3U})
+    bytes += bytes_of(number, true);
+  for (int i = 0; i < 3; ++i) bytes += bytes_of(0.25F, true);
+  return bytes;
+}
+
+TEST(OffParser, TakesBinaryFiles) {
+  for (const auto& [keyword, more] : {std::pair("OFF", 0), {"COFF", 4}, {"NOFF", 3}, {"STCNOFF", 9}}) {
+    const std::string bytes = binary_off(keyword, std::size_t(more));
+    const auto parsed = parse_off(bytes, "f");
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    EXPECT_EQ(parsed->format, "binary OFF");
+    EXPECT_EQ(parsed->mesh.triangles.size(), 3U) << keyword;
+    EXPECT_DOUBLE_EQ(geometry::surface_area(parsed->mesh), 1.5) << keyword;
+    for (std::size_t cut = std::string(keyword).size() + 8; cut < bytes.size(); ++cut)
+      EXPECT_EQ(error_of(parse_off, bytes.substr(0, cut)), "f: is cut short") << cut;
+  }
+  std::string far = binary_off("OFF", 0);
+  far[far.size() - 17] = 9;  // the last corner
+  EXPECT_EQ(error_of(parse_off, far), "f: face refers to vertex 9; the 4 vertices are numbered from 0");
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class UrlPolicy : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
   base::Result<std::string> fetch(std::string_view url, std::uint64_t limit = 100) const {
-    return fetch_beside(folder_ / "design/main.wrl", url, limit);
+    UrlReach reach(folder_ / "design/main.wrl");
+    return fetch_beside(folder_ / "design/main.wrl", url, limit, reach);
   }
 
   const fs::path folder_ =
@@ -39,7 +40,46 @@ TEST_F(UrlPolicy, FollowsRelativeUrlsHoweverTheyAreWritten) {
     ASSERT_TRUE(bytes) << bytes.error().message;
     EXPECT_EQ(*bytes, "picture") << url;
   }
-  EXPECT_EQ(fetch("../shared.png").value(), "shared");
+}
+
+TEST_F(UrlPolicy, LeadsNowhereAboveTheDesignUnlessToldTo) {
+  fs::create_directory_symlink("..", folder_ / "design/up");
+  fs::create_symlink("../shared.png", folder_ / "design/link.png");
+  write("design/parts/own.wrl", "own");
+  const fs::path main = folder_ / "design/main.wrl", part = folder_ / "design/parts/own.wrl";
+  UrlReach near(main);
+  for (const char* url :
+       {"../shared.png", "%2e%2e/shared.png", "..\\shared.png", "parts/../../shared.png",
+        "file:../shared.png", "up/shared.png", "link.png", "../gone.png", "../../../etc/passwd"}) {
+    const auto found = find_beside(main, url, near);
+    ASSERT_FALSE(found) << url;
+    EXPECT_NE(found.error().message.find("it leads above the folder of the design"), std::string::npos)
+        << found.error().message;
+  }
+  EXPECT_FALSE(find_beside(part, "../../shared.png", near));
+  EXPECT_EQ(find_beside(part, "../main.wrl", near).value(), fs::canonical(main))
+      << "below the design's folder";
+  EXPECT_EQ(near.sentences(), std::vector<std::string>());
+
+  UrlReach far(main, true);
+  const fs::path shared = fs::canonical(folder_) / "shared.png";
+  EXPECT_EQ(find_beside(main, "../shared.png", far).value(), shared);
+  EXPECT_EQ(find_beside(part, "../../shared.png", far).value(), shared);
+  EXPECT_EQ(find_beside(main, "link.png", far).value(), shared);
+  EXPECT_TRUE(find_beside(main, "parts/own.wrl", far));
+  EXPECT_EQ(
+      far.sentences(),
+      std::vector<std::string>{
+          shared.string() + " lies above the design's folder: it is taken in, and goes into what is saved."});
+}
+
+TEST_F(UrlPolicy, TakesADesignThatIsALinkForOneOfBothFolders) {
+  fs::create_symlink("../main.wrl", folder_ / "design/parts/main.wrl");
+  write("design/parts/beside.png", "beside");
+  write("design/far.png", "far");
+  UrlReach reach(folder_ / "design/parts/main.wrl");
+  EXPECT_TRUE(find_beside(folder_ / "design/parts/main.wrl", "beside.png", reach));
+  EXPECT_TRUE(find_beside(folder_ / "design/main.wrl", "far.png", reach));
 }
 
 TEST_F(UrlPolicy, TakesANameLiterallyBeforeItTakesItAsAUrl) {
@@ -90,10 +130,11 @@ TEST_F(UrlPolicy, RefusesWhatIsNoRegularFile) {
 }
 
 TEST_F(UrlPolicy, ResolvesLinks) {
-  fs::create_symlink("../shared.png", folder_ / "design/link.png");
+  fs::create_symlink("parts/a b.png", folder_ / "design/link.png");
   fs::create_symlink("loop.png", folder_ / "design/loop.png");
-  EXPECT_EQ(find_beside(folder_ / "design/main.wrl", "link.png").value(),
-            fs::canonical(folder_ / "shared.png"));
+  UrlReach reach(folder_ / "design/main.wrl");
+  EXPECT_EQ(find_beside(folder_ / "design/main.wrl", "link.png", reach).value(),
+            fs::canonical(folder_ / "design/parts/a b.png"));
   EXPECT_FALSE(fetch("loop.png"));
 }
 
@@ -106,7 +147,8 @@ TEST_F(UrlPolicy, FindsWhatPackagesInstalled) {
   fs::create_symlink("../shared.png", installed / "out.obj");
   fs::create_directory_symlink("..", installed / "up");
   const auto find = [&](const std::string& url) {
-    return find_installed_or_beside(folder_ / "design/main.wrl", url, installed);
+    UrlReach reach(folder_ / "design/main.wrl");
+    return find_installed_or_beside(folder_ / "design/main.wrl", url, installed, reach);
   };
   const std::string there = installed.string();
   for (const std::string& url :
@@ -117,7 +159,9 @@ TEST_F(UrlPolicy, FindsWhatPackagesInstalled) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(*found, installed / "models/a b.obj") << url;
   }
-  EXPECT_EQ(find("../shared.png").value(), fs::canonical(folder_ / "shared.png")) << "beside, as ever";
+  EXPECT_EQ(find("parts/a b.png").value(), fs::canonical(folder_ / "design/parts/a b.png"))
+      << "below, as ever";
+  EXPECT_FALSE(find("../shared.png"));
   for (const std::string& url :
        {there, there + "/models", there + "/gone.obj", there + "/out.obj", there + "/up/shared.png",
         there + "/../shared.png", there + "/%2e%2e/shared.png", there + "too.obj", std::string("/etc/passwd"),

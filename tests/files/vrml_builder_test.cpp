@@ -37,7 +37,8 @@ base::Result<LoadedDesign> try_build(const std::string& bytes, std::vector<VrmlS
     return base::fail("there is no " + url);
   };
   Patience patience;
-  return build_vrml(bytes, sources, patience);
+  MemoryBudget memory;
+  return build_vrml(bytes, sources, patience, memory);
 }
 
 LoadedDesign built_from(const Answer& answer) {
@@ -456,7 +457,9 @@ TEST(VrmlBuilder, KeepsPicturesWithinTheLimit) {
                                    : base::Result<std::string>(kPngHead + url);
   };
   Patience patience;
-  const auto design = build_vrml(bytes_of(textured({{.urls = {"a"}}, {.urls = {"b"}}})), sources, patience);
+  MemoryBudget memory;
+  const auto design =
+      build_vrml(bytes_of(textured({{.urls = {"a"}}, {.urls = {"b"}}})), sources, patience, memory);
   ASSERT_TRUE(design.has_value());
   EXPECT_EQ(design->world.textures().size(), 1U);
   EXPECT_EQ(texts_of(*design), RemarkTexts{"The picture \"b\" is left out: it is too large."});
@@ -561,9 +564,10 @@ TEST(VrmlBuilder, StopsWhenTold) {
   sources.name = "test.wrl";
   Patience stopped(
       1e9, [](double) { return false; }, 0.5);
-  EXPECT_EQ(build_vrml(bytes, sources, stopped).error().message, "interrupted");
+  MemoryBudget memory;
+  EXPECT_EQ(build_vrml(bytes, sources, stopped, memory).error().message, "interrupted");
   Patience over(-1.0, nullptr, 0.5);
-  EXPECT_EQ(build_vrml(bytes, sources, over).error().message,
+  EXPECT_EQ(build_vrml(bytes, sources, over, memory).error().message,
             "test.wrl: making a design of it takes too long");
 }
 

@@ -24,7 +24,7 @@ constexpr double kWritten = 3e-6;
 std::string difference_through_file(const World& world, const fs::path& path) {
   if (const auto first = write_vrml(path, world); !first) return first.error().message;
   const std::string text = read_bytes(path, 1U << 30U).value();
-  const auto once = read_vrml(path);
+  const auto once = read_design(path);
   if (!once) return once.error().message;
   std::string why =
       difference(world, once->world, {.tolerance = kWritten, .texture_names = false, .recipes = false});
@@ -46,7 +46,7 @@ TEST(VrmlDataRoundTrip, EverySharedFileThatCanBeReadStaysAsItIs) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string ending = paths[i].extension();
     if (ending != ".wrl" && ending != ".wrz" && ending != ".vrml") continue;
-    const auto design = read_vrml(paths[i]);
+    const auto design = read_design(paths[i]);
     if (!design) continue;
     ++read;
     EXPECT_EQ(difference_through_file(design->world, folder.path() / fmt::format("{}.wrl", i)), "")

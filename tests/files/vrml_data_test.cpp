@@ -193,7 +193,9 @@ struct WorldCount {
   }
 };
 
-base::Result<LoadedDesign> read_shared(const std::string& file) { return read_vrml(kVrmlData / file); }
+base::Result<LoadedDesign> read_shared(const std::string& file) {
+  return read_design(kVrmlData / file, {.follows_urls_above = true});
+}
 
 TEST(VrmlData, HoldsWhatAnIndependentCountFinds) {
   SKIP_WITHOUT_VRML_DATA();
@@ -332,7 +334,7 @@ TEST(VrmlData, ReadsMalformedFilesOrSaysWhyNot) {
   EXPECT_EQ(known, kMalformed.size());
   for (const auto& [file, why] : kMalformed) {
     const auto path = kVrmlData / "malformed" / file;
-    const auto design = read_vrml(path);
+    const auto design = read_design(path);
     EXPECT_EQ(design.has_value(), std::string(why).empty()) << file;
     if (design) continue;
     EXPECT_TRUE(design.error().message.starts_with(path.string() + ":")) << design.error().message;

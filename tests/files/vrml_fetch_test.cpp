@@ -27,7 +27,9 @@ class VrmlFetch : public testing::Test {
     return SeenAnswer(answer);
   }
   /// The notes on a file that has one Inline.
-  std::string notes_on(const std::string& url) const { return ask("Inline { url " + url + " }").notes(); }
+  std::string notes_on(const std::string& url, const DesignReadOptions& options = {}) const {
+    return ask("Inline { url " + url + " }", options).notes();
+  }
 
   const fs::path folder_ = fs::path(testing::TempDir()) /
                            fmt::format("vrml_fetch_{}_{}", ::getpid(),
@@ -125,7 +127,10 @@ TEST_F(VrmlFetch, BoundsHowFarAndHowManyFilesAre) {
 
 TEST_F(VrmlFetch, GivesNothingAwayThatIsNotTheDesigns) {
   EXPECT_NE(notes_on("\"/etc/passwd\"").find("names a place on this machine"), std::string::npos);
-  const std::string climbing = notes_on("\"../../../../../../../../../../etc/passwd\"");
+  const std::string passwd = "\"../../../../../../../../../../etc/passwd\"";
+  const DesignReadOptions anywhere{.follows_urls_above = true};
+  const std::string climbing = notes_on(passwd, anywhere);
+  EXPECT_NE(notes_on(passwd).find("it leads above the folder of the design"), std::string::npos);
   EXPECT_NE(climbing.find("passwd is not fetched: it is not VRML 2.0"), std::string::npos) << climbing;
   EXPECT_EQ(climbing.find("root"), std::string::npos);
   EXPECT_NE(notes_on("\"http://example.org/a.wrl\"").find("only files that came with the design"),
@@ -135,11 +140,13 @@ TEST_F(VrmlFetch, GivesNothingAwayThatIsNotTheDesigns) {
   write("part.wrl", "Shape { geometry Box {} }");
   write("whole.wrl", std::string(kHeader) + "Shape { geometry Box {} }");
   write("design/text.wrl", "key { secret }");
-  EXPECT_NE(notes_on("\"../part.wrl\"").find("is not VRML 2.0"), std::string::npos);
+  EXPECT_NE(notes_on("\"../part.wrl\"", anywhere).find("is not VRML 2.0"), std::string::npos);
   EXPECT_NE(notes_on("\"text.wrl\"").find("is not VRML 2.0"), std::string::npos);
   fs::create_symlink("../part.wrl", folder_ / "design/link.wrl");
-  EXPECT_NE(notes_on("\"link.wrl\"").find("is not VRML 2.0"), std::string::npos);
-  EXPECT_EQ(notes_on("\"../whole.wrl\""), "");
+  EXPECT_NE(notes_on("\"link.wrl\"", anywhere).find("is not VRML 2.0"), std::string::npos);
+  EXPECT_NE(notes_on("\"link.wrl\"").find("it leads above"), std::string::npos);
+  EXPECT_EQ(notes_on("\"../whole.wrl\"", anywhere), "");
+  EXPECT_NE(notes_on("\"../whole.wrl\"").find("it leads above"), std::string::npos);
 }
 
 TEST(VrmlHeader, IsFoundAlsoBehindAByteOrderMark) {

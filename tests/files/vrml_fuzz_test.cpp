@@ -40,7 +40,8 @@ base::Result<LoadedDesign> build_anything(const std::string& bytes) {
     return url.size() % 2 == 0 ? base::Result<std::string>("GIF89a" + url) : base::fail("not there");
   };
   Patience patience(20.0, nullptr, 0.0);
-  return build_vrml(bytes, sources, patience);
+  MemoryBudget memory;
+  return build_vrml(bytes, sources, patience, memory);
 }
 
 /// What was made must be a world like any other: it can be written and made again.

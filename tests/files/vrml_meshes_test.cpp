@@ -34,7 +34,7 @@ std::string design_with(const std::string& fields) {
 }
 
 LoadedDesign read_whole(const fs::path& path, const DesignReadOptions& options = {}) {
-  auto design = read_vrml(path, options);
+  auto design = read_design(path, options);
   EXPECT_TRUE(design.has_value()) << (design ? "" : design.error().message);
   return design ? std::move(*design) : LoadedDesign{};
 }
@@ -201,7 +201,8 @@ TEST(VrmlMeshes, TryOnlySoManyUrlsAndFiles) {
   };
   Findings findings;
   Patience patience;
-  VrmlMeshes meshes(nowhere, 1000, findings, patience);
+  MemoryBudget memory;
+  VrmlMeshes meshes(nowhere, 1000, findings, patience, memory);
   VrmlMeshNode node;
   node.urls.assign(100'000, "u");
   EXPECT_EQ(meshes.shape_of(node), nullptr);

@@ -103,7 +103,8 @@ TEST(VrmlProcess, SaysWhereItLooksForTheWorker) {
 TEST(VrmlProcess, TellsHowAWorkerEnded) {
   expect_found(failure_with("exit 3"), "t.wrl: the VRML reader ended without an answer (code 3)");
   expect_found(failure_with("kill -SEGV $$"), "t.wrl: the VRML reader crashed (signal 11) on this file");
-  expect_found(failure_with("exit 101", {.memory_limit = 3U << 30U}), "needed more than 3 GiB of memory");
+  expect_found(failure_with("exit 101", {.memory_limit = 3U << 30U}),
+               "needs more than the 3221 MB of memory");
   expect_found(failure_with("exit 102"), "nest too deep");
   // It reads all, and then is gone.
   expect_found(failure_with("head -c 3000000 >/dev/null"), "ended without an answer (code 0)");
@@ -164,12 +165,13 @@ TEST(VrmlProcess, KeepsToItsLimits) {
 #ifndef __SANITIZE_ADDRESS__
   const std::string big =
       "Shape { appearance Appearance { texture PixelTexture { image 32000 32000 4 1 } } }";
-  expect_found(ask_about(big, {.memory_limit = 1U << 30U}).failure, "needed more than 1 GiB of memory");
+  expect_found(ask_about(big, {.memory_limit = 1U << 30U}).failure, "needs more than the 1074 MB of memory");
   // Many small things, which Coin does not ask for by new.
   std::string copies = "PROTO P0 [] { Group { children [ Group {} Group {} ] } }\n";
   for (int i = 1; i < 40; ++i)
     copies += fmt::format("PROTO P{0} [] {{ Group {{ children [ P{1} {{}} P{1} {{}} ] }} }}\n", i, i - 1);
-  expect_found(ask_about(copies, {.memory_limit = 300U << 20U}).failure, "needed more than 0.293 GiB");
+  expect_found(ask_about(copies, {.memory_limit = 300U << 20U}).failure,
+               "needs more than the 314.6 MB of memory");
 #endif
 }
 

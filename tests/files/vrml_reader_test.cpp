@@ -27,12 +27,12 @@ std::string textured_by(const std::string& urls) {
 }
 
 std::string reading_failure(const std::filesystem::path& path, const DesignReadOptions& options = {}) {
-  const auto design = read_vrml(path, options);
+  const auto design = read_design(path, options);
   return design ? "none" : design.error().message;
 }
 
 LoadedDesign read_good(const std::filesystem::path& path) {
-  auto design = read_vrml(path);
+  auto design = read_design(path);
   EXPECT_TRUE(design.has_value()) << (design ? "" : design.error().message);
   return design ? std::move(*design) : LoadedDesign{};
 }
@@ -76,7 +76,8 @@ TEST(VrmlReader, RefusesFilesThatAreTooLarge) {
 TEST(VrmlReader, SaysWhyThereIsNothing) {
   const ScratchFolder folder;
   EXPECT_NE(reading_failure(folder.path() / "gone.wrl").find("gone.wrl: cannot be read"), std::string::npos);
-  EXPECT_NE(reading_failure(folder.path()).find("is a folder"), std::string::npos);
+  std::filesystem::create_directory(folder.path() / "folder.wrl");
+  EXPECT_NE(reading_failure(folder.path() / "folder.wrl").find("is a folder"), std::string::npos);
   EXPECT_NE(reading_failure(folder.write("a.wrl", "")).find("a.wrl: is empty"), std::string::npos);
   EXPECT_NE(reading_failure(folder.write("b.wrl", kVrmlHead + "Group {")).find("b.wrl: "), std::string::npos);
 }
@@ -90,7 +91,7 @@ TEST(VrmlReader, TellsItsProgressAndStops) {
     parts.push_back(part);
     return true;
   };
-  ASSERT_TRUE(read_vrml(path, options).has_value());
+  ASSERT_TRUE(read_design(path, options).has_value());
   EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
   EXPECT_EQ(parts.back(), 1.0);
   for (const double end : {0.0, 0.3, 0.9}) {

@@ -20,7 +20,7 @@ using namespace world;
 namespace fs = std::filesystem;
 
 World read(const fs::path& path) {
-  auto design = read_vrml(path);
+  auto design = read_design(path);
   if (!design) throw std::runtime_error(design.error().message);
   return std::move(design->world);
 }
@@ -162,6 +162,24 @@ TEST(VrmlRoundTrip, TwoTablesOfFigure29) {
   for (const ObjectId it : legs(0)) EXPECT_EQ(world.find(world.find(it)->geometry)->shape->kind(), "mesh");
   for (const ObjectId it : legs(1))
     EXPECT_EQ(world.find(world.find(it)->geometry)->shape->kind(), "primitive");
+}
+
+TEST(VrmlRoundTrip, FlatFacesWithoutCreasesAreTheSameFileTheFirstTime) {
+  for (const std::size_t faces : {1U, 2U}) {
+    geometry::TriangleMesh mesh;
+    mesh.positions = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.1, 0.1, 0.0}, {0.0, 0.1, 0.0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.triangles.resize(faces);
+    mesh.positions.resize(faces + 2);
+    auto shape = std::make_shared<MeshGeometry>(mesh);
+    const Vector3 up(0.0, 0.0, 1.0);
+    shape->normals.assign(faces, {up, up, up});
+    DesignMaker design;
+    design.add("face", shape);
+    const ScratchFolder folder;
+    const std::string first = text_of_file(folder.path() / "a.wrl", design.world);
+    EXPECT_EQ(text_of_file(folder.path() / "b.wrl", read(folder.path() / "a.wrl")), first);
+  }
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include <cstring>
 
+#include "files/vrml_confinement.h"
 #include "files/vrml_worker/answer.h"
 #include "files/vrml_worker/channel.h"
-#include "files/vrml_worker/confine.h"
 #include "files/vrml_worker/scene_files.h"
 #include "files/vrml_worker/scene_walk.h"
 
