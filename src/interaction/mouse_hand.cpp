@@ -61,12 +61,10 @@ Vector3 MouseHand::over(const PickedPoint& picked, const Input& input, double wh
 double MouseHand::share_of_press(const PickedPoint& picked, double arrived, double deepest, bool turned) {
   constexpr double kRests = 0.25;  // of `deepest`: the mouse has not been moved
   constexpr double kEase = 0.03;   // a picture
-  if (!pressing_ || (picked.point - rests_at_).norm() > kRests * deepest) share_ = arriving_ = 0.0;
+  if (!pressing_ || (picked.point - rests_at_).norm() > kRests * deepest) share_ = 0.0;
   if (share_ == 0.0) {
     rests_at_ = picked.point;
-    const bool slides_off = arrived < arriving_;
-    arriving_ = arrived;
-    if (arrived == 1.0 || slides_off) share_ = std::max(arrived, kEase);
+    if (arrived == 1.0) share_ = 1.0;
     return arrived;
   }
   if (turned) {

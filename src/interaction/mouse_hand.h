@@ -52,7 +52,6 @@ class MouseHand {
   double depth_ = 1.0;     // of the view's `distance`, from the eye to what was touched last
   double extra_ = 0.0;     // notches, until the button goes up
   bool pressing_ = false;  // at the last input
-  double arriving_ = 0.0;  // at the last input, on the way there
   double share_ = 0.0;  // of the press, while the mouse rests where the hand has arrived; 0: it has not yet
   Vector3 rests_at_ = Vector3::Zero();  // m, what was picked then
   Vector3 last_ = Vector3::Zero();
