@@ -64,6 +64,15 @@ SegmentQuery::SegmentQuery(const Vector3& a, const Vector3& b, double radius_in,
   slanted = (b - a).squaredNorm() > 4.0 * radius_in * radius_in;
 }
 
+SegmentQuery& SegmentQuery::only_in(const Bounds& other) {
+  const FloatBox limits = float_box(other);
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = std::max(box.lo[axis], limits.lo[axis]);
+    box.hi[axis] = std::min(box.hi[axis], limits.hi[axis]);
+  }
+  return *this;
+}
+
 BoxTree::BoxTree(std::span<const FloatBox> leaves) : leaf_count_(leaves.size()) {
   std::size_t total = 0;
   for (std::size_t count = leaves.size(); count > 0 && (levels_ == 0 || count > 1);) {

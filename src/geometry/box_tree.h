@@ -57,6 +57,8 @@ struct SegmentQuery {
   /// `round`: the radius is large against the boxes and the way, as that of a sphere tip is, so that
   /// distances are worth measuring: a ball fills half of the box around it.
   SegmentQuery(const Vector3& a, const Vector3& b, double radius, bool round = false);
+  /// Leaves out boxes that do not meet this one either.
+  SegmentQuery& only_in(const Bounds& other);
 
   FloatBox box;                 // around the capsule
   std::array<float, 3> centre;  // of the segment

@@ -51,7 +51,28 @@ Vector3 MouseHand::over(const PickedPoint& picked, const Input& input, double wh
   const double pressure = unit_range(input.pressure) + kNotch * extra_;
   if (!(pressure > 0.0) || !(pressing_ || extra_ > 0.0)) return hover;
   const Vector3 pressed = picked.point - pressure * settings_.deepest * width * picked.normal;
-  return hover + arrived(picked, input, width) * (pressed - hover);
+  const double share =
+      share_of_press(picked, arrived(picked, input, width), settings_.deepest * width, wheel != 0.0);
+  return hover + share * (pressed - hover);
+}
+
+/// Who presses deep at a rounded place slides off it, is lifted, and comes back to press and slide again: so
+/// the press of a mouse that rests is only eased, and slowly enough for the hand to follow.
+double MouseHand::share_of_press(const PickedPoint& picked, double arrived, double deepest, bool turned) {
+  constexpr double kRests = 0.25;  // of `deepest`: the mouse has not been moved
+  constexpr double kEase = 0.03;   // a picture
+  if (!pressing_ || (picked.point - rests_at_).norm() > kRests * deepest) share_ = 0.0;
+  if (share_ == 0.0) {
+    rests_at_ = picked.point;
+    if (arrived == 1.0) share_ = 1.0;
+    return arrived;
+  }
+  if (turned) {
+    share_ = 1.0;
+  } else if (arrived < 1.0) {
+    share_ = std::max(share_ * (1.0 - kEase), kEase);
+  }
+  return share_;
 }
 
 /// 1 where the hand may press with all its strength, 0 where it is elsewhere still. It may lag as far as it

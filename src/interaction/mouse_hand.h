@@ -23,8 +23,9 @@ struct MouseHandSettings {
 /// presses into it while the button is down, the deeper the harder a pen is pressed or the further the wheel
 /// was turned. It presses straight down, so that the surface contact point stays under the mouse, and only
 /// where the hand has arrived: on its way to somewhere else it is lifted, and so gets over what stands in
-/// between. Over nothing it stays as far from the eye as it was last. One thread owns it; the same inputs
-/// give the same targets.
+/// between. While the mouse rests, what has slid away under the press is only ever eased, until it stays.
+/// Over nothing it stays as far from the eye as it was last. One thread owns it; the same inputs give the
+/// same targets.
 class MouseHand {
  public:
   explicit MouseHand(const MouseHandSettings& settings = {}) : settings_(settings) {}
@@ -45,11 +46,14 @@ class MouseHand {
   Vector3 over_nothing(const Input& input, double wheel);
   Vector3 over(const PickedPoint& picked, const Input& input, double wheel);
   double arrived(const PickedPoint& picked, const Input& input, double width) const;
+  double share_of_press(const PickedPoint& picked, double arrived, double deepest, bool turned);
 
   MouseHandSettings settings_;
   double depth_ = 1.0;     // of the view's `distance`, from the eye to what was touched last
   double extra_ = 0.0;     // notches, until the button goes up
   bool pressing_ = false;  // at the last input
+  double share_ = 0.0;  // of the press, while the mouse rests where the hand has arrived; 0: it has not yet
+  Vector3 rests_at_ = Vector3::Zero();  // m, what was picked then
   Vector3 last_ = Vector3::Zero();
 };
 

@@ -30,15 +30,20 @@ std::optional<haptics::GripFeel> HandGrab::update(Session& session, std::size_t 
       hand.status != devices::DeviceStatus::Lost && (hand.buttons & kGrabButton) != 0 && hand.tip.allFinite();
   const bool was_down = std::exchange(was_down_, down);
   if (down && !was_down) begin(session, pointer, revisions.now());
-  if (!held_) return std::nullopt;
+  if (!held_) {
+    arrive(session, revisions);
+    return std::nullopt;
+  }
   const bool goes_on = down && held_->revision == revisions.now();
   if (goes_on && follow(session, hand.tip, revisions, refused))
     return feel_of(held_->drag, held_->start, session.grab());
+  if (!down && held_->revision == revisions.now() && held_->drag.pending()) let_go_ = std::move(held_);
   held_.reset();
   return haptics::GripFeel{};
 }
 
 void HandGrab::begin(Session& session, std::size_t pointer, std::uint64_t revision) {
+  let_go_.reset();
   const auto touched = session.touched(pointer);
   if (!touched || !session.world().find(*touched)) return;
   const bool is_selected = std::ranges::any_of(
@@ -50,13 +55,23 @@ void HandGrab::begin(Session& session, std::size_t pointer, std::uint64_t revisi
   held_.emplace(Held{std::move(drag), session.pointer(pointer).tip, revision});
 }
 
+/// What was let go still gets to where the hand had it, as soon as it is known how far it comes.
+void HandGrab::arrive(Session& session, const Revisions& revisions) {
+  if (!let_go_) return;
+  const bool goes_on = let_go_->revision == revisions.now() && let_go_->drag.go_on(session).has_value();
+  let_go_->revision = revisions.now();
+  if (!goes_on || !let_go_->drag.pending()) let_go_.reset();
+}
+
 /// False when it could not go on.
 bool HandGrab::follow(Session& session, const base::Vector3& tip, const Revisions& revisions,
                       std::string& refused) {
   const base::Vector3 offset = tip - held_->start;
-  if (offset == held_->drag.state().wanted()) return true;
-  if (!held_->drag.moved() && offset.norm() < kGrabSlack) return true;
-  if (const auto done = held_->drag.to(session, {.offset = offset}); !done) {
+  auto done = held_->drag.go_on(session);
+  const bool is_new = offset != held_->drag.wish().offset;
+  if (done && is_new && (held_->drag.moved() || offset.norm() >= kGrabSlack))
+    done = held_->drag.to(session, {.offset = offset});
+  if (!done) {
     refused = done.error().message;
     return false;
   }

@@ -33,7 +33,10 @@ class HandGrab {
   void begin(Session& session, std::size_t pointer, std::uint64_t revision);
   bool follow(Session& session, const base::Vector3& tip, const Revisions& revisions, std::string& refused);
 
+  void arrive(Session& session, const Revisions& revisions);
+
   std::optional<Held> held_ = {};
+  std::optional<Held> let_go_ = {};  // while it is not known yet how far it comes
   bool was_down_ = false;
 };
 

@@ -78,7 +78,8 @@ bool HapticLoop::tick(const realtime::TickInfo& info) {
     const bool lost = report.status == devices::DeviceStatus::Lost;
     if (lost && hand.status != devices::DeviceStatus::Lost) ++hand.losses;
     hand.status = report.status;
-    const PointerView view = view_of(report, hand.losses, time);
+    PointerView view = view_of(report, hand.losses, time);
+    view.spared = hand.servo->limiter().acted(haptics::LimiterAct::Continuous);
     hand.to_main.publish(view);
     display_.publish(i, view);
     if (i != 0) continue;

@@ -40,19 +40,55 @@ ObjectDrag::ObjectDrag(const Session& session, std::span<const world::ObjectId> 
     : drag_(session.world(), objects), name_(std::move(name)), goes_on_(goes_on) {}
 
 base::Result<void> ObjectDrag::to(Session& session, const Wish& wish) {
+  wish_ = wish;
+  if (claim_.work) return {};  // go_on() sees to it
+  return ask(session);
+}
+
+base::Result<void> ObjectDrag::ask(Session& session) {
+  constexpr std::uint64_t kByThread =
+      30'000'000;  // then they go as far as is known, and it goes on from there
+  Surroundings& around = session.surroundings();
+  waits_ = around.are_lent();
+  if (waits_) return {};
   const GrabSettings& settings = session.grab();
   interaction::DragRules rules;
   rules.stops.stop = settings.stop;
-  rules.snaps = wish.snap ? settings.snaps : interaction::SnapSettings::none();
-  rules.axis = wish.axis;
+  rules.snaps = wish_.snap ? settings.snaps : interaction::SnapSettings::none();
+  rules.axis = wish_.axis;
+  asked_ = wish_;
+  if (!slow_) {
+    world::Effort effort(kAtOnce);
+    const auto found =
+        drag_.find(session.world(), around.index(), around.finder(), wish_.offset, rules, &effort);
+    if (!found) return tl::unexpected(found.error());
+    slow_ = effort.is_spent();
+    if (!slow_) return take(session, *found);
+  }
+  claim_.work = around.work_out(drag_, wish_.offset, rules, kByThread);
+  return {};
+}
+
+base::Result<void> ObjectDrag::take(Session& session, const interaction::StoppedDrag::Found& found) {
   const Vector3 before = drag_.offset();
-  Surroundings& around = session.surroundings();
-  const auto edit = drag_.to(session.world(), around.index(), around.finder(), wish.offset, rules);
-  if (!edit) return tl::unexpected(edit.error());
+  const world::Edit edit = drag_.take(found);
   if (drag_.offset() == before) return {};
-  const auto done = moved_ || goes_on_ ? session.extend(*edit) : session.perform(*edit, name_);
+  const auto done = moved_ || goes_on_ ? session.extend(edit) : session.perform(edit, name_);
   moved_ = moved_ || done.has_value();
   return done;
+}
+
+base::Result<void> ObjectDrag::go_on(Session& session) {
+  if (waits_) return ask(session);
+  if (!claim_.work || !claim_.work->is_done()) return {};
+  const auto work = std::exchange(claim_.work, nullptr);
+  const auto found = work->take();
+  if (!found) return tl::unexpected(found.error());
+  if (work->is_stale()) return ask(session);
+  const Vector3 before = drag_.offset();
+  if (const auto taken = take(session, *found); !taken) return taken;
+  const bool gets_on = found->spent && drag_.offset() != before;
+  return gets_on || wish_ != asked_ ? ask(session) : base::Result<void>();
 }
 
 std::string ObjectDrag::words(const Session& session) const {
@@ -62,6 +98,7 @@ std::string ObjectDrag::words(const Session& session) const {
                        to ? " of " + spoken_name(session.world(), to) : std::string());
   }
   const auto contacts = felt_contacts(drag_);
+  if (contacts.empty() && pending()) return "Finding out how far it can go\u2026";
   if (contacts.empty()) return {};
   return fmt::format("Stopped at {}", spoken_name(session.world(), contacts.front().other));
 }

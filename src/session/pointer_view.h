@@ -23,6 +23,7 @@ struct PointerView {
   base::ObjectId touched = {};   // in the haptic scene, when touching
   double asked_stiffness = 0.0;  // N/m, of what is touched as it was made, or the device's nominal one
   double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
+  bool spared = false;           // less force than is felt there, as the motors would become too warm
   std::uint64_t losses = 0;      // how often the device was lost since the start
 };
 

@@ -1,27 +1,33 @@
 #include "session/surroundings.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace icome::session {
 
+Surroundings::~Surroundings() {
+  if (work_) work_->give_up();
+}
+
 void Surroundings::follow(const world::Changes* changes) {
+  if (work_) work_->is_stale_ = true;
   if (!changes) {
-    index_.reset();
-    finder_ = interaction::SnapFinder();
+    around_.reset();
     objects_.clear();
     geometries_.clear();
   }
-  if (!changes || !index_) return;
+  if (!changes || !around_) return;
   objects_.insert(changes->objects.begin(), changes->objects.end());
   geometries_.insert(changes->geometries.begin(), changes->geometries.end());
 }
 
-void Surroundings::catch_up() {
-  if (!index_) {
-    index_.emplace(world_);
-    return;
+Surroundings::Around& Surroundings::around() {
+  assert(!are_lent());
+  if (!around_) {
+    around_ = std::make_shared<Around>(world_);
+    return *around_;
   }
-  if (objects_.empty() && geometries_.empty()) return;
+  if (objects_.empty() && geometries_.empty()) return *around_;
   world::Changes changes;
   changes.objects.assign(objects_.begin(), objects_.end());
   changes.geometries.assign(geometries_.begin(), geometries_.end());
@@ -30,18 +36,31 @@ void Surroundings::catch_up() {
   std::ranges::sort(changes.geometries);
   objects_.clear();
   geometries_.clear();
-  index_->follow(world_, changes);
-  finder_.follow(changes);
+  around_->index.follow(world_, changes);
+  around_->finder.follow(changes);
+  return *around_;
 }
 
-world::CollisionIndex& Surroundings::index() {
-  catch_up();
-  return *index_;
-}
+world::CollisionIndex& Surroundings::index() { return around().index; }
 
-interaction::SnapFinder& Surroundings::finder() {
-  catch_up();
-  return finder_;
+interaction::SnapFinder& Surroundings::finder() { return around().finder; }
+
+std::shared_ptr<Surroundings::Work> Surroundings::work_out(const interaction::StoppedDrag& drag,
+                                                           const base::Vector3& wanted,
+                                                           const interaction::DragRules& rules,
+                                                           std::uint64_t effort) {
+  (void)around();
+  work_ = std::make_shared<Work>();
+  // The world is asked for nothing else than what things snap to.
+  auto world = std::make_shared<const world::World>(rules.snaps.any() ? world_ : world::World());
+  using Found = interaction::StoppedDrag::Found;
+  const auto look = [around = around_, world = std::move(world), drag, wanted, rules, effort,
+                     given_up = &work_->given_up_]() -> base::Result<Found> {
+    world::Effort left(effort, given_up);
+    return drag.find(*world, around->index, around->finder, wanted, rules, &left);
+  };
+  work_->task_ = std::make_unique<BackgroundTask<Found>>(look);
+  return work_;
 }
 
 }  // namespace icome::session

@@ -121,8 +121,9 @@ void TechniqueHand::perform(Session& session, const interaction::WorldTechnique:
 
 std::optional<Affine3> TechniqueHand::copy_from_stage(const Session& session) {
   if (!revision_ || !uses_miniature(technique())) return std::nullopt;
-  return interaction::copy_from_world(technique().selecting_settings.miniature,
-                                      technique_.scene(session.world()).bounds(), input_, stage_from_room());
+  const interaction::SelectingSettings sizes = interaction::sizes_now(technique(), technique_.state());
+  return interaction::copy_from_world(sizes.miniature, technique_.scene(session.world()).bounds(), input_,
+                                      stage_from_room());
 }
 
 void TechniqueHand::record(const world::World& world) {

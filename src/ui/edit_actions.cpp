@@ -1,5 +1,10 @@
 #include "ui/edit_actions.h"
 
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QPlainTextEdit>
 #include <utility>
 
 #include "ui/actions.h"
@@ -17,6 +22,34 @@ void collect_shapes(const world::World& world, ObjectId root, std::vector<Object
     if (world.find(id)->geometry) found.push_back(id);
   }
 }
+
+/// Has it letters that were typed into it, and may be taken back or typed once more?
+bool has_typing(const QObject& widget) {
+  if (const auto* line = qobject_cast<const QLineEdit*>(&widget))
+    return line->isUndoAvailable() || line->isRedoAvailable();
+  if (const auto* text = qobject_cast<const QPlainTextEdit*>(&widget))
+    return text->document()->isUndoAvailable() || text->document()->isRedoAvailable();
+  const auto* spin = qobject_cast<const QAbstractSpinBox*>(&widget);
+  const auto* line = spin ? spin->findChild<const QLineEdit*>() : nullptr;
+  return line && has_typing(*line);
+}
+
+/// Leaves the keys of undo and redo to the design, unless what has the keyboard has typing of its own to take
+/// back: fields would claim them always.
+class UndoKeys final : public QObject {
+ public:
+  using QObject::QObject;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() != QEvent::ShortcutOverride || !watched->isWidgetType()) return false;
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    if (!key.matches(QKeySequence::Undo) && !key.matches(QKeySequence::Redo)) return false;
+    if (has_typing(*watched)) return false;
+    event->ignore();
+    return true;
+  }
+};
 
 }  // namespace
 
@@ -40,6 +73,7 @@ void EditActions::fill(QMenu& menu) {
   undo_ = add_action(menu, "edit.undo", "&Undo", QKeySequence("Ctrl+Z"),
                      [this] { perform([this] { return session_.undo(); }); });
   undo_->setIcon(icon(Icon::Undo));
+  qApp->installEventFilter(new UndoKeys(&menu));
   redo_ = add_action(menu, "edit.redo", "&Redo", {}, [this] { perform([this] { return session_.redo(); }); });
   redo_->setShortcuts({QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y")});
   redo_->setIcon(icon(Icon::Redo));

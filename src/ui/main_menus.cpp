@@ -188,6 +188,10 @@ void MainWindow::show_tool(Tool tool) {
 void MainWindow::show_hint() {
   const std::vector<world::ObjectId>& selected = session_.selection();
   QString text = kTools[int(tools_.tool())].hint;
+  const QString by = techniques_.name();
+  if (tools_.tool() == Tool::Touch && !by.isEmpty()) text = techniques_.hint();
+  technique_->setVisible(!by.isEmpty());
+  technique_->setText("Technique: " + by);
   if (tools_.tool() == Tool::Select && !selected.empty()) {
     const base::Bounds bounds = session_.selection_bounds();
     text = selected.size() > 1 ? QString("%1 objects").arg(selected.size())

@@ -76,6 +76,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
     operation_->leave();
     techniques_.end_recording();
   });
+  techniques_.on_choice([this] { is_stale_ = true; });
   views_.on_look([this] { show_look(); });
   views_.on_theme([this](Theme theme) { choose_theme(theme); });
   views_.show_theme(options_.theme);
@@ -115,7 +116,12 @@ void MainWindow::make_center() {
   hint_->setObjectName("status.hint");
   count_ = new QLabel(this);
   count_->setObjectName("status.count");
+  technique_ = new QLabel(this);
+  technique_->setObjectName("status.technique");
+  technique_->setToolTip(
+      "By which the hands select, hold and travel: Tools > Technique chooses another, or touch");
   statusBar()->addWidget(hint_, 1);
+  statusBar()->addPermanentWidget(technique_);
   statusBar()->addPermanentWidget(count_);
 }
 

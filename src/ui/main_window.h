@@ -96,6 +96,7 @@ class MainWindow final : public QMainWindow {
   QDockWidget* operation_dock_ = nullptr;  // closed while nothing is asked
   QWidget* hand_ = nullptr;
   QLabel* hint_ = nullptr;
+  QLabel* technique_ = nullptr;  // by which the hands work, where that is not touch
   QLabel* count_ = nullptr;
   QAction* tool_actions_[kToolCount] = {};
   QTimer timer_;

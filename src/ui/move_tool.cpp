@@ -32,7 +32,9 @@ void MoveTool::release(const SceneInput& input) {
   } else {
     select(*press_);
   }
+  auto let_go = std::move(drag_);
   drop();
+  if (let_go && let_go->objects.pending()) let_go_.emplace(std::move(let_go->objects));
 }
 
 void MoveTool::select(const Press& press) {
@@ -73,7 +75,19 @@ void MoveTool::keep_to(std::optional<int> axis) {
 }
 
 void MoveTool::tick() {
+  go_on();
   if (drag_ && due_) step();
+}
+
+/// To where things may go by what has been found out since.
+void MoveTool::go_on() {
+  session::ObjectDrag* const drag = drag_ ? &drag_->objects : let_go_ ? &*let_go_ : nullptr;
+  if (!drag) return;
+  const auto done = drag->go_on(session_);
+  if (let_go_ && (!done || !let_go_->pending())) let_go_.reset();
+  if (done) return;
+  refused_(done.error().message);
+  drop();
 }
 
 void MoveTool::step() {
@@ -92,7 +106,10 @@ void MoveTool::step() {
   nudged_ = false;
 }
 
-std::string MoveTool::words() const { return drag_ ? drag_->objects.words(session_) : std::string(); }
+std::string MoveTool::words() const {
+  if (drag_) return drag_->objects.words(session_);
+  return let_go_ ? let_go_->words(session_) : std::string();
+}
 
 void MoveTool::cancel() {
   const bool moved = drag_ && drag_->objects.moved();
@@ -111,11 +128,13 @@ void MoveTool::finish() {
 void MoveTool::drop() {
   press_.reset();
   drag_.reset();
+  let_go_.reset();
   due_.reset();
 }
 
 void MoveTool::nudge(const Vector3& in_view, bool more) {
   if (session_.selection().empty() || press_) return;
+  let_go_.reset();
   const Vector3 wanted = session_.view().world_from_eye.linear() * in_view;
   Eigen::Index axis = 0;
   if (axis_) {
@@ -130,6 +149,7 @@ void MoveTool::nudge(const Vector3& in_view, bool more) {
   if (drag.empty()) return;
   const auto done = drag.to(session_, {.offset = offset, .axis = Vector3::Unit(axis), .snap = false});
   nudged_ = (more && nudged_) || drag.moved();
+  if (done && drag.pending()) let_go_.emplace(std::move(drag));
   if (done) return;
   nudged_ = false;
   refused_(done.error().message);

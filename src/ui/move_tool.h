@@ -53,12 +53,14 @@ class MoveTool {
   void begin_drag();
   void select(const Press& press);
   void step();
+  void go_on();
 
   session::Session& session_;
   std::function<void(const std::string&)> refused_;
   std::optional<Press> press_ = {};
   std::optional<Drag> drag_ = {};
-  std::optional<SceneInput> due_ = {};  // where the mouse went
+  std::optional<session::ObjectDrag> let_go_ = {};  // while it is not known yet how far it comes
+  std::optional<SceneInput> due_ = {};              // where the mouse went
   std::optional<int> axis_ = {};
   bool nudged_ = false;  // the last action is a nudge
 };

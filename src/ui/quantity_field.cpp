@@ -17,7 +17,7 @@ QuantityField::QuantityField(Quantity quantity, QWidget* parent) : QLineEdit(par
   setMinimumWidth(12 * kGrid);
   setTextMargins(2, 0, 2, 0);
   connect(this, &QLineEdit::textEdited, this, [this] {
-    edited_ = true;
+    edited_ = text() != shown_;
     mark(false);
     if (typing_) typing_();
   });
@@ -47,7 +47,9 @@ void QuantityField::restore() {
   mark(false);
   setPlaceholderText(mixed_ ? QString("mixed") : none_.value_or(QString()));
   const QString text = value_ ? fitting_text(*value_) : QString();
-  if (text == this->text()) return;
+  shown_ = text;
+  // What was typed to get here is not to be taken back letter by letter: setting the text forgets it.
+  if (text == this->text() && !isUndoAvailable() && !isRedoAvailable()) return;
   setText(text);
   setCursorPosition(0);
   if (hasFocus()) selectAll();

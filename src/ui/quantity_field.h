@@ -59,6 +59,7 @@ class QuantityField final : public QLineEdit {
   std::optional<QString> none_ = {};
   std::optional<double> value_ = {};
   bool mixed_ = false;
+  QString shown_ = {};     // of the value, before anything is typed
   bool edited_ = false;    // typed, and not committed yet
   bool stepping_ = false;  // the last step was of this turn
   double wheel_ = 0.0;     // eighths of degrees turned, less than a step

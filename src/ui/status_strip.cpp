@@ -105,6 +105,14 @@ QString softer_words(const session::PointerView& view) {
       .arg(std::llround(view.stiffness));
 }
 
+QString sparing_words(const devices::DeviceInfo& device) {
+  return QString(
+             "The motors of this device can hold %1 N for long. More has been asked of them for some time, "
+             "so "
+             "the force sinks to that until they have rested.")
+      .arg(device.continuous_force);
+}
+
 /// Of the first few, what they are called and what they are felt as.
 QString capped_words(const world::World& world, const std::vector<haptics::CappedEffect>& effects) {
   constexpr std::size_t kMostTold = 6;
@@ -236,8 +244,9 @@ void StatusStrip::Parts::look_at_device() {
   const QString more = session.pointers() > 1 ? QString(" + %1").arg(session.pointers() - 1) : QString();
   set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
   dot->show(view.status);
-  set(*state, words_of(view.status));
-  state->setToolTip(explanation_of(view.status));
+  const bool spared = view.spared && view.status == DeviceStatus::Ok;
+  set(*state, spared ? QString("ready, force held down") : words_of(view.status));
+  state->setToolTip(spared ? sparing_words(session.pointer_info(0)) : explanation_of(view.status));
   dot->setToolTip(explanation_of(view.status));
   const auto object = view.touching ? session.touched(0) : std::nullopt;
   const bool softer = object && view.stiffness < view.asked_stiffness;

@@ -91,6 +91,7 @@ void TechniqueActions::choose(const char* key, std::string_view name) {
   end_recording();
   settings_.setValue(key, QString::fromUtf8(name.data(), qsizetype(name.size())));
   apply();
+  chosen_();
 }
 
 /// Sizes are those that suit the device and the view as they are now.
@@ -111,6 +112,19 @@ void TechniqueActions::apply() {
       selecting->selecting, holding ? holding->holding : selecting->suits,
       travelling ? travelling->travelling : Travelling::None, reach, session_.view().distance));
   show_recording();
+}
+
+QString TechniqueActions::name() const {
+  const auto* found = chosen_entry(kSelectingEntries, &SelectingEntry::selecting, settings_, kSelectingKey);
+  return found ? QString(found->text).remove('&') : QString();
+}
+
+QString TechniqueActions::hint() const {
+  const QString by = name();
+  if (by.isEmpty()) return {};
+  return by +
+         ": press to take what is meant and drag it, Ctrl and press to travel, turn the wheel while pressing "
+         "to move the hand nearer or farther (Tools > Technique)";
 }
 
 void TechniqueActions::show_recording() {

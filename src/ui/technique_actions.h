@@ -23,6 +23,12 @@ class TechniqueActions {
   /// Adds the menu; the session works by what was chosen last from then on.
   void fill(QMenu& menu);
 
+  /// Calls `chosen` whenever another way was chosen.
+  void on_choice(std::function<void()> chosen) { chosen_ = std::move(chosen); }
+  /// Of the technique that is at work: its name, and what mouse and wheel do by it; empty: it is by touch.
+  QString name() const;
+  QString hint() const;
+
   /// Records into this file from now on; what is refused is told.
   void begin_recording(const std::filesystem::path& path);
   /// Writes what was recorded, and tells where it is. Without effect while nothing is.
@@ -40,6 +46,7 @@ class TechniqueActions {
   QSettings& settings_;
   QWidget& window_;
   std::function<void(const Note&)> tell_;
+  std::function<void()> chosen_ = [] {};
   QAction* record_ = nullptr;
   std::filesystem::path recorded_to_ = {};  // empty: nothing is recorded
 };

@@ -10,7 +10,7 @@ TextField::TextField(QWidget* parent) : QLineEdit(parent) {
   setMinimumWidth(12 * kGrid);
   setTextMargins(2, 0, 2, 0);
   connect(this, &QLineEdit::textEdited, this, [this] {
-    edited_ = true;
+    edited_ = this->text() != QString::fromStdString(text_.value_or(""));
     mark(false);
   });
 }
@@ -25,7 +25,8 @@ void TextField::restore() {
   mark(false);
   setPlaceholderText(text_ ? QString() : QString("mixed"));
   const QString shown = QString::fromStdString(text_.value_or(""));
-  if (shown == text()) return;
+  // What was typed to get here is not to be taken back letter by letter: setting the text forgets it.
+  if (shown == text() && !isUndoAvailable() && !isRedoAvailable()) return;
   setText(shown);
   setCursorPosition(0);
 }

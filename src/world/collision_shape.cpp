@@ -36,6 +36,11 @@ std::optional<double> even_stretch(const base::Matrix3& linear) {
   return std::sqrt(square);
 }
 
+Bounds box_around(const Corners& corners) {
+  Bounds box(corners[0]);
+  return box.extend(corners[1]).extend(corners[2]);
+}
+
 TriangleMesh box_mesh(const Bounds& box) {
   TriangleMesh mesh = geometry::tessellate(geometry::Box{0.5 * box.sizes()}, 1.0);
   for (Vector3& position : mesh.positions) position += box.center();
@@ -76,6 +81,20 @@ TriangleMesh CollisionShape::triangles() const {
 const CollisionShape::Solid& CollisionShape::solid() {
   if (!solid_) solid_ = std::make_shared<const Solid>(triangles());
   return *solid_;
+}
+
+std::uint64_t effort_to_look_into(const Geometry& shape) {
+  constexpr std::uint64_t kPrimitive = 2'000;   // some hundred triangles
+  constexpr std::uint64_t kATriangle = 20;      // repaired, sorted, and looked through for parts
+  constexpr std::uint64_t kSolid = 20'000'000;  // meshed first: nobody waits for that
+  if (dynamic_cast<const PrimitiveGeometry*>(&shape)) return kPrimitive;
+  const auto* mesh = dynamic_cast<const MeshGeometry*>(&shape);
+  return mesh ? kATriangle * mesh->mesh.triangles.size() : kSolid;
+}
+
+std::uint64_t CollisionShape::effort_to_make() const {
+  const bool is_made = solid_ || kind_ != Kind::Triangles;
+  return is_made ? 0 : effort_to_look_into(*shape_);
 }
 
 CollisionShape::Solid::Solid(TriangleMesh mesh) {
@@ -130,7 +149,7 @@ std::optional<CollisionShape::HalfSpace> CollisionShape::half_space(const Affine
 /// The question for two placed shapes, neither of which is nothing.
 class CollisionShape::Pair {
  public:
-  Pair(const Placed& one, const Placed& other) : one_(one), other_(other) {
+  Pair(const Placed& one, const Placed& other, Effort* effort) : one_(one), other_(other), effort_(effort) {
     for (const Placed& it : {one, other}) {
       if (!it.shape.unlimited())
         extent_ = std::max(extent_, largest_coordinate(it.shape.bounds_.transformed(it.world_from_shape)));
@@ -166,6 +185,8 @@ class CollisionShape::Pair {
     if (height(box.center()) - 0.5 * box.sizes().dot(plane.normal.cwiseAbs()) > rounding_)
       return Meeting::Apart;
     const geometry::TriangleTree& tree = *other.shape.solid().tree;
+    constexpr std::uint64_t kTrianglesAUnit = 8;
+    (void)may_go_on(tree.size() / kTrianglesAUnit);
     double lowest = std::numeric_limits<double>::infinity();
     for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
       for (const Vector3& corner : tree.corners(slot))
@@ -191,7 +212,7 @@ class CollisionShape::Pair {
     solid.tree->near(middle, middle, reach, [&](std::uint32_t slot) {
       const Corners corners = placed(other.world_from_shape, solid.tree->corners(slot));
       gap = std::min(gap, (geometry::nearest_point(corners, ball.centre) - ball.centre).norm() - ball.radius);
-      return gap >= -rounding_;
+      return gap >= -rounding_ && may_go_on();
     });
     return by_gap(gap, rounding_);
   }
@@ -199,7 +220,7 @@ class CollisionShape::Pair {
   /// The triangles of the one that has fewer are looked for in the other.
   Meeting of_triangles() const {
     const bool other_has_fewer = other_.shape.solid().tree->size() < one_.shape.solid().tree->size();
-    return other_has_fewer ? Pair(other_, one_).surfaces_and_insides() : surfaces_and_insides();
+    return other_has_fewer ? Pair(other_, one_, effort_).surfaces_and_insides() : surfaces_and_insides();
   }
 
   Meeting surfaces_and_insides() const {
@@ -208,6 +229,8 @@ class CollisionShape::Pair {
       return Meeting::Overlapping;
     return surfaces;
   }
+
+  bool may_go_on(std::uint64_t units = 1) const { return !effort_ || effort_->spend(units); }
 
   /// Every triangle of one, that is near the other's box, against the other's around it.
   Meeting of_surfaces() const {
@@ -223,13 +246,13 @@ class CollisionShape::Pair {
     Meeting result = Meeting::Apart;
     const Vector3 middle = one_from_world * Vector3(common.center());
     const double reach = 0.5 * common.diagonal().norm() * most_stretch(one_from_world);
-    one.tree->near(middle, middle, reach, [&](std::uint32_t slot) {
+    geometry::SegmentQuery query(middle, middle, reach);
+    query.only_in(common.transformed(one_from_world));
+    one.tree->near(query, [&](std::uint32_t slot) {
       const Corners corners = placed(one_.world_from_shape, one.tree->corners(slot));
-      Bounds box(corners[0]);
-      box.extend(corners[1]).extend(corners[2]);
-      if (!box.intersects(common)) return true;
+      if (!box_around(corners).intersects(common)) return may_go_on();
       result = std::max(result, against(corners, other_from_world, other, solids));
-      return result != Meeting::Overlapping;
+      return result != Meeting::Overlapping && may_go_on();
     });
     return result;
   }
@@ -243,8 +266,12 @@ class CollisionShape::Pair {
     const Vector3 middle = (there[0] + there[1] + there[2]) / 3.0;
     double reach = 0.0;
     for (const Vector3& corner : there) reach = std::max(reach, (corner - middle).norm());
+    // Long triangles, and flat ones, fill little of the ball around them.
+    const Bounds box = box_around(there);
+    geometry::SegmentQuery query(middle, middle, reach + slack);
+    query.only_in({box.min() - Vector3::Constant(slack), box.max() + Vector3::Constant(slack)});
     Meeting result = Meeting::Apart;
-    other.tree->near(middle, middle, reach + slack, [&](std::uint32_t slot) {
+    other.tree->near(query, [&](std::uint32_t slot) {
       Corners facing = placed(other_.world_from_shape, other.tree->corners(slot));
       if (mirrored) std::swap(facing[1], facing[2]);  // so that both have their fronts on the same side
       const TriangleMeeting found = world::meeting(corners, facing, rounding_);
@@ -252,7 +279,7 @@ class CollisionShape::Pair {
         result = Meeting::Overlapping;
       else if (found != TriangleMeeting::Apart)
         result = std::max(result, Meeting::Touching);
-      return result != Meeting::Overlapping;
+      return result != Meeting::Overlapping && may_go_on();
     });
     return result;
   }
@@ -275,14 +302,18 @@ class CollisionShape::Pair {
 
   const Placed& one_;
   const Placed& other_;
+  Effort* effort_;  // null: as much as it takes
   double extent_ = 0.0;
   double rounding_ = 0.0;
 };
 
-Meeting meeting(const CollisionShape::Placed& one, const CollisionShape::Placed& other) {
+Meeting meeting(const CollisionShape::Placed& one, const CollisionShape::Placed& other, Effort* effort) {
   using Kind = CollisionShape::Kind;
   if (one.shape.kind_ == Kind::Nothing || other.shape.kind_ == Kind::Nothing) return Meeting::Apart;
-  return CollisionShape::Pair(one, other).meeting();
+  const bool enough = !effort || (effort->spend(one.shape.effort_to_make() + other.shape.effort_to_make()));
+  if (!enough) return Meeting::Overlapping;
+  const Meeting found = CollisionShape::Pair(one, other, effort).meeting();
+  return effort && effort->is_spent() ? Meeting::Overlapping : found;
 }
 
 }  // namespace icome::world

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/triangle_tree.h"
+#include "world/effort.h"
 #include "world/geometry.h"
 
 namespace icome::world {
@@ -14,6 +15,9 @@ enum class Meeting : std::uint8_t {
   Touching,     // they share places of their surfaces, but nothing of what is inside
   Overlapping,  // one goes through the other, or lies inside it
 };
+
+/// What it takes, about, to make a shape ready to be looked into by its triangles.
+std::uint64_t effort_to_look_into(const Geometry& shape);
 
 /// A shape made ready for the question whether it meets others. Spheres (that are not stretched) and
 /// half-spaces are asked as what they are, meshes and boxes by their triangles, all other shapes by triangles
@@ -47,14 +51,18 @@ class CollisionShape {
   /// nor a half-space.
   const geometry::TriangleTree& triangle_tree() { return *solid().tree; }
 
+  /// What it takes to make the triangles, if they are needed; 0 when they are there.
+  std::uint64_t effort_to_make() const;
+
   struct Placed {
     CollisionShape& shape;
     const Affine3& world_from_shape;
   };
   /// Solids count as what is inside them, also a mesh that is closed; other meshes as their surface. Lengths
   /// up to 1e-10 of the largest coordinate count as none, as in contact: a box that stands on another
-  /// touches it, whatever rounding made of where it stands.
-  friend Meeting meeting(const Placed& one, const Placed& other);
+  /// touches it, whatever rounding made of where it stands. Where the effort is spent (null: there is no end
+  /// to it), nothing is known, and they count as overlapping.
+  friend Meeting meeting(const Placed& one, const Placed& other, Effort* effort);
 
  private:
   enum class Kind : std::uint8_t { Nothing, HalfSpace, Sphere, Triangles };
@@ -81,6 +89,7 @@ class CollisionShape {
   std::shared_ptr<const Solid> solid_;  // null until it is asked for
 };
 
-Meeting meeting(const CollisionShape::Placed& one, const CollisionShape::Placed& other);
+Meeting meeting(const CollisionShape::Placed& one, const CollisionShape::Placed& other,
+                Effort* effort = nullptr);
 
 }  // namespace icome::world

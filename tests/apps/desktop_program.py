@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -71,6 +72,36 @@ class Screen:
 
     def picture(self):
         return Picture.of_xwd((self.folder / "Xvfb_screen0").read_bytes())
+
+
+class MainThreadWatch(threading.Thread):
+    """Sees how long the main thread of a process works without a pause: the most processor time, s, between two looks
+    at which it had slept in between. Other work on the machine does not count."""
+
+    def __init__(self, pid):
+        super().__init__(daemon=True)
+        self._task = pathlib.Path(f"/proc/{pid}/task/{pid}")
+        self._over = threading.Event()
+        self._since = None
+        self.longest = 0.0
+        self.start()
+
+    def run(self):
+        while not self._over.wait(0.01):
+            try:
+                sleeps = re.search(r"^voluntary_ctxt_switches:\s*(\d+)", (self._task / "status").read_text(), re.M)[1]
+                fields = (self._task / "stat").read_text().rpartition(")")[2].split()
+            except OSError:
+                return
+            busy = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+            if self._since is None or self._since[0] != sleeps:
+                self._since = (sleeps, busy)
+            self.longest = max(self.longest, busy - self._since[1])
+
+    def end(self):
+        self._over.set()
+        self.join()
+        return self.longest
 
 
 class Desktop:

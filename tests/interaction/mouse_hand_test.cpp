@@ -114,13 +114,37 @@ TEST(MouseHand, IsLiftedOnItsWayToSomewhereElse) {
   input.hand = there + Vector3(0.029 * width, 0.0, 0.0);  // friction holds it back
   EXPECT_NEAR(hand.target(input).y(), pressed, 1e-12);
   input.hand = there + Vector3(0.2, 0.0, 0.0);
-  EXPECT_NEAR(hand.target(input).y(), 0.01 * width, 1e-12);
+  EXPECT_NEAR(MouseHand().target(input).y(), 0.01 * width, 1e-12);
   double last = pressed;  // and comes down gently
   for (double lag = 0.03; lag < 0.06; lag += 0.001) {
     input.hand = there + Vector3(lag * width, 0.0, 0.0);
-    EXPECT_GE(hand.target(input).y(), last - 1e-12);
-    last = hand.target(input).y();
+    const double height = MouseHand().target(input).y();
+    EXPECT_GE(height, last - 1e-12);
+    last = height;
   }
+}
+
+TEST(MouseHand, OfAMouseThatRestsOnlyEasesThePressOnWhatSlidesAway) {
+  MouseHand hand;
+  MouseHand::Input input = over_floor();
+  input.pressure = 0.5;
+  const double width = 0.8 * input.picked->distance;
+  const Vector3 there = input.picked->point;
+  input.hand = there;
+  double last = hand.target(input).y();
+  for (int i = 0; i < 200; ++i) {
+    // It slides off and comes back, again and again.
+    input.hand = there + Vector3(i % 7 < 3 ? 0.2 : 0.0, 0.0, 0.0);
+    const double height = hand.target(input).y();
+    EXPECT_GE(height, last - 1e-12) << "deeper again";
+    EXPECT_LT(height, last + 0.002 * width) << "all of a sudden";
+    last = height;
+  }
+  EXPECT_GT(last, 0.0);
+  // Moved on, it presses as always.
+  input.picked->point.x() += 0.1;
+  input.hand = input.picked->point;
+  EXPECT_LT(hand.target(input).y(), -0.01 * width);
 }
 
 TEST(MouseHand, TheSameInputsGiveTheSameTargets) {

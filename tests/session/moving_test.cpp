@@ -1,8 +1,10 @@
 // What a hand feels of what it moves: surfaces that stop it, snaps that pull, and weight.
 #include <cmath>
 
+#include "geometry/primitive.h"
 #include "session/sessions.h"
 #include "world/collisions.h"
+#include "world/mesh_geometry.h"
 
 namespace icome::session {
 namespace {
@@ -204,6 +206,68 @@ TEST(ObjectDrag, KeepsToALineAndTellsWhatStopsIt) {
   ASSERT_TRUE(session->undo());
   EXPECT_EQ(place(), Vector3::Zero()) << "one action";
   (void)wall;
+}
+
+/// Of so many triangles that main does not wait for them.
+world::GeometryPointer scan() {
+  return std::make_shared<world::MeshGeometry>(geometry::tessellate(geometry::Sphere{0.1}, 2e-6));
+}
+
+TEST(ObjectDrag, ByThingsOfManyTrianglesIsWorkedOutBesideMain) {
+  const auto session = start();
+  const auto ball = add_shape(*session, scan(), world::at(0.0, 0.0, 0.0));
+  add_shape(*session, scan(), world::at(0.5, 0.0, 0.0), "other");
+  const std::vector<world::ObjectId> objects{ball};
+  const auto place = [&] { return session->world().find(ball)->parent_from_object.translation(); };
+  ObjectDrag drag(*session, objects, "Move ball");
+  ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.35, 0.0, 0.0)}));
+  ASSERT_TRUE(drag.pending());
+  EXPECT_EQ(place(), Vector3::Zero()) << "where it is known that it may be";
+  EXPECT_EQ(drag.words(*session), "Finding out how far it can go\u2026");
+  // The hand goes on meanwhile; what counts is where it is in the end.
+  ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.6, 0.0, 0.0)}));
+  run_until(*session, [&] { return drag.go_on(*session).has_value() && !drag.pending(); });
+  EXPECT_NEAR(place().x(), 0.3, 1e-3);
+  world::CollisionIndex index(session->world());
+  EXPECT_FALSE(index.overlaps(ball));
+  EXPECT_EQ(drag.words(*session), "Stopped at other");
+  ASSERT_TRUE(session->undo());
+  EXPECT_EQ(place(), Vector3::Zero()) << "one action";
+}
+
+TEST(ObjectDrag, WhatWasWorkedOutForAnotherWorldIsNotTaken) {
+  const auto session = start();
+  const auto ball = add_shape(*session, scan(), world::at(0.0, 0.0, 0.0));
+  const auto other = add_shape(*session, scan(), world::at(9.0, 0.0, 0.0), "other");
+  add_shape(*session, scan(), world::at(0.3, 0.17, 0.17), "passed closely");
+  const std::vector<world::ObjectId> objects{ball};
+  ObjectDrag drag(*session, objects, "Move ball");
+  ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.6, 0.0, 0.0)}));
+  ASSERT_TRUE(drag.pending());
+  ASSERT_TRUE(session->perform(world::PlaceObject{other, world::at(0.5, 0.0, 0.0)}, "Move other"));
+  run_until(*session, [&] { return drag.go_on(*session).has_value() && !drag.pending(); });
+  world::CollisionIndex index(session->world());
+  EXPECT_FALSE(index.overlaps(ball));
+  EXPECT_NEAR(session->world().find(ball)->parent_from_object.translation().x(), 0.3, 1e-3);
+}
+
+TEST(ObjectDrag, CanBeLeftWhileItIsWorkedOut) {
+  const auto session = start();
+  const auto ball = add_shape(*session, scan(), world::at(0.0, 0.0, 0.0));
+  const auto box = add_shape(*session, world::box(0.2), world::at(0.0, 1.0, 0.0));
+  add_shape(*session, scan(), world::at(0.5, 0.0, 0.0), "other");
+  const std::vector<world::ObjectId> objects{ball}, others{box};
+  {
+    ObjectDrag drag(*session, objects, "Move ball");
+    ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.6, 0.0, 0.0)}));
+    ASSERT_TRUE(drag.pending());
+  }
+  // The next one gets its turn as soon as the thread has let go.
+  ObjectDrag drag(*session, others, "Move box");
+  ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.0, 0.3, 0.0)}));
+  run_until(*session, [&] { return drag.go_on(*session).has_value() && !drag.pending(); });
+  EXPECT_NEAR(session->world().find(box)->parent_from_object.translation().y(), 1.3, 1e-9);
+  EXPECT_EQ(session->world().find(ball)->parent_from_object.translation(), Vector3(Vector3::Zero()));
 }
 
 TEST(ObjectDrag, SnapsUnlessThatIsNotWanted) {

@@ -225,6 +225,69 @@ TEST_F(MainWindowTest, NothingGoesOnOverWhatWasRefused) {
   EXPECT_FALSE(world().find(leg));
 }
 
+TEST_F(MainWindowTest, CommittedFieldsLeaveUndoToTheDesign) {
+  const auto leg = add("leg");
+  session().select({leg});
+  const auto place = [&] { return world().find(leg)->parent_from_object.translation().x(); };
+  const auto undo = [](QLineEdit& it) { QTest::keyClick(&it, Qt::Key_Z, Qt::ControlModifier); };
+  const auto redo = [](QLineEdit& it) {
+    QTest::keyClick(&it, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  };
+  QLineEdit& x = field("Position, mm x");
+  QTest::keyClicks(&x, "25");
+  QTest::keyClick(&x, Qt::Key_Return);
+  EXPECT_EQ(place(), 0.025);
+  ASSERT_TRUE(until([&] { return action("edit.undo")->text().contains("Move"); }));
+  undo(x);
+  EXPECT_EQ(place(), 0.0);
+  ASSERT_TRUE(until([&] { return x.text() == "0" && action("edit.redo")->isEnabled(); }));
+  redo(x);
+  EXPECT_EQ(place(), 0.025);
+  ASSERT_TRUE(until([&] { return x.text() == "25" && action("edit.undo")->isEnabled(); }));
+  const std::string before = session().history().undo_name();
+  x.clearFocus();
+  EXPECT_EQ(place(), 0.025);
+  EXPECT_EQ(session().history().undo_name(), before) << "leaving the field does nothing";
+  undo(x);
+  EXPECT_EQ(place(), 0.0);
+
+  // What is being typed is the field's to take back, and given up so it makes no edit.
+  QLineEdit& y = field("Position, mm y");
+  QTest::keyClicks(&y, "7");
+  undo(y);
+  EXPECT_EQ(y.text(), "0");
+  EXPECT_TRUE(world().find(leg)) << "not the object, which the design would have taken back";
+  y.clearFocus();
+  EXPECT_EQ(session().history().undo_name(), "Add leg");
+
+  QLineEdit& name = name_field();
+  QTest::keyClicks(&name, "table leg");
+  QTest::keyClick(&name, Qt::Key_Return);
+  EXPECT_EQ(world().find(leg)->name, "table leg");
+  ASSERT_TRUE(until([&] { return action("edit.undo")->text().contains("Rename"); }));
+  undo(name);
+  EXPECT_EQ(world().find(leg)->name, "leg");
+  name.clearFocus();
+  EXPECT_EQ(world().find(leg)->name, "leg");
+}
+
+TEST_F(MainWindowTest, ATechniqueIsInSightAsLongAsItIsAtWork) {
+  auto& technique = *window_->findChild<QLabel*>("status.technique");
+  auto& hint = *window_->findChild<QLabel*>("status.hint");
+  ASSERT_TRUE(until([&] { return !technique.isVisible(); }));
+  action("tool.touch")->trigger();
+  ASSERT_TRUE(until([&] { return hint.text().startsWith("Press to touch"); }));
+  action("technique.miniature")->trigger();
+  ASSERT_TRUE(until([&] { return technique.isVisible(); }));
+  EXPECT_EQ(technique.text(), "Technique: World in Miniature");
+  EXPECT_TRUE(hint.text().startsWith("World in Miniature: press to take")) << hint.text().toStdString();
+  open_window();
+  auto& again = *window_->findChild<QLabel*>("status.technique");
+  ASSERT_TRUE(until([&] { return again.isVisible(); })) << "after a restart, too";
+  action("technique.touch")->trigger();
+  ASSERT_TRUE(until([&] { return !again.isVisible(); }));
+}
+
 TEST_F(MainWindowTest, ClosingAsksAboutWhatIsBeingTyped) {
   const auto leg = add("leg");
   session().save(path_of(file("a.icome")));

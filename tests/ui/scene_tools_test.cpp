@@ -10,6 +10,7 @@
 
 #include "ui/desktop_test.h"
 #include "ui/scene_window.h"
+#include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
 
 namespace icome::ui {
@@ -158,6 +159,36 @@ TEST_F(SceneToolsTest, AHeldKeyKeepsADragToItsAxis) {
   mouse(QEvent::MouseMove, pixel(Vector3(-0.1, 0.2, 0.1)));
   mouse(QEvent::MouseButtonRelease, pixel(Vector3(-0.1, 0.2, 0.1)));
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.1, 0.2, 0.0), 1e-9));
+}
+
+TEST_F(SceneToolsTest, WhatIsLetGoGetsToWhereItIsDraggedAsSoonAsItIsKnownHowFar) {
+  // Of so many triangles that the main thread does not wait for them.
+  for (const ObjectId id : {left_, right_}) {
+    const auto ball = geometry::tessellate(geometry::Sphere{0.1}, 3e-6);
+    perform(world::ReplaceGeometry{world().find(id)->geometry, std::make_shared<world::MeshGeometry>(ball)});
+  }
+  settle();
+  const auto arrive = [&] {
+    while (tools_.drag_words() == "Finding out how far it can go\u2026") tools_.tick();
+  };
+  const auto flick = [&] {
+    mouse(QEvent::MouseButtonPress, face(left_));
+    mouse(QEvent::MouseMove, pixel(Vector3(0.25, 0.0, 0.1)));
+    mouse(QEvent::MouseButtonRelease, pixel(Vector3(0.25, 0.0, 0.1)));
+    EXPECT_EQ(at(left_).x(), -0.3);
+    EXPECT_EQ(tools_.drag_words(), "Finding out how far it can go\u2026");
+  };
+  flick();
+  tools_.finish();  // as something else begins
+  EXPECT_EQ(tools_.drag_words(), "");
+  tools_.tick();
+  EXPECT_EQ(at(left_).x(), -0.3);
+  flick();
+  arrive();
+  EXPECT_NEAR(at(left_).x(), 0.1, 1e-3);
+  EXPECT_EQ(refused_, "");
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
 }
 
 TEST_F(SceneToolsTest, ADragStopsAtWhatIsInTheWay) {

@@ -13,10 +13,6 @@ constexpr std::size_t kMostContacts = 16;   // more do not change where a slide 
 constexpr double kSameNormal = 1.0 - 1e-6;  // cosine
 constexpr double kAgainst = 1e-6;           // of the way: less is along it
 
-Bounds grown(const Bounds& box, double by) {
-  return {box.min() - Vector3::Constant(by), box.max() + Vector3::Constant(by)};
-}
-
 bool has_normal(const std::vector<Contact>& contacts, const Vector3& normal) {
   return std::any_of(contacts.begin(), contacts.end(),
                      [&](const Contact& it) { return it.normal.dot(normal) > kSameNormal; });
@@ -24,8 +20,9 @@ bool has_normal(const std::vector<Contact>& contacts, const Vector3& normal) {
 
 }  // namespace
 
-MovingObjects::MovingObjects(world::CollisionIndex& index, std::span<const ObjectId> objects)
-    : index_(index) {
+MovingObjects::MovingObjects(world::CollisionIndex& index, std::span<const ObjectId> objects,
+                             world::Effort* effort)
+    : index_(index), effort_(effort) {
   for (const ObjectId root : objects) {
     if (!root) continue;
     for (const Standing& it : index.standing(root)) moved_.push_back(it);
@@ -66,7 +63,8 @@ std::vector<MovingObjects::Pair> MovingObjects::pairs(const Vector3& at, const V
     others.insert(others.end(), obstacles_.begin(), obstacles_.end());
     for (const Standing& other : others) {
       if (other.id && moves(other.id)) continue;
-      result.push_back({{it.shape, place, other.shape, other.world_from_object, step}, it.id, other.id});
+      result.push_back(
+          {{it.shape, place, other.shape, other.world_from_object, step, effort_}, it.id, other.id});
     }
   }
   return result;
@@ -89,6 +87,7 @@ double MovingObjects::free_share(const Vector3& at, const Vector3& step, double 
     share = std::max(0.0, share - back);
     back *= 2.0;
   }
+  if (is_spent()) return 0.0;
   return share;
 }
 

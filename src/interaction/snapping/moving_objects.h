@@ -19,8 +19,12 @@ struct Contact {
 /// world frame).
 class MovingObjects {
  public:
-  /// Objects that the index does not hold are passed over.
-  MovingObjects(world::CollisionIndex& index, std::span<const world::ObjectId> objects);
+  /// Objects that the index does not hold are passed over. The effort (null: there is no end to it) lives on.
+  MovingObjects(world::CollisionIndex& index, std::span<const world::ObjectId> objects,
+                world::Effort* effort = nullptr);
+
+  /// What is asked now, and was since it was spent, is not known: they keep where they are.
+  bool is_spent() const { return effort_ && effort_->is_spent(); }
 
   /// Something that stands besides what the world holds, such as a floor. The shape must live on.
   void add_obstacle(world::CollisionShape& shape, const Affine3& world_from_shape);
@@ -58,6 +62,7 @@ class MovingObjects {
   bool moves(world::ObjectId id) const;
 
   world::CollisionIndex& index_;
+  world::Effort* effort_;            // may be null
   std::vector<Standing> moved_;      // in the order of ids
   std::vector<Standing> obstacles_;  // without ids
   base::Bounds bounds_;

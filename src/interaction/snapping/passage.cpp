@@ -10,7 +10,6 @@ using world::Meeting;
 
 constexpr std::size_t kTouchesAtOnce = 32;
 constexpr int kMostLooks = 1000;  // of so many touches: more than solids that can be told apart have
-constexpr int kMostLooksOut = 2;  // likewise, on a way out: who drags cannot wait for more
 
 /// How long a way is, in shares of the step, that the moved shape has surely left the other behind after.
 double share_beyond(const Passing& passing) {
@@ -56,8 +55,8 @@ double fit_tolerance(const Passing& passing, double tolerance) {
 
 bool overlap_at(const Passing& passing, double share) {
   const Affine3 world_from_moved = passing.world_from_moved_at(share);
-  return world::meeting({*passing.moved, world_from_moved}, {*passing.other, passing.world_from_other}) ==
-         Meeting::Overlapping;
+  return world::meeting({*passing.moved, world_from_moved}, {*passing.other, passing.world_from_other},
+                        passing.effort) == Meeting::Overlapping;
 }
 
 std::optional<double> entry(const Passing& passing, double from, double until, double tolerance) {
@@ -87,21 +86,26 @@ std::optional<double> entry(const Passing& passing, double from, double until, d
   return free;
 }
 
+/// Looked for at places that lie farther apart the farther on they are: to tell the ways ahead and back
+/// apart, each is known well enough.
 std::optional<double> way_out(const Passing& passing, double until, double tolerance) {
+  constexpr double kGrowth = 1.25;
   const double apart = share_of(passing, tolerance);
-  double begin = 0.0;
-  for (int look = 0; look < kMostLooksOut; ++look) {
-    std::vector<Touch> touches = first_touches(passing, begin, until, apart, kTouchesAtOnce);
-    const bool more = touches.size() == kTouchesAtOnce;
-    if (!more) touches.push_back({until, Vector3::Zero()});
-    for (const Touch& touch : touches) {
-      const double middle = 0.5 * (begin + touch.share);
-      if (!overlap_at(passing, middle)) return begin;
-      begin = touch.share;
+  double taken = 0.0;
+  for (double free = apart;; free *= kGrowth) {
+    free = std::min(free, until);
+    if (overlap_at(passing, free)) {
+      if (free >= until) return std::nullopt;
+      taken = free;
+      continue;
     }
-    if (!more) break;
+    while (free - taken > 0.5 * apart) {
+      const double middle = 0.5 * (free + taken);
+      if (middle <= taken || middle >= free) break;
+      (overlap_at(passing, middle) ? taken : free) = middle;
+    }
+    return free;
   }
-  return overlap_at(passing, begin) ? std::nullopt : std::optional(begin);
 }
 
 std::optional<double> stop(const Passing& passing, double until, double tolerance) {
@@ -111,12 +115,9 @@ std::optional<double> stop(const Passing& passing, double until, double toleranc
   const double beyond = share_beyond(passing);
   const auto ahead = way_out(passing, beyond, tolerance);
   const auto back = way_out(turned_around(passing), beyond, tolerance);
-  if (!ahead && !back) return std::nullopt;  // too tangled to tell: they do not hold each other
   if (!ahead || (back && *back < *ahead)) return 0.0;
-  // Half a tolerance on, it stands outside whatever rounding says at the very place.
-  const double out = *ahead + 0.5 * share_of(passing, tolerance);
-  if (out >= until || overlap_at(passing, out)) return std::nullopt;
-  return entry(passing, out, until, tolerance);
+  if (*ahead >= until) return std::nullopt;
+  return entry(passing, *ahead, until, tolerance);
 }
 
 }  // namespace icome::interaction

@@ -17,14 +17,13 @@ bool overlap_at(const Passing& passing, double share);
 std::optional<double> entry(const Passing& passing, double from, double until, double tolerance);
 
 /// Where the moved shape, which overlaps the other at share 0, is first free of it, up to `until`, going
-/// forwards, or, with a passing turned around, backwards. Nothing where it is not, or where that would take
-/// too long to tell.
+/// forwards, or, with a passing turned around, backwards; gaps much narrower than the way to them may be
+/// missed. Nothing where it is not.
 std::optional<double> way_out(const Passing& passing, double until, double tolerance);
 
 /// The first place at which the other keeps the moved shape from going on, up to `until` <= 1; nothing where
 /// it may go. A shape that overlaps the other already may go where the way out along its line is not longer
-/// than the way back, and anywhere where neither can be told soon; once out, it does not go in again. The
-/// step has a length.
+/// than the way back; once out, it does not go in again. The step has a length.
 std::optional<double> stop(const Passing& passing, double until, double tolerance);
 
 }  // namespace icome::interaction

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "interaction/object_move.h"
+#include "interaction/snapping/touches.h"
 
 namespace icome::interaction {
 namespace {
@@ -164,13 +165,35 @@ std::vector<Vector3> SnapFinder::handles_of(const World& world, CollisionIndex& 
   return points;
 }
 
+std::uint64_t SnapFinder::effort_to_make(const World& world, const Standing& standing) const {
+  const world::GeometryId id = world.find(standing.id)->geometry;
+  const world::GeometryPointer& shape = world.find(id)->shape;
+  const auto found = shapes_.find(id);
+  const bool is_made = found != shapes_.end() && found->second.shape == shape;
+  return standing.shape->effort_to_make() + (is_made ? 0 : world::effort_to_look_into(*shape));
+}
+
+/// Is there effort enough to make all ready that is there?
+bool SnapFinder::may_look(const World& world, CollisionIndex& index, const base::Bounds& around,
+                          world::Effort& effort) const {
+  std::uint64_t units = 0;
+  for (const Standing& it : index.standing_in(around)) units += effort_to_make(world, it);
+  return effort.spend(units);
+}
+
 std::vector<ObjectSnap> SnapFinder::of_objects(const World& world, CollisionIndex& index,
                                                std::span<const ObjectId> objects, const Vector3& offset,
-                                               const SnapSettings& settings, const SnapHandles& handles) {
+                                               const SnapSettings& settings, const SnapHandles& handles,
+                                               world::Effort* effort) {
+  constexpr std::uint64_t kAHandle = 50;
   std::vector<ObjectSnap> result;
   if (!settings.any() || !usable(settings)) return result;
   const std::vector<ObjectId> moved = all_of(index, objects);
+  base::Bounds around;
+  for (const ObjectId id : objects) around.extend(index.bounds(id).translated(offset));
+  if (effort && !may_look(world, index, grown(around, settings.radius), *effort)) return result;
   for (const Vector3& it : handles_of(world, index, objects, handles)) {
+    if (effort && !effort->spend(kAHandle)) return {};
     const Vector3 handle = it + offset;
     if (const auto snap = best(world, index, handle, settings, moved)) result.push_back({*snap, handle});
   }

@@ -77,10 +77,12 @@ class SnapFinder {
                               const SnapSettings& settings, std::span<const world::ObjectId> left_out = {});
 
   /// The best for every handle of objects that are moved by `offset` (m, world frame) off where they stand,
-  /// best first; they do not snap to themselves.
+  /// best first; they do not snap to themselves. None where the effort (null: there is no end to it) is
+  /// spent.
   std::vector<ObjectSnap> of_objects(const world::World& world, world::CollisionIndex& index,
                                      std::span<const world::ObjectId> objects, const Vector3& offset,
-                                     const SnapSettings& settings, const SnapHandles& handles = {});
+                                     const SnapSettings& settings, const SnapHandles& handles = {},
+                                     world::Effort* effort = nullptr);
 
   /// The handles themselves, where objects stand; world frame.
   std::vector<Vector3> handles_of(const world::World& world, world::CollisionIndex& index,
@@ -99,6 +101,9 @@ class SnapFinder {
   const SnapShape* snaps_of(const world::World& world, world::ObjectId object);
   std::optional<Snap> best(const world::World& world, world::CollisionIndex& index, const Vector3& point,
                            const SnapSettings& settings, const std::vector<world::ObjectId>& left_out);
+  std::uint64_t effort_to_make(const world::World& world, const Standing& standing) const;
+  bool may_look(const world::World& world, world::CollisionIndex& index, const base::Bounds& around,
+                world::Effort& effort) const;
 
   double sharp_angle_;
   std::unordered_map<world::GeometryId, Kept> shapes_;

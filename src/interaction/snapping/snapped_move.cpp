@@ -29,15 +29,16 @@ std::optional<Vector3> snap_along(const Vector3& axis, const ObjectSnap& found, 
 /// As snapped_move, of objects that are `from` off where they stand.
 base::Result<SnappedMove> snapped_from(const world::World& world, world::CollisionIndex& index,
                                        SnapFinder& finder, std::span<const ObjectId> objects,
-                                       const Vector3& from, const Vector3& wanted, const DragRules& rules) {
-  const MovingObjects moving(index, objects);
+                                       const Vector3& from, const Vector3& wanted, const DragRules& rules,
+                                       world::Effort* effort) {
+  const MovingObjects moving(index, objects, effort);
   StopSettings stops = rules.stops;
   if (rules.axis) stops.slide = false;
   const auto plain = stopped_move(moving, from, wanted, stops);
   if (!plain) return tl::unexpected(plain.error());
   SnappedMove move{*plain, plain->offset, std::nullopt, plain->contacts};
   const std::vector<ObjectSnap> found =
-      finder.of_objects(world, index, objects, move.free, rules.snaps, rules.handles);
+      finder.of_objects(world, index, objects, move.free, rules.snaps, rules.handles, effort);
   for (std::size_t i = 0; i < std::min(found.size(), kMostTries); ++i) {
     const auto way = rules.axis ? snap_along(*rules.axis, found[i], rules.snaps.radius)
                                 : std::optional<Vector3>(found[i].offset());
@@ -56,7 +57,7 @@ base::Result<SnappedMove> snapped_from(const world::World& world, world::Collisi
 base::Result<SnappedMove> snapped_move(const world::World& world, world::CollisionIndex& index,
                                        SnapFinder& finder, std::span<const ObjectId> objects,
                                        const Vector3& wanted, const DragRules& rules) {
-  return snapped_from(world, index, finder, objects, Vector3::Zero(), wanted, rules);
+  return snapped_from(world, index, finder, objects, Vector3::Zero(), wanted, rules, nullptr);
 }
 
 base::Result<world::Edit> land_objects(const world::World& world, world::CollisionIndex& index,
@@ -68,35 +69,45 @@ base::Result<world::Edit> land_objects(const world::World& world, world::Collisi
 
 base::Result<world::Edit> StoppedDrag::to(const world::World& world, world::CollisionIndex& index,
                                           SnapFinder& finder, const Vector3& wanted, const DragRules& rules) {
+  const auto found = find(world, index, finder, wanted, rules, nullptr);
+  if (!found) return tl::unexpected(found.error());
+  return take(*found);
+}
+
+base::Result<StoppedDrag::Found> StoppedDrag::find(const world::World& world, world::CollisionIndex& index,
+                                                   SnapFinder& finder, const Vector3& wanted,
+                                                   const DragRules& rules, world::Effort* effort) const {
   const Vector3 there = rules.axis ? part_along(*rules.axis, wanted) : wanted;
   Vector3 from = Vector3::Zero();
+  const auto is_spent = [&] { return effort && effort->is_spent(); };
   if (rules.axis) {
-    const auto back = back_to_line(index, rules);
+    const auto back = back_to_line(MovingObjects(index, move_.objects(), effort), rules);
     if (!back) return tl::unexpected(back.error());
-    if (back->stopped) return take({*back, back->offset, std::nullopt, back->contacts}, wanted, there);
+    if (back->stopped)
+      return Found{{*back, back->offset, std::nullopt, back->contacts}, wanted, there, is_spent()};
     from = back->offset;
   }
-  const auto move = snapped_from(world, index, finder, move_.objects(), from, there - offset_, rules);
+  auto move = snapped_from(world, index, finder, move_.objects(), from, there - offset_, rules, effort);
   if (!move) return tl::unexpected(move.error());
-  return take(*move, wanted, there);
+  return Found{std::move(*move), wanted, there, is_spent()};
 }
 
 /// From wherever they were dragged before they were to keep to a line.
-base::Result<StoppedMove> StoppedDrag::back_to_line(world::CollisionIndex& index,
+base::Result<StoppedMove> StoppedDrag::back_to_line(const MovingObjects& moving,
                                                     const DragRules& rules) const {
   const Vector3 back = part_along(*rules.axis, offset_) - offset_;
-  const MovingObjects moving(index, move_.objects());
   if (back.norm() <= kOffLine * moving.size()) return StoppedMove{};
   return stopped_move(moving, Vector3::Zero(), back, rules.stops);
 }
 
-world::Edit StoppedDrag::take(const SnappedMove& move, const Vector3& wanted, const Vector3& there) {
-  const bool arrives = !move.snap && move.move.offset == there - offset_;
-  wanted_ = wanted;
+world::Edit StoppedDrag::take(const Found& found) {
+  const SnappedMove& move = found.move;
+  const bool arrives = !move.snap && move.move.offset == found.there - offset_;
+  wanted_ = found.wanted;
   free_ = offset_ + move.free;
   offset_ += move.move.offset;
   // What gets where it is wanted is there to the last bit: each edit counts from the beginning.
-  if (arrives) offset_ = free_ = there;
+  if (arrives) offset_ = free_ = found.there;
   contacts_ = move.contacts;
   snap_ = move.snap;
   return move_.by(offset_);

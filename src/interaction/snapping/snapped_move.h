@@ -50,6 +50,18 @@ class StoppedDrag {
   base::Result<world::Edit> to(const world::World& world, world::CollisionIndex& index, SnapFinder& finder,
                                const Vector3& wanted, const DragRules& rules = {});
 
+  /// In two parts: where that edit would put them, of which a part may take more effort (null: there is no
+  /// end to it) than there is, and then the edit itself. What is found holds while neither the world nor this
+  /// has changed. The world is only asked where things may snap.
+  struct Found {
+    SnappedMove move = {};
+    Vector3 wanted = Vector3::Zero(), there = Vector3::Zero();  // where the hand is, and that on the line
+    bool spent = false;                                         // the effort was: they may be able to go on
+  };
+  base::Result<Found> find(const world::World& world, world::CollisionIndex& index, SnapFinder& finder,
+                           const Vector3& wanted, const DragRules& rules, world::Effort* effort) const;
+  world::Edit take(const Found& found);
+
   const std::vector<world::ObjectId>& objects() const { return move_.objects(); }
   // All m, in the world's frame, off where the hand took them.
   const Vector3& wanted() const { return wanted_; }  // where the hand was last
@@ -61,8 +73,7 @@ class StoppedDrag {
   const std::optional<ObjectSnap>& snap() const { return snap_; }
 
  private:
-  base::Result<StoppedMove> back_to_line(world::CollisionIndex& index, const DragRules& rules) const;
-  world::Edit take(const SnappedMove& move, const Vector3& wanted, const Vector3& there);
+  base::Result<StoppedMove> back_to_line(const MovingObjects& moving, const DragRules& rules) const;
 
   ObjectMove move_;
   Vector3 wanted_ = Vector3::Zero(), free_ = Vector3::Zero(), offset_ = Vector3::Zero();

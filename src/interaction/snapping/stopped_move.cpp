@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "world/solid_geometry.h"
 
@@ -52,6 +53,29 @@ class Corner {
   double tolerance_;  // m
 };
 
+/// Next to where things go into others by little, as what was put somewhere by its numbers does, and surfaces
+/// that are asked by their triangles: the nearest place, along one of six ways, where they do not. None where
+/// it is more than that.
+std::optional<Vector3> lifted(const MovingObjects& moving, const Vector3& from, double tolerance) {
+  double taken = 0.0;  // share of their size
+  for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 4e-3, 0.012, 0.03}) {
+    for (const int axis : {1, 0, 2}) {
+      for (const double side : {1.0, -1.0}) {
+        const Vector3 way = side * moving.size() * Vector3::Unit(axis);
+        if (moving.overlap(from + share * way)) continue;
+        double free = share;
+        while ((free - taken) * moving.size() > tolerance) {
+          const double middle = 0.5 * (free + taken);
+          (moving.overlap(from + middle * way) ? taken : free) = middle;
+        }
+        return from + free * way;
+      }
+    }
+    taken = share;
+  }
+  return std::nullopt;
+}
+
 base::Result<void> check_tolerance(double tolerance) {
   if (tolerance > 0.0 && tolerance < 0.1) return {};
   return base::fail("The tolerance of a move is a share of the objects' size: choose one from 1e-9 to 1e-4.");
@@ -79,18 +103,20 @@ base::Result<StoppedMove> stopped_move(const MovingObjects& moving, const Vector
   const double tolerance = settings.tolerance * moving.size();
   StoppedMove result{from, false, {}};
   Vector3& at = result.offset;
+  if (settings.slide && moving.overlap(from)) at = lifted(moving, from, tolerance).value_or(from);
   for (int turn = 0; turn <= (settings.slide ? settings.most_slides : 0); ++turn) {
     const double share = moving.free_share(at, wanted - at, 0.1 * tolerance);
-    if (share >= 1.0) {
-      return StoppedMove{wanted, false, {}};
-    }
+    if (share >= 1.0) return StoppedMove{wanted, false, {}};
     at += share * (wanted - at);
+    if (moving.is_spent()) break;
     result.contacts = moving.contacts(at, wanted - at, tolerance);
     if (!settings.slide || turn == settings.most_slides) break;
     const Vector3 way = Corner(moving, at, wanted - at, tolerance).way_along(result.contacts);
     if (way.isZero(0.0)) break;
     at += moving.free_share(at, way, 0.1 * tolerance) * way;
   }
+  result.spent = moving.is_spent();
+  if (result.spent) result.contacts.clear();
   result.stopped = (wanted - at).norm() > tolerance;
   // What rests at a surface does not creep up to it.
   if (result.stopped && (at - from).norm() <= tolerance) at = from;

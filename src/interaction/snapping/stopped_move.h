@@ -19,17 +19,20 @@ struct StoppedMove {
   Vector3 offset = Vector3::Zero();    // m, world frame: how far they go from where they stand
   bool stopped = false;                // before they are where they are wanted
   std::vector<Contact> contacts = {};  // where they end, with what is in the way
+  bool spent = false;                  // the effort was, on the way: they may be able to go on from there
 };
 
 /// How far objects go that are wanted `wanted` (m, world frame) off where they stand: they stop at the first
 /// surface, however far the way and however thin what stands in it, and never come to overlap anything.
-/// Touching is allowed. What overlaps something already may go where it comes out of it, but no deeper.
+/// Touching is allowed. What overlaps something already may go where it comes out of it, but no deeper; where
+/// that is by no more than 3 % of its size, and it slides, it is taken out first.
 /// Objects go along with those above them; what the index does not hold is passed over. Fails for ways that
 /// are not finite or longer than 1e6 times what moves, and for settings out of range.
 base::Result<StoppedMove> stopped_move(world::CollisionIndex& index, std::span<const world::ObjectId> objects,
                                        const Vector3& wanted, const StopSettings& settings = {});
 
 /// The same for objects that stand `from` off where they stand: the offset counts from where they stand.
+/// Where their effort is spent, it is the last place on the way of which it is known that they may be there.
 base::Result<StoppedMove> stopped_move(const MovingObjects& objects, const Vector3& from,
                                        const Vector3& wanted, const StopSettings& settings = {});
 

@@ -18,8 +18,9 @@ using world::CollisionShape;
 using Ball = CollisionShape::Ball;
 using HalfSpace = CollisionShape::HalfSpace;
 
-constexpr double kTouchRounding = 1e-10;  // of the largest coordinate, as in world::meeting
-constexpr double kArithmetic = 1e-15;     // of the largest coordinate, what one sum may be off
+constexpr double kTouchRounding = 1e-10;    // of the largest coordinate, as in world::meeting
+constexpr double kArithmetic = 1e-15;       // of the largest coordinate, what one sum may be off
+constexpr std::uint64_t kCornersAUnit = 8;  // triangles whose corners are looked at for one unit of effort
 
 double largest_of(const Vector3& vector) { return vector.cwiseAbs().maxCoeff(); }
 
@@ -82,6 +83,8 @@ class TouchSearch {
     Vector3 step;
   };
 
+  bool may_go_on(std::uint64_t units = 1) { return !passing_.effort || passing_.effort->spend(units); }
+
   void add(double share, const Vector3& normal) {
     if (!(share >= from_ && share <= until_)) return;
     until_ = std::min(until_, visit_({share, normal.dot(passing_.step) > 0.0 ? Vector3(-normal) : normal}));
@@ -105,6 +108,7 @@ class TouchSearch {
       lowest = height(ball->centre) - ball->radius;
     } else {
       const geometry::TriangleTree& tree = side.shape.triangle_tree();
+      if (!may_go_on(tree.size() / kCornersAUnit)) return;
       for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
         for (const Vector3& corner : tree.corners(slot))
           lowest = std::min(lowest, height(side.place * corner));
@@ -133,7 +137,7 @@ class TouchSearch {
     tree.near(mesh_from_world * Vector3(ball.centre + from_ * step),
               mesh_from_world * Vector3(ball.centre + until_ * step), reach, [&](std::uint32_t slot) {
                 ball_on_triangle(ball, step, placed_corners(mesh.place, tree.corners(slot)));
-                return true;
+                return may_go_on();
               });
   }
 
@@ -165,6 +169,11 @@ class TouchSearch {
     }
   }
 
+  /// Around a box on the part of its way that is looked at.
+  Bounds on_its_way(const Bounds& box, const Vector3& step) const {
+    return box.translated(from_ * step).merged(box.translated(until_ * step));
+  }
+
   /// The triangles of one that come near the other's box, each against the other's on its way.
   void of_triangles(const Side& one, const Side& other) {
     const geometry::TriangleTree& tree = one.shape.triangle_tree();
@@ -173,17 +182,16 @@ class TouchSearch {
     Bounds box = other.shape.bounds().transformed(other.place);
     const Vector3 middle = box.center();
     const double reach = (0.5 * box.diagonal().norm() + 2.0 * rounding_) * stretch_of(one_from_world);
-    box = Bounds(box.min() - Vector3::Constant(2.0 * rounding_),
-                 box.max() + Vector3::Constant(2.0 * rounding_));
-    tree.near(one_from_world * Vector3(middle - from_ * one.step),
-              one_from_world * Vector3(middle - until_ * one.step), reach, [&](std::uint32_t slot) {
-                const Corners corners = placed_corners(one.place, tree.corners(slot));
-                const Bounds here = box_of(corners);
-                const Bounds way =
-                    here.translated(from_ * one.step).merged(here.translated(until_ * one.step));
-                if (way.intersects(box)) triangle_past(corners, one.step, other, other_from_world);
-                return true;
-              });
+    geometry::SegmentQuery query(one_from_world * Vector3(middle - from_ * one.step),
+                                 one_from_world * Vector3(middle - until_ * one.step), reach);
+    query.only_in(on_its_way(grown(box, 2.0 * rounding_), -one.step).transformed(one_from_world));
+    box = grown(box, 2.0 * rounding_);
+    tree.near(query, [&](std::uint32_t slot) {
+      const Corners corners = placed_corners(one.place, tree.corners(slot));
+      if (on_its_way(box_of(corners), one.step).intersects(box))
+        triangle_past(corners, one.step, other, other_from_world);
+      return may_go_on();
+    });
   }
 
   void triangle_past(const Corners& corners, const Vector3& step, const Side& other,
@@ -193,16 +201,19 @@ class TouchSearch {
     double reach = 2.0 * rounding_;
     for (const Vector3& corner : corners) reach = std::max(reach, (corner - middle).norm() + 2.0 * rounding_);
     const Bounds here = box_of(corners);
-    tree.near(other_from_world * Vector3(middle + from_ * step),
-              other_from_world * Vector3(middle + until_ * step), reach * stretch_of(other_from_world),
-              [&](std::uint32_t slot) {
-                const Corners facing = placed_corners(other.place, tree.corners(slot));
-                Bounds way = here.translated(from_ * step).merged(here.translated(until_ * step));
-                way.min() -= Vector3::Constant(2.0 * rounding_);
-                way.max() += Vector3::Constant(2.0 * rounding_);
-                if (way.intersects(box_of(facing))) triangles_touch(corners, step, facing);
-                return true;
-              });
+    geometry::SegmentQuery query(other_from_world * Vector3(middle + from_ * step),
+                                 other_from_world * Vector3(middle + until_ * step),
+                                 reach * stretch_of(other_from_world));
+    // Long triangles, and flat ones, fill little of the ball around them.
+    const Bounds there =
+        on_its_way(box_of(placed_corners(other_from_world, corners)), other_from_world.linear() * step);
+    query.only_in(grown(there, 2.0 * rounding_ * stretch_of(other_from_world)));
+    tree.near(query, [&](std::uint32_t slot) {
+      const Corners facing = placed_corners(other.place, tree.corners(slot));
+      if (grown(on_its_way(here, step), 2.0 * rounding_).intersects(box_of(facing)))
+        triangles_touch(corners, step, facing);
+      return may_go_on();
+    });
   }
 
   void triangles_touch(const Corners& one, const Vector3& step, const Corners& other) {

@@ -17,12 +17,18 @@ struct Passing {
   Affine3 world_from_moved;      // at share 0
   world::CollisionShape* other;
   Affine3 world_from_other;
-  Vector3 step;  // m, world frame
+  Vector3 step;                     // m, world frame
+  world::Effort* effort = nullptr;  // null: as much as it takes
 
   Affine3 world_from_moved_at(double share) const {
     return Eigen::Translation3d(share * step) * world_from_moved;
   }
 };
+
+/// A box that reaches so much farther on all sides, m.
+inline base::Bounds grown(const base::Bounds& box, double by) {
+  return {box.min() - Vector3::Constant(by), box.max() + Vector3::Constant(by)};
+}
 
 /// Where surfaces of the two come to touch, or cease to.
 struct Touch {
@@ -37,7 +43,7 @@ double rounding_of(const Passing& passing, double until);
 /// faces and edges with edges, of balls with what they may touch, of the foremost corner with a half-space.
 /// Exact: between touches, whether the two overlap does not change. Some that only nearly touch are among
 /// them, and the same may come several times; features that only slide along each other are not. `visit`
-/// returns the share up to which it wants more.
+/// returns the share up to which it wants more. It ends early where its effort is spent.
 void visit_touches(const Passing& passing, double from, double until,
                    base::FunctionRef<double(const Touch&)> visit);
 

@@ -61,7 +61,9 @@ void Hold::begin(const HoldingMoment& now, const base::Affine3& world_from_targe
     return;
   }
   const Pose held_by = hand(now, by_[0] ? 0 : 1);
-  hand_from_target_ = held_by.inverse() * shown_from_world(now) * world_from_target;
+  const base::Affine3 shown = shown_from_world(now);
+  hand_from_target_ = held_by.inverse() * shown * world_from_target;
+  shown_scale_ = scale_of(shown);
   length_start_ =
       std::clamp((grasped_ - held_by.translation()).norm(), now.settings.nearest, now.settings.farthest);
   length_ = length_start_;
@@ -88,7 +90,10 @@ base::Affine3 Hold::follow(const HoldingMoment& now, const base::Affine3& world_
     length_ = std::clamp(length_ * std::exp(now.settings.reel_speed * reel * now.seconds),
                          now.settings.nearest, now.settings.farthest);
   }
-  return shown_from_world(now).inverse() * hand(now, which) * slid() * hand_from_target_;
+  const base::Affine3 shown = shown_from_world(now);
+  // Who travels meanwhile may see the copy at another scale: what is held is as large as it was.
+  const double same_size = scale_of(shown) / shown_scale_;
+  return shown.inverse() * hand(now, which) * slid() * hand_from_target_ * Eigen::Scaling(same_size);
 }
 
 double growth_to_reach(const Vector3& eyes, const Vector3& hand, const Vector3& grasped) {

@@ -23,7 +23,7 @@ std::string_view name_of(Holding holding);
 struct HoldingSettings {
   double reel_speed = 1.5;   // 1/s: by this power of e what hangs on a ray goes away in a second; 0.5 to 3
   double nearest = 0.05;     // m, to which it can be pulled
-  double farthest = 1000.0;  // m, to which it can be pushed
+  double farthest = 1000.0;  // m, to which it can be pushed; to so far from the eyes anything can be moved
   TwoHandSettings two_hands = {};
 };
 
@@ -63,6 +63,7 @@ class Hold {
   // One hand: where the object (or its copy) is in the hand, and how far it slid along the ray.
   base::Affine3 hand_from_target_ = base::Affine3::Identity();
   double length_start_ = 1.0, length_ = 1.0;
+  double shown_scale_ = 1.0;  // of what the hand moves, when it was taken
   // Two hands: where it was when both had it.
   std::optional<TwoHandGrip> grip_;
   base::Affine3 start_ = base::Affine3::Identity();

@@ -20,8 +20,9 @@ void grow_room(TechniqueState& state, const TechniqueInput& input, double growth
 }
 
 void take_hold(const Technique& technique, TechniqueState& state, const TechniqueInput& input,
-               const PointedAt& pointed) {
+               const PointedAt& pointed, const base::Bounds& all) {
   state.hold.emplace(technique.holding, pointed);
+  state.shown = all;
   if (technique.holding != Holding::ScaledWorld || !input.hands[0].tracked) return;
   const Vector3 eyes = state.world_from_room * Vector3(input.room_from_head.translation());
   const Vector3 hand = state.world_from_room * Vector3(input.hands[0].room_from_hand.translation());
@@ -39,18 +40,26 @@ bool still_held(const Technique& technique, const TechniqueInput& input) {
   return input.hands[0].grab || (technique.holding == Holding::TwoHands && input.hands[1].grab);
 }
 
+/// A hand that is mapped to a larger one must not lead anything to where numbers end, drag by drag.
+bool is_in_reach(const base::Affine3& place, const base::Affine3& before, const Vector3& eyes,
+                 double farthest) {
+  const double away = (place.translation() - eyes).norm();
+  return away <= farthest || away <= (before.translation() - eyes).norm();
+}
+
 void move_held(const Technique& technique, TechniqueStep& result, const TechniqueInput& input,
                const TechniqueScene& scene, double seconds) {
   Hold& hold = *result.state.hold;
   const base::Affine3 before = scene.find(hold.id())->world_from_target;
-  const HoldingMoment now{input,
-                          technique.selecting_settings,
-                          technique.holding_settings,
-                          result.state.world_from_room,
-                          scene.bounds(),
-                          seconds};
+  const SelectingSettings sizes = sizes_now(technique, result.state);
+  const HoldingMoment now{input,          sizes,  technique.holding_settings, result.state.world_from_room,
+                          scene.bounds(), seconds};
   const base::Affine3 place = hold.follow(now, before);
-  if (place.matrix() != before.matrix() && place.matrix().allFinite())
+  const base::Affine3& room = result.state.world_from_room;
+  const Vector3 eyes = room * Vector3(input.room_from_head.translation());
+  const double farthest = technique.holding_settings.farthest * std::max(1.0, scale_of(room));
+  if (place.matrix() != before.matrix() && place.matrix().allFinite() &&
+      is_in_reach(place, before, eyes, farthest))
     result.outcome.moved = MovedTarget{hold.id(), place};
 }
 
@@ -95,6 +104,12 @@ base::Result<void> check(const Technique& technique) {
   return {};
 }
 
+SelectingSettings sizes_now(const Technique& technique, const TechniqueState& state) {
+  SelectingSettings sizes = technique.selecting_settings;
+  if (state.hold && sizes.miniature.shown.isEmpty()) sizes.miniature.shown = state.shown;
+  return sizes;
+}
+
 TechniqueState begun(const Technique& technique) {
   TechniqueState state;
   state.travel = Travel(technique.travelling);
@@ -115,16 +130,15 @@ TechniqueStep step(const Technique& technique, const TechniqueState& state, cons
   now.time = input.time;
   if (now.hold && (!scene.find(now.hold->id()) || !still_held(technique, input))) release_held(now, input);
   if (!scene.find(now.selected)) now.selected = 0;
-  const TravelMoment journey{
-      input, technique.selecting_settings, technique.travel_settings, scene, now.selected, seconds};
+  const SelectingSettings sizes = sizes_now(technique, now);
+  const TravelMoment journey{input, sizes, technique.travel_settings, scene, now.selected, seconds};
   now.world_from_room = now.travel.follow(journey, now.world_from_room);
-  PointedAt pointed =
-      pointed_at(technique.selecting, technique.selecting_settings, input, 0, now.world_from_room, scene);
+  PointedAt pointed = pointed_at(technique.selecting, sizes, input, 0, now.world_from_room, scene);
   const bool pressed = input.hands[0].grab && !state.grabbing;
   if (pressed && !now.hold) {
     now.selected = pointed.id;
     result.outcome.picked = true;
-    if (pointed.id != 0) take_hold(technique, now, input, pointed);
+    if (pointed.id != 0) take_hold(technique, now, input, pointed, scene.bounds());
   }
   now.grabbing = input.hands[0].grab;
   if (now.hold) {

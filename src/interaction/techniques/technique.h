@@ -28,8 +28,13 @@ struct TechniqueState {
   TargetId selected = 0;
   std::optional<Hold> hold = {};
   double room_growth = 1.0;  // since the world shrank for what is held
+  base::Bounds shown = {};   // m, around the world when what is held was taken
   Travel travel{};
 };
+
+/// The sizes that the next step goes by. While something is held, the miniature shows what it did when that
+/// was taken: else it would shrink with each step that leads outwards, and what is held would grow.
+SelectingSettings sizes_now(const Technique& technique, const TechniqueState& state);
 
 /// The state before the first step.
 TechniqueState begun(const Technique& technique);

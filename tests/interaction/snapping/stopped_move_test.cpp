@@ -1,6 +1,10 @@
 #include "interaction/snapping/stopped_move.h"
 
+#include <functional>
+
 #include "clutter.h"
+#include "geometry/implicit_surface.h"
+#include "geometry/loop_surface.h"
 #include "interaction/object_move.h"
 #include "world/solid_geometry.h"
 
@@ -249,6 +253,87 @@ TEST(StoppedMove, RefusesWhatCannotBe) {
   EXPECT_EQ(moved(room.index, {}, Vector3::Zero()).offset, Vector3::Zero());
 }
 
+/// 70,000 triangles, about as many as a scan has, with bumps all over.
+world::GeometryPointer scan() {
+  std::vector<std::pair<double, double>> profile;
+  constexpr int kRings = 140;
+  for (int i = 0; i <= kRings; ++i) {
+    const double angle = std::numbers::pi * (i + 0.5) / (kRings + 1);
+    profile.emplace_back(0.06 * std::sin(angle) * (1.0 + 0.05 * std::sin(40.0 * angle)),
+                         -0.06 * std::cos(angle));
+  }
+  return lathe(profile, 250);
+}
+
+/// A scan that stands on a plinth, a little sunk into it, and a wall beside them.
+struct Sculpture {
+  Clutter clutter;
+  ObjectId figure;
+  ObjectId plinth = clutter.add(
+      std::make_shared<world::PrimitiveGeometry>(geometry::Cylinder{0.068, 0.015}, world::Axis::Y),
+      at(0.0, 0.0075, 0.0));
+  ObjectId wall = clutter.add(solid(geometry::Box{{0.01, 0.5, 0.5}}), at(0.2, 0.0, 0.0));
+  CollisionIndex index;
+  explicit Sculpture(double sunk)
+      : figure(clutter.add(scan(), at(0.0, 0.015 + 0.06 - sunk, 0.0))), index(clutter.world) {}
+};
+
+TEST(StoppedMove, OfAPlinthUnderAScanTakesNoLongEffort) {
+  base::Random random(3);
+  for (const double sunk : {0.0, 2e-5, 0.004}) {
+    Sculpture sculpture(sunk);
+    const std::vector<ObjectId> plinth = {sculpture.plinth};
+    for (int i = 0; i < 10; ++i) {
+      const Vector3 wanted = random.uniform(0.001, 0.3) * random.direction();
+      world::Effort effort(100'000'000);
+      const auto move =
+          stopped_move(MovingObjects(sculpture.index, plinth, &effort), Vector3::Zero(), wanted);
+      ASSERT_TRUE(move);
+      EXPECT_FALSE(move->spent);
+      EXPECT_LT(effort.spent(), 20'000'000U) << sunk << " " << i;
+      const Affine3 there = Eigen::Translation3d(move->offset) * at(0.0, 0.0075, 0.0);
+      if (sunk < 1e-3) {
+        EXPECT_FALSE(sculpture.index.overlaps(sculpture.plinth, there)) << sunk << " " << i;
+      }
+    }
+  }
+}
+
+TEST(StoppedMove, WithLittleEffortIsNeverIn) {
+  base::Random random(5);
+  int spent = 0;
+  for (const std::uint64_t units : {1U, 100U, 10'000U, 100'000U, 300'000U}) {
+    Sculpture sculpture(-0.001);
+    for (int i = 0; i < 40; ++i) {
+      const Vector3 wanted = random.uniform(0.001, 0.5) * random.direction();
+      world::Effort effort(units);
+      const auto move = stopped_move(MovingObjects(sculpture.index, std::vector{sculpture.plinth}, &effort),
+                                     Vector3::Zero(), wanted);
+      ASSERT_TRUE(move);
+      spent += int(move->spent);
+      const Affine3 there = Eigen::Translation3d(move->offset) * at(0.0, 0.0075, 0.0);
+      EXPECT_FALSE(sculpture.index.overlaps(sculpture.plinth, there)) << units << " " << i;
+      EXPECT_EQ(move->spent, effort.is_spent());
+    }
+  }
+  EXPECT_GT(spent, 60);
+}
+
+TEST(StoppedMove, TakesOutWhatIsSunkInByALittleAndThenSlides) {
+  Clutter clutter;
+  clutter.add(solid(geometry::Box{{1.0, 0.1, 1.0}}), at(0.0, -0.1, 0.0));
+  for (const double sunk : {1e-6, 1e-4, 0.007}) {
+    const ObjectId thing = clutter.add(mesh_of(geometry::Box{{0.1, 0.1, 0.1}}), at(0.0, 0.1 - sunk, 0.0));
+    CollisionIndex index(clutter.world);
+    for (const Vector3& way : {Vector3(0.4, 0.0, 0.1), Vector3(-0.4, 0.0, 0.1), Vector3(0.3, -0.2, 0.0)}) {
+      const StoppedMove move = moved(index, {thing}, way);
+      EXPECT_LT((move.offset - Vector3(way.x(), sunk, way.z())).norm(), 1e-5) << sunk;
+      EXPECT_FALSE(index.overlaps(thing, Eigen::Translation3d(move.offset) * at(0.0, 0.1 - sunk, 0.0)));
+    }
+    applied(clutter.world, world::DeleteObject{thing});
+  }
+}
+
 /// A plate 1 m x 1 m, its top at z = 0, with holes of 30 mm in rows 200 mm apart.
 geometry::CsgTree drilled_plate(double thickness, int rows) {
   geometry::CsgTree tree;
@@ -300,6 +385,110 @@ TEST(Landing, OfBallsOnADrilledPlateIsOnItHoweverThinItIs) {
       }
     }
   }
+}
+
+/// Solids that are no meshes, 0.2 to 1 m large, each with the question that judges: is a place in it, by what
+/// it is itself?
+struct ExactSolid {
+  world::GeometryPointer shape;
+  std::function<bool(const Vector3&)> inside;
+};
+
+std::vector<ExactSolid> exact_solids() {
+  std::vector<ExactSolid> all;
+  const auto add_tree = [&](const geometry::CsgTree& tree) {
+    all.push_back({std::make_shared<world::CsgGeometry>(tree),
+                   [tree](const Vector3& at) { return geometry::inside(tree, at); }});
+  };
+  add_tree(drilled_plate(0.005, 3));
+  geometry::CsgTree hollow;
+  auto root =
+      hollow.add(geometry::CsgOperator::Intersection,
+                 hollow.add_leaf(geometry::Primitive(geometry::Box{{0.1, 0.1, 0.1}}), Affine3::Identity()),
+                 hollow.add_leaf(geometry::Primitive(geometry::Sphere{0.13}), Affine3::Identity()));
+  for (const Vector3& axis : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY())}) {
+    const auto hole = hollow.add_leaf(geometry::Primitive(geometry::Cylinder{0.055, 0.5}),
+                                      turned(0.5 * std::numbers::pi, axis));
+    root = hollow.add(geometry::CsgOperator::Difference, root, hole);
+  }
+  add_tree(hollow);
+  const geometry::ControlMesh control{geometry::tessellate(geometry::Box{{0.15, 0.1, 0.2}}, 1.0), {}, {}};
+  const std::shared_ptr<const geometry::LoopSurface> loop = *geometry::LoopSurface::create(control);
+  all.push_back({std::make_shared<world::LoopGeometry>(control),
+                 [loop](const Vector3& at) { return loop->bounds().contains(at) && loop->inside(at); }});
+  const auto formula =
+      *world::ImplicitGeometry::create("x^2+y^2+z^2-0.01+0.003*sin(50*x)*sin(50*y)",
+                                       base::Bounds(Vector3::Constant(-0.15), Vector3::Constant(0.15)));
+  all.push_back({formula, [formula](const Vector3& at) {
+                   return formula->surface()->box().contains(at) && formula->surface()->inside(at);
+                 }});
+  return all;
+}
+
+/// Places of the surface of what is moved, made smaller or larger by a length, m.
+std::vector<Vector3> shell(bool is_ball, double by, base::Random& random) {
+  std::vector<Vector3> places;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3 way = random.direction();
+    places.push_back(is_ball ? Vector3((0.04 + by) * way)
+                             : Vector3((0.03 + by) / way.cwiseAbs().maxCoeff() * way));
+  }
+  return places;
+}
+
+TEST(StoppedMove, NeverEndsInSolidsFormulasAndSubdivisionSurfacesAsTheyAre) {
+  base::Random random(21);
+  const std::vector<ExactSolid> solids = exact_solids();
+  int stops = 0, straight = 0, seen = 0;
+  for (const bool is_ball : {true, false}) {
+    Clutter clutter;
+    std::vector<Affine3> places;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      places.push_back(at(0.5 * double(i), 0.0, 0.0) * turned(random.uniform(0.0, 3.0), random.direction()));
+      clutter.add(solids[i].shape, places.back());
+    }
+    const auto is_in = [&](const std::vector<Vector3>& shell, const Affine3& place) {
+      for (std::size_t i = 0; i < solids.size(); ++i) {
+        const Affine3 solid_from_thing = places[i].inverse() * place;
+        for (const Vector3& it : shell)
+          if (solids[i].inside(solid_from_thing * it)) return true;
+      }
+      return false;
+    };
+    const ObjectId thing =
+        clutter.add(is_ball ? solid(geometry::Sphere{0.04}) : solid(geometry::Box{{0.03, 0.03, 0.03}}),
+                    Affine3::Identity());
+    CollisionIndex index(clutter.world);
+    for (int i = 0; i < 60; ++i) {
+      SCOPED_TRACE(testing::Message() << is_ball << " " << i);
+      const Affine3 place =
+          at(random.uniform(-0.3, 1.8), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)) *
+          turned(random.uniform(0.0, 3.0), random.direction());
+      const world::Edit edit = world::PlaceObject{thing, place};
+      applied(clutter.world, edit);
+      index.follow(clutter.world, changes_of(edit));
+      if (index.overlaps(thing)) continue;
+      const Vector3 wanted =
+          2.0 * (at(random.uniform(0.0, 1.5), 0.0, 0.0).translation() - place.translation());
+      const bool slides = i % 2 == 0;
+      const StoppedMove move = moved(index, {thing}, wanted, {.slide = slides});
+      stops += int(move.stopped);
+      const Affine3 there = Eigen::Translation3d(move.offset) * place;
+      // Of solids with round faces triangles are asked, which are this far off at most.
+      constexpr double kOff = 4e-4;  // m
+      EXPECT_FALSE(is_in(shell(is_ball, -kOff, random), there));
+      if (slides) continue;
+      for (int step = 0; step < 10; ++step)
+        ASSERT_FALSE(
+            is_in(shell(is_ball, -kOff, random), Eigen::Translation3d(step / 10.0 * move.offset) * place));
+      if (!move.stopped) continue;
+      ++straight;
+      seen +=
+          int(is_in(shell(is_ball, 2e-3, random), Eigen::Translation3d(2e-3 * wanted.normalized()) * there));
+    }
+  }
+  EXPECT_GT(stops, 40);
+  EXPECT_GT(seen, 0.7 * straight) << "they stop at something; corners are missed by such places, and edges";
 }
 
 TEST(Landing, FallsAlongAnyDirectionAndToTheFloor) {

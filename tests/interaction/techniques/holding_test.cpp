@@ -192,5 +192,127 @@ TEST(Holding, AThingThatGoesAwayIsLetGo) {
   EXPECT_TRUE(after.state.world_from_room.isApprox(base::Affine3::Identity(), 1e-12));
 }
 
+/// Takes hold and lets go, again and again, of what the hand finds in the world or in its miniature, with
+/// hands and buttons anywhere.
+class RandomDrags {
+ public:
+  RandomDrags(Selecting selecting, Holding holding, Travelling travelling, std::uint64_t seed)
+      : random_(seed) {
+    technique_.selecting = selecting;
+    technique_.holding = holding;
+    technique_.travelling = travelling;
+    technique_.selecting_settings.finger_radius = 0.02;
+    for (TargetId id = 1; id <= 12; ++id) {
+      SceneTarget target = ball_target(id, random_.uniform(0.3, 2.0) * random_.direction(), 0.2);
+      target.world_from_target.linear() = random_pose(random_).linear() * random_.uniform(0.2, 2.0);
+      EXPECT_TRUE(scene_.add(target));
+    }
+    sizes_ = stretches();
+    state_ = begun(technique_);
+  }
+
+  /// One drag of some steps from next to something, in the world or in its copy. Was anything moved?
+  bool drag() {
+    input_ = person_with(Pose::Identity(), input_.time + 0.01);
+    const SceneTarget& aim = scene_.targets()[random_.index(scene_.targets().size())];
+    Vector3 place = aim.world_from_target.translation();
+    if (technique_.selecting == Selecting::Miniature)
+      place = copy_from_world(technique_.selecting_settings.miniature, scene_.bounds(), input_,
+                              state_.world_from_room) *
+              place;
+    const base::Affine3 room_from_world = state_.world_from_room.inverse();
+    hand() = pose_at(room_from_world * place, random_pose(random_).linear());
+    input_.hands[1].tracked = random_.index(2) == 0;
+    input_.hands[1].room_from_hand = random_pose(random_);
+    bool moved = go();
+    for (int i = 0; i < 6; ++i) {
+      input_.hands[0].grab = true;
+      input_.hands[0].travel = random_.index(4) == 0;
+      input_.hands[0].reel = random_.uniform(-1.0, 1.0);
+      input_.hands[1].travel = random_.index(4) == 0;
+      moved = go() || moved;
+      hand() = random_pose(random_, 0.8);
+      hand().translation() += Vector3(0.0, 1.4, 0.0);
+      input_.hands[1].room_from_hand = random_pose(random_);
+    }
+    input_.hands[0] = {};
+    input_.hands[1] = {};
+    go();
+    return moved;
+  }
+
+  std::vector<double> stretches() const {
+    std::vector<double> all;
+    for (const SceneTarget& it : scene_.targets()) all.push_back(scale_of(it.world_from_target));
+    return all;
+  }
+  const std::vector<double>& sizes() const { return sizes_; }
+  double extent() const {
+    double most = 0.0;
+    for (const SceneTarget& it : scene_.targets())
+      most = std::max(most, it.world_from_target.translation().norm());
+    return most;
+  }
+
+ private:
+  Pose& hand() { return input_.hands[0].room_from_hand; }
+  bool go() {
+    input_.time += 0.02;
+    TechniqueStep next = step(technique_, state_, input_, scene_);
+    const bool moved = next.outcome.moved.has_value();
+    if (moved) {
+      EXPECT_TRUE(scene_.move(next.outcome.moved->id, next.outcome.moved->world_from_target));
+    }
+    state_ = std::move(next.state);
+    return moved;
+  }
+
+  base::Random random_;
+  Technique technique_;
+  TechniqueScene scene_;
+  TechniqueState state_;
+  TechniqueInput input_ = person_with(Pose::Identity());
+  std::vector<double> sizes_;
+};
+
+TEST(Holding, AThousandDragsKeepSizesAndEndSomewhere) {
+  for (const Selecting selecting : {Selecting::Miniature, Selecting::VirtualHand}) {
+    for (const Holding holding : kAllHolding) {
+      if (holding == Holding::TwoHands) continue;  // it is there to scale
+      for (const Travelling travelling : {Travelling::None, Travelling::Orbit, Travelling::Miniature}) {
+        SCOPED_TRACE(testing::Message()
+                     << name_of(selecting) << ", " << name_of(holding) << ", " << name_of(travelling));
+        RandomDrags drags(selecting, holding, travelling, 7);
+        int moved = 0;
+        for (int i = 0; i < 1000; ++i) moved += int(drags.drag());
+        // Held otherwise than it was taken, much is led out of reach at once, which is refused.
+        const bool suited =
+            selecting == Selecting::Miniature ? holding == Holding::Miniature : holding == Holding::Hand;
+        EXPECT_GT(moved, suited ? 50 : 0);
+        const std::vector<double> now = drags.stretches();
+        for (std::size_t i = 0; i < now.size(); ++i)
+          ASSERT_NEAR(now[i], drags.sizes()[i], 1e-9 * drags.sizes()[i]);
+        EXPECT_LT(drags.extent(), 1e5);
+      }
+    }
+  }
+}
+
+TEST(Holding, InTheMiniatureAThingGoesByTheScaleItWasTakenAt) {
+  Grasp grasp(Holding::Miniature);
+  grasp.technique().selecting_settings.miniature.keeps_in_sight = true;
+  const base::Affine3 copy =
+      copy_from_world(grasp.technique().selecting_settings.miniature, grasp.scene().bounds(), grasp.input(),
+                      base::Affine3::Identity());
+  const base::Affine3 before = grasp.place();
+  grasp.press(0);
+  for (int i = 1; i <= 100; ++i) {
+    grasp.hand(0).translation().x() += 0.01;
+    grasp.go();
+    EXPECT_NEAR((grasp.place().translation() - before.translation()).x(), 0.01 * i / scale_of(copy), 1e-9);
+    ASSERT_TRUE(grasp.place().linear().isApprox(before.linear(), 1e-12)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace icome::interaction
