@@ -166,10 +166,11 @@ class Bends {
   /// As the triangles run around `out`, seen against it: counter-clockwise, and it is in front of them. They
   /// are projected from the vertex on a plane across, where their sides stay straight: unit vectors could
   /// turn the other way round where some of them lie nearly across. A way that leads up lies in a flat face
-  /// of more than half a turn, beside which no place has the vertex as its nearest.
+  /// of more than half a turn, beside which no place has the vertex as its nearest. Triangles that pass through
+  /// each other, as at the end of a twisted flap, run around it either way.
   Sides side_of(std::uint32_t vertex, const Vector3& out) const {
-    double turn = 0.0;
-    double whole = 0.0;
+    double front = 0.0;
+    double back = 0.0;
     for (const std::uint32_t triangle : incidence_.at(vertex)) {
       const auto& corners = mesh_.triangles[triangle];
       const auto which = unsigned(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
@@ -178,10 +179,10 @@ class Bends {
       const double rise = std::max(one.dot(out), other.dot(out));
       if (rise > -kFlat) return rise > kFlat ? 0 : kFrontBit | kBackBit;
       const double part = one.cross(other).dot(out) / (one.dot(out) * other.dot(out));
-      turn += part;
-      whole += std::abs(part);
+      (part > 0.0 ? front : back) += std::abs(part);
     }
-    return turn > kFlat * whole ? kFrontBit : turn < -kFlat * whole ? kBackBit : kFrontBit | kBackBit;
+    const double least = kFlat * (front + back);
+    return back <= least ? kFrontBit : front <= least ? kBackBit : kFrontBit | kBackBit;
   }
 
   std::array<std::uint32_t, 2> edge(std::uint32_t triangle, unsigned which) const {

@@ -115,6 +115,19 @@ TEST(MeshFeatures, AnApexIsFoundThoughSomeEdgesLieNearlyAcross) {
   }
 }
 
+// The end of a thin flap that is twisted in itself, as scans have them: some of its triangles face the other way.
+TEST(MeshFeatures, TheEndOfATwistedFlapIsACornerOfBothSides) {
+  TriangleMesh flap;
+  flap.positions = {
+      {0, 0, 0}, {-0.17, -0.22, -1.0}, {-1.66, 0.23, -1.0}, {-0.13, -0.20, -1.0}, {0.13, 0.20, -1.0}};
+  flap.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  ASSERT_FALSE(away_from_edges(flap, 0).isZero(0.0));
+  for (int turn = 0; turn < 2; ++turn) {
+    EXPECT_EQ(mesh_features(flap).front().front >> 3 & 1, 1) << turn;
+    for (auto& triangle : flap.triangles) std::swap(triangle[1], triangle[2]);
+  }
+}
+
 // On rough balls: whatever is nearest to some position is handed out, once; what is handed out is the nearest
 // to some position, but for a few corners whose directions are too narrow for the search.
 TEST(MeshFeatures, AreThoseThatAreNearestSomewhere) {
