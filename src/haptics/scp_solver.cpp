@@ -24,15 +24,16 @@ constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxArches = 12;
-constexpr int kMaxIdle = 4;            // iterations that bring the SCP no nearer: contacts that take turns
-constexpr double kMaxGrowth = 2.0;     // of the way that a region looks ahead, after one that overflowed
-constexpr int kMaxReturns = 6;         // in a tick, to where a way out was found before
-constexpr double kRounding = 1e-14;    // of squared distances
-constexpr double kSteepest = 0.1;      // rise of an arch for its length
-constexpr double kStride = 8.0;        // times the last step's way, a sphere tip's next step is looked along
-constexpr double kRoundStep = 0.28;    // rad, along a rounded edge: no way over it is then too steep
-constexpr double kBulge = 0.3;         // rise of a way over an edge, times its radius, for the squared chord
-constexpr int kMaxHalvings = 24;       // of such a chord, until a region holds it
+constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
+constexpr double kMaxGrowth = 2.0;   // of the way that a region looks ahead, after one that overflowed
+constexpr int kMaxReturns = 6;       // in a tick, to where a way out was found before
+constexpr double kRounding = 1e-14;  // of squared distances
+constexpr double kSteepest = 0.1;    // rise of an arch for its length
+constexpr double kStride = 8.0;      // times the last step's way, a sphere tip's next step is looked along
+constexpr double kRoundStep = 0.28;  // rad, along a rounded edge: no way over it is then too steep
+constexpr double kFarthest = 0.3;    // of its radius: how far a region looks ahead of a sphere tip in contact
+constexpr double kBulge = 0.3;       // rise of a way over an edge, times its radius, for the squared chord
+constexpr int kMaxHalvings = 24;     // of such a chord, until a region holds it
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
@@ -293,7 +294,7 @@ void ScpSolver::converge(const Vector3& tip) {
       idle = 0;
       const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0 && !at_edge();
       const bool at_rest = !turns && (on_a_face || rounded());
-      const bool circle = turns && nearest_is_free;
+      const bool circle = turns && nearest_is_free && on_mesh();
       if (circle) {
         position_ = nearest;
         contacts_ = nearest_contacts;
@@ -701,7 +702,8 @@ Vector3 ScpSolver::within_region(const Vector3& step) {
 /// half-way along a chord.
 bool ScpSolver::on_mesh() const {
   const auto of_mesh = [](const Element& contact) { return contact.flat() || contact.guarded; };
-  return settings_.tip_radius > 0.0 && std::all_of(contacts_.all().begin(), contacts_.all().end(), of_mesh);
+  return settings_.tip_radius > 0.0 && !contacts_.empty() &&
+         std::all_of(contacts_.all().begin(), contacts_.all().end(), of_mesh);
 }
 
 /// Do steps lead along chords round edges and corners of a mesh?
@@ -788,7 +790,7 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
   // A chord round an edge is short as it is; a beginning of it would lie in the edge.
   if (on_chords()) return step;
   // A sphere tip that is pulled far along what it touches sinks into much that it will not come to.
-  const double farthest = std::max(tip_motion_, kRoundStep * settings_.tip_radius);
+  const double farthest = std::max(tip_motion_, kFarthest * settings_.tip_radius);
   if (!contacts_.empty() && settings_.tip_radius > 0.0 && length > farthest)
     return step * (farthest / length);
   const double beside = on.cross(step).norm();
