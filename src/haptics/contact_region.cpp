@@ -60,6 +60,7 @@ void ContactRegion::invalidate() {
 bool ContactRegion::take_box(const Bounds& bounds) {
   overflowed_ = overflowed_ || size_ == limit_ || elements_.size() == kElements;
   if (overflowed_) return false;
+  ++gathered_;
   FourBoxes& boxes = boxes_[size_ / FourBoxes::kCount];
   if (size_ % FourBoxes::kCount == 0) boxes = FourBoxes();
   boxes.set(size_ % FourBoxes::kCount, geometry::float_box(Bounds(bounds.min() - a_, bounds.max() - a_)));

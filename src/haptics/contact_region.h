@@ -30,6 +30,7 @@ class ContactRegion {
  public:
   static constexpr std::size_t kPieces = 4096;
   static constexpr std::size_t kElements = 8192;
+  static constexpr std::uint64_t kPiecesForAnElement = 4;  // as work() counts them
 
   ContactRegion();
 
@@ -75,8 +76,9 @@ class ContactRegion {
   /// it: as many as fit in `into`; how many there are.
   std::size_t around(const Vector3& position, double distance, std::span<Element> into);
 
-  /// Elements that sweeps have looked at so far: what they cost, as a number that replays repeat.
-  std::uint64_t looked_at() const { return looked_at_; }
+  /// Elements that sweeps have looked at so far, and a quarter of the pieces that gathers have brought: what
+  /// it all cost, as a number that replays repeat.
+  std::uint64_t work() const { return looked_at_ + gathered_ / kPiecesForAnElement; }
 
   const Vector3& a() const { return a_; }
   const Vector3& b() const { return b_; }
@@ -112,6 +114,7 @@ class ContactRegion {
   bool overflowed_ = false;
   std::size_t limit_ = kPieces;
   std::uint64_t looked_at_ = 0;
+  std::uint64_t gathered_ = 0;
   std::size_t size_ = 0;  // pieces
   std::vector<Piece> pieces_;
   std::vector<geometry::FourBoxes> boxes_;  // of the pieces, relative to a_

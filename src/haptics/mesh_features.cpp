@@ -166,22 +166,46 @@ class Bends {
   /// As the triangles run around `out`, seen against it: counter-clockwise, and it is in front of them. They
   /// are projected from the vertex on a plane across, where their sides stay straight: unit vectors could
   /// turn the other way round where some of them lie nearly across. A way that leads up lies in a flat face
-  /// of more than half a turn, beside which no place has the vertex as its nearest.
+  /// of more than half a turn, beside which no place has the vertex as its nearest. Triangles that pass
+  /// through each other, as at the end of a twisted flap, run around it either way.
   Sides side_of(std::uint32_t vertex, const Vector3& out) const {
     double turn = 0.0;
     double whole = 0.0;
     for (const std::uint32_t triangle : incidence_.at(vertex)) {
-      const auto& corners = mesh_.triangles[triangle];
-      const auto which = unsigned(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
-      const Vector3 one = way(vertex, corners[(which + 1) % 3]);
-      const Vector3 other = way(vertex, corners[(which + 2) % 3]);
+      const auto [one, other] = ways(vertex, triangle);
       const double rise = std::max(one.dot(out), other.dot(out));
       if (rise > -kFlat) return rise > kFlat ? 0 : kFrontBit | kBackBit;
       const double part = one.cross(other).dot(out) / (one.dot(out) * other.dot(out));
       turn += part;
       whole += std::abs(part);
     }
-    return turn > kFlat * whole ? kFrontBit : turn < -kFlat * whole ? kBackBit : kFrontBit | kBackBit;
+    const bool told = std::abs(turn) > kFlat * whole;
+    if (!told || (std::abs(turn) < whole && passes_through_itself(vertex))) return kFrontBit | kBackBit;
+    return turn > 0.0 ? kFrontBit : kBackBit;
+  }
+
+  /// Do two of the triangles there, all of which lie on one side, pass through each other?
+  bool passes_through_itself(std::uint32_t vertex) const {
+    const std::span<const std::uint32_t> triangles = incidence_.at(vertex);
+    const auto divides = [&](const std::array<Vector3, 2>& one, const std::array<Vector3, 2>& other) {
+      const Vector3 normal = one[0].cross(one[1]);
+      const double a = normal.dot(other[0]), b = normal.dot(other[1]);
+      return std::min(a, b) < -kFlat && std::max(a, b) > kFlat;
+    };
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto one = ways(vertex, triangles[i]), other = ways(vertex, triangles[j]);
+        if (divides(one, other) && divides(other, one)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Unit, from a vertex of a triangle to the others in their order.
+  std::array<Vector3, 2> ways(std::uint32_t vertex, std::uint32_t triangle) const {
+    const auto& corners = mesh_.triangles[triangle];
+    const auto which = unsigned(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+    return {way(vertex, corners[(which + 1) % 3]), way(vertex, corners[(which + 2) % 3])};
   }
 
   std::array<std::uint32_t, 2> edge(std::uint32_t triangle, unsigned which) const {

@@ -14,6 +14,7 @@ namespace {
 // A region should hold enough pieces to serve several ticks and few enough to sweep quickly.
 constexpr std::size_t kFewPieces = 12;
 constexpr std::size_t kManyPieces = 48;
+constexpr std::size_t kMostAhead = 1024;  // with more the region looks less far ahead
 constexpr double kTicksAhead = 4.0;
 constexpr double kLeastShare = 1e-3;
 constexpr double kLeastRoom = 0.25;    // of a region's reach: what a way on may well leave
@@ -23,11 +24,16 @@ constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxArches = 12;
-constexpr int kMaxIdle = 4;            // iterations that bring the SCP no nearer: contacts that take turns
-constexpr double kRounding = 1e-14;    // of squared distances
-constexpr double kSteepest = 0.1;      // rise of an arch for its length
-constexpr double kStride = 8.0;        // times the last step's way, a sphere tip's next step is looked along
-constexpr double kRoundStep = 0.3;     // rad, along a rounded edge
+constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
+constexpr double kMaxGrowth = 2.0;   // of the way that a region looks ahead, after one that overflowed
+constexpr int kMaxReturns = 6;       // in a tick, to where a way out was found before
+constexpr double kRounding = 1e-14;  // of squared distances
+constexpr double kSteepest = 0.1;    // rise of an arch for its length
+constexpr double kStride = 8.0;      // times the last step's way, a sphere tip's next step is looked along
+constexpr double kRoundStep = 0.28;  // rad, along a rounded edge: no way over it is then too steep
+constexpr double kFarthest = 0.3;    // of its radius: how far a region looks ahead of a sphere tip in contact
+constexpr double kBulge = 0.3;       // rise of a way over an edge, times its radius, for the squared chord
+constexpr int kMaxHalvings = 24;     // of such a chord, until a region holds it
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
@@ -140,6 +146,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
 /// moves a region serves no longer than a tick.
 void ScpSolver::look_ahead() {
   if (!started_ || scene_->moves()) return;
+  grant_budget();
   if (region_.clearance(position_ + drift_) < least_room()) surround(drift_);
   region_.make_ready(position_, drift_);
 }
@@ -270,11 +277,15 @@ void ScpSolver::converge(const Vector3& tip) {
   const Tolerance& tolerance = region_.tolerance();
   state_.converged = false;
   state_.iterations = 0;
-  const std::uint64_t most = region_.looked_at() + std::uint64_t(settings_.max_elements);
+  grant_budget();
   int idle = 0;
+  int returns = 0;
+  double escaped_from = std::numeric_limits<double>::infinity();  // m, from the tip
   stride_ = std::numeric_limits<double>::infinity();
   Vector3 nearest = position_;
-  while (state_.iterations < settings_.max_iterations && region_.looked_at() < most) {
+  ContactSet nearest_contacts = contacts_;
+  bool nearest_is_free = on_mesh();
+  while (state_.iterations < settings_.max_iterations && !spent()) {
     ++state_.iterations;
     bool exact = false;
     const Vector3 step = next_step(tip, exact);
@@ -283,7 +294,17 @@ void ScpSolver::converge(const Vector3& tip) {
       idle = 0;
       const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0 && !at_edge();
       const bool at_rest = !turns && (on_a_face || rounded());
-      if (!at_rest && escape(tip)) continue;
+      const bool circle = turns && nearest_is_free && on_mesh();
+      if (circle) {
+        position_ = nearest;
+        contacts_ = nearest_contacts;
+      }
+      const double left = (tip - position_).norm();
+      if (!at_rest && left >= escaped_from - tolerance.touching()) returns += circle ? kMaxReturns + 1 : 1;
+      if (!at_rest && returns <= kMaxReturns && escape(tip)) {
+        escaped_from = std::min(escaped_from, left);
+        continue;
+      }
       state_.converged = true;
       return;
     }
@@ -293,6 +314,8 @@ void ScpSolver::converge(const Vector3& tip) {
     if (region_.overflowed()) return;
     if (nearer(nearest, tip)) {
       nearest = position_;
+      nearest_is_free = on_mesh();
+      if (nearest_is_free) nearest_contacts = contacts_;
       idle = 0;
     } else if (!cut_ || position_ == from) {  // a part of a way may lead off at first
       ++idle;
@@ -306,6 +329,9 @@ void ScpSolver::converge(const Vector3& tip) {
     }
   }
 }
+
+/// For a tick, or for making ready what the next one needs.
+void ScpSolver::grant_budget() { budget_ = region_.work() + std::uint64_t(settings_.max_elements); }
 
 /// Is the SCP nearer to the tip than `from` is, by more than rounding?
 bool ScpSolver::nearer(const Vector3& from, const Vector3& tip) const {
@@ -517,7 +543,10 @@ bool ScpSolver::advance(const Vector3& wanted) {
                        : contacts_.any_guarded() ? hop(step)
                                                  : sweep_on(step, contacts_.all());
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
-    reach_ *= 0.5;
+    if (!spent()) {
+      reach_ *= 0.5;
+      ahead_ = std::min(ahead_, 0.5 * (region_.b() - region_.a()).norm());
+    }
     return false;
   }
   const double least_stride = kLeastShare * settings_.tip_radius;
@@ -609,9 +638,13 @@ SweepHit ScpSolver::hop(Vector3& step) {
       continue;
     }
     if (top->isZero(0.0)) return sweep_past(step, from, from + step);
-    if (region_.clearance(from + 0.5 * step + *top) < 0.0) {
-      region_.start(*scene_, frame(), from, from + step, std::max(reach_, 2.0 * top->norm()));
-      scene_->gather(region_);
+    if (region_.overflowed() || region_.clearance(from + 0.5 * step + *top) < 0.0) {
+      gather(step, std::max(reach_, 2.0 * top->norm()), kMostAhead);
+      if (region_.overflowed()) {
+        if (spent()) return {};
+        step = rest_within(0.5 * step.norm(), step);
+        continue;
+      }
     }
     const Vector3 end = from + step;
     SweepHit hit = sweep_past(0.5 * step + *top, from, from);
@@ -648,8 +681,9 @@ Vector3 ScpSolver::within_stride(const Vector3& step) const {
 /// The beginning of a step that would leave the region.
 Vector3 ScpSolver::within_region(const Vector3& step) {
   if (region_.clearance(position_ + step) >= 0.0) return step;
+  if (on_chords()) return chord_within_region(step);
   const double part = region_.share_within(position_, step);
-  if (contacts_.size() > 1 && (contacts_.any_smooth() || contacts_.any_guarded())) {
+  if (contacts_.size() > 1 && contacts_.any_smooth()) {
     return rest_within(0.5 * part * step.norm(), step);
   }
   if (contacts_.size() != 1 || contacts_.all().front().flat()) return part * step;
@@ -664,6 +698,27 @@ Vector3 ScpSolver::within_region(const Vector3& step) {
   return Vector3::Zero();
 }
 
+/// Is all that holds a sphere tip of a mesh? Then wherever a step ends is free; on a primitive it may end
+/// half-way along a chord.
+bool ScpSolver::on_mesh() const {
+  const auto of_mesh = [](const Element& contact) { return contact.flat() || contact.guarded; };
+  return settings_.tip_radius > 0.0 && !contacts_.empty() &&
+         std::all_of(contacts_.all().begin(), contacts_.all().end(), of_mesh);
+}
+
+/// Do steps lead along chords round edges and corners of a mesh?
+bool ScpSolver::on_chords() const { return contacts_.any_guarded() && !contacts_.any_smooth(); }
+
+/// A chord round an edge that the region holds: half as long until it does, as surround() shortens what it
+/// looks ahead. A beginning of the whole chord would lie in the edge.
+Vector3 ScpSolver::chord_within_region(Vector3 chord) {
+  for (int i = 0; i < kMaxHalvings; ++i) {
+    chord = rest_within(0.5 * chord.norm(), chord);
+    if (region_.clearance(position_ + chord) >= 0.0) return chord;
+  }
+  return Vector3::Zero();
+}
+
 double ScpSolver::largest_reach() const { return kLargestReach * scene_->extent(); }
 
 /// Gathers the region anew: around the SCP and ahead of it. Too many pieces are slow to sweep, so the
@@ -671,26 +726,48 @@ double ScpSolver::largest_reach() const { return kLargestReach * scene_->extent(
 /// the things near by are large, or what lies far off would say what counts as small here.
 void ScpSolver::surround(const Vector3& step) {
   Vector3 ahead = way_ahead(step);
+  const bool bent = on_chords();
+  const auto shorten = [&] { ahead = bent ? rest_within(0.5 * ahead.norm(), ahead) : Vector3(0.5 * ahead); };
+  for (int i = 0; i < kMaxHalvings && ahead.norm() > kMaxGrowth * ahead_; ++i) shorten();
+  bool all_ahead = ahead.norm() <= ahead_;
   const double least_reach = std::max(0.25 * tip_motion_, kLeastOfTip * settings_.tip_radius);
   reach_ = std::max(reach_, kLeastShare * least_reach);
   for (int i = 0; i < kMaxShrinks; ++i) {
-    const bool least = reach_ <= least_reach;
-    region_.start(*scene_, frame(), position_, position_ + ahead, reach_,
-                  least ? ContactRegion::kPieces : kManyPieces);
-    scene_->gather(region_);
+    const double bulge = bent ? kBulge * ahead.squaredNorm() / contacts_.smallest_radius() : 0.0;
+    const bool least = reach_ <= std::max(least_reach, bulge);
+    const bool near = ahead.norm() <= reach_;
+    gather(ahead, std::max(reach_, bulge), !least ? kManyPieces : near ? ContactRegion::kPieces : kMostAhead);
     const double wide = std::max(least_reach, region_.smallest());
     if (region_.overflowed()) {
-      if (least) ahead *= 0.5;
-      reach_ *= 0.5;
+      if (spent()) break;
+      if (least && !near) {
+        shorten();
+        all_ahead = false;
+      } else {
+        reach_ *= 0.5;
+      }
     } else if (reach_ > wide) {
       reach_ = wide;
     } else {
       break;
     }
   }
+  ahead_ = all_ahead ? std::numeric_limits<double>::infinity() : ahead.norm();
   if (region_.size() < kFewPieces)
     reach_ = std::min({1.4 * reach_, largest_reach(), std::max(least_reach, region_.smallest())});
 }
+
+/// Gathers around the SCP and the way `ahead`, as much as this tick's budget still allows.
+void ScpSolver::gather(const Vector3& ahead, double reach, std::size_t most_pieces) {
+  const std::uint64_t left =
+      ContactRegion::kPiecesForAnElement * (budget_ - std::min(budget_, region_.work()));
+  region_.start(*scene_, frame(), position_, position_ + ahead, reach,
+                std::size_t(std::min<std::uint64_t>(most_pieces, left)));
+  scene_->gather(region_);
+}
+
+/// Is this tick's budget spent?
+bool ScpSolver::spent() const { return region_.work() >= budget_; }
 
 /// With less room than this (m) in its region the SCP had better have another.
 double ScpSolver::least_room() const { return kLeastRoom * std::max(reach_, region_.reach()); }
@@ -706,12 +783,14 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
   if (falling()) {
     const double likely = std::min(length, std::max(tip_motion_, last_slide_));
     // Looking ahead twice as far as it fell, a long fall takes few regions.
-    if (fallen_ > likely) return step * std::min(1.0, 2.0 * fallen_ / length);
+    if (fallen_ > 0.0) return step * std::min(1.0, std::max(likely, 2.0 * fallen_) / length);
     return on.norm() >= likely ? on : Vector3(step * (likely / length));
   }
   if (!contacts_.empty()) last_slide_ = length;
+  // A chord round an edge is short as it is; a beginning of it would lie in the edge.
+  if (on_chords()) return step;
   // A sphere tip that is pulled far along what it touches sinks into much that it will not come to.
-  const double farthest = std::max(tip_motion_, kRoundStep * settings_.tip_radius);
+  const double farthest = std::max(tip_motion_, kFarthest * settings_.tip_radius);
   if (!contacts_.empty() && settings_.tip_radius > 0.0 && length > farthest)
     return step * (farthest / length);
   const double beside = on.cross(step).norm();

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct ScpSettings {
   double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
   // The budget of a tick is counted, not timed, so that replays agree bit for bit.
   int max_iterations = 128;  // pieces of way, usually 1 to 5
-  int max_elements = 8'000;  // looked at by sweeps, some 10 ns each; usually below 100
+  int max_elements = 8'000;  // looked at by sweeps, some 10 ns each, and a quarter of the pieces gathered;
+                             // usually below 100
 };
 
 /// Finds the surface contact point (SCP): the constraint-based method of Zilles and Salisbury (1995)
@@ -33,6 +35,9 @@ class ScpSolver final : public ContactSolver {
   const ScpState& step(const Vector3& tip, double elapsed) override;
   void look_ahead() override;
   const ScpState& state() const override { return state_; }
+
+  /// What all ticks cost so far, in the elements of ScpSettings::max_elements.
+  std::uint64_t work() const { return region_.work(); }
 
  private:
   const Tolerance& tolerance() const { return region_.tolerance(); }
@@ -55,6 +60,9 @@ class ScpSolver final : public ContactSolver {
   bool advance(const Vector3& wanted);
   Vector3 within_stride(const Vector3& step) const;
   Vector3 within_region(const Vector3& step);
+  bool on_mesh() const;
+  bool on_chords() const;
+  Vector3 chord_within_region(Vector3 chord);
   Vector3 next_step(const Vector3& tip, bool& exact);
   Vector3 next_round_step(const Vector3& tip, bool& exact);
   Vector3 next_smooth_step(const Vector3& tip, bool& exact);
@@ -74,6 +82,9 @@ class ScpSolver final : public ContactSolver {
   double slip(double along, double press);
   double held_gain() const;
   void surround(const Vector3& step);
+  void gather(const Vector3& ahead, double reach, std::size_t most_pieces);
+  void grant_budget();
+  bool spent() const;
   double least_room() const;
   bool falling() const;
   Vector3 way_ahead(const Vector3& step);
@@ -106,6 +117,9 @@ class ScpSolver final : public ContactSolver {
   double fallen_ = 0.0;      // m, through free space since, in this tick
   Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
   double reach_ = 0.0;               // m, how far around the SCP the region looks
+  // m, how far ahead the last region looked that held too much to look as far as it should.
+  double ahead_ = std::numeric_limits<double>::infinity();
+  std::uint64_t budget_ = 0;  // work of the region at which this tick ends
   ContactSet contacts_;
   std::vector<Element> around_;  // what a way out looks at: memory only
   ContactRegion region_;

@@ -97,7 +97,8 @@ TEST(MeshFeatures, ASmoothBallHasAllAndAHollowNone) {
   EXPECT_EQ(counts(ball).both.edges, edges);
 }
 
-// The end of a horn, as modellers make them: two of its edges lead away and three lie nearly across.
+// The end of a horn, as modellers make them: two of its edges lead away and three lie nearly across, two of
+// its triangles pass through each other, so that it is a corner on both sides.
 TEST(MeshFeatures, AnApexIsFoundThoughSomeEdgesLieNearlyAcross) {
   TriangleMesh horn;
   horn.positions = {{0, 0, 0},           {-0.39, -0.90, -0.03}, {0.17, -0.44, -1.41},
@@ -110,8 +111,22 @@ TEST(MeshFeatures, AnApexIsFoundThoughSomeEdgesLieNearlyAcross) {
       for (auto& triangle : horn.triangles) std::swap(triangle[1], triangle[2]);
     }
     const MeshFeatures first = mesh_features(horn).front();
-    EXPECT_EQ(first.front >> 3 & 1, turned ? 0 : 1);
-    EXPECT_EQ(first.both >> 3 & 1, 1);
+    EXPECT_EQ(first.front >> 3 & 1, 1) << turned;
+    EXPECT_EQ(first.both >> 3 & 1, 1) << turned;
+  }
+}
+
+// The end of a thin flap that is twisted in itself, as scans have them: some of its triangles face the other
+// way.
+TEST(MeshFeatures, TheEndOfATwistedFlapIsACornerOfBothSides) {
+  TriangleMesh flap;
+  flap.positions = {
+      {0, 0, 0}, {-0.17, -0.22, -1.0}, {-1.66, 0.23, -1.0}, {-0.13, -0.20, -1.0}, {0.13, 0.20, -1.0}};
+  flap.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  ASSERT_FALSE(away_from_edges(flap, 0).isZero(0.0));
+  for (int turn = 0; turn < 2; ++turn) {
+    EXPECT_EQ(mesh_features(flap).front().front >> 3 & 1, 1) << turn;
+    for (auto& triangle : flap.triangles) std::swap(triangle[1], triangle[2]);
   }
 }
 

@@ -56,6 +56,42 @@ TEST(SphereTips, AreNeitherPassedNorHeldOnRoughMeshes) {
   }
 }
 
+// Stabs at up to 5 m/s through a fine rough ball, which carry the SCP round half of it in a tick: a tick
+// costs its budget and no more, and when the tip holds still, the SCP has caught up within five ticks and is
+// held by nothing.
+TEST(SphereTips, CatchUpSoonAfterStabs) {
+  const MeshPointer mesh = rough_ball(100, 0.004);
+  const double radius = 0.005;
+  const ScenePointer scene = HapticScene::compile({object(1, shape_of(mesh, true, radius))});
+  Toucher toucher(scene, radius);
+  JudgeSettings settings;
+  settings.tip_radius = radius;
+  ContactJudge judge({{mesh}}, settings);
+  Random random(12);
+  Vector3 tip(0.0, 0.0, 0.08);
+  std::uint64_t most = 0;
+  for (int stab = 0; stab < repeats(150); ++stab) {
+    const Vector3 goal = random.uniform(0.01, 0.06) * random.direction();
+    const double speed = 1e-3 * std::pow(10.0, random.uniform(-0.3, 0.7));  // m a tick
+    while (tip != goal) {
+      const Vector3 way = goal - tip;
+      tip = way.norm() <= speed ? goal : Vector3(tip + speed * way.normalized());
+      const std::uint64_t before = toucher.solver.work();
+      const ScpState& state = toucher.step(tip);
+      most = std::max(most, toucher.solver.work() - before);
+      judge.judge({tip, state.scp, state.touching});
+    }
+    bool converged = false;
+    for (int i = 0; i < 5 && !converged; ++i) converged = toucher.step(tip).converged;
+    EXPECT_TRUE(converged) << stab;
+    const ScpState& state = toucher.step(tip);
+    EXPECT_FALSE(judge.judge({tip, state.scp, state.touching}).stick) << stab;
+  }
+  EXPECT_EQ(judge.pops(), 0u);
+  // The last sweep or gathering that the budget allows is made whole.
+  EXPECT_LE(most, 1.2 * ScpSettings().max_elements);
+}
+
 // Whatever a tip overlaps when it begins, its SCP overlaps nothing; when the tip is free again, so is the
 // SCP.
 TEST(SphereTips, ThatBeginInsideAreFreeOfTheSurface) {
