@@ -210,16 +210,5 @@ TEST(RenderScene, WhatCannotBeDrawnIsToldAndTheRestDrawn) {
   EXPECT_TRUE(is_red(middle(drawn(*scene, camera_at({0.0, 0.0, 3.0}), plain_look()))));
 }
 
-TEST(RenderScene, AWorldWithZUpCanBeStoodUp) {
-  DrawnWorld it;
-  it.add(box(1.0), at(0.0, 0.0, 5.0));
-  it.add_fixture(world::Viewpoint{}, at(0.0, 0.0, 2.0), "above");
-  base::Pose stage = base::Pose::Identity();
-  stage.linear() = Eigen::AngleAxisd(-1.5707963267948966, Vector3::UnitX()).toRotationMatrix();
-  const auto scene = ScenePublisher({}, stage).publish(it.world);
-  EXPECT_NEAR(scene->bounds().max().y(), 5.5, 1e-9);
-  EXPECT_NEAR(scene->viewpoints()[0].world_from_viewpoint.translation().y(), 2.0, 1e-9);
-}
-
 }  // namespace
 }  // namespace icome::render
