@@ -18,7 +18,7 @@ using base::Vector3;
 
 constexpr double kSlopeStep = 1e-4;               // of a part's half diagonal, over which slopes are measured
 constexpr double kSafety = 1.6;                   // times the fall of slopes that samples show
-constexpr std::size_t kMostLooks = 20'000;        // at parts, for one question
+constexpr std::size_t kMostPartLooks = 20'000;    // at parts, for one question
 constexpr std::size_t kMostFieldParts = 1 << 18;  // kept; some tens of MB
 constexpr int kMostFalls = 3;
 constexpr double kNothing = 1e-7;  // of a part: how deep what is solid may be and still be left out
@@ -44,7 +44,7 @@ class PlainField {
     Nearest found{point, limit, fineness, std::nullopt};
     std::priority_queue<Waiting, std::vector<Waiting>, Later> open;
     open.push({(point - closest(root_half_, box_.center(), point)).norm(), 0, box_.center(), root_half_});
-    for (std::size_t looks = 0; !open.empty() && open.top().least < found.end() && looks < kMostLooks;
+    for (std::size_t looks = 0; !open.empty() && open.top().least < found.end() && looks < kMostPartLooks;
          ++looks) {
       const Waiting next = open.top();
       open.pop();

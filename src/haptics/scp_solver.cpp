@@ -24,11 +24,11 @@ constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxArches = 12;
-constexpr int kMaxIdle = 4;          // iterations that bring the SCP no nearer: contacts that take turns
-constexpr double kMaxGrowth = 2.0;   // of the way that a region looks ahead, after one that overflowed
-constexpr int kMaxReturns = 6;       // in a tick, to where a way out was found before
-constexpr double kRounding = 1e-14;  // of squared distances
-constexpr double kSteepest = 0.1;    // rise of an arch for its length
+constexpr int kMaxIdle = 4;              // iterations that bring the SCP no nearer: contacts that take turns
+constexpr double kMaxAheadGrowth = 2.0;  // of the way that a region looks ahead, after one that overflowed
+constexpr int kMaxReturns = 6;           // in a tick, to where a way out was found before
+constexpr double kRounding = 1e-14;      // of squared distances
+constexpr double kSteepest = 0.1;        // rise of an arch for its length
 constexpr double kStride = 8.0;      // times the last step's way, a sphere tip's next step is looked along
 constexpr double kRoundStep = 0.28;  // rad, along a rounded edge: no way over it is then too steep
 constexpr double kFarthest = 0.3;    // of its radius: how far a region looks ahead of a sphere tip in contact
@@ -728,7 +728,7 @@ void ScpSolver::surround(const Vector3& step) {
   Vector3 ahead = way_ahead(step);
   const bool bent = on_chords();
   const auto shorten = [&] { ahead = bent ? rest_within(0.5 * ahead.norm(), ahead) : Vector3(0.5 * ahead); };
-  for (int i = 0; i < kMaxHalvings && ahead.norm() > kMaxGrowth * ahead_; ++i) shorten();
+  for (int i = 0; i < kMaxHalvings && ahead.norm() > kMaxAheadGrowth * ahead_; ++i) shorten();
   bool all_ahead = ahead.norm() <= ahead_;
   const double least_reach = std::max(0.25 * tip_motion_, kLeastOfTip * settings_.tip_radius);
   reach_ = std::max(reach_, kLeastShare * least_reach);

@@ -53,7 +53,9 @@ TEST(MemoryBudget, BoundsProtosThatDoubleEachOther) {
     text += fmt::format("PROTO P{0} [] {{ Group {{ children [ P{1} {{}} P{1} {{}} ] }} }}\n", i, i - 1);
   const ScratchFolder folder;
   bytes_to_refuse(folder.write("a.wrl", text + "P25 {}\n"));
-  EXPECT_LT(peak_bytes(RUSAGE_CHILDREN), 400'000'000u);
+  // A child counts what this process has until it becomes another program.
+  EXPECT_LT(peak_bytes(RUSAGE_CHILDREN),
+            std::max<std::uint64_t>(400'000'000, peak_bytes(RUSAGE_SELF) + 50'000'000));
 }
 
 /// A mesh, and a tail of copies of it of which each has one vertex moved.
