@@ -4,6 +4,8 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "base/clock.h"
 #include "files/design.h"
 #include "sample_journals.h"
