@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <new>
+#include <vector>
 
 namespace icome::files {
 namespace {

@@ -1,4 +1,8 @@
 #pragma once
+#include <QString>
+#include <optional>
+#include <string>
+
 #include "ui/property.h"
 
 namespace icome::ui {
