@@ -212,7 +212,7 @@ TEST(ObjectDrag, KeepsToALineAndTellsWhatStopsIt) {
 
 /// Of so many triangles that main does not wait for them.
 world::GeometryPointer scan() {
-  return std::make_shared<world::MeshGeometry>(geometry::tessellate(geometry::Sphere{0.1}, 2e-6));
+  return std::make_shared<world::MeshGeometry>(geometry::tessellate(geometry::Sphere{0.1}, 1e-5));
 }
 
 TEST(ObjectDrag, ByThingsOfManyTrianglesIsWorkedOutBesideMain) {
