@@ -4,6 +4,16 @@
 #include <cassert>
 
 namespace icome::session {
+namespace {
+
+/// What it takes to make ready, once, all that stands there and is not.
+std::uint64_t effort_to_make(world::CollisionIndex& index) {
+  std::uint64_t units = 0;
+  for (const auto& it : index.standing()) units += it.shape->effort_to_make();
+  return units;
+}
+
+}  // namespace
 
 Surroundings::~Surroundings() {
   if (work_) work_->give_up();
@@ -56,8 +66,14 @@ std::shared_ptr<Surroundings::Work> Surroundings::work_out(const interaction::St
   using Found = interaction::StoppedDrag::Found;
   const auto look = [around = around_, world = std::move(world), drag, wanted, rules, effort,
                      given_up = &work_->given_up_]() -> base::Result<Found> {
-    world::Effort left(effort, given_up);
-    return drag.find(*world, around->index, around->finder, wanted, rules, &left);
+    for (;;) {
+      const std::uint64_t to_make = effort_to_make(around->index);
+      world::Effort left(effort, given_up);
+      auto found = drag.find(*world, around->index, around->finder, wanted, rules, &left);
+      const bool in_vain = found && found->spent && found->move.move.offset.isZero(0.0) && !*given_up;
+      // Where it all went into what must be made ready first, that is so now, and the way can be looked at.
+      if (!in_vain || effort_to_make(around->index) == to_make) return found;
+    }
   };
   work_->task_ = std::make_unique<BackgroundTask<Found>>(look);
   return work_;

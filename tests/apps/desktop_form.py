@@ -1,4 +1,5 @@
 """Operations in the window as people perform them: found by name, their form filled in with the keyboard."""
+import functools
 import json
 
 from icome_program import run
@@ -7,6 +8,7 @@ PLACES = {"[x, y, z]": 3}  # how often Tab goes on within a field of that kind
 COLOUR = '[red, green, blue] or "#rrggbb" or name'
 
 
+@functools.cache
 def parameters_of(operation):
     """What the program says that it asks."""
     told = json.loads(run("edit", "--help-ops", operation, "--json").stdout)

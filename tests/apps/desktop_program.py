@@ -175,9 +175,16 @@ class Desktop:
         return self.screen.picture().part(*self.place())
 
     def wait_scene(self, what, condition):
-        """Waits for a picture of the scene of which the condition holds, and gives the picture."""
+        """Waits for a picture of the scene of which the condition holds, and gives the picture. The condition is
+        asked of pictures only, and once of each: looking takes processor time from the program that draws."""
+        last = None
+
         def look():
+            nonlocal last
             picture = self.scene()
+            if last and picture.planes == last.planes:
+                return None
+            last = picture
             return picture if condition(picture) else None
         return wait_for(what, look)
 

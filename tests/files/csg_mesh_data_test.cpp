@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -54,23 +56,42 @@ void expect_meshed(const CsgTree& tree) {
   EXPECT_NEAR(signed_volume(made->mesh) / box.volume(), share, 5 * spread + thin + 0.01);
 }
 
-TEST(CsgMeshData, SharedFilesGiveClosedMeshes) {
+struct SharedSolid {
+  std::string file;
+  CsgTree tree;
+};
+
+/// Those that can be read, less the files of hundreds of bars thinner than a cell: nothing to compare, and
+/// slow.
+std::vector<SharedSolid> shared_solids(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<SharedSolid> solids;
+  for (const std::filesystem::path& file : files) {
+    auto loaded = read_csg(file);
+    if (!loaded || count(loaded->tree).primitives > kMostPrimitives) continue;
+    solids.push_back({file.filename().string(), std::move(loaded->tree)});
+  }
+  return solids;
+}
+
+/// Every so many of them, in a test of its own: shards share them out.
+constexpr std::size_t kRounds = 6;
+class CsgMeshData : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(CsgMeshData, SharedFilesGiveClosedMeshes) {
   const std::filesystem::path data = places::shared_data() / "csg" / "pure";
   if (!std::filesystem::exists(data)) GTEST_SKIP() << "the shared data is not there: " << data;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  int meshed = 0;
-  for (const std::filesystem::path& file : files) {
-    SCOPED_TRACE(file.filename().string());
-    const auto loaded = read_csg(file);
-    // Hundreds of bars thinner than a cell: nothing to compare, and slow.
-    if (!loaded || count(loaded->tree).primitives > kMostPrimitives) continue;
-    expect_meshed(loaded->tree);
-    ++meshed;
+  const std::vector<SharedSolid> solids = shared_solids(data);
+  EXPECT_GE(solids.size(), 20U);
+  for (std::size_t i = GetParam(); i < solids.size(); i += kRounds) {
+    SCOPED_TRACE(solids[i].file);
+    expect_meshed(solids[i].tree);
   }
-  EXPECT_GE(meshed, 20);
 }
+
+INSTANTIATE_TEST_SUITE_P(Parts, CsgMeshData, testing::Range(std::size_t{0}, kRounds));
 
 }  // namespace
 }  // namespace icome::files

@@ -210,10 +210,13 @@ Answering disturbed(std::function<void(ScpSolver& solver, const Vector3& tip)> d
 /// What the fault does; each call gives one without memories.
 using MakeFault = std::function<Answering()>;
 
+/// How often the judge found something of one kind.
+using Finding = std::uint64_t (ContactJudge::*)() const;
+
 struct PlantedFault {
   const char* name;
   TouchedWorld (*world)();
-  std::uint64_t (ContactJudge::*found)() const;  // what it must be found as
+  Finding found;  // what it must be found as
   MakeFault answering = [] { return Answering(sound); };
   std::function<void(TouchedWorld&)> misread = {};  // what the solver believes of the world
 
@@ -383,8 +386,10 @@ std::vector<PlantedFault> planted_faults() {
           {"DrillsAHole", whole_cube, kPops, kSound, drills_a_hole}};
 }
 
-/// The judge's findings on a solver that believes in `believed` while `true_world` is judged.
-ContactJudge judged_run(const TouchedWorld& true_world, const TouchedWorld& believed, Answering answering) {
+/// The judge's findings on a solver that believes in `believed` while `true_world` is judged: to the end of
+/// the path, or until something is `found`.
+ContactJudge judged_run(const TouchedWorld& true_world, const TouchedWorld& believed, Answering answering,
+                        Finding found = nullptr) {
   JudgeSettings settings;
   settings.tip_radius = true_world.radius;
   ContactJudge judge(true_world.judged, settings);
@@ -398,6 +403,7 @@ ContactJudge judged_run(const TouchedWorld& true_world, const TouchedWorld& beli
     const double elapsed = kFaultTick * double(i);
     const Answer answer = answering(solver, tip, elapsed);
     judge.judge({tip, answer.scp, answer.touching, elapsed, answer.force});
+    if (found && (judge.*found)() > 0) break;
   }
   return judge;
 }
@@ -412,7 +418,7 @@ TEST_P(PlantedFaultsOfEachKind, AreFound) {
   const TouchedWorld world = fault.world();
   TouchedWorld believed = world;
   if (fault.misread) fault.misread(believed);
-  const ContactJudge angry = judged_run(world, believed, fault.answering());
+  const ContactJudge angry = judged_run(world, believed, fault.answering(), fault.found);
   EXPECT_GT((angry.*fault.found)(), 0u);
 }
 

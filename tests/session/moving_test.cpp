@@ -1,10 +1,12 @@
 // What a hand feels of what it moves: surfaces that stop it, snaps that pull, and weight.
 #include <cmath>
 
+#include "geometry/csg_tree.h"
 #include "geometry/primitive.h"
 #include "session/sessions.h"
 #include "world/collisions.h"
 #include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
 
 namespace icome::session {
 namespace {
@@ -210,7 +212,7 @@ TEST(ObjectDrag, KeepsToALineAndTellsWhatStopsIt) {
 
 /// Of so many triangles that main does not wait for them.
 world::GeometryPointer scan() {
-  return std::make_shared<world::MeshGeometry>(geometry::tessellate(geometry::Sphere{0.1}, 2e-6));
+  return std::make_shared<world::MeshGeometry>(geometry::tessellate(geometry::Sphere{0.1}, 1e-5));
 }
 
 TEST(ObjectDrag, ByThingsOfManyTrianglesIsWorkedOutBesideMain) {
@@ -233,6 +235,28 @@ TEST(ObjectDrag, ByThingsOfManyTrianglesIsWorkedOutBesideMain) {
   EXPECT_EQ(drag.words(*session), "Stopped at other");
   ASSERT_TRUE(session->undo());
   EXPECT_EQ(place(), Vector3::Zero()) << "one action";
+}
+
+/// A hollow box, half of whose length is that (m): nobody waits until it is meshed.
+world::GeometryPointer hollow(double half) {
+  geometry::CsgTree tree;
+  const auto whole = tree.add_leaf(geometry::Primitive(geometry::Box{Vector3::Constant(half)}));
+  const auto hole = tree.add_leaf(geometry::Primitive(geometry::Box{Vector3::Constant(half - 0.01)}));
+  tree.add(geometry::CsgOperator::Difference, whole, hole);
+  return std::make_shared<world::CsgGeometry>(std::move(tree));
+}
+
+TEST(ObjectDrag, GetsThereAlthoughAllAroundMustBeMadeReadyFirst) {
+  const auto session = start();
+  const auto box = add_shape(*session, world::box(0.1), world::at(0.0, 0.0, 0.0));
+  for (const double half : {0.3, 0.4, 0.5, 0.6, 0.7})
+    add_shape(*session, hollow(half), world::at(0.0, 0.0, 0.0), "hollow");
+  const std::vector<world::ObjectId> objects{box};
+  ObjectDrag drag(*session, objects, "Move box");
+  ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.1, 0.0, 0.0)}));
+  ASSERT_TRUE(drag.pending());
+  run_until(*session, [&] { return drag.go_on(*session).has_value() && !drag.pending(); });
+  EXPECT_NEAR(session->world().find(box)->parent_from_object.translation().x(), 0.1, 1e-9);
 }
 
 TEST(ObjectDrag, WhatWasWorkedOutForAnotherWorldIsNotTaken) {
