@@ -118,7 +118,8 @@ void GltfLooks::read(int index) {
   materials_.push_back(same ? materials_[std::size_t(*same)] : builder_.add(std::move(material)));
 }
 
-void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surface, world::Material& material) {
+void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surface,
+                             world::Material& material) {
   const tinygltf::TextureInfo& info = from.pbrMetallicRoughness.baseColorTexture;
   if (info.index < 0) return;
   material.texture = texture(info.index);
@@ -159,7 +160,8 @@ void GltfLooks::tell_what_is_left_out() {
   std::string maps;
   const auto add = [&](std::size_t count, const char* what) {
     if (count == 0) return;
-    maps += fmt::format("{}of {} ({} material{})", maps.empty() ? "" : ", ", what, count, count == 1 ? "" : "s");
+    maps +=
+        fmt::format("{}of {} ({} material{})", maps.empty() ? "" : ", ", what, count, count == 1 ? "" : "s");
   };
   add(left_out_.normals, "normals");
   add(left_out_.roughness, "metal and roughness");

@@ -7,7 +7,8 @@
 
 namespace icome::files {
 
-/// The exponent of VRML 2.0's highlights that looks most like a microfacet surface of this roughness, and back.
+/// The exponent of VRML 2.0's highlights that looks most like a microfacet surface of this roughness, and
+/// back.
 float shininess_of(double roughness);
 double roughness_of(float shininess);
 /// What shines is the metal's own colour, else a twenty-fifth of the light; linear.

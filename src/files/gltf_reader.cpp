@@ -63,7 +63,8 @@ class GltfReading {
 
   void run() {
     for (const std::string& extension : model_.extensionsRequired) {
-      if (!is_understood(extension) && !can_be_done_without(extension)) throw GltfError("it needs " + extension + ", which is not supported");
+      if (!is_understood(extension) && !can_be_done_without(extension))
+        throw GltfError("it needs " + extension + ", which is not supported");
     }
     // Shapes that no object has are kept too.
     for (std::size_t i = 0; i < root_shapes().ArrayLen(); ++i) exact_shape(int(i));
@@ -358,7 +359,8 @@ class GltfReading {
     tell(other_sets, "further set of texture coordinates is", "further sets of texture coordinates are",
          "left out.");
     tell(clear_colours, "mesh has", "meshes have", "colours of vertices whose opacity is left out.");
-    tell(renamed_meshes_, "name of a mesh is", "names of meshes are", "left out: objects are called as their nodes.");
+    tell(renamed_meshes_, "name of a mesh is", "names of meshes are",
+         "left out: objects are called as their nodes.");
     tell(extras, "thing has", "things have", "extras of another program, which are left out.");
     if (!model_.asset.copyright.empty())
       builder_.remark("Its note on copyright is left out: " + model_.asset.copyright.substr(0, 200));

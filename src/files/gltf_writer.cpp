@@ -178,8 +178,7 @@ class GltfMaking {
       pbr.baseColorTexture.index = textures_.at(it.texture);
       more.diffuse = !it.tints;
       more.transparency = shown.opacity != 1.0F - it.transparency;
-      more.by_picture =
-          it.alpha_mode == world::AlphaMode::ByPicture && world::may_be_clear(*texture->bytes);
+      more.by_picture = it.alpha_mode == world::AlphaMode::ByPicture && world::may_be_clear(*texture->bytes);
       more.frame = !lay_picture(it, pbr.baseColorTexture);
     }
     material.extras = extras_with(value_of(it, more));
@@ -195,8 +194,9 @@ class GltfMaking {
       info.extensions["KHR_texture_transform"] = std::move(*transform);
       use("KHR_texture_transform");
     } else {
-      remark(fmt::format("The picture of the material \"{}\" is stretched askew, which other programs do not see.",
-                         material.name),
+      remark(fmt::format(
+                 "The picture of the material \"{}\" is stretched askew, which other programs do not see.",
+                 material.name),
              false);
     }
     return transform.has_value();

@@ -258,9 +258,8 @@ base::Result<ObjLibrary> make_library(const World& world, const std::filesystem:
       url = std::move(*written);
     }
     library.names[id] = names.unique(material.name, "material", false);
-    library.text +=
-        mtl_text(material, shown_material(world, material).colour, library.names[id], url,
-                 texture ? texture->repeats : std::array{true, true});
+    library.text += mtl_text(material, shown_material(world, material).colour, library.names[id], url,
+                             texture ? texture->repeats : std::array{true, true});
   }
   return library;
 }
@@ -323,15 +322,17 @@ bool has_touch(const World& world) {
 /// Of how materials look.
 void tell_what_obj_loses(const World& world, std::vector<Remark>& remarks) {
   Findings losses;
-  constexpr static FindingKind kHoles = {"That pictures are seen through is left out, as MTL has no words for it",
-                                         "materials"};
-  constexpr static FindingKind kNoLight = {"Materials that no light changes are written as lit ones", "materials"};
+  constexpr static FindingKind kHoles = {
+      "That pictures are seen through is left out, as MTL has no words for it", "materials"};
+  constexpr static FindingKind kNoLight = {"Materials that no light changes are written as lit ones",
+                                           "materials"};
   constexpr static FindingKind kRough = {"Metal and roughness are left out, for which highlights stand",
                                          "materials"};
   for (const auto& [id, it] : world.materials()) {
     if (it.users == 0) continue;
     const world::AlphaMode mode = shown_material(world, it).mode;
-    if (it.texture && (mode == world::AlphaMode::Mask || (mode == world::AlphaMode::Blend && it.transparency == 0.0F)))
+    if (it.texture &&
+        (mode == world::AlphaMode::Mask || (mode == world::AlphaMode::Blend && it.transparency == 0.0F)))
       losses.add(kHoles, it.name);
     if (it.unlit) losses.add(kNoLight, it.name);
     if (it.metallic || it.roughness) losses.add(kRough, it.name);

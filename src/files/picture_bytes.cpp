@@ -62,7 +62,8 @@ world::PictureOpacity picture_opacity(std::string_view bytes) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, decltype(&png_image_free)> owned(&image, png_image_free);
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return PictureOpacity::Opaque;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+    return PictureOpacity::Opaque;
   constexpr std::uint64_t kMostPixels = 64'000'000;
   if (image.width > kMostPixelSide || image.height > kMostPixelSide ||
       std::uint64_t{image.width} * image.height > kMostPixels)

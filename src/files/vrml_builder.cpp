@@ -146,7 +146,8 @@ class VrmlBuilder {
   bool add_objects() {
     with_children_.assign(nodes_.size(), false);
     for (const VrmlNode& node : nodes_) {
-      if (node.parent >= 0 && node.is_object && !node.is_merged) with_children_[std::size_t(node.parent)] = true;
+      if (node.parent >= 0 && node.is_object && !node.is_merged)
+        with_children_[std::size_t(node.parent)] = true;
     }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       objects_.push_back(add_object(nodes_[i]));

@@ -31,8 +31,8 @@ struct VrmlFaceSet {
 
 /// The triangles of the faces. Faces that name vertices which are not there, or have fewer than three
 /// corners, are left out, as are normals, colours and texture coordinates that do not fit; all that is
-/// found wrong goes to `findings`. Where a picture is shown, texture coordinates are made where there are none.
-/// Null when no triangle is left, or when patience ends.
+/// found wrong goes to `findings`. Where a picture is shown, texture coordinates are made where there are
+/// none. Null when no triangle is left, or when patience ends.
 std::shared_ptr<world::MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces, bool shows_picture,
                                                    Findings& findings, Patience& patience);
 

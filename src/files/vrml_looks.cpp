@@ -44,8 +44,7 @@ constexpr FindingKind kAlphaMode = {"Pictures are seen through as they are, as V
                                     "materials"};
 constexpr FindingKind kUnlitLook = {"Materials that no light changes are written as lit ones", "materials"};
 constexpr FindingKind kOneSided = {"That backs are not seen is left out", "materials"};
-constexpr FindingKind kMetal = {"Metal and roughness are left out, for which highlights stand",
-                                "materials"};
+constexpr FindingKind kMetal = {"Metal and roughness are left out, for which highlights stand", "materials"};
 
 std::array<float, 2> pair_of(const base::Vector2& it) { return {float(it.x()), float(it.y())}; }
 
@@ -70,7 +69,8 @@ std::optional<VrmlTextureTransform> vrml_texture_transform(const world::PictureF
   it.scale = {rows.x(), linear.row(1).dot(across)};
   it.translation = linear.inverse() * base::Vector2(frame[2], frame[5]);
   // What arithmetic leaves of nothing.
-  for (double& part : it.translation) part = std::abs(part) < kRounding * (1.0 + it.translation.norm()) ? 0.0 : part;
+  for (double& part : it.translation)
+    part = std::abs(part) < kRounding * (1.0 + it.translation.norm()) ? 0.0 : part;
   if (!it.translation.allFinite()) return {};
   return it;
 }

@@ -81,8 +81,8 @@ world::PictureFrame picture_frame_of(const flat::Look& look, world::FlatReader& 
   if (numbers.empty()) return frame;
   constexpr std::size_t kNumbers = 9;  // three rows of three
   const auto finite = [](double it) { return std::isfinite(it); };
-  if (numbers.size() != kNumbers || !std::all_of(numbers.begin(), numbers.end(), finite) || numbers[6] != 0.0 ||
-      numbers[7] != 0.0 || numbers[8] != 1.0) {
+  if (numbers.size() != kNumbers || !std::all_of(numbers.begin(), numbers.end(), finite) ||
+      numbers[6] != 0.0 || numbers[7] != 0.0 || numbers[8] != 1.0) {
     findings.add(kWrongTransform, "");
     return frame;
   }

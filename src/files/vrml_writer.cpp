@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -61,8 +62,10 @@ std::optional<base::Vector3> direction_alone(const PhysicalObject& object) {
     return {};
   constexpr double kRounding = 1e-9;
   const base::Affine3& frame = object.parent_from_object;
-  const base::Vector3 along = frame.linear() * -base::Vector3::UnitZ();
-  const base::Vector3 direction = along.cast<float>().cast<double>();  // as it will be read
+  constexpr double kLeastPart =
+      1e-7;  // what single precision makes of it differs from one saving to the next
+  base::Vector3 direction = frame.linear() * -base::Vector3::UnitZ();
+  for (double& part : direction) part = std::abs(part) < kLeastPart ? 0.0 : double(float(part));
   if (!frame.translation().isZero(kRounding) || !frame.linear().isApprox(facing(direction), 1e-6)) return {};
   return direction;
 }
@@ -267,7 +270,8 @@ Result<VrmlWriter::Open> VrmlWriter::open(ObjectId id) {
   const std::string name = name_of(id);
   if (object.fixture) tell_of_light(id, object);
   const auto direction = direction_alone(object);
-  const bool says_itself = direction && !has_title(id) && (!name.empty() || !direction->isApprox(-base::Vector3::UnitZ()));
+  const bool says_itself =
+      direction && !has_title(id) && (!name.empty() || !direction->isApprox(-base::Vector3::UnitZ()));
   if (says_itself) {
     write_light(std::get<Light>(*object.fixture), name, *direction);
     return Open{id, 0, false};
@@ -351,8 +355,9 @@ void VrmlWriter::write_light(const Light& light, const std::string& def, const b
   const Light usual;
   const bool directional = light.kind == Light::Kind::Directional;
   const bool spot = light.kind == Light::Kind::Spot;
-  text_.open((def.empty() ? "" : fmt::format("DEF {} ", def)) +
-             (directional ? "DirectionalLight" : spot ? "SpotLight" : "PointLight"));
+  text_.open((def.empty() ? "" : fmt::format("DEF {} ", def)) + (directional ? "DirectionalLight"
+                                                                 : spot      ? "SpotLight"
+                                                                             : "PointLight"));
   if (direction != -base::Vector3::UnitZ()) text_.field("direction", direction);
   if (!light.on) text_.field("on", false);
   if (light.colour != usual.colour) text_.field("color", light.colour);

@@ -36,10 +36,10 @@ struct RenderMaterial {
   bool unlit = false;                                 ///< shows its diffuse colour and picture alone
   std::shared_ptr<const RenderPicture> picture = {};  ///< null: plain
   world::PictureFrame picture_frame = world::kPictureAsItLies;
-  bool picture_replaces_colour = false;               ///< else they are multiplied (VRML 2.0, 4.14)
-  bool picture_replaces_alpha = false;                ///< likewise
-  PictureOpacity opacity = PictureOpacity::Opaque;    ///< of the picture on this surface
-  float cutoff = 0.5F;                                ///< of what is cut out
+  bool picture_replaces_colour = false;             ///< else they are multiplied (VRML 2.0, 4.14)
+  bool picture_replaces_alpha = false;              ///< likewise
+  PictureOpacity opacity = PictureOpacity::Opaque;  ///< of the picture on this surface
+  float cutoff = 0.5F;                              ///< of what is cut out
 };
 
 /// One object as it is drawn.
@@ -56,7 +56,8 @@ struct RenderItem {
 struct RenderLight {
   world::Light light;
   base::Affine3 world_from_light;  ///< it shines along -z
-  std::shared_ptr<const std::unordered_set<world::ObjectId>> group = {};  ///< all it shines on; null: everything
+  std::shared_ptr<const std::unordered_set<world::ObjectId>> group =
+      {};  ///< all it shines on; null: everything
 };
 
 struct RenderViewpoint {

@@ -29,8 +29,12 @@ Vector3 shining_along(const RenderLight& it) {
 }
 
 SunLight sun_of(const RenderLight& it) {
-  return {-shining_along(it), shine_of(it.light, it.light.intensity), shine_of(it.light, it.light.ambient),
-          0.0F, 0.02, it.group};
+  return {-shining_along(it),
+          shine_of(it.light, it.light.intensity),
+          shine_of(it.light, it.light.ambient),
+          0.0F,
+          0.02,
+          it.group};
 }
 
 bool shines(const world::Light& light) {
@@ -114,8 +118,8 @@ std::string lights_left_out(const RenderScene& scene) {
   }
   if (suns <= kMostSuns && lamps <= kMostLamps) return {};
   return fmt::format(
-      "Of {} directional lights and {} lamps, the {} and {} strongest are drawn: the others do not shine.", suns,
-      lamps, std::min(suns, kMostSuns), std::min(lamps, kMostLamps));
+      "Of {} directional lights and {} lamps, the {} and {} strongest are drawn: the others do not shine.",
+      suns, lamps, std::min(suns, kMostSuns), std::min(lamps, kMostLamps));
 }
 
 Eigen::Vector3f sky_above() { return {0.44F, 0.46F, 0.50F}; }

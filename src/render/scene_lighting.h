@@ -22,7 +22,8 @@ struct SunLight {
   Eigen::Vector3f ambient = Eigen::Vector3f::Zero();
   float gloss = 0.0F;  ///< strength of the highlight that it makes on every surface
   double disc = 0.0;   ///< radius that it shines from, as a share of its distance: softens its shadow
-  std::shared_ptr<const std::unordered_set<world::ObjectId>> group = {};  ///< all it shines on; null: everything
+  std::shared_ptr<const std::unordered_set<world::ObjectId>> group =
+      {};  ///< all it shines on; null: everything
 };
 
 /// Light from one point, VRML 2.0's PointLight and SpotLight.

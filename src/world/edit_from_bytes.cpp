@@ -219,7 +219,8 @@ class EditReader {
   Material material(const flat::MaterialState& from) {
     const flat::Look& look = *from.look();
     if (from.alpha_mode() > std::uint8_t(AlphaMode::Blend))
-      reader_.refuse("A material of an edit is seen through in a way that is unknown here: use a newer version.");
+      reader_.refuse(
+          "A material of an edit is seen through in a way that is unknown here: use a newer version.");
     return {.name = reader_.text(from.name()),
             .ambient = look.ambient(),
             .diffuse = colour_from(look.diffuse()),

@@ -225,11 +225,11 @@ class EditWriter {
     const auto frame = it.picture_frame == kPictureAsItLies
                            ? Offset<flatbuffers::Vector<double>>()
                            : builder_.CreateVector(it.picture_frame.data(), it.picture_frame.size());
-    return flat::CreateMaterialState(
-        builder_, name, &look, it.texture.value, flat_optional(it.touch.stiffness),
-        flat_optional(it.touch.damping), &friction, haptic_texture, frame, it.tints,
-        std::uint8_t(it.alpha_mode), it.alpha_cutoff, it.unlit, it.double_sided, flat_optional(it.metallic),
-        flat_optional(it.roughness));
+    return flat::CreateMaterialState(builder_, name, &look, it.texture.value,
+                                     flat_optional(it.touch.stiffness), flat_optional(it.touch.damping),
+                                     &friction, haptic_texture, frame, it.tints, std::uint8_t(it.alpha_mode),
+                                     it.alpha_cutoff, it.unlit, it.double_sided, flat_optional(it.metallic),
+                                     flat_optional(it.roughness));
   }
 
   bool has_room(std::size_t more) {

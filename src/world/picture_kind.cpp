@@ -21,7 +21,8 @@ int jpeg_components(std::string_view bytes) {
       ++at;
       continue;
     }
-    const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    const bool is_frame =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (is_frame) return byte_at(bytes, at + kComponents);
     at += 2 + 256 * std::size_t{byte_at(bytes, at + 2)} + byte_at(bytes, at + 3);
   }

@@ -70,11 +70,12 @@ struct Material {
   TouchProperties touch = {};
   // Beyond VRML 2.0, as glTF has it.
   PictureFrame picture_frame = kPictureAsItLies;
-  bool tints = false;  // the diffuse colour multiplies any picture's; else only a grey one's, and others replace it
+  bool tints =
+      false;  // the diffuse colour multiplies any picture's; else only a grey one's, and others replace it
   AlphaMode alpha_mode = AlphaMode::ByPicture;
-  float alpha_cutoff = 0.5F;  // of AlphaMode::Mask, in [0, 1]
-  bool unlit = false;         // shows its own colour, whatever the light
-  bool double_sided = true;   // for other programs: here backs are seen, too
+  float alpha_cutoff = 0.5F;            // of AlphaMode::Mask, in [0, 1]
+  bool unlit = false;                   // shows its own colour, whatever the light
+  bool double_sided = true;             // for other programs: here backs are seen, too
   std::optional<float> metallic = {};   // in [0, 1]; holds while the specular colour is what follows from it
   std::optional<float> roughness = {};  // in [0, 1]; holds while the shininess is what follows from it
   std::uint32_t users = 0;              // objects that have it; kept by the world

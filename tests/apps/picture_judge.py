@@ -1,5 +1,6 @@
 """What textured scenes look like, worked out ray by ray from ISO/IEC 14772-1 (VRML 97) and the glTF 2.0
 specification, without any of the program's code: the program's pictures and files are held to it."""
+import json
 import math
 import struct
 import zlib
@@ -47,6 +48,9 @@ class Picture:
         """The texel at (u, v) from the lower left, repeated."""
         high, wide = len(self.texels), len(self.texels[0])
         return self.texels[min(high - 1, int((1.0 - v % 1.0) * high))][min(wide - 1, int(u % 1.0 * wide))]
+
+
+HALVES = Picture(["ab"], {"a": (20, 180, 20, 140), "b": (20, 180, 20, 220)}.get)
 
 
 # ---- Where a picture lies (VRML 97, 6.6, 6.10, 6.11, 6.42): a point and the normal there to (u, v). ---------
@@ -255,3 +259,42 @@ def compared(camera, things, rows, fits):
             if not fits(tuple(linear(value) for value in rows[y][x][:3]), expected):
                 wrong.append((x, y, rows[y][x], tuple(round(shown(value)) for value in expected)))
     return count, wrong
+
+
+class Glb:
+    """What a reader of glTF that knows no extras sees of a file whose nodes stand at the origin."""
+
+    def __init__(self, file):
+        data = file.read_bytes()
+        length = struct.unpack("<I", data[12:16])[0]
+        self.json = json.loads(data[20:20 + length])
+        self.data = data[28 + length:]
+
+    def accessor(self, index):
+        it = self.json["accessors"][index]
+        view = self.json["bufferViews"][it["bufferView"]]
+        wide = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[it["type"]]
+        kind, size = {5121: ("B", 1), 5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}[it["componentType"]]
+        start = view.get("byteOffset", 0) + it.get("byteOffset", 0)
+        stride = view.get("byteStride", wide * size)
+        return [struct.unpack_from(f"<{wide}{kind}", self.data, start + i * stride) for i in range(it["count"])]
+
+    def triangles(self, picture):
+        for mesh in self.json["meshes"]:
+            for primitive in mesh["primitives"]:
+                vertices = self.accessor(primitive["attributes"]["POSITION"])
+                places = self.accessor(primitive["attributes"]["TEXCOORD_0"])
+                pbr = self.json["materials"][primitive["material"]]["pbrMetallicRoughness"]
+                assert pbr.get("baseColorFactor", [1, 1, 1])[:3] == [1, 1, 1], pbr
+                move = pbr["baseColorTexture"].get("extensions", {}).get("KHR_texture_transform", {})
+                x, y = move.get("offset", (0, 0))
+                sx, sy = move.get("scale", (1, 1))
+                turn = move.get("rotation", 0)
+
+                def shows(s, t, sx=sx, sy=sy, x=x, y=y, turn=turn):
+                    s, t = s * sx, t * sy
+                    return picture.at(math.cos(turn) * s + math.sin(turn) * t + x,
+                                      1 - (-math.sin(turn) * s + math.cos(turn) * t + y))
+                corners = [it[0] for it in self.accessor(primitive["indices"])]
+                for i in range(0, len(corners), 3):
+                    yield ([vertices[k] for k in corners[i:i + 3]], [places[k] for k in corners[i:i + 3]], shows)

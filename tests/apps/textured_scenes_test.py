@@ -7,7 +7,7 @@ import struct
 import unittest
 
 from icome_program import ProgramTest
-from picture_judge import (Camera, Picture, Thing, bar_place, box_place, compared, hit_bar, hit_box, hit_sphere,
+from picture_judge import (HALVES, Camera, Glb, Picture, Thing, bar_place, box_place, compared, hit_bar, hit_box, hit_sphere,
                            hit_square, light_at, linear, same_hue, shown, sphere_place, texture, vrml_frame)
 from shot_test import pixels
 
@@ -16,7 +16,6 @@ SIDE = 120
 MAP = Picture(["rgbymcrb", "cyrgmbyg", "mrcbygrc", "gbymrcbm"])
 QUAD = Picture(["rgb", "ycm", "bry"])
 HOLES = Picture(["r.", ".g"], {"r": (200, 20, 20, 255), "g": (20, 180, 20, 255), ".": (30, 30, 200, 0)}.get)
-HALVES = Picture(["ab"], {"a": (20, 180, 20, 140), "b": (20, 180, 20, 220)}.get)
 GREY = Picture(["wk"], {"w": (200,), "k": (90,)}.get)
 GREYS_IN_COLOUR = Picture(["wk"], {"w": (200, 200, 200), "k": (90, 90, 90)}.get)
 
@@ -279,45 +278,6 @@ class TexturedScenesTest(ProgramTest):
                 corners = [word.split("/") for word in words[1:]]
                 yield ([vertices[int(it[0]) - 1] for it in corners], [places[int(it[1]) - 1] for it in corners],
                        picture.at)
-
-
-class Glb:
-    """What a reader of glTF that knows no extras sees of a file whose nodes stand at the origin."""
-
-    def __init__(self, file):
-        data = file.read_bytes()
-        length = struct.unpack("<I", data[12:16])[0]
-        self.json = json.loads(data[20:20 + length])
-        self.data = data[28 + length:]
-
-    def accessor(self, index):
-        it = self.json["accessors"][index]
-        view = self.json["bufferViews"][it["bufferView"]]
-        wide = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[it["type"]]
-        kind, size = {5121: ("B", 1), 5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}[it["componentType"]]
-        start = view.get("byteOffset", 0) + it.get("byteOffset", 0)
-        stride = view.get("byteStride", wide * size)
-        return [struct.unpack_from(f"<{wide}{kind}", self.data, start + i * stride) for i in range(it["count"])]
-
-    def triangles(self, picture):
-        for mesh in self.json["meshes"]:
-            for primitive in mesh["primitives"]:
-                vertices = self.accessor(primitive["attributes"]["POSITION"])
-                places = self.accessor(primitive["attributes"]["TEXCOORD_0"])
-                pbr = self.json["materials"][primitive["material"]]["pbrMetallicRoughness"]
-                assert pbr.get("baseColorFactor", [1, 1, 1])[:3] == [1, 1, 1], pbr
-                move = pbr["baseColorTexture"].get("extensions", {}).get("KHR_texture_transform", {})
-                x, y = move.get("offset", (0, 0))
-                sx, sy = move.get("scale", (1, 1))
-                turn = move.get("rotation", 0)
-
-                def shows(s, t, sx=sx, sy=sy, x=x, y=y, turn=turn):
-                    s, t = s * sx, t * sy
-                    return picture.at(math.cos(turn) * s + math.sin(turn) * t + x,
-                                      1 - (-math.sin(turn) * s + math.cos(turn) * t + y))
-                corners = [it[0] for it in self.accessor(primitive["indices"])]
-                for i in range(0, len(corners), 3):
-                    yield ([vertices[k] for k in corners[i:i + 3]], [places[k] for k in corners[i:i + 3]], shows)
 
 
 if __name__ == "__main__":

@@ -488,7 +488,8 @@ TEST(VrmlBuilder, LaysPicturesByTheMaterial) {
   EXPECT_EQ(frame_of(0), world::kPictureAsItLies);
   EXPECT_EQ(frame_of(1), (world::PictureFrame{2, 0, 0.25, 0, 3, 0.5}));
   EXPECT_EQ(frame_of(2), world::kPictureAsItLies);
-  EXPECT_EQ(texts_of(design), RemarkTexts{"Texture transforms that make no sense are left out: one without a name."});
+  EXPECT_EQ(texts_of(design),
+            RemarkTexts{"Texture transforms that make no sense are left out: one without a name."});
 }
 
 // ---- Scenes, scripts, notes ---------------------------------------------------------------------------

@@ -71,7 +71,15 @@ inline Material rich_material(TextureId texture) {
                     .damping = 0.0,
                     .static_friction = 0.5,
                     .dynamic_friction = 0.25,
-                    .texture = "grain"}};
+                    .texture = "grain"},
+          .picture_frame = {2.0, 0.1, -0.5, 0.2, 3.0, 0.25},
+          .tints = true,
+          .alpha_mode = AlphaMode::Mask,
+          .alpha_cutoff = 0.7F,
+          .unlit = true,
+          .double_sided = false,
+          .metallic = 0.0F,
+          .roughness = 0.3F};
 }
 
 inline FixturePointer spot_light() {
@@ -83,7 +91,8 @@ inline FixturePointer spot_light() {
                                                .attenuation = {0.6F, 0.7F, 0.8F},
                                                .radius = 9.0,
                                                .cut_off_angle = 0.6,
-                                               .beam_width = 0.5});
+                                               .beam_width = 0.5,
+                                               .scoped = true});
 }
 
 /// Edits of all kinds that an empty world allows one after the other.

@@ -7,7 +7,6 @@
 namespace icome::world {
 namespace {
 
-
 /// The picture's place at the corner of a triangle that faces `out` and is nearest to the point.
 Vector2 place_at(const PrimitiveGeometry& shape, const Vector3& point, const Vector3& out) {
   const auto surface = shape.triangles(0.02);
