@@ -7,8 +7,8 @@ import struct
 import unittest
 
 from icome_program import ProgramTest
-from picture_judge import (HALVES, Camera, Glb, Picture, Thing, bar_place, box_place, compared, hit_bar, hit_box, hit_sphere,
-                           hit_square, light_at, linear, same_hue, shown, sphere_place, texture, vrml_frame)
+from picture_judge import (HALVES, Camera, Glb, Picture, Thing, bar_place, box_place, compared, hit_bar, hit_box,
+                           hit_sphere, hit_square, linear, same_hue, shown, sphere_place, texture, vrml_frame)
 from shot_test import pixels
 
 SIDE = 120
@@ -84,7 +84,8 @@ class TexturedScenesTest(ProgramTest):
 
     def test_5_a_cone_with_a_turned_picture(self):
         self.primitive("Cone { bottomRadius 0.4 height 0.8 }", hit_bar(0.4, 0.0, 0.8), bar_place(0.4, 0.8),
-                       (0.4, -0.8, 1.5), QUAD, "rotation 0.6 center 0.5 0.5", vrml_frame((0, 0), 0.6, (1, 1), (0.5, 0.5)))
+                       (0.4, -0.8, 1.5), QUAD, "rotation 0.6 center 0.5 0.5",
+                       vrml_frame((0, 0), 0.6, (1, 1), (0.5, 0.5)))
 
     def test_6_a_box_with_all_of_a_transform(self):
         size = (0.6, 0.6, 0.6)
