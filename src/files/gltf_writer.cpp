@@ -169,15 +169,16 @@ class GltfMaking {
     pbr.baseColorFactor = numbers_of(shown.colour);
     pbr.baseColorFactor.push_back(double(shown.opacity));
     if (shown.mode == world::AlphaMode::Blend) material.alphaMode = "BLEND";
-    if (shown.mode == world::AlphaMode::Mask) material.alphaMode = "MASK";
-    if (shown.mode == world::AlphaMode::Mask) material.alphaCutoff = double(shown.cutoff);
+    const bool masked = shown.mode == world::AlphaMode::Mask;
+    if (masked) material.alphaMode = "MASK";
+    if (masked) material.alphaCutoff = double(shown.cutoff) * double(shown.opacity);
     if (it.unlit) material.extensions["KHR_materials_unlit"] = Value(Value::Object{});
     if (it.unlit) use("KHR_materials_unlit");
     MaterialExtras more;
+    more.transparency = shown.opacity != 1.0F - it.transparency || (masked && it.transparency > 0.0F);
     if (const world::Texture* const texture = world_.find(it.texture)) {
       pbr.baseColorTexture.index = textures_.at(it.texture);
       more.diffuse = !it.tints;
-      more.transparency = shown.opacity != 1.0F - it.transparency;
       more.by_picture = it.alpha_mode == world::AlphaMode::ByPicture && world::may_be_clear(*texture->bytes);
       more.frame = !lay_picture(it, pbr.baseColorTexture);
     }

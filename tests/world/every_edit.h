@@ -71,7 +71,12 @@ inline Material rich_material(TextureId texture) {
                     .damping = 0.0,
                     .static_friction = 0.5,
                     .dynamic_friction = 0.25,
-                    .texture = "grain"},
+                    .texture = "grain"}};
+}
+
+/// What glTF says of a material beyond VRML 2.0.
+inline Material beyond_vrml() {
+  return {.name = "paint",
           .picture_frame = {2.0, 0.1, -0.5, 0.2, 3.0, 0.25},
           .tints = true,
           .alpha_mode = AlphaMode::Mask,
@@ -91,8 +96,7 @@ inline FixturePointer spot_light() {
                                                .attenuation = {0.6F, 0.7F, 0.8F},
                                                .radius = 9.0,
                                                .cut_off_angle = 0.6,
-                                               .beam_width = 0.5,
-                                               .scoped = true});
+                                               .beam_width = 0.5});
 }
 
 /// Edits of all kinds that an empty world allows one after the other.
@@ -112,6 +116,7 @@ inline std::vector<Edit> every_edit() {
       DeleteTexture{sketch},
       CreateMaterial{wood, rich_material(picture)},
       CreateMaterial{paint, {}},
+      ChangeMaterial{paint, beyond_vrml()},
       ChangeMaterial{paint, {.name = "paint", .touch = {.damping = 2.0, .dynamic_friction = -0.0}}},
       CreateScene{room, "room"},
       CreateScene{garden, ""},
@@ -132,6 +137,7 @@ inline std::vector<Edit> every_edit() {
       ChooseGeometry{leg, {}},
       ChooseMaterial{leg, paint},
       ChooseMaterial{leg, {}},
+      ChangeFixture{leg, std::make_shared<const Fixture>(Light{.scoped = true})},
       ChangeFixture{leg, std::make_shared<const Fixture>(Viewpoint{1.0})},
       ChangeFixture{leg, std::make_shared<const Fixture>(Inert{"Script", "Script { url \"a\" }"})},
       ChangeFixture{leg, std::make_shared<const Fixture>(ForceEffect{"viscous:2", false})},
