@@ -11,6 +11,7 @@
 #include "files/gltf_model.h"
 #include "files/gltf_value.h"
 #include "files/picture_bytes.h"
+#include "world/picture_kind.h"
 
 namespace icome::files {
 namespace {
@@ -23,24 +24,8 @@ GltfColour colour_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// The exponent of VRML 2.0's highlights that looks most like a microfacet surface of this roughness.
-float shininess_of(double roughness) {
-  const double alpha = std::clamp(roughness, 0.0, 1.0) * std::clamp(roughness, 0.0, 1.0);
-  if (alpha * alpha <= 2.0 / 130.0) return 1.0F;
-  return part_of_one((2.0 / (alpha * alpha) - 2.0) / 128.0);
-}
-
-/// What shines is the metal's own colour, else a twenty-fifth of the light.
-GltfColour specular_of(const GltfColour& base, double metallic) {
-  constexpr double kDielectric = 0.04;
-  const double metal = std::clamp(metallic, 0.0, 1.0);
-  GltfColour specular{};
-  for (std::size_t i = 0; i < 3; ++i) specular[i] = kDielectric + (base[i] - kDielectric) * metal;
-  return specular;
-}
-
 /// The transform of KHR_texture_transform: scaled, turned, moved.
-std::array<double, 6> texture_frame(const tinygltf::Value& transform) {
+world::PictureFrame texture_frame(const tinygltf::Value& transform) {
   const auto pair = [&](const char* name, double otherwise) {
     const tinygltf::Value& array = member(transform, name);
     std::array<double, 2> result{otherwise, otherwise};
@@ -59,13 +44,34 @@ std::array<double, 6> texture_frame(const tinygltf::Value& transform) {
 
 }  // namespace
 
+float shininess_of(double roughness) {
+  const double alpha = std::clamp(roughness, 0.0, 1.0) * std::clamp(roughness, 0.0, 1.0);
+  if (alpha * alpha <= 2.0 / 130.0) return 1.0F;
+  return part_of_one((2.0 / (alpha * alpha) - 2.0) / 128.0);
+}
+
+double roughness_of(float shininess) { return std::pow(2.0 / (128.0 * double(shininess) + 2.0), 0.25); }
+
+GltfColour specular_of(const GltfColour& base, double metallic) {
+  constexpr double kDielectric = 0.04;
+  const double metal = std::clamp(metallic, 0.0, 1.0);
+  GltfColour specular{};
+  for (std::size_t i = 0; i < 3; ++i) specular[i] = kDielectric + (base[i] - kDielectric) * metal;
+  return specular;
+}
+
+world::PictureFrame upside_down(const world::PictureFrame& frame) {
+  const auto& [a, b, c, d, e, f] = frame;
+  world::PictureFrame turned{a, -b, b + c, -d, e, 1.0 - e - f};
+  for (double& number : turned) number += 0.0;  // nothing has no sign
+  return turned;
+}
+
 GltfLooks::GltfLooks(const tinygltf::Model& model, DesignBuilder& builder)
     : model_(model), builder_(builder), textures_(model.textures.size()) {
   for (std::size_t i = 0; i < model.materials.size(); ++i) read(int(i));
   for (std::size_t i = 0; i < model.textures.size(); ++i) texture(int(i));
-  if (maps_left_out_)
-    builder_.remark(
-        "Maps of normals, roughness, occlusion and emission are left out: only colours are kept.");
+  tell_what_is_left_out();
 }
 
 world::MaterialId GltfLooks::material(int index) const {
@@ -91,35 +97,82 @@ void GltfLooks::read(int index) {
   const tinygltf::Value& extras = icome_extras(it.extras);
   world::Material material;
   material.name = it.name;
-  const GltfColour base = colour_of(pbr.baseColorFactor);
-  material.diffuse = srgb_from_linear(base);
-  material.transparency = it.alphaMode == "BLEND" && pbr.baseColorFactor.size() == 4
-                              ? part_of_one(1.0 - pbr.baseColorFactor[3])
-                              : 0;
-  material.emission = srgb_from_linear(colour_of(it.emissiveFactor));
-  material.specular = srgb_from_linear(specular_of(base, pbr.metallicFactor));
-  material.shininess = shininess_of(pbr.roughnessFactor);
-  if (it.extensions.count("KHR_materials_unlit") > 0) material.emission = material.diffuse;
   GltfSurface surface;
-  surface.colour = base;
-  if (pbr.baseColorTexture.index >= 0) {
-    material.texture = texture(pbr.baseColorTexture.index);
-    surface.texture_set = pbr.baseColorTexture.texCoord;
-    const auto transform = pbr.baseColorTexture.extensions.find("KHR_texture_transform");
-    const bool moved = transform != pbr.baseColorTexture.extensions.end();
-    surface.texture_frame = texture_frame(moved ? transform->second : tinygltf::Value());
-    if (moved) {
-      const auto set = index_in(transform->second, "texCoord", 64);
-      surface.texture_set = set.value_or(surface.texture_set);
-    }
-  }
-  maps_left_out_ = maps_left_out_ || it.normalTexture.index >= 0 || it.occlusionTexture.index >= 0 ||
-                   it.emissiveTexture.index >= 0 || pbr.metallicRoughnessTexture.index >= 0;
+  surface.colour = colour_of(pbr.baseColorFactor);
+  material.diffuse = srgb_from_linear(surface.colour);
+  // A map of emission says where it glows; without it, all would.
+  if (it.emissiveTexture.index < 0) material.emission = srgb_from_linear(colour_of(it.emissiveFactor));
+  material.metallic = part_of_one(pbr.metallicFactor);
+  material.roughness = part_of_one(pbr.roughnessFactor);
+  material.specular = srgb_from_linear(specular_of(surface.colour, pbr.metallicFactor));
+  material.shininess = shininess_of(pbr.roughnessFactor);
+  material.unlit = it.extensions.count("KHR_materials_unlit") > 0;
+  material.double_sided = it.doubleSided;
+  read_picture(it, surface, material);
+  read_alpha(it, material);
+  count_maps(it);
   complete(material, extras);
   surfaces_.push_back(surface);
   // Written for meshes with colours of their own, which glTF multiplies with those of the material.
   const auto same = index_in(extras, "variantOf", std::size_t(index));
   materials_.push_back(same ? materials_[std::size_t(*same)] : builder_.add(std::move(material)));
+}
+
+void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surface,
+                             world::Material& material) {
+  const tinygltf::TextureInfo& info = from.pbrMetallicRoughness.baseColorTexture;
+  if (info.index < 0) return;
+  material.texture = texture(info.index);
+  material.tints = bool(material.texture);
+  surface.texture_set = info.texCoord;
+  const auto transform = info.extensions.find("KHR_texture_transform");
+  if (transform == info.extensions.end()) return;
+  surface.texture_set = index_in(transform->second, "texCoord", 64).value_or(surface.texture_set);
+  if (material.texture) material.picture_frame = upside_down(texture_frame(transform->second));
+}
+
+void GltfLooks::read_alpha(const tinygltf::Material& from, world::Material& material) const {
+  using world::AlphaMode;
+  const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
+  const double opacity = factor.size() == 4 ? std::clamp(factor[3], 0.0, 1.0) : 1.0;
+  const world::Texture* const texture = builder_.world().find(material.texture);
+  const bool may_be_clear = texture && world::may_be_clear(*texture->bytes);
+  if (from.alphaMode == "BLEND") {
+    material.transparency = part_of_one(1.0 - opacity);
+    if (may_be_clear || material.transparency == 0.0F) material.alpha_mode = AlphaMode::Blend;
+  } else if (from.alphaMode == "MASK") {
+    material.alpha_mode = AlphaMode::Mask;
+    if (!may_be_clear) material.transparency = opacity < from.alphaCutoff ? 1.0F : 0.0F;
+    material.alpha_cutoff = part_of_one(opacity > 0.0 ? from.alphaCutoff / opacity : 1.0);
+  } else if (may_be_clear) {
+    material.alpha_mode = AlphaMode::Opaque;
+  }
+}
+
+void GltfLooks::count_maps(const tinygltf::Material& from) {
+  left_out_.normals += from.normalTexture.index >= 0 ? 1 : 0;
+  left_out_.roughness += from.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0 ? 1 : 0;
+  left_out_.occlusion += from.occlusionTexture.index >= 0 ? 1 : 0;
+  left_out_.emission += from.emissiveTexture.index >= 0 ? 1 : 0;
+}
+
+void GltfLooks::tell_what_is_left_out() {
+  std::string maps;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count == 0) return;
+    maps +=
+        fmt::format("{}of {} ({} material{})", maps.empty() ? "" : ", ", what, count, count == 1 ? "" : "s");
+  };
+  add(left_out_.normals, "normals");
+  add(left_out_.roughness, "metal and roughness");
+  add(left_out_.occlusion, "occlusion");
+  add(left_out_.emission, "emission");
+  if (!maps.empty()) builder_.remark(fmt::format("Only maps of colours are kept. Left out: those {}.", maps));
+  const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
+    if (count > 0) builder_.remark(fmt::format("{} {} {}", count, count == 1 ? one : several, what));
+  };
+  tell(left_out_.mirrored, "texture is", "textures are", "repeated beyond the picture, not mirrored there.");
+  tell(left_out_.unsmoothed, "texture is", "textures are", "smoothed between the picture's pixels.");
 }
 
 world::TextureId GltfLooks::texture(int index) {
@@ -154,6 +207,10 @@ world::TextureId GltfLooks::texture(int index) {
     const tinygltf::Sampler& sampler = model_.samplers[std::size_t(it.sampler)];
     texture.repeats = {sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE,
                        sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE};
+    const bool mirrored = sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
+                          sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
+    left_out_.mirrored += mirrored ? 1 : 0;
+    left_out_.unsmoothed += sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? 1 : 0;
   }
   known.id = builder_.add(std::move(texture));
   return known.id;

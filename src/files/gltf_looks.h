@@ -7,6 +7,17 @@
 
 namespace icome::files {
 
+/// The exponent of VRML 2.0's highlights that looks most like a microfacet surface of this roughness, and
+/// back.
+float shininess_of(double roughness);
+double roughness_of(float shininess);
+/// What shines is the metal's own colour, else a twenty-fifth of the light; linear.
+GltfColour specular_of(const GltfColour& base, double metallic);
+
+/// The rows of a frame for texture coordinates that count down from a picture's top, as glTF's do, of one for
+/// those that count up, as a world's do, and back.
+world::PictureFrame upside_down(const world::PictureFrame& frame);
+
 /// The materials and pictures of a glTF file, put into the design that is being read.
 class GltfLooks {
  public:
@@ -21,6 +32,10 @@ class GltfLooks {
  private:
   std::size_t checked(int material) const;
   void read(int index);
+  void read_picture(const tinygltf::Material& from, GltfSurface& surface, world::Material& material);
+  void read_alpha(const tinygltf::Material& from, world::Material& material) const;
+  void count_maps(const tinygltf::Material& from);
+  void tell_what_is_left_out();
   world::TextureId texture(int index);
 
   const tinygltf::Model& model_;
@@ -32,7 +47,10 @@ class GltfLooks {
     world::TextureId id = {};  // none: it could not be read
   };
   std::vector<ReadTexture> textures_;
-  bool maps_left_out_ = false;
+  struct LeftOut {
+    std::size_t normals = 0, roughness = 0, occlusion = 0, emission = 0;  // materials with such maps
+    std::size_t mirrored = 0, unsmoothed = 0;                             // textures
+  } left_out_;
 };
 
 }  // namespace icome::files

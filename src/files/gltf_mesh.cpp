@@ -167,10 +167,7 @@ class PrimitiveReading {
   }
   /// glTF counts down from a picture's top.
   Vector2 coordinate(std::uint32_t v) const {
-    const auto& [a, b, c, d, e, f] = surface_.texture_frame;
-    const double s = exact(*coordinates_, v, 0);
-    const double t = exact(*coordinates_, v, 1);
-    return {a * s + b * t + c, 1.0 - (d * s + e * t + f)};
+    return {exact(*coordinates_, v, 0), 1.0 - exact(*coordinates_, v, 1)};
   }
   Vector3 normal(std::uint32_t v) const {
     const Vector3 given(normals_->number(v, 0), normals_->number(v, 1), normals_->number(v, 2));

@@ -17,10 +17,9 @@ using GltfColour = std::array<double, 3>;  // linear, in [0, 1]
 
 /// What a material says about the mesh that it is on.
 struct GltfSurface {
-  int texture_set = 0;                                       // of coordinates
-  std::array<double, 6> texture_frame = {1, 0, 0, 0, 1, 0};  // rows of the transform of these, baked
-  GltfColour colour = {1.0, 1.0, 1.0};                       // that corner colours are multiplied with
-  bool smooth = false;                                       // its normals are those of a mesh without any
+  int texture_set = 0;                  // of coordinates
+  GltfColour colour = {1.0, 1.0, 1.0};  // that corner colours are multiplied with
+  bool smooth = false;                  // its normals are those of a mesh without any
 
   bool operator==(const GltfSurface&) const = default;
 };

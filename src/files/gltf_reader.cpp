@@ -27,12 +27,20 @@ using world::GeometryId;
 using world::ObjectId;
 using world::PhysicalObject;
 
-/// What readers may not do without understanding it; looks (KHR_materials_...) only become plainer.
 bool is_understood(const std::string& extension) {
-  constexpr std::array<std::string_view, 4> kUnderstood{kGltfLights, "KHR_texture_transform",
-                                                        "KHR_mesh_quantization", "ICOME"};
-  return extension.starts_with("KHR_materials_") ||
-         std::find(kUnderstood.begin(), kUnderstood.end(), extension) != kUnderstood.end();
+  constexpr std::array<std::string_view, 5> kUnderstood{
+      kGltfLights, "KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit", "ICOME"};
+  return std::find(kUnderstood.begin(), kUnderstood.end(), extension) != kUnderstood.end();
+}
+
+/// Without what looks have beyond (KHR_materials_...), they only become plainer.
+bool can_be_done_without(const std::string& extension) { return extension.starts_with("KHR_materials_"); }
+
+/// Has it extras of another program?
+bool has_foreign_extras(const Value& extras) {
+  if (!extras.IsObject()) return extras.Type() != tinygltf::NULL_TYPE;
+  const std::vector<std::string> names = extras.Keys();
+  return std::any_of(names.begin(), names.end(), [](const std::string& it) { return it != "icome"; });
 }
 
 bool can_be_placed(const Affine3& frame) {
@@ -55,7 +63,8 @@ class GltfReading {
 
   void run() {
     for (const std::string& extension : model_.extensionsRequired) {
-      if (!is_understood(extension)) throw GltfError("it needs " + extension + ", which is not supported");
+      if (!is_understood(extension) && !can_be_done_without(extension))
+        throw GltfError("it needs " + extension + ", which is not supported");
     }
     // Shapes that no object has are kept too.
     for (std::size_t i = 0; i < root_shapes().ArrayLen(); ++i) exact_shape(int(i));
@@ -145,6 +154,7 @@ class GltfReading {
     if (!fixtures.empty()) object.fixture = fixtures.front();
     const std::vector<PhysicalObject> parts = parts_of(node);
     if (parts.size() == 1) {
+      renamed_meshes_ += !parts[0].name.empty() && parts[0].name != node.name ? 1 : 0;
       object.geometry = parts[0].geometry;
       object.material = parts[0].material;
     }
@@ -190,10 +200,8 @@ class GltfReading {
     for (const auto& [name, accessor] : primitive.attributes) {
       const bool coordinates = name.starts_with("TEXCOORD_");
       if (name == "POSITION" || name == "NORMAL") key += fmt::format(" {}{}", name, accessor);
-      if (coordinates && name == fmt::format("TEXCOORD_{}", surface.texture_set)) {
+      if (coordinates && name == fmt::format("TEXCOORD_{}", surface.texture_set))
         key += fmt::format(" {}{}", name, accessor);
-        for (const double number : surface.texture_frame) key += fmt::format(",{}", number);
-      }
       if (name == "COLOR_0") {
         key += fmt::format(" {}{}", name, accessor);
         for (const float part : surface.colour) key += fmt::format(",{}", part);
@@ -320,10 +328,42 @@ class GltfReading {
     tell(model_.skins.size(), "skin is", "skins are", "left out: what it moves stands as it was modelled.");
     tell(morphs, "morphing shape is", "morphing shapes are", "kept as modelled.");
     tell(other_cameras_, "camera is", "cameras are", "not in perspective, kept as a viewpoint.");
+    tell_what_else_is_left();
     for (const std::string& extension : model_.extensionsUsed) {
       if (!is_understood(extension))
         builder_.remark("It uses " + extension.substr(0, 80) + ", which is left out.");
     }
+  }
+
+  /// Small things that other programs may want back.
+  void tell_what_else_is_left() {
+    const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
+      if (count > 0) builder_.remark(fmt::format("{} {} {}", count, count == 1 ? one : several, what));
+    };
+    std::size_t other_sets = 0, clear_colours = 0, extras = has_foreign_extras(model_.extras) ? 1 : 0;
+    for (const tinygltf::Mesh& mesh : model_.meshes) {
+      extras += has_foreign_extras(mesh.extras) ? 1 : 0;
+      for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        const int used = looks_.surface(primitive.material).texture_set;
+        for (const auto& [name, accessor] : primitive.attributes)
+          other_sets += name.starts_with("TEXCOORD_") && name != fmt::format("TEXCOORD_{}", used) ? 1 : 0;
+        const auto colours = primitive.attributes.find("COLOR_0");
+        if (colours != primitive.attributes.end() && colours->second >= 0 &&
+            std::size_t(colours->second) < model_.accessors.size() &&
+            model_.accessors[std::size_t(colours->second)].type == TINYGLTF_TYPE_VEC4)
+          ++clear_colours;
+      }
+    }
+    for (const tinygltf::Node& node : model_.nodes) extras += has_foreign_extras(node.extras) ? 1 : 0;
+    for (const tinygltf::Material& it : model_.materials) extras += has_foreign_extras(it.extras) ? 1 : 0;
+    tell(other_sets, "further set of texture coordinates is", "further sets of texture coordinates are",
+         "left out.");
+    tell(clear_colours, "mesh has", "meshes have", "colours of vertices whose opacity is left out.");
+    tell(renamed_meshes_, "name of a mesh is", "names of meshes are",
+         "left out: objects are called as their nodes.");
+    tell(extras, "thing has", "things have", "extras of another program, which are left out.");
+    if (!model_.asset.copyright.empty())
+      builder_.remark("Its note on copyright is left out: " + model_.asset.copyright.substr(0, 200));
   }
 
   /// Nodes below such that were left out.
@@ -374,6 +414,7 @@ class GltfReading {
   std::size_t other_primitives_ = 0;
   std::size_t flat_nodes_ = 0;
   std::size_t other_cameras_ = 0;
+  std::size_t renamed_meshes_ = 0;
   std::int64_t started_;
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "files/gltf_looks.h"
+
 namespace icome::files {
 namespace {
 
@@ -45,6 +47,18 @@ bool all_magnitudes(const std::array<float, 3>& numbers) {
 
 Colour colour_of_three(const std::array<float, 3>& three) {
   return {part_of_one(three[0]), part_of_one(three[1]), part_of_one(three[2])};
+}
+
+std::optional<world::PictureFrame> frame_in(const Value& object) {
+  const Value& array = member(object, "pictureFrame");
+  world::PictureFrame frame{};
+  if (array.ArrayLen() != frame.size()) return {};
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Value& number = array.Get(int(i));
+    if (!number.IsNumber() || !std::isfinite(number.GetNumberAsDouble())) return {};
+    frame[i] = number.GetNumberAsDouble();
+  }
+  return frame;
 }
 
 constexpr std::array<const char*, 3> kLightKinds{"directional", "point", "spot"};
@@ -117,6 +131,7 @@ Value value_of(const world::Light& light) {
   object["radius"] = Value(light.radius);
   object["cutOffAngle"] = Value(light.cut_off_angle);
   object["beamWidth"] = Value(light.beam_width);
+  if (light.scoped) object["scoped"] = Value(true);
   return Value(std::move(object));
 }
 
@@ -126,6 +141,7 @@ std::optional<world::Light> light_of(const Value& value) {
   world::Light light;
   light.kind = world::Light::Kind(kind - kLightKinds.begin());
   if (member(value, "on").IsBool()) light.on = member(value, "on").Get<bool>();
+  if (member(value, "scoped").IsBool()) light.scoped = member(value, "scoped").Get<bool>();
   if (const auto colour = three_in(value, "colour"); colour && all_magnitudes(*colour))
     light.colour = *colour;
   if (const auto three = three_in(value, "attenuation"); three && all_magnitudes(*three))
@@ -138,12 +154,15 @@ std::optional<world::Light> light_of(const Value& value) {
   return light;
 }
 
-Value value_of(const world::Material& material, bool diffuse) {
+Value value_of(const world::Material& material, const MaterialExtras& more) {
   Value::Object object;
   object["ambient"] = Value(double(material.ambient));
   object["specular"] = array_value(material.specular);
   object["shininess"] = Value(double(material.shininess));
-  if (diffuse) object["diffuse"] = array_value(material.diffuse);
+  if (more.diffuse) object["diffuse"] = array_value(material.diffuse);
+  if (more.transparency) object["transparency"] = Value(double(material.transparency));
+  if (more.by_picture) object["alphaByPicture"] = Value(true);
+  if (more.frame) object["pictureFrame"] = array_value(material.picture_frame);
   if (!(material.touch == world::TouchProperties{})) object["touch"] = touch_value(material.touch);
   return Value(std::move(object));
 }
@@ -151,8 +170,20 @@ Value value_of(const world::Material& material, bool diffuse) {
 void complete(world::Material& material, const Value& value) {
   if (const auto ambient = number_in(value, "ambient")) material.ambient = part_of_one(*ambient);
   if (const auto specular = three_in(value, "specular")) material.specular = colour_of_three(*specular);
-  if (const auto shininess = number_in(value, "shininess")) material.shininess = part_of_one(*shininess);
-  if (const auto diffuse = three_in(value, "diffuse")) material.diffuse = colour_of_three(*diffuse);
+  const auto shininess = number_in(value, "shininess");
+  if (shininess) material.shininess = part_of_one(*shininess);
+  if (const auto diffuse = three_in(value, "diffuse")) {
+    material.diffuse = colour_of_three(*diffuse);
+    material.tints = false;
+  }
+  if (const auto clear = number_in(value, "transparency")) material.transparency = part_of_one(*clear);
+  if (const Value& flag = member(value, "alphaByPicture"); flag.IsBool() && flag.Get<bool>())
+    material.alpha_mode = world::AlphaMode::ByPicture;
+  if (material.texture) material.picture_frame = frame_in(value).value_or(material.picture_frame);
+  // What was worked out of them says no more than they do.
+  const bool worked_out = shininess && material.metallic == 0.0F && material.roughness &&
+                          std::abs(*material.roughness - roughness_of(material.shininess)) < 1e-5;
+  if (worked_out) material.metallic = material.roughness = std::nullopt;
   if (const Value& touch = member(value, "touch"); touch.IsObject()) material.touch = touch_of(touch);
 }
 

@@ -31,8 +31,15 @@ std::string text_in(const tinygltf::Value& object, const std::string& name);
 tinygltf::Value value_of(const world::Light& light);
 std::optional<world::Light> light_of(const tinygltf::Value& value);
 
-/// What the glTF of a material does not say of it. `diffuse`: does its glTF show another colour?
-tinygltf::Value value_of(const world::Material& material, bool diffuse);
+/// Of what the glTF of a material says there is more to it.
+struct MaterialExtras {
+  bool diffuse = false;       // a picture's colours replace it
+  bool transparency = false;  // a picture's opacity replaces it
+  bool by_picture = false;    // how it is seen through follows from its picture
+  bool frame = false;         // the picture is stretched in a way that glTF cannot say
+};
+/// What the glTF of a material does not say of it.
+tinygltf::Value value_of(const world::Material& material, const MaterialExtras& more);
 /// Puts that back.
 void complete(world::Material& material, const tinygltf::Value& value);
 

@@ -138,6 +138,7 @@ GltfVertices gltf_vertices(const world::MeshGeometry& shape, bool exact) {
       if (!exact) add_smooth_normals(shape.mesh, result);
       return result;
     }
+    if (exact) return Splitting(shape, false).run();
     // Normals of vertices that will be split: each part keeps that of the whole.
     world::MeshGeometry with_normals = shape;
     const std::vector<Vector3> normals = geometry::vertex_normals(shape.mesh);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <streambuf>
@@ -18,11 +19,14 @@
 #include "base/utf8.h"
 #include "files/file_ending.h"
 #include "files/gltf_buffer.h"
+#include "files/gltf_looks.h"
 #include "files/gltf_node.h"
 #include "files/gltf_value.h"
 #include "files/gltf_vertices.h"
 #include "files/new_file.h"
+#include "files/shown_pictures.h"
 #include "files/shown_world.h"
+#include "world/picture_kind.h"
 
 namespace icome::files {
 namespace {
@@ -50,8 +54,37 @@ std::vector<double> numbers_of(const world::Colour& colour) {
   return numbers;
 }
 
-/// The roughness of a microfacet surface that looks most like VRML 2.0's highlights.
-double roughness_of(float shininess) { return std::pow(2.0 / (128.0 * shininess + 2.0), 0.25); }
+/// In linear light, as glTF has it.
+GltfColour linear_colour(const world::Colour& colour) {
+  const std::vector<double> numbers = numbers_of(colour);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// Is it what follows from the metal, as it was when the file was read?
+bool follows_from(const world::Material& it, float metallic) {
+  const world::Colour specular = base::srgb_from_linear(specular_of(linear_colour(it.diffuse), metallic));
+  constexpr float kRounding = 1e-4F;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(specular[i] - it.specular[i]) > kRounding) return false;
+  }
+  return true;
+}
+
+/// The fields of KHR_texture_transform; none for a frame that is flat, or not stretched before it is turned.
+std::optional<Value> texture_transform(const world::PictureFrame& frame) {
+  const auto [a, b, c, d, e, f] = upside_down(frame);
+  const base::Vector2 u(a, d), v(b, e);
+  constexpr double kRounding = 1e-9;  // of a cosine
+  const double sizes = u.norm() * v.norm();
+  if (!(sizes > 0.0) || !std::isfinite(sizes) || std::abs(u.dot(v)) > kRounding * sizes) return {};
+  const double turn = std::atan2(-d, a);
+  const auto pair = [](double x, double y) { return Value(Value::Array{Value(x), Value(y)}); };
+  Value::Object fields;
+  if (c != 0.0 || f != 0.0) fields["offset"] = pair(c, f);
+  if (turn != 0.0) fields["rotation"] = Value(turn);
+  fields["scale"] = pair(u.norm(), v.dot(base::Vector2(std::sin(turn), std::cos(turn))));
+  return Value(std::move(fields));
+}
 
 /// Does the frame turn, stretch along its own axes and move, and no more, as glTF wants it?
 bool has_shear(const base::Affine3& frame) {
@@ -85,6 +118,12 @@ class GltfMaking {
       remark(fmt::format("{} sheared: some programs cannot show that.",
                          sheared_ == 1 ? "1 object is" : fmt::format("{} objects are", sheared_)),
              false);
+    if (grouped_lights_ > 0)
+      remark(fmt::format("{} only on the group that {}, in other programs on everything.",
+                         grouped_lights_ == 1 ? "1 directional light shines"
+                                              : fmt::format("{} directional lights shine", grouped_lights_),
+                         grouped_lights_ == 1 ? "it is in" : "they are in"),
+             false);
     return std::move(model_);
   }
 
@@ -117,22 +156,56 @@ class GltfMaking {
 
   void add_material(MaterialId id) {
     const world::Material& it = *world_.find(id);
+    const ShownMaterial shown = shown_material(world_, it);
     tinygltf::Material material;
     material.name = base::as_utf8(it.name);
-    material.doubleSided = true;  // what is seen from behind is seen
+    material.doubleSided = it.double_sided;
     material.emissiveFactor = numbers_of(it.emission);
     auto& pbr = material.pbrMetallicRoughness;
-    pbr.metallicFactor = 0.0;
-    pbr.roughnessFactor = roughness_of(it.shininess);
-    // A texture's own colours show, as in VRML 2.0.
-    const bool white = bool(it.texture);
-    pbr.baseColorFactor = white ? std::vector<double>{1.0, 1.0, 1.0} : numbers_of(it.diffuse);
-    pbr.baseColorFactor.push_back(1.0 - double(it.transparency));
-    if (it.transparency > 0.0F) material.alphaMode = "BLEND";
-    if (it.texture) pbr.baseColorTexture.index = textures_.at(it.texture);
-    material.extras = extras_with(value_of(it, white));
+    const bool metal = it.metallic && follows_from(it, *it.metallic);
+    const bool rough = it.roughness && shininess_of(double(*it.roughness)) == it.shininess;
+    pbr.metallicFactor = metal ? double(*it.metallic) : 0.0;
+    pbr.roughnessFactor = rough ? double(*it.roughness) : roughness_of(it.shininess);
+    pbr.baseColorFactor = numbers_of(shown.colour);
+    pbr.baseColorFactor.push_back(double(shown.opacity));
+    if (shown.mode == world::AlphaMode::Blend) material.alphaMode = "BLEND";
+    const bool masked = shown.mode == world::AlphaMode::Mask;
+    if (masked) material.alphaMode = "MASK";
+    if (masked) material.alphaCutoff = double(shown.cutoff) * double(shown.opacity);
+    if (it.unlit) material.extensions["KHR_materials_unlit"] = Value(Value::Object{});
+    if (it.unlit) use("KHR_materials_unlit");
+    MaterialExtras more;
+    more.transparency = shown.opacity != 1.0F - it.transparency || (masked && it.transparency > 0.0F);
+    if (const world::Texture* const texture = world_.find(it.texture)) {
+      pbr.baseColorTexture.index = textures_.at(it.texture);
+      more.diffuse = !it.tints;
+      more.by_picture = it.alpha_mode == world::AlphaMode::ByPicture && world::may_be_clear(*texture->bytes);
+      more.frame = !lay_picture(it, pbr.baseColorTexture);
+    }
+    material.extras = extras_with(value_of(it, more));
     materials_[id] = int(model_.materials.size());
     model_.materials.push_back(std::move(material));
+  }
+
+  /// False where glTF cannot say how, which is told.
+  bool lay_picture(const world::Material& material, tinygltf::TextureInfo& info) {
+    if (material.picture_frame == world::kPictureAsItLies) return true;
+    auto transform = texture_transform(material.picture_frame);
+    if (transform) {
+      info.extensions["KHR_texture_transform"] = std::move(*transform);
+      use("KHR_texture_transform");
+    } else {
+      remark(fmt::format(
+                 "The picture of the material \"{}\" is stretched askew, which other programs do not see.",
+                 material.name),
+             false);
+    }
+    return transform.has_value();
+  }
+
+  void use(const char* extension) {
+    auto& used = model_.extensionsUsed;
+    if (std::find(used.begin(), used.end(), extension) == used.end()) used.emplace_back(extension);
   }
 
   /// The material for a mesh. glTF multiplies a mesh's own colours with those of its material, and allows no
@@ -153,7 +226,7 @@ class GltfMaking {
     std::vector<double> colour = numbers_of(world_.find(id)->diffuse);
     if (needs_white || primitive.attributes.count("COLOR_0") > 0) colour = {1.0, 1.0, 1.0};
     std::copy(colour.begin(), colour.end(), pbr.baseColorFactor.begin());
-    if (needs_plain) pbr.baseColorTexture.index = -1;
+    if (needs_plain) pbr.baseColorTexture = tinygltf::TextureInfo();
     Value::Object extras;
     extras["variantOf"] = Value(base);
     variant.extras = extras_with(Value(std::move(extras)));
@@ -183,14 +256,18 @@ class GltfMaking {
     return {world_.find(id)->shape.get(), exact_shape(id) >= 0 ? GeometryId{} : id};
   }
 
-  /// The accessors of a shape, which meshes of several materials share.
-  const tinygltf::Primitive* primitive_of(GeometryId id) {
+  /// The accessors of a shape, which meshes of several materials share. `shows_picture`: does it need to say
+  /// where a picture lies?
+  const tinygltf::Primitive* primitive_of(GeometryId id, bool shows_picture) {
     const Triangles triangles = triangles_of(id);
-    const auto [found, is_new] = primitives_.try_emplace(triangles);
+    const world::Geometry& shape = *world_.find(id)->shape;
+    const auto [found, is_new] =
+        primitives_.try_emplace({triangles, shows_picture && shape.kind() == "primitive"});
     if (!is_new) return found->second.attributes.empty() ? nullptr : &found->second;
-    const auto mesh = shown_.triangles(id);
+    auto mesh = shown_.triangles(id);
     if (!mesh || mesh->mesh.triangles.empty()) return nullptr;
-    const GltfVertices vertices = gltf_vertices(*mesh, world_.find(id)->shape->kind() != "mesh");
+    if (shows_picture) mesh = with_picture_places(shape, mesh);
+    const GltfVertices vertices = gltf_vertices(*mesh, shape.kind() != "mesh");
     tinygltf::Primitive& primitive = found->second;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = buffer_.add_accessor(vertices.positions, true);
@@ -208,7 +285,8 @@ class GltfMaking {
     const auto [found, is_new] = meshes_.try_emplace({geometry, material}, -1);
     if (!is_new) return found->second;
     const int exact = exact_shape(geometry);
-    const tinygltf::Primitive* const shared = primitive_of(geometry);
+    const tinygltf::Primitive* const shared =
+        primitive_of(geometry, material && bool(world_.find(material)->texture));
     if (shared == nullptr) return -1;
     tinygltf::Primitive primitive = *shared;
     if (material) primitive.material = material_for(material, primitive);
@@ -282,6 +360,7 @@ class GltfMaking {
   void add_fixture(const world::Light& it, tinygltf::Node& node, Value::Object& extras) {
     extras["light"] = value_of(it);
     if (!it.on) return;
+    grouped_lights_ += it.scoped && it.kind == world::Light::Kind::Directional ? 1 : 0;
     constexpr std::array<const char*, 3> kTypes{"directional", "point", "spot"};
     tinygltf::Light light;
     light.type = kTypes.at(std::size_t(it.kind));
@@ -346,13 +425,13 @@ class GltfMaking {
   std::unordered_map<MaterialId, int> materials_;
   std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture
   std::unordered_map<GeometryId, int> exact_;
-  std::map<Triangles, tinygltf::Primitive> primitives_;
+  std::map<std::pair<Triangles, bool>, tinygltf::Primitive> primitives_;  // with where a picture lies
   std::set<Triangles> smooth_;
   std::map<std::pair<GeometryId, MaterialId>, int> meshes_;
   std::unordered_map<ObjectId, int> nodes_;
   Value::Array shapes_;
   std::vector<Remark> remarks_;
-  std::size_t sheared_ = 0;
+  std::size_t sheared_ = 0, grouped_lights_ = 0;
 };
 
 /// What is written into the stream goes into the file.

@@ -65,14 +65,19 @@ class MtlReading {
   /// "-clamp on -s 2 2 1 name of a file.png": options have a known number of values.
   void read_picture(MtlMaterial& it) {
     std::string_view rest = scanner_.rest();
+    std::array<double, 2> stretch = {1.0, 1.0}, shift = {0.0, 0.0};
     while (rest.starts_with('-')) {
       const std::string_view option = take_word(rest);
       if (option == "-clamp") {
         const bool clamped = take_word(rest) == "on";
         it.repeats = {!clamped, !clamped};
-      } else if (option == "-s" || option == "-o" || option == "-t") {
-        for (int i = 0; i < 3 && begins_with_number(rest); ++i) take_word(rest);
-        note("Pictures that are moved or stretched on a surface are shown as they are.");
+      } else if (option == "-s") {
+        stretch = numbers_of_option(rest, 1.0);
+      } else if (option == "-o") {
+        shift = numbers_of_option(rest, 0.0);
+      } else if (option == "-t") {
+        numbers_of_option(rest, 0.0);
+        note("Noise that distorts pictures is left out.");
       } else if (option == "-mm") {
         take_word(rest);
         take_word(rest);
@@ -81,6 +86,21 @@ class MtlReading {
       }
     }
     it.picture = rest;
+    // The picture's colours are multiplied with the diffuse colour.
+    it.material.tints = true;
+    it.material.picture_frame = {stretch[0], 0.0, shift[0], 0.0, stretch[1], shift[1]};
+  }
+
+  /// Of up to three, the first two; what is not there is `otherwise`.
+  static std::array<double, 2> numbers_of_option(std::string_view& rest, double otherwise) {
+    std::array<double, 2> numbers = {otherwise, otherwise};
+    for (std::size_t i = 0; i < 3 && begins_with_number(rest); ++i) {
+      const std::string_view word = take_word(rest);
+      double value = 0.0;
+      std::from_chars(word.data(), word.data() + word.size(), value);
+      if (i < numbers.size() && std::isfinite(value)) numbers[i] = value;
+    }
+    return numbers;
   }
 
   static std::string_view take_word(std::string_view& rest) {
@@ -151,13 +171,13 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, std::vector<std::strin
   return MtlReading(text, notes).run();
 }
 
-std::string mtl_text(const world::Material& material, const std::string& name, const std::string& picture,
-                     std::array<bool, 2> repeats) {
-  Colour ambient = material.diffuse;
+std::string mtl_text(const world::Material& material, const Colour& diffuse, const std::string& name,
+                     const std::string& picture, std::array<bool, 2> repeats) {
+  Colour ambient = diffuse;
   for (float& part : ambient) part *= material.ambient;
   std::string text = "newmtl " + name + "\n";
   append_colour(text, "Ka", ambient);
-  append_colour(text, "Kd", material.diffuse);
+  append_colour(text, "Kd", diffuse);
   append_colour(text, "Ks", material.specular);
   append_colour(text, "Ke", material.emission);
   text += "Ns ";

@@ -211,6 +211,10 @@ class ObjLooks {
     for (MtlMaterial& it : parse_mtl(*text, notes)) {
       if (materials_.count(it.material.name) > 0) continue;
       if (!it.picture.empty()) it.material.texture = texture(*found, it);
+      if (!it.material.texture) {
+        it.material.tints = false;
+        it.material.picture_frame = world::kPictureAsItLies;
+      }
       materials_[it.material.name] = builder_.add(it.material);
     }
     for (std::string& note : notes) builder_.remark(std::move(note));

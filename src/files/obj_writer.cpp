@@ -9,12 +9,14 @@
 #include <utility>
 
 #include "files/file_bytes.h"
+#include "files/findings.h"
 #include "files/mtl_library.h"
 #include "files/new_file.h"
 #include "files/number_text.h"
 #include "files/obj_design.h"
 #include "files/open_file.h"
 #include "files/picture_folder.h"
+#include "files/shown_pictures.h"
 #include "files/shown_world.h"
 
 namespace icome::files {
@@ -83,7 +85,9 @@ class ObjWriting {
     if (!library.empty()) text_ += "mtllib " + library + "\n";
   }
 
-  void add(const ShownObject& it, const std::string& name, const std::string& material) {
+  /// `frame`: how the picture lies.
+  void add(const ShownObject& it, const std::string& name, const std::string& material,
+           const world::PictureFrame& frame) {
     text_ += "o " + name + "\n";
     if (!material.empty()) {
       text_ += "usemtl " + material + "\n";
@@ -92,7 +96,7 @@ class ObjWriting {
     }
     any_material_ = any_material_ || !material.empty();
     const std::vector<std::uint32_t> vertices = add_vertices(it);
-    const std::vector<std::uint32_t> coordinates = add_coordinates(*it.mesh);
+    const std::vector<std::uint32_t> coordinates = add_coordinates(*it.mesh, frame);
     const std::vector<std::uint32_t> normals = add_normals(it);
     const bool mirrored = it.world_from_object.linear().determinant() < 0.0;
     for (std::size_t t = 0; t < it.mesh->mesh.triangles.size(); ++t) {
@@ -163,12 +167,14 @@ class ObjWriting {
     return numbers;
   }
 
-  std::vector<std::uint32_t> add_coordinates(const world::MeshGeometry& shape) {
+  std::vector<std::uint32_t> add_coordinates(const world::MeshGeometry& shape,
+                                             const world::PictureFrame& frame) {
     std::vector<std::uint32_t> numbers;
     numbers.reserve(3 * shape.texture_coordinates.size());
     ObjRows<2> rows;
     for (const auto& corners : shape.texture_coordinates) {
-      for (const base::Vector2& it : corners) {
+      for (const base::Vector2& given : corners) {
+        const base::Vector2 it = frame == world::kPictureAsItLies ? given : laid(frame, given);
         const std::array row{it.x(), it.y()};
         const auto [number, is_new] = rows.add(row);
         numbers.push_back(coordinates_ + number + 1);
@@ -252,8 +258,8 @@ base::Result<ObjLibrary> make_library(const World& world, const std::filesystem:
       url = std::move(*written);
     }
     library.names[id] = names.unique(material.name, "material", false);
-    library.text +=
-        mtl_text(material, library.names[id], url, texture ? texture->repeats : std::array{true, true});
+    library.text += mtl_text(material, shown_material(world, material).colour, library.names[id], url,
+                             texture ? texture->repeats : std::array{true, true});
   }
   return library;
 }
@@ -313,6 +319,27 @@ bool has_touch(const World& world) {
                      [](const auto& it) { return !(it.second.touch == world::TouchProperties{}); });
 }
 
+/// Of how materials look.
+void tell_what_obj_loses(const World& world, std::vector<Remark>& remarks) {
+  Findings losses;
+  constexpr static FindingKind kHoles = {
+      "That pictures are seen through is left out, as MTL has no words for it", "materials"};
+  constexpr static FindingKind kNoLight = {"Materials that no light changes are written as lit ones",
+                                           "materials"};
+  constexpr static FindingKind kRough = {"Metal and roughness are left out, for which highlights stand",
+                                         "materials"};
+  for (const auto& [id, it] : world.materials()) {
+    if (it.users == 0) continue;
+    const world::AlphaMode mode = shown_material(world, it).mode;
+    if (it.texture &&
+        (mode == world::AlphaMode::Mask || (mode == world::AlphaMode::Blend && it.transparency == 0.0F)))
+      losses.add(kHoles, it.name);
+    if (it.unlit) losses.add(kNoLight, it.name);
+    if (it.metallic || it.roughness) losses.add(kRough, it.name);
+  }
+  for (Remark& it : losses.remarks()) remarks.push_back(std::move(it));
+}
+
 }  // namespace
 
 base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& path, const World& world) {
@@ -330,11 +357,15 @@ base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& 
   ObjWriting writing(*file);
   writing.begin(beside->filename().string());
   ObjNames names;
-  for (const ShownObject& it : *objects) {
+  const world::Material plain;
+  for (ShownObject it : *objects) {
     const world::PhysicalObject& object = *world.find(it.object);
+    const world::Material& material = object.material ? *world.find(object.material) : plain;
+    if (material.texture) it.mesh = with_picture_places(*world.find(object.geometry)->shape, it.mesh);
     writing.add(it, names.unique(object.name, "object", true),
-                object.material ? library->names.at(object.material) : "");
+                object.material ? library->names.at(object.material) : "", material.picture_frame);
   }
+  tell_what_obj_loses(world, remarks);
   writing.finish();
   if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
   remove_old_libraries(path, *beside);

@@ -3,7 +3,21 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <memory>
+#include <vector>
+
 namespace icome::files {
+namespace {
+
+/// Does a graphics control extension (GIF89a, 23) say so?
+bool gif_has_clear_colour(std::string_view bytes) {
+  constexpr std::string_view kControl("\x21\xf9\x04", 3);
+  const std::size_t at = bytes.find(kControl);
+  return at != std::string_view::npos && at + kControl.size() < bytes.size() &&
+         (static_cast<unsigned char>(bytes[at + kControl.size()]) & 1U) != 0;
+}
+
+}  // namespace
 
 std::string_view picture_type(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
@@ -37,6 +51,27 @@ base::Result<std::string> png_of(const PixelPicture& picture) {
   bytes.resize(size);
   bytes.shrink_to_fit();
   return bytes;
+}
+
+world::PictureOpacity picture_opacity(std::string_view bytes) {
+  using world::PictureOpacity;
+  if (!world::may_be_clear(bytes)) return PictureOpacity::Opaque;
+  // The pixels of a GIF are seen or not.
+  if (picture_type(bytes) == "image/gif")
+    return gif_has_clear_colour(bytes) ? PictureOpacity::CutOut : PictureOpacity::Opaque;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  const std::unique_ptr<png_image, decltype(&png_image_free)> owned(&image, png_image_free);
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+    return PictureOpacity::Opaque;
+  constexpr std::uint64_t kMostPixels = 64'000'000;
+  if (image.width > kMostPixelSide || image.height > kMostPixelSide ||
+      std::uint64_t{image.width} * image.height > kMostPixels)
+    return PictureOpacity::Opaque;
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) return PictureOpacity::Opaque;
+  return world::opacity_of(pixels);
 }
 
 }  // namespace icome::files

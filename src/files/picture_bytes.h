@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "world/picture_kind.h"
 
 namespace icome::files {
 
@@ -21,5 +22,9 @@ struct PixelPicture {
 /// The picture as a PNG file. Fails when it is empty, larger than kMostPixelSide or not whole.
 base::Result<std::string> png_of(const PixelPicture& picture);
 inline constexpr std::uint32_t kMostPixelSide = 16384;
+
+/// How much a picture lets be seen through it; one that cannot be read, or is larger than kMostPixelSide,
+/// counts as opaque.
+world::PictureOpacity picture_opacity(std::string_view bytes);
 
 }  // namespace icome::files

@@ -28,13 +28,8 @@ using world::ObjectId;
 
 constexpr FindingKind kFlattened = {"Objects that their transforms flatten are left out", "objects"};
 constexpr FindingKind kUnlit = {"Shapes without a Material are lit here", "shapes"};
-constexpr FindingKind kManyTransforms = {
-    "Shapes that are seen with several texture transforms are not shared between these", "shapes"};
-constexpr FindingKind kTooManyTransforms = {
-    "Of the texture transforms that a shape is seen with, only the first 16 are taken", "shapes"};
 constexpr FindingKind kNoMember = {"Scenes name objects that are not there", "scenes"};
 
-constexpr std::size_t kMostTextureVariants = 16;
 constexpr std::size_t kMostNotes = 1000;
 constexpr std::size_t kLongestNote = 1000;
 
@@ -78,7 +73,7 @@ class VrmlBuilder {
     nodes_ = nodes_of(scene_, reader_);
     read_looks();
     if (!reader_.fault().empty()) return give_up();
-    find_variants();
+    find_pictured();
     if (!add_objects()) return give_up();
     add_scenes();
     add_scripts();
@@ -94,13 +89,11 @@ class VrmlBuilder {
   /// What is known of a look before it is used.
   struct LookPlan {
     bool has_picture = false;
-    TextureMatrix texture = kPlainTexture;
     std::optional<MaterialId> material = {};  // once it is used
   };
-  /// The textures that a piece is seen with, and its shapes once it is used.
   struct PiecePlan {
-    std::vector<std::optional<TextureMatrix>> textures = {};
-    std::vector<GeometryId> shapes = {};
+    bool shows_picture = false;
+    std::optional<GeometryId> shape = {};  // once it is used
   };
 
   static void append(std::vector<Remark>& to, const std::vector<Remark>& from) {
@@ -136,38 +129,26 @@ class VrmlBuilder {
     for (const flat::Look* look : *scene_.looks()) {
       if (look->picture() < -1 || look->picture() >= pictures)
         reader_.refuse("a look names what is not there");
-      looks_.push_back({look->picture() >= 0, texture_matrix_of(*look, reader_, findings_)});
+      looks_.push_back({.has_picture = look->picture() >= 0});
     }
   }
 
-  static std::size_t variant_of(const PiecePlan& plan, const TextureMatrix& texture) {
-    const auto same = [&](const std::optional<TextureMatrix>& it) { return it == texture; };
-    const auto found = std::find_if(plan.textures.begin(), plan.textures.end(), same);
-    return found == plan.textures.end() ? 0 : std::size_t(found - plan.textures.begin());
-  }
-
-  /// Which textures the pieces are seen with has to be known before they are made.
-  void find_variants() {
+  /// Which pieces are seen with a picture has to be known before they are made.
+  void find_pictured() {
     if (scene_.pieces()) pieces_.resize(scene_.pieces()->size());
     for (const VrmlNode& node : nodes_) {
-      if (node.piece < 0 || node.look < 0 || !looks_[std::size_t(node.look)].has_picture) continue;
-      PiecePlan& plan = pieces_[std::size_t(node.piece)];
-      const TextureMatrix& texture = looks_[std::size_t(node.look)].texture;
-      const std::size_t variant = variant_of(plan, texture);
-      if (variant < plan.textures.size() && plan.textures[variant] == texture) continue;
-      if (plan.textures.size() < kMostTextureVariants)
-        plan.textures.emplace_back(texture);
-      else
-        findings_.add(kTooManyTransforms, node.name);
-    }
-    for (PiecePlan& plan : pieces_) {
-      if (plan.textures.empty()) plan.textures.emplace_back(std::nullopt);
-      if (plan.textures.size() > 1) findings_.add(kManyTransforms, "");
+      if (node.piece >= 0 && node.look >= 0 && looks_[std::size_t(node.look)].has_picture)
+        pieces_[std::size_t(node.piece)].shows_picture = true;
     }
   }
 
   /// False when patience ends or the answer is damaged.
   bool add_objects() {
+    with_children_.assign(nodes_.size(), false);
+    for (const VrmlNode& node : nodes_) {
+      if (node.parent >= 0 && node.is_object && !node.is_merged)
+        with_children_[std::size_t(node.parent)] = true;
+    }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       objects_.push_back(add_object(nodes_[i]));
       const bool lasts =
@@ -198,33 +179,41 @@ class VrmlBuilder {
     if (node.fixture_from >= 0) {
       const PlacedFixture& placed = *nodes_[std::size_t(node.fixture_from)].fixture;
       object.fixture = placed.fixture;
+      if (object.fixture && stands_alone(node)) object.fixture = shining_on_all(object.fixture);
       object.parent_from_object = object.parent_from_object * placed.parent_from_fixture;
     }
     return design_.add(std::move(object));
   }
 
-  void add_shape(const VrmlNode& node, const std::string& name, world::PhysicalObject& object) {
-    PiecePlan& plan = pieces_[std::size_t(node.piece)];
-    if (plan.shapes.empty()) make_shapes(*scene_.pieces()->Get(std::uint32_t(node.piece)), plan);
-    std::size_t variant = 0;
-    if (node.look < 0 || !scene_.looks()->Get(std::uint32_t(node.look))->lit()) findings_.add(kUnlit, name);
-    if (node.look >= 0) {
-      object.material = material(std::size_t(node.look));
-      variant = variant_of(plan, looks_[std::size_t(node.look)].texture);
-    }
-    object.geometry = plan.shapes[variant];
+  /// Is it at the top and nothing but its fixture? The group of such a light is everything.
+  bool stands_alone(const VrmlNode& node) const {
+    return node.parent < 0 && node.shape_from < 0 && node.look_from < 0 &&
+           !with_children_[std::size_t(&node - nodes_.data())];
+  }
+  static world::FixturePointer shining_on_all(const world::FixturePointer& fixture) {
+    const auto* const light = std::get_if<world::Light>(fixture.get());
+    if (light == nullptr || !light->scoped) return fixture;
+    world::Light on_all = *light;
+    on_all.scoped = false;
+    return std::make_shared<const world::Fixture>(on_all);
   }
 
-  void make_shapes(const flat::Piece& piece, PiecePlan& plan) {
-    if (piece.kind() == flat::PieceKind::Mesh) {
-      const world::GeometryPointer shape = mesh_of_file(piece);
-      plan.shapes.assign(plan.textures.size(), shape ? design_.add(shape) : GeometryId{});
-      return;
+  void add_shape(const VrmlNode& node, const std::string& name, world::PhysicalObject& object) {
+    PiecePlan& plan = pieces_[std::size_t(node.piece)];
+    if (!plan.shape) {
+      const world::GeometryPointer made =
+          make_shape(*scene_.pieces()->Get(std::uint32_t(node.piece)), plan.shows_picture);
+      plan.shape = made ? design_.add(made) : GeometryId{};
     }
-    if (!memory_.has_room(plan.textures.size() * most_bytes_of(piece)))
-      return plan.shapes.assign(plan.textures.size(), GeometryId{});
-    for (const world::GeometryPointer& shape : shapes_of(piece, reader_, plan.textures, findings_, patience_))
-      plan.shapes.push_back(shape ? design_.add(shape) : GeometryId{});
+    if (node.look < 0 || !scene_.looks()->Get(std::uint32_t(node.look))->lit()) findings_.add(kUnlit, name);
+    if (node.look >= 0) object.material = material(std::size_t(node.look));
+    object.geometry = *plan.shape;
+  }
+
+  world::GeometryPointer make_shape(const flat::Piece& piece, bool shows_picture) {
+    if (piece.kind() == flat::PieceKind::Mesh) return mesh_of_file(piece);
+    if (!memory_.has_room(most_bytes_of(piece))) return nullptr;
+    return shape_of(piece, reader_, shows_picture, findings_, patience_);
   }
 
   world::GeometryPointer mesh_of_file(const flat::Piece& piece) {
@@ -249,6 +238,7 @@ class VrmlBuilder {
     world::Material made = material_of(look, reader_, findings_);
     if (made.name == kNoMaterial) return *plan.material;
     if (look.picture() >= 0) made.texture = texture(std::uint32_t(look.picture()));
+    if (made.texture) made.picture_frame = picture_frame_of(look, reader_, findings_);
     plan.material = design_.add(std::move(made));
     return *plan.material;
   }
@@ -336,6 +326,7 @@ class VrmlBuilder {
   VrmlMeshes meshes_;
   DesignBuilder design_;
   std::vector<VrmlNode> nodes_;
+  std::vector<bool> with_children_;  // nodes that have objects below them
   std::vector<LookPlan> looks_;
   std::vector<PiecePlan> pieces_;
   std::vector<ObjectId> objects_;                                 // of the nodes

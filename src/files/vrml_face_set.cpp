@@ -33,7 +33,7 @@ class FaceMesh {
         findings_(findings),
         taken_(take_faces(from.positions, from.polygons, from.ccw, from.name, findings)) {}
 
-  std::shared_ptr<MeshGeometry> make(const std::optional<TextureMatrix>& texture, Patience& patience) {
+  std::shared_ptr<MeshGeometry> make(bool shows_picture, Patience& patience) {
     if (!cut_into_triangles(patience) || triangles_.empty()) return nullptr;
     geometry::TriangleMesh mesh;
     for (const Triple& corners : triangles_)
@@ -41,7 +41,7 @@ class FaceMesh {
     auto result = std::make_shared<MeshGeometry>(std::move(mesh));
     add_normals(*result);
     add_colours(*result);
-    add_texture(*result, texture);
+    add_texture(*result, shows_picture);
     result->mesh.positions = std::move(taken_.mesh.positions);
     return result;
   }
@@ -152,13 +152,10 @@ class FaceMesh {
       mesh.colours.push_back({colours[corners[a]], colours[corners[b]], colours[corners[c]]});
   }
 
-  void add_texture(MeshGeometry& mesh, const std::optional<TextureMatrix>& texture) {
+  void add_texture(MeshGeometry& mesh, bool shows_picture) {
     std::vector<Vector2> coordinates = given_coordinates();
-    if (coordinates.empty() && texture) coordinates = default_coordinates();
+    if (coordinates.empty() && shows_picture) coordinates = default_coordinates();
     if (coordinates.empty()) return;
-    if (texture && *texture != kPlainTexture) {
-      for (Vector2& it : coordinates) it = transformed(*texture, it);
-    }
     const auto finite = [](const Vector2& it) { return it.allFinite(); };
     if (!std::all_of(coordinates.begin(), coordinates.end(), finite))
       return findings_.add(kWrongCoordinates, from_.name);
@@ -201,12 +198,6 @@ class FaceMesh {
     return result;
   }
 
-  static Vector2 transformed(const TextureMatrix& m, const Vector2& it) {
-    const Vector3 result(m[0] * it.x() + m[1] * it.y() + m[2], m[3] * it.x() + m[4] * it.y() + m[5],
-                         m[6] * it.x() + m[7] * it.y() + m[8]);
-    return result.head<2>() / result.z();
-  }
-
   const VrmlFaceSet& from_;
   Findings& findings_;
   TakenFaces taken_;
@@ -215,10 +206,9 @@ class FaceMesh {
 
 }  // namespace
 
-std::shared_ptr<MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces,
-                                            const std::optional<TextureMatrix>& texture, Findings& findings,
+std::shared_ptr<MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces, bool shows_picture, Findings& findings,
                                             Patience& patience) {
-  return FaceMesh(faces, findings).make(texture, patience);
+  return FaceMesh(faces, findings).make(shows_picture, patience);
 }
 
 }  // namespace icome::files

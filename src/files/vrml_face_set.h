@@ -2,7 +2,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,17 +29,11 @@ struct VrmlFaceSet {
   double crease_angle = 0.0;  // rad
 };
 
-/// The 3 x 3 matrix of a TextureTransform, row after row.
-using TextureMatrix = std::array<double, 9>;
-inline constexpr TextureMatrix kPlainTexture = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-
 /// The triangles of the faces. Faces that name vertices which are not there, or have fewer than three
 /// corners, are left out, as are normals, colours and texture coordinates that do not fit; all that is
-/// found wrong goes to `findings`. With a `texture`, texture coordinates are made where there are none and
-/// go through it; without, those that are there stay as they are. Null when no triangle is left, or when
-/// patience ends.
-std::shared_ptr<world::MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces,
-                                                   const std::optional<TextureMatrix>& texture,
+/// found wrong goes to `findings`. Where a picture is shown, texture coordinates are made where there are
+/// none. Null when no triangle is left, or when patience ends.
+std::shared_ptr<world::MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces, bool shows_picture,
                                                    Findings& findings, Patience& patience);
 
 }  // namespace icome::files

@@ -28,7 +28,8 @@ Vector3 vector_of(const flat::Vec3* from, const Vector3& otherwise) {
   return result.allFinite() ? result : otherwise;
 }
 
-/// Turns -z to a direction, by the shortest way (about y where it is +z).
+}  // namespace
+
 base::Matrix3 facing(const Vector3& direction) {
   const double length = direction.stableNorm();
   if (!(length > 0.0) || !std::isfinite(length)) return base::Matrix3::Identity();
@@ -38,13 +39,12 @@ base::Matrix3 facing(const Vector3& direction) {
   return base::rotation_between(-Vector3::UnitZ(), to).toRotationMatrix();
 }
 
-}  // namespace
-
 PlacedFixture fixture_of(const flat::Lamp& lamp) {
   world::Light light;
   PlacedFixture result;
   if (lamp.kind() == flat::LampKind::Point) light.kind = world::Light::Kind::Point;
   if (lamp.kind() == flat::LampKind::Spot) light.kind = world::Light::Kind::Spot;
+  light.scoped = light.kind == world::Light::Kind::Directional;
   light.on = lamp.on();
   if (const flat::Rgb* colour = lamp.colour())
     light.colour = {part_of_one(colour->r(), 1.0F), part_of_one(colour->g(), 1.0F),

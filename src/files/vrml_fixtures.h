@@ -20,4 +20,8 @@ struct PlacedFixture {
 PlacedFixture fixture_of(const flat::Lamp& lamp);
 PlacedFixture fixture_of(const flat::Eye& eye);
 
+/// Turns -z to a direction, by the shortest way (about y where it is +z): how a light or eye that only says
+/// where it looks is turned.
+base::Matrix3 facing(const base::Vector3& direction);
+
 }  // namespace icome::files

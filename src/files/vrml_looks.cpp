@@ -3,6 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "world/picture_kind.h"
 
 namespace icome::files {
 namespace {
@@ -30,6 +35,44 @@ template <typename Key>
 std::string found(const std::unordered_map<Key, std::string>& names, Key key) {
   const auto it = names.find(key);
   return it == names.end() ? "" : it->second;
+}
+
+constexpr FindingKind kAskew = {"Pictures that are stretched askew are written as they lie", "materials"};
+constexpr FindingKind kTint = {"The tints of pictures are left out, as VRML 2.0 shows their own colours",
+                               "materials"};
+constexpr FindingKind kAlphaMode = {"Pictures are seen through as they are, as VRML 2.0 knows no other way",
+                                    "materials"};
+constexpr FindingKind kUnlitLook = {"Materials that no light changes are written as lit ones", "materials"};
+constexpr FindingKind kOneSided = {"That backs are not seen is left out", "materials"};
+constexpr FindingKind kMetal = {"Metal and roughness are left out, for which highlights stand", "materials"};
+
+std::array<float, 2> pair_of(const base::Vector2& it) { return {float(it.x()), float(it.y())}; }
+
+/// The fields of a TextureTransform about the picture's lower left.
+struct VrmlTextureTransform {
+  base::Vector2 translation, scale;
+  double rotation = 0.0;  // rad
+};
+
+/// Tc' = S R T Tc (ISO/IEC 14772-1, 6.49). None for frames that are flat, or not turned before they are
+/// stretched.
+std::optional<VrmlTextureTransform> vrml_texture_transform(const world::PictureFrame& frame) {
+  Eigen::Matrix2d linear;
+  linear << frame[0], frame[1], frame[3], frame[4];
+  const base::Vector2 rows(linear.row(0).norm(), linear.row(1).norm());
+  constexpr double kRounding = 1e-9;  // of a cosine
+  if (!(rows.minCoeff() > 0.0) || !rows.allFinite()) return {};
+  if (std::abs(linear.row(0).dot(linear.row(1))) > kRounding * rows.x() * rows.y()) return {};
+  VrmlTextureTransform it;
+  it.rotation = std::atan2(-linear(0, 1), linear(0, 0));
+  const base::Vector2 across(std::sin(it.rotation), std::cos(it.rotation));
+  it.scale = {rows.x(), linear.row(1).dot(across)};
+  it.translation = linear.inverse() * base::Vector2(frame[2], frame[5]);
+  // What arithmetic leaves of nothing.
+  for (double& part : it.translation)
+    part = std::abs(part) < kRounding * (1.0 + it.translation.norm()) ? 0.0 : part;
+  if (!it.translation.allFinite()) return {};
+  return it;
 }
 
 }  // namespace
@@ -73,7 +116,11 @@ base::Result<void> VrmlLooks::write(MaterialId id) {
   if (id) {
     const Material& material = *world_.find(id);
     write_material(id, material);
-    if (material.texture) result = write_texture(material.texture);
+    if (material.texture) {
+      result = write_texture(material.texture);
+      write_picture_frame(material);
+    }
+    tell_what_is_lost(material);
   } else {
     text_.open("material Material");
     text_.close();
@@ -123,6 +170,31 @@ base::Result<void> VrmlLooks::write_texture(TextureId id) {
   if (!texture.repeats[1]) text_.field("repeatT", false);
   text_.close();
   return {};
+}
+
+void VrmlLooks::write_picture_frame(const world::Material& material) {
+  if (material.picture_frame == world::kPictureAsItLies) return;
+  const auto transform = vrml_texture_transform(material.picture_frame);
+  if (!transform) return losses_.add(kAskew, material.name);
+  text_.open("textureTransform TextureTransform");
+  if (transform->rotation != 0.0) text_.field("rotation", transform->rotation);
+  if (transform->scale != base::Vector2(1.0, 1.0)) text_.field("scale", pair_of(transform->scale));
+  if (!transform->translation.isZero(0.0)) text_.field("translation", pair_of(transform->translation));
+  text_.close();
+}
+
+void VrmlLooks::tell_what_is_lost(const world::Material& material) {
+  const auto add = [&](bool is_lost, const FindingKind& kind) {
+    if (is_lost) losses_.add(kind, material.name);
+  };
+  const world::Texture* const texture = world_.find(material.texture);
+  const bool white = material.diffuse == world::Colour{1.0F, 1.0F, 1.0F};
+  add(texture && material.tints && !white && !world::is_grey_picture(*texture->bytes), kTint);
+  add(texture && material.alpha_mode != world::AlphaMode::ByPicture && world::may_be_clear(*texture->bytes),
+      kAlphaMode);
+  add(material.unlit, kUnlitLook);
+  add(!material.double_sided, kOneSided);
+  add(material.metallic || material.roughness, kMetal);
 }
 
 }  // namespace icome::files

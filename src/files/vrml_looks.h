@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/design.h"
+#include "files/findings.h"
 #include "files/picture_folder.h"
 #include "files/vrml_names.h"
 #include "files/vrml_protos.h"
@@ -30,16 +31,21 @@ class VrmlLooks {
 
   /// The field `appearance` of a Shape; without a material, what the default one looks like.
   base::Result<void> write(world::MaterialId id);
+  /// What of the written ones VRML 2.0 could not say.
+  std::vector<Remark> losses() const { return losses_.remarks(); }
 
  private:
   bool needs_proto(world::MaterialId id, const world::Material& material) const;
   void write_material(world::MaterialId id, const world::Material& material);
   base::Result<void> write_texture(world::TextureId id);
+  void write_picture_frame(const world::Material& material);
+  void tell_what_is_lost(const world::Material& material);
 
   const world::World& world_;
   VrmlNames& names_;
   VrmlText& text_;
   std::vector<Remark>& remarks_;
+  Findings losses_;
   PictureFolder pictures_;
   std::unordered_map<world::MaterialId, std::string> material_names_;  // those that have one
   std::unordered_map<world::TextureId, std::string> texture_names_;

@@ -75,17 +75,19 @@ world::Material material_of(const flat::Look& look, world::FlatReader& reader, F
   return material;
 }
 
-TextureMatrix texture_matrix_of(const flat::Look& look, world::FlatReader& reader, Findings& findings) {
-  TextureMatrix matrix = kPlainTexture;
+world::PictureFrame picture_frame_of(const flat::Look& look, world::FlatReader& reader, Findings& findings) {
+  world::PictureFrame frame = world::kPictureAsItLies;
   const auto numbers = reader.items<double>(look.texture_transform());
-  if (numbers.empty()) return matrix;
+  if (numbers.empty()) return frame;
+  constexpr std::size_t kNumbers = 9;  // three rows of three
   const auto finite = [](double it) { return std::isfinite(it); };
-  if (numbers.size() != matrix.size() || !std::all_of(numbers.begin(), numbers.end(), finite)) {
+  if (numbers.size() != kNumbers || !std::all_of(numbers.begin(), numbers.end(), finite) ||
+      numbers[6] != 0.0 || numbers[7] != 0.0 || numbers[8] != 1.0) {
     findings.add(kWrongTransform, "");
-    return matrix;
+    return frame;
   }
-  std::copy(numbers.begin(), numbers.end(), matrix.begin());
-  return matrix;
+  std::copy_n(numbers.begin(), frame.size(), frame.begin());
+  return frame;
 }
 
 }  // namespace icome::files

@@ -1,8 +1,5 @@
 #pragma once
-#include <optional>
-
 #include "files/findings.h"
-#include "files/vrml_face_set.h"
 #include "world/flat_bytes.h"
 #include "world/world.h"
 
@@ -16,7 +13,7 @@ struct Look;
 /// form: here it is white and lit. What is out of range is put right, which `findings` tells.
 world::Material material_of(const flat::Look& look, world::FlatReader& reader, Findings& findings);
 
-/// What texture coordinates go through; plain where the numbers make no sense.
-TextureMatrix texture_matrix_of(const flat::Look& look, world::FlatReader& reader, Findings& findings);
+/// How a look lays its picture; as it lies where the numbers make no sense.
+world::PictureFrame picture_frame_of(const flat::Look& look, world::FlatReader& reader, Findings& findings);
 
 }  // namespace icome::files

@@ -29,8 +29,6 @@ constexpr FindingKind kWrongSizes = {
     "Boxes, spheres, cylinders and cones must have sizes from 1e-9 to 1e6 m: shapes are left out", "shapes"};
 constexpr FindingKind kUnknownKind = {"Shapes of a kind that is unknown here are left out", "shapes"};
 constexpr FindingKind kEmpty = {"Shapes without triangles are left out", "shapes"};
-constexpr FindingKind kTransformOfExact = {
-    "Texture transforms of boxes, spheres and other exact shapes are left out", "shapes"};
 constexpr FindingKind kWrongEdges = {"Creases and corners at vertices that are not there are left out",
                                      "Loop surfaces"};
 
@@ -171,25 +169,18 @@ class PieceReader {
         patience_(patience),
         faces_(faces_of(piece, reader)) {}
 
-  std::vector<GeometryPointer> shapes(std::span<const std::optional<TextureMatrix>> textures) {
+  GeometryPointer shape(bool shows_picture) {
     if (piece_.kind() > flat::PieceKind::MAX) {
       findings_.add(kUnknownKind, faces_.name);
-      return std::vector<GeometryPointer>(textures.size());
+      return nullptr;
     }
     if (piece_.kind() != flat::PieceKind::Faces) {
-      if (const GeometryPointer shape = exact()) {
-        const auto is_transformed = [](const auto& it) { return it && *it != kPlainTexture; };
-        if (std::any_of(textures.begin(), textures.end(), is_transformed))
-          findings_.add(kTransformOfExact, faces_.name);
-        return std::vector<GeometryPointer>(textures.size(), shape);
-      }
-      if (faces_.polygons.empty()) return std::vector<GeometryPointer>(textures.size());
+      if (GeometryPointer shape = exact()) return shape;
+      if (faces_.polygons.empty()) return nullptr;
     }
-    std::vector<GeometryPointer> result;
-    for (const auto& texture : textures)
-      result.push_back(mesh_of_faces(faces_, texture, findings_, patience_));
-    if (!result.empty() && !result.front()) findings_.add(kEmpty, faces_.name);
-    return result;
+    GeometryPointer mesh = mesh_of_faces(faces_, shows_picture, findings_, patience_);
+    if (!mesh) findings_.add(kEmpty, faces_.name);
+    return mesh;
   }
 
  private:
@@ -235,10 +226,9 @@ class PieceReader {
 
 }  // namespace
 
-std::vector<GeometryPointer> shapes_of(const flat::Piece& piece, world::FlatReader& reader,
-                                       std::span<const std::optional<TextureMatrix>> textures,
-                                       Findings& findings, Patience& patience) {
-  return PieceReader(piece, reader, findings, patience).shapes(textures);
+GeometryPointer shape_of(const flat::Piece& piece, world::FlatReader& reader, bool shows_picture,
+                         Findings& findings, Patience& patience) {
+  return PieceReader(piece, reader, findings, patience).shape(shows_picture);
 }
 
 }  // namespace icome::files

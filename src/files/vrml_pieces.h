@@ -1,8 +1,4 @@
 #pragma once
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "files/findings.h"
 #include "files/patience.h"
 #include "files/vrml_face_set.h"
@@ -15,11 +11,10 @@ namespace flat {
 struct Piece;
 }
 
-/// The shape of a piece, one for each of the textures that it is seen with: they differ where the texture
-/// coordinates of a mesh do. Null for those that cannot be made, which `findings` tells. Takes what it
-/// reads out of `reader`. Pieces of ICOME's own kinds that cannot be made become their triangles.
-std::vector<world::GeometryPointer> shapes_of(const flat::Piece& piece, world::FlatReader& reader,
-                                              std::span<const std::optional<TextureMatrix>> textures,
-                                              Findings& findings, Patience& patience);
+/// The shape of a piece; null where it cannot be made, which `findings` tells. `shows_picture`: is it seen
+/// with one? Takes what it reads out of `reader`. Pieces of ICOME's own kinds that cannot be made become
+/// their triangles.
+world::GeometryPointer shape_of(const flat::Piece& piece, world::FlatReader& reader, bool shows_picture,
+                                Findings& findings, Patience& patience);
 
 }  // namespace icome::files

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
+#include "files/vrml_fixtures.h"
 #include "files/vrml_looks.h"
 #include "files/vrml_names.h"
 #include "files/vrml_place.h"
@@ -49,6 +51,23 @@ const world::ForceEffect* effect_of(const PhysicalObject& object) {
 bool is_bare(const PhysicalObject& object) {
   return !object.parent && object.children.empty() && !object.geometry && !object.material &&
          object.parent_from_object.matrix() == base::Affine3::Identity().matrix();
+}
+
+/// The direction of a DirectionalLight that says all of the object but its name; none for others. Only in its
+/// group itself does it shine on that in other programs.
+std::optional<base::Vector3> direction_alone(const PhysicalObject& object) {
+  const auto* const light = object.fixture ? std::get_if<Light>(&*object.fixture) : nullptr;
+  if (light == nullptr || light->kind != Light::Kind::Directional || object.geometry || object.material ||
+      !object.children.empty())
+    return {};
+  constexpr double kRounding = 1e-9;
+  const base::Affine3& frame = object.parent_from_object;
+  constexpr double kLeastPart =
+      1e-7;  // what single precision makes of it differs from one saving to the next
+  base::Vector3 direction = frame.linear() * -base::Vector3::UnitZ();
+  for (double& part : direction) part = std::abs(part) < kLeastPart ? 0.0 : double(float(part));
+  if (!frame.translation().isZero(kRounding) || !frame.linear().isApprox(facing(direction), 1e-6)) return {};
+  return direction;
 }
 
 /// Parents before children, in the order that people see.
@@ -116,7 +135,9 @@ class VrmlWriter {
   void write_frame(const base::Affine3& frame);
   Result<void> write_shape(const PhysicalObject& object);
   void write_fixture(ObjectId id, const PhysicalObject& object);
-  void write_light(const Light& light);
+  void write_light(const Light& light, const std::string& def = {},
+                   const base::Vector3& direction = -base::Vector3::UnitZ());
+  void tell_of_light(ObjectId id, const PhysicalObject& object);
   void write_scenes();
   void tell_what_is_left();
 
@@ -247,6 +268,14 @@ Result<void> VrmlWriter::write_objects() {
 Result<VrmlWriter::Open> VrmlWriter::open(ObjectId id) {
   const PhysicalObject& object = *world_.find(id);
   const std::string name = name_of(id);
+  if (object.fixture) tell_of_light(id, object);
+  const auto direction = direction_alone(object);
+  const bool says_itself =
+      direction && !has_title(id) && (!name.empty() || !direction->isApprox(-base::Vector3::UnitZ()));
+  if (says_itself) {
+    write_light(std::get<Light>(*object.fixture), name, *direction);
+    return Open{id, 0, false};
+  }
   text_.open(name.empty() ? "Transform" : fmt::format("DEF {} Transform", name));
   write_frame(object.parent_from_object);
   const bool has_shape = object.geometry || object.material;
@@ -301,7 +330,10 @@ Result<void> VrmlWriter::write_shape(const PhysicalObject& object) {
 }
 
 void VrmlWriter::write_fixture(ObjectId id, const PhysicalObject& object) {
-  if (const auto* light = std::get_if<Light>(&*object.fixture)) return write_light(*light);
+  if (const auto* light = std::get_if<Light>(&*object.fixture)) {
+    write_light(*light);
+    return text_.close();
+  }
   if (const auto* view = std::get_if<world::Viewpoint>(&*object.fixture)) {
     text_.open("Viewpoint");
     text_.field("position", base::Vector3(base::Vector3::Zero()));
@@ -318,11 +350,15 @@ void VrmlWriter::write_fixture(ObjectId id, const PhysicalObject& object) {
   if (with_script_.contains(id)) text_.add(std::get<world::Inert>(*object.fixture).source);
 }
 
-void VrmlWriter::write_light(const Light& light) {
+/// Leaves its node open.
+void VrmlWriter::write_light(const Light& light, const std::string& def, const base::Vector3& direction) {
   const Light usual;
   const bool directional = light.kind == Light::Kind::Directional;
   const bool spot = light.kind == Light::Kind::Spot;
-  text_.open(directional ? "DirectionalLight" : spot ? "SpotLight" : "PointLight");
+  text_.open((def.empty() ? "" : fmt::format("DEF {} ", def)) + (directional ? "DirectionalLight"
+                                                                 : spot      ? "SpotLight"
+                                                                             : "PointLight"));
+  if (direction != -base::Vector3::UnitZ()) text_.field("direction", direction);
   if (!light.on) text_.field("on", false);
   if (light.colour != usual.colour) text_.field("color", light.colour);
   if (light.intensity != usual.intensity) text_.field("intensity", light.intensity);
@@ -335,7 +371,14 @@ void VrmlWriter::write_light(const Light& light) {
     text_.field("cutOffAngle", light.cut_off_angle);
     text_.field("beamWidth", light.beam_width);
   }
-  text_.close();
+}
+
+void VrmlWriter::tell_of_light(ObjectId id, const PhysicalObject& object) {
+  const auto* const light = std::get_if<Light>(&*object.fixture);
+  if (light == nullptr || light->kind != Light::Kind::Directional || light->scoped || !object.parent) return;
+  remarks_.push_back({"", 0,
+                      fmt::format("The light {} shines only on the group that it is in, as VRML 2.0 has it.",
+                                  object.name.empty() ? name_of(id) : object.name)});
 }
 
 void VrmlWriter::write_scenes() {
@@ -372,6 +415,7 @@ void VrmlWriter::tell_what_is_left() {
     remarks_.push_back({"", 0,
                         fmt::format("VRML 2.0 knows no parameters of shapes: {} as triangles.",
                                     made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made))});
+  for (Remark& it : looks_.losses()) remarks_.push_back(std::move(it));
   unused(world_.geometries(), "shapes that no object has are");
   unused(world_.materials(), "materials that no object has are");
   unused(world_.textures(), "textures that no material shows are");

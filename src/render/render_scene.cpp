@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/srgb.h"
 #include "render/picture_decoder.h"
+#include "render/scene_lighting.h"
 
 namespace icome::render {
 namespace {
@@ -17,18 +18,6 @@ using base::Bounds;
 using base::Vector3;
 using world::ObjectId;
 using world::World;
-
-/// Leaves have hard edges, with some pixels between; what has more between is glass or smoke.
-RenderPicture::Opacity opacity_of(const Image& image) {
-  std::size_t clear = 0, between = 0;
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    const int alpha = image.rgba[i];
-    if (alpha < 250) ++(alpha > 5 ? between : clear);
-  }
-  if (clear + between == 0) return RenderPicture::Opacity::Opaque;
-  return 4 * between > image.rgba.size() / 4 ? RenderPicture::Opacity::Blended
-                                             : RenderPicture::Opacity::CutOut;
-}
 
 Eigen::Vector3f light_of(const world::Colour& colour) {
   return Eigen::Vector3f(base::linear_from_srgb(colour).data());
@@ -42,7 +31,23 @@ RenderMaterial look_of(const world::Material& material) {
   it.ambient = material.ambient;
   it.shininess = material.shininess;
   it.alpha = 1.0F - std::clamp(material.transparency, 0.0F, 1.0F);
+  it.unlit = material.unlit;
   return it;
+}
+
+/// VRML 2.0, 4.14 and 6.22: a picture's own colours replace the material's, greys are multiplied; so does its
+/// opacity. In glTF both are multiplied.
+void lay_picture(const world::Material& material, const RenderPicture& picture, RenderMaterial& it) {
+  it.picture_frame = material.picture_frame;
+  it.picture_replaces_colour = !material.tints && !picture.grey;
+  it.picture_replaces_alpha = !material.tints && picture.opacity != PictureOpacity::Opaque;
+  it.opacity = picture.opacity;
+  if (material.alpha_mode == world::AlphaMode::Opaque) it.opacity = PictureOpacity::Opaque;
+  if (picture.opacity == PictureOpacity::Opaque) return;
+  if (material.alpha_mode == world::AlphaMode::Blend) it.opacity = PictureOpacity::Blended;
+  if (material.alpha_mode != world::AlphaMode::Mask) return;
+  it.opacity = PictureOpacity::CutOut;
+  it.cutoff = material.alpha_cutoff;
 }
 
 Bounds placed_bounds(const Bounds& box, const Affine3& world_from_object) {
@@ -69,6 +74,14 @@ void tally(RenderScene::Block& block) {
     ++block.objects;
     block.triangles += item.shape->triangle_count();
   }
+}
+
+/// Null for all.
+std::shared_ptr<const std::unordered_set<ObjectId>> lit_objects(const World& world, ObjectId light) {
+  const ObjectId group = world::lit_group(world, light);
+  if (!group) return nullptr;
+  const std::vector<ObjectId> objects = world::subtree(world, group);
+  return std::make_shared<const std::unordered_set<ObjectId>>(objects.begin(), objects.end());
 }
 
 }  // namespace
@@ -102,6 +115,10 @@ void ScenePublisher::show_roots(const World& world) {
 
 RenderScenePointer ScenePublisher::update(const World& world, const world::Changes& changes) {
   forget(world, changes);
+  // What a light's group holds may have changed.
+  const auto has_group = [](const RenderLight& it) { return it.group != nullptr; };
+  if (!changes.objects.empty() && std::any_of(lights_.begin(), lights_.end(), has_group))
+    fixtures_touched_ = true;
   if (std::find(changes.scenes.begin(), changes.scenes.end(), scene_) != changes.scenes.end()) {
     hide_all();
     show_roots(world);
@@ -220,9 +237,9 @@ const ScenePublisher::MadePicture& ScenePublisher::picture(const World& world, w
                                        image.error().message);
     return found->second;
   }
-  const RenderPicture::Opacity opacity = opacity_of(*image);
-  found->second.picture =
-      std::make_shared<const RenderPicture>(RenderPicture{std::move(*image), opacity, texture->repeats});
+  const PictureOpacity opacity = world::opacity_of(image->rgba);
+  found->second.picture = std::make_shared<const RenderPicture>(
+      RenderPicture{std::move(*image), opacity, world::is_grey_picture(*texture->bytes), texture->repeats});
   return found->second;
 }
 
@@ -235,6 +252,7 @@ const std::shared_ptr<const RenderMaterial>& ScenePublisher::material(const Worl
   if (made) return made;
   RenderMaterial it = look_of(*own);
   if (own->texture) it.picture = picture(world, own->texture).picture;
+  if (it.picture) lay_picture(*own, *it.picture, it);
   return made = std::make_shared<const RenderMaterial>(std::move(it));
 }
 
@@ -320,7 +338,7 @@ void ScenePublisher::collect_fixtures(const World& world) {
     if (!fixed_.contains(id) || !object.fixture) continue;
     const Affine3 place = world::world_from_object(world, id);
     if (const auto* light = std::get_if<world::Light>(object.fixture.get()))
-      lights_.push_back({*light, place});
+      lights_.push_back({*light, place, lit_objects(world, id)});
     if (const auto* view = std::get_if<world::Viewpoint>(object.fixture.get()))
       viewpoints_.push_back({object.name, place, view->field_of_view});
   }
@@ -349,6 +367,7 @@ RenderScenePointer ScenePublisher::version(const World& world) {
   for (const auto& [id, made] : pictures_) {
     if (!made.remark.empty()) scene->remarks_.push_back(made.remark);
   }
+  if (std::string more = lights_left_out(*scene); !more.empty()) scene->remarks_.push_back(std::move(more));
   std::sort(scene->remarks_.begin(), scene->remarks_.end());
   return scene;
 }

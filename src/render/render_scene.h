@@ -10,17 +10,18 @@
 #include "render/image.h"
 #include "render/render_shape.h"
 #include "world/changes.h"
+#include "world/picture_kind.h"
 #include "world/world.h"
 
 namespace icome::render {
 
+using world::PictureOpacity;
+
 /// A texture's pixels. Immutable once made.
 struct RenderPicture {
-  /// Cut out: pixels are seen or not, as leaves are. Blended: some are seen through.
-  enum class Opacity { Opaque, CutOut, Blended };
-
   Image image;
-  Opacity opacity = Opacity::Opaque;
+  PictureOpacity opacity = PictureOpacity::Opaque;
+  bool grey = false;                           ///< one number a pixel
   std::array<bool, 2> repeats = {true, true};  ///< along u and v
 };
 
@@ -32,7 +33,13 @@ struct RenderMaterial {
   float ambient = 0.2F;                               ///< of the diffuse colour
   float shininess = 0.2F;                             ///< 0 ... 1
   float alpha = 1.0F;                                 ///< 1 is opaque
+  bool unlit = false;                                 ///< shows its diffuse colour and picture alone
   std::shared_ptr<const RenderPicture> picture = {};  ///< null: plain
+  world::PictureFrame picture_frame = world::kPictureAsItLies;
+  bool picture_replaces_colour = false;             ///< else they are multiplied (VRML 2.0, 4.14)
+  bool picture_replaces_alpha = false;              ///< likewise
+  PictureOpacity opacity = PictureOpacity::Opaque;  ///< of the picture on this surface
+  float cutoff = 0.5F;                              ///< of what is cut out
 };
 
 /// One object as it is drawn.
@@ -49,6 +56,8 @@ struct RenderItem {
 struct RenderLight {
   world::Light light;
   base::Affine3 world_from_light;  ///< it shines along -z
+  std::shared_ptr<const std::unordered_set<world::ObjectId>> group =
+      {};  ///< all it shines on; null: everything
 };
 
 struct RenderViewpoint {

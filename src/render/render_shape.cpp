@@ -7,8 +7,8 @@
 
 #include "base/srgb.h"
 #include "render/csg_colours.h"
-#include "render/primitive_places.h"
 #include "world/mesh_geometry.h"
+#include "world/picture_places.h"
 #include "world/solid_geometry.h"
 
 namespace icome::render {
@@ -231,7 +231,7 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape,
   if (!surface) return tl::unexpected(surface.error());
   if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
     MeshGeometry wrapped = **surface;
-    wrapped.texture_coordinates = primitive_places(*primitive, wrapped.mesh);
+    wrapped.texture_coordinates = world::picture_places(*primitive, wrapped.mesh);
     const auto made = make_from_surface(wrapped, kSolidCrease);
     made->coarser = coarser_primitives(*primitive, *made, tolerance);
     return made;

@@ -1,5 +1,7 @@
 #include "render/scene_lighting.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,8 +13,8 @@ namespace {
 
 using base::Vector3;
 
-constexpr std::size_t kMostSuns = 4;
-constexpr std::size_t kMostLamps = 8;
+constexpr std::size_t kMostSuns = 8;
+constexpr std::size_t kMostLamps = 16;
 constexpr double kGoldenAngle = std::numbers::pi * 0.7639320225002102;  // rad: pi (3 - sqrt 5)
 
 Eigen::Vector3f shine_of(const world::Light& light, float strength) {
@@ -27,8 +29,16 @@ Vector3 shining_along(const RenderLight& it) {
 }
 
 SunLight sun_of(const RenderLight& it) {
-  return {-shining_along(it), shine_of(it.light, it.light.intensity), shine_of(it.light, it.light.ambient),
-          0.0F, 0.02};
+  return {-shining_along(it),
+          shine_of(it.light, it.light.intensity),
+          shine_of(it.light, it.light.ambient),
+          0.0F,
+          0.02,
+          it.group};
+}
+
+bool shines(const world::Light& light) {
+  return light.on && (light.intensity > 0.0F || light.ambient > 0.0F);
 }
 
 LampLight lamp_of(const RenderLight& it) {
@@ -55,7 +65,7 @@ LampLight lamp_of(const RenderLight& it) {
 SceneLights design_lights(const RenderScene& scene) {
   SceneLights lights;
   for (const RenderLight& it : scene.lights()) {
-    if (!it.light.on || !(it.light.intensity > 0.0F || it.light.ambient > 0.0F)) continue;
+    if (!shines(it.light)) continue;
     if (it.light.kind == world::Light::Kind::Directional) {
       lights.suns.push_back(sun_of(it));
     } else {
@@ -65,8 +75,9 @@ SceneLights design_lights(const RenderScene& scene) {
   const auto by_strength = [](const auto& a, const auto& b) { return a.light.sum() > b.light.sum(); };
   std::stable_sort(lights.suns.begin(), lights.suns.end(), by_strength);
   std::stable_sort(lights.lamps.begin(), lights.lamps.end(), by_strength);
-  // One place is kept for the light at the eye.
-  if (lights.suns.size() >= kMostSuns) lights.suns.resize(kMostSuns - 1);
+  // The first one's shadow falls on everything.
+  std::stable_partition(lights.suns.begin(), lights.suns.end(), [](const SunLight& it) { return !it.group; });
+  if (lights.suns.size() > kMostSuns) lights.suns.resize(kMostSuns);
   if (lights.lamps.size() > kMostLamps) lights.lamps.resize(kMostLamps);
   return lights;
 }
@@ -84,8 +95,8 @@ SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightC
     if (!lights.suns.empty() || !lights.lamps.empty()) {
       // What no light of the design reaches can still be made out. The first throws a shadow; that of the
       // light at the eye is hidden behind what throws it.
+      lights.shadowed = lights.suns.empty() || !lights.suns.front().group;
       lights.suns.push_back({from_camera(camera, Vector3::UnitZ()), Eigen::Vector3f::Constant(0.15F)});
-      lights.shadowed = true;
       lights.sky = 0.4;
       return lights;
     }
@@ -98,6 +109,17 @@ SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightC
   studio.suns.push_back({from_camera(camera, {-0.25, 0.35, 1.0}), {0.20F, 0.20F, 0.21F}});
   studio.shadowed = true;
   return studio;
+}
+
+std::string lights_left_out(const RenderScene& scene) {
+  std::size_t suns = 0, lamps = 0;
+  for (const RenderLight& it : scene.lights()) {
+    if (shines(it.light)) ++(it.light.kind == world::Light::Kind::Directional ? suns : lamps);
+  }
+  if (suns <= kMostSuns && lamps <= kMostLamps) return {};
+  return fmt::format(
+      "Of {} directional lights and {} lamps, the {} and {} strongest are drawn: the others do not shine.",
+      suns, lamps, std::min(suns, kMostSuns), std::min(lamps, kMostLamps));
 }
 
 Eigen::Vector3f sky_above() { return {0.44F, 0.46F, 0.50F}; }

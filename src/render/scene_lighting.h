@@ -1,4 +1,7 @@
 #pragma once
+#include <memory>
+#include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "render/camera.h"
@@ -19,6 +22,8 @@ struct SunLight {
   Eigen::Vector3f ambient = Eigen::Vector3f::Zero();
   float gloss = 0.0F;  ///< strength of the highlight that it makes on every surface
   double disc = 0.0;   ///< radius that it shines from, as a share of its distance: softens its shadow
+  std::shared_ptr<const std::unordered_set<world::ObjectId>> group =
+      {};  ///< all it shines on; null: everything
 };
 
 /// Light from one point, VRML 2.0's PointLight and SpotLight.
@@ -40,8 +45,11 @@ struct SceneLights {
   double sky = 1.0;  ///< strength of the even light from all round
 };
 
-/// Chooses as many as shaders take (4 suns, 8 lamps), the strongest first.
+/// Chooses as many as shaders take (8 suns and the light at the eye, 16 lamps), the strongest first.
 SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightChoice choice);
+
+/// A sentence on lights that are too many to be drawn; empty where there are none.
+std::string lights_left_out(const RenderScene& scene);
 
 /// A direction from which the sky shines, and how much.
 struct SkyLight {

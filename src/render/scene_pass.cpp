@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 
 namespace icome::render {
 namespace {
@@ -21,7 +22,12 @@ void set_matrix(int slot, const base::Matrix3& value) {
   glUniformMatrix3fv(slot, 1, GL_FALSE, single.data());
 }
 
-void bind_picture(SceneBuffers& buffers, const RenderItem& item) {
+void bind_picture(SceneBuffers& buffers, const SceneProgram& program, const RenderItem& item) {
+  const auto& frame = item.material->picture_frame;
+  std::array<float, 6> rows{};
+  std::transform(frame.begin(), frame.end(), rows.begin(), [](double it) { return float(it); });
+  glUniform3fv(program.picture_frame, 2, rows.data());
+  glUniform1f(program.cutoff, item.material->cutoff);
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, buffers.picture(item.material->picture));
   glActiveTexture(GL_TEXTURE0);
@@ -41,19 +47,20 @@ void ScenePass::set_look(const SceneProgram& program, const PlannedItem& planned
   const RenderMaterial& look = *planned.item->material;
   set_matrix(program.camera_from_buffer, planned.camera_from_buffer);
   set_matrix(program.direction_from_buffer, planned.direction_from_buffer);
-  glUniform4f(program.diffuse, look.diffuse.x(), look.diffuse.y(), look.diffuse.z(), look.alpha);
+  glUniform4fv(program.diffuse, 1, body_colour(*planned.item).data());
   // VRML 2.0, 6.2.2: shininess times 128 is the exponent.
   const float exponent = std::max(1.0F, 128.0F * look.shininess);
   glUniform4f(program.specular, look.specular.x(), look.specular.y(), look.specular.z(), exponent);
   glUniform3fv(program.emission, 1, look.emission.data());
   glUniform1f(program.ambient, look.ambient);
+  lights_.set_groups(program, planned.item->object);
   glFrontFace(planned.mirrored ? GL_CW : GL_CCW);
 }
 
 void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& planned) {
   set_matrix(program.clip_from_buffer, Matrix4(clip_shift_ * planned.clip_from_buffer));
   set_look(program, planned);
-  if (surface_kind(*planned.item).textured) bind_picture(buffers_, *planned.item);
+  if (surface_kind(*planned.item).textured) bind_picture(buffers_, program, *planned.item);
   buffers_.view(planned.item->shape, planned.level).draw();
 }
 
@@ -135,7 +142,7 @@ base::Result<void> ScenePass::draw_flat(std::span<const PlannedItem> items, cons
     for (const PlannedItem& planned : items) {
       if (surface_kind(*planned.item).cut_out != cut_out) continue;
       set_matrix((*program)->clip_from_buffer, planned.clip_from_buffer);
-      if (cut_out) bind_picture(buffers_, *planned.item);
+      if (cut_out) bind_picture(buffers_, **program, *planned.item);
       buffers_.view(planned.item->shape, planned.level).draw();
     }
   }

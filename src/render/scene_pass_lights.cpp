@@ -59,6 +59,8 @@ void ScenePassLights::add_suns(const SceneLights& lights, PassNumber pass) {
     sun_light_.push_back(sun.light);
     sun_ambient_.push_back(sun.ambient);
     sun_gloss_.push_back(sun.gloss);
+    sun_groups_.push_back(sun.group);
+    if (sun.group) kinds_.groups = true;
     if (sun.ambient.maxCoeff() > 0.0F) kinds_.ambient = true;
   }
   kinds_.suns = int(lights.suns.size());
@@ -131,6 +133,13 @@ void ScenePassLights::set(const SceneProgram& program) const {
   set_all(program, "noise_seed", std::vector{seed_});
   glUniform1i(slot_of(program, "shadow_map"), 0);
   glUniform1i(slot_of(program, "picture"), 1);
+}
+
+void ScenePassLights::set_groups(const SceneProgram& program, world::ObjectId object) const {
+  if (program.sun_reaches < 0) return;
+  std::vector<float> reaches;
+  for (const auto& group : sun_groups_) reaches.push_back(!group || group->contains(object) ? 1.0F : 0.0F);
+  glUniform1fv(program.sun_reaches, GLsizei(reaches.size()), reaches.data());
 }
 
 }  // namespace icome::render

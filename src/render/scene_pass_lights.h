@@ -28,6 +28,8 @@ class ScenePassLights {
 
   /// Tells the program, which is in use; the shadow maps are the texture of unit 0.
   void set(const SceneProgram& program) const;
+  /// Tells it which suns shine on the object.
+  void set_groups(const SceneProgram& program, world::ObjectId object) const;
 
  private:
   void add_suns(const SceneLights& lights, PassNumber pass);
@@ -41,6 +43,7 @@ class ScenePassLights {
   std::vector<Camera> lenses_;
   std::vector<Eigen::Vector3f> to_sun_, sun_light_, sun_ambient_;
   std::vector<float> sun_gloss_;
+  std::vector<std::shared_ptr<const std::unordered_set<world::ObjectId>>> sun_groups_;
   std::vector<Eigen::Vector3f> lamp_at_, lamp_light_, lamp_ambient_, lamp_along_;
   std::vector<Eigen::Vector4f> lamp_fading_;
   std::vector<Eigen::Vector2f> lamp_cone_;

@@ -107,7 +107,7 @@ void visit_seen(const RenderScene& scene, const ViewSides& sides, Visit&& visit)
   for (const auto& block : scene.blocks()) {
     if (!sides.may_see(block->bounds)) continue;
     for (const RenderItem& item : block->items) {
-      if (item.shape && item.material->alpha > kLeastAlpha && sides.may_see(item.bounds)) visit(item);
+      if (item.shape && body_colour(item).w() > kLeastAlpha && sides.may_see(item.bounds)) visit(item);
     }
   }
 }
@@ -115,19 +115,28 @@ void visit_seen(const RenderScene& scene, const ViewSides& sides, Visit&& visit)
 }  // namespace
 
 SurfaceKind surface_kind(const RenderItem& item) {
-  const RenderPicture* picture = item.material->picture.get();
+  const RenderMaterial& look = *item.material;
   const bool textured = is_textured(item);
-  return {textured,
-          !item.shape->colours.empty(),
-          textured && picture->opacity == RenderPicture::Opacity::CutOut,
-          item.material->specular.maxCoeff() > 0.0F,
-          is_blended(item),
-          false};
+  return {.textured = textured,
+          .coloured = !item.shape->colours.empty() && !(textured && look.picture_replaces_colour),
+          .cut_out = textured && look.opacity == PictureOpacity::CutOut,
+          .shiny = look.specular.maxCoeff() > 0.0F && !look.unlit,
+          .blended = is_blended(item),
+          .unlit = look.unlit};
 }
 
 bool is_blended(const RenderItem& item) {
-  if (item.material->alpha < 1.0F - kLeastAlpha) return true;
-  return is_textured(item) && item.material->picture->opacity == RenderPicture::Opacity::Blended;
+  if (body_colour(item).w() < 1.0F - kLeastAlpha) return true;
+  return is_textured(item) && item.material->opacity == PictureOpacity::Blended;
+}
+
+Eigen::Vector4f body_colour(const RenderItem& item) {
+  const RenderMaterial& look = *item.material;
+  Eigen::Vector4f colour(look.diffuse.x(), look.diffuse.y(), look.diffuse.z(), look.alpha);
+  if (!is_textured(item)) return colour;
+  if (look.picture_replaces_colour) colour.head<3>().setOnes();
+  if (look.picture_replaces_alpha) colour.w() = 1.0F;
+  return colour;
 }
 
 PlannedItem plan_item(const RenderItem& item, const Camera& camera) {

@@ -54,6 +54,7 @@ struct SurfaceKind {
   bool cut_out = false;
   bool shiny = false;     ///< has highlights of its own
   bool blended = false;   ///< something is seen through it
+  bool unlit = false;     ///< shows its colour, whatever the light
   bool built_in = false;  ///< inputs and matrix are those of OpenGL 1, as operands of CSG have
 
   auto operator<=>(const SurfaceKind&) const = default;
@@ -62,6 +63,10 @@ SurfaceKind surface_kind(const RenderItem& item);
 
 /// Is something seen through it?
 bool is_blended(const RenderItem& item);
+
+/// The colour and opacity that a picture on it, if there is one, is multiplied with: white and 1 where the
+/// picture replaces them.
+Eigen::Vector4f body_colour(const RenderItem& item);
 
 /// The part of a picture's rectangle; a picture can be drawn in tiles.
 struct PictureWindow {

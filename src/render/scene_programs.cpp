@@ -13,10 +13,10 @@ namespace {
 std::string light_defines(const LightKinds& lights) {
   return fmt::format(
       "#define LIT\n#define SUNS {}\n#define LAMPS {}\n{}#define MAPS {}\n#define SKIES {}\n"
-      "{}{}{}",
+      "{}{}{}{}",
       lights.suns, lights.lamps, lights.spots ? "#define SPOTS\n" : "", lights.maps, lights.skies,
       lights.toned ? "#define TONED\n" : "", lights.gloss ? "#define GLOSS\n" : "",
-      lights.ambient ? "#define SUN_AMBIENT\n" : "");
+      lights.ambient ? "#define SUN_AMBIENT\n" : "", lights.groups ? "#define SUN_GROUPS\n" : "");
 }
 
 void find_slots(SceneProgram& it) {
@@ -28,6 +28,9 @@ void find_slots(SceneProgram& it) {
   it.specular = slot("specular");
   it.emission = slot("emission");
   it.ambient = slot("ambient");
+  it.picture_frame = slot("picture_frame");
+  it.cutoff = slot("cutoff");
+  it.sun_reaches = slot("sun_reaches");
 }
 
 }  // namespace
@@ -53,6 +56,7 @@ base::Result<SceneProgram*> ScenePrograms::surface(const SurfaceKind& kind, cons
   if (kind.built_in) defines += "#define BUILT_IN\n";
   if (kind.shiny) defines += "#define SHINY\n";
   if (kind.blended) defines += "#define BLENDED\n";
+  if (kind.unlit) defines += "#define UNLIT\n";
   return variant(kSceneVertexShader, std::string(kToneShader) + kSceneLightShader + kSceneFragmentShader,
                  defines, kind.built_in ? "compatibility" : "core");
 }

@@ -13,6 +13,7 @@ struct SceneProgram {
   GlObject program;
   int clip_from_buffer = -1, camera_from_buffer = -1, direction_from_buffer = -1;
   int diffuse = -1, specular = -1, emission = -1, ambient = -1;
+  int picture_frame = -1, cutoff = -1, sun_reaches = -1;
   int set_up_for = -1;  ///< the pass whose lights it knows
 };
 
@@ -23,6 +24,7 @@ struct LightKinds {
   bool spots = false;
   bool gloss = false;    ///< the first sun makes highlights on all surfaces
   bool ambient = false;  ///< suns have ambient light
+  bool groups = false;   ///< some suns shine on a group alone
   int maps = 0;          ///< shadow maps
   int skies = 0;
   bool toned = false;  ///< drawn as a screen shows it, not as light to be averaged

@@ -22,6 +22,7 @@ out vec3 seen_normal;
 #endif
 #ifdef TEXTURED
 in vec2 picture_place;
+uniform vec3 picture_frame[2];
 out vec2 place;
 #endif
 #ifdef COLOURED
@@ -34,7 +35,8 @@ void main() {
   seen_normal = direction_from_buffer * normal;
 #endif
 #ifdef TEXTURED
-  place = picture_place;
+  vec3 laid = vec3(picture_place, 1.0);
+  place = vec2(dot(picture_frame[0], laid), dot(picture_frame[1], laid));
 #endif
 #ifdef COLOURED
   own_colour = corner_colour;
@@ -88,6 +90,17 @@ vec3 shoulder(vec3 light) {
   vec3 over = max(light - kBend, 0.0) / (1.0 - kBend);
   return min(light, kBend) + (1.0 - kBend) * over / (1.0 + over);
 }
+// What is shown as that colour, which is no light: bent the other way where it will be bent with all else. The
+// brightest end before white, as what becomes white is without end.
+vec3 as_it_is(vec3 colour) {
+#ifdef TONED
+  return colour;
+#else
+  const float kBend = 0.75;
+  vec3 over = (clamp(colour, kBend, 0.95) - kBend) / (1.0 - kBend);
+  return min(colour, kBend) + (1.0 - kBend) * over / (1.0 - over);
+#endif
+}
 )";
 
 constexpr char kSceneFragmentShader[] = R"(
@@ -104,6 +117,12 @@ uniform vec4 diffuse;
 uniform vec4 specular;
 uniform vec3 emission;
 uniform float ambient;
+#ifdef CUT_OUT
+uniform float cutoff;
+#endif
+#ifdef SUN_GROUPS
+uniform float sun_reaches[SUNS];
+#endif
 #if SUNS > 0
 uniform vec3 to_sun[SUNS];
 uniform vec3 sun_light[SUNS];
@@ -155,7 +174,7 @@ void main() {
   own *= texture(picture, place);
 #endif
 #ifdef CUT_OUT
-  if (own.a < 0.5 * diffuse.a) discard;
+  if (own.a < cutoff * diffuse.a) discard;
   own.a = diffuse.a;
 #endif
 #ifdef BLENDED
@@ -165,6 +184,12 @@ void main() {
   vec3 body = own.rgb;
   vec3 radiance = emission;
 #endif
+#ifdef UNLIT
+  result = vec4(as_it_is(own.rgb), 1.0);
+#ifdef BLENDED
+  result = vec4(result.rgb * own.a, own.a);
+#endif
+#else
   n = normalize(gl_FrontFacing ? seen_normal : -seen_normal);
 #if defined(SHINY) || defined(GLOSS)
   view = normalize(-seen_position);
@@ -192,10 +217,13 @@ void main() {
 #elif MAPS > 0
     if (i == 0) answered *= lit(0, lifted);
 #endif
-    radiance += answered;
 #ifdef SUN_AMBIENT
-    radiance += sun_ambient[i] * ambient * body;
+    answered += sun_ambient[i] * ambient * body;
 #endif
+#ifdef SUN_GROUPS
+    answered *= sun_reaches[i];
+#endif
+    radiance += answered;
   }
 #endif
 #if LAMPS > 0
@@ -225,6 +253,7 @@ void main() {
   radiance = shoulder(radiance);
 #endif
   result = vec4(radiance, 1.0);
+#endif
 #endif
 }
 )";
@@ -334,12 +363,13 @@ constexpr char kFlatFragmentShader[] = R"(
 #ifdef TEXTURED
 in vec2 place;
 uniform sampler2D picture;
+uniform float cutoff;
 #endif
 uniform vec4 diffuse;
 out vec4 result;
 void main() {
 #ifdef TEXTURED
-  if (texture(picture, place).a < 0.5) discard;
+  if (texture(picture, place).a < cutoff) discard;
 #endif
   result = diffuse;
 }

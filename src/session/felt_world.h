@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "haptics/servo/servo.h"
@@ -15,6 +16,8 @@ struct FeltVersion {
   std::shared_ptr<const TouchedNames> names;
   std::shared_ptr<const std::vector<haptics::CappedEffect>> capped =
       nullptr;  // by the first pointer; null: none
+  /// Sentences on what is not felt, or not as it is.
+  std::shared_ptr<const std::vector<std::string>> remarks = nullptr;  // null: none
 };
 
 /// Keeps the world under the hand: brings each version of what can be touched to the servos of all pointers,
@@ -30,6 +33,7 @@ class FeltWorld final : public Representation {
   void follow(const world::World& world, const world::Changes& changes) override;
 
  private:
+  void look_for_remarks(const world::World& world);
   void publish();
 
   HapticRepresentation felt_;
@@ -37,6 +41,7 @@ class FeltWorld final : public Representation {
   realtime::LatestValue<FeltVersion>& newest_;
   FeltVersion published_ = {};
   std::vector<haptics::PlacedEffect> published_effects_ = {};
+  std::shared_ptr<const std::vector<std::string>> remarks_ = nullptr;
 };
 
 }  // namespace icome::session

@@ -108,7 +108,27 @@ void Session::Parts::take_in() {
   hands.update();
   felt.update();
   seen.update();
+  tell_what_is_not_as_it_is();
   notice_devices();
+}
+
+/// Each sentence once for a design.
+void Session::Parts::tell_what_is_not_as_it_is() {
+  std::vector<std::string> news;
+  const auto take = [&](const std::vector<std::string>& sentences) {
+    for (const std::string& it : sentences)
+      if (told.insert(it).second) news.push_back(it);
+  };
+  if (const auto& scene = seen.read(); scene && scene != looked_at) {
+    looked_at = scene;
+    take(scene->remarks());
+  }
+  if (const auto& remarks = felt.read().remarks; remarks && remarks != listened_to) {
+    listened_to = remarks;
+    take(*remarks);
+  }
+  if (!news.empty())
+    tell(SessionEvent::Kind::NotAsItIs, "Some of the design is not seen or felt as it is.", std::move(news));
 }
 
 void Session::Parts::take_followers() {

@@ -60,7 +60,8 @@ struct SessionEvent {
     AutosaveResumed,
     DeviceLost,
     DeviceBack,
-    Notice,  // such as that the servo has no real-time priority
+    NotAsItIs,  // details: what of the design is not seen, not felt, or not as it is
+    Notice,     // such as that the servo has no real-time priority
   };
   Kind kind = Kind::Notice;
   std::string text = {};  // a sentence or two: what happened, and what to do

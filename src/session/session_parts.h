@@ -2,6 +2,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,7 @@ struct Session::Parts {
   void notice_devices();
   void tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details = {});
   void take_followers();
+  void tell_what_is_not_as_it_is();
   bool is_settled() const;
   void start_followers();
 
@@ -137,6 +139,10 @@ struct Session::Parts {
   std::vector<std::uint64_t> losses;         // that a person was told of
   realtime::LatestValue<FeltVersion> felt;
   realtime::LatestValue<render::RenderScenePointer> seen;
+  std::set<std::string> told;  // of what is not as it is, since the design was opened
+  // What was looked at for it, as of the design before.
+  render::RenderScenePointer looked_at;
+  std::shared_ptr<const std::vector<std::string>> listened_to;
   DesignLoader loader;
   DesignSaver saver;
   // Last, as their threads use the rest.

@@ -88,6 +88,7 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
   constexpr std::uint64_t kNever = 0;  // what was recovered is in no file
   saved_revision = recovered ? kNever : revisions.now();
   left_out.clear();
+  told.clear();
   path = design;
   shown_scene = {};
   Edited edited;

@@ -110,6 +110,10 @@ Note note_of(const SessionEvent& event) {
       note.topic = "device";
       note.weight = Weight::Passing;
       break;
+    case SessionEvent::Kind::NotAsItIs:
+      note.topic = "not as it is";
+      note.weight = Weight::Plain;
+      break;
     case SessionEvent::Kind::Notice:
       note.topic = event.text;
       break;

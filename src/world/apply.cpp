@@ -352,6 +352,10 @@ class EditApplier {
     if (!finite({material.ambient, material.shininess, material.transparency}) || !finite(material.diffuse) ||
         !finite(material.specular) || !finite(material.emission))
       return fail("The colours, shininess and transparency of a material must be finite.");
+    const PictureFrame& frame = material.picture_frame;
+    if (!std::all_of(frame.begin(), frame.end(), [](double it) { return std::isfinite(it); }) ||
+        !finite({material.alpha_cutoff, material.metallic.value_or(0.0F), material.roughness.value_or(0.0F)}))
+      return fail("What lays a material's picture, and its metal, roughness and cutoff, must be finite.");
     const TouchProperties& touch = material.touch;
     const auto bad = [](double value) { return !std::isfinite(value) || value < 0.0; };
     if (bad(touch.stiffness.value_or(0.0)) || bad(touch.damping.value_or(0.0)) ||

@@ -2,6 +2,8 @@
 #include <flatbuffers/flatbuffers.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "world/edit_bytes.h"
 #include "world/flat_bytes.h"
 
@@ -26,8 +28,9 @@ Colour colour_from(const flat::Colour& from) {
   return colour;
 }
 
-std::optional<double> optional_from(const flatbuffers::Optional<double>& from) {
-  return from ? std::optional<double>(*from) : std::nullopt;
+template <typename Number>
+std::optional<Number> optional_from(const flatbuffers::Optional<Number>& from) {
+  return from ? std::optional<Number>(*from) : std::nullopt;
 }
 
 /// Reads edits that are verified to lie within their bytes, each kind by its own function.
@@ -183,7 +186,7 @@ class EditReader {
 
   FixturePointer fixture(const flat::Fixture* from) {
     if (!from) return nullptr;
-    if (from->light()) return light(*from->light()->numbers());
+    if (from->light()) return light(*from->light()->numbers(), from->light()->scoped());
     if (from->viewpoint())
       return std::make_shared<const Fixture>(Viewpoint{from->viewpoint()->field_of_view()});
     if (from->inert()) {
@@ -197,7 +200,7 @@ class EditReader {
     reader_.refuse("An object of an edit is something that is unknown here: use a newer version.");
     return nullptr;
   }
-  FixturePointer light(const flat::LightNumbers& from) {
+  FixturePointer light(const flat::LightNumbers& from, bool scoped) {
     if (from.kind() > std::uint8_t(Light::Kind::Spot))
       reader_.refuse("A light of an edit is of a kind that is unknown here: use a newer version.");
     Light light{.kind = Light::Kind(from.kind()),
@@ -207,13 +210,17 @@ class EditReader {
                 .ambient = from.ambient(),
                 .radius = from.radius(),
                 .cut_off_angle = from.cut_off_angle(),
-                .beam_width = from.beam_width()};
+                .beam_width = from.beam_width(),
+                .scoped = scoped};
     for (std::uint16_t i = 0; i < 3; ++i) light.attenuation[i] = from.attenuation()->Get(i);
     return std::make_shared<const Fixture>(light);
   }
 
   Material material(const flat::MaterialState& from) {
     const flat::Look& look = *from.look();
+    if (from.alpha_mode() > std::uint8_t(AlphaMode::Blend))
+      reader_.refuse(
+          "A material of an edit is seen through in a way that is unknown here: use a newer version.");
     return {.name = reader_.text(from.name()),
             .ambient = look.ambient(),
             .diffuse = colour_from(look.diffuse()),
@@ -226,7 +233,26 @@ class EditReader {
                       .damping = optional_from(from.damping()),
                       .static_friction = from.friction()->still(),
                       .dynamic_friction = from.friction()->sliding(),
-                      .texture = reader_.text(from.haptic_texture())}};
+                      .texture = reader_.text(from.haptic_texture())},
+            .picture_frame = picture_frame(from),
+            .tints = from.tints(),
+            .alpha_mode = AlphaMode(from.alpha_mode()),
+            .alpha_cutoff = from.alpha_cutoff(),
+            .unlit = from.unlit(),
+            .double_sided = from.double_sided(),
+            .metallic = optional_from(from.metallic()),
+            .roughness = optional_from(from.roughness())};
+  }
+
+  PictureFrame picture_frame(const flat::MaterialState& from) {
+    PictureFrame frame = kPictureAsItLies;
+    if (from.picture_frame() == nullptr) return frame;
+    if (from.picture_frame()->size() != frame.size()) {
+      reader_.refuse("What lays a material's picture is not whole.");
+      return frame;
+    }
+    std::copy(from.picture_frame()->begin(), from.picture_frame()->end(), frame.begin());
+    return frame;
   }
 
   FlatReader& reader_;

@@ -18,8 +18,9 @@ flat::Frame flat_frame(const Affine3& frame) {
 
 flat::Colour flat_colour(const Colour& colour) { return flat::Colour(flatbuffers::make_span(colour)); }
 
-flatbuffers::Optional<double> flat_optional(const std::optional<double>& value) {
-  return value ? flatbuffers::Optional<double>(*value) : flatbuffers::nullopt;
+template <typename Number>
+flatbuffers::Optional<Number> flat_optional(const std::optional<Number>& value) {
+  return value ? flatbuffers::Optional<Number>(*value) : flatbuffers::nullopt;
 }
 
 /// Which table of the union was written, and where.
@@ -203,7 +204,7 @@ class EditWriter {
       const flat::LightNumbers numbers(std::uint8_t(it->kind), it->on, flat_colour(it->colour), it->intensity,
                                        it->ambient, flatbuffers::make_span(it->attenuation), it->radius,
                                        it->cut_off_angle, it->beam_width);
-      light = flat::CreateLight(builder_, &numbers);
+      light = flat::CreateLight(builder_, &numbers, it->scoped);
     } else if (const auto* place = std::get_if<Viewpoint>(&*fixture)) {
       viewpoint = flat::CreateViewpoint(builder_, place->field_of_view);
     } else if (const auto* kept = std::get_if<Inert>(&*fixture)) {
@@ -221,9 +222,14 @@ class EditWriter {
     const flat::Look look(it.ambient, flat_colour(it.diffuse), flat_colour(it.specular),
                           flat_colour(it.emission), it.shininess, it.transparency);
     const flat::Friction friction(it.touch.static_friction, it.touch.dynamic_friction);
+    const auto frame = it.picture_frame == kPictureAsItLies
+                           ? Offset<flatbuffers::Vector<double>>()
+                           : builder_.CreateVector(it.picture_frame.data(), it.picture_frame.size());
     return flat::CreateMaterialState(builder_, name, &look, it.texture.value,
                                      flat_optional(it.touch.stiffness), flat_optional(it.touch.damping),
-                                     &friction, haptic_texture);
+                                     &friction, haptic_texture, frame, it.tints, std::uint8_t(it.alpha_mode),
+                                     it.alpha_cutoff, it.unlit, it.double_sided, flat_optional(it.metallic),
+                                     flat_optional(it.roughness));
   }
 
   bool has_room(std::size_t more) {

@@ -25,6 +25,7 @@ struct Light {
   double radius = 100.0;                      // m, how far it reaches; not directional
   double cut_off_angle = 0.785398;            // rad, where the cone ends; Spot
   double beam_width = 1.570796;               // rad, within which it is brightest; Spot
+  bool scoped = false;  // shines only on its group, as a DirectionalLight of VRML 2.0 does; see lit_group()
 
   bool operator==(const Light&) const = default;
 };

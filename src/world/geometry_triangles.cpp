@@ -42,6 +42,23 @@ int level_for(const geometry::TriangleMesh& control, double tolerance) {
   return std::clamp(level, 1, kFinest);
 }
 
+/// From where geometry's rings begin to where pictures do: a row of corners from pole to pole lies where a
+/// picture's sides meet, so that no triangle lies across, and a sphere's poles are those of its picture.
+base::Matrix3 shape_from_rings(const PrimitiveGeometry& shape) {
+  base::Matrix3 turn;
+  if (std::holds_alternative<geometry::Sphere>(shape.primitive)) {
+    turn << 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0;  // x becomes -z, z becomes y
+    return turn;
+  }
+  turn = shape.shape_from_primitive();
+  const bool wrapped = std::holds_alternative<geometry::Cylinder>(shape.primitive) ||
+                       std::holds_alternative<geometry::Cone>(shape.primitive);
+  if (!wrapped) return turn;
+  base::Matrix3 quarter;  // x becomes y
+  quarter << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  return turn * quarter;
+}
+
 }  // namespace
 
 double usual_tolerance(const Geometry& shape) {
@@ -73,7 +90,7 @@ base::Result<Triangles> PrimitiveGeometry::triangles(double tolerance) const {
   if (std::holds_alternative<geometry::Plane>(primitive))
     return base::fail("A plane has no end: it cannot be made triangles.");
   geometry::TriangleMesh mesh = geometry::tessellate(primitive, tolerance);
-  const base::Matrix3 turn = shape_from_primitive();
+  const base::Matrix3 turn = shape_from_rings(*this);
   for (Vector3& position : mesh.positions) position = turn * position;
   return share(std::move(mesh));
 }

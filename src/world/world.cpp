@@ -18,6 +18,7 @@ void add_to(Hasher& hasher, const Light& it) {
   for (const double value :
        {double(it.intensity), double(it.ambient), it.radius, it.cut_off_angle, it.beam_width})
     hasher.add(value);
+  if (it.scoped) hasher.add(std::string_view("scoped"));
 }
 
 void add_to(Hasher& hasher, const Viewpoint& it) { hasher.add(it.field_of_view); }
@@ -46,6 +47,28 @@ void add_to(Hasher& hasher, const PhysicalObject& it) {
 
 void add_to(Hasher& hasher, const GeometryObject& it) { hasher.add(it.shape->hash()); }
 
+/// Nothing for materials that VRML 2.0 can say whole.
+void add_beyond_vrml(Hasher& hasher, const Material& it) {
+  const Material usual;
+  if (it.picture_frame != usual.picture_frame) {
+    for (const double number : it.picture_frame) hasher.add(number);
+  }
+  const auto add = [&](std::string_view what, auto Material::*member, auto as_number) {
+    if (it.*member == usual.*member) return;
+    hasher.add(what);
+    hasher.add(as_number(it.*member));
+  };
+  const auto number = [](auto value) { return double(value); };
+  const auto part = [](const std::optional<float>& value) { return double(value.value_or(-1.0F)); };
+  add("tints", &Material::tints, number);
+  add("alpha mode", &Material::alpha_mode, number);
+  add("alpha cutoff", &Material::alpha_cutoff, number);
+  add("unlit", &Material::unlit, number);
+  add("double sided", &Material::double_sided, number);
+  add("metallic", &Material::metallic, part);
+  add("roughness", &Material::roughness, part);
+}
+
 void add_to(Hasher& hasher, const Material& it) {
   hasher.add(std::string_view(it.name));
   for (const float value : {it.ambient, it.shininess, it.transparency}) hasher.add(double(value));
@@ -60,6 +83,7 @@ void add_to(Hasher& hasher, const Material& it) {
   hasher.add(it.touch.static_friction);
   hasher.add(it.touch.dynamic_friction);
   hasher.add(std::string_view(it.touch.texture));
+  add_beyond_vrml(hasher, it);
 }
 
 void add_to(Hasher& hasher, const Texture& it) {
@@ -133,6 +157,14 @@ Bounds bounds(const World& world, ObjectId root) {
     if (!own.isEmpty() && has_end) result.extend(own.transformed(here));
   }
   return result;
+}
+
+ObjectId lit_group(const World& world, ObjectId light) {
+  const PhysicalObject& object = *world.find(light);
+  const auto* const lamp = object.fixture ? std::get_if<Light>(object.fixture.get()) : nullptr;
+  if (lamp == nullptr || !lamp->scoped || lamp->kind != Light::Kind::Directional) return {};
+  const bool is_nothing_else = !object.geometry && object.children.empty();
+  return is_nothing_else ? object.parent : light;
 }
 
 std::uint64_t hash(const World& world) {

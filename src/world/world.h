@@ -44,6 +44,19 @@ struct TouchProperties {
   bool operator==(const TouchProperties&) const = default;
 };
 
+/// Where a picture lies: the rows of what turns texture coordinates (u, v) into the place that is looked up,
+/// (0, 0) its lower left and (1, 1) its upper right.
+using PictureFrame = std::array<double, 6>;
+inline constexpr PictureFrame kPictureAsItLies = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+
+/// What decides about seeing through a surface, beside its transparency.
+enum class AlphaMode : std::uint8_t {
+  ByPicture,  // the picture's opacity: holes and edges, or glass (VRML 2.0)
+  Opaque,     // nothing, whatever the picture says
+  Mask,       // there is nothing where the picture's opacity is below the cutoff
+  Blend       // the picture's opacity, as of glass
+};
+
 /// Looks after the VRML 2.0 model, and how it feels. Always shared, never copied with objects.
 struct Material {
   std::string name = {};
@@ -55,7 +68,17 @@ struct Material {
   float transparency = 0.0F;  // 1 is not seen
   TextureId texture = {};     // none: plain
   TouchProperties touch = {};
-  std::uint32_t users = 0;  // objects that have it; kept by the world
+  // Beyond VRML 2.0, as glTF has it.
+  PictureFrame picture_frame = kPictureAsItLies;
+  bool tints =
+      false;  // the diffuse colour multiplies any picture's; else only a grey one's, and others replace it
+  AlphaMode alpha_mode = AlphaMode::ByPicture;
+  float alpha_cutoff = 0.5F;            // of AlphaMode::Mask, in [0, 1]
+  bool unlit = false;                   // shows its own colour, whatever the light
+  bool double_sided = true;             // for other programs: here backs are seen, too
+  std::optional<float> metallic = {};   // in [0, 1]; holds while the specular colour is what follows from it
+  std::optional<float> roughness = {};  // in [0, 1]; holds while the shininess is what follows from it
+  std::uint32_t users = 0;              // objects that have it; kept by the world
 
   bool operator==(const Material&) const = default;
 };
@@ -135,6 +158,10 @@ std::vector<ObjectId> subtree(const World& world, ObjectId root);
 /// Around the shapes of a subtree, in the world's frame; those without an end, such as planes, are left out.
 /// Empty where there are none.
 Bounds bounds(const World& world, ObjectId root);
+
+/// The object on whose subtree a light shines; none: on everything. A scoped one shines on all that its
+/// object is and has below it or, where that is nothing but the light, on the group that it is in.
+ObjectId lit_group(const World& world, ObjectId light);
 
 /// Equal for worlds that hold the same, whatever the way they came about.
 std::uint64_t hash(const World& world);

@@ -114,7 +114,8 @@ TEST(ObjDesign, FlatWorldsComeBack) {
                                               .specular = {1.0F, 0.5F, 0.25F},
                                               .shininess = 0.25F,
                                               .transparency = 0.5F,
-                                              .texture = texture}});
+                                              .texture = texture,
+                                              .tints = true}});  // as MTL has it
   auto mesh = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
   const base::Vector3 up(0.0, 0.0, 1.0);
   mesh->normals = {{up, up, up}};

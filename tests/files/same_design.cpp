@@ -135,6 +135,16 @@ class Comparison {
     near(one.emission, other.emission, "emission");
     near(one.shininess, other.shininess, "shininess");
     near(one.transparency, other.transparency, "transparency");
+    for (std::size_t i = 0; i < one.picture_frame.size(); ++i)
+      expect(std::abs(one.picture_frame[i] - other.picture_frame[i]) <= likeness_.tolerance,
+             "frames of a picture");
+    same(one.tints, other.tints, "tints");
+    same(int(one.alpha_mode), int(other.alpha_mode), "alpha modes");
+    near(one.alpha_cutoff, other.alpha_cutoff, "alpha cutoffs");
+    same(one.unlit, other.unlit, "unlit");
+    same(one.double_sided, other.double_sided, "double sided");
+    near(one.metallic.value_or(-1.0F), other.metallic.value_or(-1.0F), "metallic");
+    near(one.roughness.value_or(-1.0F), other.roughness.value_or(-1.0F), "roughness");
     if (likeness_.touch) {
       const world::TouchProperties &touch = one.touch, &other_touch = other.touch;
       near(touch.stiffness.value_or(-1.0), other_touch.stiffness.value_or(-1.0), "stiffness");
@@ -165,6 +175,7 @@ class Comparison {
       near(light->colour, same_light.colour, "colours of lights");
       near(light->intensity, same_light.intensity, "intensity");
       near(light->ambient, same_light.ambient, "ambient light");
+      if (likeness_.scopes) same(light->scoped, same_light.scoped, "groups that lights are for");
       if (light->kind == world::Light::Kind::Directional) return;
       near(light->attenuation, same_light.attenuation, "attenuation");
       near(light->radius, same_light.radius, "radius of light");

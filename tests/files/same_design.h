@@ -17,6 +17,7 @@ struct Likeness {
   bool fixtures = true;
   bool texture_names = true;
   bool recipes = true;
+  bool scopes = true;  // whether lights are for their group alone
 };
 
 /// What is different first, for people; empty when the designs are the same. What no object has (shapes,

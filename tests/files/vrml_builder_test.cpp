@@ -475,18 +475,21 @@ TEST(VrmlBuilder, MakesPngFilesOfPixels) {
   EXPECT_EQ(texts_of(design), RemarkTexts{"A PixelTexture is left out: pixels of it are missing."});
 }
 
-TEST(VrmlBuilder, SharesAShapeForEachTextureTransform) {
+TEST(VrmlBuilder, LaysPicturesByTheMaterial) {
   Answer answer = textured({{.urls = {"a.png"}}, {.urls = {"a.png"}}, {.urls = {"a.png"}}});
-  answer.looks[1].texture_transform = {2, 0, 0, 0, 2, 0, 0, 0, 1};
-  answer.looks.push_back({.name = "plain"});
-  answer.nodes.push_back({.piece = 0, .look = 3});
+  answer.looks[1].texture_transform = {2, 0, 0.25, 0, 3, 0.5, 0, 0, 1};
+  answer.looks[2].texture_transform = {1, 0, 0, 0, 1, 0, 0, 0, 0};
   const LoadedDesign design = built_from(answer);
   const World& world = design.world;
-  EXPECT_EQ(world.geometries().size(), 2U);
-  EXPECT_EQ(root_of(world, 0).geometry, root_of(world, 2).geometry);
-  EXPECT_EQ(root_of(world, 0).geometry, root_of(world, 3).geometry);
-  const auto& twice = dynamic_cast<const world::MeshGeometry&>(geometry_of(world, root_of(world, 1)));
-  EXPECT_EQ(twice.texture_coordinates[0][1], base::Vector2(2, 0));
+  EXPECT_EQ(world.geometries().size(), 1U);
+  const auto frame_of = [&](std::size_t root) {
+    return world.find(root_of(world, root).material)->picture_frame;
+  };
+  EXPECT_EQ(frame_of(0), world::kPictureAsItLies);
+  EXPECT_EQ(frame_of(1), (world::PictureFrame{2, 0, 0.25, 0, 3, 0.5}));
+  EXPECT_EQ(frame_of(2), world::kPictureAsItLies);
+  EXPECT_EQ(texts_of(design),
+            RemarkTexts{"Texture transforms that make no sense are left out: one without a name."});
 }
 
 // ---- Scenes, scripts, notes ---------------------------------------------------------------------------

@@ -17,10 +17,10 @@ struct MadeMesh {
   std::vector<std::string> found;
 };
 
-MadeMesh made_of(const VrmlFaceSet& faces, const std::optional<TextureMatrix>& texture = {}) {
+MadeMesh made_of(const VrmlFaceSet& faces, bool shows_picture = false) {
   Findings findings;
   Patience patience;
-  MadeMesh result{mesh_of_faces(faces, texture, findings, patience), {}};
+  MadeMesh result{mesh_of_faces(faces, shows_picture, findings, patience), {}};
   for (const Remark& remark : findings.remarks()) result.found.push_back(remark.text);
   return result;
 }
@@ -223,20 +223,11 @@ TEST(VrmlFaceSet, HaveTextureCoordinatesByTheirBoxIfThereIsAPicture) {
   // 4 along y, 2 along z, 1 along x, somewhere.
   faces.positions = {5, 1, 1, 6, 1, 1, 6, 5, 3, 5, 5, 3};
   EXPECT_TRUE(made_of(faces).mesh->texture_coordinates.empty());
-  const MadeMesh it = made_of(faces, kPlainTexture);
+  const MadeMesh it = made_of(faces, true);
   EXPECT_EQ(it.mesh->texture_coordinates[0],
             (std::array<Vector2, 3>{Vector2(0, 0), Vector2(0, 0), Vector2(1, 0.5)}));
   // Of sides as long as each other x comes first.
-  EXPECT_EQ(made_of(square_faces(), kPlainTexture).mesh->texture_coordinates[1][2], Vector2(0, 1));
-}
-
-TEST(VrmlFaceSet, PutTextureCoordinatesThroughTheTransform) {
-  VrmlFaceSet faces = square_faces();
-  faces.texture_coordinates = {0, 0, 1, 0, 1, 1, 0, 1};
-  const TextureMatrix twice_and_moved = {2, 0, 0.25, 0, 3, 0.5, 0, 0, 1};
-  EXPECT_EQ(made_of(faces, twice_and_moved).mesh->texture_coordinates[0][2], Vector2(2.25, 3.5));
-  const TextureMatrix nonsense = {1, 0, 0, 0, 1, 0, 0, 0, 0};
-  EXPECT_TRUE(made_of(faces, nonsense).mesh->texture_coordinates.empty());
+  EXPECT_EQ(made_of(square_faces(), true).mesh->texture_coordinates[1][2], Vector2(0, 1));
 }
 
 TEST(VrmlFaceSet, StopWhenPatienceEnds) {

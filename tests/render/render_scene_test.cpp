@@ -196,6 +196,41 @@ TEST(RenderScene, AnotherSceneIsShownOfTheSameShapes) {
   EXPECT_EQ(items_of(*again)[1].shape, items_of(*all)[1].shape);
 }
 
+world::FixturePointer lamp(world::Light::Kind kind, bool scoped = false) {
+  return std::make_shared<const world::Fixture>(world::Light{.kind = kind, .scoped = scoped});
+}
+
+TEST(RenderScene, AGroupsLightFollowsWhatComesIntoTheGroup) {
+  DrawnWorld it;
+  const auto group = it.ids.next<world::ObjectId>(), light = it.ids.next<world::ObjectId>();
+  const auto sun = lamp(world::Light::Kind::Directional, true);
+  world::applied(it.world, world::CreateObject{group, 0, {.name = "group"}});
+  world::applied(it.world, world::CreateObject{light, 0, {.parent = group, .fixture = sun}});
+  const auto moved = it.add(box(1.0));
+  ScenePublisher publisher;
+  const auto before = publisher.publish(it.world);
+  ASSERT_TRUE(before->lights()[0].group);
+  EXPECT_FALSE(before->lights()[0].group->contains(moved));
+  const world::Edit edit = world::MoveObject{moved, group, 0, at(0.0, 0.0, 0.0)};
+  world::applied(it.world, edit);
+  const auto after = publisher.update(it.world, changes_of(edit));
+  EXPECT_TRUE(after->lights()[0].group->contains(moved));
+}
+
+TEST(RenderScene, LightsThatAreTooManyAreTold) {
+  DrawnWorld it;
+  const auto add_light = [&](world::Light::Kind kind) {
+    world::applied(it.world, world::CreateObject{it.ids.next<world::ObjectId>(), 0, {.fixture = lamp(kind)}});
+  };
+  for (int i = 0; i < 8; ++i) add_light(world::Light::Kind::Directional);
+  for (int i = 0; i < 16; ++i) add_light(i % 2 == 0 ? world::Light::Kind::Point : world::Light::Kind::Spot);
+  EXPECT_TRUE(ScenePublisher().publish(it.world)->remarks().empty());
+  add_light(world::Light::Kind::Point);
+  const auto remarks = ScenePublisher().publish(it.world)->remarks();
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_NE(remarks[0].find("Of 8 directional lights and 17 lamps"), std::string::npos) << remarks[0];
+}
+
 TEST(RenderScene, WhatCannotBeDrawnIsToldAndTheRestDrawn) {
   DrawnWorld it;
   it.add(std::make_shared<world::PrimitiveGeometry>(geometry::Plane{}));

@@ -11,6 +11,7 @@
 #include "devices/simulated/simulated_navigation.h"
 #include "render/views.h"
 #include "session/sessions.h"
+#include "world/mesh_geometry.h"
 
 namespace icome::session {
 namespace {
@@ -78,6 +79,36 @@ TEST(Session, RefusesWhatMakesNoSense) {
   session->aim_hand({nan, 0.0, 0.0});
   session->settle();
   EXPECT_TRUE(session->pointer(0).tip.allFinite());
+}
+
+TEST(Session, TellsOnceWhatIsNotSeenOrFeltAsItIs) {
+  auto session = start();
+  const auto object = add_shape(*session, std::make_shared<world::MeshGeometry>(geometry::TriangleMesh{}),
+                                base::Affine3::Identity(), "nothing");
+  const auto texture = session->ids().next<world::TextureId>();
+  const auto material = session->ids().next<world::MaterialId>();
+  const world::Texture broken{"photo.png", "image/png", std::make_shared<const std::string>("no picture")};
+  const auto box = add_box(*session, at(3.0, 0.0, 0.0));
+  ASSERT_TRUE(session->perform(
+      world::EditGroup{{world::CreateTexture{texture, broken},
+                        world::CreateMaterial{material, {.name = "paper", .texture = texture}},
+                        world::ChooseMaterial{box, material}}},
+      "Dress"));
+  std::string told;
+  const auto listen = [&] {
+    for (const SessionEvent& event : session->update()) {
+      if (event.kind != Kind::NotAsItIs) continue;
+      for (const std::string& it : event.details) told += it + "\n";
+    }
+    return told.find("photo.png is not shown") != std::string::npos &&
+           told.find("\"nothing\" is empty") != std::string::npos;
+  };
+  while (!listen()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::string before = told;
+  ASSERT_TRUE(session->perform(world::PlaceObject{object, at(0.0, 1.0, 0.0)}, "Move"));
+  session->settle();
+  listen();
+  EXPECT_EQ(told, before);
 }
 
 TEST(Session, SelectsOnlyWhatIsThere) {

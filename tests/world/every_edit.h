@@ -74,6 +74,19 @@ inline Material rich_material(TextureId texture) {
                     .texture = "grain"}};
 }
 
+/// What glTF says of a material beyond VRML 2.0.
+inline Material beyond_vrml() {
+  return {.name = "paint",
+          .picture_frame = {2.0, 0.1, -0.5, 0.2, 3.0, 0.25},
+          .tints = true,
+          .alpha_mode = AlphaMode::Mask,
+          .alpha_cutoff = 0.7F,
+          .unlit = true,
+          .double_sided = false,
+          .metallic = 0.0F,
+          .roughness = 0.3F};
+}
+
 inline FixturePointer spot_light() {
   return std::make_shared<const Fixture>(Light{.kind = Light::Kind::Spot,
                                                .on = false,
@@ -103,6 +116,7 @@ inline std::vector<Edit> every_edit() {
       DeleteTexture{sketch},
       CreateMaterial{wood, rich_material(picture)},
       CreateMaterial{paint, {}},
+      ChangeMaterial{paint, beyond_vrml()},
       ChangeMaterial{paint, {.name = "paint", .touch = {.damping = 2.0, .dynamic_friction = -0.0}}},
       CreateScene{room, "room"},
       CreateScene{garden, ""},
@@ -123,6 +137,7 @@ inline std::vector<Edit> every_edit() {
       ChooseGeometry{leg, {}},
       ChooseMaterial{leg, paint},
       ChooseMaterial{leg, {}},
+      ChangeFixture{leg, std::make_shared<const Fixture>(Light{.scoped = true})},
       ChangeFixture{leg, std::make_shared<const Fixture>(Viewpoint{1.0})},
       ChangeFixture{leg, std::make_shared<const Fixture>(Inert{"Script", "Script { url \"a\" }"})},
       ChangeFixture{leg, std::make_shared<const Fixture>(ForceEffect{"viscous:2", false})},

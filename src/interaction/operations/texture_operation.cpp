@@ -89,9 +89,11 @@ void show(const world::World& world, world::ObjectId object, TextureId picture, 
           world::EditGroup& group) {
   const world::MaterialId id = world.find(object)->material;
   const world::Material* now = world.find(id);
-  if (now && now->texture == picture) return;
+  const bool lies_so = now && now->picture_frame == world::kPictureAsItLies;
+  if (lies_so && now->texture == picture) return;
   world::Material material = now ? *now : world::Material();
   material.texture = picture;
+  material.picture_frame = world::kPictureAsItLies;  // the projector alone says where it lies
   if (now && now->users == 1) {
     group.edits.push_back(world::ChangeMaterial{id, std::move(material)});
     return;

@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "geometry/triangle_mesh.h"
+#include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
 
-namespace icome::render {
+namespace icome::world {
 
 /// Where the corners of a primitive's triangles lie in a picture, as VRML 2.0 (6.6, 6.10, 6.11, 6.42) wraps
 /// it round boxes, cones, cylinders and spheres; `mesh` is in the shape's frame. Empty for other primitives.
-std::vector<std::array<base::Vector2, 3>> primitive_places(const world::PrimitiveGeometry& shape,
-                                                           const geometry::TriangleMesh& mesh);
+std::vector<std::array<Vector2, 3>> picture_places(const PrimitiveGeometry& shape,
+                                                   const geometry::TriangleMesh& mesh);
 
-}  // namespace icome::render
+}  // namespace icome::world

@@ -1,14 +1,12 @@
-#include "render/primitive_places.h"
+#include "world/picture_places.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace icome::render {
+namespace icome::world {
 namespace {
 
-using base::Vector2;
-using base::Vector3;
 using Places = std::array<Vector2, 3>;
 using Corners = std::array<Vector3, 3>;
 
@@ -95,18 +93,19 @@ struct PlaceTriangle {
 
 }  // namespace
 
-std::vector<std::array<Vector2, 3>> primitive_places(const world::PrimitiveGeometry& shape,
-                                                     const geometry::TriangleMesh& mesh) {
+std::vector<std::array<Vector2, 3>> picture_places(const PrimitiveGeometry& shape,
+                                                   const geometry::TriangleMesh& mesh) {
   const auto* box = std::get_if<geometry::Box>(&shape.primitive);
   const bool known = box || std::holds_alternative<geometry::Sphere>(shape.primitive) ||
                      std::holds_alternative<geometry::Cylinder>(shape.primitive) ||
                      std::holds_alternative<geometry::Cone>(shape.primitive);
   std::vector<Places> places;
   if (!known) return places;
-  // VRML stands primitives along y, geometry along z.
+  // VRML stands primitives along y, geometry along z. A sphere stands along nothing: its poles are along y.
   base::Matrix3 upright_from_primitive;
   upright_from_primitive << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  const base::Matrix3 turn = upright_from_primitive * shape.shape_from_primitive().transpose();
+  base::Matrix3 turn = upright_from_primitive * shape.shape_from_primitive().transpose();
+  if (std::holds_alternative<geometry::Sphere>(shape.primitive)) turn.setIdentity();
   places.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     Corners corners;
@@ -123,4 +122,4 @@ std::vector<std::array<Vector2, 3>> primitive_places(const world::PrimitiveGeome
   return places;
 }
 
-}  // namespace icome::render
+}  // namespace icome::world

@@ -1,0 +1,45 @@
+#include "files/shown_pictures.h"
+
+#include "files/picture_bytes.h"
+#include "world/picture_kind.h"
+#include "world/picture_places.h"
+
+namespace icome::files {
+
+ShownMaterial shown_material(const world::World& world, const world::Material& material) {
+  using world::AlphaMode;
+  using world::PictureOpacity;
+  ShownMaterial it{.colour = material.diffuse, .opacity = 1.0F - material.transparency};
+  it.cutoff = material.alpha_cutoff;
+  const world::Texture* const texture = world.find(material.texture);
+  const PictureOpacity picture = texture ? picture_opacity(*texture->bytes) : PictureOpacity::Opaque;
+  // VRML 2.0, 4.14: colours and opacities of pictures replace those of materials, greys are multiplied.
+  if (texture && !material.tints) {
+    if (!world::is_grey_picture(*texture->bytes)) it.colour = {1.0F, 1.0F, 1.0F};
+    if (picture != PictureOpacity::Opaque) it.opacity = 1.0F;
+  }
+  if (material.alpha_mode != AlphaMode::ByPicture) {
+    it.mode = material.alpha_mode;
+  } else if (picture != PictureOpacity::Opaque) {
+    it.mode = picture == PictureOpacity::CutOut ? AlphaMode::Mask : AlphaMode::Blend;
+    it.cutoff = 0.5F;
+  }
+  if (it.opacity < 1.0F && it.mode == AlphaMode::Opaque) it.mode = AlphaMode::Blend;
+  return it;
+}
+
+std::shared_ptr<const world::MeshGeometry> with_picture_places(
+    const world::Geometry& shape, std::shared_ptr<const world::MeshGeometry> mesh) {
+  const auto* const primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape);
+  if (primitive == nullptr || !mesh || !mesh->texture_coordinates.empty()) return mesh;
+  auto textured = std::make_shared<world::MeshGeometry>(mesh->mesh);
+  textured->texture_coordinates = world::picture_places(*primitive, mesh->mesh);
+  return textured;
+}
+
+world::Vector2 laid(const world::PictureFrame& frame, const world::Vector2& place) {
+  const auto& [a, b, c, d, e, f] = frame;
+  return {a * place.x() + b * place.y() + c, d * place.x() + e * place.y() + f};
+}
+
+}  // namespace icome::files
