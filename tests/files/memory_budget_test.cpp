@@ -107,6 +107,13 @@ TEST(MemoryBudget, BoundsWhatUnpacks) {
   bytes_to_refuse(folder.path() / "a.wrz");
 }
 
+TEST(MemoryBudget, BoundsPartsOfObj) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 600'000; ++i) text += fmt::format("g {}\nf 1 2 3\n", i);
+  const ScratchFolder folder;
+  EXPECT_LT(bytes_to_refuse(folder.write("a.obj", text)), 20 * text.size() + 256'000'000);
+}
+
 TEST(MemoryBudget, BoundsStripsOfGltf) {
   // Each byte of the strip stands for a triangle with normals and coordinates, of 132 bytes.
   constexpr std::size_t kStrip = 4'000'000;
