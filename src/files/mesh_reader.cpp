@@ -46,17 +46,11 @@ Parser parser_of(const std::string& type) {
   return found == kFileTypes.end() ? nullptr : found->parse;
 }
 
-/// The file's vector in metres and the world's axes. Turning y up to z up is a rotation about x.
-Vector3 to_world(const Vector3& v, const ReadOptions& options) {
-  const Vector3 turned = options.up == UpAxis::Y ? Vector3(v.x(), -v.z(), v.y()) : v;
-  return turned * options.unit;
-}
-
-/// Puts the positions into the world and checks that they are of this world.
+/// Makes units metres and checks that the positions are of this world.
 base::Result<void> place(TriangleMesh& mesh, const ReadOptions& options, const std::string& name) {
   double farthest = 0.0;
   for (Vector3& position : mesh.positions) {
-    position = to_world(position, options);
+    position *= options.unit;
     if (position.allFinite()) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
   }
   if (farthest > kFarthest)
