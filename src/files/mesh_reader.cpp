@@ -109,6 +109,10 @@ base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std:
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty())
     return base::fail(name + (ending.packed ? ": the file is empty once unpacked" : ": the file is empty"));
+  // Of a plain file the budget has more for each byte; a packed one may hold any amount.
+  if (constexpr std::uint64_t kBytesForAByte = 5;
+      ending.packed && !memory.take(kBytesForAByte * bytes->size()))
+    return base::fail(fmt::format("{}: {}", name, memory.problem().message));
   patience.step(ending.packed ? kParts.unpacked : kParts.read, kParsedPart);
   base::Result<ParsedMesh> parsed = parse(*bytes, name, &patience);
   if (!patience.lasts_now()) return tl::unexpected(interruption());

@@ -18,7 +18,10 @@ namespace {
 
 constexpr world::Colour kNoColour{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F};
 constexpr std::size_t kMostLibraries = 100;
-constexpr std::uint64_t kBytesOfPart = 500;  // in all tables here and in the reader of designs
+// In all tables here, while these grow, and of parts in the reader of designs.
+constexpr std::uint64_t kBytesOfPart = 500, kBytesOfVertex = 2 * sizeof(base::Vector3),
+                        kBytesOfFace = 2 * sizeof(ObjDocument::Face),
+                        kBytesOfCorner = 2 * sizeof(ObjDocument::Corner);
 
 /// One reading of an OBJ text. A face may name vertices that come after it, so whether an index is in
 /// range is known at the end only; `vertex_limit` then lets a second reading find the line.
@@ -60,6 +63,7 @@ class ObjReading {
     const double y = scanner_.number("a coordinate");
     const double z = scanner_.number("a coordinate");
     document_.positions.emplace_back(x, y, z);
+    count(kBytesOfVertex);
     if (all_ && scanner_.more_on_line()) read_colour();
   }
 
@@ -81,6 +85,7 @@ class ObjReading {
     for (; scanner_.more_on_line(); ++face.corners) document_.corners.push_back(read_corner());
     if (face.corners > geometry::kMaximumPolygonCorners) scanner_.fail(too_many_corners(face.corners));
     document_.faces.push_back(face);
+    count(kBytesOfFace + kBytesOfCorner * face.corners);
   }
 
   /// Reads "7", "7/1", "7//3" or "7/1/3". Negative: back from the last so far.
@@ -153,7 +158,12 @@ class ObjReading {
     part_ = found->second;
     if (!is_new) return;
     document_.parts.push_back(now_);
-    if (memory_) memory_->take(kBytesOfPart);
+    count(kBytesOfPart);
+  }
+
+  /// Whose memory is used up hears of it by the end of its patience.
+  void count(std::uint64_t bytes) {
+    if (memory_) memory_->take(bytes);
   }
 
   TextScanner scanner_;

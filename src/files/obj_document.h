@@ -51,8 +51,8 @@ enum class ObjContent { Positions, Parts, All };
 
 /// `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`, `g`,
 /// `usemtl`, `mtllib`, which are then in order even where they are not kept. Errors name the line. Fails also
-/// when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. What parts
-/// take is counted there, also what becomes of them, as a few bytes make one.
+/// when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. All that
+/// is read is counted there, as few bytes may stand for much, packed ones for any amount.
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
                                              ObjContent content, Patience* patience = nullptr,
                                              MemoryBudget* memory = nullptr);
