@@ -38,7 +38,9 @@ if(ICOME_SANITIZE)
   # access would add 60 % to the time that compiling takes.
   add_compile_options(-fno-sanitize=null,alignment,vptr)
   # GCC's manual warns that sanitizers make it take values for uninitialised that are not; the release build tells.
-  add_compile_options(-Wno-maybe-uninitialized)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized)
+  endif()
   add_link_options(-fsanitize=${ICOME_SANITIZE})
 endif()
 

@@ -38,7 +38,6 @@ struct Entries {
   TouchOptions touch;
   std::string friction;
   std::string sides;
-  std::string up = "z";
   std::string shading = "flat";
   std::string renderer;
   std::string subdivision;
@@ -59,18 +58,23 @@ void add_trust_options(CLI::App& command, ReadingOptions& reading) {
                    "Take in what the design names above its folder, too (../picture.png)");
 }
 
+void add_reading_options(CLI::App& command, ReadingOptions& reading) {
+  command
+      .add_option("--unit", reading.unit,
+                  "Unit of the numbers in OBJ, PLY, STL and OFF files: m, dm, cm, mm, um or in (default m)")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember({"m", "dm", "cm", "mm", "um", "in"}));
+  command
+      .add_option("--up", reading.up, "Axis that points up in the file (default y; z in .csg and .stl files)")
+      ->type_name("y|z")
+      ->check(CLI::IsMember({"y", "z"}));
+  add_trust_options(command, reading);
+}
+
 void add_model_options(CLI::App& touch, Entries& entries) {
   TouchOptions& options = entries.touch;
   touch.add_option("MODEL", options.models, kModelHelp)->type_name("");
-  touch
-      .add_option("--unit", options.reading.unit,
-                  "Unit of the numbers in the files: m, dm, cm, mm, um or in (default m)")
-      ->type_name("UNIT");
-  touch
-      .add_option("--up", entries.up,
-                  "Axis that points up in the files; y is turned to the world's z (default z)")
-      ->type_name("z|y")
-      ->check(CLI::IsMember({"z", "y"}));
+  add_reading_options(touch, options.reading);
   touch
       .add_option("--fit", options.fit,
                   "Scale each model about the origin until its longest side is M metres")
@@ -80,7 +84,6 @@ void add_model_options(CLI::App& touch, Entries& entries) {
                   "Which sides stop the tip (default: front of closed models, both of open ones)")
       ->type_name("front|both")
       ->check(CLI::IsMember({"front", "both"}));
-  add_trust_options(touch, options.reading);
 }
 
 void add_exact_options(CLI::App& touch, Entries& entries) {
@@ -188,19 +191,6 @@ void add_csg_options(CLI::App& csg, Entries& entries) {
                  "Grid that the mesh is made with, mm (default 1/200 of the longest side)")
       ->type_name("MM");
   csg.add_flag("--json", options.json, "Print the report as JSON (fields below)");
-}
-
-void add_reading_options(CLI::App& command, ReadingOptions& reading) {
-  command
-      .add_option("--unit", reading.unit,
-                  "Unit of the numbers in OBJ, PLY, STL and OFF files: m, dm, cm, mm, um or in (default m)")
-      ->type_name("UNIT")
-      ->check(CLI::IsMember({"m", "dm", "cm", "mm", "um", "in"}));
-  command
-      .add_option("--up", reading.up, "Axis that points up in the file (default y; z in .csg and .stl files)")
-      ->type_name("y|z")
-      ->check(CLI::IsMember({"y", "z"}));
-  add_trust_options(command, reading);
 }
 
 void add_info_options(CLI::App& info, InfoOptions& options) {
@@ -322,7 +312,6 @@ base::Result<TouchOptions> understood(Entries entries) {
   }
   if (entries.sides == "front") options.sides = haptics::TouchableSides::Front;
   if (entries.sides == "both") options.sides = haptics::TouchableSides::Both;
-  options.y_up = entries.up == "y";
   options.smooth_shading = entries.shading == "smooth";
   if (!entries.renderer.empty()) {
     const auto renderer = haptics::parse_renderer(entries.renderer);

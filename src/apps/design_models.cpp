@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "apps/design_eyes.h"
@@ -12,8 +13,6 @@
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
 #include "files/design.h"
-#include "files/file_ending.h"
-#include "files/mesh_reader.h"
 #include "haptics/plain_solid.h"
 #include "session/haptic_representation.h"
 #include "session/stretched.h"
@@ -27,34 +26,20 @@ using world::World;
 
 constexpr std::size_t kMostSentences = 20;  // of a design's; info tells them all
 
-base::Result<void> check_design_options(const std::string& text, const TouchOptions& options) {
-  if (renderer_of(options) == haptics::Renderer::Thesis)
-    return base::fail(text +
-                      ": --renderer thesis touches CSG trees, and meshes with --subdivide thesis:LEVEL.");
-  if (options.subdivision)
-    return base::fail(text + ": --subdivide is for meshes; a design says itself which surfaces are smooth.");
-  return {};
-}
-
 base::Result<files::LoadedDesign> read_file(const std::string& text, const TouchOptions& options) {
   auto how = understood_reading(options.reading);
   if (!how) return tl::unexpected(how.error());
-  how->up = files::UpAxis::Y;  // as the files have it: placing() turns
+  how->with_looks = false;
   how->progress = [](double) { return !interrupted(); };
   return files::read_design(text, *how);
 }
 
-/// Turned and scaled about the origin, never moved, as all MODELs are.
+/// Scaled about the origin, never moved, as all MODELs are.
 Affine3 placing(const World& world, const TouchOptions& options) {
   Affine3 world_from_design = Affine3::Identity();
-  if (options.y_up) {
-    world_from_design.linear() << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;  // a quarter turn about x
-  }
-  if (options.fit) {
-    // The sides change places under a quarter turn, and no more.
-    const double longest = longest_side(world);
-    if (longest > 0.0) world_from_design.linear() *= *options.fit / longest;
-  }
+  if (!options.fit) return world_from_design;
+  const double longest = longest_side(world);
+  if (longest > 0.0) world_from_design.linear() *= *options.fit / longest;
   return world_from_design;
 }
 
@@ -78,6 +63,7 @@ class BodyMaker {
     }
     if (check_) set_judged(body, geometry, *felt);
     body.exact = !felt->mesh;
+    body.is_mesh = geometry.kind() == "mesh";
     body.closed = felt->closed;
     body.surface = object.surface;
     if (const world::Material* material = world_.find(of.material)) body.colour = colour_of(*material);
@@ -145,15 +131,62 @@ std::vector<std::string> sentences_of(const files::LoadedDesign& design, const s
   return sentences;
 }
 
-}  // namespace
-
-bool names_design(const std::string& text) {
-  const std::string type = files::ending_of(text).type;
-  return type == ".wrl" || type == ".vrml" || type == ".gltf" || type == ".glb" || type == ".icome";
+/// What was put right before objects could be felt.
+std::vector<std::string> repairs_of(const World& world, const session::HapticRepresentation& felt) {
+  std::vector<std::string> sentences;
+  std::set<const session::FeltShape*> told;
+  const auto& objects = felt.scene()->objects();
+  for (const haptics::HapticObject& object : objects) {
+    const world::ObjectId id = *felt.object(object.id);
+    const session::FeltShapePointer shape = felt.felt(id);
+    if (!told.insert(shape.get()).second) continue;
+    const std::string& name = world.find(id)->name;
+    for (const std::string& repair : shape->repairs)
+      sentences.push_back(objects.size() == 1 || name.empty() ? repair
+                                                              : fmt::format("\"{}\": {}", name, repair));
+  }
+  return sentences;
 }
 
+/// Feels bodies as the options ask for that say what files are.
+base::Result<void> render_as_asked(TouchModel& model, const TouchOptions& options) {
+  const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
+  for (TouchBody& body : model.bodies) {
+    if (options.subdivision) {
+      if (const auto made = subdivide(model, body, options); !made) return made;
+    } else if (thesis) {
+      if (const auto made = render_as_thesis(model, body, options); !made) return made;
+    }
+  }
+  return {};
+}
+
+/// What is said of the form of a solid, and of a tip with a radius that feels what it is.
+std::vector<std::string> forms_of(const TouchModel& model, const TouchOptions& options) {
+  std::vector<std::string> sentences;
+  if (model.bodies.size() == 1 && model.body().csg) {
+    const geometry::CsgCount count = geometry::count(*model.body().csg);
+    sentences.push_back(
+        fmt::format("{} primitives, {} nodes, {} deep", count.primitives, count.nodes, count.depth));
+  }
+  const auto without_mesh = [](const TouchBody& body) { return body.exact && !body.primitive; };
+  if (options.radius > 0.0 && !options.subdivision && std::ranges::any_of(model.bodies, without_mesh)) {
+    const bool all = std::ranges::all_of(model.bodies, [](const TouchBody& body) { return body.exact; });
+    sentences.push_back(all ? "a tip with a radius feels it exactly"
+                            : "a tip with a radius feels exactly what is not named as triangles here");
+  }
+  return sentences;
+}
+
+tl::unexpected<base::Error> nothing_to_touch(const std::string& text,
+                                             const std::vector<std::string>& remarks) {
+  return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text, remarks.empty() ? "" : ": ",
+                                remarks.empty() ? "." : remarks.front()));
+}
+
+}  // namespace
+
 base::Result<TouchModel> load_design(const std::string& text, const TouchOptions& options) {
-  if (const auto able = check_design_options(text, options); !able) return tl::unexpected(able.error());
   const Stopwatch reading;
   const auto design = read_file(text, options);
   if (!design) return tl::unexpected(design.error());
@@ -161,36 +194,42 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
   model.name = text;
   model.read_seconds = reading.seconds();
   session::HapticRepresentationSettings settings;
-  settings.felt = {options.radius, options.smooth_shading, true};
+  settings.felt = {.tip_radius = options.radius,
+                   .interpolate_normals = options.smooth_shading,
+                   .with_time = true,
+                   .shares_meshes = true};
   settings.world_from_design = placing(design->world, options);
   const Stopwatch building;
   session::HapticRepresentation felt(settings);
   felt.show(design->world);
-  model.build_seconds = building.seconds();
 
   const std::vector<std::string> remarks = felt.remarks(design->world);
   const auto& objects = felt.scene()->objects();
   model.effects = felt.effects();
   if (objects.empty() && model.effects.empty())
-    return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text,
-                                  remarks.empty() ? "" : ": ", remarks.empty() ? "." : remarks.front()));
+    return nothing_to_touch(text, remarks.empty() ? sentences_of(*design, text) : remarks);
   model.bodies.clear();
   model.bodies.reserve(objects.size());
-  BodyMaker maker(design->world, felt, options.check);
-  for (const haptics::HapticObject& object : objects) {
-    model.bodies.push_back(maker.body(object));
-    const TouchBody& body = model.bodies.back();
+  BodyMaker maker(design->world, felt, options.check && !options.subdivision);
+  for (const haptics::HapticObject& object : objects) model.bodies.push_back(maker.body(object));
+  const std::size_t count = model.bodies.size();
+  model.kind = count == 0   ? fmt::format("{}, effects alone", design->format)
+               : count == 1 ? design->format
+                            : fmt::format("{}, {} bodies", design->format, count);
+  tell_sentences(model, sentences_of(*design, text));
+  tell_sentences(model, repairs_of(design->world, felt));
+  tell_sentences(model, remarks);
+  if (const auto rendered = render_as_asked(model, options); !rendered)
+    return tl::unexpected(rendered.error());
+  for (const TouchBody& body : model.bodies) {
     if (!body.exact) model.triangles += body.eye->mesh()->triangles.size();
     if (options.check && body.exact && !body.primitive && !body.membership && !body.judged.mesh)
       return base::fail(text +
                         ": --check cannot judge a subdivision surface in it, which has too many triangles, "
                         "or edges of more than two: leave it out.");
   }
-  const std::size_t count = model.bodies.size();
-  model.kind = count == 0 ? fmt::format("{}, effects alone", design->format)
-                          : fmt::format("{}, {} {}", design->format, count, count == 1 ? "body" : "bodies");
-  tell_sentences(model, sentences_of(*design, text));
-  tell_sentences(model, remarks);
+  tell_sentences(model, forms_of(model, options));
+  model.build_seconds = building.seconds();
   return model;
 }
 

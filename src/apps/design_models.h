@@ -5,13 +5,9 @@
 
 namespace icome::apps {
 
-// MODELs that are designs: worlds of objects, of which each that has a shape is a body to touch.
-
-/// Does the MODEL name a file of a design (.wrl, .vrml, .gltf, .glb, .icome)?
-bool names_design(const std::string& text);
-
-/// Reads a design, turned and scaled as the options say. Every object is felt as what it is, with its
-/// material's touch properties; what cannot be touched is told among the model's sentences.
+/// Reads the MODEL of a file: a design, as every other command reads it, scaled as the options say. Each
+/// object that has a shape is a body to touch, felt as what it is with its material's touch properties; what
+/// cannot be touched, and what was put right, is told among the model's sentences.
 base::Result<TouchModel> load_design(const std::string& text, const TouchOptions& options);
 
 }  // namespace icome::apps

@@ -9,17 +9,12 @@
 
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
-#include "files/csg_reader.h"
-#include "geometry/csg_emptiness.h"
 #include "geometry/csg_mesh.h"
-#include "geometry/csg_offset.h"
-#include "geometry/csg_solid.h"
 #include "geometry/implicit_offset.h"
 #include "geometry/implicit_surface.h"
 #include "geometry/loop_levels.h"
 #include "geometry/loop_offset.h"
 #include "geometry/loop_surface.h"
-#include "geometry/mesh_frame.h"
 #include "geometry/mesh_topology.h"
 #include "geometry/plain_formula.h"
 #include "haptics/mesh_shape.h"
@@ -40,9 +35,8 @@ constexpr int kFinestPicture = 5;                   // subdivisions
 
 std::string in_millimetres(double metres) { return fmt::format("{:.2g} mm", 1e3 * metres); }
 
-void take_mesh(TouchModel& model, geometry::TriangleMesh mesh) {
-  model.body().eye =
-      std::make_shared<TouchEye>(std::make_shared<const geometry::TriangleMesh>(std::move(mesh)));
+void take_mesh(TouchBody& body, geometry::TriangleMesh mesh) {
+  body.eye = std::make_shared<TouchEye>(std::make_shared<const geometry::TriangleMesh>(std::move(mesh)));
 }
 
 geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t primitives = 1) {
@@ -53,20 +47,20 @@ geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t
   return options;
 }
 
-/// Makes the mesh what is felt. `detail`: how near the mesh is, or why there is one.
-void touch_mesh(TouchModel& model, const TouchOptions& options, const std::string& detail) {
+/// Makes the body's mesh what is felt. `detail`: how near the mesh is, or why there is one.
+void touch_mesh(TouchModel& model, TouchBody& body, const TouchOptions& options, const std::string& detail) {
   haptics::MeshShapeSettings settings;
-  settings.closed = model.body().closed;
+  settings.closed = body.closed;
   settings.tip_radius = options.radius;
-  const auto shape = std::make_shared<const haptics::MeshShape>(model.body().eye->mesh(), settings);
-  model.body().shape = shape;
-  model.body().eye = std::make_shared<TouchEye>(shape);
-  model.triangles = shape->mesh().triangles.size();
-  model.body().solid.reset();
-  model.body().membership.reset();
-  model.body().judged = {};
-  model.repairs.push_back(
-      fmt::format("a tip with a radius feels it as a mesh of {} triangles{}", model.triangles, detail));
+  const auto shape = std::make_shared<const haptics::MeshShape>(body.eye->mesh(), settings);
+  body.shape = shape;
+  body.eye = std::make_shared<TouchEye>(shape);
+  body.exact = false;
+  body.solid.reset();
+  body.membership.reset();
+  body.judged = {};
+  model.repairs.push_back(fmt::format("a tip with a radius feels it as a mesh of {} triangles{}",
+                                      shape->mesh().triangles.size(), detail));
 }
 
 base::Result<void> no_sphere_tip(const TouchOptions& options) {
@@ -74,70 +68,10 @@ base::Result<void> no_sphere_tip(const TouchOptions& options) {
   return base::fail("--renderer thesis touches with a point: leave --radius out.");
 }
 
-base::Affine3 placement(const base::Bounds& bounds, const TouchOptions& options) {
-  base::Affine3 world_from_file = base::Affine3::Identity();
-  if (options.fit) world_from_file.scale(*options.fit / bounds.sizes().maxCoeff());
-  // y up: a quarter turn about x.
-  if (options.y_up) world_from_file.rotate(Eigen::AngleAxisd(0.5 * std::numbers::pi, base::Vector3::UnitX()));
-  return world_from_file;
-}
-
 base::Result<geometry::ContourMesh> contoured(const geometry::CsgTree& tree, bool measures) {
   auto options = contour_options(geometry::bounds(tree), geometry::count(tree).primitives);
   options.measures = measures;
   return geometry::contour(tree, options);
-}
-
-/// The sphere tip's mesh of a CSG tree of which there is nothing better, for the reason given.
-base::Result<void> touch_csg_mesh(TouchModel& model, const TouchOptions& options, const std::string& reason) {
-  auto made = contoured(*model.body().csg, true);
-  if (!made) return base::fail(model.name + ": " + made.error().message);
-  if (made->mesh.triangles.empty())
-    return base::fail(model.name +
-                      ": the solid is empty, or so thin that its mesh is: touch it with a point.");
-  if (made->lost)
-    return base::fail(model.name +
-                      ": parts of the solid are too thin for a mesh of it: touch it with a point.");
-  const Stopwatch watch;
-  take_mesh(model, std::move(made->mesh));
-  touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(made->error), reason));
-  model.build_seconds = watch.seconds();
-  return {};
-}
-
-base::Result<void> finish_csg(TouchModel& model, geometry::CsgTree made, const TouchOptions& options) {
-  model.body().world_from_body.translation() = geometry::bring_near(made);
-  const auto tree = std::make_shared<const geometry::CsgTree>(std::move(made));
-  model.body().csg = tree;
-  if (geometry::bounds(*tree).isEmpty())
-    return base::fail(model.name + ": the solid is empty: its parts do not meet.");
-  const Stopwatch watch;
-  const auto solid = std::make_shared<const geometry::CsgSolid>(*tree);
-  if (geometry::proved_empty(solid->program()))
-    return base::fail(model.name + ": the solid is empty: its parts leave nothing.");
-  const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
-  if (thesis) {
-    if (const auto point = no_sphere_tip(options); !point) return point;
-  }
-  model.body().solid = std::make_shared<const haptics::SmoothShape>(solid);
-  model.body().shape = model.body().solid;
-  if (options.radius > 0.0) {
-    const auto centres = geometry::CsgOffset::create(*tree, options.radius);
-    if (!centres) {
-      return touch_csg_mesh(model, options, centres.error().message);
-    }
-    model.repairs.push_back(fmt::format("a tip with a radius feels it exactly: faces, and edges of {} arcs",
-                                        (*centres)->edge_count()));
-    model.body().shape = std::make_shared<const haptics::SmoothShape>(*centres, options.radius);
-  }
-  model.body().membership = haptics::plain_solid(*tree);
-  if (thesis) {
-    auto shape = haptics::ThesisCsgShape::create(*tree);
-    if (!shape) return base::fail(model.name + ": " + shape.error().message);
-    model.body().shape = *shape;
-  }
-  model.build_seconds = watch.seconds();
-  return {};
 }
 
 /// The edges at which faces meet at more than `angle` rad.
@@ -166,16 +100,16 @@ geometry::ControlMesh control_mesh(const geometry::TriangleMesh& mesh, const Tou
 }
 
 /// What a sphere tip feels of a Loop surface: exactly, unless that takes too much.
-void touch_offset(TouchModel& model, const std::shared_ptr<const geometry::LoopSurface>& surface,
-                  const TouchOptions& options) {
+void touch_offset(TouchModel& model, TouchBody& body,
+                  const std::shared_ptr<const geometry::LoopSurface>& surface, const TouchOptions& options) {
   const auto centres = geometry::LoopOffset::create(surface, options.radius);
   if (!centres) {
-    touch_mesh(model, options, ": " + centres.error().message);
+    touch_mesh(model, body, options, ": " + centres.error().message);
     return;
   }
   model.repairs.push_back(
       fmt::format("a tip with a radius feels it exactly: {} tiles", (*centres)->tile_count()));
-  model.body().shape = std::make_shared<const haptics::SmoothShape>(*centres, options.radius);
+  body.shape = std::make_shared<const haptics::SmoothShape>(*centres, options.radius);
 }
 
 int picture_level(std::size_t control_triangles) {
@@ -199,94 +133,65 @@ base::Result<JudgedMesh> judged_limit(const geometry::ControlMesh& control) {
   return JudgedMesh{std::make_shared<const geometry::TriangleMesh>(std::move(plain->mesh)), plain->error};
 }
 
-bool names_csg(const std::string& text) {
-  const auto ends = [&](std::string_view ending) {
-    return text.size() >= ending.size() &&
-           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-  };
-  return ends(".csg") || ends(".csg.xz");
-}
-
-base::Result<TouchModel> load_csg(const std::string& text, const TouchOptions& options) {
-  auto loaded = files::read_csg(text);
-  if (!loaded) return tl::unexpected(loaded.error());
-  TouchModel model;
-  model.name = text;
-  model.kind = "CSG tree";
-  model.body().exact = true;
-  model.repairs = loaded->notes;
-  const geometry::CsgCount count = geometry::count(loaded->tree);
-  model.repairs.push_back(
-      fmt::format("{} primitives, {} nodes, {} deep", count.primitives, count.nodes, count.depth));
-  model.read_seconds = loaded->read_seconds;
-  const geometry::CsgTree::Index root = loaded->tree.root();
-  const base::Affine3 placed = placement(geometry::bounds(loaded->tree), options);
-  loaded->tree.set_transform(root, placed * loaded->tree.node(root).parent_from_node);
-  if (const auto made = finish_csg(model, std::move(loaded->tree), options); !made)
-    return tl::unexpected(made.error());
-  return model;
-}
-
 base::Result<geometry::TriangleMesh> picture_mesh(const geometry::CsgTree& tree) {
   auto made = contoured(tree, false);
   if (!made) return tl::unexpected(made.error());
   return std::move(made->mesh);
 }
 
-base::Result<TouchModel> as_csg(TouchModel primitive, const TouchOptions& options) {
-  if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
-  geometry::CsgTree tree;
-  tree.add_leaf(*primitive.body().primitive);
-  auto shape = haptics::ThesisCsgShape::create(tree);
-  if (!shape) return tl::unexpected(shape.error());
-  primitive.body().shape = *shape;
-  return primitive;
+base::Result<void> render_as_thesis(const TouchModel& model, TouchBody& body, const TouchOptions& options) {
+  if (!body.primitive && !body.csg)
+    return base::fail(model.name +
+                      ": --renderer thesis touches CSG trees, and meshes with --subdivide thesis:LEVEL.");
+  if (const auto point = no_sphere_tip(options); !point) return point;
+  geometry::CsgTree leaf;
+  if (!body.csg) leaf.add_leaf(*body.primitive);
+  auto shape = haptics::ThesisCsgShape::create(body.csg ? *body.csg : leaf);
+  if (!shape) return base::fail(model.name + ": " + shape.error().message);
+  body.shape = *shape;
+  return {};
 }
 
-base::Result<TouchModel> as_loop_surface(TouchModel model, const TouchOptions& options) {
-  const geometry::ControlMesh control = control_mesh(*model.body().eye->mesh(), options);
-  const Stopwatch watch;
+base::Result<void> subdivide(TouchModel& model, TouchBody& body, const TouchOptions& options) {
+  if (!body.is_mesh)
+    return base::fail(model.name +
+                      ": --subdivide is for meshes; a design says itself which surfaces are smooth.");
+  const geometry::ControlMesh control = control_mesh(*body.eye->mesh(), options);
   auto surface = geometry::LoopSurface::create(control);
   if (!surface) return base::fail(model.name + ": " + surface.error().message);
-  model.build_seconds = watch.seconds();
-  model.kind = "Loop surface, control mesh " + model.kind;
-  model.body().exact = true;
-  model.repairs.push_back(
-      fmt::format("control mesh of {} triangles, {} sharp edges", model.triangles, control.creases.size()));
-  model.triangles = 0;
-  model.body().closed = (*surface)->closed();
-  model.body().eye =
+  body.exact = true;
+  model.repairs.push_back(fmt::format("a Loop surface, control mesh of {} triangles, {} sharp edges",
+                                      control.mesh.triangles.size(), control.creases.size()));
+  body.closed = (*surface)->closed();
+  body.eye =
       std::make_shared<TouchEye>([it = *surface, level = picture_level(control.mesh.triangles.size())] {
         return *it->tessellate(level);
       });
-  model.body().solid = std::make_shared<const haptics::SmoothShape>(*surface);
+  body.solid = std::make_shared<const haptics::SmoothShape>(*surface);
   if (options.check) {
     auto judged = judged_limit(control);
     if (!judged)
       return base::fail(fmt::format("{}: --check cannot judge this surface, as {}: leave it out.", model.name,
                                     judged.error().message));
-    model.body().judged = std::move(*judged);
-    const JudgedMesh& mesh = model.body().judged;
+    body.judged = std::move(*judged);
     model.repairs.push_back(fmt::format(
         "judged by a mesh of the judge's own, of {} triangles, within {}: faults of less than {} pass",
-        mesh.mesh->triangles.size(), in_millimetres(mesh.error),
-        in_millimetres(std::max(haptics::JudgeSettings().pop_depth, 60.0 * mesh.error))));
+        body.judged.mesh->triangles.size(), in_millimetres(body.judged.error),
+        in_millimetres(std::max(haptics::JudgeSettings().pop_depth, 60.0 * body.judged.error))));
   }
   if (options.subdivision->thesis) {
-    if (const auto point = no_sphere_tip(options); !point) return tl::unexpected(point.error());
+    if (const auto point = no_sphere_tip(options); !point) return point;
     auto levels = geometry::LoopLevels::create(control, {.finest = options.subdivision->level});
     if (!levels) return base::fail(model.name + ": " + levels.error().message);
     auto shape = haptics::ThesisLoopShape::create(*levels);
     if (!shape) return base::fail(model.name + ": " + shape.error().message);
-    model.body().shape = *shape;
-    model.build_seconds = watch.seconds();
+    body.shape = *shape;
   } else if (options.radius > 0.0) {
-    touch_offset(model, *surface, options);
-    model.build_seconds = watch.seconds();
+    touch_offset(model, body, *surface, options);
   } else {
-    model.body().shape = model.body().solid;
+    body.shape = body.solid;
   }
-  return model;
+  return {};
 }
 
 base::Result<TouchModel> load_implicit(const TouchOptions& options) {
@@ -314,7 +219,7 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
   if (options.picture || !geometry::shows_solid(**surface, 0.0)) {
     if (const auto made = make_mesh(); !made) return tl::unexpected(made.error());
   }
-  if (options.picture) take_mesh(model, mesh->mesh);
+  if (options.picture) take_mesh(model.body(), mesh->mesh);
   model.body().solid = std::make_shared<const haptics::SmoothShape>(*surface);
   model.body().shape = model.body().solid;
   if (options.radius > 0.0) {
@@ -326,8 +231,10 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
             "--radius: this surface changes with time and can only be touched with a point, as " + reason +
             ": leave it out.");
       if (const auto made = make_mesh(); !made) return tl::unexpected(made.error());
-      take_mesh(model, std::move(mesh->mesh));
-      touch_mesh(model, options, fmt::format(", within {}: {}", in_millimetres(mesh->error), reason));
+      take_mesh(model.body(), std::move(mesh->mesh));
+      touch_mesh(model, model.body(), options,
+                 fmt::format(", within {}: {}", in_millimetres(mesh->error), reason));
+      model.triangles = model.body().eye->mesh()->triangles.size();
       return model;
     }
     model.repairs.push_back(

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "apps/design_models.h"
 #include "apps/design_work.h"
 #include "apps/effect_options.h"
 #include "apps/exact_models.h"
@@ -178,11 +177,10 @@ void add_to(render::TouchPicture& picture, const TouchBody& body, const std::str
   picture.bodies.push_back(drawn);
 }
 
-/// Models have z up, or are turned so; only designs keep their y.
+/// Designs have y up; primitives and formulas by themselves stand on z = 0.
 base::Vector3 up(const TouchOptions& options) {
-  const bool upright = !options.y_up && !options.models.empty() &&
-                       std::all_of(options.models.begin(), options.models.end(), names_design);
-  return upright ? base::Vector3::UnitY() : base::Vector3::UnitZ();
+  const bool upright = std::ranges::all_of(options.models, names_primitive);
+  return upright ? base::Vector3::UnitZ() : base::Vector3::UnitY();
 }
 
 base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,

@@ -6,14 +6,10 @@
 #include <utility>
 
 #include "apps/design_models.h"
-#include "apps/design_work.h"
 #include "apps/effect_options.h"
 #include "apps/exact_models.h"
 #include "apps/stopwatch.h"
-#include "files/mesh_reader.h"
-#include "geometry/mesh_frame.h"
 #include "geometry/primitive.h"
-#include "haptics/mesh_shape.h"
 #include "haptics/primitive_shape.h"
 
 namespace icome::apps {
@@ -59,42 +55,17 @@ base::Result<TouchModel> load_primitive(const std::string& text, const TouchOpti
     const double longest = geometry::bounds(*primitive).sizes().maxCoeff();
     *primitive = std::visit(Scaled(*options.fit / longest), *primitive);
   }
+  model.name = text;
   model.kind = kPrimitive;
   model.body().primitive = *primitive;
   model.body().eye = eye_of(*primitive);
   const Stopwatch watch;
   model.body().shape = std::make_shared<haptics::PrimitiveShape>(*primitive);
+  if (renderer_of(options) == haptics::Renderer::Thesis) {
+    if (const auto made = render_as_thesis(model, model.body(), options); !made)
+      return tl::unexpected(made.error());
+  }
   model.build_seconds = watch.seconds();
-  return model;
-}
-
-base::Result<TouchModel> load_file(const std::string& text, const TouchOptions& options) {
-  const auto reading = understood_reading(options.reading);
-  if (!reading) return tl::unexpected(reading.error());
-  files::ReadOptions how;
-  how.unit = reading->unit;
-  how.memory_limit = reading->memory_limit;
-  how.up = options.y_up ? files::UpAxis::Y : files::UpAxis::Z;
-  how.fit = options.fit;
-  auto loaded = files::read_mesh(text, how);
-  if (!loaded) return tl::unexpected(loaded.error());
-  TouchModel model;
-  model.kind = loaded->format;
-  model.repairs = loaded->sentences();
-  model.triangles = loaded->mesh.triangles.size();
-  model.body().closed = loaded->repair.surface.closed;
-  model.read_seconds = loaded->read_seconds + loaded->repair_seconds;
-  model.body().world_from_body.translation() = geometry::bring_near(loaded->mesh);
-  const auto mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded->mesh));
-  const Stopwatch watch;
-  haptics::MeshShapeSettings settings;
-  settings.closed = model.body().closed;
-  settings.interpolate_normals = options.smooth_shading;
-  settings.tip_radius = options.radius;
-  const auto shape = std::make_shared<const haptics::MeshShape>(mesh, settings);
-  model.build_seconds = watch.seconds();
-  model.body().eye = std::make_shared<TouchEye>(shape);
-  model.body().shape = shape;
   return model;
 }
 
@@ -107,23 +78,7 @@ bool names_primitive(std::string_view text) {
 }
 
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options) {
-  if (names_design(text)) return load_design(text, options);
-  const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
-  const bool primitive = names_primitive(text);
-  auto model = primitive         ? load_primitive(text, options)
-               : names_csg(text) ? load_csg(text, options)
-                                 : load_file(text, options);
-  if (!model) return model;
-  model->name = text;
-  if (primitive && thesis) model = as_csg(std::move(*model), options);
-  if (!primitive && !names_csg(text)) {
-    if (options.subdivision)
-      model = as_loop_surface(std::move(*model), options);
-    else if (thesis)
-      return base::fail(text +
-                        ": --renderer thesis touches CSG trees, and meshes with --subdivide thesis:LEVEL.");
-  }
-  return model;
+  return names_primitive(text) ? load_primitive(text, options) : load_design(text, options);
 }
 
 base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,

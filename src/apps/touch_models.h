@@ -26,7 +26,7 @@ struct JudgedMesh {
   double error = 0.0;
 };
 
-/// A body that is touched: a MODEL is one, or a design of many. What bodies share, clones share.
+/// A body that is touched: an object of a design, or all of another MODEL. What bodies share, clones share.
 struct TouchBody {
   std::shared_ptr<TouchEye> eye;  // what is felt, unless `exact`; may be null where `solid` is set
   std::shared_ptr<const haptics::Shape> shape;  // never null
@@ -39,6 +39,7 @@ struct TouchBody {
   std::optional<haptics::MembershipSolid> membership = {};
   JudgedMesh judged = {};  // of a Loop surface, in its own frame; only where somebody judges
   bool exact = false;      // touched as what it is, without a mesh; primitives are, too
+  bool is_mesh = false;    // a mesh is what it is
   bool closed = true;
   haptics::Surface surface = {};              // what the model itself says; the options come before it
   std::optional<render::Colour> colour = {};  // none: the picture's own
@@ -50,7 +51,7 @@ inline constexpr const char* kPrimitive = "primitive";
 struct TouchModel {
   std::string name;  // as the person wrote it
   std::string kind;  // "binary PLY", "primitive" and so on
-  /// Of all but designs, one; of a design that has effects alone, none.
+  /// Of a primitive and of a formula one, of a design that has effects alone none.
   std::vector<TouchBody> bodies = std::vector<TouchBody>(1);
   std::size_t triangles = 0;                            // that are touched
   std::vector<haptics::PlacedEffect> effects = {};      // that a design has
@@ -66,10 +67,10 @@ struct TouchModel {
 /// Is this MODEL a primitive (a keyword before a colon, or "plane"), not a file?
 bool names_primitive(std::string_view text);
 
-/// Reads one MODEL: what has a primitive's keyword before a colon, or is "plane", is a primitive,
-/// everything else a file, of a mesh, a CSG solid or a design. Models stand in the world as they are: files
-/// are scaled by the unit, turned when y is up and scaled by `fit`, always about the origin and never moved,
-/// so that a path in the world frame can rely on it.
+/// Reads one MODEL: what has a primitive's keyword before a colon, or is "plane", is a primitive, everything
+/// else the file of a design. Models stand in the world as they are: a design as read_design() gives it,
+/// which all commands have in common, scaled by `fit` about the origin and never moved, so that a path in
+/// the world frame can rely on it.
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options);
 
 /// All MODELs, in the order of the command line, the surface of --implicit last. `say` hears what is read.

@@ -7,10 +7,9 @@
 #include <string_view>
 
 #include "apps/effect_options.h"
-#include "apps/exact_models.h"
 #include "apps/model_motion.h"
 #include "apps/touch_models.h"
-#include "files/mesh_reader.h"
+#include "files/file_ending.h"
 
 namespace icome::apps {
 namespace {
@@ -45,13 +44,11 @@ base::Result<void> check_exact(const TouchOptions& options) {
 
 /// An option that would change nothing is a misunderstanding: better refused than ignored.
 base::Result<void> check_use(const TouchOptions& options) {
-  if (const auto unit = files::parse_unit(options.reading.unit); !unit)
-    return base::fail("--unit: " + unit.error().message);
   if (options.implicit && options.models.empty() && options.fit)
     return base::fail("--fit scales models: the size of --implicit is that of its formula.");
   if (options.subdivision) {
     for (const std::string& model : options.models) {
-      if (names_csg(model) || names_primitive(model))
+      if (names_primitive(model) || files::ending_of(model).type == ".csg")
         return base::fail(fmt::format("--subdivide takes meshes: {} has no triangles to subdivide.", model));
     }
   }

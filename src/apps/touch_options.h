@@ -32,8 +32,7 @@ struct TouchOptions {
   std::optional<Subdivision> subdivision;     // none: meshes are what they are
   std::optional<double> crease_degrees;       // edges that are sharper stay sharp
   std::optional<haptics::Renderer> renderer;  // as it was named, if it was
-  ReadingOptions reading;                     // of the files, but for the axis that points up
-  bool y_up = false;                          // the files' y points up; else their axes are the world's
+  ReadingOptions reading;                     // of the files
   std::optional<double> fit;                  // m, longest side of each model
 
   std::string device = "simulated";           // or a profile's name

@@ -63,6 +63,9 @@ base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgRea
   const auto bytes = read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
+  // Of a plain file the budget has more for each byte; a packed one may hold any amount.
+  if (constexpr std::uint64_t kBytesForAByte = 10; packed && !memory.take(kBytesForAByte * bytes->size()))
+    return base::fail(fmt::format("{}: {}", name, memory.problem().message));
   CsgReadOptions limited = options;
   limited.max_primitives = std::min<std::uint64_t>(options.max_primitives, memory.left() / kBytesOfPrimitive);
   base::Result<LoadedCsg> loaded =

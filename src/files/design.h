@@ -42,6 +42,9 @@ struct DesignReadOptions {
   double seconds_limit = 300.0;  // s
   /// May urls of the design lead to files that lie neither beside it nor below its folder?
   bool follows_urls_above = false;
+  /// Else readers may leave out what only eyes need: normals, texture coordinates, colours of corners. For
+  /// who touches large meshes.
+  bool with_looks = true;
   std::function<bool(double part)> progress = {};  // called now and then with [0, 1]; false stops
 };
 

@@ -46,17 +46,11 @@ Parser parser_of(const std::string& type) {
   return found == kFileTypes.end() ? nullptr : found->parse;
 }
 
-/// The file's vector in metres and the world's axes. Turning y up to z up is a rotation about x.
-Vector3 to_world(const Vector3& v, const ReadOptions& options) {
-  const Vector3 turned = options.up == UpAxis::Y ? Vector3(v.x(), -v.z(), v.y()) : v;
-  return turned * options.unit;
-}
-
-/// Puts the positions into the world and checks that they are of this world.
+/// Makes units metres and checks that the positions are of this world.
 base::Result<void> place(TriangleMesh& mesh, const ReadOptions& options, const std::string& name) {
   double farthest = 0.0;
   for (Vector3& position : mesh.positions) {
-    position = to_world(position, options);
+    position *= options.unit;
     if (position.allFinite()) farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
   }
   if (farthest > kFarthest)
@@ -115,6 +109,10 @@ base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std:
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty())
     return base::fail(name + (ending.packed ? ": the file is empty once unpacked" : ": the file is empty"));
+  // Of a plain file the budget has more for each byte; a packed one may hold any amount.
+  if (constexpr std::uint64_t kBytesForAByte = 5;
+      ending.packed && !memory.take(kBytesForAByte * bytes->size()))
+    return base::fail(fmt::format("{}: {}", name, memory.problem().message));
   patience.step(ending.packed ? kParts.unpacked : kParts.read, kParsedPart);
   base::Result<ParsedMesh> parsed = parse(*bytes, name, &patience);
   if (!patience.lasts_now()) return tl::unexpected(interruption());

@@ -7,17 +7,15 @@
 #include <vector>
 
 #include "base/result.h"
-#include "files/design.h"
 #include "geometry/mesh_repair.h"
 #include "geometry/triangle_mesh.h"
 
 namespace icome::files {
 
-/// How a mesh file is to be understood. Mesh formats name neither their unit nor (except GLB: metres,
-/// y up) their axes, so the person who opens the file says.
+/// How a mesh file is to be understood. Mesh formats do not name their unit, so the person who opens the file
+/// says.
 struct ReadOptions {
   double unit = 1.0;                               ///< metres per file unit, > 0; usually 1, 0.01 or 0.001
-  UpAxis up = UpAxis::Z;                           ///< of the file; Y turns the file's y to the world's z
   std::optional<double> fit = {};                  ///< scale so that the longest side is this, m; usually 0.1
   std::uint64_t size_limit = 2ULL << 30U;          ///< bytes, packed and unpacked; guards against xz bombs
   std::optional<std::uint64_t> memory_limit = {};  ///< bytes that reading may take; none: MemoryBudget's
@@ -36,9 +34,10 @@ struct LoadedMesh {
   std::vector<std::string> sentences() const;
 };
 
-/// Reads OBJ, PLY (ascii, binary), STL (ascii, binary), OFF or GLB, each also packed as `.xz`. The type
-/// follows from the name's extension in any case, the variant from the content. Polygons are cut into
-/// triangles, points and lines left out, and the mesh repaired (geometry::repair).
+/// Reads the triangles alone of OBJ, PLY (ascii, binary), STL (ascii, binary), OFF or GLB, each also packed
+/// as xz, in the file's own axes: for who touches them without a world; whole designs are read_design()'s.
+/// The type follows from the name's extension in any case, the variant from the content. Polygons are cut
+/// into triangles, points and lines left out, and the mesh repaired (geometry::repair).
 ///
 /// Fails with one sentence that names the file, and the line in text formats, when the file cannot be
 /// opened, is not what its name says, is cut short or malformed, refers to vertices that it does not

@@ -18,15 +18,21 @@ namespace {
 
 constexpr world::Colour kNoColour{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F};
 constexpr std::size_t kMostLibraries = 100;
+// In all tables here, while these grow, and of parts in the reader of designs.
+constexpr std::uint64_t kBytesOfPart = 500, kBytesOfVertex = 2 * sizeof(base::Vector3),
+                        kBytesOfFace = 2 * sizeof(ObjDocument::Face),
+                        kBytesOfCorner = 2 * sizeof(ObjDocument::Corner);
 
 /// One reading of an OBJ text. A face may name vertices that come after it, so whether an index is in
 /// range is known at the end only; `vertex_limit` then lets a second reading find the line.
 class ObjReading {
  public:
   ObjReading(std::string_view text, const std::string& name, ObjContent content, std::int64_t vertex_limit,
-             Patience* patience)
+             Patience* patience, MemoryBudget* memory)
       : scanner_(text, name, TextScanner::Lines::Continue, '#', patience),
+        parts_too_(content != ObjContent::Positions),
         all_(content == ObjContent::All),
+        memory_(memory),
         vertex_limit_(vertex_limit) {
     document_.parts.emplace_back();
   }
@@ -38,7 +44,7 @@ class ObjReading {
         read_vertex();
       } else if (keyword == "f" || keyword == "fo") {  // fo: the name of f in early versions
         read_face();
-      } else if (all_) {
+      } else if (parts_too_) {
         read_other(keyword);
       }
       scanner_.skip_line();
@@ -57,6 +63,7 @@ class ObjReading {
     const double y = scanner_.number("a coordinate");
     const double z = scanner_.number("a coordinate");
     document_.positions.emplace_back(x, y, z);
+    count(kBytesOfVertex);
     if (all_ && scanner_.more_on_line()) read_colour();
   }
 
@@ -78,6 +85,7 @@ class ObjReading {
     for (; scanner_.more_on_line(); ++face.corners) document_.corners.push_back(read_corner());
     if (face.corners > geometry::kMaximumPolygonCorners) scanner_.fail(too_many_corners(face.corners));
     document_.faces.push_back(face);
+    count(kBytesOfFace + kBytesOfCorner * face.corners);
   }
 
   /// Reads "7", "7/1", "7//3" or "7/1/3". Negative: back from the last so far.
@@ -122,12 +130,12 @@ class ObjReading {
     if (keyword == "vt") {
       const double u = scanner_.number("a texture coordinate");
       const double v = scanner_.more_on_line() ? scanner_.number("a texture coordinate") : 0.0;
-      document_.coordinates.emplace_back(u, v);
+      if (all_) document_.coordinates.emplace_back(u, v);
     } else if (keyword == "vn") {
       const double x = scanner_.number("a part of a normal");
       const double y = scanner_.number("a part of a normal");
       const double z = scanner_.number("a part of a normal");
-      document_.normals.emplace_back(x, y, z);
+      if (all_) document_.normals.emplace_back(x, y, z);
     } else if (keyword == "o") {
       now_.object = scanner_.rest();
       choose_part();
@@ -147,12 +155,21 @@ class ObjReading {
   void choose_part() {
     const auto key = std::tie(now_.object, now_.group, now_.material);
     const auto [found, is_new] = parts_.try_emplace(key, static_cast<std::uint32_t>(document_.parts.size()));
-    if (is_new) document_.parts.push_back(now_);
     part_ = found->second;
+    if (!is_new) return;
+    document_.parts.push_back(now_);
+    count(kBytesOfPart);
+  }
+
+  /// Whose memory is used up hears of it by the end of its patience.
+  void count(std::uint64_t bytes) {
+    if (memory_) memory_->take(bytes);
   }
 
   TextScanner scanner_;
+  bool parts_too_;
   bool all_;
+  MemoryBudget* memory_;
   ObjDocument document_;
   ObjDocument::Part now_;
   std::uint32_t part_ = 0;
@@ -164,16 +181,16 @@ class ObjReading {
 }  // namespace
 
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
-                                             ObjContent content, Patience* patience) {
+                                             ObjContent content, Patience* patience, MemoryBudget* memory) {
   if (bytes.find('\0') != std::string_view::npos)
     return base::fail(name + ": holds binary data, so it is not an OBJ file");
-  ObjReading reading(bytes, name, content, std::numeric_limits<std::uint32_t>::max(), patience);
+  ObjReading reading(bytes, name, content, std::numeric_limits<std::uint32_t>::max(), patience, memory);
   reading.run();
   if (reading.scanner().failed()) return tl::unexpected(reading.scanner().error());
   const auto vertices = static_cast<std::int64_t>(reading.document().positions.size());
   if (vertices == 0) return base::fail(name + ": has no vertices ('v' lines), so it is not an OBJ model");
   if (reading.highest_index() > vertices) {
-    ObjReading search(bytes, name, content, vertices, patience);
+    ObjReading search(bytes, name, content, vertices, patience, nullptr);
     search.run();
     return tl::unexpected(search.scanner().error());
   }

@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "base/vector.h"
+#include "files/memory_budget.h"
 #include "files/patience.h"
 #include "world/fixture.h"
 
@@ -45,11 +46,15 @@ struct ObjDocument {
   std::size_t others = 0;  // curves, surfaces, points and lines
 };
 
-enum class ObjContent { Positions, All };
+/// Parts: positions, and what faces belong to. All: also normals, texture coordinates and colours.
+enum class ObjContent { Positions, Parts, All };
 
-/// `v` and `f` lines with negative indices and continued lines; with All also `vt`, `vn`, `o`, `g`,
-/// `usemtl`, `mtllib`. Errors name the line. Fails also when patience (may be null) ends.
+/// `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`, `g`,
+/// `usemtl`, `mtllib`, which are then in order even where they are not kept. Errors name the line. Fails also
+/// when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. All that
+/// is read is counted there, as few bytes may stand for much, packed ones for any amount.
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
-                                             ObjContent content, Patience* patience = nullptr);
+                                             ObjContent content, Patience* patience = nullptr,
+                                             MemoryBudget* memory = nullptr);
 
 }  // namespace icome::files

@@ -52,6 +52,7 @@ class ObjMeshes {
   /// Not the whole mesh when patience ends.
   world::MeshGeometry mesh_of(std::uint32_t part) {
     world::MeshGeometry shape(geometry::TriangleMesh{});
+    shape.mesh.triangles.reserve(faces_[part].size());
     look_for_attributes(part);
     for (const std::uint32_t face : faces_[part]) {
       if (!lasts_for(face)) break;
@@ -292,12 +293,14 @@ base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
   const std::string name = path.string();
   const bool packed = ending_of(path).packed;
   Patience patience(options.progress);
-  const auto bytes = read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
+  auto bytes = read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
   patience.step(packed ? kParts.unpacked : kParts.read, kParsedPart);
-  auto document = parse_obj_document(*bytes, name, ObjContent::All, &patience);
+  const ObjContent content = options.with_looks ? ObjContent::All : ObjContent::Parts;
+  auto document = parse_obj_document(*bytes, name, content, &patience, &memory);
   if (!document) return tl::unexpected(document.error());
+  std::string().swap(*bytes);  // what it said is in the document
   patience.step(kParsedPart, 1.0);
   if (const auto scaled = scale(document->positions, options.unit, name); !scaled)
     return tl::unexpected(scaled.error());

@@ -37,8 +37,10 @@ base::Result<void> write_stl(const geometry::TriangleMesh& mesh, double unit, Ne
     for (int i = 0; i < 3; ++i) corners[i] = (mesh.corner(t, i) / unit).cast<float>();
     if (!corners[0].allFinite() || !corners[1].allFinite() || !corners[2].allFinite())
       return base::fail(file.path().string() + ": the mesh is too large for an STL file's single precision");
+    // Of the corners that the file has, so that it is the same when they have been read from it.
+    const geometry::Vector3 first = corners[0].cast<double>();
     const geometry::Vector3 across =
-        (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
+        (corners[1].cast<double>() - first).cross(corners[2].cast<double>() - first);
     append(bytes, Eigen::Vector3f(across.stableNormalized().cast<float>()));
     for (const Eigen::Vector3f& corner : corners) append(bytes, corner);
     append(bytes, std::uint16_t{0});  // no attributes

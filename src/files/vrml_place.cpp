@@ -23,6 +23,14 @@ constexpr double kNothing = std::numeric_limits<float>::epsilon() / 4.0;
 // does not decide.
 constexpr double kClearly = 1e-5;
 
+constexpr double kStep = std::numbers::pi / 12.0;  // 15 degrees
+
+/// Parts of a turn by 15 degrees are meant where single precision cannot tell an angle from them.
+double meant_angle(float angle) {
+  const double step = std::round(angle / kStep) * kStep;
+  return float(step) == angle ? step : from_single(angle);
+}
+
 Vector3 decimals(const Eigen::Vector3f& value) {
   return {from_single(value.x()), from_single(value.y()), from_single(value.z())};
 }
@@ -30,7 +38,7 @@ Vector3 decimals(const Eigen::Vector3f& value) {
 /// As Coin and others keep it: in quaternions of single precision, more decimals would come back as others.
 /// Parts of a turn by 15 degrees are told by more, whose meaning is known.
 float lasting_angle(double angle) {
-  constexpr double kDecimals = 1e6, kStep = std::numbers::pi / 12.0;
+  constexpr double kDecimals = 1e6;
   // Half a turn is as far as it goes: rounding must not lead past it and back by the other way.
   if (std::fabs(angle) > std::numbers::pi - 1.0 / kDecimals) return std::numbers::pi_v<float>;
   const double step = std::round(angle / kStep) * kStep;
@@ -66,7 +74,7 @@ VrmlTurn turn_of(const Matrix3& rotation) {
 
 Matrix3 matrix_of(const VrmlTurn& turn) {
   if (turn.angle == 0.0F) return Matrix3::Identity();
-  return Eigen::AngleAxisd(from_single(turn.angle), decimals(turn.axis).normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(meant_angle(turn.angle), decimals(turn.axis).normalized()).toRotationMatrix();
 }
 
 /// A matrix is rotation * orientation * scale * orientation^-1.

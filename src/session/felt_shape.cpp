@@ -42,7 +42,7 @@ class FeltShapeMaker {
     if (map_.determinant() == 0.0) return untouchable("is too flat or too far away to be touched");
     Felt felt;
     if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape)) {
-      felt = of_mesh(mesh->mesh);
+      felt = of_mesh(*mesh);
     } else if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
       felt = of_primitive(*primitive);
     } else if (const auto* loop = dynamic_cast<const world::LoopGeometry*>(&shape)) {
@@ -67,9 +67,10 @@ class FeltShapeMaker {
 
   bool sphere_tip() const { return settings_.tip_radius > 0.0; }
 
-  Felt of_mesh(geometry::TriangleMesh mesh) const {
-    if (mesh.triangles.empty()) return untouchable("is empty: there is nothing to touch");
-    if (!world::complaint(mesh).empty()) return untouchable("is damaged and cannot be touched");
+  Felt of_mesh(const world::MeshGeometry& shape) const {
+    if (shape.mesh.triangles.empty()) return untouchable("is empty: there is nothing to touch");
+    if (!world::complaint(shape.mesh).empty()) return untouchable("is damaged and cannot be touched");
+    geometry::TriangleMesh mesh = shape.mesh;
     stretch(mesh, map_);
     const base::Bounds box = geometry::bounds(mesh);
     if (!(box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() < kLargestCoordinate))
@@ -80,14 +81,25 @@ class FeltShapeMaker {
     auto felt = std::make_shared<FeltShape>();
     felt->closed = report.surface.closed;
     felt->sound = !report.changed();
+    felt->repairs = report.sentences();
     felt->middle = geometry::bring_near(mesh);
-    felt->mesh = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+    felt->mesh = shared_mesh(shape, std::move(mesh));
     haptics::MeshShapeSettings settings;
     settings.closed = felt->closed;
     settings.interpolate_normals = settings_.interpolate_normals;
     settings.tip_radius = settings_.tip_radius;
     felt->shape = std::make_shared<haptics::MeshShape>(felt->mesh, settings);
     return felt;
+  }
+
+  /// What is felt of the shape: the shape's own mesh where that is the same and may be shared.
+  std::shared_ptr<const geometry::TriangleMesh> shared_mesh(const world::MeshGeometry& shape,
+                                                            geometry::TriangleMesh felt) const {
+    if (settings_.shares_meshes && felt.positions == shape.mesh.positions &&
+        felt.triangles == shape.mesh.triangles) {
+      if (auto owner = shape.weak_from_this().lock()) return {std::move(owner), &shape.mesh};
+    }
+    return std::make_shared<const geometry::TriangleMesh>(std::move(felt));
   }
 
   /// Is the mesh that of before, with vertices elsewhere?
@@ -113,8 +125,9 @@ class FeltShapeMaker {
     if (box.isEmpty()) return untouchable("is empty: there is nothing to touch");
     const auto triangles = shape.triangles(tolerance_of_size * box.sizes().maxCoeff());
     if (!triangles) return untouchable("cannot be touched: " + triangles.error().message);
-    Felt felt = of_mesh((*triangles)->mesh);
+    Felt felt = of_mesh(**triangles);
     felt->exact = false;
+    felt->repairs.clear();  // of triangles that nobody has made by hand
     if (felt->shape)
       felt->remark =
           fmt::format("is felt as {} triangles, as it is {}", felt->mesh->triangles.size(), because);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/csg_tree.h"
 #include "haptics/shape.h"
@@ -18,6 +19,8 @@ struct FeltSettings {
   /// Surfaces that change with time do so under the hand; else they are felt as they are at t = 0, as which
   /// they are seen and picked.
   bool with_time = false;
+  /// A mesh that needs no change to be felt is the shape's own, no copy: for who changes none in place.
+  bool shares_meshes = false;
 };
 
 /// A shape of the world as it is touched, stretched as its object is. Immutable; clones share it.
@@ -26,6 +29,7 @@ struct FeltShape {
   bool closed = true;                                     // it encloses a solid
   bool exact = true;   // touched as what it is, also if that is a mesh; else as triangles of it
   std::string remark;  // a clause about what cannot be touched or is not quite itself; empty: nothing
+  std::vector<std::string> repairs = {};  // what was put right in a mesh and what is still wrong: sentences
 
   /// m, where the frame of what is felt lies in the felt frame: not at its origin where it has
   /// coordinates far larger than itself.

@@ -82,12 +82,12 @@ class UnitsTest(ProgramTest):
                 self.assertLess(distance(point(row, "force"), point(expected, "force")), 1e-9)
                 self.assertLess(distance(point(row, "scp"), point(expected, "scp")), 1e-9)
 
-    def test_up_y_turns_the_files_y_to_the_worlds_z(self):
-        # A sheet y = 0.03 in the file lies at z = 0.03 in the world.
-        sheet = self.write("sheet.obj", "v -1 0.03 -1\nv -1 0.03 1\nv 1 0.03 1\nv 1 0.03 -1\nf 1 2 3 4\n")
-        path = self.path_file(line((0.1, 0.2, 0.04), (0.1, 0.2, 0.029), 300))
-        row = self.trace(sheet, "--up", "y", "--path", path)[-1]
-        self.assertLess(distance(point(row, "scp"), (0.1, 0.2, 0.03)), 1e-9)
+    def test_up_z_turns_the_files_z_to_the_worlds_y(self):
+        # A sheet z = 0.03 in the file lies at y = 0.03 in the world.
+        sheet = self.write("sheet.obj", "v -1 -1 0.03\nv 1 -1 0.03\nv 1 1 0.03\nv -1 1 0.03\nf 1 2 3 4\n")
+        path = self.path_file(line((0.1, 0.04, 0.2), (0.1, 0.029, 0.2), 300))
+        row = self.trace(sheet, "--up", "z", "--path", path)[-1]
+        self.assertLess(distance(point(row, "scp"), (0.1, 0.03, 0.2)), 1e-9)
 
 
 if __name__ == "__main__":

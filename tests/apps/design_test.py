@@ -79,8 +79,8 @@ class GltfTest(DesignTest):
         self.assertAlmostEqual(row["scp_z"] - row["scp_y"], 0.05 * 2 ** 0.5, delta=1e-6)
 
     def test_it_is_turned_and_fitted_like_other_files(self):
-        row = self.contact(self.design, (0.01, -0.02, 0.1), (0.01, -0.02, 0.04), "--up", "y")
-        self.assert_point(row, (0.01, -0.02, 0.05), 1e-6)
+        row = self.contact(self.design, (0.01, 0.1, -0.02), (0.01, 0.04, -0.02), "--up", "z")
+        self.assert_point(row, (0.01, 0.05, -0.02), 1e-6)
         row = self.contact(self.design, (0.001, 0.01, 0.002), (0.001, 0.004, 0.002), "--fit", "0.11")
         self.assert_point(row, (0.001, 0.005, 0.002), 1e-6)  # from x = -0.05 to 1.05: everything is a tenth
 
@@ -102,8 +102,11 @@ class GltfTest(DesignTest):
 
     def test_what_does_not_fit_designs_is_said(self):
         self.fails("touch", self.design, "--renderer", "thesis", code=1, saying="--renderer thesis touches")
-        self.fails("touch", self.design, "--subdivide", "limit", code=1, saying="--subdivide is for meshes")
         self.fails("touch", self.folder / "none.gltf", code=1, saying="none.gltf")
+
+    def test_meshes_of_a_design_are_control_meshes_where_that_is_asked_for(self):
+        report = self.report(self.design, "--subdivide", "limit", "--seconds", "0.3", "--check")
+        self.assertEqual((report["triangles"], report["pops"], report["sticks"]), (0, 0, 0))
 
 
 class VrmlTest(DesignTest):
@@ -141,8 +144,8 @@ class VrmlTest(DesignTest):
             self.assertAlmostEqual(x / 0.06 + z / 0.08, 1.0, delta=1e-6)
 
     def test_it_is_turned_scaled_and_fitted_like_other_files(self):
-        row = self.contact(self.design, (0.01, -0.02, 0.1), (0.01, -0.02, 0.035), "--up", "y")
-        self.assert_point(row, (0.01, -0.02, 0.04))
+        row = self.contact(self.design, (0.01, 0.1, -0.02), (0.01, 0.025, -0.02), "--up", "z")
+        self.assert_point(row, (0.01, 0.03, -0.02))
         # From x = -0.05 to 1.5: fitted to 0.155, everything is a tenth.
         row = self.contact(self.design, (0.001, 0.01, 0.002), (0.001, 0.0035, 0.002), "--fit", "0.155")
         self.assert_point(row, (0.001, 0.004, 0.002))
@@ -190,8 +193,8 @@ class JournalTest(DesignTest):
     def test_a_csg_tree_in_a_design_is_felt_without_a_mesh(self):
         design = self.folder / "solid.icome"
         self.succeeds("convert", self.write("solid.csg", self.SOLID), design)
-        row = self.contact(design, (0.02, 0, 0.1), (0.02, 0, 0.038), "--up", "y")
-        self.assert_point(row, (0.02, 0, 0.04))
+        row = self.contact(design, (0.02, 0.1, 0), (0.02, 0.038, 0))
+        self.assert_point(row, (0.02, 0.04, 0))
         self.assertEqual(self.report(design, "--seconds", "0.1")["triangles"], 0)
 
 

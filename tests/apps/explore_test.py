@@ -68,8 +68,8 @@ class ExploreTest(ProgramTest):
         path = self.path_file([(0.002 * math.sin(i / 400), 0.006 + 0.002 * math.sin(i / 111), 0.01 * math.sin(i / 700))
                                for i in range(20000)])
         trace = self.folder / "trace.csv"
-        process = subprocess.Popen([PROGRAM, "touch", groove, "--radius", "0.002", "--path", path, "--check", "--json",
-                                    "--trace", trace], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([PROGRAM, "touch", groove, "--up", "y", "--radius", "0.002", "--path", path, "--check",
+                                    "--json", "--trace", trace], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.kill)
         while process.poll() is None and not any(file.stat().st_size for file in self.folder.glob("trace*")):
             time.sleep(0.05)  # until the first rows are on disk

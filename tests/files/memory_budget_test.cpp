@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "files/design.h"
+#include "packed_xz.h"
 #include "sample_journals.h"
 
 namespace icome::files {
@@ -105,6 +106,26 @@ TEST(MemoryBudget, BoundsWhatUnpacks) {
             0);
   bytes_to_refuse(folder.path() / "a.obj.xz");
   bytes_to_refuse(folder.path() / "a.wrz");
+}
+
+TEST(MemoryBudget, BoundsPartsOfObj) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 600'000; ++i) text += fmt::format("g {}\nf 1 2 3\n", i);
+  const ScratchFolder folder;
+  EXPECT_LT(bytes_to_refuse(folder.write("a.obj", text)), 20 * text.size() + 256'000'000);
+}
+
+TEST(MemoryBudget, BoundsWhatBecomesOfWhatUnpacks) {
+  const ScratchFolder folder;
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto faces = folder.write("a.obj.xz", packed_xz(corners + repeated("f 1 2 3\n", 8'000'000)));
+  EXPECT_LT(bytes_to_refuse(faces), 300'000'000u);
+  const std::string head = "OFF 3 8000000 0\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_LT(bytes_to_refuse(folder.write("a.off.xz", packed_xz(head + repeated("3 0 1 2\n", 8'000'000)))),
+            300'000'000u);
+  EXPECT_LT(
+      bytes_to_refuse(folder.write("a.csg.xz", packed_xz(repeated("group();", 4'000'000) + "cube(1);"))),
+      300'000'000u);
 }
 
 TEST(MemoryBudget, BoundsStripsOfGltf) {

@@ -57,15 +57,15 @@ INSTANTIATE_TEST_SUITE_P(MeshReader, EveryFormat,
                                          std::tuple{"a.STL", sample_binary_stl(), "binary STL"},
                                          std::tuple{"a.glb", sample_glb(), "GLB"}));
 
-TEST(MeshReader, UnitAxisAndFitPlaceTheModel) {
+TEST(MeshReader, UnitAndFitScaleTheModel) {
   const ScratchFolder folder;
   const auto file =
       folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-  const auto centimetres = read_mesh(file, {.unit = 0.01, .up = UpAxis::Y});
+  const auto centimetres = read_mesh(file, {.unit = 0.01});
   ASSERT_TRUE(centimetres);
   const geometry::Bounds box = geometry::bounds(centimetres->mesh);
-  EXPECT_NEAR((box.min() - geometry::Vector3(0, -0.03, 0)).norm(), 0.0, 1e-15);
-  EXPECT_NEAR((box.max() - geometry::Vector3(0.01, 0, 0.02)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((box.min() - geometry::Vector3(0, 0, 0)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((box.max() - geometry::Vector3(0.01, 0.02, 0.03)).norm(), 0.0, 1e-15);
   EXPECT_GT(geometry::signed_volume(centimetres->mesh), 0.0);
   const auto fitted = read_mesh(file, {.fit = 0.1});
   ASSERT_TRUE(fitted);

@@ -43,6 +43,16 @@ TEST(StlWriter, MeshesComeBack) {
   EXPECT_EQ(files_in(folder), 1U);
 }
 
+TEST(StlWriter, WhatWasReadIsWrittenTheSame) {
+  const ScratchFolder folder;
+  const auto once = folder.path() / "once.stl", twice = folder.path() / "twice.stl";
+  ASSERT_TRUE(written(geometry::tessellate(geometry::Torus{0.05, 0.02}, 1e-5), 1.0, once));
+  const auto loaded = read_mesh(once);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(written(loaded->mesh, 1.0, twice));
+  EXPECT_TRUE(*read_bytes(once, 1U << 30U) == *read_bytes(twice, 1U << 30U));
+}
+
 TEST(StlWriter, TheBytesAreThoseOfTheFormat) {
   const ScratchFolder folder;
   const TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}}};

@@ -8,12 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace icome::files {
+#include "files/vrml_worker/refusal.h"
 
-/// Why the whole file is refused; thrown.
-struct Refusal {
-  std::string why;
-};
+namespace icome::files {
 
 /// The kinds of piece in vrml_answer.fbs, in its order.
 enum class PartKind : std::uint8_t {

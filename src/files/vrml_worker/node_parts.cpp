@@ -27,7 +27,8 @@ bool is_kept(const AxisAngle& turn, const SoSFRotation& field) {
 }
 
 /// Coin keeps a rotation as a quaternion in single precision. The numbers of the file are the roundest that
-/// give this one, or a multiple of 15 degrees; where there are none, the file had too many digits to be kept.
+/// give this one, or a multiple of 15 degrees, which is then meant whatever digits the file has of it; where
+/// there are none, the file had too many digits to be kept.
 AxisAngle axis_angle(const SoSFRotation& field) {
   const float* const kept = field.getValue().getValue();
   // Not as Coin does it, from the cosine, which hardly tells small angles.
@@ -37,7 +38,7 @@ AxisAngle axis_angle(const SoSFRotation& field) {
   const base::Vector3 axis = sine / length;
   const double angle = 2.0 * std::atan2(length, kept[3]);
   constexpr double kStep = M_PI / 12.0;
-  const double step = as_written(static_cast<float>(std::round(angle / kStep) * kStep));
+  const double step = std::round(angle / kStep) * kStep;
   const auto round_to = [](double number, double unit) { return std::round(number * unit) / unit; };
   for (double unit = 10.0; unit < 1e8; unit *= 10.0) {
     // The axis in the file may be longer or shorter than one by what its decimals leave out.

@@ -9,7 +9,7 @@
 
 #include "files/vrml_header.h"
 #include "files/vrml_scanner.h"
-#include "files/vrml_worker/answer.h"
+#include "files/vrml_worker/refusal.h"
 #include "files/vrml_worker/tokens.h"
 
 namespace icome::files {
