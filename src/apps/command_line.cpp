@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <map>
+#include <sstream>
+#include <string_view>
 
 #include "apps/desktop_command.h"
 #include "apps/effect_options.h"
@@ -386,6 +390,26 @@ std::string no_such_part(const CLI::App& named, int argc, char** argv) {
                   : fmt::format("say which {}: {}.", part, names);
 }
 
+/// Breaks what stands beside the names of options and commands into lines of 100 characters.
+std::string wrapped_help(std::string_view text) {
+  constexpr std::size_t kWidth = 100, kColumn = 30;  // CLI11 lays descriptions out from there
+  std::string wrapped;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string line(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const bool beside = line.size() > kColumn && line.substr(kColumn - 2, 2) == "  " && line[kColumn] != ' ';
+    while (beside && line.size() > kWidth) {
+      const std::size_t at = line.rfind(' ', kWidth);
+      if (at == std::string::npos || at < kColumn) break;
+      wrapped += line.substr(0, at) + "\n";
+      line = std::string(kColumn, ' ') + line.substr(at + 1);
+    }
+    wrapped += line + "\n";
+  }
+  return wrapped;
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, char** argv) {
@@ -435,7 +459,9 @@ CommandLine parse_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // help or version
-    command_line.exit_code = app.exit(success);
+    std::ostringstream told;
+    command_line.exit_code = app.exit(success, told);
+    std::cout << wrapped_help(told.str());
     return command_line;
   } catch (const CLI::ParseError& error) {
     return bad_usage(error.what(), help);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "apps/touch_report.h"
 #include "files/file_bytes.h"
 #include "interaction/techniques/technique_recording.h"
+#include "session/picture_file.h"
 
 namespace icome::apps {
 namespace {
@@ -51,7 +53,11 @@ base::Result<EditOutcome> perform_text(const EditOptions& options, std::string_v
     return !interrupted();
   };
   if (options.replay.empty()) {
-    interaction::OperationRunner runner(std::move(world));
+    // Files that a script names lie beside it.
+    const std::filesystem::path folder =
+        options.apply == "-" ? std::filesystem::path() : options.apply.parent_path();
+    interaction::OperationRunner runner(
+        std::move(world), [&](const std::string& file) { return session::read_picture(folder / file); });
     EditOutcome outcome = perform_script(runner, text, options.keep_going, goes_on);
     world = runner.world();
     return outcome;

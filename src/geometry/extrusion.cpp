@@ -85,6 +85,21 @@ std::string step_name(std::span<const SweepStep> steps, std::size_t step, int re
   return fmt::format("step {} (repeat {} of {})", step + 1, repeat, steps[step].repeat);
 }
 
+/// How the picture on an outline lies, nearly: texture coordinates for a metre along x and y (least squares).
+Eigen::Matrix2d places_per_metre(const std::vector<Vector2>& points, const std::vector<Vector2>& places) {
+  Vector2 middle = Vector2::Zero(), middle_place = Vector2::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    middle += points[i] / double(points.size());
+    middle_place += places[i] / double(points.size());
+  }
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero(), common = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    spread += (points[i] - middle) * (points[i] - middle).transpose();
+    common += (places[i] - middle_place) * (points[i] - middle).transpose();
+  }
+  return common * spread.inverse();
+}
+
 /// Makes the mesh, section by section. Triangles are wound for a sweep that advances forward, and turned at
 /// the end when it went backward.
 class Extruder {
@@ -93,6 +108,7 @@ class Extruder {
       : steps_(steps),
         ends_(ends),
         open_(profile.open),
+        places_(profile.places),
         rules_(ends == ExtrusionEnds::Capped, ends == ExtrusionEnds::Joined) {
     Bounds box;
     for (const Vector2& point : profile.points) {
@@ -100,6 +116,8 @@ class Extruder {
       box.extend(first_.points.back());
     }
     profile_size_ = box.sizes().norm();
+    way_.resize(profile.points.size(), 0.0);
+    if (!places_.empty()) find_ways_out(profile.points);
   }
 
   Result<TriangleMesh> run() {
@@ -116,8 +134,19 @@ class Extruder {
     if (auto sound = finish(); !sound) return tl::unexpected(sound.error());
     return std::move(mesh_);
   }
+  /// Of every triangle that run() has made, where the profile has places.
+  std::vector<std::array<Vector2, 3>>& coordinates() { return coordinates_; }
 
  private:
+  /// From each edge of the outline straight out, texture coordinates for a metre.
+  void find_ways_out(const std::vector<Vector2>& points) {
+    const Eigen::Matrix2d per_metre = places_per_metre(points, places_);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector2 along = (points[(i + 1) % points.size()] - points[i]).normalized();
+      ways_out_.emplace_back(per_metre * Vector2(along.y(), -along.x()));
+    }
+  }
+
   Result<void> check_size() const {
     std::uint64_t sections = 1;
     for (const SweepStep& step : steps_) sections += static_cast<std::uint64_t>(step.repeat);
@@ -174,6 +203,7 @@ class Extruder {
     if (auto sound = add_band(section); !sound) return sound;
     shape_ = shape;
     latest_ = std::move(section);
+    way_ = way_to_;
     return {};
   }
 
@@ -197,6 +227,9 @@ class Extruder {
   Result<void> add_band(const SweepSection& to) {
     const std::size_t before = mesh_.triangles.size();
     better_fold_ = open_ ? kBetter : kMuchBetter;
+    way_to_ = way_;
+    for (std::size_t i = 0; i < to.points.size(); ++i)
+      way_to_[i] += (to.points[i] - latest_.points[i]).norm();
     if (!add_quads(to))
       return fail_here(
           "makes the sheet cross itself; move the axis out of the profile or turn less at a time");
@@ -208,6 +241,7 @@ class Extruder {
     if (find_crossing(mesh_, before, tolerance_, !open_, tests_left_) == TriangleCrossing::None) return {};
     // Far twists go better where each quad is cut for itself.
     mesh_.triangles.resize(before);
+    if (!places_.empty()) coordinates_.resize(before);
     better_fold_ = kBetter;
     add_quads(to);
     if (auto sound = check_flatness(before); !sound) return sound;
@@ -226,9 +260,32 @@ class Extruder {
     for (std::size_t i = 0; i + (open_ ? 1 : 0) < count; ++i) {
       const std::size_t j = (i + 1) % count;
       const Quad quad = {latest_.vertices[i], latest_.vertices[j], to.vertices[j], to.vertices[i]};
+      const std::size_t before = mesh_.triangles.size();
       if (!add_quad(quad, cut_between(to.vertices, i, j))) return false;
+      if (!places_.empty()) place_quad(quad, i, j, before);
     }
     return true;
+  }
+
+  /// Gives the triangles that were made of a quad their places in the picture. Corners that came together lie
+  /// half-way.
+  void place_quad(const Quad& quad, std::size_t i, std::size_t j, std::size_t before) {
+    const Vector2& out = ways_out_[i];
+    const std::array<Vector2, 4> places = {places_[i] + way_[i] * out, places_[j] + way_[j] * out,
+                                           places_[j] + way_to_[j] * out, places_[i] + way_to_[i] * out};
+    for (std::size_t t = before; t < mesh_.triangles.size(); ++t) {
+      std::array<Vector2, 3>& corners = coordinates_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        Vector2 sum = Vector2::Zero();
+        int count = 0;
+        for (std::size_t q = 0; q < quad.size(); ++q) {
+          if (quad[q] != mesh_.triangles[t][k]) continue;
+          sum += places[q];
+          ++count;
+        }
+        corners[k] = sum / count;
+      }
+    }
   }
 
   /// Where an outline folds, both quads are cut towards the fold: two cuts from the other side would end in
@@ -302,10 +359,17 @@ class Extruder {
 
   void add_caps() {
     for (const Triangle& t : cap_triangles(first_.points)) {
-      add_triangle({first_.vertices[t[0]], first_.vertices[t[2]], first_.vertices[t[1]]});
-      if (shape_ == SectionShape::Whole)
-        add_triangle({latest_.vertices[t[0]], latest_.vertices[t[1]], latest_.vertices[t[2]]});
+      add_cap_triangle(first_, {t[0], t[2], t[1]});
+      if (shape_ == SectionShape::Whole) add_cap_triangle(latest_, t);
     }
+  }
+
+  /// `corners` are those of the outline.
+  void add_cap_triangle(const SweepSection& section, const Triangle& corners) {
+    const std::size_t before = mesh_.triangles.size();
+    add_triangle({section.vertices[corners[0]], section.vertices[corners[1]], section.vertices[corners[2]]});
+    if (places_.empty() || mesh_.triangles.size() == before) return;
+    coordinates_.push_back({places_[corners[0]], places_[corners[1]], places_[corners[2]]});
   }
 
   /// A sheet whose rims lie on the axis of a ring has an outside.
@@ -317,6 +381,7 @@ class Extruder {
 
   void turn_all() {
     for (Triangle& triangle : mesh_.triangles) std::swap(triangle[1], triangle[2]);
+    for (auto& corners : coordinates_) std::swap(corners[1], corners[2]);
   }
 
   /// Corners that are one leave a triangle, or nothing. False: an open profile's quad crosses itself.
@@ -370,6 +435,11 @@ class Extruder {
   std::span<const SweepStep> steps_;
   ExtrusionEnds ends_;
   bool open_;
+  std::vector<Vector2> places_;         // in the picture, of the outline's corners; none: there is no picture
+  std::vector<Vector2> ways_out_ = {};  // of the edges from them
+  std::vector<std::array<Vector2, 3>> coordinates_ = {};
+  std::vector<double> way_ = {};     // m, that each corner has come, to the latest section
+  std::vector<double> way_to_ = {};  // and to the next
   AdvanceRules rules_;
   double profile_size_ = 0.0;
   double tolerance_ = 0.0;
@@ -394,6 +464,17 @@ Result<TriangleMesh> extrude(const Profile& profile, std::span<const SweepStep> 
   const Result<Profile> checked = checked_profile(profile);
   if (!checked) return tl::unexpected(checked.error());
   return Extruder(*checked, steps, ends).run();
+}
+
+Result<TexturedExtrusion> extrude_textured(const Profile& profile, std::span<const SweepStep> steps,
+                                           ExtrusionEnds ends) {
+  if (auto sound = check_steps(steps); !sound) return tl::unexpected(sound.error());
+  const Result<Profile> checked = checked_profile(profile);
+  if (!checked) return tl::unexpected(checked.error());
+  Extruder extruder(*checked, steps, ends);
+  auto mesh = extruder.run();
+  if (!mesh) return tl::unexpected(mesh.error());
+  return TexturedExtrusion{std::move(*mesh), std::move(extruder.coordinates())};
 }
 
 }  // namespace icome::geometry

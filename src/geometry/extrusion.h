@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "base/result.h"
 #include "geometry/profile.h"
@@ -39,5 +41,18 @@ inline constexpr double kLargestExtrusion = 1e9;
 /// corner's triangles share one vertex. A given input gives the same mesh every time.
 base::Result<TriangleMesh> extrude(const Profile& profile, std::span<const SweepStep> steps,
                                    ExtrusionEnds ends = ExtrusionEnds::Capped);
+
+/// A swept surface with texture coordinates.
+struct TexturedExtrusion {
+  TriangleMesh mesh;
+  std::vector<std::array<Vector2, 3>> places;  ///< of every triangle's corners
+};
+
+/// As extrude(), with the picture that lies on the profile carried along: on both ends it lies as on the
+/// profile, and over each side it goes on from the edge there as if the side were folded out into the plane
+/// of the profile, as long as the way that the corners went. Precondition: the profile is an outline and has
+/// places.
+base::Result<TexturedExtrusion> extrude_textured(const Profile& profile, std::span<const SweepStep> steps,
+                                                 ExtrusionEnds ends = ExtrusionEnds::Capped);
 
 }  // namespace icome::geometry

@@ -120,6 +120,21 @@ class EdgeCrossings {
   double tolerance_;
 };
 
+base::Result<void> check_places(const Profile& profile) {
+  if (profile.places.empty()) return {};
+  if (profile.places.size() != profile.points.size())
+    return base::fail(
+        fmt::format("the profile has {} corners and {} places in a picture; give each corner one",
+                    profile.points.size(), profile.places.size()));
+  const auto is_usual = [](const Vector2& place) {
+    return place.allFinite() && place.cwiseAbs().maxCoeff() <= kFarthestPictureRepeat;
+  };
+  if (!std::ranges::all_of(profile.places, is_usual))
+    return base::fail(fmt::format("a picture is repeated up to {:g} times; give places within that",
+                                  kFarthestPictureRepeat));
+  return {};
+}
+
 base::Result<void> check_numbers(const Profile& profile) {
   if (profile.points.size() > kMaximumPolygonCorners)
     return base::fail(fmt::format("the profile has {} corners; use {} at most", profile.points.size(),
@@ -181,6 +196,7 @@ base::Result<Profile> regular_polygon(int corners, double radius, const Vector2&
 
 base::Result<Profile> checked_profile(const Profile& profile) {
   if (const auto sound = check_numbers(profile); !sound) return tl::unexpected(sound.error());
+  if (const auto sound = check_places(profile); !sound) return tl::unexpected(sound.error());
   Eigen::AlignedBox2d box;
   double largest = 0.0;
   for (const Vector2& point : profile.points) {
@@ -193,9 +209,14 @@ base::Result<Profile> checked_profile(const Profile& profile) {
   ThinnedProfile thinned = without_repeats(profile, tolerance);
   if (const auto sound = check_outline(thinned, profile.open, tolerance); !sound)
     return tl::unexpected(sound.error());
-  if (!profile.open && doubled_area(thinned.points) < 0.0)
-    std::reverse(thinned.points.begin(), thinned.points.end());
-  return Profile{std::move(thinned.points), profile.open};
+  if (!profile.open && doubled_area(thinned.points) < 0.0) {
+    std::ranges::reverse(thinned.points);
+    std::ranges::reverse(thinned.numbers);
+  }
+  Profile checked{std::move(thinned.points), profile.open};
+  for (const std::size_t number : thinned.numbers)
+    if (!profile.places.empty()) checked.places.push_back(profile.places[number - 1]);
+  return checked;
 }
 
 std::optional<Vector3> common_line(std::span<const Vector3> points, double tolerance) {

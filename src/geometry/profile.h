@@ -12,6 +12,7 @@ namespace icome::geometry {
 struct Profile {
   std::vector<Vector2> points = {};  ///< in order, either way round
   bool open = false;                 ///< a line from the first point to the last, with nothing inside
+  std::vector<Vector2> places = {};  ///< texture coordinates of the points; none, or as many
 };
 
 /// What two neighbouring numbers of a sweep must differ by to count as different, as a share of the largest
@@ -22,13 +23,17 @@ inline constexpr double kSweepTolerance = 0x1p-40;
 inline constexpr double kSmallestProfile = 1e-9;
 inline constexpr double kLargestProfile = 1e6;
 
+/// The largest texture coordinate of a profile.
+inline constexpr double kFarthestPictureRepeat = 1e6;
+
 /// The polygon of `corners` equal sides around `centre`, counter-clockwise from the corner at +x. Many
 /// corners make a circle.
 base::Result<Profile> regular_polygon(int corners, double radius, const Vector2& centre = Vector2::Zero());
 
 /// The profile fit to be swept: repeated corners left out and an outline counter-clockwise. Fails for numbers
 /// that are not finite or out of range, for too few or too many corners (kMaximumPolygonCorners), for an
-/// outline without area and for edges that cross or touch. O(n^2) at worst, nearly O(n) as a rule.
+/// outline without area, for places that are not as many or out of range, and for edges that cross or touch.
+/// O(n^2) at worst, nearly O(n) as a rule.
 base::Result<Profile> checked_profile(const Profile& profile);
 
 /// The direction of the line that all points keep to within `tolerance` (m), zero where they are one point;

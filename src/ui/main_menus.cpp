@@ -47,6 +47,7 @@ ShortcutSheet::Part mouse_part() {
            {"Zoom to an object", "Double click"},
            {"Select", "Click"},
            {"Select more", "Shift or Ctrl and click"},
+           {"Put a picture on an object", "drop its file there"},
            {"Move what is selected", "Drag"},
            {"\u2026 along x, y or z", "hold X, Y or Z"},
            {"\u2026 without snapping", "hold Shift or Alt"},
@@ -91,6 +92,7 @@ void MainWindow::make_menus() {
   QMenu* model = menuBar()->addMenu("&Model");
   operations_.fill(*model, *edit);
   model->addSeparator();
+  pictures_.fill(*model);
   moves_.fill(*model->addMenu("&Moving"), *this);
   views_.fill(*menuBar()->addMenu("&View"));
   make_tool_menu(*menuBar()->addMenu("&Tools"));
@@ -232,6 +234,7 @@ void MainWindow::show_scene_menu(QPointF at) {
   fill_object_menu(*menu, session_,
                    {.zoom = [this] { zoom_to_selection(session_, tools_.aspect()); },
                     .rename = [this] { tree_->rename(); },
+                    .picture = [this] { pictures_.choose(); },
                     .refused = [this](const std::string& why) { tell_error(why); }});
   menu->addSeparator();
   menu->addAction(views_.home());

@@ -61,7 +61,11 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
                    .find = [this] { find_command(); }}),
       views_(session, tools_, settings),
       techniques_(session, settings, *this, [this](const Note& note) { tell(note); }),
-      moves_(session, settings) {
+      moves_(session, settings),
+      pictures_(session,
+                {.begin = [this] { return finish_work(); },
+                 .refused = [this](const std::string& why) { tell_error(why); }},
+                *this) {
   setObjectName("icome");
   setWindowIcon(app_icon());
   setAcceptDrops(true);
@@ -107,7 +111,7 @@ void MainWindow::make_center() {
   banner_ = new Banner(center);
   shaping_ = new ShapeOptions(session_, tools_.shape_tool(), center);
   scene_ = new SceneView(session_, tools_, center);
-  scene_->window_of_scene().send_drops_to(this);
+  scene_->window_of_scene().on_drop([this](QDropEvent& drop) { return offer_drop(drop, true); });
   rows->addWidget(banner_);
   rows->addWidget(shaping_);
   rows->addWidget(scene_, 1);
@@ -175,6 +179,7 @@ void MainWindow::tick() {
   for (const session::SessionEvent& event : session_.update()) {
     hear(event);
   }
+  pictures_.tick();
   scene_->tick();
   shaping_->tick();
   edits_.refresh();
@@ -324,20 +329,39 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   session_.close();
 }
 
-bool MainWindow::offer_drop(QEvent& event) {
-  auto& drop = static_cast<QDropEvent&>(event);
+bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
   const QList<QUrl> urls = drop.mimeData()->urls();
   if (urls.size() != 1 || !urls.front().isLocalFile()) return false;
   drop.setDropAction(Qt::CopyAction);
   drop.accept();
-  if (event.type() == QEvent::Drop) files_.open(path_of(urls.front().toLocalFile()));
+  const std::filesystem::path file = path_of(urls.front().toLocalFile());
+  const bool dropped = drop.type() == QEvent::Drop;
+  if (!is_named_as_picture(file)) {
+    if (dropped) files_.open(file);
+    return true;
+  }
+  const SceneInput input{.at = drop.position(), .size = scene_->size()};
+  if (!dropped) {
+    if (over_scene) tools_.move(input);  // what it would fall on is named
+  } else if (over_scene) {
+    drop_picture(file, input);
+  } else {
+    tell_error("Drop a picture on the object in the scene that it is to lie on");
+  }
   return true;
+}
+
+void MainWindow::drop_picture(const std::filesystem::path& file, const SceneInput& input) {
+  const auto picked = session_.pick_seen(input.ray(session_.view()));
+  if (!picked)
+    return tell_error("There is no object under the picture: drop it on the one that it is to lie on");
+  pictures_.put(file, {picked->object});
 }
 
 bool MainWindow::event(QEvent* event) {
   const bool drop = event->type() == QEvent::DragEnter || event->type() == QEvent::DragMove ||
                     event->type() == QEvent::Drop;
-  if (drop && offer_drop(*event)) return true;
+  if (drop && offer_drop(static_cast<QDropEvent&>(*event), false)) return true;
   return QMainWindow::event(event);
 }
 

@@ -11,6 +11,7 @@
 #include "ui/move_actions.h"
 #include "ui/operation_actions.h"
 #include "ui/operation_panel.h"
+#include "ui/picture_actions.h"
 #include "ui/property_panel.h"
 #include "ui/scene_label.h"
 #include "ui/scene_tools.h"
@@ -74,7 +75,8 @@ class MainWindow final : public QMainWindow {
   void ask(const interaction::Operation& operation);
   void stop_asking();
   void find_command();
-  bool offer_drop(QEvent& event);
+  bool offer_drop(QDropEvent& drop, bool over_scene);
+  void drop_picture(const std::filesystem::path& file, const SceneInput& input);
   bool finish_work();
 
   session::Session& session_;
@@ -87,6 +89,7 @@ class MainWindow final : public QMainWindow {
   ViewActions views_;
   TechniqueActions techniques_;
   MoveActions moves_;
+  PictureActions pictures_;
   Banner* banner_ = nullptr;
   ShapeOptions* shaping_ = nullptr;  // shown with its tool
   SceneView* scene_ = nullptr;

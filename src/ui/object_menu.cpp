@@ -104,6 +104,7 @@ void fill_object_menu(QMenu& menu, session::Session& session, const ObjectMenu& 
   };
   if (entries.zoom) menu.addAction(icon(Icon::ZoomToSelection), "&Zoom to", &menu, entries.zoom);
   if (entries.rename) menu.addAction(icon(Icon::Rename), "&Rename", &menu, entries.rename);
+  if (entries.picture) menu.addAction("Put a &Picture On\u2026", &menu, entries.picture);
   menu.addSeparator();
   add_duplicates(menu, session, entries);
   menu.addAction(icon(Icon::Group), "&Group", &menu, [&session, report] { report(group_selected(session)); });

@@ -26,8 +26,9 @@ const std::vector<DuplicateChoice>& duplicate_choices();
 
 /// What a menu of the selected objects needs from the place where it opens.
 struct ObjectMenu {
-  std::function<void()> zoom = {};    // none: not offered
-  std::function<void()> rename = {};  // none: not offered
+  std::function<void()> zoom = {};     // none: not offered
+  std::function<void()> rename = {};   // none: not offered
+  std::function<void()> picture = {};  // that is to lie on them, to be chosen; none: not offered
   std::function<void(const std::string&)> refused = {};
 };
 /// Adds the actions that suit the selection; none without one.

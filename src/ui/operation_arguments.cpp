@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interaction/operations/operation_runner.h"
+#include "session/picture_file.h"
 
 namespace icome::ui {
 
@@ -74,9 +75,16 @@ base::Result<void> check_value(const Parameter& parameter, const Value& value, c
   return checked ? base::Result<void>() : tl::unexpected(checked.error());
 }
 
+interaction::PictureReader picture_reader(const session::Session& session) {
+  return [folder = session.path().parent_path()](const std::string& file) {
+    return session::read_picture(folder / file);
+  };
+}
+
 base::Result<std::string> perform_operation(session::Session& session, const Operation& operation,
                                             const Value::Fields& fields) {
-  auto plan = interaction::plan_operation(operation, fields, session.world(), session.ids());
+  auto plan =
+      interaction::plan_operation(operation, fields, session.world(), session.ids(), picture_reader(session));
   if (!plan) return tl::unexpected(plan.error());
   if (const auto done = session.perform(plan->edit, operation.title); !done)
     return tl::unexpected(done.error());

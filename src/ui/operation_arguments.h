@@ -32,6 +32,9 @@ bool is_asked(const interaction::Parameter& parameter, const std::string& choice
 base::Result<void> check_value(const interaction::Parameter& parameter, const interaction::Value& value,
                                const world::World& world);
 
+/// Reads pictures for operations; a relative name counts from the folder of the design.
+interaction::PictureReader picture_reader(const session::Session& session);
+
 /// Performs the operation as one action called by its title, selects what was made or changed, and gives what
 /// people should know of it, if anything. A failed one changes nothing.
 base::Result<std::string> perform_operation(session::Session& session,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "interaction/operations/operation_runner.h"
+#include "ui/operation_arguments.h"
 
 namespace icome::ui {
 
@@ -49,7 +50,8 @@ base::Result<std::string> OperationPreview::show(const Operation& operation, con
   const std::shared_ptr<State> state = state_;
   std::optional<Shown>& shown = state->shown;
   if (shown && shown->operation == &operation && shown->fields == fields) return shown->note;
-  auto plan = interaction::plan_operation(operation, fields, world(), session_.ids());
+  auto plan =
+      interaction::plan_operation(operation, fields, world(), session_.ids(), picture_reader(session_));
   if (!plan) return tl::unexpected(plan.error());
   const Busy busy(state->busy);
   if (!shown) shown.emplace(Shown{session_.world(), session_.selection()});

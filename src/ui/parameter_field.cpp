@@ -1,6 +1,8 @@
 #include "ui/parameter_field.h"
 
+#include <QAction>
 #include <QCheckBox>
+#include <QFileDialog>
 #include <QPlainTextEdit>
 #include <algorithm>
 #include <array>
@@ -9,9 +11,11 @@
 
 #include "interaction/operations/colour_names.h"
 #include "ui/colour_button.h"
+#include "ui/icons.h"
 #include "ui/object_field.h"
 #include "ui/operation_arguments.h"
 #include "ui/operation_words.h"
+#include "ui/picture_actions.h"
 #include "ui/quantity_field.h"
 #include "ui/quiet_combo_box.h"
 #include "ui/theme.h"
@@ -119,6 +123,35 @@ class TextLine final : public ParameterField {
  public:
   TextLine(const Parameter& parameter, const Place& place) : line_(line_edit(parameter, place)) {
     if (const std::string* text = parameter.fallback.text()) line_->setText(QString::fromStdString(*text));
+  }
+  std::vector<QWidget*> widgets() const override { return {line_}; }
+  Result<Value> value() const override {
+    const QString text = line_->text().trimmed();
+    return text.isEmpty() ? Value() : Value(text.toStdString());
+  }
+
+ private:
+  QLineEdit* line_;
+};
+
+/// The name of a picture's file, with a sign in it that looks for one.
+class PictureField final : public ParameterField {
+ public:
+  PictureField(const Parameter& parameter, const Place& place) : line_(line_edit(parameter, place)) {
+    QAction* browse = line_->addAction(icon(Icon::Open), QLineEdit::TrailingPosition);
+    browse->setToolTip("Look for a file");
+    QObject::connect(browse, &QAction::triggered, line_, [line = line_, changed = place.changed] {
+      auto* dialog = new QFileDialog(line->window(), "Choose a Picture");
+      dialog->setObjectName("browse");
+      dialog->setAttribute(Qt::WA_DeleteOnClose);
+      dialog->setFileMode(QFileDialog::ExistingFile);
+      dialog->setNameFilters(picture_filters());
+      QObject::connect(dialog, &QFileDialog::fileSelected, line, [line, changed](const QString& path) {
+        line->setText(path);
+        changed();
+      });
+      dialog->open();
+    });
   }
   std::vector<QWidget*> widgets() const override { return {line_}; }
   Result<Value> value() const override {
@@ -281,6 +314,8 @@ std::unique_ptr<ParameterField> make_parameter_field(const Parameter& parameter,
       return std::make_unique<NumberField>(parameter, place);
     case ParameterKind::Text:
       return std::make_unique<TextLine>(parameter, place);
+    case ParameterKind::Picture:
+      return std::make_unique<PictureField>(parameter, place);
     case ParameterKind::Choice:
       return std::make_unique<ChoiceField>(parameter, place);
     case ParameterKind::Colour:

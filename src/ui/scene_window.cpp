@@ -73,7 +73,9 @@ bool SceneWindow::event(QEvent* event) {
     case QEvent::DragEnter:
     case QEvent::DragMove:
     case QEvent::Drop:
-      if (drops_) return QCoreApplication::sendEvent(drops_, event);
+      return offered_(static_cast<QDropEvent&>(*event));
+    case QEvent::DragLeave:
+      tools_.leave();
       break;
     default:
       break;

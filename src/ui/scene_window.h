@@ -1,8 +1,10 @@
 #pragma once
+#include <QDropEvent>
 #include <QSinglePointEvent>
 #include <QWindow>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "session/display_feed.h"
 #include "ui/display_thread.h"
@@ -23,8 +25,8 @@ class SceneWindow final : public QWindow {
   void retry();
   /// What draws, in the driver's words; empty until the first frame.
   QString renderer();
-  /// Who gets what is dragged and dropped here.
-  void send_drops_to(QObject* receiver) { drops_ = receiver; }
+  /// Who gets what is dragged and dropped here; true: it was of use.
+  void on_drop(std::function<bool(QDropEvent&)> offered) { offered_ = std::move(offered); }
 
  protected:
   bool event(QEvent* event) override;
@@ -49,7 +51,7 @@ class SceneWindow final : public QWindow {
   std::unique_ptr<DisplayThread> display_ = nullptr;  // null: not seen yet, or it cannot be
   std::optional<std::string> trouble_ = {};
   bool refused_ = false;  // there is no use in trying again by itself
-  QObject* drops_ = nullptr;
+  std::function<bool(QDropEvent&)> offered_ = [](QDropEvent&) { return false; };
 };
 
 }  // namespace icome::ui

@@ -1,5 +1,6 @@
 """`icome edit` performs a script of operations on a design: all of it, or nothing is written."""
 import json
+import pathlib
 import signal
 import subprocess
 import unittest
@@ -47,6 +48,27 @@ class EditTest(ProgramTest):
             bounds = self.info(out)["bounds"]
             self.assertAlmostEqual(bounds["min"][1], 0.425, delta=1e-5)
             self.assertAlmostEqual(bounds["max"][1], 0.475 + 0.2, delta=1e-5)
+
+    def test_a_picture_lies_beside_the_script_and_goes_into_the_design(self):
+        wood = (pathlib.Path(__file__).resolve().parents[2] / "examples" / "wood.png").read_bytes()
+        (self.folder / "wood.png").write_bytes(wood)
+        texture = {"op": "texture", "object": "seat", "file": "wood.png", "projection": "own"}
+        script = self.script(SEAT, texture)
+        for ending in (".icome", ".glb", ".wrl"):
+            out = self.folder / f"seat{ending}"
+            self.succeeds("edit", "new", "--apply", script, "--out", out)
+            self.succeeds("shot", out, self.folder / "seat.png", "--size", "80x60")
+        self.assertIn(wood, (self.folder / "seat.glb").read_bytes())
+        self.assertEqual((self.folder / "seat_textures" / "wood.png").read_bytes(), wood)
+        (self.folder / "cut.png").write_bytes(wood[:1000])
+        for file, why in (("nope.png", "No such file"), ("edits.jsonl", "none of PNG, JPEG and GIF"),
+                          ("cut.png", "damaged"), (".", "is a folder")):
+            wrong = self.script(SEAT, {**texture, "file": file}, name="edits.jsonl")
+            done = run("edit", "new", "--apply", wrong, "--out", self.folder / "never.icome")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(":2: texture: ", done.stderr)
+            self.assertIn(why, done.stderr)
+            self.assertFalse((self.folder / "never.icome").exists())
 
     def test_comments_empty_lines_and_standard_input(self):
         text = "\ufeff# A stool.\r\n\r\n  " + json.dumps(SEAT) + "\r\n   \n# end"

@@ -36,7 +36,7 @@ class ExamplesTest(ProgramTest):
 
     def test_every_example_is_looked_at_here(self):
         self.assertEqual(sorted(it.stem for it in EXAMPLES.glob("*.jsonl")),
-                         ["sheet", "stairs", "tables", "torus-and-cone"])
+                         ["sheet", "stairs", "tables", "torus-and-cone", "wood-stairs"])
 
     def test_two_tables(self):
         report = self.info("tables")
@@ -52,6 +52,22 @@ class ExamplesTest(ProgramTest):
         self.assertEqual((report["objects"], report["clones"]), (31, 26))
         self.assertAlmostEqual(report["bounds"]["max"][1], 3.2, delta=1e-9)
         self.assertAlmostEqual(report["bounds"]["min"][2], -0.15 - 9 * 0.28, delta=1e-9)
+
+    def test_wooden_stairs_of_a_square(self):
+        report = self.info("wood-stairs")
+        # Ten steps of one shape in a group; a square of 0.28 m, 0.9 m wide, with the picture on all of it.
+        self.assertEqual((report["objects"], report["clones"], report["materials"]), (11, 9, 1))
+        self.assertAlmostEqual(report["bounds"]["max"][1], 0.14 + 9 * 0.17, delta=1e-9)
+        obj = self.folder / "stairs.obj"
+        self.succeeds("convert", self.built("wood-stairs", ".icome"), obj)
+        self.assertAlmostEqual(volume_and_area(obj)[0], 10 * 0.28 ** 2 * 0.9, delta=1e-6)
+        picture = next(self.folder.glob("stairs_textures/*.png"))
+        self.assertEqual(picture.read_bytes(), (EXAMPLES / "wood.png").read_bytes())
+        places = {tuple(map(float, line.split()[1:3])) for line in obj.read_text().splitlines()
+                  if line.startswith("vt ")}
+        # The ends show the picture once; 0.9 m of a side are 0.9 / 0.28 pictures.
+        self.assertTrue({(0, 0), (1, 0), (1, 1), (0, 1)} <= places)
+        self.assertAlmostEqual(max(u for u, _ in places), 1 + 0.9 / 0.28, delta=1e-5)
 
     def test_a_square_becomes_a_sheet(self):
         report = self.info("sheet")

@@ -25,6 +25,13 @@ class HelpTest(ProgramTest):
         self.assertIn("metres", text)
         self.assertIn(TRACE_HEADER, text)
 
+    def test_what_stands_beside_options_is_wrapped(self):
+        for command in ([], ["touch"], ["edit"], ["shot"], ["info"], ["convert"], ["csg"], ["study", "run"],
+                        ["stats", "anova"], ["techniques"]):
+            for line in self.succeeds(*command, "--help").stdout.splitlines():
+                if re.match(r".{28}  \S", line):
+                    self.assertLessEqual(len(line), 100, line)
+
     def test_the_first_example_works(self):
         example = re.search(r"^  icome (touch sphere:\S+)", self.succeeds("--help").stdout, re.M).group(1)
         done = run(*example.split(), "--seconds", "0.05")

@@ -408,6 +408,69 @@ TEST(Extrusion, RandomStarsSweptGentlyStayClosed) {
   }
 }
 
+/// Texture coordinates of the corners at that place, of all triangles with this normal.
+std::vector<Vector2> places_at(const TexturedExtrusion& made, const Vector3& place, const Vector3& normal) {
+  std::vector<Vector2> found;
+  for (std::size_t t = 0; t < made.mesh.triangles.size(); ++t) {
+    const Vector3 one = made.mesh.corner(t, 1) - made.mesh.corner(t, 0);
+    const Vector3 other = made.mesh.corner(t, 2) - made.mesh.corner(t, 0);
+    if (!one.cross(other).normalized().isApprox(normal, 1e-9)) continue;
+    for (int k = 0; k < 3; ++k)
+      if (made.mesh.corner(t, k) == place) found.push_back(made.places[t][std::size_t(k)]);
+  }
+  return found;
+}
+
+/// A board of 2 m by 1 m with the picture on it once, 3 m high: seven corners and where they lie, counted out
+/// by hand.
+TEST(Extrusion, FoldsThePictureOfItsProfileOverTheSides) {
+  Profile board{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}};
+  board.places = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  struct Corner {
+    Vector3 place, normal;
+    Vector2 picture;
+  };
+  const Corner corners[] = {
+      {{2, 1, 0}, {0, 0, -1}, {1, 1}},  {{2, 1, 3}, {0, 0, 1}, {1, 1}},   {{2, 1, 0}, {1, 0, 0}, {1, 1}},
+      {{2, 1, 3}, {1, 0, 0}, {2.5, 1}},  // 3 m are one and a half pictures wide
+      {{2, 1, 3}, {0, 1, 0}, {1, 4}},   {{0, 0, 3}, {0, -1, 0}, {0, -3}}, {{0, 0, 3}, {-1, 0, 0}, {-1.5, 0}}};
+  for (const bool mirrored : {false, true}) {
+    if (mirrored) {
+      std::ranges::reverse(board.points);
+      std::ranges::reverse(board.places);
+    }
+    const SweepStep up{.translation = {0, 0, 3}};
+    const auto made = extrude_textured(board, std::vector{up});
+    ASSERT_TRUE(made) << made.error().message;
+    ASSERT_EQ(made->places.size(), made->mesh.triangles.size());
+    for (const Corner& it : corners) {
+      const std::vector<Vector2> found = places_at(*made, it.place, it.normal);
+      ASSERT_FALSE(found.empty());
+      for (const Vector2& place : found) EXPECT_LT((place - it.picture).norm(), 1e-12) << place.transpose();
+    }
+  }
+}
+
+TEST(Extrusion, GivesEveryTriangleOfAnySweepAPlaceInThePicture) {
+  auto circle = regular_polygon(12, 1.0, {3, 0});
+  ASSERT_TRUE(circle);
+  circle->places = circle->points;
+  const SweepStep turn{.angle = 0.5235987755982988, .axis = {0, 1, 0}, .repeat = 12};
+  const SweepStep back{.angle = -0.5235987755982988, .axis = {0, 1, 0}, .repeat = 5};
+  const SweepStep shrink{.scaling = {0, 0, 0}, .centre = {3, 0, 1}};
+  for (const auto& [steps, ends] : {std::pair{std::vector{turn}, ExtrusionEnds::Joined},
+                                    std::pair{std::vector{back}, ExtrusionEnds::Capped},
+                                    std::pair{std::vector{shrink}, ExtrusionEnds::Capped}}) {
+    const auto plain = extrude(*circle, steps, ends);
+    const auto made = extrude_textured(*circle, steps, ends);
+    ASSERT_TRUE(plain && made) << made.error().message;
+    EXPECT_EQ(made->mesh.triangles, plain->triangles);
+    ASSERT_EQ(made->places.size(), made->mesh.triangles.size());
+    for (const auto& corners : made->places)
+      for (const Vector2& place : corners) EXPECT_TRUE(place.allFinite());
+  }
+}
+
 TEST(Extrusion, RefusesSweepsThatRunThroughThemselves) {
   const Profile square = outline({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
   expect_contains(failure(square, {moved({0, 0, 1}), turned_about({0, 1, 0}, 0.1, 5, {0.5, 0, 1})}),

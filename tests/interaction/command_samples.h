@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +15,13 @@ inline Value json(std::string_view text) {
   auto value = value_from_json(text);
   if (!value) throw std::runtime_error(value.error().message + ": " + std::string(text));
   return std::move(*value);
+}
+
+/// Reads the one picture that there is, "wood.png".
+inline base::Result<world::Texture> sample_picture(const std::string& file) {
+  if (file != "wood.png") return base::fail(file + ": cannot be read");
+  return world::Texture{
+      .name = file, .media_type = "image/png", .bytes = std::make_shared<const std::string>("wood")};
 }
 
 /// Performs a command that must succeed.

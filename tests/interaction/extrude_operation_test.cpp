@@ -76,6 +76,31 @@ TEST(ExtrudeOperation, StandsWhereItsProfileIsAndLooksLikeIt) {
   EXPECT_EQ(Vector3(object_named(runner, "free").parent_from_object.translation()), Vector3(7, 0, 0));
 }
 
+/// Thesis 2.4.3, figure 2.11: "create a square with a wood texture; extrude the square to create a step".
+TEST(ExtrudeOperation, CarriesThePictureOfItsProfileAlong) {
+  OperationRunner runner({}, sample_picture);
+  performed(runner, R"({"op": "create", "shape": "square", "side": 2, "name": "square"})");
+  performed(runner, R"({"op": "texture", "object": "square", "file": "wood.png"})");
+  performed(runner,
+            R"({"op": "extrude", "profile": "square", "name": "step", "steps": [{"move": [0, 0, 3]}]})");
+  const auto shape = [&]() -> const world::MeshGeometry& {
+    return dynamic_cast<const world::MeshGeometry&>(
+        *runner.world().find(object_named(runner, "step").geometry)->shape);
+  };
+  EXPECT_EQ(shape().texture_coordinates.size(), shape().mesh.triangles.size());
+  EXPECT_EQ(object_named(runner, "step").material, object_named(runner, "square").material);
+  // It is made anew with another size of the drawing, and the picture stays.
+  performed(runner, R"({"op": "reshape", "object": "step", "steps": [{"move": [0, 0, 5]}]})");
+  EXPECT_EQ(shape().texture_coordinates.size(), shape().mesh.triangles.size());
+  EXPECT_NE(refusal(runner, R"({"op": "reshape", "object": "step", "points": [[0, 0], [1, 0], [0, 1]]})")
+                .find("give each corner one"),
+            std::string::npos);
+  EXPECT_NE(refusal(runner, R"({"op": "extrude", "open": true, "points": [[0, 0], [1, 0]],
+                                "places": [[0, 0], [1, 0]], "steps": [{"move": [0, 0, 1]}]})")
+                .find("outline"),
+            std::string::npos);
+}
+
 TEST(ExtrudeOperation, TakesMeshesThatLieInAnyPlane) {
   OperationRunner runner({});
   // An L lying at height 4, fronts up.
@@ -109,7 +134,7 @@ TEST(ExtrudeOperation, CanBeReshaped) {
   performed(changed, R"({"op": "reshape", "object": "extrusion", "ends": "capped"})");
   EXPECT_TRUE(is_closed(triangles_of(changed, "extrusion")));
   EXPECT_EQ(refusal(changed, R"({"op": "reshape", "object": "extrusion", "radius": 1})"),
-            "reshape: there is no 'radius'; there are ends, open, points, steps");
+            "reshape: there is no 'radius'; there are ends, open, places, points, steps");
 }
 
 TEST(ExtrudeOperation, TakesBackAllItMade) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "base/random.h"
 #include "geometry/mesh_topology.h"
@@ -284,6 +285,64 @@ TEST(FfdOperation, GivesTheSameWorldWhenItsCommandsAreSaidAgain) {
   EXPECT_NE(hash(once.world()), start);
   for (std::size_t i = 0; i < commands.size(); ++i) performed(again, R"({"op": "undo"})");
   EXPECT_EQ(hash(again.world()), start);
+}
+
+/// Corners of cubes in the world's frame.
+std::vector<Vector3> standing_corners(const OperationRunner& runner, std::string_view name) {
+  const world::World& world = runner.world();
+  const base::Affine3 place = world::world_from_object(world, named_object(world, name).value());
+  std::vector<Vector3> corners;
+  for (const Vector3& corner : mesh_of(runner, name).mesh.positions) corners.emplace_back(place * corner);
+  return corners;
+}
+
+TEST(FfdOperation, DeformsSeveralObjectsByOneLatticeInTheWorld) {
+  OperationRunner runner({});
+  performed(runner, R"({"op": "create", "shape": "group", "name": "both", "at": [0, 1, 0]})");
+  performed(runner, R"({"op": "create", "shape": "cube", "name": "one", "parent": "both"})");
+  performed(
+      runner,
+      R"({"op": "create", "shape": "box", "name": "other", "size": [0.1, 0.3, 0.2], "at": [0.4, 0.2, 0.1],
+                        "turn": [10, 20, 30], "scale": [1, 2, 0.5], "parent": "both"})");
+  for (const char* name : {"one", "other"})
+    performed(runner, fmt::format(R"({{"op": "mesh", "object": "{}"}})", name));
+  Bounds all;
+  std::map<std::string, std::vector<Vector3>> before;
+  for (const std::string name : {"one", "other"}) {
+    before[name] = standing_corners(runner, name);
+    for (const Vector3& corner : before[name]) all.extend(corner);
+  }
+  const std::vector<PointMove> moves = {{{1, 1, 1}, {0.1, 0.2, -0.1}}, {{2, 1, 0}, {0, -0.3, 0.2}}};
+  const std::string said = fmt::format(R"("cells": [2, 1, 1], "moves": {}}})", written(moves));
+  performed_both_ways(runner, R"({"op": "ffd", "object": ["one", "other"], )" + said);
+  for (const std::string name : {"one", "other"}) {
+    const std::vector<Vector3> now = standing_corners(runner, name);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      EXPECT_LT((now[i] - by_the_paper(before[name][i], all, {2, 1, 1}, moves)).norm(), 1e-12) << name;
+  }
+  performed(runner, R"({"op": "undo"})");
+  performed(runner, R"({"op": "ffd", "object": "both", )" + said);  // all below it
+  EXPECT_LT(
+      (standing_corners(runner, "one")[0] - by_the_paper(before["one"][0], all, {2, 1, 1}, moves)).norm(),
+      1e-12);
+}
+
+TEST(FfdOperation, DoesNotPullASharedShapeToTwoPlaces) {
+  OperationRunner runner({});
+  performed(runner, R"({"op": "create", "shape": "cube", "name": "one"})");
+  performed(runner, R"({"op": "mesh", "object": "one"})");
+  performed(runner, R"({"op": "clone", "object": "one", "name": "other", "by": [0.3, 0, 0]})");
+  const std::string said = R"({"op": "ffd", "object": ["one", "other"], "cells": [1, 1, 1],
+                              "moves": [{"point": [1, 1, 1], "by": [0.1, 0, 0]}])";
+  EXPECT_NE(refusal(runner, said + "}").find("'one' and 'other' share a shape"), std::string::npos);
+  const std::vector<Vector3> before = standing_corners(runner, "one");
+  performed_both_ways(runner, said + R"(, "alone": true})");
+  EXPECT_EQ(runner.world().geometries().size(), 2U);
+  // The lattice's corner (1, 1, 1) is the other's: the nearer one follows less.
+  EXPECT_LT((standing_corners(runner, "one").back() - before.back()).norm(), 0.03);
+  EXPECT_NE(refusal(runner, R"({"op": "ffd", "object": ["one", "other"], "vertices": [0], "moves": []})")
+                .find("of one object"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -112,6 +112,32 @@ TEST_F(LandOperation, MovesSnapToCorners) {
   EXPECT_EQ(plain.note, "");
 }
 
+TEST_F(LandOperation, MovesSnapToAGridAndToWhatIsChosen) {
+  run(R"({"op": "delete", "objects": "table"})");
+  box("one", {0, 2, 0});
+  box("other", {5, 2.25, 0});
+  // The corners of the cube are half of its size off its origin: the lattice of 0.25 m takes either.
+  const Performed done = run(R"({"op": "move", "objects": "other", "by": [-0.93, 0.3, 0.07], "grid": 0.25})");
+  EXPECT_EQ(done.note, "snapped to the grid");
+  EXPECT_LT((at("other") - Vector3(4, 2.5, 0)).norm(), 1e-9) << at("other").transpose();
+  // Near a corner, an edge and a face of the other cube; only what is wanted draws it.
+  const char* kBeside = R"({"op": "move", "objects": "other", "by": [-2.99, -0.48, 0.02], "snap": 0.05)";
+  const auto snapped = [&](const std::string& choice) {
+    const Performed moved = run(kBeside + choice + "}");
+    run(R"({"op": "place", "object": "other", "at": [4, 2.5, 0]})");
+    return moved.note;
+  };
+  EXPECT_EQ(snapped(""), "snapped to a corner of 'one'");
+  EXPECT_EQ(snapped(R"(, "corners": false)"), "snapped to an edge of 'one'");
+  EXPECT_EQ(snapped(R"(, "corners": false, "edges": false)"), "snapped to a face of 'one'");
+  EXPECT_EQ(snapped(R"(, "corners": false, "edges": false, "faces": false, "grid": 0.25)"),
+            "snapped to the grid");
+  expect_refused({{R"({"op": "move", "objects": "other", "by": [1, 0, 0], "edges": true})", "within how far"},
+                  {R"({"op": "move", "objects": "other", "by": [1, 0, 0], "snap": 0.1, "corners": false,
+                       "edges": false, "faces": false})",
+                   "nothing left"}});
+}
+
 TEST_F(LandOperation, RefusesWhatMakesNoSense) {
   vase();
   run(R"({"op": "group", "objects": "table", "name": "group"})");

@@ -83,7 +83,7 @@ class Session {
     return *rarest;
   }
 
-  OperationRunner runner_{{}};
+  OperationRunner runner_{{}, sample_picture};
   base::Random random_{77};
   RandomCommands commands_{78};
   std::vector<std::string> said_;
@@ -101,7 +101,7 @@ TEST(OperationSequences, GoThereAndBackAgainAndOnceMore) {
 
   EXPECT_EQ(world::complaints(session.runner().world()), "");
   const std::uint64_t last = hash(session.runner().world());
-  OperationRunner again({});
+  OperationRunner again({}, sample_picture);
   for (std::size_t i = 0; i < session.said().size(); ++i)
     ASSERT_EQ(again.perform(json(session.said()[i])).has_value(), session.done()[i]) << session.said()[i];
   EXPECT_EQ(hash(again.world()), last);

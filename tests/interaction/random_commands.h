@@ -79,6 +79,8 @@ class RandomCommands {
         return count(parameter);
       case ParameterKind::Text:
         return text();
+      case ParameterKind::Picture:
+        return one_in(3) ? Value("missing.png") : Value("wood.png");
       case ParameterKind::Choice:
         return any(parameter.choices);
       case ParameterKind::Colour:

@@ -77,6 +77,77 @@ TEST(TextureOperation, ShowsAPictureOfTheDesign) {
             "texture: the design has no picture named 'brik.png'; did you mean 'brick.png'?");
 }
 
+const world::Material& material_of(const OperationRunner& runner, std::string_view name) {
+  const world::World& world = runner.world();
+  return *world.find(world.find(named_object(world, name).value())->material);
+}
+
+TEST(TextureOperation, BringsAPictureOfAFileIntoTheDesignOnce) {
+  OperationRunner runner(world_of(square_mesh()), sample_picture);
+  performed(runner, R"({"op": "create", "shape": "box"})");
+  performed_both_ways(runner, R"({"op": "texture", "object": "thing", "file": "wood.png"})");
+  EXPECT_EQ(mesh_of(runner).texture_coordinates.size(), 2U);
+  const world::Material& material = material_of(runner, "thing");
+  ASSERT_TRUE(runner.world().find(material.texture));
+  EXPECT_EQ(*runner.world().find(material.texture)->bytes, "wood");
+  EXPECT_EQ(material.diffuse, (world::Colour{1.0F, 1.0F, 1.0F})) << "in its own colours";
+  performed_both_ways(runner,
+                      R"({"op": "texture", "object": "box", "file": "wood.png", "projection": "own"})");
+  EXPECT_EQ(runner.world().textures().size(), 1U);
+  EXPECT_EQ(material_of(runner, "box").texture, material.texture);
+}
+
+TEST(TextureOperation, LeavesShapesOnWhichAPictureHasItsPlaceAsTheyAre) {
+  for (const char* shape : {"box", "sphere", "cylinder", "cone"}) {
+    OperationRunner runner({}, sample_picture);
+    performed(runner, fmt::format(R"({{"op": "create", "shape": "{}", "name": "thing"}})", shape));
+    const std::uint64_t before = shape_of(runner).hash();
+    performed_both_ways(runner,
+                        R"({"op": "texture", "object": "thing", "file": "wood.png", "projection": "own"})");
+    EXPECT_EQ(shape_of(runner).hash(), before) << shape;
+  }
+  // A mesh without texture coordinates gets some, one with keeps them.
+  OperationRunner runner(world_of(square_mesh()), sample_picture);
+  performed(runner, R"({"op": "texture", "object": "thing", "file": "wood.png", "projection": "own"})");
+  ASSERT_EQ(mesh_of(runner).texture_coordinates.size(), 2U);
+  performed(runner, R"({"op": "texture", "object": "thing", "size": [5, 5, 5]})");
+  const auto placed = mesh_of(runner).texture_coordinates;
+  performed(runner, R"({"op": "texture", "object": "thing", "file": "wood.png", "projection": "own"})");
+  EXPECT_EQ(mesh_of(runner).texture_coordinates, placed);
+}
+
+TEST(TextureOperation, SaysWhyAPictureIsNotShown) {
+  OperationRunner runner({}, sample_picture);
+  performed(runner, R"({"op": "create", "shape": "torus", "name": "ring"})");
+  const auto why = [&](const char* said) {
+    return refusal(runner, fmt::format(R"({{"op": "texture", "object": "ring", {}}})", said));
+  };
+  EXPECT_EQ(why(R"("file": "nope.png", "as_mesh": true)"), "texture: nope.png: cannot be read");
+  EXPECT_NE(why(R"("file": "wood.png", "picture": "wood.png")").find("not both"), std::string::npos);
+  EXPECT_NE(why(R"("file": "wood.png", "projection": "own")").find("no place of its own"), std::string::npos);
+  EXPECT_NE(why(R"("projection": "own")").find("say which picture"), std::string::npos);
+  EXPECT_NE(why(R"("file": "wood.png", "projection": "own", "size": [1, 1, 1])").find("no"),
+            std::string::npos);
+  OperationRunner reads_nothing(world_of(square_mesh()));
+  EXPECT_NE(refusal(reads_nothing, R"({"op": "texture", "object": "thing", "file": "wood.png"})"), "");
+}
+
+TEST(TextureOperation, IsOneActionForSeveralObjects) {
+  OperationRunner runner({}, sample_picture);
+  for (const char* name : {"one", "two"})
+    performed(runner, fmt::format(R"({{"op": "create", "shape": "box", "name": "{}"}})", name));
+  const auto id = [&](const char* name) { return named_object(runner.world(), name).value(); };
+  world::World world = runner.world();
+  world::IdSource ids(7);
+  const auto plan = plan_for_each(**find_operation("texture"), {{"file", "wood.png"}, {"projection", "own"}},
+                                  std::vector{id("one"), id("two")}, world, ids, sample_picture);
+  ASSERT_TRUE(plan) << plan.error().message;
+  world::applied(world, plan->edit);
+  EXPECT_EQ(world.textures().size(), 1U);
+  for (const char* name : {"one", "two"})
+    EXPECT_TRUE(world.find(world.find(world.find(id(name))->material)->texture)) << name;
+}
+
 TEST(TextureOperation, RefusesProjectorsThatMakeNoSense) {
   OperationRunner runner(world_of(square_mesh()));
   for (const char* said : {R"("size": [0, 1, 1])", R"("size": [1, 1])", R"("at": [1e300, 0, 0])",

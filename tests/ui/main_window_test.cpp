@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QDropEvent>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenuBar>
@@ -14,7 +15,10 @@
 #include <QTreeView>
 #include <thread>
 
+#include "places.h"
 #include "ui/desktop_test.h"
+#include "ui/scene_window.h"
+#include "world/sample_world.h"
 
 namespace icome::ui {
 namespace {
@@ -168,6 +172,67 @@ TEST_F(MainWindowTest, OpensWhatIsDroppedOnIt) {
   QCoreApplication::sendEvent(window_.get(), &drop);
   EXPECT_TRUE(until_title("tables.icome - ICOME"));
   EXPECT_EQ(world().objects().size(), 1U);
+}
+
+/// Drops a file on the middle of the scene.
+void drop_on_scene(const QString& file) {
+  for (QWindow* window : QGuiApplication::allWindows()) {
+    if (!dynamic_cast<SceneWindow*>(window)) continue;
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(file)});
+    const QPointF middle(window->width() / 2.0, window->height() / 2.0);
+    QDragEnterEvent entered(middle.toPoint(), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(window, &entered);
+    EXPECT_TRUE(entered.isAccepted());
+    QDropEvent drop(middle, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(window, &drop);
+    return;
+  }
+  FAIL() << "there is no scene";
+}
+
+TEST_F(MainWindowTest, LaysAPictureOnTheObjectThatItIsDroppedOn) {
+  world::World cube;
+  world::IdSource ids;
+  world::add_object(cube, ids, "cube", world::box(0.1));
+  load(cube);
+  session().settle();
+  session().update();
+  session().home();
+  const std::uint64_t before = hash(world());
+  const QString wood = QString::fromStdString((places::project_folder() / "examples" / "wood.png").string());
+  drop_on_scene(wood);
+  ASSERT_TRUE(until([&] { return !world().textures().empty(); }));
+  EXPECT_EQ(session().history().undo_name(), "Put Picture on cube");
+  const world::PhysicalObject& object = world().objects().begin()->second;
+  EXPECT_TRUE(world().find(world().find(object.material)->texture));
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(hash(world()), before);
+
+  QFile words(file("words.png"));
+  ASSERT_TRUE(words.open(QIODevice::WriteOnly) && words.write("no picture") > 0);
+  words.close();
+  drop_on_scene(file("words.png"));
+  QLabel* text = nullptr;
+  ASSERT_TRUE(until([&] { return (text = window_->findChild<QLabel*>("banner.text")) != nullptr; }));
+  EXPECT_TRUE(text->text().contains("none of PNG, JPEG and GIF")) << text->text().toStdString();
+  EXPECT_EQ(hash(world()), before);
+}
+
+TEST_F(MainWindowTest, ChoosesAPictureForWhatIsSelected) {
+  world::World cube;
+  world::IdSource ids;
+  const auto id = world::add_object(cube, ids, "cube", world::box(0.1));
+  load(cube);
+  action("model.picture")->trigger();  // nothing is selected
+  EXPECT_FALSE(window_->findChild<QFileDialog*>("picture"));
+  session().select({id});
+  action("model.picture")->trigger();
+  auto* dialog = window_->findChild<QFileDialog*>("picture");
+  ASSERT_TRUE(dialog);
+  emit dialog->fileSelected(
+      QString::fromStdString((places::project_folder() / "examples" / "wood.png").string()));
+  EXPECT_TRUE(until([&] { return !world().textures().empty(); }));
 }
 
 TEST_F(MainWindowTest, SaysWhyADesignCannotBeOpened) {

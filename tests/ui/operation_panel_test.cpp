@@ -1,11 +1,14 @@
 #include "ui/operation_panel.h"
 
+#include <QAction>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
 
+#include "places.h"
 #include "ui/desktop_test.h"
 
 namespace icome::ui {
@@ -133,6 +136,25 @@ TEST_F(OperationPanelTest, EscapeGivesUp) {
   part<QPushButton>("close").click();
   EXPECT_EQ(closed_, 2);
   EXPECT_TRUE(world().objects().empty());
+}
+
+TEST_F(OperationPanelTest, TakesThePictureOfAFile) {
+  ask("create");
+  type("name", "seat");
+  part<QPushButton>("apply").click();
+  ask("texture");
+  auto& file = field<QLineEdit>("file");
+  ASSERT_EQ(file.actions().size(), 1);
+  file.actions().front()->trigger();
+  auto* dialog = panel_.findChild<QFileDialog*>("browse");
+  ASSERT_TRUE(dialog);
+  const auto wood = places::project_folder() / "examples" / "wood.png";
+  emit dialog->fileSelected(QString::fromStdString(wood.string()));
+  auto& projection = field<QComboBox>("projection");
+  projection.setCurrentIndex(projection.findData("own"));
+  part<QPushButton>("apply").click();
+  EXPECT_EQ(note(), "");
+  EXPECT_EQ(world().textures().size(), 1U);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "interaction/operations/colour_names.h"
 #include "interaction/operations/near_names.h"
@@ -36,6 +37,8 @@ std::string wanted(const Parameter& parameter) {
       return "a whole number";
     case ParameterKind::Text:
       return "a text";
+    case ParameterKind::Picture:
+      return "the name of a picture's file";
     case ParameterKind::Choice:
       return fmt::format("one of {}", fmt::join(parameter.choices, ", "));
     case ParameterKind::Colour:
@@ -167,6 +170,7 @@ Check check_value(const Parameter& parameter, const Value& value, const world::W
     case ParameterKind::Count:
       return check_number(parameter, value, true);
     case ParameterKind::Text:
+    case ParameterKind::Picture:
       return value.text() ? Check() : not_wanted(parameter);
     case ParameterKind::Choice:
       return value.text() && std::ranges::count(parameter.choices, *value.text()) > 0 ? Check()
@@ -260,7 +264,7 @@ world::ObjectId numbered(const world::World& world, std::string_view name) {
 }  // namespace
 
 Result<Arguments> Arguments::check(const std::vector<Parameter>& parameters, const Value::Fields& fields,
-                                   const world::World& world) {
+                                   const world::World& world, PictureReader pictures) {
   if (!parameters.empty())
     if (const Value* first = field(fields, parameters.front().name))
       if (const auto good = check_value(parameters.front(), *first, world); !good)
@@ -279,6 +283,7 @@ Result<Arguments> Arguments::check(const std::vector<Parameter>& parameters, con
   arguments.parameters_ = &parameters;
   arguments.said_ = &fields;
   arguments.world_ = &world;
+  arguments.pictures_ = std::move(pictures);
   return arguments;
 }
 
@@ -361,9 +366,15 @@ std::vector<Arguments> Arguments::records(std::string_view name) const {
     record.parameters_ = &parameter->fields;
     record.said_ = item.fields();
     record.world_ = world_;
+    record.pictures_ = pictures_;
     records.push_back(record);
   }
   return records;
+}
+
+Result<world::Texture> Arguments::picture(std::string_view name) const {
+  if (!pictures_) return fail(fmt::format("'{}': no files are read here", name));
+  return pictures_(text(name));
 }
 
 Result<world::ObjectId> named_object(const world::World& world, std::string_view name) {

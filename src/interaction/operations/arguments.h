@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,10 @@ namespace icome::interaction {
 using base::Vector2;
 using base::Vector3;
 
+/// Reads the file of a picture: what it is called, its kind and its bytes. Fails with a sentence that names
+/// the file. Without a function no files are read.
+using PictureReader = std::function<base::Result<world::Texture>(const std::string& file)>;
+
 /// What an operation was told, held to its parameters: every value is there or has none to fall back to, and
 /// is of its kind and in range. Refers to the parameters and to the world.
 class Arguments {
@@ -21,7 +26,7 @@ class Arguments {
   /// Fails with a sentence that names the parameter: one that nobody knows (and what may have been meant),
   /// that is missing, of another kind, out of range, or names an object that is not there or not alone.
   static base::Result<Arguments> check(const std::vector<Parameter>& parameters, const Value::Fields& fields,
-                                       const world::World& world);
+                                       const world::World& world, PictureReader pictures = {});
 
   /// Has something been said, or is there something to fall back to?
   bool has(std::string_view name) const { return find(name) != nullptr; }
@@ -40,6 +45,8 @@ class Arguments {
   world::ObjectId object(std::string_view name) const;
   std::vector<world::ObjectId> objects(std::string_view name) const;
   std::vector<Arguments> records(std::string_view name) const;
+  /// Reads its file. Fails as the reader does.
+  base::Result<world::Texture> picture(std::string_view name) const;
 
   /// All values that have been said, for recipes (MeshGeometry::recipe) and reports.
   const Value::Fields& said() const { return *said_; }
@@ -52,6 +59,7 @@ class Arguments {
   const std::vector<Parameter>* parameters_ = nullptr;
   const Value::Fields* said_ = nullptr;
   const world::World* world_ = nullptr;
+  PictureReader pictures_ = {};
 };
 
 /// The object that a person names: by its name where it is the only one, by a path of names from above

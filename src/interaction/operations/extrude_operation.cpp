@@ -15,9 +15,9 @@ namespace {
 using base::fail;
 using base::Result;
 
-Value listed_points(const geometry::Profile& profile) {
+Value listed_points(const std::vector<Vector2>& listed) {
   Value::List points;
-  for (const Vector2& point : profile.points) points.push_back(Value::List{point.x(), point.y()});
+  for (const Vector2& point : listed) points.push_back(Value::List{point.x(), point.y()});
   return points;
 }
 
@@ -26,7 +26,7 @@ Result<FlatOutline> outline_of(const world::World& world, world::ObjectId id) {
   const world::GeometryObject* geometry = world.find(object.geometry);
   const auto* mesh = geometry ? dynamic_cast<const world::MeshGeometry*>(geometry->shape.get()) : nullptr;
   const auto outline =
-      mesh ? flat_outline(mesh->mesh)
+      mesh ? flat_outline(*mesh)
            : Result<FlatOutline>(fail("it is no mesh; name something flat, such as a square"));
   if (outline) return outline;
   return fail(fmt::format("the profile '{}': {}", object.name, outline.error().message));
@@ -59,7 +59,9 @@ Result<Plan> plan_extrude(const world::World& world, const Arguments& arguments,
     const world::ObjectId id = arguments.object("profile");
     const auto outline = outline_of(world, id);
     if (!outline) return tl::unexpected(outline.error());
-    making.emplace_back("points", listed_points(outline->profile));
+    making.emplace_back("points", listed_points(outline->profile.points));
+    if (!arguments.has("places") && !outline->profile.places.empty())
+      making.emplace_back("places", listed_points(outline->profile.places));
     stay_with(*world.find(id), outline->mesh_from_profile, arguments, *object);
   }
   const auto sweep = Arguments::check(extrusion_parameters(), making, world);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "geometry/extrusion.h"
 #include "interaction/operations/placement.h"
 #include "interaction/operations/shape_making.h"
@@ -28,28 +30,37 @@ std::vector<Parameter> step_parameters() {
 }
 
 std::vector<Parameter> all_extrusion_parameters() {
-  return {{.name = "points",
-           .kind = ParameterKind::Points,
-           .meaning = "the corners of the profile that is swept, m; z comes out of the drawing",
-           .required = true,
-           .least = -geometry::kLargestProfile,
-           .most = geometry::kLargestProfile,
-           .components = 2},
-          {.name = "open",
-           .kind = ParameterKind::Flag,
-           .meaning = "the profile is a line from the first point to the last, not an outline",
-           .fallback = false},
-          {.name = "steps",
-           .kind = ParameterKind::Records,
-           .meaning = "what is done to the profile one after the other: scaled, turned, then moved",
-           .required = true,
-           .fields = step_parameters()},
-          {.name = "ends",
-           .kind = ParameterKind::Choice,
-           .meaning = "what becomes of the first and the last place of the profile: filled, left open, or "
-                      "joined to a ring",
-           .fallback = "capped",
-           .choices = {"capped", "open", "joined"}}};
+  return {
+      {.name = "points",
+       .kind = ParameterKind::Points,
+       .meaning = "the corners of the profile that is swept, m; z comes out of the drawing",
+       .required = true,
+       .least = -geometry::kLargestProfile,
+       .most = geometry::kLargestProfile,
+       .components = 2},
+      {.name = "places",
+       .kind = ParameterKind::Points,
+       .meaning = "where each of the points lies in a picture, whose lower left is [0, 0] and upper right "
+                  "[1, 1]; it "
+                  "goes on over the sides as if they were folded out; else those that a profile's object has",
+       .least = -geometry::kFarthestPictureRepeat,
+       .most = geometry::kFarthestPictureRepeat,
+       .components = 2},
+      {.name = "open",
+       .kind = ParameterKind::Flag,
+       .meaning = "the profile is a line from the first point to the last, not an outline",
+       .fallback = false},
+      {.name = "steps",
+       .kind = ParameterKind::Records,
+       .meaning = "what is done to the profile one after the other: scaled, turned, then moved",
+       .required = true,
+       .fields = step_parameters()},
+      {.name = "ends",
+       .kind = ParameterKind::Choice,
+       .meaning = "what becomes of the first and the last place of the profile: filled, left open, or "
+                  "joined to a ring",
+       .fallback = "capped",
+       .choices = {"capped", "open", "joined"}}};
 }
 
 Result<geometry::SweepStep> step_of(const Arguments& record) {
@@ -81,6 +92,21 @@ geometry::ExtrusionEnds ends_of(const std::string& name) {
   return name == "joined" ? geometry::ExtrusionEnds::Joined : geometry::ExtrusionEnds::Capped;
 }
 
+Result<std::shared_ptr<world::MeshGeometry>> swept(const geometry::Profile& profile,
+                                                   const std::vector<geometry::SweepStep>& steps,
+                                                   geometry::ExtrusionEnds ends) {
+  if (profile.places.empty()) {
+    auto mesh = geometry::extrude(profile, steps, ends);
+    if (!mesh) return tl::unexpected(mesh.error());
+    return std::make_shared<world::MeshGeometry>(std::move(*mesh));
+  }
+  auto made = geometry::extrude_textured(profile, steps, ends);
+  if (!made) return tl::unexpected(made.error());
+  auto shape = std::make_shared<world::MeshGeometry>(std::move(made->mesh));
+  shape->texture_coordinates = std::move(made->places);
+  return shape;
+}
+
 }  // namespace
 
 const std::vector<Parameter>& extrusion_parameters() {
@@ -91,16 +117,18 @@ const std::vector<Parameter>& extrusion_parameters() {
 Result<world::GeometryPointer> make_extrusion(const Arguments& arguments) {
   const auto steps = steps_of(arguments);
   if (!steps) return tl::unexpected(steps.error());
-  auto mesh = geometry::extrude({arguments.points2("points"), arguments.flag("open")}, *steps,
-                                ends_of(arguments.text("ends")));
-  if (!mesh) return tl::unexpected(mesh.error());
-  auto shape = std::make_shared<world::MeshGeometry>(std::move(*mesh));
+  geometry::Profile profile{arguments.points2("points"), arguments.flag("open")};
+  if (arguments.has("places")) profile.places = arguments.points2("places");
+  if (profile.open && !profile.places.empty())
+    return base::fail("'places' are for an outline, and this one is 'open'");
+  auto shape = swept(profile, *steps, ends_of(arguments.text("ends")));
+  if (!shape) return tl::unexpected(shape.error());
   Value::Fields making = said_of(extrusion_parameters(), arguments, {});
   making.emplace(making.begin(), "op", "extrude");
   std::string recipe = json_from_value(making);
   // A drawing beyond that size is as good as made by hand.
-  if (recipe.size() <= world::kMostRecipeBytes) shape->recipe = std::move(recipe);
-  return shape;
+  if (recipe.size() <= world::kMostRecipeBytes) (*shape)->recipe = std::move(recipe);
+  return *shape;
 }
 
 }  // namespace icome::interaction

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "geometry/free_form_deformation.h"
 #include "geometry/mesh_check.h"
+#include "interaction/operations/material_edits.h"
+#include "interaction/operations/object_frames.h"
 #include "interaction/operations/shape_change.h"
 #include "interaction/operations/vertex_operations.h"
 
@@ -92,8 +96,26 @@ Result<std::vector<std::uint32_t>> selected(const geometry::TriangleMesh& mesh, 
   return selection;
 }
 
-Result<Plan> plan_ffd(const world::World& world, const Arguments& arguments, world::IdSource& ids) {
-  auto change = shape_change(world, arguments);
+/// Moves the vertices of a shape as the lattice does, of which `positions` are where they are in its frame.
+Result<Plan> plan_deformed(const ShapeChange& change, const std::vector<Vector3>& positions,
+                           const std::vector<std::uint32_t>& selection, const FfdLattice& rest,
+                           const FfdLattice& lattice, const base::Affine3& object_from_lattice,
+                           world::IdSource& ids) {
+  const geometry::FfdBinding binding(positions, selection, rest);
+  const std::vector<Vector3> deformed = binding.deformed(lattice);
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vector3> moved;
+  for (std::size_t i = 0; i < deformed.size(); ++i) {
+    if (deformed[i] == positions[binding.vertices()[i]]) continue;
+    vertices.push_back(binding.vertices()[i]);
+    moved.emplace_back(object_from_lattice * deformed[i]);
+  }
+  return plan_of_vertices(change, std::move(vertices), std::move(moved), ids);
+}
+
+Result<Plan> plan_ffd_of_one(const world::World& world, world::ObjectId object, const Arguments& arguments,
+                             world::IdSource& ids) {
+  auto change = shape_change(world, object, arguments);
   if (!change) return tl::unexpected(change.error());
   const auto mesh = vertices_to_change(*change, arguments);
   if (!mesh) return tl::unexpected(mesh.error());
@@ -105,16 +127,84 @@ Result<Plan> plan_ffd(const world::World& world, const Arguments& arguments, wor
   if (!rest) return tl::unexpected(rest.error());
   const auto lattice = moved_lattice(*rest, arguments);
   if (!lattice) return tl::unexpected(lattice.error());
-  const geometry::FfdBinding binding((*mesh)->positions, *selection, *rest);
-  const std::vector<Vector3> deformed = binding.deformed(*lattice);
-  std::vector<std::uint32_t> vertices;
-  std::vector<Vector3> positions;
-  for (std::size_t i = 0; i < deformed.size(); ++i) {
-    if (deformed[i] == (*mesh)->positions[binding.vertices()[i]]) continue;
-    vertices.push_back(binding.vertices()[i]);
-    positions.push_back(deformed[i]);
+  return plan_deformed(*change, (*mesh)->positions, *selection, *rest, *lattice, base::Affine3::Identity(),
+                       ids);
+}
+
+/// The shape of one of several objects in the world's frame, which the lattice round all of them has.
+struct StandingShape {
+  world::ObjectId object;
+  geometry::TriangleMesh mesh;
+};
+
+Result<StandingShape> standing(const world::World& world, world::ObjectId object,
+                               const Arguments& arguments) {
+  auto change = shape_change(world, object, arguments);
+  if (!change) return tl::unexpected(change.error());
+  const auto mesh = vertices_to_change(*change, arguments);
+  if (!mesh) return tl::unexpected(mesh.error());
+  StandingShape shape{object, {{}, (*mesh)->triangles}};
+  const base::Affine3 place = world::world_from_object(world, object);
+  for (const Vector3& position : (*mesh)->positions) shape.mesh.positions.emplace_back(place * position);
+  return shape;
+}
+
+/// Two objects that share a shape would pull it to two places.
+Result<void> check_apart(const world::World& world, const std::vector<world::ObjectId>& objects) {
+  std::map<world::GeometryId, world::ObjectId> users;
+  for (const world::ObjectId id : objects) {
+    const auto [first, fresh] = users.emplace(world.find(id)->geometry, id);
+    if (!fresh)
+      return fail(
+          fmt::format("{} and {} share a shape: say \"alone\": true to give each one of its own first",
+                      called(world, first->second), called(world, id)));
   }
-  return plan_of_vertices(*change, std::move(vertices), std::move(positions), ids);
+  return {};
+}
+
+/// One lattice along the world's axes, round all of them.
+Result<Plan> plan_ffd_of_several(const world::World& world, const std::vector<world::ObjectId>& objects,
+                                 const Arguments& arguments, world::IdSource& ids) {
+  if (arguments.has("vertices"))
+    return fail("'vertices' are those of one object: name one, or leave them out");
+  if (!arguments.flag("alone"))
+    if (const auto apart = check_apart(world, objects); !apart) return tl::unexpected(apart.error());
+  std::vector<StandingShape> shapes;
+  geometry::TriangleMesh all;
+  for (const world::ObjectId id : objects) {
+    auto shape = standing(world, id, arguments);
+    if (!shape) return tl::unexpected(shape.error());
+    all.positions.insert(all.positions.end(), shape->mesh.positions.begin(), shape->mesh.positions.end());
+    shapes.push_back(std::move(*shape));
+  }
+  const auto box = box_of(all, arguments, {});
+  if (!box) return tl::unexpected(box.error());
+  const auto rest = lattice_in(*box, arguments);
+  if (!rest) return tl::unexpected(rest.error());
+  const auto lattice = moved_lattice(*rest, arguments);
+  if (!lattice) return tl::unexpected(lattice.error());
+  world::World then = world;  // a shape that the others have left is the last one's own
+  world::EditGroup group;
+  for (const StandingShape& shape : shapes) {
+    auto change = shape_change(then, shape.object, arguments);
+    if (!change) return tl::unexpected(change.error());
+    if (const auto mesh = vertices_to_change(*change, arguments); !mesh) return tl::unexpected(mesh.error());
+    std::vector<std::uint32_t> every(shape.mesh.positions.size());
+    std::iota(every.begin(), every.end(), 0U);
+    const base::Affine3 object_from_world = world::world_from_object(world, shape.object).inverse();
+    auto plan = plan_deformed(*change, shape.mesh.positions, every, *rest, *lattice, object_from_world, ids);
+    if (!plan) return plan;
+    if (const auto done = world::apply(then, plan->edit); !done) return tl::unexpected(done.error());
+    group.edits.push_back(std::move(plan->edit));
+  }
+  return Plan{std::move(group), objects};
+}
+
+Result<Plan> plan_ffd(const world::World& world, const Arguments& arguments, world::IdSource& ids) {
+  const auto objects = with_shapes(world, arguments.objects("object"));
+  if (!objects) return tl::unexpected(objects.error());
+  if (objects->size() == 1) return plan_ffd_of_one(world, objects->front(), arguments, ids);
+  return plan_ffd_of_several(world, *objects, arguments, ids);
 }
 
 Parameter box_corner(std::string name, std::string meaning) {
@@ -128,7 +218,12 @@ Parameter box_corner(std::string name, std::string meaning) {
 std::vector<Parameter> ffd_parameters() {
   Parameter by = box_corner("by", "how far it goes, m");
   by.required = true;
-  return {object_parameter("what is deformed"),
+  return {{.name = "object",
+           .kind = ParameterKind::Objects,
+           .meaning = "what is deformed; several, or all below a group, by one lattice along the axes of the "
+                      "world, in whose "
+                      "frame all that follows is then said",
+           .required = true},
           {.name = "cells",
            .kind = ParameterKind::Counts,
            .meaning = "how many cells the lattice has along x, y and z",

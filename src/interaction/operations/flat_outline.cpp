@@ -1,6 +1,7 @@
 #include "interaction/operations/flat_outline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -40,26 +41,42 @@ Result<Rim> rim_of(const TriangleMesh& mesh) {
   return rim;
 }
 
-Result<std::vector<Vector3>> loop_of(const TriangleMesh& mesh) {
-  const auto rim = rim_of(mesh);
-  if (!rim) return tl::unexpected(rim.error());
-  if (rim->empty()) return fail("it is closed and has no outline; name something flat, such as a square");
-  std::vector<Vector3> loop;
-  std::uint32_t vertex = rim->begin()->first;
+/// The vertices of the rim, one after the other.
+Result<std::vector<std::uint32_t>> loop_of(const Rim& rim) {
+  if (rim.empty()) return fail("it is closed and has no outline; name something flat, such as a square");
+  std::vector<std::uint32_t> loop;
+  std::uint32_t vertex = rim.begin()->first;
   do {
-    loop.push_back(mesh.positions[vertex]);
-    const auto next = rim->find(vertex);
-    if (next == rim->end()) return fail("its outline has an end; repair it first");
+    loop.push_back(vertex);
+    const auto next = rim.find(vertex);
+    if (next == rim.end()) return fail("its outline has an end; repair it first");
     vertex = next->second;
-  } while (vertex != rim->begin()->first && loop.size() <= rim->size());
-  if (loop.size() != rim->size()) return fail("its outline is not one loop; name a piece without holes");
+  } while (vertex != rim.begin()->first && loop.size() <= rim.size());
+  if (loop.size() != rim.size()) return fail("its outline is not one loop; name a piece without holes");
   return loop;
 }
 
+/// Texture coordinates of the vertices on the rim, each in the triangle whose edge begins there.
+std::map<std::uint32_t, base::Vector2> places_on(
+    const Rim& rim, const TriangleMesh& mesh, const std::vector<std::array<base::Vector2, 3>>& coordinates) {
+  std::map<std::uint32_t, base::Vector2> places;
+  for (std::size_t t = 0; t < coordinates.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto edge = rim.find(mesh.triangles[t][i]);
+      if (edge != rim.end() && edge->second == mesh.triangles[t][(i + 1) % 3])
+        places[edge->first] = coordinates[t][i];
+    }
+  }
+  return places;
+}
+
 /// Along the normal of the loop, as long as twice its area (Newell).
-Vector3 doubled_area_of(const std::vector<Vector3>& loop) {
+Vector3 doubled_area_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+  const auto from_first = [&](std::size_t i) -> Vector3 {
+    return mesh.positions[loop[i]] - mesh.positions[loop[0]];
+  };
   Vector3 sum = Vector3::Zero();
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += (loop[i] - loop[0]).cross(loop[i + 1] - loop[0]);
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += from_first(i).cross(from_first(i + 1));
   return sum;
 }
 
@@ -73,16 +90,18 @@ base::Matrix3 turn_to(const Vector3& normal) {
 
 }  // namespace
 
-Result<FlatOutline> flat_outline(const TriangleMesh& mesh) {
-  TriangleMesh welded = mesh;
+Result<FlatOutline> flat_outline(const world::MeshGeometry& shape) {
+  TriangleMesh welded = shape.mesh;
   geometry::weld_equal(welded);
-  const auto loop = loop_of(welded);
+  const auto rim = rim_of(welded);
+  if (!rim) return tl::unexpected(rim.error());
+  const auto loop = loop_of(*rim);
   if (!loop) return tl::unexpected(loop.error());
-  const Vector3 area = doubled_area_of(*loop);
-  const double extent = geometry::bounds(mesh).diagonal().norm();
+  const Vector3 area = doubled_area_of(welded, *loop);
+  const double extent = geometry::bounds(shape.mesh).diagonal().norm();
   if (!(area.norm() > 0.0) || !std::isfinite(extent)) return fail("it has no area; name something flat");
   const Vector3 normal = area.normalized();
-  const double height = normal.dot((*loop)[0]);
+  const double height = normal.dot(welded.positions[loop->front()]);
   for (const auto& triangle : welded.triangles)
     for (const std::uint32_t corner : triangle)
       if (!(std::abs(normal.dot(welded.positions[corner]) - height) <= kFlatness * extent))
@@ -93,8 +112,11 @@ Result<FlatOutline> flat_outline(const TriangleMesh& mesh) {
   outline.mesh_from_profile.linear() = turn_to(normal);
   outline.mesh_from_profile.translation() = height * normal;
   const base::Matrix3 profile_from_mesh = outline.mesh_from_profile.linear().transpose();
-  for (const Vector3& corner : *loop)
-    outline.profile.points.emplace_back((profile_from_mesh * corner).head<2>());
+  const auto places = places_on(*rim, welded, shape.texture_coordinates);
+  for (const std::uint32_t vertex : *loop) {
+    outline.profile.points.emplace_back((profile_from_mesh * welded.positions[vertex]).head<2>());
+    if (!places.empty()) outline.profile.places.push_back(places.at(vertex));
+  }
   return outline;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "base/result.h"
 #include "geometry/profile.h"
-#include "geometry/triangle_mesh.h"
+#include "world/mesh_geometry.h"
 
 namespace icome::interaction {
 
@@ -12,7 +12,8 @@ struct FlatOutline {
 };
 
 /// Fails, saying what to do, for a mesh that is closed or not flat, or whose rim is not one loop. The
-/// drawing's axes are those of the mesh, turned the shortest way so that z points where the fronts do.
-base::Result<FlatOutline> flat_outline(const geometry::TriangleMesh& mesh);
+/// drawing's axes are those of the mesh, turned the shortest way so that z points where the fronts do. Where
+/// the mesh has texture coordinates, the drawing has places.
+base::Result<FlatOutline> flat_outline(const world::MeshGeometry& shape);
 
 }  // namespace icome::interaction

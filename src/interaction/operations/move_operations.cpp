@@ -1,6 +1,9 @@
 // Move and land: what operations do that take objects past others.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "interaction/object_move.h"
 #include "interaction/operations/object_frames.h"
 #include "interaction/operations/object_operations.h"
@@ -10,6 +13,7 @@
 namespace icome::interaction {
 namespace {
 
+using base::fail;
 using base::Result;
 using world::ObjectId;
 using world::World;
@@ -52,13 +56,43 @@ Result<Plan> plan_felt_move(const World& world, const std::vector<ObjectId>& obj
   return all_moved_by(world, objects, move->move.offset, note_of(world, *move));
 }
 
+constexpr std::array kSnapKinds = {"corners", "edges", "faces"};
+
+/// What the objects snap to.
+Result<SnapSettings> snaps_of(const Arguments& arguments) {
+  SnapSettings snaps = SnapSettings::none();
+  if (arguments.has("grid")) {
+    snaps.grid = true;
+    snaps.spacing = arguments.number("grid");
+    snaps.radius = snaps.spacing;  // some grid point is always nearer
+  }
+  const auto said = [&](const char* kind) { return field(arguments.said(), kind) != nullptr; };
+  if (!arguments.has("snap")) {
+    if (std::ranges::any_of(kSnapKinds, said))
+      return fail("'corners', 'edges' and 'faces' choose what 'snap' leads to: say within how far it does");
+    return snaps;
+  }
+  snaps.radius = arguments.number("snap");
+  snaps.vertices = snaps.middles = arguments.flag("corners");
+  snaps.edges = arguments.flag("edges");
+  snaps.faces = arguments.flag("faces");
+  if (!snaps.any()) return fail("there is nothing left to snap to: leave 'snap' out, or switch something on");
+  return snaps;
+}
+
+Parameter snap_choice(std::string name, std::string meaning) {
+  return {
+      .name = std::move(name), .kind = ParameterKind::Flag, .meaning = std::move(meaning), .fallback = true};
+}
+
 Result<Plan> plan_move(const World& world, const Arguments& arguments, world::IdSource&) {
   const std::vector<ObjectId> objects = topmost(world, arguments.objects("objects"));
   const Vector3 wanted = arguments.vector("by");
   DragRules rules;
   rules.stops.stop = arguments.flag("stop");
-  rules.snaps = SnapSettings::none();
-  if (arguments.has("snap")) rules.snaps = {.radius = arguments.number("snap")};
+  const auto snaps = snaps_of(arguments);
+  if (!snaps) return tl::unexpected(snaps.error());
+  rules.snaps = *snaps;
   if (!rules.stops.stop && !rules.snaps.any()) return all_moved_by(world, objects, wanted);
   return plan_felt_move(world, objects, wanted, rules);
 }
@@ -77,6 +111,16 @@ Operation move_operation() {
            {.name = "snap",
             .kind = ParameterKind::Number,
             .meaning = "within how far they snap to corners, edges and faces of others, m; else not at all",
+            .least = kLeastSnap,
+            .most = kMostSnap},
+           snap_choice("corners", "whether they snap to corners and to middles of edges"),
+           snap_choice("edges", "whether they snap to edges"),
+           snap_choice("faces", "whether they snap to faces"),
+           {.name = "grid",
+            .kind = ParameterKind::Number,
+            .meaning = "the spacing of a grid along the axes of the world that they snap to, m, within "
+                       "'snap' where that is "
+                       "said; else none",
             .least = kLeastSnap,
             .most = kMostSnap}},
           plan_move};

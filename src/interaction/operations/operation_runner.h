@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string_view>
 
 #include "interaction/operations/operation.h"
@@ -17,7 +18,7 @@ struct Performed {
 /// edit` and tests drive it, and it undoes and redoes.
 class OperationRunner {
  public:
-  explicit OperationRunner(world::World world);
+  explicit OperationRunner(world::World world, PictureReader pictures = {});
 
   const world::World& world() const { return world_; }
   const world::History& history() const { return history_; }
@@ -32,11 +33,19 @@ class OperationRunner {
   world::World world_;
   world::History history_;
   world::IdSource ids_;
+  PictureReader pictures_;
 };
 
 /// The edit that an operation of that name and these arguments makes of a world, for who performs it
 /// elsewhere (a session, a colleague's world). Fails for undo and redo, which are no edits.
 base::Result<Plan> plan_operation(const Operation& operation, const Value::Fields& fields,
-                                  const world::World& world, world::IdSource& ids);
+                                  const world::World& world, world::IdSource& ids,
+                                  const PictureReader& pictures = {});
+
+/// One edit that performs the operation on each of the objects, one after the other, as its first parameter.
+/// Fails as soon as one of them is refused.
+base::Result<Plan> plan_for_each(const Operation& operation, const Value::Fields& fields,
+                                 std::span<const world::ObjectId> objects, world::World world,
+                                 world::IdSource& ids, const PictureReader& pictures = {});
 
 }  // namespace icome::interaction

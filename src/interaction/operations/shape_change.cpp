@@ -70,11 +70,16 @@ Parameter as_mesh_parameter() {
 
 Result<ShapeChange> shape_change(const world::World& world, const Arguments& arguments) {
   const world::ObjectId id = arguments.object("object");
-  const world::PhysicalObject& object = *world.find(id);
-  const world::GeometryObject* shared = world.find(object.geometry);
-  if (!shared)
+  if (!world.find(id)->geometry)
     return fail(fmt::format("'{}' has no shape, it only holds others together: name one that has",
                             arguments.text("object")));
+  return shape_change(world, id, arguments);
+}
+
+Result<ShapeChange> shape_change(const world::World& world, world::ObjectId id, const Arguments& arguments) {
+  const world::PhysicalObject& object = *world.find(id);
+  const world::GeometryObject* shared = world.find(object.geometry);
+  if (!shared) return fail(fmt::format("'{}' has no shape of its own", object.name));
   const bool alone = shared->users > 1 && arguments.flag("alone");
   return ShapeChange{&world, id, object.geometry, shared->shape, false, alone};
 }

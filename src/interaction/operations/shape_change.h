@@ -29,6 +29,9 @@ Parameter as_mesh_parameter();
 
 /// The shape that is asked for, as it is. Fails for objects without one.
 base::Result<ShapeChange> shape_change(const world::World& world, const Arguments& arguments);
+/// The same of one of several objects, with `alone` of the arguments.
+base::Result<ShapeChange> shape_change(const world::World& world, world::ObjectId object,
+                                       const Arguments& arguments);
 
 /// The mesh that is to be changed. One that is no mesh is made triangles first where `as_mesh` is said, else
 /// the sentence says what to do. Fails for meshes that do not hold together.
