@@ -13,7 +13,9 @@ using geometry::FourBoxes;
 
 namespace {
 
-constexpr double kShareKept = 0.999;  // of a way out of a region: what is left is surely within
+constexpr double kLongStep = 0.5;        // of the region's reach
+constexpr double kFirstShare = 1.0 / 8;  // of a long step, asked first
+constexpr double kShareKept = 0.999;     // of a way out of a region: what is left is surely within
 
 /// Where a line from `offset` by t * `step` leaves a ball around the origin, or a cylinder when both are at
 /// right angles to its axis: t, if it meets it at all.
@@ -154,37 +156,49 @@ void ContactRegion::make_ready(const Vector3& start, const Vector3& step) {
 
 SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
                               std::uint32_t ignored_object) {
-  const geometry::SegmentQuery path =
-      relative_query(start, start + step, tolerance_.touching() + edge_dip(frame_.tip));
   const auto is_ignored = [&](const Element& element) {
     return std::any_of(ignored.begin(), ignored.end(),
                        [&](const Element& contact) { return same_surface(contact, element); });
   };
   SweepHit first;
   const Element* met = nullptr;  // what `first` is about, unless its contact is set already
-  for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
-    for (unsigned mask = boxes_[block].near_mask(path); mask != 0; mask &= mask - 1) {
-      Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
-      if (piece.object == ignored_object) continue;
-      const std::span<const Element> elements = elements_of(piece);
-      looked_at_ += elements.size();
-      for (const Element& element : elements) {
-        if (element.smooth()) {
-          if (is_ignored(element)) continue;
-          Element found = element;
-          const auto t = smooth_sweep(found, start, step, tolerance_);
-          if (!t || (first.met && *t >= first.t)) continue;
-          first = {*t, true, found};
-          met = nullptr;
-        } else {
-          const auto t = haptics::sweep(element, start, step, tolerance_);
-          if (!t || (first.met && *t >= first.t) || is_ignored(element)) continue;
-          first.t = *t;
-          first.met = true;
-          met = &element;
-        }
+  const auto ask = [&](const Element& element) {
+    if (element.smooth()) {
+      if (is_ignored(element)) return;
+      Element found = element;
+      const auto t = smooth_sweep(found, start, step, tolerance_);
+      if (!t || (first.met && *t >= first.t)) return;
+      first = {*t, true, found};
+      met = nullptr;
+    } else {
+      const auto t = haptics::sweep(element, start, step, tolerance_);
+      if (!t || (first.met && *t >= first.t) || is_ignored(element)) return;
+      first.t = *t;
+      first.met = true;
+      met = &element;
+    }
+  };
+  // A long step is often stopped soon: what is near its beginning is asked first, and then the rest up to
+  // where it was stopped.
+  const double margin = tolerance_.touching() + edge_dip(frame_.tip);
+  double share = step.norm() > kLongStep * reach_ ? kFirstShare : 1.0;
+  std::optional<geometry::SegmentQuery> asked;
+  while (true) {
+    const geometry::SegmentQuery path = relative_query(start, start + share * step, margin);
+    for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+      unsigned mask = boxes_[block].near_mask(path);
+      if (asked && mask != 0) mask &= ~boxes_[block].near_mask(*asked);
+      for (; mask != 0; mask &= mask - 1) {
+        Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
+        if (piece.object == ignored_object) continue;
+        const std::span<const Element> elements = elements_of(piece);
+        looked_at_ += elements.size();
+        for (const Element& element : elements) ask(element);
       }
     }
+    if (share >= first.t) break;
+    share = first.t;
+    asked = path;
   }
   if (met != nullptr) first.contact = facing(*met, start);
   return first;

@@ -241,6 +241,68 @@ std::optional<double> curved_entry(const Element& e, const Vector3& start, const
   return comes_over(e, start + inside * step, tolerance) ? std::optional(inside) : std::nullopt;
 }
 
+/// Half-spaces that bound where a piece lies under a path: when does the path come into all of them?
+class Confines {
+ public:
+  explicit Confines(double rim) : rim_(rim) {}
+
+  /// One that holds what is not below zero, give or take the rim: `begin` at the start of the path, and
+  /// `change` over all of it.
+  void add(double begin, double change) {
+    if (begin >= -rim_) return;
+    begins_within_ = false;
+    if (begin + change < -rim_)
+      missed_ = true;
+    else
+      entry_ = std::max(entry_, std::min(1.0, -begin / change));
+  }
+
+  bool begins_within() const { return begins_within_; }
+  bool missed() const { return missed_; }
+  double entry() const { return entry_; }
+
+ private:
+  double rim_;
+  bool begins_within_ = true;
+  bool missed_ = false;
+  double entry_ = 0.0;
+};
+
+/// For the rods and balls of meshes, of which a sweep asks many and meets few: what they are confined to and
+/// a squared distance tell most of them apart.
+std::optional<double> sweep_guarded(const Element& e, const Vector3& start, const Vector3& step,
+                                    const Tolerance& tolerance) {
+  const Vector3 offset = start - e.origin;
+  Confines confines(tolerance.rim());
+  Vector3 away = offset;
+  Vector3 across = step;
+  if (e.kind == Kind::Rod) {
+    const double along = e.axis.dot(offset);
+    const double advance = e.axis.dot(step);
+    confines.add(along, advance);
+    confines.add(e.a - along, -advance);
+    away -= along * e.axis;
+    across -= advance * e.axis;
+  }
+  confines.add(-e.u.dot(away), -e.u.dot(across));
+  confines.add(-e.v.dot(away), -e.v.dot(across));
+  if (!e.two_sided) confines.add(e.w.dot(away), e.w.dot(across));
+  if (confines.missed()) return std::nullopt;
+  const double reach = e.radius + tolerance.gap;
+  const double approach = away.dot(across);
+  const double outside = away.squaredNorm() - reach * reach;
+  if (outside > 0.0 && (approach >= 0.0 || approach * approach < across.squaredNorm() * outside))
+    return std::nullopt;
+  std::optional<double> t = 0.0;
+  if (outside > 0.0 || approach >= 0.0) t = quadric_crossing(away, across, reach, false);
+  if (t && covers(e, start + *t * step, tolerance)) return t;
+  const Vector3 end = start + step;
+  if (confines.begins_within() || height(e, end) >= 0.5 * tolerance.gap || !covers(e, end, tolerance))
+    return std::nullopt;
+  t = confines.entry();
+  return comes_over(e, start + *t * step, tolerance) ? t : std::nullopt;
+}
+
 }  // namespace
 
 double height(const Element& element, const Vector3& position) {
@@ -344,6 +406,7 @@ std::optional<double> sweep(const Element& e, const Vector3& start, const Vector
                             const Tolerance& tolerance) {
   if (faces_away(e, start)) return sweep_flat(facing(e, start), start, step, tolerance);
   if (e.flat()) return sweep_flat(e, start, step, tolerance);
+  if (e.guarded) return sweep_guarded(e, start, step, tolerance);
   const double h0 = height(e, start);
   // The two sides of a curved shell are two pieces, a gap to either side of it.
   const double behind = e.two_sided ? tolerance.rim() : tolerance.behind();

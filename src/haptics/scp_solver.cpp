@@ -29,7 +29,7 @@ constexpr double kMaxAheadGrowth = 2.0;  // of the way that a region looks ahead
 constexpr int kMaxReturns = 6;           // in a tick, to where a way out was found before
 constexpr double kRounding = 1e-14;      // of squared distances
 constexpr double kSteepest = 0.1;        // rise of an arch for its length
-constexpr double kStride = 8.0;      // times the last step's way, a sphere tip's next step is looked along
+constexpr double kStride = 8.0;      // times the last slide's way, a sphere tip's next slide is looked along
 constexpr double kRoundStep = 0.28;  // rad, along a rounded edge: no way over it is then too steep
 constexpr double kFarthest = 0.3;    // of its radius: how far a region looks ahead of a sphere tip in contact
 constexpr double kBulge = 0.3;       // rise of a way over an edge, times its radius, for the squared chord
@@ -135,9 +135,9 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   last_slide_ = 0.0;
   fallen_ = 0.0;
   last_tip_ = tip;
-  const Vector3 before = position_;
+  tick_start_ = position_;
   converge(tip);
-  drift_ = position_ - before;
+  drift_ = position_ - tick_start_;
   report(tip);
   return state_;
 }
@@ -406,7 +406,7 @@ Vector3 ScpSolver::next_round_step(const Vector3& tip, bool& exact) {
   const Vector3 tangent = contacts_.constrained(position_, pull, tolerance());
   const double share = slip(tangent.norm(), (pull - tangent).norm());
   if (share <= 0.0 || tangent.norm() <= tolerance().touching()) return share * tangent;
-  const double longest = kRoundStep * contacts_.smallest_radius();
+  const double longest = std::min(kRoundStep * contacts_.smallest_radius(), stride_);
   goal_ = tip;
   ContactSet::Rest rest = contacts_.rest(position_, goal_, tolerance());
   exact = rest.exact && contacts_.size() == 1;
@@ -549,8 +549,11 @@ bool ScpSolver::advance(const Vector3& wanted) {
     }
     return false;
   }
-  const double least_stride = kLeastShare * settings_.tip_radius;
-  stride_ = kStride * (hit.met ? std::max((position_ - from).norm(), least_stride) : stride_);
+  if (!contacts_.empty()) {  // how far it falls before it lands says nothing about how far it will slide
+    last_slide_ = (position_ - from).norm();
+    const double least_stride = kLeastShare * settings_.tip_radius;
+    stride_ = kStride * (hit.met ? std::max(last_slide_, least_stride) : stride_);
+  }
   fallen_ = contacts_.empty() && !hit.met ? fallen_ + step.norm() : 0.0;
   met_ = hit.met;
   cut_ = !hit.met && step != wanted;
@@ -786,11 +789,12 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
     if (fallen_ > 0.0) return step * std::min(1.0, std::max(likely, 2.0 * fallen_) / length);
     return on.norm() >= likely ? on : Vector3(step * (likely / length));
   }
-  if (!contacts_.empty()) last_slide_ = length;
   // A chord round an edge is short as it is; a beginning of it would lie in the edge.
   if (on_chords()) return step;
-  // A sphere tip that is pulled far along what it touches sinks into much that it will not come to.
-  const double farthest = std::max(tip_motion_, kFarthest * settings_.tip_radius);
+  // A sphere tip that is pulled far along what it touches sinks into much that it will not come to. One that
+  // has gone far in this tick will go on: looking ahead as far again, a long way takes few regions.
+  const double farthest =
+      std::max({tip_motion_, kFarthest * settings_.tip_radius, (position_ - tick_start_).norm()});
   if (!contacts_.empty() && settings_.tip_radius > 0.0 && length > farthest)
     return step * (farthest / length);
   const double beside = on.cross(step).norm();

@@ -13,7 +13,7 @@ namespace icome::haptics {
 struct ScpSettings {
   double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
   // The budget of a tick is counted, not timed, so that replays agree bit for bit.
-  int max_iterations = 128;  // pieces of way, usually 1 to 5
+  int max_iterations = 256;  // pieces of way, usually 1 to 5
   int max_elements = 8'000;  // looked at by sweeps, some 10 ns each, and a quarter of the pieces gathered;
                              // usually below 100
 };
@@ -106,7 +106,8 @@ class ScpSolver final : public ContactSolver {
   // m, where the frame of all that follows lies in the world: moved when the SCP is so far from it that what
   // is near would have too few digits.
   Vector3 origin_ = Vector3::Zero();
-  Vector3 position_ = Vector3::Zero();  // m, of the SCP (centre of the tip that rests)
+  Vector3 position_ = Vector3::Zero();    // m, of the SCP (centre of the tip that rests)
+  Vector3 tick_start_ = Vector3::Zero();  // m, where the SCP was when the tick began
   Vector3 last_tip_ = Vector3::Zero();
   Vector3 goal_ =
       Vector3::Zero();       // m, where smooth contacts are pulled: the tip, or as far as friction lets

@@ -119,5 +119,23 @@ TEST(ContactRegion, TellsHowMuchOfAStepStaysWithin) {
   }
 }
 
+// A sphere tip that is pulled far ahead over what will stop it at once.
+TEST(ContactRegion, AsksLittleOfALongStepThatIsStoppedSoon) {
+  const double radius = 0.001;
+  const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(100, kBumpyRadius, 0.0, 0));
+  const ScenePointer scene = HapticScene::compile({object(1, shape_of(mesh, true, radius))});
+  const Vector3 start(0.0, 0.0, kBumpyRadius + 1.001 * radius);
+  const Vector3 step(0.012, 0.0, -0.002);
+  ContactRegion region;
+  region.start(*scene, {Vector3::Zero(), radius}, start, start + step, 0.002);
+  scene->gather(region);
+  ASSERT_GT(region.size(), 400u);
+  const std::uint64_t before = region.work();
+  const SweepHit hit = region.sweep(start, step, {});
+  EXPECT_TRUE(hit.met);
+  EXPECT_LT(hit.t, 0.1);
+  EXPECT_LT(region.work() - before, 200u);
+}
+
 }  // namespace
 }  // namespace icome::haptics

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 
 #include "geometry/geodesic_sphere.h"
 #include "haptics/contact_judge.h"
@@ -162,6 +163,63 @@ TEST(SphereTips, ComeOutOfWhatAppearsAroundThem) {
   const ScpState& state = solver.step(tip, 0.0);
   EXPECT_TRUE(state.touching);
   EXPECT_NEAR(state.scp.z(), 0.05 + radius, 1e-9);
+}
+
+// Pressed deep, a tip that goes on can send the SCP half round a solid of many small faces within a tick. How
+// short a fall to the next face was, or a way that was stopped, says little about how far it glides then.
+TEST(SphereTips, SendTheScpHalfRoundASolidInFewSteps) {
+  for (const double radius : {0.0003, 0.0006, 0.001}) {
+    for (const int frequency : {60, 80, 100}) {
+      const MeshPointer mesh = shared(geometry::bumpy_geodesic_sphere(frequency, 0.05, 0.0, 0));
+      Toucher toucher(HapticScene::compile({object(1, shape_of(mesh, true, radius))}), radius);
+      toucher.go({0.06, 0.001, 0.002}, {0.0005, 0.001, 0.002}, 400);
+      const Vector3 tip(-0.03, 0.001, 0.002);
+      const ScpState& state = toucher.step(tip);
+      EXPECT_TRUE(state.converged);
+      EXPECT_LT(state.iterations, 60) << radius << " " << frequency;
+      EXPECT_LT((state.scp - tip).norm(), 0.02 + radius);
+    }
+  }
+}
+
+/// Does the piece hold a tip there?
+bool holds_at(const Element& element, const Vector3& position, const Tolerance& tolerance) {
+  return covers(element, position, tolerance) && height(element, position) < 0.5 * tolerance.gap;
+}
+
+// Compared with looking at many places of the way, one after the other.
+TEST(SphereTips, MeetEdgesAndCornersWhereTheyAre) {
+  const double radius = 0.004;
+  const ScenePointer scene = HapticScene::compile({object(1, shape_of(rough_ball(8, 0.02), true, radius))});
+  Random random(8);
+  ContactRegion region;
+  std::vector<Element> elements(ContactRegion::kElements);
+  int met = 0, ended_there = 0;
+  for (int i = 0; i < repeats(2000); ++i) {
+    const Vector3 start = random.uniform(0.050, 0.058) * random.direction();
+    const Vector3 step = random.uniform(0.001, 0.006) * random.direction();
+    region.start(*scene, {Vector3::Zero(), radius}, start, start + step, 0.001);
+    scene->gather(region);
+    const Tolerance& tolerance = region.tolerance();
+    const std::size_t count = region.around(start, 0.01, elements);
+    for (const Element& element : std::span(elements).first(count)) {
+      if (!element.guarded || holds_at(element, start, tolerance)) continue;
+      const std::optional<double> t = sweep(element, start, step, tolerance);
+      if (t) {
+        const Vector3 at = start + *t * step;
+        ASSERT_TRUE(covers(element, at, tolerance)) << i;
+        ASSERT_LT(height(element, at), 1.01 * tolerance.gap) << i;
+        ++met;
+      }
+      if (!holds_at(element, start + step, tolerance)) continue;
+      ++ended_there;
+      ASSERT_TRUE(t) << i;
+      for (double share = 0.005; share < *t; share += 0.005)
+        ASSERT_FALSE(holds_at(element, start + share * step, tolerance)) << i;
+    }
+  }
+  EXPECT_GT(met, repeats(400));
+  EXPECT_GT(ended_there, repeats(100));
 }
 
 }  // namespace
