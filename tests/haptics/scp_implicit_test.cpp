@@ -180,6 +180,24 @@ Field star_field() {
           2.0};
 }
 
+/// Goes over into the wall where the root ends without an edge.
+Field dome_field() {
+  return {"Dome", "z - sqrt(0.04^2 - x^2 - y^2)",
+          [](const Vector3& p) { return p.z() > 0.0 ? p.norm() - 0.04 : std::hypot(p.x(), p.y()) - 0.04; },
+          1.0};
+}
+
+Field root_field() {
+  constexpr double kSteepest = 0.13;  // of z^2 - 0.01*x in the box
+  return {"Root", "z - 0.1*sqrt(x)",
+          [](const Vector3& p) {
+            if (p.z() > 0.0) return p.z() * p.z() - 0.01 * p.x();
+            const double deep = std::min(0.5 * p.x(), 0.1 * std::sqrt(std::max(0.0, 0.5 * p.x())) - p.z());
+            return -kSteepest * (p.x() > 0.0 ? deep : p.x());
+          },
+          kSteepest};
+}
+
 Field step_field() {
   return {"Step", "if(x < 0.01 && y < 0.02, z, z + 0.02)",
           [](const Vector3& p) {
@@ -198,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(Fields, TouchedFields,
                                          wave_field(), valley_field(), waves_and_wall_field(),
                                          joined_balls_field(), lens_field(), octahedron_field(), cube_field(),
                                          cross_field(), smooth_join_field(), pole_field(), begin_field(),
-                                         star_field(), step_field()),
+                                         star_field(), step_field(), dome_field(), root_field()),
                          [](const auto& it) { return it.param.name; });
 
 TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
