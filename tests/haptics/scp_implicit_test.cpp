@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/implicit_surface.h"
+#include "geometry/plain_formula.h"
 #include "geometry/plane_formulas.h"
 #include "haptics/csg_touch.h"
 
@@ -447,6 +448,29 @@ TEST(ScpOnImplicit, SurfacesWhenABallGrowsOverTheTip) {
         if (state.touching) {
           ASSERT_LT((state.surface_velocity - speed * out).norm(), 1e-6 * speed);
         }
+      }
+    }
+  }
+}
+
+/// A stair and a spiral have no tangent plane at their axis: who is pressed against it stays outside.
+TEST(ScpOnImplicit, IsNotPressedThroughTheAxisOfAStair) {
+  struct Press {
+    const char* formula;
+    std::vector<Vector3> way;
+  };
+  const std::vector<Press> presses = {
+      {"z - 0.003*atan2(y, x)",
+       {{-0.0165, -0.01, 0.0}, {-0.0165, 0.02, -0.0105}, {0.003, 0.0333, -0.0098}, {0.02, 0.036, -0.0095}}},
+      {"z + 0.01*sin(3*atan2(y, x) + 200*sqrt(x^2 + y^2))",
+       {{0.001, 0.0012, 0.02}, {0.0, 0.0003, -0.0145}, {0.002, -0.002, -0.0165}}}};
+  for (const Press& press : presses) {
+    const auto value = *geometry::plain_formula(press.formula);
+    Toucher toucher(HapticScene::compile({object(1, formula_shape(press.formula))}));
+    for (std::size_t leg = 1; leg < press.way.size(); ++leg) {
+      for (int i = 0; i <= 100; ++i) {
+        const Vector3 tip = press.way[leg - 1] + 0.01 * i * (press.way[leg] - press.way[leg - 1]);
+        ASSERT_GE(value(toucher.step(tip).scp, 0.0), 0.0) << press.formula << " at " << tip.transpose();
       }
     }
   }
