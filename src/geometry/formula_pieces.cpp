@@ -1,7 +1,9 @@
 #include "geometry/formula_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace icome::geometry {
 namespace {
@@ -13,6 +15,7 @@ using ChoiceSet = FormulaPieces::ChoiceSet;
 constexpr std::size_t kMostBorders = 512;
 constexpr std::size_t kMostCases = 256;  // of one part of a formula
 constexpr std::size_t kMostChoices = 64;
+constexpr int kMostInversions = 4;  // of one part: roots of roots
 
 /// What a part of a formula is where choices were made so.
 struct SmoothPart {
@@ -24,6 +27,130 @@ struct SmoothPart {
 bool agree(const Case& one, const Case& other) {
   return (one.made & other.made & (one.second ^ other.second)) == 0;
 }
+
+/// Solves f = 0 for what a root, a hypot, asin or acos in it is taken of: z - sqrt(x) is zero where z^2 - x
+/// is and z is not negative. At the edge of its domain f is infinitely steep, or ends; what is solved goes
+/// on.
+class Inversion {
+ public:
+  Inversion(Expression& expression, Node root)
+      : expression_(expression), inner_(root), value_(expression.constant(0.0)) {
+    while (const auto next = next_step(inner_)) {
+      const Expression::Step step = expression_.steps()[inner_];
+      if (invert(step)) {
+        found_ = true;
+        return;
+      }
+      peel(step, *next);
+    }
+  }
+
+  bool found() const { return found_; }
+  /// It has the zeros of f where the limits are zero or less, and rises there where f does.
+  Node solved() { return rises_ ? difference(inner_, value_) : difference(value_, inner_); }
+  const std::vector<Node>& limits() const { return limits_; }
+
+ private:
+  static bool is_invertible(const Expression::Step& step) {
+    switch (step.operation) {
+      case Operation::Sqrt:
+      case Operation::Hypot:
+      case Operation::Asin:
+      case Operation::Acos:
+        return true;
+      case Operation::ConstantPower:
+        return step.constant > 0.0 && step.constant < 1.0 && root_of(step) == std::round(root_of(step));
+      default:
+        return false;
+    }
+  }
+  static double root_of(const Expression::Step& step) { return 1.0 / step.constant; }
+
+  /// The operand that leads to what can be inverted, or the node itself if that can be.
+  std::optional<Node> next_step(Node node) {
+    if (++looks_ > kMostLooks) return std::nullopt;
+    const Expression::Step step = expression_.steps()[node];
+    if (is_invertible(step)) return node;
+    switch (step.operation) {
+      case Operation::Add:
+      case Operation::Subtract:
+        if (next_step(step.a)) return step.a;
+        return next_step(step.b) ? std::optional(step.b) : std::nullopt;
+      case Operation::Negate:
+      case Operation::Scale:
+      case Operation::AddConstant:
+        return next_step(step.a) ? std::optional(step.a) : std::nullopt;
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// inner_ is to have this value_: the same of one of its operands.
+  void peel(const Expression::Step& step, Node operand) {
+    inner_ = operand;
+    switch (step.operation) {
+      case Operation::Negate:
+        value_ = expression_.unary(Operation::Negate, value_);
+        rises_ = !rises_;
+        return;
+      case Operation::Scale:
+        value_ = expression_.binary(Operation::Divide, value_, expression_.constant(step.constant));
+        rises_ = rises_ == (step.constant > 0.0);
+        return;
+      case Operation::AddConstant:
+        value_ = difference(value_, expression_.constant(step.constant));
+        return;
+      case Operation::Add:
+        value_ = difference(value_, operand == step.a ? step.b : step.a);
+        return;
+      default:  // Subtract
+        if (operand == step.a) {
+          value_ = expression_.binary(Operation::Add, value_, step.b);
+        } else {
+          value_ = difference(step.a, value_);
+          rises_ = !rises_;
+        }
+    }
+  }
+
+  bool invert(const Expression::Step& step) {
+    if (!is_invertible(step)) return false;
+    const Node zero = expression_.constant(0.0);
+    inner_ = step.a;
+    if (step.operation == Operation::Asin) {
+      const Node most = expression_.constant(0.5 * std::numbers::pi);
+      limits_ = {difference(value_, most), difference(expression_.unary(Operation::Negate, value_), most)};
+      value_ = expression_.unary(Operation::Sin, value_);
+      return true;
+    }
+    if (step.operation == Operation::Acos) {
+      limits_ = {difference(zero, value_), difference(value_, expression_.constant(std::numbers::pi))};
+      value_ = expression_.unary(Operation::Cos, value_);
+      rises_ = !rises_;
+      return true;
+    }
+    const double root = step.operation == Operation::ConstantPower ? std::round(root_of(step)) : 2.0;
+    if (step.operation == Operation::Hypot)
+      inner_ = expression_.binary(Operation::Add, power(step.a, 2.0), power(step.b, 2.0));
+    limits_ = {difference(zero, value_)};
+    value_ = power(value_, root);
+    return true;
+  }
+
+  Node difference(Node a, Node b) { return expression_.binary(Operation::Subtract, a, b); }
+  Node power(Node a, double exponent) {
+    return expression_.binary(Operation::Power, a, expression_.constant(exponent));
+  }
+
+  static constexpr int kMostLooks = 4096;
+
+  Expression& expression_;
+  Node inner_, value_;  // f is zero where these are equal
+  bool rises_ = true;   // f with inner_
+  bool found_ = false;
+  int looks_ = 0;
+  std::vector<Node> limits_;
+};
 
 /// Takes an expression apart, step by step, operands first.
 class FormulaSplitter {
@@ -42,12 +169,42 @@ class FormulaSplitter {
     }
   }
 
+  /// Goes on beyond the ends of roots: each part becomes what has the same zeros, trimmed by more choices.
+  void invert() {
+    for (SmoothPart& part : parts_[root_]) {
+      for (int i = 0; i < kMostInversions && invert(part); ++i) continue;
+    }
+  }
+
   const std::vector<SmoothPart>& parts() const { return parts_[root_]; }
   const std::vector<Node>& choices() const { return choices_; }
   const std::vector<Node>& borders() const { return borders_; }
   bool too_many_borders() const { return borders_.size() > kMostBorders; }
 
  private:
+  bool invert(SmoothPart& part) {
+    expression_.forget_fault();
+    Inversion inversion(expression_, part.node);
+    if (!inversion.found()) return false;
+    const Node solved = inversion.solved();
+    SmoothPart inverted{solved, part.by};
+    for (const Node limit : inversion.limits()) {
+      const Expression::Step step = expression_.steps()[limit];
+      if (step.operation == Operation::Constant && step.constant <= 0.0) continue;
+      const auto known = std::find(choices_.begin(), choices_.end(), limit);
+      const auto number = std::size_t(known - choices_.begin());
+      if (number >= kMostChoices) return false;
+      const ChoiceSet bit = ChoiceSet{1} << number;
+      // A limit that is a choice already may have been made the other way.
+      if ((inverted.by.second & bit) != 0) return false;
+      if (known == choices_.end()) choices_.push_back(limit);
+      inverted.by.made |= bit;
+    }
+    if (!expression_.fault().empty()) return false;
+    part = inverted;
+    return true;
+  }
+
   std::vector<bool> used_steps(const std::vector<Expression::Step>& steps) const {
     std::vector<bool> used(steps.size(), false);
     used[root_] = true;
@@ -224,7 +381,7 @@ base::Result<std::vector<Formula>> formulas_of(const Expression& expression, con
 
 }  // namespace
 
-base::Result<FormulaPieces> FormulaPieces::parse(const std::string& text) {
+base::Result<FormulaPieces> FormulaPieces::parse(const std::string& text, Ends ends) {
   Expression expression;
   const auto root = read_formula(text, expression);
   if (!root) return base::fail(root.error().message);
@@ -232,6 +389,7 @@ base::Result<FormulaPieces> FormulaPieces::parse(const std::string& text) {
   if (!whole) return base::fail(whole.error().message);
   FormulaSplitter splitter(expression, *root);
   splitter.run();
+  if (ends == Ends::GoOn) splitter.invert();
   if (splitter.too_many_borders())
     return base::fail("the formula has too many poles and edges of where it has values to follow them all.");
   auto pieces = pieces_of(expression, splitter.parts());

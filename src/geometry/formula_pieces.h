@@ -36,8 +36,12 @@ struct FormulaPieces {
   /// with either sign (and where atan2 is undefined, and in parts with creases).
   std::vector<Formula> borders;
 
+  /// What becomes of pieces where a root, asin or acos ends. Where they `GoOn`, a piece need not be the
+  /// formula with its choices made: it has the same zeros, faces the same way there, and is trimmed by more
+  /// choices.
+  enum class Ends { AsWritten, GoOn };
   /// Fails with a sentence that names the column.
-  static base::Result<FormulaPieces> parse(const std::string& text);
+  static base::Result<FormulaPieces> parse(const std::string& text, Ends ends = Ends::AsWritten);
 };
 
 }  // namespace icome::geometry

@@ -108,7 +108,7 @@ ImplicitSurface::~ImplicitSurface() = default;
 base::Result<std::shared_ptr<const ImplicitSurface>> ImplicitSurface::create(const std::string& formula,
                                                                              const Bounds& box) {
   if (const std::string complaint = box_complaint(box); !complaint.empty()) return base::fail(complaint);
-  auto read = FormulaPieces::parse(formula);
+  auto read = FormulaPieces::parse(formula, FormulaPieces::Ends::GoOn);
   if (!read) return base::fail(read.error().message);
   if (!read->whole.uses_place()) {
     return base::fail("the formula does not depend on x, y or z, so it has no surface");
@@ -236,7 +236,7 @@ SurfacePlace ImplicitSurface::foot(const SurfacePlace& from, const Vector3& goal
     return place;
   }
   const auto place = parts_->walk(from.piece, time).descend(from.point, goal);
-  return {place.point, place.normal, from.piece};
+  return {place.point, place.normal, from.piece, 0.0, 0.0, place.reached};
 }
 
 bool ImplicitSurface::covers(const SurfacePlace& place, const Vector3& /*above*/, double time,

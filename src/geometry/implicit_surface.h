@@ -42,6 +42,7 @@ class ImplicitSurface final : public SmoothSurface {
   Bounds bounds() const override;
   void near(const Vector3& a, const Vector3& b, double reach, double time, PieceVisitor visit) const override;
   bool inside(const Vector3& point, double time = 0.0) const override;
+  bool knows_inside_quickly() const override { return true; }
   std::optional<SurfacePlace> way_out(const Vector3& point, double time) const override;
   std::optional<SurfaceEntry> entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
                                     bool from_behind, double time, double slack) const override;

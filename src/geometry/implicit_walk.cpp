@@ -16,6 +16,7 @@ using TangentFrame = Eigen::Matrix<double, 3, 2>;
 constexpr double kExact = 1e-13;
 constexpr double kOnIt = 1e-12;
 constexpr double kNear = 1e-9;
+constexpr double kUpright = 1e-6;  // sine of the angle between pull and normal up to which a place is a foot
 constexpr int kMostLegs = 14;
 constexpr int kMostWalkSteps = 8;
 constexpr int kSheetHalvings = 3;  // of ways that are not sure at once
@@ -73,6 +74,13 @@ NewtonStep newton_step(const Formula::Bend& at, const Vector3& point, const Vect
 bool is_usable(const Formula::Bend& at) {
   const double square = at.gradient.squaredNorm();
   return std::isfinite(at.value) && square > 0.0 && std::isfinite(square) && at.hessian.allFinite();
+}
+
+/// Does the goal lie straight above or below? Rounding keeps some walks from seeing that they have arrived.
+bool is_upright(const ImplicitWalk::Place& place, const Vector3& goal, double size) {
+  const Vector3 pull = goal - place.point;
+  const Vector3 along = pull - pull.dot(place.normal) * place.normal;
+  return along.norm() <= kUpright * pull.norm() + kNear * size;
 }
 
 }  // namespace
@@ -175,7 +183,7 @@ bool ImplicitWalk::on_one_sheet(const Place& from, const Place& to, const Vector
 ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& goal) const {
   const double whole = size_ + (goal - from).norm();
   const auto start = settle(from, whole);
-  if (!start) return {from, normal(from).value_or((from - goal).stableNormalized())};
+  if (!start) return {from, normal(from).value_or((from - goal).stableNormalized()), false};
   Place at = *start;
   double reach = whole;
   for (int i = 0; i < kMostLegs && reach > kExact * size_; ++i) {
@@ -203,6 +211,7 @@ ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& go
     }
     reach = kShorter * std::min(reach, next ? (next->end.point - at.point).norm() : reach);
   }
+  at.reached = is_upright(at, goal, size_);
   return at;
 }
 

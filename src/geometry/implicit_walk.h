@@ -15,6 +15,7 @@ class ImplicitWalk {
   struct Place {
     base::Vector3 point;
     base::Vector3 normal;  // unit, towards larger f
+    bool reached = true;  // of descend(): that the distance has its minimum there, not where the walk stopped
   };
 
   /// From near the surface onto it, along the gradient; nothing if there is none within `reach`.

@@ -47,6 +47,9 @@ class SmoothSurface {
   /// Is the point inside the solid? Surfaces that enclose nothing have no inside. Real-time safe.
   virtual bool inside(const Vector3& point, double time) const = 0;
 
+  /// Can inside() be asked in every tick, for a point tip? Then its SCP is kept out whatever else went wrong.
+  virtual bool knows_inside_quickly() const { return false; }
+
   /// A place of the surface near `point`, which is inside: the nearest one, as nearly as can be told in
   /// some 100 us. Nothing when `point` is not inside. Real-time safe.
   virtual std::optional<SurfacePlace> way_out(const Vector3& point, double time) const = 0;

@@ -27,6 +27,8 @@ constexpr int kMaxArches = 12;
 constexpr int kMaxIdle = 4;              // iterations that bring the SCP no nearer: contacts that take turns
 constexpr double kMaxAheadGrowth = 2.0;  // of the way that a region looks ahead, after one that overflowed
 constexpr int kMaxReturns = 6;           // in a tick, to where a way out was found before
+constexpr double kCrawl = 1e-4;          // of what is left of the way: a piece of way that leads nowhere
+constexpr int kMaxCrawl = 16;            // such pieces in a tick
 constexpr double kRounding = 1e-14;      // of squared distances
 constexpr double kSteepest = 0.1;        // rise of an arch for its length
 constexpr double kStride = 8.0;      // times the last slide's way, a sphere tip's next slide is looked along
@@ -136,7 +138,13 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   fallen_ = 0.0;
   last_tip_ = tip;
   tick_start_ = position_;
+  if (contacts_.any_smooth()) {
+    last_contacts_ = contacts_;
+  } else {
+    last_contacts_.clear();
+  }
   converge(tip);
+  stay_out(tick_start_);
   drift_ = position_ - tick_start_;
   report(tip);
   return state_;
@@ -280,6 +288,7 @@ void ScpSolver::converge(const Vector3& tip) {
   grant_budget();
   int idle = 0;
   int returns = 0;
+  int crawled = 0;
   double escaped_from = std::numeric_limits<double>::infinity();  // m, from the tip
   stride_ = std::numeric_limits<double>::infinity();
   Vector3 nearest = position_;
@@ -320,6 +329,10 @@ void ScpSolver::converge(const Vector3& tip) {
     } else if (!cut_ || position_ == from) {  // a part of a way may lead off at first
       ++idle;
     }
+    // Near such a place as the axis of a spiral stair the next tick goes on.
+    const bool crawls = contacts_.size() > 1 && contacts_.any_smooth() &&
+                        (position_ - from).norm() < kCrawl * (tip - position_).norm();
+    if (crawls && ++crawled > kMaxCrawl) return;
     if (met_ || contacts_.size() != held) continue;
     const bool fast = position_ == from && contacts_.any_smooth();  // between walls
     const bool there = whole && exact && held < 2 && !at_edge();    // else there may be an escape
@@ -328,6 +341,24 @@ void ScpSolver::converge(const Vector3& tip) {
       return;
     }
   }
+}
+
+/// Is a place within a smooth solid that is touched, or was when the tick began?
+bool ScpSolver::swallowed(const Vector3& position) const {
+  const auto has = [&](const Element& it) { return it.smooth() && has_swallowed(it, position); };
+  const auto any = [&](const ContactSet& set) {
+    return std::any_of(set.all().begin(), set.all().end(), has);
+  };
+  return any(last_contacts_) || any(contacts_);
+}
+
+/// Where a surface has no tangent plane, as at the axis of a spiral stair, a step may end in the solid after
+/// all: then the SCP stays where it was.
+void ScpSolver::stay_out(const Vector3& before) {
+  if (!swallowed(position_) || swallowed(before)) return;
+  position_ = before;
+  contacts_ = last_contacts_;
+  state_.converged = false;
 }
 
 /// For a tick, or for making ready what the next one needs.

@@ -56,6 +56,8 @@ class ScpSolver final : public ContactSolver {
   void surface_through(std::uint32_t object);
   void shove(const Vector3& to, std::uint32_t pusher);
   void converge(const Vector3& tip);
+  bool swallowed(const Vector3& position) const;
+  void stay_out(const Vector3& before);
   bool nearer(const Vector3& from, const Vector3& tip) const;
   bool advance(const Vector3& wanted);
   Vector3 within_stride(const Vector3& step) const;
@@ -122,6 +124,7 @@ class ScpSolver final : public ContactSolver {
   double ahead_ = std::numeric_limits<double>::infinity();
   std::uint64_t budget_ = 0;  // work of the region at which this tick ends
   ContactSet contacts_;
+  ContactSet last_contacts_;     // at the beginning of the tick, if any is smooth
   std::vector<Element> around_;  // what a way out looks at: memory only
   ContactRegion region_;
   ContactRegion ride_region_;

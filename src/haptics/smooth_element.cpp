@@ -141,6 +141,10 @@ void follow_foot(Element& e, const Vector3& position) {
   e.feature = e.here.place.piece;
 }
 
+bool has_swallowed(const Element& e, const Vector3& position) {
+  return e.surface->knows_inside_quickly() && e.surface->inside(into_surface(e, position - e.origin), e.time);
+}
+
 Vector3 smooth_velocity(const Element& e, const Vector3& position) {
   const SurfacePlace place = foot(e, into_surface(e, position - e.origin));
   return from_surface(e, place.normal) * e.surface->normal_speed(place, e.time);

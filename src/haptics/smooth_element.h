@@ -17,6 +17,10 @@ Vector3 settle_ahead(Element& element, const Vector3& position, const Tolerance&
 /// Makes the foot of `position` the one from which the next feet are found. Real-time safe.
 void follow_foot(Element& element, const Vector3& position);
 
+/// Is the position of a point tip within the surface's solid? False where that takes long to tell. Real-time
+/// safe.
+bool has_swallowed(const Element& element, const Vector3& position);
+
 /// How fast the surface itself moves at `position` (m/s). Real-time safe.
 Vector3 smooth_velocity(const Element& element, const Vector3& position);
 

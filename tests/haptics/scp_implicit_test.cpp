@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/implicit_surface.h"
+#include "geometry/plain_formula.h"
 #include "geometry/plane_formulas.h"
 #include "haptics/csg_touch.h"
 
@@ -180,6 +181,24 @@ Field star_field() {
           2.0};
 }
 
+/// Goes over into the wall where the root ends without an edge.
+Field dome_field() {
+  return {"Dome", "z - sqrt(0.04^2 - x^2 - y^2)",
+          [](const Vector3& p) { return p.z() > 0.0 ? p.norm() - 0.04 : std::hypot(p.x(), p.y()) - 0.04; },
+          1.0};
+}
+
+Field root_field() {
+  constexpr double kSteepest = 0.13;  // of z^2 - 0.01*x in the box
+  return {"Root", "z - 0.1*sqrt(x)",
+          [](const Vector3& p) {
+            if (p.z() > 0.0) return p.z() * p.z() - 0.01 * p.x();
+            const double deep = std::min(0.5 * p.x(), 0.1 * std::sqrt(std::max(0.0, 0.5 * p.x())) - p.z());
+            return -kSteepest * (p.x() > 0.0 ? deep : p.x());
+          },
+          kSteepest};
+}
+
 Field step_field() {
   return {"Step", "if(x < 0.01 && y < 0.02, z, z + 0.02)",
           [](const Vector3& p) {
@@ -198,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Fields, TouchedFields,
                                          wave_field(), valley_field(), waves_and_wall_field(),
                                          joined_balls_field(), lens_field(), octahedron_field(), cube_field(),
                                          cross_field(), smooth_join_field(), pole_field(), begin_field(),
-                                         star_field(), step_field()),
+                                         star_field(), step_field(), dome_field(), root_field()),
                          [](const auto& it) { return it.param.name; });
 
 TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
@@ -429,6 +448,34 @@ TEST(ScpOnImplicit, SurfacesWhenABallGrowsOverTheTip) {
         if (state.touching) {
           ASSERT_LT((state.surface_velocity - speed * out).norm(), 1e-6 * speed);
         }
+      }
+    }
+  }
+}
+
+/// A stair and a spiral have no tangent plane at their axis: who is pressed against it stays outside.
+TEST(ScpOnImplicit, IsNotPressedThroughTheAxisOfAStair) {
+  struct Press {
+    const char* formula;
+    std::vector<Vector3> way;
+  };
+  const std::vector<Press> presses = {
+      {"z - 0.003*atan2(y, x)",
+       {{-0.0165, -0.01, 0.0}, {-0.0165, 0.02, -0.0105}, {0.003, 0.0333, -0.0098}, {0.02, 0.036, -0.0095}}},
+      {"z + 0.01*sin(3*atan2(y, x) + 200*sqrt(x^2 + y^2))",
+       {{-0.0304, -0.0304, 0.03},
+        {-0.0304, -0.0304, 0.0146},
+        {-0.048, -0.048, 0.0082},
+        {-0.0431, -0.0431, -0.0014},
+        {-0.016, -0.016, -0.0112},
+        {0.0076, 0.0076, -0.0177}}}};
+  for (const Press& press : presses) {
+    const auto value = *geometry::plain_formula(press.formula);
+    Toucher toucher(HapticScene::compile({object(1, formula_shape(press.formula))}));
+    for (std::size_t leg = 1; leg < press.way.size(); ++leg) {
+      for (int i = 0; i <= 100; ++i) {
+        const Vector3 tip = press.way[leg - 1] + 0.01 * i * (press.way[leg] - press.way[leg - 1]);
+        ASSERT_GE(value(toucher.step(tip).scp, 0.0), 0.0) << press.formula << " at " << tip.transpose();
       }
     }
   }
