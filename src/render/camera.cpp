@@ -105,6 +105,22 @@ Camera fit_camera(std::span<const Vector3> points, const FitOptions& options) {
   return camera;
 }
 
+std::vector<Vector3> outermost(std::span<const Vector3> points) {
+  constexpr int kDirections = 32;         // evenly over half a ball; opposite ones come with them
+  constexpr double kGolden = 2.39996323;  // rad
+  std::vector<Vector3> extremes;
+  for (int i = 0; i < kDirections && !points.empty(); ++i) {
+    const double z = (i + 0.5) / kDirections;
+    const double rho = std::sqrt(1.0 - z * z);
+    const Vector3 way(rho * std::cos(kGolden * i), rho * std::sin(kGolden * i), z);
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const Vector3& a, const Vector3& b) { return way.dot(a) < way.dot(b); });
+    extremes.insert(extremes.end(), {*low, *high});
+  }
+  return extremes;
+}
+
 std::optional<Projected> project(const Camera& camera, const Vector3& point) {
   const Vector3 seen = camera.camera_from_world * point;
   const Eigen::Vector4d clip = camera.clip_from_camera * seen.homogeneous();
@@ -121,6 +137,14 @@ base::Bounds device_box(const base::Bounds& box, const Matrix4& clip_from_box) {
     seen.extend(Vector3(clip.head<3>() / clip.w()));
   }
   return seen;
+}
+
+double pixels_a_metre(const Camera& camera, const Vector3& centre, double radius, double height) {
+  const Vector3 middle = camera.camera_from_world * centre;
+  const auto depth = camera.clip_from_camera.row(3);  // what things grow smaller by
+  const double nearest = depth.head<3>() * middle + depth[3] - radius * depth.head<3>().norm();
+  const double pixels = 0.5 * height * camera.clip_from_camera.row(1).head<3>().norm() / nearest;
+  return nearest > 0.0 && std::isfinite(pixels) ? pixels : HUGE_VAL;
 }
 
 double distance_of_depth(const Camera& camera, double depth) {

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/vector.h"
 
@@ -42,6 +43,9 @@ struct FitOptions {
 /// Without points, or when all coincide, it frames a ball of radius 1 around them (or the origin).
 Camera fit_camera(std::span<const base::Vector3> points, const FitOptions& options);
 
+/// Of many points those farthest out in 64 directions all round, which frame a view nearly as well.
+std::vector<base::Vector3> outermost(std::span<const base::Vector3> points);
+
 /// A point as the picture shows it.
 struct Projected {
   double x, y;      ///< share of the picture's width from the left and of its height from the top
@@ -54,6 +58,10 @@ std::optional<Projected> project(const Camera& camera, const base::Vector3& poin
 /// The box around where a box (in the frame that `clip_from_box` takes) appears, in OpenGL's normalised
 /// device coordinates; x and y are -1 ... 1 when part of it is not in front of the camera.
 base::Bounds device_box(const base::Bounds& box, const Matrix4& clip_from_box);
+
+/// How many pixels a metre takes where a ball is nearest to the eye, in a picture of that height (pixels);
+/// infinite where the eye may be in the ball.
+double pixels_a_metre(const Camera& camera, const base::Vector3& centre, double radius, double height);
 
 /// The distance along the view axis that a depth buffer's value (0 ... 1) stands for.
 double distance_of_depth(const Camera& camera, double depth);

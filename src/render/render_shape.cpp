@@ -128,24 +128,6 @@ Bounds used_bounds(const geometry::TriangleMesh& mesh) {
   return box;
 }
 
-/// Directions evenly over half a ball; opposite ones come with them.
-constexpr int kExtremeDirections = 32;
-
-std::vector<Vector3> outermost(const std::vector<Vector3>& points) {
-  constexpr double kGolden = 2.39996323;  // rad
-  std::vector<Vector3> extremes;
-  for (int i = 0; i < kExtremeDirections && !points.empty(); ++i) {
-    const double z = (i + 0.5) / kExtremeDirections;
-    const double rho = std::sqrt(1.0 - z * z);
-    const Vector3 way(rho * std::cos(kGolden * i), rho * std::sin(kGolden * i), z);
-    const auto [low, high] =
-        std::minmax_element(points.begin(), points.end(),
-                            [&](const Vector3& a, const Vector3& b) { return way.dot(a) < way.dot(b); });
-    extremes.insert(extremes.end(), {*low, *high});
-  }
-  return extremes;
-}
-
 std::vector<Vector3> positions_of(const ShadingMesh& mesh) {
   std::vector<Vector3> positions;
   positions.reserve(mesh.vertices.size());

@@ -53,13 +53,9 @@ bool is_textured(const RenderItem& item) {
 /// be in it.
 double pixels_a_unit(const PlannedItem& planned, const Camera& camera, double height) {
   const Bounds& box = planned.item->bounds;
-  const Vector3 middle = camera.camera_from_world * Vector3(0.5 * (box.min() + box.max()));
-  const auto depth = camera.clip_from_camera.row(3);  // what things grow smaller by
-  const double nearest =
-      depth.head<3>() * middle + depth[3] - 0.5 * box.sizes().norm() * depth.head<3>().norm();
-  const double unit = planned.camera_from_buffer.topLeftCorner<3, 3>().colwise().norm().maxCoeff();
-  const double pixels = 0.5 * height * camera.clip_from_camera.row(1).head<3>().norm() * unit / nearest;
-  return nearest > 0.0 && std::isfinite(pixels) ? pixels : HUGE_VAL;
+  const double metre =
+      pixels_a_metre(camera, 0.5 * (box.min() + box.max()), 0.5 * box.sizes().norm(), height);
+  return metre * planned.camera_from_buffer.topLeftCorner<3, 3>().colwise().norm().maxCoeff();
 }
 
 /// The coarsest that is fine enough.

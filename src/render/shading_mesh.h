@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct ShadingMesh {
   std::vector<std::uint32_t> indices;   ///< three a triangle
   base::Vector3 centre{0.0, 0.0, 0.0};  ///< mesh frame, metres
   double radius = 1.0;                  ///< metres, > 0
+
+  std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
 /// Splits vertices where the surface creases: a corner's normal averages the triangles round its vertex

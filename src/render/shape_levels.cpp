@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 
 constexpr std::size_t kFewestTriangles = 300;  // nothing is gained with fewer
 constexpr double kWorthwhile = 0.6;            // of the triangles of the level before
-constexpr double kFinestCell = 1.0 / 256.0, kCoarsestCell = 1.0 / 8.0;
+constexpr double kCoarsestCell = 1.0 / 4.0;
 constexpr float kSameSide = 0.7F;  // cosine: normals that differ more are those of an edge
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::size_t kSides = 6;
@@ -159,7 +159,7 @@ std::vector<ShapeLevel> make_shape_levels(const ShadingMesh& mesh, std::span<con
   std::vector<ShapeLevel> levels;
   const ShadingMesh* finer = &mesh;
   std::span<const Vector3f> finer_colours = colours;
-  levels.reserve(6);  // what was made stays where it is
+  levels.reserve(7);  // what was made stays where it is
   for (double cell = kFinestCell; cell <= kCoarsestCell; cell *= 2.0) {
     if (finer->indices.size() < 3 * kFewestTriangles) break;
     ShapeLevel level = Clustering(*finer, finer_colours, cell).run();

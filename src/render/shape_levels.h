@@ -7,6 +7,9 @@
 
 namespace icome::render {
 
+/// The cells of the finest level.
+inline constexpr double kFinestCell = 1.0 / 256.0;
+
 /// A coarser stand-in for a shape where it is seen small and without a picture on it. Owns its arrays.
 struct ShapeLevel {
   ShadingMesh mesh;                      ///< the same frame as the shape's own

@@ -11,7 +11,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "base/decompositions.h"
@@ -19,6 +18,7 @@
 #include "render/gl_objects.h"
 #include "render/mesh_view.h"
 #include "render/shading_mesh.h"
+#include "render/studio_meshes.h"
 
 namespace icome::render {
 namespace {
@@ -249,16 +249,10 @@ Vector3 linear_rgb(const Colour& colour) {
   return {linear_from_srgb(colour.red), linear_from_srgb(colour.green), linear_from_srgb(colour.blue)};
 }
 
-std::shared_ptr<const ItemViews> make_views(const geometry::TriangleMesh& mesh, double crease_angle) {
-  constexpr std::size_t kCoarseFrom = 150'000;  // triangles
-  constexpr std::size_t kFineFrom = 20'000;
-  constexpr double kFineCrease = 2.2;  // rad: only what folds back on itself
-  const bool fine = mesh.triangles.size() > kFineFrom;
-  const ShadingMesh shading =
-      make_shading_mesh(mesh, fine ? std::max(crease_angle, kFineCrease) : crease_angle);
+std::shared_ptr<const ItemViews> make_views(const StudioMesh& mesh) {
   std::optional<MeshView> caster;
-  if (mesh.triangles.size() > kCoarseFrom) caster.emplace(clustered(shading, 1.0 / 64.0));
-  return std::make_shared<const ItemViews>(ItemViews{MeshView(shading), std::move(caster)});
+  if (mesh.caster) caster.emplace(*mesh.caster);
+  return std::make_shared<const ItemViews>(ItemViews{MeshView(mesh.seen), std::move(caster)});
 }
 
 Item make_item(std::shared_ptr<const ItemViews> views, const Matrix4& studio_from_mesh, const Pose& turn,
@@ -349,9 +343,9 @@ struct Sampling {
 /// Fewer passes for models that cost more; the picture stays good from 8 on. Shadow maps of solids cost more
 /// than the rest of a pass, and solids tend to have holes, where the light of each sample shows: smaller maps
 /// and more passes look better in the same time.
-Sampling choose_sampling(const StudioSettings& settings, const StudioScene& scene) {
-  double triangles = 1.0;
-  for (const StudioBody& body : scene.bodies) triangles += static_cast<double>(body.mesh.triangles.size());
+Sampling choose_sampling(const StudioSettings& settings, const StudioScene& scene,
+                         std::size_t triangles_of_bodies) {
+  double triangles = 1.0 + static_cast<double>(triangles_of_bodies);
   Sampling sampling{static_cast<int>(std::clamp(12.0 * 4e5 / triangles, 8.0, 12.0)), 1024};
   if (!scene.solids.empty()) {
     for (const StudioSolid& solid : scene.solids) {
@@ -719,28 +713,41 @@ base::Result<std::vector<SolidItem>> make_solids(const std::vector<StudioSolid>&
   return items;
 }
 
+struct DrawnBodies {
+  std::vector<Item> items;
+  std::size_t triangles;
+};
+
+DrawnBodies make_items(const std::vector<StudioBody>& bodies, const Camera& camera,
+                       const StudioSettings& settings, const Matrix4& to_studio) {
+  StudioMeshes made = make_studio_meshes(bodies, camera, settings.height, settings.crease_angle);
+  std::vector<std::shared_ptr<const ItemViews>> views;
+  for (StudioMesh& mesh : made.meshes) {
+    views.push_back(make_views(mesh));
+    mesh = {};
+  }
+  DrawnBodies drawn{{}, made.triangles};
+  for (const StudioItem& it : made.items)
+    drawn.items.push_back(
+        make_item(views[it.mesh], to_studio * it.world_from_mesh.matrix(), it.world_from_mesh, it.colour));
+  return drawn;
+}
+
 base::Result<Studio> make_studio(const StudioScene& scene, const Camera& camera,
                                  const StudioSettings& settings) {
   auto programs = compile_programs(!scene.solids.empty());
   if (!programs) return base::fail(programs.error().message);
-  const Sampling sampling = choose_sampling(settings, scene);
+  const Matrix4 to_studio = studio_from_world(settings);
+  DrawnBodies bodies = make_items(scene.bodies, camera, settings, to_studio);
+  const Sampling sampling = choose_sampling(settings, scene, bodies.triangles);
   auto targets = make_targets(settings, sampling.shadow_side);
   if (!targets) return base::fail(targets.error().message);
-  const Matrix4 to_studio = studio_from_world(settings);
-  std::vector<Item> items;
-  std::unordered_map<const geometry::TriangleMesh*, std::shared_ptr<const ItemViews>> views;
-  for (const StudioBody& body : scene.bodies) {
-    auto& own = views[&body.mesh];
-    if (!own) own = make_views(body.mesh, settings.crease_angle);
-    items.push_back(
-        make_item(own, to_studio * body.world_from_mesh.matrix(), body.world_from_mesh, body.colour));
-  }
   auto solids = make_solids(scene.solids, to_studio);
   if (!solids) return base::fail(solids.error().message);
   const Vector3 up = settings.up.normalized();
   const double height = settings.floor / settings.radius;
-  Item floor =
-      make_item(make_views(floor_square(height, up), 0.0), Matrix4::Identity(), Pose::Identity(), {});
+  Item floor = make_item(make_views({make_shading_mesh(floor_square(height, up), 0.0), std::nullopt}),
+                         Matrix4::Identity(), Pose::Identity(), {});
   const Matrix4 clip_from_floor = light_camera(-up, height * up, kFloorReach).clip_from_world();
   const Matrix4 clip_from_studio = camera.clip_from_world() * to_studio.inverse();
   const Vector3 eye = (camera.eye() - settings.centre) / settings.radius;
@@ -748,7 +755,7 @@ base::Result<Studio> make_studio(const StudioScene& scene, const Camera& camera,
                 sampling,
                 std::move(*programs),
                 std::move(*targets),
-                std::move(items),
+                std::move(bodies.items),
                 std::move(*solids),
                 std::move(floor),
                 clip_from_studio,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <unordered_map>
 
 namespace icome::render {
 namespace {
@@ -50,6 +51,25 @@ Upright upright(const Vector3& wish) {
   return {up, front, up.cross(front)};
 }
 
+/// The corners of a mesh by which its bodies are framed: all of them where it has one body, and otherwise the
+/// outermost, so that many bodies take no more memory than meshes do.
+struct MeshPoints {
+  std::size_t bodies = 0;
+  std::vector<Vector3> outermost = {};  // once they were asked for
+
+  std::span<const Vector3> to_frame(const geometry::TriangleMesh& mesh) {
+    constexpr std::size_t kFew = 64;
+    if (bodies == 1 || mesh.positions.size() <= kFew) return mesh.positions;
+    if (outermost.empty()) outermost = finite_outermost(mesh.positions);
+    return outermost;
+  }
+
+  static std::vector<Vector3> finite_outermost(std::vector<Vector3> points) {
+    std::erase_if(points, [](const Vector3& it) { return !it.allFinite(); });
+    return render::outermost(points);
+  }
+};
+
 }  // namespace
 
 bool is_finite(const TouchSample& s) {
@@ -57,9 +77,11 @@ bool is_finite(const TouchSample& s) {
 }
 
 std::vector<Vector3> model_points(const std::vector<StudioBody>& bodies) {
+  std::unordered_map<const geometry::TriangleMesh*, MeshPoints> meshes;
+  for (const StudioBody& body : bodies) ++meshes[&body.mesh].bodies;
   std::vector<Vector3> points;
   for (const StudioBody& body : bodies) {
-    for (const Vector3& position : body.mesh.positions) {
+    for (const Vector3& position : meshes[&body.mesh].to_frame(body.mesh)) {
       const Vector3 point = body.world_from_mesh * position;
       if (point.allFinite()) points.push_back(point);
     }

@@ -15,7 +15,7 @@ struct ModelBall {
   double lowest = -1.0;                 ///< m along `up` from the centre
 };
 
-/// All finite corners of the bodies, world frame, metres.
+/// The finite corners of the bodies, world frame, metres; of a mesh that several of them share the outermost.
 std::vector<base::Vector3> model_points(const std::vector<StudioBody>& bodies);
 
 /// The ball around those points (centre of their box); a ball of radius 1 when there are none.

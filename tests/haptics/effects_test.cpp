@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -18,9 +20,11 @@ namespace {
 constexpr SpringSettings kSpring{.stiffness = 200.0, .damping = 2.0};
 constexpr double kEffectTolerance = 1e-12;  // N
 
+/// Something else is touched: effects are felt where the tip is.
 EffectInput tip_at(const Vector3& position, const Vector3& velocity = Vector3::Zero()) {
   EffectInput input;
-  input.position = input.scp = position;
+  input.position = position;
+  input.scp = position + Vector3(0.3, -0.2, 0.1);
   input.velocity = velocity;
   return input;
 }
@@ -125,6 +129,14 @@ TEST(GravityWell, PullsHardestWhereItSays) {
   EXPECT_NEAR(where, 0.02 / std::sqrt(5.0), 2e-6);
 }
 
+TEST(GravityWell, TheStiffnessForAForceGivesJustThatForce) {
+  GravityWell well(Vector3::Zero(), 0.02, GravityWell::stiffness_of(0.02, 1.5));
+  double strongest = 0.0;
+  for (double r = 0.0; r < 0.02; r += 1e-6)
+    strongest = std::max(strongest, well.force(tip_at(Vector3(r, 0, 0))).norm());
+  EXPECT_NEAR(strongest, 1.5, 1e-6);
+}
+
 TEST(GravityWell, ForceAndItsSlopeAreContinuousAtTheRim) {
   GravityWell well(Vector3::Zero(), 0.02, 100.0);
   const double inside = well.force(tip_at(Vector3(0.02 - 1e-6, 0, 0))).norm();
@@ -160,6 +172,11 @@ TEST(Recess, FloorAndOutsideAreFreeAndTheSlopePushesInwards) {
   expect_force(recess, tip_at(Vector3(0.1, 0.0121, 0)), Vector3::Zero());
   expect_force(recess, tip_at(Vector3(0.1, 0.010, 0.2)), Vector3(0, -1.5, 0));    // half way up: the peak
   expect_force(recess, tip_at(Vector3(0.09 + 1e-3, 0, 0)), Vector3(0.75, 0, 0));  // a quarter: sin^2 45
+}
+
+TEST(Recess, WithoutForceIsNothing) {
+  Recess recess({.peak_force = 0.0});
+  expect_force(recess, tip_at(Vector3(0.010, 0, 0), Vector3(0, 0.1, 0)), Vector3::Zero());
 }
 
 TEST(Recess, LeavingCostsTheStatedEnergy) {
@@ -312,6 +329,39 @@ TEST(Inertia, AnswersAStepOfAccelerationAsItsCornerSays) {
   }
 }
 
+// The mass on which it is as quick as its corner says, and no more of it than a device has.
+TEST(Inertia, NeedsTheMassOnWhichItIsNoLaterThanItsCorner) {
+  constexpr double kLarge = 10.0;  // kg
+  const auto first_answer = [](double device_mass) {
+    Inertia inertia(0.1, 80.0);
+    EffectInput input = tip_at(Vector3::Zero());
+    input.device_mass = device_mass;
+    inertia.force(input);
+    input.velocity = Vector3(0, 2e-3, 0);
+    return -inertia.force(input).y();
+  };
+  const double needed = Inertia(0.1, 80.0).mass_needed(kLarge, 1e-3);
+  EXPECT_NEAR(first_answer(needed), first_answer(kLarge), 1e-12);
+  EXPECT_LT(first_answer(0.95 * needed), first_answer(kLarge) - 1e-4);
+  EXPECT_EQ(Inertia(5.0, 80.0).mass_needed(0.05, 1e-3), 0.05);
+}
+
+TEST(Inertia, GoesOnAlikeInAFrameThatIsTurned) {
+  const base::Pose turn =
+      Eigen::Translation3d(0.3, 0, 0) * base::Pose(Eigen::AngleAxisd(2.0, Vector3(1, 2, 3).normalized()));
+  Inertia still(0.5), turned(0.5);
+  base::Random random(6);
+  Vector3 velocity = Vector3::Zero();
+  for (int tick = 0; tick < 40; ++tick) {
+    velocity += 2e-3 * random.direction();
+    if (tick == 20) turned.reframe(turn);
+    const bool after = tick >= 20;
+    const Vector3 force = turned.force(tip_at(Vector3::Zero(), after ? turn.linear() * velocity : velocity));
+    const Vector3 expected = still.force(tip_at(Vector3::Zero(), velocity));
+    EXPECT_NEAR((force - (after ? turn.linear() * expected : expected)).norm(), 0.0, 1e-12) << tick;
+  }
+}
+
 TEST(Inertia, IsStableForAMassFarBeyondTheDevices) {
   for (const double encoder : {0.0, 1e-9}) {
     Inertia heavy(50.0, 1000.0);
@@ -328,6 +378,47 @@ TEST(Inertia, FeelsNothingAtConstantSpeedAndAfterReset) {
   }
   inertia.reset();
   expect_force(inertia, tip_at(Vector3::Zero(), Vector3(-5, 0, 0)), Vector3::Zero());
+}
+
+struct Flight {
+  double fastest = 0.0, last = 0.0;  // m/s
+};
+
+/// A device of 100 g that nobody holds: its force is held over a tick, and it moves as masses do.
+Flight let_fly(Effect& effect, Vector3 position, Vector3 velocity) {
+  constexpr double kMass = 0.1, kTick = 1e-3;
+  Flight flight;
+  for (int tick = 0; tick < 3000; ++tick) {
+    EffectInput input = tip_at(position, velocity);
+    input.device_mass = kMass;
+    input.dt = kTick;
+    const Vector3 acceleration = effect.force(input) / kMass;
+    position += kTick * velocity + 0.5 * kTick * kTick * acceleration;
+    velocity += kTick * acceleration;
+    flight.fastest = std::max(flight.fastest, velocity.norm());
+  }
+  flight.last = velocity.norm();
+  return flight;
+}
+
+// What is asked for is a hundred times what the device can hold still.
+TEST(EffectsTooHardForTheDevice, LetItComeToRest) {
+  constexpr double kHard = 1e6;  // N/m
+  const Vector3 off(0.001, 0, 0), slow(0.0, 0.0213, 0.0);
+  PointSpring point(Vector3::Zero(), {.stiffness = kHard, .damping = kAutomaticDamping});
+  PointSpring damped(Vector3::Zero(), {.stiffness = 100.0, .damping = kHard});
+  CurveSpring curve({Vector3::Zero(), Vector3(0, 0, 0.1)},
+                    {.stiffness = kHard, .damping = kAutomaticDamping});
+  GravityWell well(Vector3::Zero(), 0.02, kHard);
+  FrictionEffect friction({.static_force = 0.5, .dynamic_force = 0.4, .stiffness = kHard});
+  for (Effect* const effect : std::initializer_list<Effect*>{&point, &damped, &curve, &well, &friction})
+    EXPECT_LT(let_fly(*effect, off, slow).last, 1e-5);
+}
+
+TEST(EffectsTooHardForTheDevice, OfARecessThrowNobodyBackFasterThanHeCame) {
+  Recess recess({.floor_radius = 0.008, .rim_radius = 0.0085, .peak_force = 100.0});
+  for (const double speed : {0.05, 0.1, 0.2})
+    EXPECT_LE(let_fly(recess, Vector3::Zero(), Vector3(speed, 0, 0)).fastest, 1.001 * speed) << speed;
 }
 
 }  // namespace

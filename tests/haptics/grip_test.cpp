@@ -11,7 +11,8 @@ namespace {
 
 EffectInput grip_at(const Vector3& position, const Vector3& velocity = Vector3::Zero()) {
   EffectInput input;
-  input.position = input.scp = position;
+  input.position = position;
+  input.scp = position + Vector3(0.3, -0.2, 0.1);  // something else is touched
   input.velocity = velocity;
   return input;
 }
@@ -103,6 +104,39 @@ TEST(Grip, PullsToALineOrAPlaneAcrossOnly) {
   EXPECT_EQ(grip_force(feel, grip_at(Vector3(0, 0.03, 7))), Vector3::Zero());
   feel.well = GripFeel::Well{Vector3(0, 0, 0.01), 0.02, 100.0, along};
   EXPECT_NEAR((grip_force(feel, grip_at(Vector3(5, -7, 0))) - Vector3(0, 0, pull)).norm(), 0.0, 1e-12);
+}
+
+// As a spring that holds it in a plane and a stop may be felt at one place, and the well of a snap with them.
+TEST(Grip, NeedsTheMassForAllThatPullsAtOnePlace) {
+  GripFeel feel = bare();
+  feel.hold = {.stiffness = 1000.0, .damping = 0.0};
+  EXPECT_NEAR(grip_mass_needed(feel, 1.0, 1e-3), 0.02, 1e-12);  // K dt^2/m = 0.1
+  feel.well = GripFeel::Well{Vector3::Zero(), 0.02, 500.0};
+  EXPECT_NEAR(grip_mass_needed(feel, 1.0, 1e-3), 0.025, 1e-12);
+  feel.hold.damping = 100.0;
+  EXPECT_NEAR(grip_mass_needed(feel, 1.0, 1e-3), 0.4, 0.002) << "a quarter of 2 m/dt is 200 N s/m";
+  feel.holds = false;
+  EXPECT_EQ(grip_mass_needed(feel, 1.0, 1e-3), 0.0);
+}
+
+TEST(Grip, TooHardForTheDeviceLetsItComeToRest) {
+  constexpr double kMass = 0.1, kTick = 1e-3;
+  for (const SpringSettings& hold : {SpringSettings{.stiffness = 1e6, .damping = kAutomaticDamping},
+                                     SpringSettings{.stiffness = 100.0, .damping = 1e6}}) {
+    GripFeel feel = bare();
+    feel.hold = hold;
+    feel.freedom.setZero();
+    Vector3 position(0.001, 0, 0), velocity(0, 0.02, 0);
+    for (int tick = 0; tick < 3000; ++tick) {
+      EffectInput input = grip_at(position, velocity);
+      input.device_mass = kMass;
+      input.dt = kTick;
+      const Vector3 acceleration = grip_force(feel, input) / kMass;
+      position += kTick * velocity + 0.5 * kTick * kTick * acceleration;
+      velocity += kTick * acceleration;
+    }
+    EXPECT_LT(velocity.norm(), 1e-5);
+  }
 }
 
 }  // namespace

@@ -77,6 +77,20 @@ TEST(GrainTexture, SeedMakesTheGrain) {
   EXPECT_NE(a.sample(point, Vector3::UnitZ()).height, other.sample(point, Vector3::UnitZ()).height);
 }
 
+// Level at the points of its lattice, and between them not.
+TEST(GrainTexture, IsAsFineAsItSays) {
+  constexpr double kGrain = 0.002;  // m
+  const GrainTexture grain(kGrain, kReliefDepth, 7);
+  double between = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 lattice = kGrain * Vector3(i % 9 - 4, i % 7 - 3, i % 11 - 5);
+    EXPECT_NEAR(grain.sample(lattice, Vector3::UnitZ()).gradient.norm(), 0.0, 1e-9);
+    const Vector3 middle = lattice + 0.5 * kGrain * Vector3::Ones();
+    between += grain.sample(middle, Vector3::UnitZ()).gradient.norm() / 200.0;
+  }
+  EXPECT_GT(between, 0.1 * kReliefDepth / kGrain);
+}
+
 TEST(TexturedForce, FlatTextureChangesNothing) {
   const Vector3 force(0.3, -0.2, 1.5);
   EXPECT_NEAR((textured_force(force, Vector3::UnitZ(), 800.0, {}) - force).norm(), 0.0, 1e-15);

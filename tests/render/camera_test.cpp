@@ -87,6 +87,19 @@ TEST(Project, GivesNothingBehindTheEye) {
   EXPECT_FALSE(project(camera, camera.eye() + Vector3(0, 0, 1)).has_value());
 }
 
+TEST(PixelsAMetre, AgreesWithWhereTwoPointsAppear) {
+  const Camera camera = fit_camera(cloud(1.0, Vector3::Zero()), {});
+  constexpr double kTall = 900.0, kRadius = 0.25;
+  // At the place of a ball that is nearest to the eye, a short way across the view.
+  const base::Matrix3 axes = camera.camera_from_world.linear();
+  const Vector3 centre(0.1, -0.2, 0.3);
+  const Vector3 nearest = centre + kRadius * axes.row(2).transpose();
+  const Vector3 above = nearest + 1e-3 * axes.row(1).transpose();
+  const double apart = kTall * (project(camera, nearest)->y - project(camera, above)->y);
+  EXPECT_NEAR(pixels_a_metre(camera, centre, kRadius, kTall), apart / 1e-3, 1e-6 * apart / 1e-3);
+  EXPECT_EQ(pixels_a_metre(camera, camera.eye(), kRadius, kTall), HUGE_VAL);
+}
+
 TEST(DistanceOfDepth, InvertsTheProjection) {
   const Camera camera = fit_camera(cloud(1.0, Vector3::Zero()), {});
   const Vector3 point(0.2, 0.1, -0.4);
