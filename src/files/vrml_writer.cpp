@@ -53,6 +53,30 @@ bool is_bare(const PhysicalObject& object) {
          object.parent_from_object.matrix() == base::Affine3::Identity().matrix();
 }
 
+base::Vector3 in_single_precision(const base::Vector3& direction) {
+  constexpr double kLeastPart =
+      1e-7;  // what single precision makes of it differs from one saving to the next
+  const auto part = [](double it) { return std::abs(it) < kLeastPart ? 0.0 : double(float(it)); };
+  return {part(direction.x()), part(direction.y()), part(direction.z())};
+}
+
+/// In single precision, and such that whoever reads it, makes it a unit vector and writes it again writes the
+/// same: a design that is opened and saved is the same file. Rounding leads there in a step or two, or now
+/// and then round a small circle, of which the least is taken.
+base::Vector3 written_direction(const base::Vector3& unit) {
+  constexpr int kMostSteps = 16;
+  base::Vector3 direction = in_single_precision(unit);
+  const auto go_on = [&] { direction = in_single_precision(direction.normalized()); };
+  for (int i = 0; i < kMostSteps; ++i) go_on();
+  base::Vector3 least = direction;
+  for (int i = 0; i < kMostSteps; ++i) {
+    go_on();
+    if (std::lexicographical_compare(direction.begin(), direction.end(), least.begin(), least.end()))
+      least = direction;
+  }
+  return least;
+}
+
 /// The direction of a DirectionalLight that says all of the object but its name; none for others. Only in its
 /// group itself does it shine on that in other programs.
 std::optional<base::Vector3> direction_alone(const PhysicalObject& object) {
@@ -62,10 +86,7 @@ std::optional<base::Vector3> direction_alone(const PhysicalObject& object) {
     return {};
   constexpr double kRounding = 1e-9;
   const base::Affine3& frame = object.parent_from_object;
-  constexpr double kLeastPart =
-      1e-7;  // what single precision makes of it differs from one saving to the next
-  base::Vector3 direction = frame.linear() * -base::Vector3::UnitZ();
-  for (double& part : direction) part = std::abs(part) < kLeastPart ? 0.0 : double(float(part));
+  const base::Vector3 direction = written_direction(frame.linear() * -base::Vector3::UnitZ());
   if (!frame.translation().isZero(kRounding) || !frame.linear().isApprox(facing(direction), 1e-6)) return {};
   return direction;
 }

@@ -8,6 +8,7 @@
 #include "files/picture_bytes.h"
 #include "files/same_design.h"
 #include "files/sample_files.h"
+#include "files/vrml_fixtures.h"
 #include "files/vrml_reader.h"
 #include "files/vrml_writer.h"
 #include "world/every_edit.h"
@@ -106,6 +107,20 @@ TEST(VrmlRoundTrip, LightsViewpointsScriptsAndScenes) {
   applied(design.world, EnterScene{one, room, 0});
   for (std::size_t i = 0; i < design.world.find(room)->children.size(); ++i)
     applied(design.world, EnterScene{two, design.world.find(room)->children[i], 0});
+  through_file(design.world);
+}
+
+TEST(VrmlRoundTrip, DirectionsOfLights) {
+  base::Random random(6);
+  DesignMaker design;
+  for (int i = 0; i < 4'000; ++i) {
+    const Vector3 direction(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+    Affine3 frame = Affine3::Identity();
+    frame.linear() = facing(direction);
+    const ObjectId sun = design.add("", nullptr, {}, frame);
+    applied(design.world, ChangeFixture{sun, std::make_shared<const Fixture>(
+                                                 Light{.kind = Light::Kind::Directional, .scoped = true})});
+  }
   through_file(design.world);
 }
 
