@@ -5,6 +5,10 @@
 #include "files/design_builder.h"
 #include "files/gltf_mesh.h"
 
+namespace tinygltf {
+struct Material;
+}  // namespace tinygltf
+
 namespace icome::files {
 
 /// The exponent of VRML 2.0's highlights that looks most like a microfacet surface of this roughness, and

@@ -31,6 +31,7 @@ void write_seeds(const Harness& harness, const std::filesystem::path& folder) {
 
 }  // namespace
 
+// NOLINTBEGIN(readability-identifier-naming): libFuzzer calls these by their names.
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
   const Harness harness = chosen_harness();
   if (const char* const folder = std::getenv("ICOME_SEEDS")) {
@@ -45,3 +46,4 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t si
   kHarness.run({reinterpret_cast<const char*>(bytes), size});
   return 0;
 }
+// NOLINTEND(readability-identifier-naming)

@@ -121,9 +121,9 @@ TEST_F(LandOperation, MovesSnapToAGridAndToWhatIsChosen) {
   EXPECT_EQ(done.note, "snapped to the grid");
   EXPECT_LT((at("other") - Vector3(4, 2.5, 0)).norm(), 1e-9) << at("other").transpose();
   // Near a corner, an edge and a face of the other cube; only what is wanted draws it.
-  const char* kBeside = R"({"op": "move", "objects": "other", "by": [-2.99, -0.48, 0.02], "snap": 0.05)";
+  const char* beside = R"({"op": "move", "objects": "other", "by": [-2.99, -0.48, 0.02], "snap": 0.05)";
   const auto snapped = [&](const std::string& choice) {
-    const Performed moved = run(kBeside + choice + "}");
+    const Performed moved = run(beside + choice + "}");
     run(R"({"op": "place", "object": "other", "at": [4, 2.5, 0]})");
     return moved.note;
   };
