@@ -455,11 +455,11 @@ TEST(ScpOnImplicit, SurfacesWhenABallGrowsOverTheTip) {
 
 /// A stair and a spiral have no tangent plane at their axis: who is pressed against it stays outside.
 TEST(ScpOnImplicit, IsNotPressedThroughTheAxisOfAStair) {
-  struct Press {
+  struct AxisPress {
     const char* formula;
     std::vector<Vector3> way;
   };
-  const std::vector<Press> presses = {
+  const std::vector<AxisPress> presses = {
       {"z - 0.003*atan2(y, x)",
        {{-0.0165, -0.01, 0.0}, {-0.0165, 0.02, -0.0105}, {0.003, 0.0333, -0.0098}, {0.02, 0.036, -0.0095}}},
       {"z + 0.01*sin(3*atan2(y, x) + 200*sqrt(x^2 + y^2))",
@@ -469,7 +469,7 @@ TEST(ScpOnImplicit, IsNotPressedThroughTheAxisOfAStair) {
         {-0.0431, -0.0431, -0.0014},
         {-0.016, -0.016, -0.0112},
         {0.0076, 0.0076, -0.0177}}}};
-  for (const Press& press : presses) {
+  for (const AxisPress& press : presses) {
     const auto value = *geometry::plain_formula(press.formula);
     Toucher toucher(HapticScene::compile({object(1, formula_shape(press.formula))}));
     for (std::size_t leg = 1; leg < press.way.size(); ++leg) {
