@@ -27,7 +27,7 @@ std::string_view checked_json_chunk(std::string_view bytes) {
   if (word_at(bytes, 4) != 2)
     throw GltfError(fmt::format("it is of version {}; only 2 can be read", word_at(bytes, 4)));
   const std::size_t size = word_at(bytes, 8);
-  if (size > bytes.size()) throw GltfError("it is cut short");
+  if (size < kGlbHead || size > bytes.size()) throw GltfError("it is cut short");
   std::string_view json;
   for (std::size_t at = kGlbHead; size - at >= kChunkHead;) {
     const std::size_t length = word_at(bytes, at);

@@ -54,6 +54,10 @@ SegmentQuery::SegmentQuery(const Vector3& a, const Vector3& b, double radius_in,
   const Vector3 low = a.cwiseMin(b) - reach;
   const Vector3 high = a.cwiseMax(b) + reach;
   box = float_box(Bounds(low, high));
+  // An infinite box would meet the empty ones, too, which nodes with fewer than four children have.
+  constexpr float kMost = std::numeric_limits<float>::max();
+  for (float& it : box.lo) it = std::max(it, -kMost);
+  for (float& it : box.hi) it = std::min(it, kMost);
   const double magnitude = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
   rounding = float(16.0 * double(kRounding) * magnitude);
   radius = float(radius_in) + rounding;

@@ -116,6 +116,15 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefusedInOneLine) {
   }
 }
 
+TEST(GltfFuzz, LengthsOfTheWholeFileAreChecked) {
+  const std::string good = rich_glb();
+  for (std::uint32_t length = 0; length < 64; ++length) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + 8, &length, 4);
+    read_or_refuse(bytes);
+  }
+}
+
 std::string json_with(const std::string& members) { return R"({"asset":{"version":"2.0"},)" + members + "}"; }
 
 std::string error_of_json(const std::string& members, const std::string& data = "0123456789abcdef") {

@@ -190,5 +190,20 @@ TEST(FourBoxes, AreMetByWaysMuchShorterThanTheyAre) {
   }
 }
 
+/// The farthest way there is meets what is in it, and nothing where a node has fewer than four boxes.
+TEST(FourBoxes, ThatAreEmptyAreNotMetByWaysAcrossEverything) {
+  for (const double farthest : {1e30, 1e38, 1e39, 1e60, 1e200, 1e308}) {
+    for (const Vector3& direction :
+         {Vector3(1.0, 0.0, 0.0), Vector3(0.0, -1.0, 0.0), Vector3(1.0, -1.0, 1.0)}) {
+      FourBoxes boxes;
+      boxes.set(0, float_box(base::Bounds(Vector3::Constant(-0.1), Vector3::Constant(0.1))));
+      const SegmentQuery across(farthest * direction, -farthest * direction, 0.001);
+      EXPECT_EQ(boxes.near_mask(across), 1u) << farthest;
+      const SegmentQuery beyond(farthest * direction, farthest * direction, 0.001);
+      EXPECT_EQ(boxes.near_mask(beyond), 0u) << farthest;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace icome::geometry
