@@ -171,19 +171,19 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, std::vector<std::strin
   return MtlReading(text, notes).run();
 }
 
-std::string mtl_text(const world::Material& material, const Colour& diffuse, const std::string& name,
+std::string mtl_text(const world::Material& material, const ShownMaterial& shown, const std::string& name,
                      const std::string& picture, std::array<bool, 2> repeats) {
-  Colour ambient = diffuse;
+  Colour ambient = shown.colour;
   for (float& part : ambient) part *= material.ambient;
   std::string text = "newmtl " + name + "\n";
   append_colour(text, "Ka", ambient);
-  append_colour(text, "Kd", diffuse);
+  append_colour(text, "Kd", shown.colour);
   append_colour(text, "Ks", material.specular);
   append_colour(text, "Ke", material.emission);
   text += "Ns ";
   append_number(text, kLargestExponent * material.shininess);
   text += "\nd ";
-  append_number(text, 1.0F - material.transparency);
+  append_number(text, shown.opacity);
   text += "\nillum 2\n";
   if (!picture.empty())
     text += fmt::format("map_Kd {}{}\n", repeats[0] || repeats[1] ? "" : "-clamp on ", picture);

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/shown_pictures.h"
 #include "world/world.h"
 
 namespace icome::files {
@@ -20,9 +21,9 @@ struct MtlMaterial {
 /// what is left out of pictures.
 std::vector<MtlMaterial> parse_mtl(std::string_view text, std::vector<std::string>& notes);
 
-/// The material as an MTL paragraph; `diffuse`: what its picture is multiplied with; `picture`: its url,
-/// empty for none.
-std::string mtl_text(const world::Material& material, const world::Colour& diffuse, const std::string& name,
+/// The material as an MTL paragraph; `shown`: what its picture is multiplied with; `picture`: its url, empty
+/// for none.
+std::string mtl_text(const world::Material& material, const ShownMaterial& shown, const std::string& name,
                      const std::string& picture, std::array<bool, 2> repeats);
 
 }  // namespace icome::files

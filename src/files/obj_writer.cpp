@@ -258,7 +258,7 @@ base::Result<ObjLibrary> make_library(const World& world, const std::filesystem:
       url = std::move(*written);
     }
     library.names[id] = names.unique(material.name, "material", false);
-    library.text += mtl_text(material, shown_material(world, material).colour, library.names[id], url,
+    library.text += mtl_text(material, shown_material(world, material), library.names[id], url,
                              texture ? texture->repeats : std::array{true, true});
   }
   return library;
@@ -330,9 +330,9 @@ void tell_what_obj_loses(const World& world, std::vector<Remark>& remarks) {
                                          "materials"};
   for (const auto& [id, it] : world.materials()) {
     if (it.users == 0) continue;
-    const world::AlphaMode mode = shown_material(world, it).mode;
-    if (it.texture &&
-        (mode == world::AlphaMode::Mask || (mode == world::AlphaMode::Blend && it.transparency == 0.0F)))
+    const ShownMaterial shown = shown_material(world, it);
+    if (it.texture && (shown.mode == world::AlphaMode::Mask ||
+                       (shown.mode == world::AlphaMode::Blend && shown.opacity == 1.0F)))
       losses.add(kHoles, it.name);
     if (it.unlit) losses.add(kNoLight, it.name);
     if (it.metallic || it.roughness) losses.add(kRough, it.name);

@@ -114,6 +114,9 @@ class TexturedScenesTest(ProgramTest):
         glb = Glb(self.converted(file, "glb"))
         modes = {it.get("alphaMode", "OPAQUE") for it in glb.json["materials"]}
         self.assertEqual(modes, {"MASK", "OPAQUE"})
+        # The picture's opacity replaces the material's, and MTL multiplies them.
+        library = self.converted(file, "obj").with_suffix(".mtl").read_text()
+        self.assertEqual({line for line in library.splitlines() if line.startswith("d ")}, {"d 1"})
 
     # ---- glTF 2.0: 9 to 11 ----------------------------------------------------------------------------------
 
