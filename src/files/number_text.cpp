@@ -1,6 +1,7 @@
 #include "files/number_text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 
@@ -24,6 +25,14 @@ void append_number(std::string& text, std::uint32_t number) { append_shortest(te
 float to_single(double number) {
   constexpr double kMost = std::numeric_limits<float>::max();
   return float(std::clamp(number, -kMost, kMost));
+}
+
+double as_written(float number) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
+  double value = 0.0;
+  std::from_chars(text.data(), end, value);
+  return value;
 }
 
 }  // namespace icome::files

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "files/number_text.h"
 #include "files/vrml_fixtures.h"
 #include "files/vrml_looks.h"
 #include "files/vrml_names.h"
@@ -56,7 +57,7 @@ bool is_bare(const PhysicalObject& object) {
 base::Vector3 in_single_precision(const base::Vector3& direction) {
   constexpr double kLeastPart =
       1e-7;  // what single precision makes of it differs from one saving to the next
-  const auto part = [](double it) { return std::abs(it) < kLeastPart ? 0.0 : double(float(it)); };
+  const auto part = [](double it) { return std::abs(it) < kLeastPart ? 0.0 : as_written(float(it)); };
   return {part(direction.x()), part(direction.y()), part(direction.z())};
 }
 

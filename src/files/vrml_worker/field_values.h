@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 
+#include "files/number_text.h"
+
 class SbColor;
 class SbVec3f;
 class SoField;
@@ -8,8 +10,7 @@ class SoNode;
 
 namespace icome::files {
 
-/// The double that a float was written as: 0.1f becomes 0.1, since that is what the file says.
-double as_written(float number);
+/// What the file says: 0.1, where the float is 0.100000001.
 std::array<double, 3> as_written(const SbVec3f& vector);
 
 std::array<float, 3> as_array(const SbColor& colour);
