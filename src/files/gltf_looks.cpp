@@ -42,6 +42,14 @@ world::PictureFrame texture_frame(const tinygltf::Value& transform) {
   return {c * sx, s * sy, x, -s * sx, c * sy, y};
 }
 
+/// From which opacity on a picture is seen whose opacity is multiplied with `opacity`; above 1 it is seen
+/// nowhere (glTF 2.0, 3.9.4).
+float cutoff_of_picture(double cutoff, double opacity) {
+  constexpr double kNowhere = 1e6;
+  if (!(cutoff > 0.0)) return 0.0F;
+  return float(std::min(cutoff / opacity, kNowhere));
+}
+
 }  // namespace
 
 float shininess_of(double roughness) {
@@ -143,7 +151,7 @@ void GltfLooks::read_alpha(const tinygltf::Material& from, world::Material& mate
   } else if (from.alphaMode == "MASK") {
     material.alpha_mode = AlphaMode::Mask;
     if (!may_be_clear) material.transparency = opacity < from.alphaCutoff ? 1.0F : 0.0F;
-    material.alpha_cutoff = part_of_one(opacity > 0.0 ? from.alphaCutoff / opacity : 1.0);
+    material.alpha_cutoff = cutoff_of_picture(from.alphaCutoff, opacity);
   } else if (may_be_clear) {
     material.alpha_mode = AlphaMode::Opaque;
   }

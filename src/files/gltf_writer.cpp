@@ -171,7 +171,9 @@ class GltfMaking {
     if (shown.mode == world::AlphaMode::Blend) material.alphaMode = "BLEND";
     const bool masked = shown.mode == world::AlphaMode::Mask;
     if (masked) material.alphaMode = "MASK";
-    if (masked) material.alphaCutoff = double(shown.cutoff) * double(shown.opacity);
+    // What is clear everywhere must stay below the cutoff.
+    if (masked)
+      material.alphaCutoff = shown.opacity > 0.0F ? double(shown.cutoff) * double(shown.opacity) : 0.5;
     if (it.unlit) material.extensions["KHR_materials_unlit"] = Value(Value::Object{});
     if (it.unlit) use("KHR_materials_unlit");
     MaterialExtras more;

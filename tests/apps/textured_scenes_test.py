@@ -184,12 +184,15 @@ class TexturedScenesTest(ProgramTest):
         camera = Camera((0.0, 0.0, 1.6))
         solid = (0.5, -0.3, QUAD, [1, 1, 1, 1], {}, {}, [self.ONCE])
         behind = Thing(hit_square(0.5, -0.3), half_square(0.5), texture(QUAD))
-        for mode, cutoff, hole in (("MASK", 0.7, lambda it: it[3] < 0.7 * 255), ("OPAQUE", None, lambda it: False)):
+        for mode, cutoff, alpha, picture, hole in (("MASK", 0.7, 1, HALVES, lambda it: it[3] < 0.7 * 255),
+                                                   ("MASK", None, 0.4, HOLES, lambda it: True),
+                                                   ("MASK", 1.5, 1, HOLES, lambda it: True),
+                                                   ("OPAQUE", None, 1, HALVES, lambda it: False)):
             material = {"alphaMode": mode, **({"alphaCutoff": cutoff} if cutoff else {})}
-            file = self.gltf(camera, [(0.3, 0, HALVES, [1, 1, 1, 1], material, {}, [self.ONCE]), solid])
-            things = [Thing(hit_square(0.3), half_square(0.3), texture(HALVES, hole=hole)), behind]
+            file = self.gltf(camera, [(0.3, 0, picture, [1, 1, 1, alpha], material, {}, [self.ONCE]), solid])
+            things = [Thing(hit_square(0.3), half_square(0.3), texture(picture, hole=hole)), behind]
             for it in (file, self.converted(file, "glb")):
-                with self.subTest(mode=mode, file=it.name):
+                with self.subTest(mode=mode, cutoff=cutoff, file=it.name):
                     self.looks_right(it, camera, things, self.exact)
 
     # ---- OBJ: 12 --------------------------------------------------------------------------------------------
