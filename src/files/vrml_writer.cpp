@@ -55,8 +55,7 @@ bool is_bare(const PhysicalObject& object) {
 }
 
 base::Vector3 in_single_precision(const base::Vector3& direction) {
-  constexpr double kLeastPart =
-      1e-7;  // what single precision makes of it differs from one saving to the next
+  constexpr double kLeastPart = 1e-7;  // single precision makes something else of less at each saving
   const auto part = [](double it) { return std::abs(it) < kLeastPart ? 0.0 : as_written(float(it)); };
   return {part(direction.x()), part(direction.y()), part(direction.z())};
 }

@@ -119,7 +119,7 @@ class VectorField final : public ParameterField {
   std::array<QuantityField*, 3> fields_ = {};
 };
 
-class TextLine final : public ParameterField {
+class TextLine : public ParameterField {
  public:
   TextLine(const Parameter& parameter, const Place& place) : line_(line_edit(parameter, place)) {
     if (const std::string* text = parameter.fallback.text()) line_->setText(QString::fromStdString(*text));
@@ -130,17 +130,20 @@ class TextLine final : public ParameterField {
     return text.isEmpty() ? Value() : Value(text.toStdString());
   }
 
+ protected:
+  QLineEdit* line() const { return line_; }
+
  private:
   QLineEdit* line_;
 };
 
 /// The name of a picture's file, with a sign in it that looks for one.
-class PictureField final : public ParameterField {
+class PictureField final : public TextLine {
  public:
-  PictureField(const Parameter& parameter, const Place& place) : line_(line_edit(parameter, place)) {
-    QAction* browse = line_->addAction(icon(Icon::Open), QLineEdit::TrailingPosition);
+  PictureField(const Parameter& parameter, const Place& place) : TextLine(parameter, place) {
+    QAction* browse = line()->addAction(icon(Icon::Open), QLineEdit::TrailingPosition);
     browse->setToolTip("Look for a file");
-    QObject::connect(browse, &QAction::triggered, line_, [line = line_, changed = place.changed] {
+    QObject::connect(browse, &QAction::triggered, line(), [line = line(), changed = place.changed] {
       auto* dialog = new QFileDialog(line->window(), "Choose a Picture");
       dialog->setObjectName("browse");
       dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -153,14 +156,6 @@ class PictureField final : public ParameterField {
       dialog->open();
     });
   }
-  std::vector<QWidget*> widgets() const override { return {line_}; }
-  Result<Value> value() const override {
-    const QString text = line_->text().trimmed();
-    return text.isEmpty() ? Value() : Value(text.toStdString());
-  }
-
- private:
-  QLineEdit* line_;
 };
 
 /// Its name or "#rrggbb", and a button that shows it and chooses another.
