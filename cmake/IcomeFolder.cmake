@@ -1,28 +1,34 @@
 # One folder under src/ is one library and one namespace; one folder under tests/ is one test program.
 
-# icome_sources(TARGET source...): compiles the sources as part of the target, in batches of nearly equal size where
-# ICOME_BATCH asks for batches, since what sources include costs more than they do. A batch is a generated source that
-# includes them by their path in the project, so that the compiler cache knows it in every clone (CMAKE_UNITY_BUILD
-# writes absolute paths into its own).
+# icome_sources(TARGET source...): compiles the sources as part of the target, in batches of at most ICOME_BATCH where
+# that is set, since what sources include costs more than they do. A batch is a generated source that includes them by
+# their path in the project, so that the compiler cache knows it in every clone (CMAKE_UNITY_BUILD writes absolute paths
+# into its own). A batch that is half full ends after a source whose name's hash says so, and has the name of its first
+# source's hash: a source more or less then changes the batch that it is in and perhaps the next, not all of its folder.
 function(icome_sources target)
   list(LENGTH ARGN count)
   if(NOT ICOME_BATCH OR count LESS 2)
     target_sources(${target} PRIVATE ${ARGN})
     return()
   endif()
-  math(EXPR batches "(${count} + ${ICOME_BATCH} - 1) / ${ICOME_BATCH}")
-  foreach(batch RANGE 1 ${batches})
-    math(EXPR first "(${batch} - 1) * ${count} / ${batches}")
-    math(EXPR size "${batch} * ${count} / ${batches} - ${first}")
-    list(SUBLIST ARGN ${first} ${size} sources)
-    set(text "")
-    foreach(source IN LISTS sources)
-      file(RELATIVE_PATH source ${PROJECT_SOURCE_DIR} ${source})
-      string(APPEND text "#include \"${source}\"\n")
-    endforeach()
-    set(generated ${CMAKE_CURRENT_BINARY_DIR}/batches/${target}_${batch}.cpp)
-    file(CONFIGURE OUTPUT ${generated} CONTENT "${text}" @ONLY)
-    target_sources(${target} PRIVATE ${generated})
+  set(size 0)
+  foreach(source IN LISTS ARGN)
+    file(RELATIVE_PATH source ${PROJECT_SOURCE_DIR} ${source})
+    string(SHA1 hash ${source})
+    if(size EQUAL 0)
+      string(SUBSTRING ${hash} 0 8 first)
+      set(text "")
+    endif()
+    string(APPEND text "#include \"${source}\"\n")
+    math(EXPR size "${size} + 1")
+    math(EXPR twice "2 * ${size}")
+    math(EXPR count "${count} - 1")
+    if(count EQUAL 0 OR size EQUAL ICOME_BATCH OR (twice GREATER_EQUAL ICOME_BATCH AND hash MATCHES "^[0-3]"))
+      set(generated ${CMAKE_CURRENT_BINARY_DIR}/batches/${target}_${first}.cpp)
+      file(CONFIGURE OUTPUT ${generated} CONTENT "${text}" @ONLY)
+      target_sources(${target} PRIVATE ${generated})
+      set(size 0)
+    endif()
   endforeach()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
 endfunction()
