@@ -201,7 +201,8 @@ void add_info_options(CLI::App& info, InfoOptions& options) {
   info.add_option("FILE", options.file, kDesignFileHelp)->required()->type_name("");
   add_reading_options(info, options.reading);
   info.add_option("--objects", options.most_objects, "Show at most N lines of the tree; 0: all (default 30)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Range(0.0, 1e9));
   info.add_flag("--json", options.json, "Print the report as JSON (fields below)");
 }
 

@@ -178,10 +178,16 @@ std::vector<std::string> forms_of(const TouchModel& model, const TouchOptions& o
   return sentences;
 }
 
-tl::unexpected<base::Error> nothing_to_touch(const std::string& text,
+/// With all that may be why, as what is left out of a file may be what was to be touched.
+tl::unexpected<base::Error> nothing_to_touch(const std::string& text, const files::LoadedDesign& design,
                                              const std::vector<std::string>& remarks) {
-  return base::fail(fmt::format("{}: there is nothing to touch in it{}{}", text, remarks.empty() ? "" : ": ",
-                                remarks.empty() ? "." : remarks.front()));
+  constexpr std::size_t kMostReasons = 5;
+  std::vector<std::string> reasons = remarks;
+  for (const files::Remark& remark : design.remarks) reasons.push_back(remark.text);
+  std::string all;
+  for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i) all += " " + reasons[i];
+  return base::fail(
+      fmt::format("{}: there is nothing to touch in it{}{}", text, all.empty() ? "." : ":", all));
 }
 
 }  // namespace
@@ -206,8 +212,7 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
   const std::vector<std::string> remarks = felt.remarks(design->world);
   const auto& objects = felt.scene()->objects();
   model.effects = felt.effects();
-  if (objects.empty() && model.effects.empty())
-    return nothing_to_touch(text, remarks.empty() ? sentences_of(*design, text) : remarks);
+  if (objects.empty() && model.effects.empty()) return nothing_to_touch(text, *design, remarks);
   model.bodies.clear();
   model.bodies.reserve(objects.size());
   BodyMaker maker(design->world, felt, options.check && !options.subdivision);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -87,6 +88,9 @@ std::string edit_json(const EditOptions& options, const EditReport& report) {
   json["errors"] = Json::array();
   for (const EditError& error : report.outcome.errors)
     json["errors"].push_back({{"line", error.line}, {"op", error.operation}, {"message", error.message}});
+  json["notes"] = Json::array();
+  for (const EditNote& note : report.outcome.notes)
+    json["notes"].push_back({{"line", note.line}, {"op", note.operation}, {"text", note.text}});
   const auto figures = figures_of(report.design, options.out.string(), files::written_triangles(options.out),
                                   [](std::size_t, std::size_t) { return true; });
   json["objects"] = figures->objects;
@@ -103,6 +107,13 @@ std::string edit_text(const EditOptions& options, const EditReport& report) {
                                  grouped(report.outcome.operations),
                                  report.outcome.operations == 1 ? "" : "s", grouped(objects),
                                  objects == 1 ? "" : "s", grouped(std::filesystem::file_size(options.out)));
+  constexpr std::size_t kMostNotes = 20;
+  const std::vector<EditNote>& notes = report.outcome.notes;
+  for (std::size_t i = 0; i < std::min(notes.size(), kMostNotes); ++i)
+    text += fmt::format("  {}:{}: {}: {}\n", options.apply.string(), notes[i].line, notes[i].operation,
+                        notes[i].text);
+  if (notes.size() > kMostNotes)
+    text += fmt::format("  and {} more notes, which --json tells\n", notes.size() - kMostNotes);
   for (const std::string& warning : report.warnings) text += "  " + warning + "\n";
   return text;
 }

@@ -1,7 +1,6 @@
 #include "apps/edit_script.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace icome::apps {
@@ -22,14 +21,23 @@ std::string operation_of(const Value& command) {
   return name && name->text() ? *name->text() : "";
 }
 
-/// The error of a line; nothing where all went well.
-std::optional<EditError> perform_line(interaction::OperationRunner& runner, std::string_view text,
-                                      std::size_t line) {
+/// Counts what went well, with what there is to know of it, or keeps the error.
+bool perform_line(interaction::OperationRunner& runner, std::string_view text, std::size_t line,
+                  EditOutcome& outcome) {
   const auto command = interaction::value_from_json(text);
-  if (!command) return EditError{line, {}, command.error().message};
-  if (const auto done = runner.perform(*command); !done)
-    return EditError{line, operation_of(*command), done.error().message};
-  return std::nullopt;
+  if (!command) {
+    outcome.errors.push_back({line, {}, command.error().message});
+    return false;
+  }
+  const std::string operation = operation_of(*command);
+  const auto done = runner.perform(*command);
+  if (!done) {
+    outcome.errors.push_back({line, operation, done.error().message});
+    return false;
+  }
+  ++outcome.operations;
+  if (!done->note.empty()) outcome.notes.push_back({line, operation, done->note});
+  return true;
 }
 
 }  // namespace
@@ -46,12 +54,7 @@ EditOutcome perform_script(interaction::OperationRunner& runner, std::string_vie
     if (const std::string_view said = trimmed(line); said.empty() || said.front() == '#') continue;
     outcome.stopped = !progress(double(end) / double(text.size()));
     if (outcome.stopped) break;
-    if (auto error = perform_line(runner, line, number)) {
-      outcome.errors.push_back(std::move(*error));
-      if (!keep_going) break;
-    } else {
-      ++outcome.operations;
-    }
+    if (!perform_line(runner, line, number, outcome) && !keep_going) break;
   }
   return outcome;
 }

@@ -16,9 +16,17 @@ struct EditError {
   std::string message;    // a sentence
 };
 
+/// What people should know of a line that was done.
+struct EditNote {
+  std::size_t line;       // from 1
+  std::string operation;  // its name
+  std::string text;
+};
+
 /// What a script came to.
 struct EditOutcome {
   std::size_t operations = 0;  // that were done
+  std::vector<EditNote> notes = {};
   std::vector<EditError> errors = {};
   bool stopped = false;  // on request, before the end
 };

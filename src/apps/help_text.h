@@ -254,9 +254,9 @@ constexpr const char* kEditExamples =
     "{line,\n"
     "  op, message}), objects, triangles (as icome info counts them), bytes (of the file), warnings (what "
     "was\n"
-    "  skipped in reading and lost in writing), seconds (for the operations). With --help-ops: operations, "
-    "a\n"
-    "  list of {name, title, group, summary, parameters}.\n"
+    "  skipped in reading and lost in writing), notes (what operations came to: {line, op, text}), seconds\n"
+    "  (for the operations). With --help-ops: operations, a list of {name, title, group, summary,\n"
+    "  parameters}.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

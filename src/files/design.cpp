@@ -37,7 +37,7 @@ base::Result<Remarks> write_flat(const std::filesystem::path& path, const World&
   auto file = NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   Remarks remarks;
-  const auto objects = shown_objects(world, remarks);
+  const auto objects = shown_objects(world, with_colours, remarks);
   if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
   if (objects->size() > 1)
     remarks.push_back(
@@ -217,11 +217,17 @@ base::Result<void> check_can_write(const std::filesystem::path& path) {
 base::Result<Remarks> write_design(const std::filesystem::path& path, const World& world) try {
   if (const auto able = check_can_write(path); !able) return tl::unexpected(able.error());
   const Format& format = *format_of(ending_of(path));
-  if (format.up == UpAxis::Y) return format.write(path, world);
-  World turned = world;
-  turn_up(turned, true);
-  auto remarks = format.write(path, turned);
-  if (remarks) remarks->push_back({{}, 0, "Its z axis points up, as is the custom in such files.", false});
+  World turned;
+  const bool turns = format.up == UpAxis::Z;
+  if (turns) {
+    turned = world;
+    turn_up(turned, true);
+  }
+  auto remarks = format.write(path, turns ? turned : world);
+  if (!remarks) return remarks;
+  if (turns) remarks->push_back({{}, 0, "Its z axis points up, as is the custom in such files.", false});
+  if (format.write != write_journal_design && shows_nothing(world))
+    remarks->push_back({{}, 0, "Nothing of it can be seen: no object in it has triangles.", false});
   return remarks;
 } catch (const std::bad_alloc&) {
   return base::fail(path.string() + ": there is not enough memory to write it");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -79,6 +80,16 @@ int GltfBuffer::add_indices(const std::vector<std::uint32_t>& corners, std::size
 
 int GltfBuffer::add_accessor(const std::vector<std::array<float, 3>>& rows, bool with_bounds) {
   return add_rows(rows, with_bounds);
+}
+
+std::vector<std::array<float, 2>> GltfBuffer::pairs(int accessor) const {
+  const tinygltf::Accessor& it = model_.accessors[std::size_t(accessor)];
+  std::vector<std::array<float, 2>> rows(it.count);
+  const std::vector<unsigned char>& buffer = model_.buffers[0].data;
+  const std::size_t begin = model_.bufferViews[std::size_t(it.bufferView)].byteOffset;
+  // Of a buffer that grew too large parts are missing.
+  if (failure_.empty()) std::memcpy(rows.data(), buffer.data() + begin, rows.size() * sizeof(rows[0]));
+  return rows;
 }
 
 int GltfBuffer::add_accessor(const std::vector<std::array<float, 2>>& rows) { return add_rows(rows, false); }

@@ -23,6 +23,9 @@ class GltfBuffer {
   /// As 16 bits each where these hold them all.
   int add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertices);
 
+  /// The rows of such an accessor of two numbers each, as they were added.
+  std::vector<std::array<float, 2>> pairs(int accessor) const;
+
   /// A sentence on why the buffer cannot be written; empty while it can.
   const std::string& failure() const { return failure_; }
 

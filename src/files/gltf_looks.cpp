@@ -11,6 +11,7 @@
 #include "files/gltf_model.h"
 #include "files/gltf_value.h"
 #include "files/picture_bytes.h"
+#include "world/metal.h"
 #include "world/picture_kind.h"
 
 namespace icome::files {
@@ -60,14 +61,6 @@ float shininess_of(double roughness) {
 
 double roughness_of(float shininess) { return std::pow(2.0 / (128.0 * double(shininess) + 2.0), 0.25); }
 
-GltfColour specular_of(const GltfColour& base, double metallic) {
-  constexpr double kDielectric = 0.04;
-  const double metal = std::clamp(metallic, 0.0, 1.0);
-  GltfColour specular{};
-  for (std::size_t i = 0; i < 3; ++i) specular[i] = kDielectric + (base[i] - kDielectric) * metal;
-  return specular;
-}
-
 world::PictureFrame upside_down(const world::PictureFrame& frame) {
   const auto& [a, b, c, d, e, f] = frame;
   world::PictureFrame turned{a, -b, b + c, -d, e, 1.0 - e - f};
@@ -110,20 +103,36 @@ void GltfLooks::read(int index) {
   material.diffuse = srgb_from_linear(surface.colour);
   // A map of emission says where it glows; without it, all would.
   if (it.emissiveTexture.index < 0) material.emission = srgb_from_linear(colour_of(it.emissiveFactor));
-  material.metallic = part_of_one(pbr.metallicFactor);
-  material.roughness = part_of_one(pbr.roughnessFactor);
-  material.specular = srgb_from_linear(specular_of(surface.colour, pbr.metallicFactor));
-  material.shininess = shininess_of(pbr.roughnessFactor);
+  const auto [metal, rough] = metal_and_roughness(it);
+  material.metallic = part_of_one(metal);
+  material.roughness = part_of_one(rough);
+  material.specular = srgb_from_linear(world::metal_specular(surface.colour, metal));
+  material.shininess = shininess_of(rough);
   material.unlit = it.extensions.count("KHR_materials_unlit") > 0;
   material.double_sided = it.doubleSided;
   read_picture(it, surface, material);
   read_alpha(it, material);
   count_maps(it);
   complete(material, extras);
-  surfaces_.push_back(surface);
   // Written for meshes with colours of their own, which glTF multiplies with those of the material.
   const auto same = index_in(extras, "variantOf", std::size_t(index));
+  if (same && surfaces_[std::size_t(*same)].own_places) {
+    surface.own_places = true;
+    surface.texture_set = surfaces_[std::size_t(*same)].texture_set;
+  }
+  surfaces_.push_back(surface);
   materials_.push_back(same ? materials_[std::size_t(*same)] : builder_.add(std::move(material)));
+}
+
+std::pair<double, double> GltfLooks::metal_and_roughness(const tinygltf::Material& from) {
+  const auto& pbr = from.pbrMetallicRoughness;
+  const int map = pbr.metallicRoughnessTexture.index;
+  const bool is_there = map >= 0 && std::size_t(map) < textures_.size();
+  const world::Texture* const picture = is_there ? builder_.world().find(texture(map)) : nullptr;
+  const auto mean = picture ? picture_mean(*picture->bytes) : std::nullopt;
+  if (!mean) return {pbr.metallicFactor, pbr.roughnessFactor};
+  ++averaged_maps_;
+  return {pbr.metallicFactor * (*mean)[2], pbr.roughnessFactor * (*mean)[1]};
 }
 
 void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surface,
@@ -132,7 +141,8 @@ void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surfac
   if (info.index < 0) return;
   material.texture = texture(info.index);
   material.tints = bool(material.texture);
-  surface.texture_set = info.texCoord;
+  surface.own_places = says_own_places(icome_extras(from.extras));
+  surface.texture_set = surface.own_places ? 1 : info.texCoord;
   const auto transform = info.extensions.find("KHR_texture_transform");
   if (transform == info.extensions.end()) return;
   surface.texture_set = index_in(transform->second, "texCoord", 64).value_or(surface.texture_set);
@@ -176,6 +186,7 @@ void GltfLooks::tell_what_is_left_out() {
   add(left_out_.occlusion, "occlusion");
   add(left_out_.emission, "emission");
   if (!maps.empty()) builder_.remark(fmt::format("Only maps of colours are kept. Left out: those {}.", maps));
+  if (averaged_maps_ > 0) builder_.remark("Of maps of metal and roughness the means count, all over.");
   const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
     if (count > 0) builder_.remark(fmt::format("{} {} {}", count, count == 1 ? one : several, what));
   };

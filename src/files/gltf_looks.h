@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/design_builder.h"
@@ -15,8 +16,6 @@ namespace icome::files {
 /// back.
 float shininess_of(double roughness);
 double roughness_of(float shininess);
-/// What shines is the metal's own colour, else a twenty-fifth of the light; linear.
-GltfColour specular_of(const GltfColour& base, double metallic);
 
 /// The rows of a frame for texture coordinates that count down from a picture's top, as glTF's do, of one for
 /// those that count up, as a world's do, and back.
@@ -38,6 +37,8 @@ class GltfLooks {
   void read(int index);
   void read_picture(const tinygltf::Material& from, GltfSurface& surface, world::Material& material);
   void read_alpha(const tinygltf::Material& from, world::Material& material) const;
+  /// Those of a map as its means.
+  std::pair<double, double> metal_and_roughness(const tinygltf::Material& from);
   void count_maps(const tinygltf::Material& from);
   void tell_what_is_left_out();
   world::TextureId texture(int index);
@@ -55,6 +56,7 @@ class GltfLooks {
     std::size_t normals = 0, roughness = 0, occlusion = 0, emission = 0;  // materials with such maps
     std::size_t mirrored = 0, unsmoothed = 0;                             // textures
   } left_out_;
+  std::size_t averaged_maps_ = 0;
 };
 
 }  // namespace icome::files

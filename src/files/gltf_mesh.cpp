@@ -13,6 +13,7 @@
 #include "files/gltf_model.h"
 #include "files/mesh_cleaning.h"
 #include "files/single.h"
+#include "files/unit_normal.h"
 #include "geometry/weld.h"
 
 namespace icome::files {
@@ -75,7 +76,7 @@ class PrimitiveReading {
       : surface_(surface),
         positions_(model, position_accessor(primitive), 3, 3),
         normals_(surface.smooth ? std::nullopt : attribute(model, primitive, "NORMAL", 3, 3)),
-        colours_(attribute(model, primitive, "COLOR_0", 3, 4)),
+        colours_(attribute(model, primitive, colours_name(primitive), 3, 4)),
         coordinates_(attribute(model, primitive, fmt::format("TEXCOORD_{}", surface.texture_set), 2, 2)),
         indexed_(primitive.indices >= 0) {
     for (const auto* it : {&normals_, &colours_, &coordinates_}) {
@@ -171,7 +172,7 @@ class PrimitiveReading {
   }
   Vector3 normal(std::uint32_t v) const {
     const Vector3 given(normals_->number(v, 0), normals_->number(v, 1), normals_->number(v, 2));
-    return given.stableNormalized();
+    return unit_as_given(given);
   }
   world::Colour colour(std::uint32_t v) const {
     GltfColour colour;
@@ -197,6 +198,10 @@ class PrimitiveReading {
 };
 
 }  // namespace
+
+const char* colours_name(const tinygltf::Primitive& primitive) {
+  return primitive.attributes.contains(kGltfHiddenColours) ? kGltfHiddenColours : "COLOR_0";
+}
 
 bool has_triangles(const tinygltf::Primitive& primitive) {
   return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN &&

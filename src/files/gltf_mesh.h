@@ -15,9 +15,15 @@ namespace icome::files {
 
 using GltfColour = std::array<double, 3>;  // linear, in [0, 1]
 
+/// Attributes of ICOME's own: colours of vertices that the material's picture replaces, and where a picture
+/// would lie without the frame of its material, where glTF cannot say the frame.
+inline constexpr const char* kGltfHiddenColours = "_ICOME_COLOR_0";
+inline constexpr const char* kGltfOwnPlaces = "TEXCOORD_1";
+
 /// What a material says about the mesh that it is on.
 struct GltfSurface {
   int texture_set = 0;                  // of coordinates
+  bool own_places = false;              // that set is kGltfOwnPlaces
   GltfColour colour = {1.0, 1.0, 1.0};  // that corner colours are multiplied with
   bool smooth = false;                  // its normals are those of a mesh without any
 
@@ -31,6 +37,9 @@ std::shared_ptr<world::MeshGeometry> gltf_mesh(const tinygltf::Model& model,
                                                const tinygltf::Primitive& primitive,
                                                const GltfSurface& surface, MemoryBudget& memory,
                                                std::string& lost);
+
+/// The name of the attribute that holds the primitive's colours, whether it is there or not.
+const char* colours_name(const tinygltf::Primitive& primitive);
 
 /// Are its elements triangles?
 bool has_triangles(const tinygltf::Primitive& primitive);

@@ -117,6 +117,9 @@ GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
   if (!good) throw GltfError(fetching.refusals.empty() ? first_line(error) : fetching.refusals.back());
   if (!model->asset.version.starts_with("2."))
     throw GltfError(fmt::format("it is of version {:.8}; only 2 can be read", model->asset.version));
+  // What it needs at least, which glTF 2.1 or later may have and this reader lacks.
+  if (const std::string& least = model->asset.minVersion; !least.empty() && least != "2.0" && least != "2")
+    throw GltfError(fmt::format("it needs version {:.8}; only 2.0 can be read", least));
   std::vector<std::string> notes;
   for (const std::string& refusal : fetching.refusals) notes.push_back("Picture " + refusal + ".");
   for (std::string& sentence : fetching.reach.sentences()) notes.push_back(std::move(sentence));

@@ -197,16 +197,16 @@ class GltfReading {
   /// What two primitives must have in common to be one shape.
   std::string key_of(const tinygltf::Primitive& primitive, const GltfSurface& surface) const {
     std::string key = fmt::format("{} {} {}", primitive.mode, primitive.indices, surface.smooth);
-    for (const auto& [name, accessor] : primitive.attributes) {
-      const bool coordinates = name.starts_with("TEXCOORD_");
-      if (name == "POSITION" || name == "NORMAL") key += fmt::format(" {}{}", name, accessor);
-      if (coordinates && name == fmt::format("TEXCOORD_{}", surface.texture_set))
-        key += fmt::format(" {}{}", name, accessor);
-      if (name == "COLOR_0") {
-        key += fmt::format(" {}{}", name, accessor);
-        for (const float part : surface.colour) key += fmt::format(",{}", part);
-      }
-    }
+    const auto add = [&](const std::string& name) {
+      const auto found = primitive.attributes.find(name);
+      const bool is_there = found != primitive.attributes.end();
+      key += is_there ? fmt::format(" {}", found->second) : " -";
+      return is_there;
+    };
+    for (const char* name : {"POSITION", "NORMAL"}) add(name);
+    add(fmt::format("TEXCOORD_{}", surface.texture_set));
+    if (!add(colours_name(primitive))) return key;
+    for (const double part : surface.colour) key += fmt::format(",{}", part);
     return key;
   }
 
@@ -344,9 +344,10 @@ class GltfReading {
     for (const tinygltf::Mesh& mesh : model_.meshes) {
       extras += has_foreign_extras(mesh.extras) ? 1 : 0;
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
-        const int used = looks_.surface(primitive.material).texture_set;
+        const GltfSurface surface = looks_.surface(primitive.material);
+        const std::string used = fmt::format("TEXCOORD_{}", surface.texture_set);
         for (const auto& [name, accessor] : primitive.attributes)
-          other_sets += name.starts_with("TEXCOORD_") && name != fmt::format("TEXCOORD_{}", used) ? 1 : 0;
+          other_sets += name.starts_with("TEXCOORD_") && name != used && !surface.own_places ? 1 : 0;
         const auto colours = primitive.attributes.find("COLOR_0");
         if (colours != primitive.attributes.end() && colours->second >= 0 &&
             std::size_t(colours->second) < model_.accessors.size() &&

@@ -162,7 +162,10 @@ Value value_of(const world::Material& material, const MaterialExtras& more) {
   if (more.diffuse) object["diffuse"] = array_value(material.diffuse);
   if (more.transparency) object["transparency"] = Value(double(material.transparency));
   if (more.by_picture) object["alphaByPicture"] = Value(true);
-  if (more.frame) object["pictureFrame"] = array_value(material.picture_frame);
+  if (more.frame) {
+    object["pictureFrame"] = array_value(material.picture_frame);
+    object["pictureSet"] = Value(1);
+  }
   if (!(material.touch == world::TouchProperties{})) object["touch"] = touch_value(material.touch);
   return Value(std::move(object));
 }
@@ -185,6 +188,10 @@ void complete(world::Material& material, const Value& value) {
                           std::abs(*material.roughness - roughness_of(material.shininess)) < 1e-5;
   if (worked_out) material.metallic = material.roughness = std::nullopt;
   if (const Value& touch = member(value, "touch"); touch.IsObject()) material.touch = touch_of(touch);
+}
+
+bool says_own_places(const Value& value) {
+  return frame_in(value).has_value() && index_in(value, "pictureSet", 2) == 1;
 }
 
 Value value_of(const ShapeText& text) {

@@ -36,12 +36,16 @@ struct MaterialExtras {
   bool diffuse = false;       // a picture's colours replace it
   bool transparency = false;  // a picture's opacity replaces it
   bool by_picture = false;    // how it is seen through follows from its picture
-  bool frame = false;         // the picture is stretched in a way that glTF cannot say
+  bool frame = false;         // the picture is stretched in a way that glTF cannot say: where it lies on
+                              // meshes is told as it would be without, too
 };
 /// What the glTF of a material does not say of it.
 tinygltf::Value value_of(const world::Material& material, const MaterialExtras& more);
 /// Puts that back.
 void complete(world::Material& material, const tinygltf::Value& value);
+
+/// Do meshes of the material say in kGltfOwnPlaces, too, where its picture lies?
+bool says_own_places(const tinygltf::Value& value);
 
 tinygltf::Value value_of(const ShapeText& text);
 ShapeText shape_text_of(const tinygltf::Value& value);

@@ -130,15 +130,14 @@ void add_smooth_normals(const geometry::TriangleMesh& mesh, GltfVertices& result
 
 }  // namespace
 
-GltfVertices gltf_vertices(const world::MeshGeometry& shape, bool exact) {
+GltfVertices gltf_vertices(const world::MeshGeometry& shape) {
   const bool plain = shape.texture_coordinates.empty() && shape.colours.empty();
   if (shape.normals.empty()) {
     if (plain) {
       GltfVertices result = as_they_are(shape.mesh);
-      if (!exact) add_smooth_normals(shape.mesh, result);
+      add_smooth_normals(shape.mesh, result);
       return result;
     }
-    if (exact) return Splitting(shape, false).run();
     // Normals of vertices that will be split: each part keeps that of the whole.
     world::MeshGeometry with_normals = shape;
     const std::vector<Vector3> normals = geometry::vertex_normals(shape.mesh);

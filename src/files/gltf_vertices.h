@@ -18,7 +18,7 @@ struct GltfVertices {
 };
 
 /// Splits vertices as little as can be. A mesh without normals, which is smooth, gets normals that make
-/// other programs show it so; `exact` ones, which stand for a shape with edges, are left flat.
-GltfVertices gltf_vertices(const world::MeshGeometry& shape, bool exact);
+/// other programs show it so.
+GltfVertices gltf_vertices(const world::MeshGeometry& shape);
 
 }  // namespace icome::files

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "base/srgb.h"
 #include "base/utf8.h"
+#include "files/exact_looks.h"
 #include "files/file_ending.h"
 #include "files/gltf_buffer.h"
 #include "files/gltf_looks.h"
@@ -26,6 +28,7 @@
 #include "files/new_file.h"
 #include "files/shown_pictures.h"
 #include "files/shown_world.h"
+#include "world/metal.h"
 #include "world/picture_kind.h"
 
 namespace icome::files {
@@ -54,21 +57,8 @@ std::vector<double> numbers_of(const world::Colour& colour) {
   return numbers;
 }
 
-/// In linear light, as glTF has it.
-GltfColour linear_colour(const world::Colour& colour) {
-  const std::vector<double> numbers = numbers_of(colour);
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-/// Is it what follows from the metal, as it was when the file was read?
-bool follows_from(const world::Material& it, float metallic) {
-  const world::Colour specular = base::srgb_from_linear(specular_of(linear_colour(it.diffuse), metallic));
-  constexpr float kRounding = 1e-4F;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (std::abs(specular[i] - it.specular[i]) > kRounding) return false;
-  }
-  return true;
-}
+/// With as many digits as are still the same when it was read and worked out again.
+double settled(double number) { return std::strtod(fmt::format("{:.12g}", number).c_str(), nullptr); }
 
 /// The fields of KHR_texture_transform; none for a frame that is flat, or not stretched before it is turned.
 std::optional<Value> texture_transform(const world::PictureFrame& frame) {
@@ -78,10 +68,12 @@ std::optional<Value> texture_transform(const world::PictureFrame& frame) {
   const double sizes = u.norm() * v.norm();
   if (!(sizes > 0.0) || !std::isfinite(sizes) || std::abs(u.dot(v)) > kRounding * sizes) return {};
   const double turn = std::atan2(-d, a);
-  const auto pair = [](double x, double y) { return Value(Value::Array{Value(x), Value(y)}); };
+  const auto pair = [](double x, double y) {
+    return Value(Value::Array{Value(settled(x)), Value(settled(y))});
+  };
   Value::Object fields;
   if (c != 0.0 || f != 0.0) fields["offset"] = pair(c, f);
-  if (turn != 0.0) fields["rotation"] = Value(turn);
+  if (turn != 0.0) fields["rotation"] = Value(settled(turn));
   fields["scale"] = pair(u.norm(), v.dot(base::Vector2(std::sin(turn), std::cos(turn))));
   return Value(std::move(fields));
 }
@@ -124,6 +116,9 @@ class GltfMaking {
                                               : fmt::format("{} directional lights shine", grouped_lights_),
                          grouped_lights_ == 1 ? "it is in" : "they are in"),
              false);
+    if (clear_parts_ > 0)
+      remark("Parts of solids that their colours make clear are opaque in other programs, as they are here.",
+             false);
     return std::move(model_);
   }
 
@@ -162,9 +157,8 @@ class GltfMaking {
     material.doubleSided = it.double_sided;
     material.emissiveFactor = numbers_of(it.emission);
     auto& pbr = material.pbrMetallicRoughness;
-    const bool metal = it.metallic && follows_from(it, *it.metallic);
     const bool rough = it.roughness && shininess_of(double(*it.roughness)) == it.shininess;
-    pbr.metallicFactor = metal ? double(*it.metallic) : 0.0;
+    pbr.metallicFactor = double(world::metal_of(it));
     pbr.roughnessFactor = rough ? double(*it.roughness) : roughness_of(it.shininess);
     pbr.baseColorFactor = numbers_of(shown.colour);
     pbr.baseColorFactor.push_back(double(shown.opacity));
@@ -189,20 +183,14 @@ class GltfMaking {
     model_.materials.push_back(std::move(material));
   }
 
-  /// False where glTF cannot say how, which is told.
+  /// False where glTF cannot say how: then meshes say where it lies.
   bool lay_picture(const world::Material& material, tinygltf::TextureInfo& info) {
     if (material.picture_frame == world::kPictureAsItLies) return true;
     auto transform = texture_transform(material.picture_frame);
-    if (transform) {
-      info.extensions["KHR_texture_transform"] = std::move(*transform);
-      use("KHR_texture_transform");
-    } else {
-      remark(fmt::format(
-                 "The picture of the material \"{}\" is stretched askew, which other programs do not see.",
-                 material.name),
-             false);
-    }
-    return transform.has_value();
+    if (!transform) return false;
+    info.extensions["KHR_texture_transform"] = std::move(*transform);
+    use("KHR_texture_transform");
+    return true;
   }
 
   void use(const char* extension) {
@@ -236,6 +224,35 @@ class GltfMaking {
     return found->second;
   }
 
+  /// Colours that a picture replaces stand under a name that other programs leave alone.
+  void hide_colours(const world::Material& material, tinygltf::Primitive& primitive) const {
+    const auto colours = primitive.attributes.find("COLOR_0");
+    if (colours == primitive.attributes.end() || !shown_material(world_, material).hides_colours) return;
+    primitive.attributes[kGltfHiddenColours] = colours->second;
+    primitive.attributes.erase(colours);
+  }
+
+  /// Where the picture lies for other programs, if the material cannot say how; as it would lie otherwise is
+  /// then the further set of coordinates that ICOME reads.
+  void lay_on(const world::Material& material, tinygltf::Primitive& primitive) {
+    const auto places = primitive.attributes.find("TEXCOORD_0");
+    if (places == primitive.attributes.end() || !material.texture ||
+        material.picture_frame == world::kPictureAsItLies || texture_transform(material.picture_frame))
+      return;
+    const auto [found, is_new] = laid_.try_emplace({places->second, material.picture_frame}, 0);
+    if (is_new) {
+      const world::PictureFrame frame = upside_down(material.picture_frame);
+      auto rows = buffer_.pairs(places->second);
+      for (std::array<float, 2>& row : rows) {
+        const world::Vector2 it = laid(frame, {double(row[0]), double(row[1])});
+        row = {float(it.x()), float(it.y())};
+      }
+      found->second = buffer_.add_accessor(rows);
+    }
+    primitive.attributes[kGltfOwnPlaces] = places->second;
+    places->second = found->second;
+  }
+
   /// Its place in the root's extras; -1 for shapes that are all triangles.
   int exact_shape(GeometryId id) {
     const auto [found, is_new] = exact_.try_emplace(id, -1);
@@ -258,18 +275,20 @@ class GltfMaking {
     return {world_.find(id)->shape.get(), exact_shape(id) >= 0 ? GeometryId{} : id};
   }
 
-  /// The accessors of a shape, which meshes of several materials share. `shows_picture`: does it need to say
-  /// where a picture lies?
-  const tinygltf::Primitive* primitive_of(GeometryId id, bool shows_picture) {
+  /// The accessors of a shape, which meshes of several materials share: those of solids with parts in colours
+  /// of their own differ by the material's, and those of primitives by whether there is a picture, as they
+  /// then say where it lies.
+  const tinygltf::Primitive* primitive_of(GeometryId id, const world::Material& material) {
     const Triangles triangles = triangles_of(id);
     const world::Geometry& shape = *world_.find(id)->shape;
-    const auto [found, is_new] =
-        primitives_.try_emplace({triangles, shows_picture && shape.kind() == "primitive"});
+    const bool shows_picture = bool(material.texture) && shape.kind() == "primitive";
+    const world::Colour own = has_part_colours(shape) ? material.diffuse : world::Colour{};
+    const auto [found, is_new] = primitives_.try_emplace({triangles, shows_picture, own});
     if (!is_new) return found->second.attributes.empty() ? nullptr : &found->second;
-    auto mesh = shown_.triangles(id);
+    auto mesh = with_exact_looks(shape, shown_.triangles(id), own);
     if (!mesh || mesh->mesh.triangles.empty()) return nullptr;
     if (shows_picture) mesh = with_picture_places(shape, mesh);
-    const GltfVertices vertices = gltf_vertices(*mesh, shape.kind() != "mesh");
+    const GltfVertices vertices = gltf_vertices(*mesh);
     tinygltf::Primitive& primitive = found->second;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = buffer_.add_accessor(vertices.positions, true);
@@ -287,11 +306,17 @@ class GltfMaking {
     const auto [found, is_new] = meshes_.try_emplace({geometry, material}, -1);
     if (!is_new) return found->second;
     const int exact = exact_shape(geometry);
-    const tinygltf::Primitive* const shared =
-        primitive_of(geometry, material && bool(world_.find(material)->texture));
+    const world::Material plain;
+    const world::Material* const own = world_.find(material);
+    const tinygltf::Primitive* const shared = primitive_of(geometry, own ? *own : plain);
     if (shared == nullptr) return -1;
+    clear_parts_ += has_clear_parts(*world_.find(geometry)->shape) ? 1 : 0;
     tinygltf::Primitive primitive = *shared;
-    if (material) primitive.material = material_for(material, primitive);
+    if (own) {
+      hide_colours(*own, primitive);
+      lay_on(*own, primitive);
+      primitive.material = material_for(material, primitive);
+    }
     tinygltf::Mesh mesh;
     mesh.primitives.push_back(std::move(primitive));
     Value::Object extras;
@@ -427,13 +452,15 @@ class GltfMaking {
   std::unordered_map<MaterialId, int> materials_;
   std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture
   std::unordered_map<GeometryId, int> exact_;
-  std::map<std::pair<Triangles, bool>, tinygltf::Primitive> primitives_;  // with where a picture lies
+  // By whether they say where a picture lies, and the colour of parts without their own.
+  std::map<std::tuple<Triangles, bool, world::Colour>, tinygltf::Primitive> primitives_;
+  std::map<std::pair<int, world::PictureFrame>, int> laid_;  // accessors of coordinates
   std::set<Triangles> smooth_;
   std::map<std::pair<GeometryId, MaterialId>, int> meshes_;
   std::unordered_map<ObjectId, int> nodes_;
   Value::Array shapes_;
   std::vector<Remark> remarks_;
-  std::size_t sheared_ = 0, grouped_lights_ = 0;
+  std::size_t sheared_ = 0, grouped_lights_ = 0, clear_parts_ = 0;
 };
 
 /// What is written into the stream goes into the file.

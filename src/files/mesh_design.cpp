@@ -8,6 +8,7 @@
 #include "files/byte_watch.h"
 #include "files/csg_reader.h"
 #include "files/design_builder.h"
+#include "files/exact_looks.h"
 #include "files/file_ending.h"
 #include "files/mesh_cleaning.h"
 #include "files/mesh_formats.h"
@@ -26,6 +27,10 @@ base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, doubl
     return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
   MeshShape result{nullptr, std::move(parsed->format), {}};
   for (const std::string& note : parsed->notes) result.remarks.push_back(as_sentence(note));
+  if (parsed->mesh.triangles.empty())
+    result.remarks.push_back(fmt::format(
+        "It has {}no triangles: nothing of it can be seen.",
+        parsed->mesh.positions.empty() ? "" : fmt::format("{} points and ", parsed->mesh.positions.size())));
   patience.step(kParsedPart, 1.0);
   world::MeshGeometry shape(std::move(parsed->mesh));
   if (!parsed->colours.empty()) {
@@ -70,8 +75,9 @@ base::Result<LoadedDesign> read_csg_design(const std::filesystem::path& path,
   if (!loaded) return tl::unexpected(loaded.error());
   DesignBuilder builder(memory);
   for (const std::string& note : loaded->notes) builder.remark(as_sentence(note));
-  const auto geometry = builder.add(std::make_shared<const world::CsgGeometry>(std::move(loaded->tree)));
-  builder.add(world::PhysicalObject{.name = bare_name(path), .geometry = geometry});
+  const auto shape = std::make_shared<const world::CsgGeometry>(std::move(loaded->tree));
+  if (has_clear_parts(*shape)) builder.remark("Colours of parts are kept, but shown without their opacity.");
+  builder.add(world::PhysicalObject{.name = bare_name(path), .geometry = builder.add(shape)});
   return builder.take(ending_of(path).packed ? "OpenSCAD CSG, xz" : "OpenSCAD CSG", path.string());
 }
 

@@ -1,8 +1,10 @@
 #include "files/mtl_library.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -36,6 +38,8 @@ class MtlReading {
       scanner_.skip_line();
     }
     finish_one();
+    tell_names("Left out of materials: ", words_);
+    tell_names("Left out of pictures: the options ", options_);
     return std::move(materials_);
   }
 
@@ -59,6 +63,8 @@ class MtlReading {
       read_picture(it);
     } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "disp" || keyword == "norm") {
       note("Maps other than of the diffuse colour are left out.");
+    } else if (is_of_physical_look(keyword) && number().value_or(0.0F) != 0.0F) {
+      add_name(keyword, words_);
     }
   }
 
@@ -79,16 +85,35 @@ class MtlReading {
         numbers_of_option(rest, 0.0);
         note("Noise that distorts pictures is left out.");
       } else if (option == "-mm") {
-        take_word(rest);
-        take_word(rest);
+        const std::array<double, 2> range = numbers_of_option(rest, 0.0);
+        if (range != std::array{0.0, 1.0}) add_name(option, options_);
       } else {
         take_word(rest);
+        if (option != "-blendu" && option != "-blendv") add_name(option, options_);
       }
     }
     it.picture = rest;
     // The picture's colours are multiplied with the diffuse colour.
     it.material.tints = true;
     it.material.picture_frame = {stretch[0], 0.0, shift[0], 0.0, stretch[1], shift[1]};
+  }
+
+  /// Metal, roughness, sheen, clear coat and anisotropy, which later programs added.
+  static bool is_of_physical_look(std::string_view keyword) {
+    constexpr std::array<std::string_view, 7> kWords{"Pm", "Pr", "Ps", "Pc", "Pcr", "aniso", "anisor"};
+    return std::find(kWords.begin(), kWords.end(), keyword) != kWords.end();
+  }
+
+  /// Each once, and not more of a file than can be told.
+  static void add_name(std::string_view name, std::vector<std::string>& names) {
+    constexpr std::size_t kMostNames = 12, kLongestName = 20;
+    const std::string kept(name.substr(0, kLongestName));
+    if (names.size() < kMostNames && std::find(names.begin(), names.end(), kept) == names.end())
+      names.push_back(kept);
+  }
+
+  void tell_names(const char* what, const std::vector<std::string>& names) {
+    if (!names.empty()) notes_.push_back(fmt::format("{}{}.", what, fmt::join(names, ", ")));
   }
 
   /// Of up to three, the first two; what is not there is `otherwise`.
@@ -153,6 +178,7 @@ class MtlReading {
   TextScanner scanner_;
   std::vector<std::string>& notes_;
   std::vector<MtlMaterial> materials_;
+  std::vector<std::string> words_, options_;  // that are left out
   Colour ambient_ = {-1.0F, -1.0F, -1.0F};
 };
 

@@ -81,7 +81,7 @@ class ObjReading {
   }
 
   void read_face() {
-    ObjDocument::Face face{0, part_};
+    ObjDocument::Face face{0, part_, smoothing_};
     for (; scanner_.more_on_line(); ++face.corners) document_.corners.push_back(read_corner());
     if (face.corners > geometry::kMaximumPolygonCorners) scanner_.fail(too_many_corners(face.corners));
     document_.faces.push_back(face);
@@ -145,11 +145,20 @@ class ObjReading {
     } else if (keyword == "usemtl") {
       now_.material = scanner_.rest();
       choose_part();
+    } else if (keyword == "s") {
+      if (all_) smoothing_ = read_group(scanner_.word());
     } else if (keyword == "mtllib" && document_.libraries.size() < kMostLibraries) {
       document_.libraries.push_back({std::string(scanner_.rest()), scanner_.line()});
     } else if (keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "surf") {
       ++document_.others;
     }
+  }
+
+  /// "off" and what is no number are none.
+  static std::uint32_t read_group(std::string_view word) {
+    std::uint32_t group = word == "on" ? 1 : 0;
+    std::from_chars(word.data(), word.data() + word.size(), group);
+    return group == ObjDocument::kNone ? 0 : group;
   }
 
   void choose_part() {
@@ -173,6 +182,7 @@ class ObjReading {
   ObjDocument document_;
   ObjDocument::Part now_;
   std::uint32_t part_ = 0;
+  std::uint32_t smoothing_ = ObjDocument::kNone;
   std::map<std::tuple<std::string, std::string, std::string>, std::uint32_t> parts_;
   std::int64_t vertex_limit_;
   std::int64_t highest_index_ = 0;

@@ -29,6 +29,7 @@ struct ObjDocument {
   struct Face {
     std::uint32_t corners = 0;  // how many
     std::uint32_t part = 0;
+    std::uint32_t smoothing = kNone;  // its group; 0: it is flat, kNone: nothing has been said so far
   };
   struct Library {
     std::string url;
@@ -50,9 +51,9 @@ struct ObjDocument {
 enum class ObjContent { Positions, Parts, All };
 
 /// `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`, `g`,
-/// `usemtl`, `mtllib`, which are then in order even where they are not kept. Errors name the line. Fails also
-/// when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. All that
-/// is read is counted there, as few bytes may stand for much, packed ones for any amount.
+/// `usemtl`, `mtllib`, `s`, which are then in order even where they are not kept. Errors name the line. Fails
+/// also when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. All
+/// that is read is counted there, as few bytes may stand for much, packed ones for any amount.
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
                                              ObjContent content, Patience* patience = nullptr,
                                              MemoryBudget* memory = nullptr);

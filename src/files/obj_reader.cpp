@@ -18,6 +18,8 @@
 #include "files/obj_design.h"
 #include "files/obj_document.h"
 #include "files/picture_bytes.h"
+#include "files/smoothing_groups.h"
+#include "files/unit_normal.h"
 #include "files/url_policy.h"
 #include "geometry/polygon_triangulation.h"
 
@@ -54,10 +56,15 @@ class ObjMeshes {
     world::MeshGeometry shape(geometry::TriangleMesh{});
     shape.mesh.triangles.reserve(faces_[part].size());
     look_for_attributes(part);
+    by_groups_ = !with_normals_ && has_edges(part);
+    smoothed_.clear();
     for (const std::uint32_t face : faces_[part]) {
       if (!lasts_for(face)) break;
+      const std::size_t before = shape.mesh.triangles.size();
       add_face(shape, face, part);
+      smoothed_.push_back({std::uint32_t(shape.mesh.triangles.size() - before), group_of(face)});
     }
+    if (by_groups_) shape.normals = smoothed_normals(shape.mesh, smoothed_);
     return shape;
   }
 
@@ -103,6 +110,20 @@ class ObjMeshes {
     }
   }
 
+  std::uint32_t group_of(std::uint32_t face) const {
+    const std::uint32_t group = document_.faces[face].smoothing;
+    return group == ObjDocument::kNone ? 0 : group;
+  }
+
+  /// Do smoothing groups say so? Where nothing is said of them, or all is of one, all of it is smooth.
+  bool has_edges(std::uint32_t part) const {
+    const std::vector<std::uint32_t>& faces = faces_[part];
+    const std::uint32_t first = faces.empty() ? 0 : document_.faces[faces.front()].smoothing;
+    return first == 0 || std::any_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
+             return document_.faces[face].smoothing != first;
+           });
+  }
+
   void add_face(world::MeshGeometry& shape, std::uint32_t f, std::uint32_t part) {
     const Corner* const corners = document_.corners.data() + first_corner_[f];
     const std::uint32_t count = document_.faces[f].corners;
@@ -133,7 +154,7 @@ class ObjMeshes {
     }
     if (with_normals_) {
       auto& row = shape.normals.emplace_back();
-      for (std::size_t i = 0; i < 3; ++i) row[i] = document_.normals[corners[i].normal].stableNormalized();
+      for (std::size_t i = 0; i < 3; ++i) row[i] = unit_as_given(document_.normals[corners[i].normal]);
     }
     if (with_colours_) {
       auto& row = shape.colours.emplace_back();
@@ -162,6 +183,8 @@ class ObjMeshes {
   bool with_coordinates_ = false;
   bool with_normals_ = false;
   bool with_colours_ = false;
+  bool by_groups_ = false;
+  std::vector<SmoothedFace> smoothed_;  // of the part
   std::size_t short_faces_ = 0;
   std::size_t missing_ = 0;
 };

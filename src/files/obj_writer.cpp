@@ -18,6 +18,7 @@
 #include "files/picture_folder.h"
 #include "files/shown_pictures.h"
 #include "files/shown_world.h"
+#include "files/unit_normal.h"
 
 namespace icome::files {
 namespace {
@@ -197,8 +198,7 @@ class ObjWriting {
     ObjRows<3> rows;
     for (const auto& corners : it.mesh->normals) {
       for (const Vector3& normal : corners) {
-        const Eigen::Vector3f turned =
-            (turn * normal).stableNormalized().cast<float>() + Eigen::Vector3f::Zero();
+        const Eigen::Vector3f turned = unit_as_given(turn * normal).cast<float>() + Eigen::Vector3f::Zero();
         const auto [number, is_new] = rows.add({turned.x(), turned.y(), turned.z()});
         numbers.push_back(normals_ + number + 1);
         if (!is_new) continue;
@@ -258,7 +258,9 @@ base::Result<ObjLibrary> make_library(const World& world, const std::filesystem:
       url = std::move(*written);
     }
     library.names[id] = names.unique(material.name, "material", false);
-    library.text += mtl_text(material, shown_material(world, material), library.names[id], url,
+    world::Material said = material;
+    said.specular = shown_specular(world, material);
+    library.text += mtl_text(said, shown_material(world, material), library.names[id], url,
                              texture ? texture->repeats : std::array{true, true});
   }
   return library;
@@ -314,6 +316,12 @@ void remove_old_libraries(const std::filesystem::path& design, const std::filesy
   for (const std::filesystem::path& it : old) std::filesystem::remove(it, error);
 }
 
+std::shared_ptr<const world::MeshGeometry> without_colours(const world::MeshGeometry& mesh) {
+  auto plain = std::make_shared<world::MeshGeometry>(mesh);
+  plain->colours.clear();
+  return plain;
+}
+
 bool has_touch(const World& world) {
   return std::any_of(world.materials().begin(), world.materials().end(),
                      [](const auto& it) { return !(it.second.touch == world::TouchProperties{}); });
@@ -346,7 +354,7 @@ base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& 
   auto file = NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   std::vector<Remark> remarks;
-  const auto objects = shown_objects(world, remarks);
+  const auto objects = shown_objects(world, true, remarks);
   if (!objects) return base::fail(fmt::format("{}: {}", path.string(), objects.error().message));
   if (has_touch(world)) remarks.push_back({{}, 0, "OBJ cannot say how a material feels: that is left out."});
   const auto library = make_library(world, path);
@@ -358,13 +366,24 @@ base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& 
   writing.begin(beside->filename().string());
   ObjNames names;
   const world::Material plain;
+  std::size_t hidden = 0;
   for (ShownObject it : *objects) {
     const world::PhysicalObject& object = *world.find(it.object);
     const world::Material& material = object.material ? *world.find(object.material) : plain;
     if (material.texture) it.mesh = with_picture_places(*world.find(object.geometry)->shape, it.mesh);
+    // Readers of OBJ multiply them.
+    if (!it.mesh->colours.empty() && shown_material(world, material).hides_colours) {
+      it.mesh = without_colours(*it.mesh);
+      ++hidden;
+    }
     writing.add(it, names.unique(object.name, "object", true),
                 object.material ? library->names.at(object.material) : "", material.picture_frame);
   }
+  if (hidden > 0)
+    remarks.push_back({{},
+                       0,
+                       fmt::format("Colours beneath pictures that replace them are left out ({} object{}).",
+                                   hidden, hidden == 1 ? "" : "s")});
   tell_what_obj_loses(world, remarks);
   writing.finish();
   if (const auto finished = file->finish(); !finished) return tl::unexpected(finished.error());

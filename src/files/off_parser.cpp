@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -18,12 +19,41 @@ namespace {
 constexpr std::size_t kShortestVertex = 6;
 constexpr std::size_t kShortestFace = 8;
 
-/// "OFF" with the prefixes of its variants: texture coordinates, colours, normals.
-bool is_off_keyword(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N"})
-    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
-  return word == "OFF";
+/// What stands behind a vertex, by a letter or two before "OFF".
+struct OffVariant {
+  std::string_view prefix;
+  std::size_t numbers;  // in binary files
+  const char* note;
+};
+constexpr std::array<OffVariant, 3> kOffVariants{{{"ST", 2, "texture coordinates of vertices left out"},
+                                                  {"C", 4, "colours of vertices left out"},
+                                                  {"N", 3, "normals of vertices left out"}}};
+
+/// "OFF" with the prefixes of its variants; nothing for other words.
+std::optional<std::vector<OffVariant>> variants_of(std::string_view word) {
+  std::vector<OffVariant> variants;
+  for (const OffVariant& variant : kOffVariants) {
+    if (!word.starts_with(variant.prefix)) continue;
+    word.remove_prefix(variant.prefix.size());
+    variants.push_back(variant);
+  }
+  return word == "OFF" ? std::optional(variants) : std::nullopt;
 }
+
+/// What a file has that is not read.
+struct OffLeftOut {
+  std::vector<OffVariant> variants;
+  std::size_t coloured_faces = 0;
+
+  /// With `notes` in front.
+  std::vector<std::string> sentences(std::vector<std::string> notes) const {
+    for (const OffVariant& variant : variants) notes.emplace_back(variant.note);
+    if (coloured_faces > 0)
+      notes.push_back(coloured_faces == 1 ? "the colour of 1 face left out"
+                                          : fmt::format("the colours of {} faces left out", coloured_faces));
+    return notes;
+  }
+};
 
 /// A count or index in a row of its own line.
 std::int64_t read_count(TextScanner& scanner, const char* what) {
@@ -41,7 +71,8 @@ void read_vertex(TextScanner& scanner, FaceCollector& faces) {
   scanner.skip_line();
 }
 
-void read_face(TextScanner& scanner, FaceCollector& faces, std::vector<std::uint32_t>& corners) {
+/// Has it more than its corners, as a colour?
+bool read_face(TextScanner& scanner, FaceCollector& faces, std::vector<std::uint32_t>& corners) {
   scanner.at_end();
   corners.clear();
   const std::int64_t size = read_count(scanner, "a number of corners");
@@ -53,13 +84,19 @@ void read_face(TextScanner& scanner, FaceCollector& faces, std::vector<std::uint
     corners.push_back(static_cast<std::uint32_t>(index));
   }
   if (!scanner.failed() && !faces.add_face(corners)) scanner.fail(too_many_corners(corners.size()));
+  const bool more = !scanner.failed() && scanner.more_on_line();
   scanner.skip_line();
+  return more;
 }
 
 /// Reads up to the counts of vertices and faces; those of edges are often wrong and never needed.
-std::pair<std::int64_t, std::int64_t> read_header(TextScanner& scanner) {
+std::pair<std::int64_t, std::int64_t> read_header(TextScanner& scanner, OffLeftOut& left_out) {
   scanner.at_end();
-  if (!is_off_keyword(scanner.word())) scanner.fail("does not begin with OFF, so it is not an OFF file");
+  auto variants = variants_of(scanner.word());
+  if (variants)
+    left_out.variants = std::move(*variants);
+  else
+    scanner.fail("does not begin with OFF, so it is not an OFF file");
   scanner.at_end();
   const std::int64_t vertices = read_count(scanner, "a number of vertices");
   const std::int64_t faces = read_count(scanner, "a number of faces");
@@ -74,8 +111,10 @@ class BinaryOff {
   BinaryOff(std::string_view bytes, std::size_t begin, std::string name, Patience* patience)
       : bytes_(bytes), at_(begin), name_(std::move(name)), watch_(bytes, patience) {}
 
-  /// `more`: numbers of a vertex beside its coordinates.
-  base::Result<ParsedMesh> read(std::size_t more, Patience* patience) {
+  base::Result<ParsedMesh> read(std::vector<OffVariant> variants, Patience* patience) {
+    left_out_.variants = std::move(variants);
+    std::size_t more = 0;  // numbers of a vertex beside its coordinates
+    for (const OffVariant& variant : left_out_.variants) more += variant.numbers;
     const std::uint32_t vertices = whole(), count = whole();
     whole();  // edges
     FaceCollector faces;
@@ -87,7 +126,7 @@ class BinaryOff {
     }
     for (std::uint32_t i = 0; i < count && good(); ++i) add_face(faces);
     if (!good()) return base::fail(fmt::format("{}: {}", name_, why_.empty() ? "is cut short" : why_));
-    return ParsedMesh{faces.take(patience), "binary OFF", faces.notes()};
+    return ParsedMesh{faces.take(patience), "binary OFF", left_out_.sentences(faces.notes())};
   }
 
  private:
@@ -103,7 +142,9 @@ class BinaryOff {
                            faces.positions());
     }
     if (why_.empty() && !failed_ && !faces.add_face(corners_)) why_ = too_many_corners(corners_.size());
-    skip(whole());  // its colour
+    const std::uint32_t colour = whole();
+    left_out_.coloured_faces += colour > 0 ? 1 : 0;
+    skip(colour);
   }
 
   std::uint32_t whole() { return take<std::uint32_t>(); }
@@ -125,28 +166,22 @@ class BinaryOff {
   ByteWatch watch_;
   bool failed_ = false;
   std::string why_;
+  OffLeftOut left_out_;
   std::vector<std::uint32_t> corners_;
 };
 
-/// Where the numbers of a binary file begin, and how many a vertex has beside its coordinates; nothing for an
+/// Where the numbers of a binary file begin, and what a vertex has beside its coordinates; nothing for an
 /// ascii one.
-std::optional<std::pair<std::size_t, std::size_t>> binary_body(std::string_view bytes) {
+std::optional<std::pair<std::size_t, std::vector<OffVariant>>> binary_body(std::string_view bytes) {
   const std::size_t line = bytes.find('\n');
   if (line == bytes.npos) return std::nullopt;
   std::string_view head = bytes.substr(0, line);
   while (head.ends_with('\r') || head.ends_with(' ')) head.remove_suffix(1);
   const std::size_t word = head.find(' ');
-  if (word == head.npos || !head.ends_with(" BINARY") || !is_off_keyword(head.substr(0, word)))
-    return std::nullopt;
-  std::string_view prefix = head.substr(0, word);
-  std::size_t more = 0;
-  for (const auto& [letters, numbers] :
-       {std::pair<std::string_view, std::size_t>{"ST", 2}, {"C", 4}, {"N", 3}}) {
-    if (!prefix.starts_with(letters)) continue;
-    prefix.remove_prefix(letters.size());
-    more += numbers;
-  }
-  return std::pair(line + 1, more);
+  if (word == head.npos || !head.ends_with(" BINARY")) return std::nullopt;
+  auto variants = variants_of(head.substr(0, word));
+  if (!variants) return std::nullopt;
+  return std::pair(line + 1, std::move(*variants));
 }
 
 }  // namespace
@@ -155,15 +190,17 @@ base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& na
   if (const auto body = binary_body(bytes))
     return BinaryOff(bytes, body->first, name, patience).read(body->second, patience);
   TextScanner scanner(bytes, name, TextScanner::Lines::Matter, '#', patience);
-  const auto [vertex_count, face_count] = read_header(scanner);
+  OffLeftOut left_out;
+  const auto [vertex_count, face_count] = read_header(scanner, left_out);
   FaceCollector faces;
   faces.reserve_positions(std::min<std::size_t>(vertex_count, bytes.size() / kShortestVertex));
   faces.reserve(std::min<std::size_t>(face_count, bytes.size() / kShortestFace));
   for (std::int64_t i = 0; i < vertex_count && !scanner.failed(); ++i) read_vertex(scanner, faces);
   std::vector<std::uint32_t> corners;
-  for (std::int64_t i = 0; i < face_count && !scanner.failed(); ++i) read_face(scanner, faces, corners);
+  for (std::int64_t i = 0; i < face_count && !scanner.failed(); ++i)
+    left_out.coloured_faces += read_face(scanner, faces, corners) ? 1 : 0;
   if (scanner.failed()) return tl::unexpected(scanner.error());
-  return ParsedMesh{faces.take(patience), "OFF", faces.notes()};
+  return ParsedMesh{faces.take(patience), "OFF", left_out.sentences(faces.notes())};
 }
 
 }  // namespace icome::files

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +24,10 @@ struct PixelPicture {
 /// The picture as a PNG file. Fails when it is empty, larger than kMostPixelSide or not whole.
 base::Result<std::string> png_of(const PixelPicture& picture);
 inline constexpr std::uint32_t kMostPixelSide = 16384;
+
+/// The mean of a PNG's or JPEG's pixels: red, green and blue as they stand in the file, 0 ... 1. None for
+/// other files, and for what cannot be read, as above.
+std::optional<std::array<double, 3>> picture_mean(std::string_view bytes);
 
 /// How much a picture lets be seen through it; one that cannot be read, or is larger than kMostPixelSide,
 /// counts as opaque.

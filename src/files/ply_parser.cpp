@@ -160,6 +160,52 @@ std::string missing_from(const PlyHeader& header) {
   return {};
 }
 
+/// The names of what is not read, shortened where they are long or many.
+class LeftOutNames {
+ public:
+  void add(const std::string& name) {
+    constexpr std::size_t kMostNames = 12, kLongestName = 40;
+    if (++count_ > kMostNames) return;
+    text_ += (count_ > 1 ? ", " : "") + name.substr(0, kLongestName);
+    if (count_ == kMostNames) text_ += " and so on";
+  }
+  void tell(const char* what, std::vector<std::string>& notes) const {
+    if (count_ > 0) notes.push_back(fmt::format("{} left out: {}", what, text_));
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::string text_;
+};
+
+/// Which properties and elements of the file nothing is made of.
+void tell_what_is_left_out(const PlyHeader& header, std::vector<std::string>& notes) {
+  LeftOutNames of_vertices, of_faces, elements;
+  for (const PlyElement& element : header.elements) {
+    if (element.rows == 0) continue;
+    const bool vertices = element.name == "vertex";
+    if (!vertices && element.name != "face" && element.name != kStrips) {
+      elements.add(element.name);
+      continue;
+    }
+    std::vector<bool> is_read(element.properties.size(), false);
+    if (vertices) {
+      for (const char* axis : {"x", "y", "z"}) is_read[*element.column(axis)] = true;
+      if (const auto colours = colour_columns(element)) {
+        for (const std::size_t column : *colours) is_read[column] = true;
+      }
+    } else {
+      is_read[*corner_column(element)] = true;
+    }
+    for (std::size_t p = 0; p < is_read.size(); ++p) {
+      if (!is_read[p]) (vertices ? of_vertices : of_faces).add(element.properties[p].name);
+    }
+  }
+  of_vertices.tell("properties of vertices", notes);
+  of_faces.tell("properties of faces", notes);
+  elements.tell("elements", notes);
+}
+
 /// The body of a file whose header has been checked.
 template <typename Rows>
 class PlyBody {
@@ -302,7 +348,9 @@ base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const ch
   if (faces.positions() == 0) return base::fail(name + ": has no vertices");
   auto colours = body.take_colours();
   if (colours.size() != faces.positions()) colours.clear();
-  return ParsedMesh{faces.take(patience), format, faces.notes(), std::move(colours)};
+  ParsedMesh parsed{faces.take(patience), format, faces.notes(), std::move(colours)};
+  tell_what_is_left_out(header, parsed.notes);
+  return parsed;
 }
 
 }  // namespace

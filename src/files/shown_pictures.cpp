@@ -1,6 +1,8 @@
 #include "files/shown_pictures.h"
 
+#include "base/srgb.h"
 #include "files/picture_bytes.h"
+#include "world/metal.h"
 #include "world/picture_kind.h"
 #include "world/picture_places.h"
 
@@ -15,7 +17,8 @@ ShownMaterial shown_material(const world::World& world, const world::Material& m
   const PictureOpacity picture = texture ? picture_opacity(*texture->bytes) : PictureOpacity::Opaque;
   // VRML 2.0, 4.14: colours and opacities of pictures replace those of materials, greys are multiplied.
   if (texture && !material.tints) {
-    if (!world::is_grey_picture(*texture->bytes)) it.colour = {1.0F, 1.0F, 1.0F};
+    it.hides_colours = !world::is_grey_picture(*texture->bytes);
+    if (it.hides_colours) it.colour = {1.0F, 1.0F, 1.0F};
     if (picture != PictureOpacity::Opaque) it.opacity = 1.0F;
   }
   if (material.alpha_mode != AlphaMode::ByPicture) {
@@ -28,11 +31,23 @@ ShownMaterial shown_material(const world::World& world, const world::Material& m
   return it;
 }
 
+world::Colour shown_specular(const world::World& world, const world::Material& material) {
+  const float metal = world::metal_of(material);
+  const world::Texture* const texture = metal > 0.0F ? world.find(material.texture) : nullptr;
+  const auto mean = texture ? picture_mean(*texture->bytes) : std::nullopt;
+  if (!mean) return material.specular;
+  const world::Colour factor = shown_material(world, material).colour;
+  std::array<double, 3> colour{};
+  for (std::size_t i = 0; i < 3; ++i)
+    colour[i] = base::linear_from_srgb((*mean)[i]) * base::linear_from_srgb(double(factor[i]));
+  return base::srgb_from_linear(world::metal_specular(colour, double(metal)));
+}
+
 std::shared_ptr<const world::MeshGeometry> with_picture_places(
     const world::Geometry& shape, std::shared_ptr<const world::MeshGeometry> mesh) {
   const auto* const primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape);
   if (primitive == nullptr || !mesh || !mesh->texture_coordinates.empty()) return mesh;
-  auto textured = std::make_shared<world::MeshGeometry>(mesh->mesh);
+  auto textured = std::make_shared<world::MeshGeometry>(*mesh);
   textured->texture_coordinates = world::picture_places(*primitive, mesh->mesh);
   return textured;
 }

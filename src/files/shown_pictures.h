@@ -13,8 +13,12 @@ struct ShownMaterial {
   float opacity = 1.0F;                              // in [0, 1]
   world::AlphaMode mode = world::AlphaMode::Opaque;  // never ByPicture
   float cutoff = 0.5F;                               // of AlphaMode::Mask
+  bool hides_colours = false;                        // of meshes: its picture's replace them
 };
 ShownMaterial shown_material(const world::World& world, const world::Material& material);
+
+/// The specular colour for formats that know no metal: of metal beneath a picture, what shines on average.
+world::Colour shown_specular(const world::World& world, const world::Material& material);
 
 /// The triangles of a shape with where a picture lies on them, which primitives have by what they are: `mesh`
 /// itself for shapes of other kinds.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "files/exact_looks.h"
 #include "files/file_ending.h"
 
 namespace icome::files {
@@ -132,10 +133,53 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   if (!world.scenes().empty()) tell("This format knows no scenes: they are left out.");
 }
 
+/// Of solids, where a format does not hold them as they are.
+void tell_of_part_colours(const World& world, bool keeps_colours, std::vector<Remark>& remarks) {
+  bool coloured = false, clear = false;
+  for (const auto& [id, geometry] : world.geometries()) {
+    coloured = coloured || (geometry.users > 0 && has_part_colours(*geometry.shape));
+    clear = clear || (geometry.users > 0 && has_clear_parts(*geometry.shape));
+  }
+  if (coloured && !keeps_colours)
+    remarks.push_back({{}, 0, "This format knows no colours: those of parts of solids are left out."});
+  if (clear && keeps_colours)
+    remarks.push_back({{}, 0, "Colours of parts of solids are written without their opacity."});
+}
+
+/// What stands for exact shapes, made once for all objects that are to look alike.
+class ExactLooks {
+ public:
+  explicit ExactLooks(const World& world) : world_(world) {}
+
+  std::shared_ptr<const MeshGeometry> of(const PhysicalObject& object,
+                                         std::shared_ptr<const MeshGeometry> triangles) {
+    const world::Geometry& shape = *world_.find(object.geometry)->shape;
+    const world::Material* const material = world_.find(object.material);
+    const Colour own =
+        has_part_colours(shape) ? (material ? *material : world::Material{}).diffuse : Colour{};
+    const auto [found, is_new] = made_.try_emplace({&shape, own});
+    if (is_new) found->second = with_exact_looks(shape, std::move(triangles), own);
+    return found->second;
+  }
+
+ private:
+  const World& world_;
+  std::map<std::pair<const world::Geometry*, Colour>, std::shared_ptr<const MeshGeometry>> made_;
+};
+
 }  // namespace
 
 std::string object_name(const PhysicalObject& object) {
   return object.name.empty() ? "An object without a name" : fmt::format("\"{}\"", object.name);
+}
+
+bool shows_nothing(const World& world) {
+  return std::none_of(world.objects().begin(), world.objects().end(), [&](const auto& it) {
+    const world::GeometryObject* const geometry = world.find(it.second.geometry);
+    if (geometry == nullptr) return false;
+    const auto* const mesh = dynamic_cast<const MeshGeometry*>(geometry->shape.get());
+    return mesh ? !mesh->mesh.triangles.empty() : !geometry->shape->bounds().isEmpty();
+  });
 }
 
 MadeTriangles shown_triangles(const world::Geometry& shape) {
@@ -185,12 +229,14 @@ std::shared_ptr<const MeshGeometry> ShownShapes::triangles(world::GeometryId id)
   return found->second;
 }
 
-base::Result<std::vector<ShownObject>> shown_objects(const World& world, std::vector<Remark>& remarks) {
+base::Result<std::vector<ShownObject>> shown_objects(const World& world, bool with_looks,
+                                                     std::vector<Remark>& remarks) {
   struct Visit {
     ObjectId object;
     base::Affine3 world_from_parent;
   };
   ShownShapes shapes(world, fine_triangles);
+  ExactLooks looks(world);
   std::vector<ShownObject> shown;
   std::size_t triangles = 0;
   std::vector<Visit> open;
@@ -213,6 +259,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, std::ve
                         "that shares shapes, such as .wrl or .glb.",
                         kMostShownTriangles));
       }
+      if (with_looks) mesh = looks.of(object, std::move(mesh));
       shown.push_back({visit.object, std::move(mesh), here});
     } else {
       remarks.push_back(
@@ -220,6 +267,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, std::ve
     }
   }
   remark_on_losses(world, remarks);
+  tell_of_part_colours(world, with_looks, remarks);
   return shown;
 }
 

@@ -45,14 +45,19 @@ struct ShownObject {
   base::Affine3 world_from_object = base::Affine3::Identity();
 };
 
+/// Has no object anything to be seen, by what can be told without making triangles?
+bool shows_nothing(const world::World& world);
+
 /// For remarks: the name in quotes, or that there is none.
 std::string object_name(const world::PhysicalObject& object);
 
-/// All objects of a world that have triangles, parents before children, in the order that people see.
-/// Remarks tell what cannot be shown and, once each, what else formats without a hierarchy lose. Fails for
-/// more than kMostShownTriangles: few bytes with many clones can stand for very many.
+/// All objects of a world that have triangles, parents before children, in the order that people see; exact
+/// ones `with_looks` (with_exact_looks) for formats that can hold colours. Remarks tell what cannot be shown
+/// and, once each, what else formats without a hierarchy lose. Fails for more than kMostShownTriangles: few
+/// bytes with many clones can stand for very many.
 inline constexpr std::size_t kMostShownTriangles = 100'000'000;
-base::Result<std::vector<ShownObject>> shown_objects(const world::World& world, std::vector<Remark>& remarks);
+base::Result<std::vector<ShownObject>> shown_objects(const world::World& world, bool with_looks,
+                                                     std::vector<Remark>& remarks);
 
 /// A world as one mesh in its own frame.
 struct FlatWorld {

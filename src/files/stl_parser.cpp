@@ -40,6 +40,10 @@ base::Result<ParsedMesh> parse_binary(std::string_view bytes, const std::string&
   ParsedMesh parsed{{}, "binary STL", {}};
   parsed.mesh.positions.reserve(3 * count);
   parsed.mesh.triangles.reserve(count);
+  if (count < present)
+    parsed.notes.push_back(
+        fmt::format("the bytes of {} more triangle{} than the {} that it declares left out", present - count,
+                    present - count == 1 ? "" : "s", count));
   ByteWatch watch(bytes, patience);
   for (std::uint32_t t = 0; t < count; ++t) {
     const char* corner = bytes.data() + kBinaryBegin + kBinaryFacet * t + kCornersInFacet;

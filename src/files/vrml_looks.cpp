@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "files/shown_pictures.h"
 #include "world/picture_kind.h"
 
 namespace icome::files {
@@ -138,7 +139,7 @@ void VrmlLooks::write_material(MaterialId id, const Material& material) {
   write_part("diffuseColor", material.diffuse, usual.diffuse, text_);
   write_part("emissiveColor", material.emission, usual.emission, text_);
   write_part("shininess", material.shininess, usual.shininess, text_);
-  write_part("specularColor", material.specular, usual.specular, text_);
+  write_part("specularColor", shown_specular(world_, material), usual.specular, text_);
   write_part("transparency", material.transparency, usual.transparency, text_);
   const world::TouchProperties& touch = material.touch;
   if (touch.stiffness) text_.field("stiffness", *touch.stiffness);

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "files/csg_text.h"
+#include "files/exact_looks.h"
 #include "files/number_text.h"
 #include "files/shown_world.h"
 #include "files/vrml_faces.h"
@@ -111,6 +112,7 @@ class VrmlShapes::ByKind {
     if (!tree) return write_triangles(shape, tree.error().message);
     open(kCsgProto.name);
     text_.text_field("tree", *tree);
+    if (has_part_colours(shape)) tell_of_part_colours_left(false);
     show(shape, VrmlEdges::SharpWhereBent);
   }
 
@@ -134,6 +136,7 @@ class VrmlShapes::ByKind {
     const std::string wrong = triangles ? world::complaint(**triangles) : triangles.error().message;
     if (!wrong.empty()) return leave_out(wrong);
     remark("is written as triangles", why);
+    if (has_part_colours(shape)) tell_of_part_colours_left(true);
     write_faces(**triangles, head_ + "IndexedFaceSet", text_);
   }
 
@@ -151,6 +154,12 @@ class VrmlShapes::ByKind {
     text_.close();
   }
 
+  void tell_of_part_colours_left(bool loses) {
+    remarks_.push_back({"", 0,
+                        fmt::format("The colours of parts of the shape of {} are {}.", owner_,
+                                    loses ? "left out" : "not seen by other programs"),
+                        loses});
+  }
   void leave_out(const std::string& why) {
     remark("is left out", why);
     write_faces(MeshGeometry(geometry::TriangleMesh{}), head_ + "IndexedFaceSet", text_);

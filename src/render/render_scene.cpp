@@ -9,6 +9,7 @@
 #include "base/srgb.h"
 #include "render/picture_decoder.h"
 #include "render/scene_lighting.h"
+#include "world/metal.h"
 
 namespace icome::render {
 namespace {
@@ -26,12 +27,14 @@ Eigen::Vector3f light_of(const world::Colour& colour) {
 RenderMaterial look_of(const world::Material& material) {
   RenderMaterial it;
   it.diffuse = light_of(material.diffuse);
-  it.specular = light_of(material.specular);
+  it.metal = world::metal_of(material);
+  it.specular = (light_of(material.specular) - it.metal * it.diffuse).cwiseMax(0.0F);
   it.emission = light_of(material.emission);
   it.ambient = material.ambient;
   it.shininess = material.shininess;
   it.alpha = 1.0F - std::clamp(material.transparency, 0.0F, 1.0F);
   it.unlit = material.unlit;
+  it.double_sided = material.double_sided;
   return it;
 }
 

@@ -28,11 +28,13 @@ struct RenderPicture {
 /// How a surface looks: world::Material with linear colours. Immutable once made.
 struct RenderMaterial {
   Eigen::Vector3f diffuse{0.8F, 0.8F, 0.8F};
-  Eigen::Vector3f specular{0.0F, 0.0F, 0.0F};
+  Eigen::Vector3f specular{0.0F, 0.0F, 0.0F};  ///< beside what shines as metal
   Eigen::Vector3f emission{0.0F, 0.0F, 0.0F};
   float ambient = 0.2F;                               ///< of the diffuse colour
+  float metal = 0.0F;                                 ///< of what shines, 0 ... 1, as the surface is coloured
   float shininess = 0.2F;                             ///< 0 ... 1
   float alpha = 1.0F;                                 ///< 1 is opaque
+  bool double_sided = true;                           ///< else backs are not seen
   bool unlit = false;                                 ///< shows its diffuse colour and picture alone
   std::shared_ptr<const RenderPicture> picture = {};  ///< null: plain
   world::PictureFrame picture_frame = world::kPictureAsItLies;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/srgb.h"
-#include "render/csg_colours.h"
+#include "world/csg_colours.h"
 #include "world/mesh_geometry.h"
 #include "world/picture_places.h"
 #include "world/solid_geometry.h"
@@ -42,7 +42,8 @@ const world::ImplicitGeometry* changing(const world::Geometry& shape) {
 
 /// Linear; what stands for the material's own colour is none.
 Eigen::Vector3f light_of_corner(const world::Colour& colour) {
-  return Eigen::Vector3f((colour == kMaterialsColour ? colour : base::linear_from_srgb(colour)).data());
+  return Eigen::Vector3f(
+      (colour == world::kMaterialsColour ? colour : base::linear_from_srgb(colour)).data());
 }
 
 /// All that a corner of a triangle brings along.

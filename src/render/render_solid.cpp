@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/csg_colours.h"
 #include "render/csg_cost.h"
+#include "world/csg_colours.h"
 
 namespace icome::render {
 namespace {
@@ -105,7 +105,7 @@ DrawnSolid with_triangles(const world::CsgGeometry& shape, CsgGeometry images, d
     solid->triangles = whole ? RenderSolid::Triangles::Fine : RenderSolid::Triangles::Partial;
     made = fine ? fine->mesh : std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
   }
-  return {std::move(solid), coloured_by_operands(shape.tree, *made)};
+  return {std::move(solid), world::coloured_by_operands(shape.tree, *made)};
 }
 
 }  // namespace
@@ -118,7 +118,8 @@ base::Result<DrawnSolid> make_drawn_solid(const world::CsgGeometry& shape) {
   if (images && !images->products.empty()) return with_triangles(shape, std::move(*images), unit);
   auto surface = shape.surface(unit * kFine);
   if (!surface) return tl::unexpected(surface.error());
-  return DrawnSolid{nullptr, coloured_by_operands(shape.tree, surface->mesh), surface->lost.has_value()};
+  return DrawnSolid{nullptr, world::coloured_by_operands(shape.tree, surface->mesh),
+                    surface->lost.has_value()};
 }
 
 }  // namespace icome::render

@@ -51,6 +51,7 @@ void ScenePass::set_look(const SceneProgram& program, const PlannedItem& planned
   // VRML 2.0, 6.2.2: shininess times 128 is the exponent.
   const float exponent = std::max(1.0F, 128.0F * look.shininess);
   glUniform4f(program.specular, look.specular.x(), look.specular.y(), look.specular.z(), exponent);
+  glUniform1f(program.metal, look.metal);
   glUniform3fv(program.emission, 1, look.emission.data());
   glUniform1f(program.ambient, look.ambient);
   lights_.set_groups(program, planned.item->object);
@@ -61,7 +62,14 @@ void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& pla
   set_matrix(program.clip_from_buffer, Matrix4(clip_shift_ * planned.clip_from_buffer));
   set_look(program, planned);
   if (surface_kind(*planned.item).textured) bind_picture(buffers_, program, *planned.item);
+  // Where one side is drawn at a time, there is nothing to add.
+  const bool hides_backs = !planned.item->material->double_sided && glIsEnabled(GL_CULL_FACE) == GL_FALSE;
+  if (hides_backs) {
+    glCullFace(GL_BACK);
+    glEnable(GL_CULL_FACE);
+  }
   buffers_.view(planned.item->shape, planned.level).draw();
+  if (hides_backs) glDisable(GL_CULL_FACE);
 }
 
 base::Result<void> ScenePass::opaque(std::span<const PlannedItem> items) {
@@ -98,6 +106,7 @@ base::Result<void> ScenePass::blended(std::span<const PlannedItem> items) {
       continue;
     }
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+      if (hidden == GL_FRONT && !planned.item->material->double_sided) continue;
       glCullFace(hidden);
       if (done) done = opaque({&planned, 1});
     }

@@ -116,7 +116,7 @@ SurfaceKind surface_kind(const RenderItem& item) {
   return {.textured = textured,
           .coloured = !item.shape->colours.empty() && !(textured && look.picture_replaces_colour),
           .cut_out = textured && look.opacity == PictureOpacity::CutOut,
-          .shiny = look.specular.maxCoeff() > 0.0F && !look.unlit,
+          .shiny = (look.specular.maxCoeff() > 0.0F || look.metal > 0.0F) && !look.unlit,
           .blended = is_blended(item),
           .unlit = look.unlit};
 }

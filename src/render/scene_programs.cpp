@@ -26,6 +26,7 @@ void find_slots(SceneProgram& it) {
   it.direction_from_buffer = slot("direction_from_buffer");
   it.diffuse = slot("diffuse");
   it.specular = slot("specular");
+  it.metal = slot("metal");
   it.emission = slot("emission");
   it.ambient = slot("ambient");
   it.picture_frame = slot("picture_frame");

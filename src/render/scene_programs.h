@@ -12,7 +12,7 @@ namespace icome::render {
 struct SceneProgram {
   GlObject program;
   int clip_from_buffer = -1, camera_from_buffer = -1, direction_from_buffer = -1;
-  int diffuse = -1, specular = -1, emission = -1, ambient = -1;
+  int diffuse = -1, specular = -1, metal = -1, emission = -1, ambient = -1;
   int picture_frame = -1, cutoff = -1, sun_reaches = -1;
   int set_up_for = -1;  ///< the pass whose lights it knows
 };

@@ -115,6 +115,7 @@ in vec3 own_colour;
 #endif
 uniform vec4 diffuse;
 uniform vec4 specular;
+uniform float metal;
 uniform vec3 emission;
 uniform float ambient;
 #ifdef CUT_OUT
@@ -143,6 +144,8 @@ out vec4 result;
 
 vec3 n;
 vec3 view;  // to the eye
+vec3 shine;         // the colour of highlights
+float there = 1.0;  // how much of the surface a picture leaves
 
 // What reaches the eye of a light from that direction. Highlights cost as much as all else together: only
 // what has them is drawn with them.
@@ -153,14 +156,14 @@ vec3 answer(vec3 to_light, vec3 light, vec3 body, float gloss) {
   float along = max(dot(n, normalize(view + to_light)), 0.0);
 #endif
 #ifdef SHINY
-  answered += (facing > 0.0 ? pow(along, specular.a) : 0.0) * specular.rgb;
+  answered += (facing > 0.0 ? pow(along, specular.a) : 0.0) * there * shine;
 #endif
 #ifdef GLOSS
   float sheen = along * along;
   sheen *= sheen;
   sheen *= sheen;
   float narrower = sheen * sheen;
-  answered += gloss * sheen * narrower * narrower;  // to the power of 40
+  answered += there * gloss * sheen * narrower * narrower;  // to the power of 40
 #endif
   return light * answered;
 }
@@ -171,13 +174,20 @@ void main() {
   if (own_colour.r > -0.5) own.rgb = own_colour;
 #endif
 #ifdef TEXTURED
-  own *= texture(picture, place);
+  vec4 texel = texture(picture, place);
+  own *= texel;
 #endif
 #ifdef CUT_OUT
   if (own.a < cutoff * diffuse.a) discard;
   own.a = diffuse.a;
 #endif
+#ifdef SHINY
+  shine = specular.rgb + metal * own.rgb;
+#endif
 #ifdef BLENDED
+#if defined(TEXTURED) && !defined(CUT_OUT)
+  there = texel.a;
+#endif
   vec3 body = own.rgb * own.a;
   vec3 radiance = emission * own.a;
 #else

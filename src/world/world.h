@@ -75,7 +75,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::ByPicture;
   float alpha_cutoff = 0.5F;            // of AlphaMode::Mask, in [0, 1]
   bool unlit = false;                   // shows its own colour, whatever the light
-  bool double_sided = true;             // for other programs: here backs are seen, too
+  bool double_sided = true;             // else backs are not seen
   std::optional<float> metallic = {};   // in [0, 1]; holds while the specular colour is what follows from it
   std::optional<float> roughness = {};  // in [0, 1]; holds while the shininess is what follows from it
   std::uint32_t users = 0;              // objects that have it; kept by the world

@@ -22,8 +22,8 @@ class EditTest(ProgramTest):
         script = self.script(SEAT)
         out = self.folder / "stool.wrl"
         done = json.loads(self.succeeds("edit", "new", "--apply", script, "--out", out, "--json").stdout)
-        self.assertEqual(list(done), ["in", "out", "operations", "errors", "objects", "triangles", "bytes",
-                                      "warnings", "seconds"])
+        self.assertEqual(list(done), ["in", "out", "operations", "errors", "notes", "objects", "triangles",
+                                      "bytes", "warnings", "seconds"])
         self.assertEqual([done[it] for it in ("in", "operations", "errors", "objects")], ["new", 1, [], 1])
         self.assertEqual(done["bytes"], out.stat().st_size)
         bounds = self.info(out)["bounds"]
@@ -48,6 +48,22 @@ class EditTest(ProgramTest):
             bounds = self.info(out)["bounds"]
             self.assertAlmostEqual(bounds["min"][1], 0.425, delta=1e-5)
             self.assertAlmostEqual(bounds["max"][1], 0.475 + 0.2, delta=1e-5)
+
+    def test_what_operations_came_to_is_told(self):
+        ball = {"op": "create", "shape": "sphere", "radius": 0.1, "at": [0, 3, 0], "name": "ball"}
+        land = {"op": "land", "objects": "ball"}
+        out = self.folder / "rests.wrl"
+        script = self.script(SEAT, ball, land)
+        text = self.succeeds("edit", "new", "--apply", script, "--out", out).stdout
+        self.assertIn(f"{script}:3: land: on seat", text)
+        notes = json.loads(self.succeeds("edit", "new", "--apply", script, "--out", out, "--json").stdout)["notes"]
+        self.assertEqual(notes, [{"line": 3, "op": "land", "text": "on seat"}])
+
+    def test_a_result_of_nothing_is_told(self):
+        script = self.script(SEAT, {"op": "delete", "objects": "seat"})
+        for ending in ("glb", "stl"):
+            text = self.succeeds("edit", "new", "--apply", script, "--out", self.folder / f"none.{ending}").stdout
+            self.assertIn("no object in it has triangles", text)
 
     def test_a_picture_lies_beside_the_script_and_goes_into_the_design(self):
         wood = (pathlib.Path(__file__).resolve().parents[2] / "examples" / "wood.png").read_bytes()

@@ -1,4 +1,6 @@
 """What a user gets wrong is said in one sentence, with an exit code, and nothing is left half written."""
+import base64
+import json
 import unittest
 
 from icome_program import ProgramTest, run
@@ -67,6 +69,24 @@ class FileTest(ProgramTest):
                            ("t,x,y,z\n0,0,0,nan\n", 2), ("t,x,y,z\n0,0,a,1\n", 2), ("t,x,y,z\n", 1)):
             file = self.write("path.csv", text)
             self.fails("touch", "sphere:0.05", "--path", file, code=1, saying=f"path.csv:{line}:")
+
+    def lines_alone(self, **asset):
+        it = {"asset": {"version": "2.0", **asset}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+              "materials": [{"normalTexture": {"index": 0}}], "textures": [{"source": 0}],
+              "images": [{"uri": "data:image/png;base64,iVBORw0KGgo="}],
+              "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 1, "material": 0}]}],
+              "buffers": [{"byteLength": 24, "uri": "data:application/octet-stream;base64," +
+                           base64.b64encode(bytes(24)).decode()}],
+              "bufferViews": [{"buffer": 0, "byteLength": 24}],
+              "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"}]}
+        return self.write("lines.gltf", json.dumps(it))
+
+    def test_why_there_is_nothing_to_touch_is_said(self):
+        self.fails("touch", self.lines_alone(), code=1, saying="1 primitive of points or lines is left out")
+
+    def test_later_versions_of_gltf_are_refused(self):
+        self.fails("info", self.lines_alone(minVersion="2.9"), code=1, saying="it needs version 2.9")
+        self.succeeds("info", self.lines_alone(minVersion="2.0"))
 
     def test_unknown_devices_and_units_list_what_there_is(self):
         self.fails("touch", "sphere:0.05", "--device", "Joystick", code=1, saying="omega.x")

@@ -92,6 +92,17 @@ class GltfKeptTest(ProgramTest):
                                      "opaque": ("OPAQUE", 0.5)})
             self.assertEqual(told, "")
 
+    def test_of_maps_of_metal_and_roughness_the_means_count(self):
+        """Blue is metal, green roughness, times the factors (glTF 2.0, 3.9.2)."""
+        texel = {"a": (0, 255, 0), "b": (0, 0, 51)}.get
+        file = self.file_of([{"name": "worn", "pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0},
+                                                                       "roughnessFactor": 0.8}}],
+                            picture=Picture(["ab", "ab"], texel))
+        materials, told = self.kept(file)
+        found = materials["worn"]["pbrMetallicRoughness"]
+        self.near([found["metallicFactor"], found["roughnessFactor"]], [0.1, 0.4])
+        self.assertIn("means count", told)
+
     def test_what_is_lost_is_told(self):
         file = self.file_of([{"name": "rich", "normalTexture": {"index": 0}, "occlusionTexture": {"index": 0},
                               "emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1],

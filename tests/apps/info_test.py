@@ -47,6 +47,7 @@ class InfoTest(ProgramTest):
         self.fails("info", self.write("noise.ply", "ply\n???\n"), code=1, saying="noise.ply:2")
         self.fails("info", code=2, saying="FILE")
         self.fails("info", "a.obj", "--unit", "furlong", code=2, saying="--unit")
+        self.fails("info", self.write("a.off", "OFF\n"), "--objects", "-1", code=2, saying="--objects")
 
     def test_no_shared_mesh_ends_the_program_otherwise(self):
         if not SHARED_MESHES.exists():

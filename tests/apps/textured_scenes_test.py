@@ -195,6 +195,23 @@ class TexturedScenesTest(ProgramTest):
                 with self.subTest(mode=mode, cutoff=cutoff, file=it.name):
                     self.looks_right(it, camera, things, self.exact)
 
+    def test_metal_shines_in_the_colours_of_its_picture(self):
+        """metallicFactor is 1 where a file says nothing of it."""
+        camera = Camera((0.0, 0.0, 1.6))
+
+        def without_white(light, expected):
+            return same_hue(light, expected) and min(light) < 0.35 * max(light)
+        for metal in ({}, {"metallicFactor": 1, "roughnessFactor": 0.5}, {"metallicFactor": 0}):
+            file = self.gltf(camera, [(0.5, 0, QUAD, [1, 1, 1, 1], {}, {}, [self.ONCE])])
+            it = json.loads(file.read_text())
+            del it["materials"][0]["extensions"]
+            it["materials"][0]["pbrMetallicRoughness"].update(metal)
+            file.write_text(json.dumps(it))
+            things = [Thing(hit_square(0.5), half_square(0.5), texture(QUAD))]
+            for each in (file, self.converted(file, "glb")):
+                with self.subTest(metal=metal, file=each.name):
+                    self.looks_right(each, camera, things, without_white)
+
     # ---- OBJ: 12 --------------------------------------------------------------------------------------------
 
     def test_12_mtl_multiplies_and_moves(self):

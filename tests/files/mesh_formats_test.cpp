@@ -90,6 +90,36 @@ TEST(StlParser, SizeDecidesWhetherItIsBinary) {
   EXPECT_EQ(parse_stl(sample_ascii_stl(), "f")->format, "ascii STL");
 }
 
+TEST(PlyParser, WhatIsLeftOutIsToldByName) {
+  const auto parsed = parse_ply(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "property uchar red\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nelement none 0\n"
+      "property int nothing\nend_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2 9\n0 1\n",
+      "f");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(parsed->notes,
+            (std::vector<std::string>{"properties of vertices left out: s, t",
+                                      "properties of faces left out: red", "elements left out: edge"}));
+}
+
+TEST(OffParser, WhatIsLeftOutIsTold) {
+  const auto told = [](std::string_view text) { return parse_off(text, "f")->notes; };
+  EXPECT_TRUE(told("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 # a comment\n").empty());
+  EXPECT_EQ(told("STCOFF\n3 1 0\n0 0 0 1 1 1 1 0 0\n1 0 0 1 1 1 1 0 0\n0 1 0 1 1 1 1 0 0\n3 0 1 2 255 0 0\n"),
+            (std::vector<std::string>{"texture coordinates of vertices left out",
+                                      "colours of vertices left out", "the colour of 1 face left out"}));
+}
+
+TEST(StlParser, TrianglesBeyondTheCountAreTold) {
+  std::string bytes = sample_binary_stl();
+  bytes[80] = 0;
+  const auto parsed = parse_stl(bytes, "f");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  ASSERT_EQ(parsed->notes.size(), 1U);
+  EXPECT_EQ(parsed->notes[0], "the bytes of 4 more triangles than the 0 that it declares left out");
+}
+
 TEST(StlParser, TruncatedFilesAreRefused) {
   const std::string binary = sample_binary_stl();
   EXPECT_EQ(error_of(parse_stl, binary.substr(0, binary.size() - 1)),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -190,6 +191,127 @@ TEST(ObjDesign, ObjectsOfOneNameStayApartAndMirrorsKeepTheirOutside) {
   const auto& leg =
       dynamic_cast<const MeshGeometry&>(*back.find(back.find(back.roots()[0])->geometry)->shape);
   EXPECT_NEAR(geometry::signed_volume(leg.mesh), 2.0, 1e-12);
+}
+
+std::string saved_as_obj(const World& world) {
+  const ScratchFolder folder;
+  if (!write_design(folder.path() / "a.obj", world)) throw std::runtime_error("not written");
+  return text_in(folder.path() / "a.obj");
+}
+
+const MeshGeometry& obj_mesh(const World& world, std::size_t root = 0) {
+  return dynamic_cast<const MeshGeometry&>(*world.find(world.find(world.roots().at(root))->geometry)->shape);
+}
+
+World read_obj(const std::string& text) {
+  const ScratchFolder folder;
+  auto design = read_design(folder.write("a.obj", text));
+  if (!design) throw std::runtime_error(design.error().message);
+  return std::move(design->world);
+}
+
+TEST(ObjDesign, NormalsDoNotDriftFromSaveToSave) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  base::Random random(5);
+  for (int i = 1; i <= 300; ++i) {
+    const Vector3 normal = random.direction();
+    text += fmt::format("vn {:.4f} {:.4f} {:.4f}\nf 1//{} 2//{} 3//{}\n", normal.x(), normal.y(), normal.z(),
+                        i, i, i);
+  }
+  const std::string first = saved_as_obj(read_obj(text));
+  EXPECT_EQ(saved_as_obj(read_obj(first)), first);
+}
+
+/// A roof of two squares that meet at a right angle along the z axis.
+std::string roof(const char* first, const char* second) {
+  return fmt::format("v 0 0 0\nv 0 0 1\nv 1 -1 1\nv 1 -1 0\nv -1 -1 1\nv -1 -1 0\n{}f 1 2 3 4\n{}f 1 6 5 2\n",
+                     first, second);
+}
+
+TEST(ObjDesign, SmoothingGroupsSayWhereEdgesAre) {
+  EXPECT_TRUE(obj_mesh(read_obj(roof("", ""))).normals.empty()) << "nothing said: smooth";
+  EXPECT_TRUE(obj_mesh(read_obj(roof("s 1\n", ""))).normals.empty()) << "all of one group: smooth";
+  const Vector3 right = Vector3(1, 1, 0).normalized(), left = Vector3(-1, 1, 0).normalized();
+  for (const auto& [one, other] : {std::pair("s off\n", ""),
+                                   {"s 0\n", "s 0\n"},
+                                   {"s 1\n", "s 2\n"},
+                                   {"s 1\n", "s 0\n"},
+                                   {"", "s 3\n"}}) {
+    const World world = read_obj(roof(one, other));
+    const MeshGeometry& mesh = obj_mesh(world);
+    ASSERT_EQ(mesh.normals.size(), 4U) << one << other;
+    for (std::size_t t = 0; t < 4; ++t) {
+      for (const Vector3& normal : mesh.normals[t])
+        EXPECT_LT((normal - (t < 2 ? right : left)).norm(), 1e-12);
+    }
+  }
+  // A group that goes on behind another: smooth over the ridge, flat elsewhere.
+  const World world = read_obj(roof("s 1\n", "s 0\nf 3 4 6\ns 1\n"));
+  const MeshGeometry& mesh = obj_mesh(world);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (mesh.mesh.corner(0, int(k)).x() == 0.0) {
+      EXPECT_LT((mesh.normals[0][k] - Vector3::UnitY()).norm(), 1e-12);
+    } else {
+      EXPECT_LT((mesh.normals[0][k] - right).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(ObjDesign, ExactShapesHaveTheirNormalsAndColours) {
+  World world;
+  IdSource ids;
+  add_object(world, ids, "ball", std::make_shared<PrimitiveGeometry>(geometry::Sphere{0.1}));
+  geometry::CsgTree tree;
+  tree.add_leaf(geometry::Primitive(geometry::Box{{0.1, 0.1, 0.1}}), at(0.0, 0.0, 0.0),
+                geometry::CsgTree::Colour{1.0F, 0.5F, 0.0F, 1.0F});
+  add_object(world, ids, "block", std::make_shared<CsgGeometry>(tree));
+  const World back = read_obj(saved_as_obj(world));
+  const MeshGeometry& ball = obj_mesh(back);
+  ASSERT_EQ(ball.normals.size(), ball.mesh.triangles.size());
+  for (std::size_t t = 0; t < ball.normals.size(); ++t)
+    EXPECT_LT((ball.normals[t][0] - ball.mesh.corner(t, 0).normalized()).norm(), 1e-6);
+  const MeshGeometry& block = obj_mesh(back, 1);
+  ASSERT_FALSE(block.colours.empty());
+  EXPECT_EQ(block.colours[0][0], (Colour{1.0F, 0.5F, 0.0F}));
+  EXPECT_FALSE(block.normals.empty()) << "its edges are sharp";
+}
+
+TEST(ObjDesign, ColoursThatAPictureReplacesAreLeftOutAndTold) {
+  for (const bool tints : {false, true}) {
+    World world;
+    IdSource ids;
+    auto shape = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
+    shape->colours = {{Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 1}}};
+    shape->texture_coordinates = {{base::Vector2(0, 0), base::Vector2(1, 0), base::Vector2(0, 1)}};
+    const auto texture = ids.next<TextureId>();
+    applied(world, CreateTexture{texture, {"p.png", "image/png", std::make_shared<std::string>(kPicture)}});
+    Material look{.name = "pictured"};
+    look.texture = texture;
+    look.tints = tints;
+    const auto material = ids.next<MaterialId>();
+    applied(world, CreateMaterial{material, look});
+    applied(world, ChooseMaterial{add_object(world, ids, "one", shape), material});
+    const ScratchFolder folder;
+    const auto told = write_design(folder.path() / "a.obj", world);
+    ASSERT_TRUE(told);
+    EXPECT_EQ(obj_mesh(read_design(folder.path() / "a.obj")->world).colours.empty(), !tints);
+    EXPECT_EQ(
+        std::any_of(told->begin(), told->end(),
+                    [](const Remark& it) { return it.text.find("beneath pictures") != std::string::npos; }),
+        !tints);
+  }
+}
+
+TEST(MtlLibrary, WhatIsLeftOutIsToldByName) {
+  std::vector<std::string> notes;
+  parse_mtl("newmtl a\nPm 0.5\nPr 0\naniso 1\nmap_Kd -mm 0 1 -imfchan r -blendu on a.png\nnewmtl b\nPm 1\n",
+            notes);
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0], "Left out of materials: Pm, aniso.");
+  EXPECT_EQ(notes[1], "Left out of pictures: the options -imfchan.");
+  notes.clear();
+  EXPECT_EQ(parse_mtl("newmtl a\nmap_Kd -mm 0.1 2 a.png\n", notes).at(0).picture, "a.png");
+  ASSERT_EQ(notes.size(), 1U);
 }
 
 TEST(ObjDesign, DamagedFilesAreReadOrRefused) {

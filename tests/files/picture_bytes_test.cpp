@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <turbojpeg.h>
 
+#include <array>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace icome::files {
@@ -42,6 +46,29 @@ TEST(PictureBytes, AreRefusedWhereTheyMakeNoSense) {
   EXPECT_FALSE(png_of({2, 2, 1, "123"}).has_value());
   EXPECT_FALSE(png_of({0x10000, 0x10000, 4, ""}).has_value());
   EXPECT_FALSE(png_of({0xffffffff, 0xffffffff, 4, "abcd"}).has_value());
+}
+
+void expect_mean(const std::string& bytes, const std::array<double, 3>& mean) {
+  const auto found = picture_mean(bytes);
+  ASSERT_TRUE(found.has_value());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR((*found)[i], mean[i], 0.01) << i;
+}
+
+TEST(PictureBytes, HaveAMean) {
+  expect_mean(*png_of({2, 1, 3, std::string("\xff\x80\x00\x00\x80\x33", 6)}), {0.5, 0.5, 0.1});
+  std::vector<unsigned char> pixels;
+  for (int i = 0; i < 40 * 24; ++i) {
+    for (const int part : {i % 40 < 20 ? 255 : 0, 100, 50}) pixels.push_back(static_cast<unsigned char>(part));
+  }
+  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitCompress(), tjDestroy);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  ASSERT_EQ(tjCompress2(jpeg.get(), pixels.data(), 40, 0, 24, TJPF_RGB, &bytes, &size, TJSAMP_444, 95, 0), 0);
+  const std::string file(reinterpret_cast<const char*>(bytes), size);
+  tjFree(bytes);
+  expect_mean(file, {0.5, 100.0 / 255.0, 50.0 / 255.0});
+  EXPECT_FALSE(picture_mean(file.substr(0, 200)).has_value());
+  EXPECT_FALSE(picture_mean("GIF89a").has_value());
 }
 
 TEST(PictureBytes, AreKnownByTheirHead) {

@@ -1,5 +1,6 @@
 #include "files/vrml_reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -145,6 +146,39 @@ TEST(VrmlReader, TellsWhatInlinedFilesHold) {
   EXPECT_TRUE(at("part.wrl", 3, "A Fog is left out."));
   EXPECT_TRUE(at("bare.wrl", 2, "A Sound is left out."));
   EXPECT_EQ(design.remarks.size(), 3U);
+}
+
+/// ISO/IEC 14772-1, 6.47: from the text's origin on, once for each height of a letter.
+TEST(VrmlReader, PicturesLieOnTextByTheHeightOfItsLetters) {
+  const ScratchFolder folder;
+  for (const auto& [style, height] : {std::pair("", 1.0), {"fontStyle FontStyle { size 2 }", 2.0}}) {
+    const LoadedDesign design = read_good(folder.write(
+        "a.wrl",
+        fmt::format("{}Shape {{ geometry Text {{ string [ \"Ab\", \"c\" ] {} }} }}\n", kVrmlHead, style)));
+    ASSERT_EQ(design.world.geometries().size(), 1U);
+    const auto& letters =
+        dynamic_cast<const world::MeshGeometry&>(*design.world.geometries().begin()->second.shape);
+    ASSERT_EQ(letters.texture_coordinates.size(), letters.mesh.triangles.size());
+    for (std::size_t t = 0; t < letters.texture_coordinates.size(); ++t) {
+      for (int k = 0; k < 3; ++k)
+        EXPECT_LT(
+            (height * letters.texture_coordinates[t][std::size_t(k)] - letters.mesh.corner(t, k).head<2>())
+                .norm(),
+            1e-5);
+    }
+  }
+}
+
+TEST(VrmlReader, PixelsOfTooManyRowsAreToldWithoutOtherNumbers) {
+  const ScratchFolder folder;
+  const LoadedDesign design = read_good(folder.write(
+      "a.wrl", kVrmlHead + kRedBall +
+                   "Shape { geometry Box {} appearance Appearance { texture PixelTexture { image 40000 "
+                   "2 3 0xff0000 } } }\n"));
+  std::string told;
+  for (const Remark& remark : design.remarks) told += remark.text + "\n";
+  EXPECT_NE(told.find("pixels are left out"), std::string::npos) << told;
+  EXPECT_EQ(told.find("-25536"), std::string::npos) << told;
 }
 
 TEST(VrmlReader, KeepsScriptsOfTheFile) {

@@ -2,6 +2,7 @@
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/VRMLnodes/SoVRMLElevationGrid.h>
 #include <Inventor/VRMLnodes/SoVRMLExtrusion.h>
+#include <Inventor/VRMLnodes/SoVRMLFontStyle.h>
 #include <Inventor/VRMLnodes/SoVRMLText.h>
 #include <Inventor/actions/SoCallbackAction.h>
 
@@ -48,18 +49,32 @@ ExtrusionFields fields_of(const SoVRMLExtrusion& node) {
   return fields;
 }
 
-/// Coin's triangles of a Text, put together.
-void take_triangle(void* closure, SoCallbackAction*, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b,
-                   const SoPrimitiveVertex* c) {
-  auto& maker = *static_cast<FaceMaker*>(closure);
-  std::array<FaceMaker::Corner, 3> corners{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const SoPrimitiveVertex& vertex = *std::array{a, b, c}[i];
-    const SbVec3f& point = vertex.getPoint();
-    corners[i] = {maker.vertex({point[0], point[1], point[2]}),
-                  maker.texture(vertex.getTextureCoords()[0], vertex.getTextureCoords()[1])};
+/// Coin's triangles of a Text, put together. Coin says of all their corners that they lie at one place of a
+/// picture; VRML 2.0 (6.47) lays it from the text's origin on, once for each height of a letter.
+struct TextFaces {
+  float height = 1.0F;
+  FaceMaker maker = {};
+
+  static void take_triangle(void* closure, SoCallbackAction*, const SoPrimitiveVertex* a,
+                            const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
+    auto& it = *static_cast<TextFaces*>(closure);
+    std::array<FaceMaker::Corner, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SbVec3f& point = std::array{a, b, c}[i]->getPoint();
+      corners[i] = {it.maker.vertex({point[0], point[1], point[2]}),
+                    it.maker.texture(point[0] / it.height, point[1] / it.height)};
+    }
+    it.maker.face(corners);
   }
-  maker.face(corners);
+};
+
+/// Of a Text's letters; that of one without a FontStyle where it has none that is of use.
+float letter_height(const SoNode* style) {
+  const SoVRMLFontStyle* font = style && style->isOfType(SoVRMLFontStyle::getClassTypeId())
+                                    ? static_cast<const SoVRMLFontStyle*>(style)
+                                    : nullptr;
+  const float size = font ? font->size.getValue() : 1.0F;
+  return std::isfinite(size) && size > 0.0F ? size : 1.0F;
 }
 
 bool is_ascii(const std::string& text) {
@@ -129,12 +144,12 @@ std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLText& node, Piec
   }
   if (letters > kLetterLimit) return leave_out(it, "it has too many letters");
   if (has_others) note(it, "only the letters of ASCII are shown");
-  FaceMaker maker;
+  TextFaces faces{letter_height(wrapping_.unwrap(node.fontStyle, *it.file).node)};
   SoCallbackAction action;
-  action.addTriangleCallback(SoVRMLText::getClassTypeId(), take_triangle, &maker);
+  action.addTriangleCallback(SoVRMLText::getClassTypeId(), TextFaces::take_triangle, &faces);
   action.apply(it.node);
   parts.solid = false;
-  const MadeFaces made = maker.take();
+  const MadeFaces made = faces.maker.take();
   if (made.polygons.empty())
     return letters > 0 ? leave_out(it, "it has no letters to be shown") : std::nullopt;
   return add_made(it, made, parts);

@@ -1,4 +1,4 @@
-#include "render/csg_colours.h"
+#include "world/csg_colours.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,23 +9,20 @@
 #include "geometry/box_tree.h"
 #include "geometry/hilbert.h"
 
-namespace icome::render {
+namespace icome::world {
 namespace {
 
-using base::Bounds;
-using base::Vector3;
 using geometry::CsgLeaf;
 using geometry::CsgTree;
-using world::MeshGeometry;
 
 /// An operand where it stands in the tree.
 struct OwnedLeaf {
   CsgLeaf leaf;
   std::size_t rank;  // from left to right
-  world::Colour colour;
+  Colour colour;
 };
 
-world::Colour colour_or_none(const std::optional<CsgTree::Colour>& own) {
+Colour colour_or_none(const std::optional<CsgTree::Colour>& own) {
   if (!own) return kMaterialsColour;
   return {(*own)[0], (*own)[1], (*own)[2]};
 }
@@ -74,7 +71,7 @@ class SurfaceOwners {
   }
 
   /// Within `reach` of the place; where surfaces lie within a thousandth of that, the first leaf has it.
-  world::Colour colour_at(const Vector3& place, double reach) const {
+  Colour colour_at(const Vector3& place, double reach) const {
     const OwnedLeaf* nearest = nullptr;
     double distance = reach;
     const double same = 1e-3 * reach;
@@ -126,4 +123,4 @@ std::shared_ptr<const MeshGeometry> coloured_by_operands(const CsgTree& tree,
   return coloured;
 }
 
-}  // namespace icome::render
+}  // namespace icome::world

@@ -1,11 +1,10 @@
-#include "render/csg_colours.h"
+#include "world/csg_colours.h"
 
 #include <gtest/gtest.h>
 
-#include "render/csg_scenes.h"
-#include "world/solid_geometry.h"
+#include "world/sample_world.h"
 
-namespace icome::render {
+namespace icome::world {
 namespace {
 
 using geometry::Box;
@@ -14,8 +13,8 @@ using geometry::CsgTree;
 using geometry::Primitive;
 using geometry::Sphere;
 
-std::shared_ptr<const world::MeshGeometry> coloured_triangles(const CsgTree& tree) {
-  const auto surface = world::CsgGeometry(tree).triangles(0.05);
+std::shared_ptr<const MeshGeometry> coloured_triangles(const CsgTree& tree) {
+  const auto surface = CsgGeometry(tree).triangles(0.05);
   EXPECT_TRUE(surface.has_value());
   return coloured_by_operands(tree, *surface);
 }
@@ -24,18 +23,18 @@ TEST(ColouredByOperands, EachTriangleHasTheColourOfTheSurfaceThatItIsOn) {
   CsgTree tree;
   const auto block = tree.add_leaf(Primitive(Box{{1.0, 1.0, 1.0}}));
   const auto dent =
-      tree.add_leaf(Primitive(Sphere{0.7}), moved_by(0.0, 0.0, 1.0), CsgTree::Colour{1.0F, 0.0F, 0.0F, 1.0F});
+      tree.add_leaf(Primitive(Sphere{0.7}), at(0.0, 0.0, 1.0), CsgTree::Colour{1.0F, 0.0F, 0.0F, 1.0F});
   tree.add(CsgOperator::Difference, block, dent);
   const auto made = coloured_triangles(tree);
   ASSERT_EQ(made->colours.size(), made->mesh.triangles.size());
   std::size_t in_dent = 0;
   for (std::size_t t = 0; t < made->mesh.triangles.size(); ++t) {
-    const base::Vector3 middle =
+    const Vector3 middle =
         (made->mesh.corner(t, 0) + made->mesh.corner(t, 1) + made->mesh.corner(t, 2)) / 3.0;
-    const double off_ball = std::abs((middle - base::Vector3::UnitZ()).norm() - 0.7);
+    const double off_ball = std::abs((middle - Vector3::UnitZ()).norm() - 0.7);
     const double off_block = std::abs(middle.cwiseAbs().maxCoeff() - 1.0);
     if (std::abs(off_ball - off_block) < 0.01) continue;  // along the rim either will do
-    const world::Colour red = {1.0F, 0.0F, 0.0F};
+    const Colour red = {1.0F, 0.0F, 0.0F};
     EXPECT_EQ(made->colours[t][0], off_ball < off_block ? red : kMaterialsColour) << middle.transpose();
     in_dent += off_ball < off_block;
   }
@@ -45,23 +44,24 @@ TEST(ColouredByOperands, EachTriangleHasTheColourOfTheSurfaceThatItIsOn) {
 TEST(ColouredByOperands, TheFirstOfSurfacesThatCoincideCounts) {
   CsgTree tree;
   const auto first =
-      tree.add_leaf(Primitive(Sphere{1.0}), moved_by(0.0, 0.0, 0.0), CsgTree::Colour{0.0F, 0.0F, 1.0F, 1.0F});
+      tree.add_leaf(Primitive(Sphere{1.0}), at(0.0, 0.0, 0.0), CsgTree::Colour{0.0F, 0.0F, 1.0F, 1.0F});
   const auto second =
-      tree.add_leaf(Primitive(Sphere{1.0}), moved_by(0.0, 0.0, 0.0), CsgTree::Colour{0.0F, 1.0F, 0.0F, 1.0F});
+      tree.add_leaf(Primitive(Sphere{1.0}), at(0.0, 0.0, 0.0), CsgTree::Colour{0.0F, 1.0F, 0.0F, 1.0F});
   tree.add(CsgOperator::Union, first, second);
-  const world::Colour blue = {0.0F, 0.0F, 1.0F};
+  const Colour blue = {0.0F, 0.0F, 1.0F};
   const auto coloured = coloured_triangles(tree);  // the loop alone would not keep it
   for (const auto& corners : coloured->colours) EXPECT_EQ(corners[0], blue);
 }
 
 TEST(ColouredByOperands, WithoutColoursTrianglesStayWhatTheyAre) {
-  const CsgTree tree = figure_5_6(1.0);
-  const auto surface = world::CsgGeometry(tree).triangles(0.1);
+  CsgTree tree;
+  tree.add_leaf(Primitive(Sphere{1.0}));
+  const auto surface = CsgGeometry(tree).triangles(0.1);
   ASSERT_TRUE(surface.has_value());
   EXPECT_EQ(coloured_by_operands(tree, *surface), *surface);
-  const auto nothing = std::make_shared<const world::MeshGeometry>(geometry::TriangleMesh{});
+  const auto nothing = std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
   EXPECT_EQ(coloured_by_operands(CsgTree(), nothing), nothing);
 }
 
 }  // namespace
-}  // namespace icome::render
+}  // namespace icome::world
