@@ -110,4 +110,23 @@ std::optional<Vector3> DragPlane::moved_along(const Vector3& line, const Ray& ra
   return line.dot(ray.origin + t * ray.direction - start_) * line;
 }
 
+/// Unit, from the centre to where the ray meets the plane.
+std::optional<Vector3> DragTurn::way_to(const Ray& ray) const {
+  constexpr double kFlat = 1e-3;  // sine: rays that lie flatter meet the plane anywhere
+  const double climb = axis_.dot(ray.direction);
+  if (!(std::abs(climb) > kFlat)) return std::nullopt;
+  const double distance = axis_.dot(centre_ - ray.origin) / climb;
+  if (!(distance > 0.0)) return std::nullopt;
+  const Vector3 way = ray.origin + distance * ray.direction - centre_;
+  const double length = way.norm();
+  if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+  return Vector3(way / length);
+}
+
+std::optional<double> DragTurn::turned(const Ray& ray) const {
+  const auto to = way_to(ray);
+  if (!from_ || !to) return std::nullopt;
+  return std::atan2(axis_.dot(from_->cross(*to)), from_->dot(*to));
+}
+
 }  // namespace icome::interaction

@@ -76,4 +76,22 @@ class DragPlane {
   std::optional<Vector3> along_;
 };
 
+/// Turns something that was grasped about an axis so that the place where it was grasped goes round with the
+/// mouse.
+class DragTurn {
+ public:
+  /// About the unit axis through the centre (m), from where the ray met the plane across it.
+  DragTurn(const Vector3& centre, const Vector3& axis, const Ray& grasped)
+      : centre_(centre), axis_(axis), from_(way_to(grasped)) {}
+  /// How far it has turned, right-handed, rad in (-pi, pi]; nothing where a ray does not meet that plane
+  /// before the eye, or in the centre.
+  std::optional<double> turned(const Ray& ray) const;
+
+ private:
+  std::optional<Vector3> way_to(const Ray& ray) const;
+
+  Vector3 centre_, axis_;
+  std::optional<Vector3> from_;  // unit, from the centre
+};
+
 }  // namespace icome::interaction

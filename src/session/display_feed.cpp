@@ -18,7 +18,8 @@ constexpr double kSeenMove = 0.5;              // pixels
 constexpr double kArrowPerNewton = 12.0;
 constexpr double kLongestArrow = 60.0;
 constexpr double kArrowRadius = 0.35;
-constexpr double kHeldTip = 0.7;  // the tip while a surface holds the contact point back
+const base::Vector2 kBesideTip(14.0, -14.0);  // pixels, of a sign
+constexpr double kHeldTip = 0.7;              // the tip while a surface holds the contact point back
 
 constexpr render::Colour kTipColour{0.16, 0.47, 0.90};
 constexpr render::Colour kContactColour{1.0, 0.62, 0.08};
@@ -117,7 +118,7 @@ bool DisplayFeed::is_shown(const PointerView& pointer) const {
 bool DisplayFeed::has_moved(const PointerView& before, const PointerView& now) const {
   if (is_shown(before) != is_shown(now)) return true;
   if (!is_shown(now)) return false;
-  if (before.touching != now.touching) return true;
+  if (before.touching != now.touching || before.spared != now.spared) return true;
   const double distance = (now.tip - shown_.view.world_from_eye.translation()).norm();
   const double pixel = 2.0 * distance * std::tan(0.5 * shown_.view.field) /
                        (std::min(target_.width, target_.height) / target_.window.width);
@@ -162,6 +163,9 @@ void DisplayFeed::add_markers(render::SceneOverlay& overlay) const {
     const PointerView& pointer = box->newest.read();
     const double radius = shown_.marker_size * (pointer.tip - eye).norm();
     if (!is_shown(pointer) || !(radius > 0.0)) continue;
+    if (pointer.spared && shown_.spared_sign)
+      overlay.panels.push_back(
+          {.picture = shown_.spared_sign, .at = pointer.tip, .anchor = {0.0, 1.0}, .shift = kBesideTip});
     if (!pointer.touching) {
       overlay.balls.push_back({pointer.tip, radius, kTipColour});
       continue;

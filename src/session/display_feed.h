@@ -20,6 +20,8 @@ struct DisplayWish {
   bool pointers = true;         // tips, surface contact points and forces are shown
   /// From the scene to a copy of it that is drawn over it, when there is one.
   std::optional<base::Affine3> miniature = {};
+  /// Written beside a hand whose force is held down, as the motors would become too warm; null: nothing is.
+  std::shared_ptr<const render::Image> spared_sign = nullptr;
   double marker_size = 0.004;  // share of the distance to the eye: radius of the tip's ball
 };
 

@@ -11,6 +11,7 @@
 
 #include "haptics/effects/effect_text.h"
 #include "session/rigid_part.h"
+#include "session/symbol_strokes.h"
 
 namespace icome::session {
 namespace {
@@ -26,48 +27,8 @@ constexpr double kFaint = 0.35;      // of the colour of what is off
 constexpr double kSmall = 0.008;     // m, of what has no size of its own
 constexpr double kLong = 0.08;       // m, what is seen of a line or plane without an end
 constexpr double kPerNewton = 0.02;  // m, of an arrow
-constexpr double kThin = 0.0006;     // m, radius of an arrow's shaft
-constexpr int kAround = 48;          // pieces of a circle
-
-/// Draws in the frame of an effect.
-class Pen {
- public:
-  Pen(const base::Affine3& world_from_effect, const Colour& colour, render::SceneOverlay& overlay)
-      : world_from_effect_(world_from_effect), colour_(colour), overlay_(overlay) {}
-
-  void line(std::vector<Vector3> points) {
-    for (Vector3& point : points) point = world_from_effect_ * point;
-    overlay_.lines.push_back({std::move(points), colour_, 1.5});
-  }
-  void circle(const Vector3& centre, const Vector3& axis, double radius) {
-    const Vector3 first = axis.unitOrthogonal(), second = axis.normalized().cross(first);
-    std::vector<Vector3> points;
-    for (int i = 0; i <= kAround; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / kAround;
-      points.push_back(centre + radius * (std::cos(angle) * first + std::sin(angle) * second));
-    }
-    line(std::move(points));
-  }
-  void sphere(const Vector3& centre, double radius) {
-    for (int axis = 0; axis < 3; ++axis) circle(centre, Vector3::Unit(axis), radius);
-  }
-  void cross(const Vector3& centre, double size) {
-    for (int axis = 0; axis < 3; ++axis)
-      line({centre - size * Vector3::Unit(axis), centre + size * Vector3::Unit(axis)});
-  }
-  void arrow(const Vector3& from, const Vector3& way) {
-    if (!(way.norm() > 4.0 * kThin)) return;
-    overlay_.arrows.push_back({world_from_effect_ * from, world_from_effect_ * (from + way), kThin, colour_});
-  }
-  void ball(const Vector3& centre, double radius) {
-    overlay_.balls.push_back({world_from_effect_ * centre, radius, colour_});
-  }
-
- private:
-  base::Affine3 world_from_effect_;  // a turn, or one of what is mirrored
-  Colour colour_;
-  render::SceneOverlay& overlay_;
-};
+constexpr double kThin = SymbolPen::kThin;
+constexpr int kAround = SymbolPen::kAround;
 
 /// The numbers of a text, three at a time where they are a place or a way.
 class Numbers {
@@ -86,19 +47,19 @@ Vector3 arrow_of(const Vector3& force) {
   return way.norm() > longest ? Vector3(longest * way.normalized()) : way;
 }
 
-void draw_point(const Numbers& n, Pen& pen) {
+void draw_point(const Numbers& n, SymbolPen& pen) {
   pen.cross(n.vector(0), kSmall);
   pen.sphere(n.vector(0), 0.5 * kSmall);
 }
 
-void draw_line(const Numbers& n, Pen& pen) {
+void draw_line(const Numbers& n, SymbolPen& pen) {
   const Vector3 along = n.vector(3).normalized();
   pen.line({n.vector(0) - kLong * along, n.vector(0) + kLong * along});
   for (const double share : {-0.5, 0.0, 0.5})
     pen.circle(n.vector(0) + share * kLong * along, along, 0.5 * kSmall);
 }
 
-void draw_plane(const Numbers& n, Pen& pen) {
+void draw_plane(const Numbers& n, SymbolPen& pen) {
   const Vector3 normal = n.vector(3).normalized(), first = normal.unitOrthogonal();
   const Vector3 second = normal.cross(first), middle = n.vector(0);
   const double half = 0.5 * kLong;
@@ -110,7 +71,7 @@ void draw_plane(const Numbers& n, Pen& pen) {
 }
 
 /// A coil, as of a spoon in honey.
-void draw_viscous(const Numbers& /*n*/, Pen& pen) {
+void draw_viscous(const Numbers& /*n*/, SymbolPen& pen) {
   std::vector<Vector3> coil;
   for (int i = 0; i <= 3 * kAround; ++i) {
     const double share = double(i) / (3 * kAround), angle = 6.0 * std::numbers::pi * share;
@@ -121,7 +82,7 @@ void draw_viscous(const Numbers& /*n*/, Pen& pen) {
 }
 
 /// A block on a table.
-void draw_friction(const Numbers& /*n*/, Pen& pen) {
+void draw_friction(const Numbers& /*n*/, SymbolPen& pen) {
   const auto ring = [&](double y, double half) {
     pen.line({{half, y, half}, {-half, y, half}, {-half, y, -half}, {half, y, -half}, {half, y, half}});
   };
@@ -133,13 +94,13 @@ void draw_friction(const Numbers& /*n*/, Pen& pen) {
 }
 
 /// A heavy ball in a ring.
-void draw_inertia(const Numbers& /*n*/, Pen& pen) {
+void draw_inertia(const Numbers& /*n*/, SymbolPen& pen) {
   pen.ball(Vector3::Zero(), 0.6 * kSmall);
   pen.circle(Vector3::Zero(), Vector3::UnitY(), 1.3 * kSmall);
 }
 
 /// The sphere that it reaches, and how it pulls inwards.
-void draw_well(const Numbers& n, Pen& pen) {
+void draw_well(const Numbers& n, SymbolPen& pen) {
   const Vector3 centre = n.vector(0);
   const double radius = n[3];
   pen.sphere(centre, radius);
@@ -151,7 +112,7 @@ void draw_well(const Numbers& n, Pen& pen) {
 }
 
 /// A dish: its floor stands lower than its rim.
-void draw_recess(const Numbers& n, Pen& pen) {
+void draw_recess(const Numbers& n, SymbolPen& pen) {
   const Vector3 centre = n.vector(0), axis = n.vector(3).normalized(), first = axis.unitOrthogonal();
   const double floor = n[6], rim = n[7];
   const Vector3 down = -0.5 * rim * axis;
@@ -163,13 +124,13 @@ void draw_recess(const Numbers& n, Pen& pen) {
   }
 }
 
-void draw_constant(const Numbers& n, Pen& pen) {
+void draw_constant(const Numbers& n, SymbolPen& pen) {
   pen.arrow(Vector3::Zero(), arrow_of(n.vector(0)));
   pen.sphere(Vector3::Zero(), 0.4 * kSmall);
 }
 
 /// Arrows of the force at the first moment about where its object stands, the longest of a usual length.
-void draw_field(haptics::Effect& field, Pen& pen) {
+void draw_field(haptics::Effect& field, SymbolPen& pen) {
   std::array<Vector3, 27> forces;
   const auto place = [](int i) -> Vector3 {
     return 2.5 * kSmall * Vector3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
@@ -187,8 +148,8 @@ void draw_field(haptics::Effect& field, Pen& pen) {
   }
 }
 
-void draw_effect(const std::string& text, Pen& pen) {
-  using Draw = void (*)(const Numbers&, Pen&);
+void draw_effect(const std::string& text, SymbolPen& pen) {
+  using Draw = void (*)(const Numbers&, SymbolPen&);
   static const std::map<std::string_view, Draw> kKinds = {
       {"point", draw_point},     {"line", draw_line},         {"plane", draw_plane},
       {"viscous", draw_viscous}, {"friction", draw_friction}, {"inertia", draw_inertia},
@@ -220,49 +181,9 @@ const world::ForceEffect* effect_at(const World& world, ObjectId id) {
 
 void draw_symbol(const World& world, ObjectId id, render::SceneOverlay& overlay) {
   const world::ForceEffect& effect = *effect_at(world, id);
-  Pen pen(place_of(turn_part(world::world_from_object(world, id))),
-          kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
+  SymbolPen pen(place_of(turn_part(world::world_from_object(world, id))),
+                kSymbolColour.with_alpha(effect.on ? 1.0 : kFaint), overlay);
   draw_effect(effect.text, pen);
-}
-
-/// What a symbol is drawn of: straight pieces with a radius.
-template <typename Visit>
-void for_each_stroke(const render::SceneOverlay& symbol, Visit&& visit) {
-  for (const auto& line : symbol.lines)
-    for (std::size_t i = 1; i < line.points.size(); ++i) visit(line.points[i - 1], line.points[i], 0.0);
-  for (const auto& arrow : symbol.arrows) visit(arrow.from, arrow.to, arrow.radius);
-  for (const auto& ball : symbol.balls) visit(ball.centre, ball.centre, ball.radius);
-}
-
-/// Where a ray passes a piece of a symbol.
-struct Passed {
-  interaction::PickedPoint place;
-  double off = 0.0;  // rad, small: how far beside it
-};
-
-/// Nothing where the piece is behind the ray's origin.
-std::optional<Passed> passed(const interaction::Ray& ray, const Vector3& from, const Vector3& to,
-                             double radius) {
-  const auto across = [&](const Vector3& way) -> Vector3 {
-    return way - way.dot(ray.direction) * ray.direction;
-  };
-  const Vector3 off = across(from - ray.origin), along = across(to - from);
-  const double squared = along.squaredNorm();
-  const double share = squared > 0.0 ? std::clamp(-off.dot(along) / squared, 0.0, 1.0) : 0.0;
-  const Vector3 place = from + share * (to - from);
-  const double depth = (place - ray.origin).dot(ray.direction);
-  if (!(depth > 0.0)) return std::nullopt;
-  const double distance = std::max(0.0, (off + share * along).norm() - radius);
-  return Passed{{place, -ray.direction, depth}, distance / depth};
-}
-
-bool stands_in(const World& world, world::SceneId scene, ObjectId id) {
-  const world::Scene* const shown = world.find(scene);
-  if (!shown) return true;
-  for (const world::PhysicalObject* object = world.find(id); object;
-       id = object->parent, object = world.find(id))
-    if (std::ranges::find(shown->roots, id) != shown->roots.end()) return true;
-  return false;
 }
 
 }  // namespace
@@ -289,7 +210,7 @@ std::vector<ObjectId> EffectSymbols::seen(const World& world, world::SceneId sho
   std::vector<ObjectId> ids;
   for (const ObjectId id : effects_) {
     if (ids.size() == kMostSymbols) break;
-    if (world::world_from_object(world, id).matrix().allFinite() && stands_in(world, shown, id))
+    if (world::world_from_object(world, id).matrix().allFinite() && is_shown_in(world, shown, id))
       ids.push_back(id);
   }
   return ids;
@@ -308,12 +229,10 @@ std::optional<EffectSymbols::Picked> EffectSymbols::pick(const World& world, wor
   for (const ObjectId id : seen(world, shown)) {
     render::SceneOverlay symbol;
     draw_symbol(world, id, symbol);
-    for_each_stroke(symbol, [&](const Vector3& from, const Vector3& to, double radius) {
-      const auto place = passed(ray, from, to, radius);
-      if (!place || !(place->off <= slack) || (best && place->off >= least)) return;
-      least = place->off;
-      best = Picked{id, place->place};
-    });
+    const auto met = passed_strokes(symbol, ray);
+    if (!met || !(met->off <= slack) || (best && met->off >= least)) continue;
+    least = met->off;
+    best = Picked{id, met->place};
   }
   return best;
 }

@@ -41,6 +41,7 @@ Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices
       mouse_hand(mouse),
       hands(std::move(devices), settings.servo, display),
       grabs(hands.pointers()),
+      part_grabs(hands.pointers()),
       point_grabs(hands.pointers()),
       ungrabbed(hands.pointers(), false),
       lost(hands.pointers(), false),
@@ -179,7 +180,12 @@ void Session::move_held_by_touch() {
     if (parts_->ungrabbed[i] && (pointer(i).buttons & 1U) != 0) continue;
     parts_->ungrabbed[i] = false;
     std::string refused;
-    const auto feel = parts_->grabs[i].update(*this, i, parts_->revisions, refused);
+    const bool held_part = parts_->part_grabs[i].holds();
+    auto feel = parts_->part_grabs[i].update(*this, i, parts_->revisions, refused);
+    const bool holds_part = parts_->part_grabs[i].holds();
+    // Who has lost a part presses for nothing else.
+    if (held_part && !holds_part) parts_->ungrabbed[i] = true;
+    if (!held_part && !holds_part) feel = parts_->grabs[i].update(*this, i, parts_->revisions, refused);
     if (feel) parts_->hands.grip(i, *feel);
     if (!refused.empty()) parts_->tell(SessionEvent::Kind::Notice, refused);
   }
@@ -193,7 +199,8 @@ Surroundings& Session::surroundings() { return parts_->surroundings; }
 
 bool Session::holds(std::size_t index) const {
   const bool by_technique = index == 0 && parts_->technique && parts_->technique->holds();
-  return by_technique || parts_->grabs[index].holds() || parts_->point_grabs[index].holds();
+  return by_technique || parts_->grabs[index].holds() || parts_->part_grabs[index].holds() ||
+         parts_->point_grabs[index].holds();
 }
 
 void Session::move_points() {
@@ -243,10 +250,12 @@ base::Result<void> Session::set_shaping(const std::optional<interaction::Shaping
   for (std::size_t i = 0; i < pointers(); ++i) {
     if (holds(i)) parts_->hands.grip(i, {});
     parts_->grabs[i] = {};
+    parts_->part_grabs[i] = {};
     parts_->point_grabs[i] = {};
   }
   if (parts_->technique) parts_->technique->let_go();
   parts_->mouse_marks.reset();
+  mark_part(std::nullopt);
   return {};
 }
 

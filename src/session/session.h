@@ -21,6 +21,7 @@
 #include "session/display_feed.h"
 #include "session/hand_grab.h"
 #include "session/haptic_representation.h"
+#include "session/part_outlines.h"
 #include "session/pointer_view.h"
 #include "session/recovery.h"
 #include "session/representation.h"
@@ -199,6 +200,8 @@ class Session {
   interaction::Shaping* shaping();
   /// Points out what the mouse is over or holds; each hand points out its own.
   void mark_handle(const std::optional<interaction::MarkedHandle>& marked);
+  /// Points out an operand or a projector of the selection, which the mouse is over or drags.
+  void mark_part(const std::optional<MarkedPart>& marked);
   /// How things are moved from now on, and felt then.
   void set_grab(const GrabSettings& settings);
   const GrabSettings& grab() const;
@@ -249,6 +252,11 @@ class Session {
   std::optional<Picked> pick(const interaction::Ray& ray) const;
   /// The same of what can be seen: the symbols of effects, too, where the ray passes one by a few pixels.
   std::optional<Picked> pick_seen(const interaction::Ray& ray) const;
+  /// The operand of a solid, or the projector of a picture, of what is selected, whose outline the ray passes
+  /// by a few pixels, whatever is before it.
+  std::optional<PartOutlines::Picked> pick_part(const interaction::Ray& ray) const;
+  /// The same of which the outline is nearest to a place of the stage, within `reach` (m).
+  std::optional<interaction::PlacedPart> part_near(const base::Vector3& place, double reach) const;
   ServoHealth servo() const;
   /// Force over time of the first pointer since the last call, oldest first, some 200 a second.
   std::vector<ForceSample> take_forces();

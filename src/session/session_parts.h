@@ -16,6 +16,7 @@
 #include "session/felt_world.h"
 #include "session/hand_grab.h"
 #include "session/haptic_loop.h"
+#include "session/part_grab.h"
 #include "session/point_grab.h"
 #include "session/revisions.h"
 #include "session/seen_world.h"
@@ -62,6 +63,7 @@ struct Session::Parts {
   void park();
   void renew_outline();
   void renew_symbols();
+  void renew_parts();
   void renew_handles();
   void publish_wish();
 
@@ -124,15 +126,19 @@ struct Session::Parts {
   DisplayFeed display;
   devices::SimulatedDevice* mouse_hand;  // null: no pointer is driven by the mouse
   HapticLoop hands;
-  std::vector<HandGrab> grabs;  // of each pointer
+  std::vector<HandGrab> grabs;       // of each pointer
+  std::vector<PartGrab> part_grabs;  // likewise
   GrabSettings grab_settings;
   std::optional<interaction::Shaping> shaping;           // nothing: objects are what is dragged
   std::vector<PointGrab> point_grabs;                    // of each pointer
   std::optional<interaction::MarkedHandle> mouse_marks;  // as the mouse's tool says
   interaction::ShapingPicture handles;                   // as they are drawn
   EffectSymbols effects;
-  bool symbols_are_new = false;              // they may be
-  render::SceneOverlay symbols;              // of the effects, as they are drawn
+  bool symbols_are_new = false;  // they may be
+  render::SceneOverlay symbols;  // of the effects, as they are drawn
+  PartOutlines part_outlines;
+  std::optional<MarkedPart> marked_part;     // as the mouse's tool says
+  bool parts_are_new = false;                // outlines may be others
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
   std::vector<bool> ungrabbed;               // pointers that begin to grab when their button has come up
   std::vector<bool> lost;                    // the pointer's device, as a person was told last

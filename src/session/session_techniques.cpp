@@ -112,6 +112,11 @@ base::Result<void> Session::set_technique(const std::optional<interaction::Techn
     held = held || grab.holds();
     grab = {};
   }
+  for (PartGrab& grab : parts.part_grabs) {
+    held = held || grab.holds();
+    grab = {};
+  }
+  mark_part(std::nullopt);
   if (held) parts.feel_held(false);
   parts.ungrabbed.assign(parts.ungrabbed.size(), true);
   parts.technique.reset();

@@ -118,10 +118,19 @@ void Session::Parts::renew_symbols() {
   look_is_new = true;
 }
 
+/// The operands and projectors of what is selected, where they are now.
+void Session::Parts::renew_parts() {
+  if (!std::exchange(parts_are_new, false)) return;
+  const bool had_parts = !part_outlines.empty();
+  part_outlines.renew(world, shown_scene, selection);
+  if (had_parts || !part_outlines.empty()) look_is_new = true;
+}
+
 void Session::Parts::publish_wish() {
   renew_outline();
   renew_handles();
   renew_symbols();
+  renew_parts();
   const interaction::View& now = user.drawn_view();
   if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
       now.distance != drawn_view.distance)
@@ -132,6 +141,7 @@ void Session::Parts::publish_wish() {
   wish.view = now;
   wish.look.selected = outlined;
   add_marks(wish.look.overlay, symbols);
+  add_marks(wish.look.overlay, part_outlines.overlay(marked_part));
   if (shaping) add_handles(handles, wish.look.selection_width, wish.look.overlay);
   wish.miniature = marks ? miniature : std::nullopt;
   if (marks) add_marks(wish.look.overlay, *marks);
@@ -221,6 +231,25 @@ std::optional<Session::Picked> Session::pick_seen(const interaction::Ray& ray) c
       parts_->effects.pick(parts_->world, parts_->shown_scene, ray, kSymbolSlack * view().field);
   if (!symbol || (surface && surface->place.distance <= symbol->place.distance)) return surface;
   return Picked{symbol->object, symbol->place};
+}
+
+std::optional<PartOutlines::Picked> Session::pick_part(const interaction::Ray& ray) const {
+  parts_->renew_parts();
+  return parts_->part_outlines.pick(ray, kSymbolSlack * view().field);
+}
+
+std::optional<interaction::PlacedPart> Session::part_near(const base::Vector3& place, double reach) const {
+  parts_->renew_parts();
+  return parts_->part_outlines.nearest(place, reach);
+}
+
+void Session::mark_part(const std::optional<MarkedPart>& marked) {
+  const auto& now = parts_->marked_part;
+  const bool same = now.has_value() == marked.has_value() &&
+                    (!now || (now->part == marked->part && !now->motion && !marked->motion));
+  if (same) return;
+  parts_->marked_part = marked;
+  parts_->look_is_new = true;
 }
 
 std::vector<ForceSample> Session::take_forces() { return parts_->hands.take_forces(); }

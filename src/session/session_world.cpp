@@ -52,6 +52,7 @@ void Session::Parts::tell_change(const world::Changes* changes) {
   surroundings.follow(changes);
   const std::size_t before = selection.size();
   std::erase_if(selection, [this](ObjectId id) { return !world.find(id); });
+  if (selection.size() != before) parts_are_new = true;
   if (shown_scene && !world.find(shown_scene)) show({});
   if (!changes || !changes->objects.empty()) outline_is_new = true;
   notify_change(changes);
@@ -63,6 +64,7 @@ void Session::Parts::notify_change(const world::Changes* changes) {
   const bool had_effects = !effects.empty();
   effects.follow(world, changes);
   if (had_effects || !effects.empty()) symbols_are_new = true;
+  parts_are_new = parts_are_new || !selection.empty() || !part_outlines.empty();
   for (std::size_t i = 0; i < change_listeners.size(); ++i) change_listeners[i](changes);
 }
 
@@ -73,7 +75,7 @@ void Session::Parts::notify_selection() const {
 void Session::Parts::show(world::SceneId scene) {
   if (shown_scene == scene) return;
   shown_scene = scene;
-  symbols_are_new = true;
+  symbols_are_new = parts_are_new = true;
   Edited edited;
   edited.shown = scene;
   queue.post(std::move(edited));
@@ -97,7 +99,8 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
       SavedWork{.design = design, .number = queue.posted() + 1, .recovered = recovered});
   opened_number = queue.post(std::move(edited));
   const bool had_selection = !std::exchange(selection, {}).empty();
-  outline_is_new = look_is_new = true;
+  marked_part.reset();
+  outline_is_new = look_is_new = parts_are_new = true;
   surroundings.follow(nullptr);
   notify_change(nullptr);
   if (had_selection) notify_selection();
@@ -187,7 +190,7 @@ void Session::select(std::vector<ObjectId> objects) {
   std::erase_if(objects, [&](ObjectId id) { return !parts_->world.find(id) || !met.insert(id).second; });
   if (objects == parts_->selection) return;
   parts_->selection = std::move(objects);
-  parts_->outline_is_new = true;
+  parts_->outline_is_new = parts_->parts_are_new = true;
   parts_->notify_selection();
 }
 

@@ -51,6 +51,8 @@ ShortcutSheet::Part mouse_part() {
            {"Move what is selected", "Drag"},
            {"\u2026 along x, y or z", "hold X, Y or Z"},
            {"\u2026 without snapping", "hold Shift or Alt"},
+           {"Move an operand, or the projector of a picture", "Drag its outline, seen while selected"},
+           {"\u2026 turn it", "Ctrl and drag its outline"},
            {"Move by 1 mm, by 10 mm", "Arrow keys, with Shift"},
            {"\u2026 away, nearer", "Page Up, Page Down"},
            {"Turn the view (nothing selected)", "Arrow keys"},
@@ -204,6 +206,8 @@ void MainWindow::show_hint() {
                   .arg(millimetres(size.x()), millimetres(size.y()), millimetres(size.z()));
     }
   }
+  remark_ = operation_->remark();
+  if (!remark_.isEmpty()) text = remark_;
   drag_words_ = tools_.drag_words();
   if (!drag_words_.empty()) text = one_line(drag_words_);
   hint_->setText(text);

@@ -188,7 +188,7 @@ void MainWindow::tick() {
   show_title();
   show_count();
   const auto labelled = wanted_label();
-  if (is_stale_ || tools_.drag_words() != drag_words_) show_hint();
+  if (is_stale_ || tools_.drag_words() != drag_words_ || operation_->remark() != remark_) show_hint();
   if (is_stale_ || labelled != labelled_ || devicePixelRatio() != pixel_ratio_) {
     labelled_ = labelled;
     show_look();
@@ -287,6 +287,7 @@ void MainWindow::show_look() {
   wish.look.grid_colour = its.grid;
   wish.look.passes = 16;
   wish.pointers = options_.hand_in_sight || tools_.tool() == Tool::Touch;
+  wish.spared_sign = spared_sign_.picture("Force held down to spare the motors", pixel_ratio_);
   if (labelled_) {
     if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
       wish.look.overlay.panels.push_back(std::move(*panel));

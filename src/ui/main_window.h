@@ -105,8 +105,10 @@ class MainWindow final : public QMainWindow {
   QTimer timer_;
   bool is_stale_ = true;  // what is said and drawn of the selection
   SceneLabel label_;
+  SceneWords spared_sign_;
   std::optional<world::ObjectId> labelled_ = {};
   std::string drag_words_;    // as shown
+  QString remark_;            // of an operation, as shown
   double pixel_ratio_ = 0.0;  // as shown; another screen may have another
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // to close

@@ -294,6 +294,11 @@ QWidget* OperationPanel::first_field() const {
   return field ? field : parts_->apply;
 }
 
+QString OperationPanel::remark() const {
+  const QString text = parts_->note->text();
+  return text == kStays ? QString() : text;
+}
+
 void OperationPanel::apply() {
   Parts& parts = *parts_;
   const bool was_shown = parts.preview.shown();

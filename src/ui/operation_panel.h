@@ -1,4 +1,5 @@
 #pragma once
+#include <QString>
 #include <QWidget>
 #include <functional>
 #include <memory>
@@ -26,6 +27,8 @@ class OperationPanel final : public QWidget {
   void ask(const interaction::Operation& operation);
   /// Where typing begins; null: nothing is asked.
   QWidget* first_field() const;
+  /// What is to be known of what is shown or was done last; or empty.
+  QString remark() const;
   /// Performs what has been said, as one action; a failed one changes nothing and is told on the panel.
   void apply();
   /// What is shown is in a file now: it stays.

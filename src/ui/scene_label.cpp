@@ -46,6 +46,13 @@ std::shared_ptr<const render::Image> draw_text(const QString& text, double pixel
 
 }  // namespace
 
+const std::shared_ptr<const render::Image>& SceneWords::picture(const QString& text, double pixel_ratio) {
+  const Look look{text, pixel_ratio, is_dark()};
+  if (!picture_ || look != drawn_) picture_ = draw_text(text, pixel_ratio);
+  drawn_ = look;
+  return picture_;
+}
+
 std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Session& session,
                                                              world::ObjectId id, double pixel_ratio) {
   const world::PhysicalObject* object = session.world().find(id);
@@ -53,12 +60,9 @@ std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Sess
   if (text.isEmpty()) return std::nullopt;
   const base::Bounds bounds = world::bounds(session.world(), id);
   if (bounds.isEmpty()) return std::nullopt;
-  const Look look{text, pixel_ratio, is_dark()};
-  if (!picture_ || look != drawn_) picture_ = draw_text(text, pixel_ratio);
-  drawn_ = look;
   base::Vector3 above = bounds.center();
   above.y() = bounds.max().y();
-  return render::SceneOverlay::Panel{.picture = picture_,
+  return render::SceneOverlay::Panel{.picture = words_.picture(text, pixel_ratio),
                                      .at = above,
                                      .anchor = {0.5, 0.0},
                                      .shift = {0.0, std::round(2.0 * kGrid * pixel_ratio)}};

@@ -7,13 +7,11 @@
 
 namespace icome::ui {
 
-/// The name of an object, written above it in the scene. Main's.
-class SceneLabel {
+/// Words as a picture for the scene, kept for as long as they are the same. Main's.
+class SceneWords {
  public:
-  /// The panel for this object as it is now, sharp on a screen of that many pixels to a device-independent
-  /// one; nothing for an object that has no place or no name.
-  std::optional<render::SceneOverlay::Panel> panel(const session::Session& session, world::ObjectId object,
-                                                   double pixel_ratio);
+  /// Sharp on a screen of that many pixels to a device-independent one, in the colours of the theme.
+  const std::shared_ptr<const render::Image>& picture(const QString& text, double pixel_ratio);
 
  private:
   struct Look {
@@ -24,6 +22,18 @@ class SceneLabel {
   };
   Look drawn_ = {};
   std::shared_ptr<const render::Image> picture_ = nullptr;  // of that
+};
+
+/// The name of an object, written above it in the scene. Main's.
+class SceneLabel {
+ public:
+  /// The panel for this object as it is now, sharp on a screen of that many pixels to a device-independent
+  /// one; nothing for an object that has no place or no name.
+  std::optional<render::SceneOverlay::Panel> panel(const session::Session& session, world::ObjectId object,
+                                                   double pixel_ratio);
+
+ private:
+  SceneWords words_ = {};
 };
 
 }  // namespace icome::ui

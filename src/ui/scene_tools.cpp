@@ -10,12 +10,14 @@ SceneTools::SceneTools(session::Session& session, Listener listener)
     : session_(session),
       listener_(std::move(listener)),
       move_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
+      part_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
       touch_tool_(session),
       shape_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
       view_drag_(session) {
   session_.on_change([this](const world::Changes* changes) {
     if (changes) return;
     move_tool_.drop();
+    part_tool_.drop();
     shape_tool_.drop();
   });
 }
@@ -55,7 +57,7 @@ void SceneTools::press(const SceneInput& input) {
     view_drag_.begin(*how, input);
     view_button_ = input.button;
   } else if (input.button == Qt::LeftButton && tool_ == Tool::Select) {
-    move_tool_.press(input);
+    if (!part_tool_.press(input)) move_tool_.press(input);
   } else if (input.button == Qt::LeftButton && tool_ == Tool::Shape) {
     shape_tool_.press(input);
   } else if (input.button == Qt::LeftButton) {
@@ -68,6 +70,7 @@ void SceneTools::move(const SceneInput& input) {
   mouse_ = input;
   view_drag_.follow(input);
   move_tool_.follow(input);
+  part_tool_.follow(input);
   if (tool_ == Tool::Shape) shape_tool_.follow(input);
   if (!view_drag_.active()) touch_tool_.follow(input);
 }
@@ -79,6 +82,7 @@ void SceneTools::release(const SceneInput& input) {
     view_drag_.end();
     if (view_button_ == Qt::RightButton && !view_drag_.moved()) listener_.asked(input.at);
   } else if (input.button == Qt::LeftButton) {
+    if (const auto click = part_tool_.release(input)) move_tool_.press(*click);
     move_tool_.release(input);
     shape_tool_.release(input);
     touch_tool_.press(0.0);
@@ -114,6 +118,8 @@ bool SceneTools::pen(const SceneInput& input, double pressure) {
 bool SceneTools::escape() {
   if (move_tool_.busy()) {
     move_tool_.cancel();
+  } else if (part_tool_.busy()) {
+    part_tool_.cancel();
   } else if (shape_tool_.busy()) {
     shape_tool_.cancel();
   } else if (view_drag_.active()) {
@@ -205,6 +211,7 @@ bool SceneTools::key_release(int key) {
 
 void SceneTools::keep_to(std::optional<int> axis) {
   move_tool_.keep_to(axis);
+  part_tool_.keep_to(axis);
   shape_tool_.keep_to(axis);
 }
 
@@ -216,6 +223,7 @@ void SceneTools::forget_keys() {
 void SceneTools::leave() {
   mouse_.reset();
   hovered_.reset();
+  part_tool_.hover(std::nullopt);
   shape_tool_.forget_mouse();
 }
 
@@ -225,7 +233,9 @@ void SceneTools::resize(const QSizeF& size) {
 
 void SceneTools::look_for_hovered() {
   hovered_.reset();
-  if (!mouse_ || view_drag_.active() || busy()) return;
+  const bool looks = mouse_ && !view_drag_.active() && !busy();
+  const bool sees_parts = looks && tool_ == Tool::Select;
+  if (part_tool_.hover(sees_parts ? mouse_ : std::nullopt) || !looks) return;
   if (tool_ == Tool::Touch) {
     if (session_.pointers() > 0) hovered_ = session_.touched(0);
   } else if (const auto picked = session_.pick_seen(mouse_->ray(session_.view()))) {
@@ -235,13 +245,20 @@ void SceneTools::look_for_hovered() {
 
 void SceneTools::tick() {
   move_tool_.tick();
+  part_tool_.tick();
   touch_tool_.tick();
   shape_tool_.tick();
   look_for_hovered();
 }
 
+std::string SceneTools::drag_words() const {
+  std::string words = part_tool_.words();
+  return words.empty() ? move_tool_.words() : words;
+}
+
 void SceneTools::finish() {
   move_tool_.finish();
+  part_tool_.finish();
   shape_tool_.finish();
   view_drag_.end();
   touch_tool_.press(0.0);

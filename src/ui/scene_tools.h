@@ -4,6 +4,7 @@
 
 #include "session/session.h"
 #include "ui/move_tool.h"
+#include "ui/part_tool.h"
 #include "ui/scene_input.h"
 #include "ui/shape_tool.h"
 #include "ui/touch_tool.h"
@@ -59,10 +60,11 @@ class SceneTools {
 
   /// What the mouse is over, as of the last tick; nothing while it does something.
   std::optional<world::ObjectId> hovered() const { return hovered_; }
-  bool dragging() const { return move_tool_.dragging() || shape_tool_.dragging(); }
+  bool dragging() const { return move_tool_.dragging() || part_tool_.dragging() || shape_tool_.dragging(); }
   ShapeTool& shape_tool() { return shape_tool_; }
-  /// What has stopped what is dragged, or what it snaps to; or empty.
-  std::string drag_words() const { return move_tool_.words(); }
+  /// What has stopped what is dragged, or what it snaps to, or what can be dragged of what is selected; or
+  /// empty.
+  std::string drag_words() const;
   TouchTool& touch_tool() { return touch_tool_; }
   bool turning() const { return view_drag_.active(); }
   double aspect() const { return size_.width() / size_.height(); }
@@ -72,12 +74,13 @@ class SceneTools {
   bool arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats);
   std::optional<ViewMove> view_move(const SceneInput& input) const;
   void look_for_hovered();
-  bool busy() const { return move_tool_.busy() || shape_tool_.busy(); }
+  bool busy() const { return move_tool_.busy() || part_tool_.busy() || shape_tool_.busy(); }
   void keep_to(std::optional<int> axis);
 
   session::Session& session_;
   Listener listener_;
   MoveTool move_tool_;
+  PartTool part_tool_;
   TouchTool touch_tool_;
   ShapeTool shape_tool_;
   ViewDrag view_drag_;

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -189,6 +190,40 @@ TEST(ExtrudeOperation, RefusesWhatCannotBeSwept) {
   }
   EXPECT_EQ(refusal(runner, R"({"op": "extrude", "profile": "bent", "steps": [{"move": [0, 0, 1]}]})"),
             "extrude: the profile 'bent': it is not flat; name something flat, such as a square");
+}
+
+/// A spiral that climbs by so much in a turn, of a drawing that is 0.1 m thick.
+std::string spiral(double climb) {
+  return fmt::format(
+      R"({{"op": "extrude", "name": "spiral", "points": [[0.2, -0.05], [0.3, -0.05], [0.3, 0.05], [0.2, 0.05]],
+           "steps": [{{"turn": [0, 10, 0], "move": [0, {}, 0], "repeat": 60}}]}})",
+      climb / 36);
+}
+
+TEST(ExtrudeOperation, TellsOfASweepThatGoesThroughItselfAndMakesItAllTheSame) {
+  OperationRunner runner({});
+  EXPECT_EQ(performed(runner, spiral(0.12)).note, "");
+  performed(runner, R"({"op": "undo"})");
+  const std::string note = performed(runner, spiral(0.08)).note;
+  EXPECT_EQ(note.find("it goes through itself near ["), 0U) << note;
+  EXPECT_TRUE(is_closed(triangles_of(runner, "spiral")));
+  // So does a change of it.
+  const Performed wide = performed(runner, R"({"op": "reshape", "object": "spiral",
+                  "points": [[0.2, -0.01], [0.3, -0.01], [0.3, 0.01], [0.2, 0.01]]})");
+  EXPECT_EQ(wide.note, "");
+  performed(runner, R"({"op": "clone", "object": "spiral", "name": "other"})");
+  const Performed high = performed(runner, R"({"op": "reshape", "object": "spiral",
+                  "points": [[0.2, -0.05], [0.3, -0.05], [0.3, 0.05], [0.2, 0.05]]})");
+  EXPECT_EQ(high.note.find("it goes through itself near ["), 0U) << high.note;
+  EXPECT_NE(high.note.find("2 objects use this shape"), std::string::npos) << high.note;
+}
+
+TEST(ExtrudeOperation, TellsOfALineThatIsSweptThroughItself) {
+  OperationRunner runner({});
+  const char* loop = R"({"op": "extrude", "points": [[0, 0], [0, 0.1]], "open": true, "ends": "open",
+                         "steps": [{"move": [0, 0, 1]}, {"move": [1, 0, 0]}, {"move": [0, 0, -0.5]},
+                                   {"move": [-2, 0, 0]}]})";
+  EXPECT_EQ(performed(runner, loop).note.find("it goes through itself near [0, "), 0U);
 }
 
 }  // namespace

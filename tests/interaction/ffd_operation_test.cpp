@@ -345,5 +345,22 @@ TEST(FfdOperation, DoesNotPullASharedShapeToTwoPlaces) {
             std::string::npos);
 }
 
+TEST(FfdOperation, TellsOfABoxWithNothingInIt) {
+  OperationRunner runner(world_of(cube_mesh()));
+  const std::string said =
+      R"({"op": "ffd", "object": "thing", "moves": [{"point": [0, 0, 0], "by": [0, 1, 0]}])";
+  const std::uint64_t before = hash(runner.world());
+  EXPECT_EQ(performed(runner, said + R"(, "from": [-0.5, -0.5, -0.5], "to": [0.5, 0.5, 0.5]})").note,
+            "nothing is deformed, as no vertex lies in the box from [-0.5, -0.5, -0.5] to [0.5, 0.5, 0.5]");
+  EXPECT_EQ(hash(runner.world()), before);
+  EXPECT_EQ(performed(runner, said + R"(, "from": [-1, -1, -1], "to": [0.5, 0.5, 0.5]})").note, "");
+  performed(runner, R"({"op": "copy", "object": "thing", "name": "other", "by": [5, 0, 0]})");
+  const std::string both =
+      R"({"op": "ffd", "object": ["thing", "other"], "moves": [{"point": [0, 0, 0], "by": [0, 0.1, 0]}])";
+  EXPECT_EQ(performed(runner, both + R"(, "from": [2, -1, -1], "to": [3, 1, 1]})").note,
+            "nothing is deformed, as no vertex lies in the box from [2, -1, -1] to [3, 1, 1]");
+  EXPECT_EQ(performed(runner, both + R"(, "from": [2, -1, -1], "to": [4, 1, 1]})").note, "");
+}
+
 }  // namespace
 }  // namespace icome::interaction

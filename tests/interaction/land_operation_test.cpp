@@ -138,6 +138,24 @@ TEST_F(LandOperation, MovesSnapToAGridAndToWhatIsChosen) {
                    "nothing left"}});
 }
 
+TEST_F(LandOperation, WhatIsInTheWayOfAGridsPlaceStopsShortOfItAndSendsNothingAside) {
+  run(R"({"op": "delete", "objects": "table"})");
+  box("wall", {2.93, 2, 0});
+  box("crate", {0, 2, 0});
+  // The grid's places before the wall that corners could take lie 0.1 m aside, behind it the origin's.
+  const Performed stopped =
+      run(R"({"op": "move", "objects": "crate", "by": [2.5, 0, 0], "stop": true, "grid": 0.4})");
+  EXPECT_EQ(stopped.note, "'crate' stopped at 'wall'");
+  EXPECT_LT((at("crate") - Vector3(1.93, 2, 0)).norm(), 1e-5) << at("crate").transpose();
+  // With room for it the grid's place is taken; along the wall it is only the way into it that is stopped.
+  const Performed snapped =
+      run(R"({"op": "move", "objects": "crate", "by": [-0.7, 0.05, 0.03], "stop": true, "grid": 0.4})");
+  EXPECT_EQ(snapped.note, "snapped to the grid");
+  EXPECT_LT((at("crate") - Vector3(1.2, 2, 0)).norm(), 1e-9) << at("crate").transpose();
+  run(R"({"op": "move", "objects": "crate", "by": [2.05, 0, 0.81], "stop": true, "grid": 0.4})");
+  EXPECT_LT((at("crate") - Vector3(1.93, 2, 0.8)).norm(), 1e-5) << at("crate").transpose();
+}
+
 TEST_F(LandOperation, RefusesWhatMakesNoSense) {
   vase();
   run(R"({"op": "group", "objects": "table", "name": "group"})");

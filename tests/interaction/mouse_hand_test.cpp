@@ -228,5 +228,20 @@ TEST(DragPlane, KeepsToALine) {
   EXPECT_NEAR(plane.moved({eye, (goal - eye).normalized()})->z(), 0.0, 1e-12);
 }
 
+TEST(DragTurn, GoesRoundWithTheMouse) {
+  const Vector3 centre(0.2, 0.1, -1.0), eye(0.0, 0.0, 3.0);
+  const Vector3 axis = Vector3(0.2, 0.3, 1.0).normalized(), out = axis.unitOrthogonal();
+  const auto ray = [&](double angle, double radius) {
+    const Vector3 at = centre + radius * (Eigen::AngleAxisd(angle, axis) * out);
+    return Ray{eye, (at - eye).normalized()};
+  };
+  const DragTurn turn(centre, axis, ray(0.0, 0.1));
+  for (const double angle : {0.3, -2.0, 3.0}) EXPECT_NEAR(turn.turned(ray(angle, 0.4)).value(), angle, 1e-9);
+  EXPECT_FALSE(turn.turned({eye, (centre - eye).normalized()})) << "the centre is no way round";
+  EXPECT_FALSE(turn.turned({eye, Vector3::UnitZ()})) << "behind the eye";
+  EXPECT_FALSE(DragTurn(centre, axis, {eye, Vector3::UnitZ()}).turned(ray(1.0, 0.1)));
+  EXPECT_FALSE(DragTurn(centre, Vector3::UnitX(), {eye, -Vector3::UnitZ()}).turned(ray(1.0, 0.1)));
+}
+
 }  // namespace
 }  // namespace icome::interaction

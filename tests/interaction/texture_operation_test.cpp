@@ -158,5 +158,31 @@ TEST(TextureOperation, RefusesProjectorsThatMakeNoSense) {
   EXPECT_NE(refusal(empty, R"({"op": "texture", "object": "thing"})"), "");
 }
 
+TEST(TextureOperation, ItsProjectorIsMovedAndTurnedAfterwards) {
+  OperationRunner runner(world_of(square_mesh()));
+  const char* move = R"({"op": "move-projector", "object": "thing", "by": [0.25, 0, 0]})";
+  EXPECT_NE(refusal(runner, move).find("nobody knows where the picture of 'thing' was thrown from"),
+            std::string::npos);
+  performed(runner, R"({"op": "texture", "object": "thing"})");
+  performed_both_ways(runner, move);
+  EXPECT_LT((coordinates_at(mesh_of(runner), {0, 0, 0}) - Vector2(-0.25, 0)).norm(), 1e-12);
+  EXPECT_LT((coordinates_at(mesh_of(runner), {1, 0, -1}) - Vector2(0.75, 1)).norm(), 1e-12);
+  performed(runner, R"({"op": "undo"})");
+  // The world's axes and metres count, not the object's.
+  performed(runner,
+            R"({"op": "place", "object": "thing", "at": [5, 0, 0], "turn": [0, 90, 0], "factor": 2})");
+  performed(runner, R"({"op": "move-projector", "object": "thing", "by": [0, 0, -0.5]})");
+  EXPECT_LT((coordinates_at(mesh_of(runner), {0, 0, 0}) - Vector2(-0.25, 0)).norm(), 1e-12);
+  performed(runner, R"({"op": "move-projector", "object": "thing", "by": [0, 0, 0.5]})");
+  performed(runner, R"({"op": "move-projector", "object": "thing", "turn": [0, 90, 0]})");
+  EXPECT_LT((coordinates_at(mesh_of(runner), {0, 0, 0}) - Vector2(0, 1)).norm(), 1e-12);
+  // Sizes of it are nothing that could be changed, and vertices that move take it away.
+  EXPECT_NE(
+      refusal(runner, R"({"op": "reshape", "object": "thing", "side": 2})").find("made or bent by hand"),
+      std::string::npos);
+  performed(runner, R"({"op": "drag", "object": "thing", "vertices": [0], "by": [0.1, 0, 0]})");
+  EXPECT_NE(refusal(runner, move).find("nobody knows"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace icome::interaction

@@ -208,5 +208,28 @@ TEST(DisplayFeed, BeginsAnewInAWindowOfAnotherSize) {
   EXPECT_EQ(draw_all(feed, live), 2);
 }
 
+TEST(DisplayFeed, WritesBesideAHandWhoseForceIsHeldDown) {
+  REQUIRE_OPENGL();
+  LiveRenderer live;
+  DisplayFeed feed(1);
+  feed.publish(scene_with_box(at(0.0, 0.0, 0.0)));
+  DisplayWish wish = plain_wish();
+  auto sign = std::make_shared<render::Image>(render::Image{24, 12, {}});
+  for (int i = 0; i < 24 * 12; ++i) sign->rgba.insert(sign->rgba.end(), {0, 0, 255, 255});
+  wish.spared_sign = sign;
+  feed.wish(wish);
+  PointerView pointer = pointer_at({0.0, 0.0, 1.0});
+  feed.publish(0, pointer);
+  const int ball = blue_pixels(picture(feed, live));
+  pointer.spared = true;
+  feed.publish(0, pointer);
+  EXPECT_TRUE(feed.is_due()) << "though the hand rests";
+  EXPECT_NEAR(blue_pixels(picture(feed, live)) - ball, 24 * 12, 24);
+  pointer.spared = false;
+  feed.publish(0, pointer);
+  EXPECT_TRUE(feed.is_due());
+  EXPECT_EQ(blue_pixels(picture(feed, live)), ball);
+}
+
 }  // namespace
 }  // namespace icome::session

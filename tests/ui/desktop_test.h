@@ -1,22 +1,22 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <QApplication>
 #include <memory>
 
 #include "session/session.h"
+#include "ui/timed_application.h"
 #include "world/edits_of.h"
 
 namespace icome::ui {
 
 /// The one application of the tests, without a screen.
-inline QApplication& application() {
+inline TimedApplication& application() {
   static int argc = 1;
   static char name[] = "icome_ui_tests";
   static char* argv[] = {name, nullptr};
-  static QApplication* const kApplication = [] {
+  static TimedApplication* const kApplication = [] {
     qputenv("QT_QPA_PLATFORM", "offscreen");
-    return new QApplication(argc, argv);
+    return new TimedApplication(argc, argv);
   }();
   return *kApplication;
 }

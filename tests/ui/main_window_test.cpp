@@ -10,76 +10,18 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
-#include <QTemporaryDir>
 #include <QTest>
 #include <QTreeView>
-#include <thread>
 
 #include "places.h"
-#include "ui/desktop_test.h"
 #include "ui/scene_window.h"
+#include "ui/window_test.h"
 #include "world/sample_world.h"
 
 namespace icome::ui {
 namespace {
 
-class MainWindowTest : public DesktopTest {
- protected:
-  MainWindowTest() : settings_(folder_.filePath("icome.conf"), QSettings::IniFormat) { open_window(); }
-
-  void open_window() {
-    window_.reset();
-    window_ = std::make_unique<MainWindow>(session(), settings_, MainWindow::Options{.theme = Theme::Light});
-    window_->show();
-  }
-  /// Lets the window live until something has come about.
-  template <typename Come>
-  bool until(const Come& come) {
-    for (int i = 0; i < 6000; ++i) {
-      QCoreApplication::processEvents();
-      if (come()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
-  bool until_title(const QString& title) {
-    // As the window's frame shows it.
-    const auto shown = [this] {
-      return window_->windowTitle().replace("[*]", window_->isWindowModified() ? "*" : "");
-    };
-    return until([&] { return shown() == title; });
-  }
-  QAction* action(const char* name) {
-    auto* found = window_->findChild<QAction*>(name);
-    EXPECT_TRUE(found) << name;
-    return found;
-  }
-  world::ObjectId add(const char* name) {
-    const auto id = session().ids().next<world::ObjectId>();
-    perform(world::CreateObject{id, 0, {.name = name}}, std::string("Add ") + name);
-    return id;
-  }
-  /// A field of the properties, about to be typed into.
-  QLineEdit& field(const QString& name) {
-    QLineEdit* found = nullptr;
-    EXPECT_TRUE(until([&] {
-      for (QLineEdit* it : window_->findChildren<QLineEdit*>()) {
-        if (it->accessibleName() == name && it->isVisible()) found = it;
-      }
-      return found != nullptr;
-    }));
-    QApplication::setActiveWindow(window_.get());
-    found->setFocus();
-    found->selectAll();
-    return *found;
-  }
-  QLineEdit& name_field() { return field("Name"); }
-  QString file(const char* name) { return folder_.filePath(name); }
-
-  QTemporaryDir folder_;
-  QSettings settings_;
-  std::unique_ptr<MainWindow> window_;
-};
+class MainWindowTest : public WindowTest {};
 
 TEST_F(MainWindowTest, SaysWhyThereIsNoPictureAndWorksOn) {
   auto* reason = window_->findChild<QLabel*>("scene.reason");

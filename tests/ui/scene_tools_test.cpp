@@ -427,5 +427,91 @@ TEST_F(SceneToolsTest, AToolThatStaysCannotBeLeftNorTheViewMoved) {
   EXPECT_EQ(asked_, 0);
 }
 
+/// A plate of 0.2 m that the eye looks at, with a hole through it on the right, alone in the design.
+class PartToolTest : public SceneToolsTest {
+ protected:
+  PartToolTest() {
+    geometry::CsgTree tree;
+    const auto block = tree.add_leaf(geometry::Box{{0.1, 0.1, 0.02}});
+    const auto hole = tree.add_leaf(geometry::Cylinder{0.02, 0.1}, at_x(0.05));
+    tree.add(geometry::CsgOperator::Difference, block, hole);
+    perform(world::ReplaceGeometry{world().find(left_)->geometry,
+                                   std::make_shared<world::CsgGeometry>(std::move(tree))});
+    perform(world::PlaceObject{left_, base::Affine3::Identity()});
+    settle();
+  }
+  static base::Affine3 at_x(double x) { return base::Affine3(Eigen::Translation3d(x, 0.0, 0.0)); }
+  /// Does a finger that comes from the eye's side go through the plate there?
+  bool goes_through(double x, double y) {
+    session().settle();
+    return !session().pick({Vector3(x, y, 1.0), -Vector3::UnitZ()});
+  }
+  /// On the rim of the hole's ghost, before the plate.
+  QPointF rim(double x) { return pixel(Vector3(x, 0.02, 0.05)); }
+};
+
+TEST_F(PartToolTest, AHoleIsDraggedByItsGhostAndFeltAtOnceAndTheDragUndone) {
+  EXPECT_TRUE(goes_through(0.05, 0.0));
+  session().select({left_});
+  mouse(QEvent::MouseMove, rim(0.05));
+  tools_.tick();
+  EXPECT_EQ(tools_.drag_words().substr(0, 18), "Operand 1 of left:");
+  mouse(QEvent::MouseButtonPress, rim(0.05));
+  for (const double x : {0.03, 0.0, -0.03}) {
+    mouse(QEvent::MouseMove, rim(x));
+    tools_.tick();
+    EXPECT_TRUE(goes_through(x, 0.0)) << x;
+  }
+  mouse(QEvent::MouseButtonRelease, rim(-0.05));
+  EXPECT_TRUE(goes_through(-0.05, 0.0));
+  EXPECT_FALSE(goes_through(0.05, 0.0));
+  EXPECT_EQ(at(left_), Vector3(Vector3::Zero())) << "the solid itself stays";
+  EXPECT_EQ(session().history().undo_name(), "Move operand 1 of left");
+  ASSERT_TRUE(session().undo());
+  EXPECT_TRUE(goes_through(0.05, 0.0));
+  EXPECT_EQ(session().history().undo_name(), "Edit");
+  EXPECT_EQ(refused_, "");
+}
+
+TEST_F(PartToolTest, GhostsAreThereOnlyWhileTheirObjectIsSelectedAndLeaveClicksToWhatIsBehind) {
+  drag(rim(0.05), rim(0.0));
+  EXPECT_LT(at(left_).x(), -0.04) << "the solid, with its hole";
+  ASSERT_TRUE(session().undo());
+  settle();
+  session().select({left_});
+  click(rim(0.05), Qt::ControlModifier);
+  EXPECT_TRUE(session().selection().empty());
+  click(rim(0.05), Qt::ControlModifier);
+  EXPECT_EQ(session().selection(), std::vector{left_});
+}
+
+TEST_F(PartToolTest, EscapeTakesItBackAndAnAxisKeepsIt) {
+  session().select({left_});
+  mouse(QEvent::MouseButtonPress, rim(0.05));
+  key(QEvent::KeyPress, Qt::Key_X);
+  mouse(QEvent::MouseMove, rim(0.0) + QPointF(0.0, 20.0));
+  tools_.tick();
+  EXPECT_TRUE(goes_through(0.0, 0.0)) << "it keeps to x";
+  key(QEvent::KeyPress, Qt::Key_Escape);
+  key(QEvent::KeyRelease, Qt::Key_X);
+  EXPECT_TRUE(goes_through(0.05, 0.0));
+  EXPECT_EQ(session().history().undo_name(), "Edit");
+  mouse(QEvent::MouseButtonRelease, rim(0.0));
+}
+
+TEST_F(PartToolTest, CtrlTurnsIt) {
+  session().select({left_});
+  // The block, by its upper edge, an eighth turn about its middle: its corner comes to where nothing was.
+  EXPECT_TRUE(goes_through(0.0, 0.12));
+  const QPointF grip = pixel(Vector3(0.0, 0.1, 0.02)), to = pixel(Vector3(-0.1, 0.1, 0.02));
+  mouse(QEvent::MouseButtonPress, grip, Qt::LeftButton, Qt::ControlModifier);
+  mouse(QEvent::MouseMove, to, Qt::LeftButton, Qt::ControlModifier);
+  mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::ControlModifier);
+  EXPECT_FALSE(goes_through(0.0, 0.12));
+  EXPECT_TRUE(goes_through(0.09, 0.09));
+  EXPECT_EQ(session().history().undo_name(), "Move operand 0 of left");
+  EXPECT_EQ(refused_, "");
+}
+
 }  // namespace
 }  // namespace icome::ui

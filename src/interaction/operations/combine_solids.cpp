@@ -139,24 +139,6 @@ class SolidBuilder {
 
 // ---- Taking apart -------------------------------------------------------------------------------------
 
-std::vector<CsgTree::Index> leaves_of(const CsgTree& tree) {
-  std::vector<CsgTree::Index> leaves;
-  std::vector<CsgTree::Index> waiting;
-  if (!tree.empty()) waiting.push_back(tree.root());
-  while (!waiting.empty()) {
-    const CsgTree::Index next = waiting.back();
-    const CsgTree::Node& node = tree.node(next);
-    waiting.pop_back();
-    if (node.is_leaf) {
-      leaves.push_back(next);
-      continue;
-    }
-    waiting.push_back(node.right);
-    waiting.push_back(node.left);
-  }
-  return leaves;
-}
-
 std::string kind_of_leaf(const geometry::CsgShape& shape) {
   if (std::holds_alternative<MeshSolidPointer>(shape)) return "mesh";
   const std::string name = geometry::shape_name(shape);
@@ -222,6 +204,24 @@ Result<CsgTree> combined_solid(const World& world, const std::vector<ObjectId>& 
   return builder.take();
 }
 
+std::vector<CsgTree::Index> leaves_of(const CsgTree& tree) {
+  std::vector<CsgTree::Index> leaves;
+  std::vector<CsgTree::Index> waiting;
+  if (!tree.empty()) waiting.push_back(tree.root());
+  while (!waiting.empty()) {
+    const CsgTree::Index next = waiting.back();
+    const CsgTree::Node& node = tree.node(next);
+    waiting.pop_back();
+    if (node.is_leaf) {
+      leaves.push_back(next);
+      continue;
+    }
+    waiting.push_back(node.right);
+    waiting.push_back(node.left);
+  }
+  return leaves;
+}
+
 std::vector<Operand> operands(const CsgTree& tree) {
   const std::vector<Affine3> tree_from_node = tree.tree_from_node();
   LeafShapes shapes;
@@ -252,6 +252,27 @@ Affine3 tree_from_parent(const CsgTree& tree, CsgTree::Index node) {
     if (!it.is_leaf && (it.left == node || it.right == node)) return tree_from_node[i];
   }
   return Affine3::Identity();
+}
+
+Vector3 middle_of_operand(CsgTree tree, CsgTree::Index node) {
+  tree.set_root(node);
+  const base::Bounds box = geometry::bounds(tree);
+  const bool has_end = !box.isEmpty() && box.min().allFinite() && box.max().allFinite();
+  return has_end ? Vector3(box.center()) : Vector3(tree.node(node).parent_from_node.translation());
+}
+
+Result<CsgTree> with_operand_moved(const CsgTree& tree, CsgTree::Index node, const Affine3& world_from_tree,
+                                   const Affine3& motion) {
+  const Affine3 world_from_frame = world_from_tree * tree_from_parent(tree, node);
+  const Affine3 frame_from_world = world_from_frame.inverse();
+  if (!frame_from_world.matrix().allFinite())
+    return fail("the solid is shrunk to nothing: nothing can be moved in it");
+  const Affine3 now = frame_from_world * motion * world_from_frame * tree.node(node).parent_from_node;
+  if (!now.matrix().allFinite() || !geometry::unplacing(now).matrix().allFinite())
+    return fail("the operand would be too far away: say less");
+  CsgTree changed = tree;
+  changed.set_transform(node, now);
+  return changed;
 }
 
 }  // namespace icome::interaction

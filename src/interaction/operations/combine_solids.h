@@ -36,6 +36,20 @@ std::vector<Operand> operands(const geometry::CsgTree& tree);
 /// from the left. Fails saying what there is.
 base::Result<geometry::CsgTree::Index> operand_named(const geometry::CsgTree& tree, std::string_view name);
 
+/// The leaves of a tree from left to right: "2" names the third of them.
+std::vector<geometry::CsgTree::Index> leaves_of(const geometry::CsgTree& tree);
+
+/// The middle of a part of a tree, in the frame that its place is said in (m); its origin where it has no
+/// end.
+base::Vector3 middle_of_operand(geometry::CsgTree tree, geometry::CsgTree::Index node);
+
+/// The tree with a part that a motion of the world has carried along. Fails where the solid is shrunk to
+/// nothing, and for places that are too far away.
+base::Result<geometry::CsgTree> with_operand_moved(const geometry::CsgTree& tree,
+                                                   geometry::CsgTree::Index node,
+                                                   const base::Affine3& world_from_tree,
+                                                   const base::Affine3& motion);
+
 /// What the places of its operands are said in, in the tree's frame; identity for the root.
 base::Affine3 tree_from_parent(const geometry::CsgTree& tree, geometry::CsgTree::Index node);
 

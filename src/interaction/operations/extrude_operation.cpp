@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "interaction/operations/flat_outline.h"
 #include "interaction/operations/placement.h"
@@ -69,11 +70,12 @@ Result<Plan> plan_extrude(const world::World& world, const Arguments& arguments,
   auto shape = make_extrusion(*sweep);
   if (!shape) return tl::unexpected(shape.error());
 
+  std::string remark = remark_on_sweep(**shape);
   object->geometry = ids.next<world::GeometryId>();
   const auto id = ids.next<world::ObjectId>();
   group.edits.push_back(world::CreateGeometry{object->geometry, std::move(*shape)});
   group.edits.push_back(create_last(world, id, std::move(*object)));
-  return Plan{std::move(group), {id}};
+  return Plan{std::move(group), {id}, std::move(remark)};
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <memory>
 
 #include "geometry/extrusion.h"
+#include "geometry/self_crossing.h"
 #include "interaction/operations/placement.h"
 #include "interaction/operations/shape_making.h"
 #include "world/mesh_geometry.h"
@@ -14,6 +16,9 @@ using base::Result;
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 constexpr double kMostRepeats = 1e7;
+/// Pairs of triangles that are looked at, in all and more for each triangle, to tell of a sweep that goes
+/// through itself: about as long as it takes to make it.
+constexpr std::uint64_t kSweepTests = std::uint64_t{1} << 19U, kSweepTestsOfATriangle = 32;
 
 std::vector<Parameter> step_parameters() {
   std::vector<Parameter> fields = {place_parameter("move", "how far it goes on, m"),
@@ -129,6 +134,20 @@ Result<world::GeometryPointer> make_extrusion(const Arguments& arguments) {
   // A drawing beyond that size is as good as made by hand.
   if (recipe.size() <= world::kMostRecipeBytes) (*shape)->recipe = std::move(recipe);
   return *shape;
+}
+
+std::string remark_on_sweep(const world::Geometry& sweep) {
+  const auto* shape = dynamic_cast<const world::MeshGeometry*>(&sweep);
+  if (!shape) return {};
+  const std::uint64_t tests = kSweepTests + kSweepTestsOfATriangle * shape->mesh.triangles.size();
+  const geometry::SelfCrossing crossing = geometry::find_self_crossing(shape->mesh, tests);
+  if (!crossing.sought) return "it is too intricate to be told whether it goes through itself";
+  if (!crossing.place) return {};
+  const Vector3& at = *crossing.place;
+  return fmt::format(
+      "it goes through itself near [{:.4g}, {:.4g}, {:.4g}]: its path crosses itself, or turns tighter than "
+      "the drawing reaches",
+      at.x(), at.y(), at.z());
 }
 
 }  // namespace icome::interaction

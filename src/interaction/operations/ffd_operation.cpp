@@ -96,6 +96,15 @@ Result<std::vector<std::uint32_t>> selected(const geometry::TriangleMesh& mesh, 
   return selection;
 }
 
+/// What people should know where a lattice has nothing to move.
+std::string remark_on_empty(const FfdLattice& rest) {
+  const Vector3 &low = rest.points.front(), &high = rest.points.back();
+  return fmt::format(
+      "nothing is deformed, as no vertex lies in the box from [{:.4g}, {:.4g}, {:.4g}] to [{:.4g}, {:.4g}, "
+      "{:.4g}]",
+      low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+}
+
 /// Moves the vertices of a shape as the lattice does, of which `positions` are where they are in its frame.
 Result<Plan> plan_deformed(const ShapeChange& change, const std::vector<Vector3>& positions,
                            const std::vector<std::uint32_t>& selection, const FfdLattice& rest,
@@ -110,7 +119,9 @@ Result<Plan> plan_deformed(const ShapeChange& change, const std::vector<Vector3>
     vertices.push_back(binding.vertices()[i]);
     moved.emplace_back(object_from_lattice * deformed[i]);
   }
-  return plan_of_vertices(change, std::move(vertices), std::move(moved), ids);
+  auto plan = plan_of_vertices(change, std::move(vertices), std::move(moved), ids);
+  if (plan && binding.vertices().empty()) plan->note = remark_on_empty(rest);
+  return plan;
 }
 
 Result<Plan> plan_ffd_of_one(const world::World& world, world::ObjectId object, const Arguments& arguments,
@@ -184,7 +195,8 @@ Result<Plan> plan_ffd_of_several(const world::World& world, const std::vector<wo
   const auto lattice = moved_lattice(*rest, arguments);
   if (!lattice) return tl::unexpected(lattice.error());
   world::World then = world;  // a shape that the others have left is the last one's own
-  world::EditGroup group;
+  Plan all_deformed{world::EditGroup(), objects, remark_on_empty(*rest)};
+  auto& group = std::get<world::EditGroup>(all_deformed.edit.what);
   for (const StandingShape& shape : shapes) {
     auto change = shape_change(then, shape.object, arguments);
     if (!change) return tl::unexpected(change.error());
@@ -196,8 +208,9 @@ Result<Plan> plan_ffd_of_several(const world::World& world, const std::vector<wo
     if (!plan) return plan;
     if (const auto done = world::apply(then, plan->edit); !done) return tl::unexpected(done.error());
     group.edits.push_back(std::move(plan->edit));
+    if (plan->note.empty()) all_deformed.note.clear();
   }
-  return Plan{std::move(group), objects};
+  return all_deformed;
 }
 
 Result<Plan> plan_ffd(const world::World& world, const Arguments& arguments, world::IdSource& ids) {

@@ -29,6 +29,14 @@ tl::unexpected<base::Error> nothing_said(const world::Geometry& shape) {
   return fail(fmt::format("say what is to change: {}", fmt::join(names, ", ")));
 }
 
+/// What is to be known of the shape that came of it, and of who shares it.
+std::string remark_on(const world::Geometry& shape, std::string shared) {
+  const auto making = making_of(shape);
+  const bool swept = making && field(*making, "op") != nullptr;
+  const std::string own = swept ? remark_on_sweep(shape) : "";
+  return own.empty() || shared.empty() ? own + shared : own + "; " + shared;
+}
+
 base::Result<Plan> plan_reshape(const world::World& world, const Arguments& arguments, world::IdSource& ids) {
   const world::ObjectId id = arguments.object("object");
   const world::GeometryId geometry = world.find(id)->geometry;
@@ -38,15 +46,16 @@ base::Result<Plan> plan_reshape(const world::World& world, const Arguments& argu
   if (changes.empty()) return nothing_said(*shared.shape);
   auto shape = remade(world, *shared.shape, changes);
   if (!shape) return tl::unexpected(shape.error());
+  const bool is_alone = shared.users == 1 || arguments.flag("alone");
+  std::string remark = remark_on(**shape, is_alone ? "" : world::sharing(world, geometry));
   if (arguments.flag("alone") && shared.users > 1) {
     const auto own = ids.next<world::GeometryId>();
     world::EditGroup group;
     group.edits.push_back(world::CreateGeometry{own, std::move(*shape)});
     group.edits.push_back(world::ChooseGeometry{id, own});
-    return Plan{std::move(group), {id}};
+    return Plan{std::move(group), {id}, std::move(remark)};
   }
-  const std::string note = shared.users > 1 ? world::sharing(world, geometry) : "";
-  return Plan{world::ReplaceGeometry{geometry, std::move(*shape)}, {id}, note};
+  return Plan{world::ReplaceGeometry{geometry, std::move(*shape)}, {id}, std::move(remark)};
 }
 
 /// "box: its width, ...", for help: the object that is named decides what can be said.

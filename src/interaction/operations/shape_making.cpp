@@ -13,6 +13,7 @@
 #include "geometry/mesh_check.h"
 #include "geometry/polygon_triangulation.h"
 #include "interaction/operations/placement.h"
+#include "interaction/operations/texture_projector.h"
 #include "world/geometry_check.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
@@ -271,7 +272,7 @@ struct WordsOfPrimitive {
 };
 
 Result<Value::Fields> making_of_recipe(std::string_view recipe) {
-  if (recipe.empty())
+  if (recipe.empty() || tells_projector_only(recipe))
     return fail("its shape was made or bent by hand and has no sizes; move its vertices, or scale it");
   const auto value = value_from_json(recipe);
   if (!value || !value->fields())

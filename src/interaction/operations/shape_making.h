@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "interaction/operations/arguments.h"
@@ -21,6 +22,10 @@ const std::vector<Parameter>& extrusion_parameters();
 
 /// The sweep of arguments held to these. Fails as geometry::extrude() does.
 base::Result<world::GeometryPointer> make_extrusion(const Arguments& arguments);
+
+/// What people should know of a sweep that goes through itself, which is no solid then; empty for others.
+/// What only touches itself is no such sweep.
+std::string remark_on_sweep(const world::Geometry& sweep);
 
 /// What the shape is made of, in the words that made it. Fails, saying what to do, for one that was bent or
 /// put together by hand.

@@ -153,36 +153,23 @@ Result<Plan> plan_separate(const World& world, const Arguments& arguments, world
 
 // ---- Move an operand ----------------------------------------------------------------------------------
 
-/// The middle of a part of a tree, in the frame that its place is said in; its origin where it has no end.
-Vector3 middle_of_operand(CsgTree tree, CsgTree::Index node) {
-  tree.set_root(node);
-  const base::Bounds box = geometry::bounds(tree);
-  const bool has_end = !box.isEmpty() && box.min().allFinite() && box.max().allFinite();
-  return has_end ? Vector3(box.center()) : Vector3(tree.node(node).parent_from_node.translation());
-}
-
 Result<Plan> plan_move_operand(const World& world, const Arguments& arguments, world::IdSource&) {
   const ObjectId id = arguments.object("object");
   const auto tree = tree_of(world, id);
   if (!tree) return tl::unexpected(tree.error());
   const auto node = operand_named(**tree, arguments.text("operand"));
   if (!node) return tl::unexpected(node.error());
-  const Affine3 world_from_frame = world::world_from_object(world, id) * tree_from_parent(**tree, *node);
-  const Affine3 frame_from_world = world_from_frame.inverse();
-  if (!frame_from_world.matrix().allFinite())
-    return fail(fmt::format("{} is shrunk to nothing: nothing can be moved in it", called(world, id)));
-  const Vector3 centre = arguments.has("centre")
-                             ? arguments.vector("centre")
-                             : Vector3(world_from_frame * middle_of_operand(**tree, *node));
-  Affine3 map = about(centre, turn_of(arguments.vector("turn")));
-  map.translation() += arguments.vector("by");
-  const Affine3 now = frame_from_world * map * world_from_frame * (*tree)->node(*node).parent_from_node;
-  if (!now.matrix().allFinite() || !geometry::unplacing(now).matrix().allFinite())
-    return fail("the operand would be too far away: say less");
-  CsgTree changed = **tree;
-  changed.set_transform(*node, now);
-  const world::GeometryId geometry = world.find(id)->geometry;
-  return Plan{world::ReplaceGeometry{geometry, std::make_shared<world::CsgGeometry>(std::move(changed))},
+  const Affine3 world_from_tree = world::world_from_object(world, id);
+  const Vector3 centre =
+      arguments.has("centre")
+          ? arguments.vector("centre")
+          : Vector3(world_from_tree * tree_from_parent(**tree, *node) * middle_of_operand(**tree, *node));
+  Affine3 motion = about(centre, turn_of(arguments.vector("turn")));
+  motion.translation() += arguments.vector("by");
+  auto changed = with_operand_moved(**tree, *node, world_from_tree, motion);
+  if (!changed) return tl::unexpected(changed.error());
+  return Plan{world::ReplaceGeometry{world.find(id)->geometry,
+                                     std::make_shared<world::CsgGeometry>(std::move(*changed))},
               {id}};
 }
 

@@ -7,8 +7,10 @@
 
 #include "geometry/texture_projection.h"
 #include "interaction/operations/near_names.h"
+#include "interaction/operations/object_frames.h"
 #include "interaction/operations/placement.h"
 #include "interaction/operations/shape_change.h"
+#include "interaction/operations/texture_projector.h"
 #include "world/solid_geometry.h"
 
 namespace icome::interaction {
@@ -177,13 +179,9 @@ Result<Plan> plan_projection(ShapeChange& change, const Arguments& arguments, wo
   if (!shape) return tl::unexpected(shape.error());
   const auto projector = projector_of((*shape)->bounds(), arguments);
   if (!projector) return tl::unexpected(projector.error());
-  auto coordinates = geometry::project_texture((*shape)->mesh, *projector);
-  if (!coordinates) return tl::unexpected(coordinates.error());
-  auto textured = std::make_shared<world::MeshGeometry>((*shape)->mesh);
-  textured->texture_coordinates = std::move(*coordinates);
-  textured->normals = (*shape)->normals;
-  textured->colours = (*shape)->colours;
-  return plan_of_shape(change, textured, ids);
+  const auto textured = with_projector(**shape, *projector);
+  if (!textured) return tl::unexpected(textured.error());
+  return plan_of_shape(change, *textured, ids);
 }
 
 Result<void> check_own(const Arguments& arguments) {
@@ -217,6 +215,44 @@ Result<Plan> plan_texture(const world::World& world, const Arguments& arguments,
   plan.edit = std::move(group);
   return plan;
 }
+
+// ---- Move the projector -------------------------------------------------------------------------------
+
+Result<Plan> plan_move_projector(const world::World& world, const Arguments& arguments,
+                                 world::IdSource& ids) {
+  const auto change = shape_change(world, arguments);
+  if (!change) return tl::unexpected(change.error());
+  const auto projector = projector_in(*change->shape);
+  if (!projector)
+    return fail(
+        fmt::format("nobody knows where the picture of {} was thrown from: throw it with 'texture' first",
+                    called(world, change->object)));
+  const Affine3 world_from_object = world::world_from_object(world, change->object);
+  const Vector3 centre = arguments.has("centre")
+                             ? arguments.vector("centre")
+                             : Vector3(world_from_object * projector->mesh_from_projector.translation());
+  Affine3 motion = about(centre, turn_of(arguments.vector("turn")));
+  motion.translation() += arguments.vector("by");
+  const auto& shape = static_cast<const world::MeshGeometry&>(*change->shape);
+  const auto moved = with_projector(shape, moved_projector(*projector, world_from_object, motion));
+  if (!moved) return tl::unexpected(moved.error());
+  return plan_of_shape(*change, *moved, ids);
+}
+
+Operation move_projector_operation() {
+  return {"move-projector",
+          "Move projector",
+          "Look",
+          "Moves and turns what the picture on an object is thrown from, so that it lies elsewhere.",
+          {object_parameter("on which 'texture' has thrown a picture"),
+           place_parameter("by", "how far along the axes of the world, m"),
+           turn_parameter("an axis in the world, as long as the angle in degrees, right-handed; before by"),
+           optional_place_parameter("centre", "what it turns about, m in the world; else its middle"),
+           alone_parameter()},
+          plan_move_projector};
+}
+
+// ---- Texture ------------------------------------------------------------------------------------------
 
 std::vector<Parameter> texture_parameters() {
   return {
@@ -257,7 +293,8 @@ std::vector<Operation> texture_operations() {
            "Lays a picture on an object: one of a file or of the design. By projection each corner of a mesh "
            "gets texture "
            "coordinates.",
-           texture_parameters(), plan_texture}};
+           texture_parameters(), plan_texture},
+          move_projector_operation()};
 }
 
 }  // namespace icome::interaction

@@ -107,7 +107,11 @@ Result<PointDrag> Shaping::take(const world::World& world, const ShapingHandle& 
   if (!handle.point) return drag_part(world, handle.object, handle.part, settings_.soft);
   if (!cage_ || *handle.point >= cage_->lattice().points.size())
     return fail("The lattice is gone: select again what is to be deformed.");
-  return cage_->drag(*handle.point);
+  PointDrag drag = cage_->drag(*handle.point);
+  if (drag.followers().empty())
+    return fail(
+        "No vertex goes along with this point of the lattice: take another one, or ask for fewer cells.");
+  return drag;
 }
 
 void Shaping::moved(const world::World& world, const ShapingHandle& handle, const Vector3& offset) {

@@ -61,7 +61,8 @@ class Shaping {
   /// What the probe meets best: of these objects' meshes (others are passed over), or of the lattice.
   std::optional<ShapingHandle> find(const world::World& world, std::span<const world::ObjectId> objects,
                                     const PartProbe& probe);
-  /// Fails as drag_part() does, and for handles of a lattice that is gone.
+  /// Fails as drag_part() does, for handles of a lattice that is gone, and for points of one that move
+  /// nothing.
   base::Result<PointDrag> take(const world::World& world, const ShapingHandle& handle) const;
   /// A step of the drag of a handle has been performed, or has been taken back (zero).
   void moved(const world::World& world, const ShapingHandle& handle, const Vector3& offset);

@@ -26,29 +26,78 @@ std::optional<Vector3> snap_along(const Vector3& axis, const ObjectSnap& found, 
   return way;
 }
 
-/// As snapped_move, of objects that are `from` off where they stand.
-base::Result<SnappedMove> snapped_from(const world::World& world, world::CollisionIndex& index,
-                                       SnapFinder& finder, std::span<const ObjectId> objects,
-                                       const Vector3& from, const Vector3& wanted, const DragRules& rules,
-                                       world::Effort* effort) {
-  const MovingObjects moving(index, objects, effort);
-  StopSettings stops = rules.stops;
-  if (rules.axis) stops.slide = false;
-  const auto plain = stopped_move(moving, from, wanted, stops);
-  if (!plain) return tl::unexpected(plain.error());
-  SnappedMove move{*plain, plain->offset, std::nullopt, plain->contacts};
-  const std::vector<ObjectSnap> found =
-      finder.of_objects(world, index, objects, move.free, rules.snaps, rules.handles, effort);
+/// One question to snapped_from().
+struct SnapQuestion {
+  const world::World& world;
+  world::CollisionIndex& index;
+  SnapFinder& finder;
+  std::span<const ObjectId> objects;
+  const DragRules& rules;
+  world::Effort* effort;
+
+  std::vector<ObjectSnap> at(const Vector3& place, const SnapSettings& snaps) const {
+    return finder.of_objects(world, index, objects, place, snaps, rules.handles, effort);
+  }
+  std::optional<Vector3> way(const ObjectSnap& found) const {
+    return rules.axis ? snap_along(*rules.axis, found, rules.snaps.radius)
+                      : std::optional<Vector3>(found.offset());
+  }
+};
+
+/// From where surfaces let them go on to what is near there and can be reached; false where nothing is.
+bool snap_to_things(const SnapQuestion& question, const MovingObjects& moving, const StopSettings& stops,
+                    SnappedMove& move) {
+  SnapSettings things = question.rules.snaps;
+  things.grid = false;
+  const std::vector<ObjectSnap> found = question.at(move.free, things);
   for (std::size_t i = 0; i < std::min(found.size(), kMostTries); ++i) {
-    const auto way = rules.axis ? snap_along(*rules.axis, found[i], rules.snaps.radius)
-                                : std::optional<Vector3>(found[i].offset());
+    const auto way = question.way(found[i]);
     if (!way) continue;
     const auto there = stopped_move(moving, move.free, move.free + *way, stops);
     if (!there || there->stopped) continue;
     move.move = *there;
     move.snap = found[i];
-    break;
+    return true;
   }
+  return false;
+}
+
+/// The grid says where they are to go, and surfaces how far they come on the way there: so what is in the way
+/// of the grid's place stops them short of it, and does not send them to another one beside.
+base::Result<void> snap_to_grid_place(const SnapQuestion& question, const MovingObjects& moving,
+                                      const Vector3& from, const Vector3& wanted, const StopSettings& stops,
+                                      SnappedMove& move) {
+  SnapSettings grid = SnapSettings::none();
+  grid.grid = true;
+  grid.spacing = question.rules.snaps.spacing;
+  grid.radius = question.rules.snaps.radius;
+  const std::vector<ObjectSnap> found = question.at(wanted, grid);
+  const auto way = found.empty() ? std::nullopt : question.way(found.front());
+  if (!way) return {};
+  auto there = stopped_move(moving, from, wanted + *way, stops);
+  if (!there) return tl::unexpected(there.error());
+  if (there->stopped) {
+    move.free = there->offset;
+    move.contacts = there->contacts;
+  } else {
+    move.snap = found.front();
+  }
+  move.move = std::move(*there);
+  return {};
+}
+
+/// As snapped_move, of objects that are `from` off where they stand.
+base::Result<SnappedMove> snapped_from(const SnapQuestion& question, const Vector3& from,
+                                       const Vector3& wanted) {
+  const MovingObjects moving(question.index, question.objects, question.effort);
+  StopSettings stops = question.rules.stops;
+  if (question.rules.axis) stops.slide = false;
+  const auto plain = stopped_move(moving, from, wanted, stops);
+  if (!plain) return tl::unexpected(plain.error());
+  SnappedMove move{*plain, plain->offset, std::nullopt, plain->contacts};
+  if (snap_to_things(question, moving, stops, move) || !question.rules.snaps.grid) return move;
+  if (const auto done = snap_to_grid_place(question, moving, from, wanted, stops, move); !done)
+    return tl::unexpected(done.error());
   return move;
 }
 
@@ -57,7 +106,7 @@ base::Result<SnappedMove> snapped_from(const world::World& world, world::Collisi
 base::Result<SnappedMove> snapped_move(const world::World& world, world::CollisionIndex& index,
                                        SnapFinder& finder, std::span<const ObjectId> objects,
                                        const Vector3& wanted, const DragRules& rules) {
-  return snapped_from(world, index, finder, objects, Vector3::Zero(), wanted, rules, nullptr);
+  return snapped_from({world, index, finder, objects, rules, nullptr}, Vector3::Zero(), wanted);
 }
 
 base::Result<world::Edit> land_objects(const world::World& world, world::CollisionIndex& index,
@@ -87,7 +136,7 @@ base::Result<StoppedDrag::Found> StoppedDrag::find(const world::World& world, wo
       return Found{{*back, back->offset, std::nullopt, back->contacts}, wanted, there, is_spent()};
     from = back->offset;
   }
-  auto move = snapped_from(world, index, finder, move_.objects(), from, there - offset_, rules, effort);
+  auto move = snapped_from({world, index, finder, move_.objects(), rules, effort}, from, there - offset_);
   if (!move) return tl::unexpected(move.error());
   return Found{std::move(*move), wanted, there, is_spent()};
 }

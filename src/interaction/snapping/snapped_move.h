@@ -26,7 +26,8 @@ struct SnappedMove {
 
 /// As stopped_move, and then on to the best snap that is near there and can be reached without going through
 /// anything. With an axis the objects stand on the line; on it they snap to where it meets a face, or comes
-/// nearest to anything else.
+/// nearest to anything else. The grid comes before surfaces: objects go towards the grid's place that is
+/// nearest to where they are wanted, and what is in the way stops them short of it.
 base::Result<SnappedMove> snapped_move(const world::World& world, world::CollisionIndex& index,
                                        SnapFinder& finder, std::span<const world::ObjectId> objects,
                                        const Vector3& wanted, const DragRules& rules = {});

@@ -88,6 +88,17 @@ TEST(Shaping, TheLatticeFollowsTheSelection) {
   EXPECT_FALSE(shaping.find(it.world, {}, probe_round(rest[5], 0.01)));
 }
 
+TEST(Shaping, RefusesAPointOfTheLatticeThatNoVertexGoesAlongWith) {
+  ShapedWorld it(geometry::tessellate(geometry::Box{Vector3::Constant(0.5)}, 1.0));  // all of it are corners
+  Shaping shaping = shaping_with({.target = ShapingTarget::Lattice, .cells = {2, 2, 2}});
+  shaping.follow(it.world, std::vector{it.thing});
+  ASSERT_TRUE(shaping.cage());
+  EXPECT_TRUE(shaping.take(it.world, {.point = 0}));
+  const auto middle = shaping.take(it.world, {.point = 13});
+  ASSERT_FALSE(middle);
+  EXPECT_EQ(middle.error().message.find("No vertex goes along"), 0U);
+}
+
 TEST(Shaping, ShowsSmallMeshesWholeAndBigOnesRoundWhatIsMarked) {
   ShapedWorld small(sheet_of(4)), big(sheet_of(60));
   Shaping shaping = shaping_with({.target = ShapingTarget::Edge, .soft = {.radius = 0.2}});

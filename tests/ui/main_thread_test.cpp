@@ -1,0 +1,136 @@
+// How long the main thread works on one thing while people drag and touch: nobody may see the window stand.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "places.h"
+#include "ui/window_test.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ICOME_TIMES_MEAN_NOTHING 1
+#endif
+
+namespace icome::ui {
+namespace {
+
+using base::Vector3;
+
+constexpr double kLongest = 0.05;  // s: three pictures of a screen
+
+class MainThreadTest : public WindowTest {
+ protected:
+  void SetUp() override {
+#ifdef ICOME_TIMES_MEAN_NOTHING
+    GTEST_SKIP() << "sanitizers slow all of it";
+#endif
+    const auto demo = places::project_folder() / "data" / "demo.wrl";
+    if (!std::filesystem::exists("/usr/share/glmark2/models/bunny.obj"))
+      GTEST_SKIP() << "the bunny of the demo is not there: install glmark2-data";
+    window_->begin(demo);
+    ASSERT_TRUE(until([&] { return named("Scan") && !session().opening(); }));
+    session().settle();
+    mouse_.emplace();
+    for (int i = 0; i < 60; ++i) live();  // the view gets to where it flies
+    application().watch(kLongest);
+  }
+
+  std::optional<world::ObjectId> named(const std::string& name) {
+    for (const auto& [id, object] : world().objects())
+      if (object.name == name) return id;
+    return std::nullopt;
+  }
+  /// One turn of the window's clock.
+  static void live() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    QCoreApplication::processEvents();
+  }
+  QPointF pixel(const Vector3& point) {
+    const interaction::View& view = session().view();
+    const Vector3 seen = view.world_from_eye.inverse() * point;
+    const double half = 0.5 * std::min(SceneMouse::kWidth, SceneMouse::kHeight);
+    const double scale = half / (std::tan(0.5 * view.field) * -seen.z());
+    return {0.5 * SceneMouse::kWidth + scale * seen.x(), 0.5 * SceneMouse::kHeight - scale * seen.y()};
+  }
+  /// Where the object is seen: a place at which a ray meets it.
+  QPointF place_of(const std::string& name) {
+    const auto id = named(name);
+    const QPointF middle = id ? pixel(world::bounds(world(), *id).center()) : QPointF();
+    for (int ring = 0; ring < 12; ++ring) {
+      for (int i = 0; i < 12; ++i) {
+        const double angle = 0.5 * i;
+        const QPointF at = middle + 5.0 * ring * QPointF(std::cos(angle), std::sin(angle));
+        const SceneInput input{.at = at, .size = QSizeF(SceneMouse::kWidth, SceneMouse::kHeight)};
+        const auto picked = session().pick(input.ray(session().view()));
+        if (picked && id && world::is_within(world(), picked->object, *id)) return at;
+      }
+    }
+    ADD_FAILURE() << name << " is not seen";
+    return middle;
+  }
+  /// To and fro, up and down, as a hand does that tries where something fits.
+  void drag(QPointF from, Qt::KeyboardModifiers modifiers = {}, Qt::MouseButton button = Qt::LeftButton) {
+    mouse_->press(from, button, modifiers);
+    QPointF at = from;
+    for (int i = 1; i <= 40; ++i) {
+      at = from + QPointF(90.0 * std::sin(0.25 * i), 50.0 * std::sin(0.4 * i));
+      mouse_->move(at, modifiers);
+      live();
+    }
+    mouse_->release(at, modifiers);
+    for (int i = 0; i < 5; ++i) live();
+  }
+  void expect_no_long_call(const char* while_what) {
+    for (const auto& it : application().long_calls())
+      ADD_FAILURE() << 1e3 * it.seconds << " ms in one go, " << it.what << ", while " << while_what;
+    EXPECT_GT(application().calls(), 100U);
+    application().watch(kLongest);
+  }
+
+  std::optional<SceneMouse> mouse_;
+};
+
+TEST_F(MainThreadTest, IsNeverLongAtWorkWhileThingsAreDragged) {
+  for (const char* name : {"Plinth", "Scan", "Brass-solid", "Rubber-knot", "Waves"}) {
+    drag(place_of(name));
+    expect_no_long_call(name);
+    ASSERT_TRUE(session().undo()) << name;
+    session().select({});
+    live();
+  }
+}
+
+TEST_F(MainThreadTest, IsNeverLongAtWorkWhileThingsAreTouched) {
+  action("tool.touch")->trigger();
+  for (const char* name : {"Scan", "Brass-solid", "Rubber-knot", "Waves"}) {
+    drag(place_of(name));
+    expect_no_long_call(name);
+  }
+}
+
+TEST_F(MainThreadTest, IsNeverLongAtWorkWhileTheViewIsTurnedAndPartsAreDragged) {
+  drag({400.0, 300.0}, {}, Qt::RightButton);
+  expect_no_long_call("the view is turned");
+  session().home();
+  for (int i = 0; i < 60; ++i) live();
+  const auto solid = named("Brass-solid");
+  ASSERT_TRUE(solid);
+  session().select({*solid});
+  live();
+  // By the ghost of one of its operands, wherever that is seen.
+  std::optional<QPointF> ghost;
+  for (double x = 0.0; x < SceneMouse::kWidth && !ghost; x += 3.0)
+    for (double y = 0.0; y < SceneMouse::kHeight && !ghost; y += 3.0) {
+      const SceneInput input{.at = {x, y}, .size = QSizeF(SceneMouse::kWidth, SceneMouse::kHeight)};
+      if (session().pick_part(input.ray(session().view()))) ghost = input.at;
+    }
+  ASSERT_TRUE(ghost);
+  application().watch(kLongest);
+  drag(*ghost);
+  expect_no_long_call("an operand is dragged");
+  EXPECT_EQ(session().history().undo_name().substr(0, 12), "Move operand");
+}
+
+}  // namespace
+}  // namespace icome::ui
