@@ -347,6 +347,13 @@ double signed_distance(const CsgAtom& atom, const Vector3& point) {
   return within ? -distance : distance;
 }
 
+AtomHeight height_in_tree(const CsgAtom& atom, const Vector3& point) {
+  const double distance = signed_distance(atom, point);
+  const Vector3 normal = atom.normal_map * retract(atom, point).normal;
+  const double stretch = normal.norm();
+  return {distance / stretch, normal / stretch};
+}
+
 double tightest_bend(const CsgAtom& atom, const Vector3& point) {
   switch (atom.kind) {
     case Kind::Sphere:

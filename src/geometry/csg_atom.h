@@ -61,6 +61,14 @@ std::optional<bool> side_of(const CsgAtom& atom, const Bounds& box);
 /// Where the distance is zero, straight along its gradient from `point`.
 SurfacePoint retract(const CsgAtom& atom, const Vector3& point);
 
+/// How far in front of the surface `point` is (m), and the unit normal there: in the tree's frame, to first
+/// order.
+struct AtomHeight {
+  double height;
+  Vector3 normal;
+};
+AtomHeight height_in_tree(const CsgAtom& atom, const Vector3& point);
+
 /// The radius (m, the atom's frame) of the tightest bend near a place of the surface; infinite for a plane.
 double tightest_bend(const CsgAtom& atom, const Vector3& place);
 

@@ -12,8 +12,9 @@
 
 #include "base/decompositions.h"
 #include "geometry/csg_part.h"
+#include "geometry/csg_settle.h"
 #include "geometry/csg_tets.h"
-#include "geometry/flat_merge.h"
+#include "geometry/face_merge.h"
 #include "geometry/mesh_sheets.h"
 
 namespace icome::geometry {
@@ -31,15 +32,18 @@ constexpr std::size_t kTetsATriangle = 4;  // more tetrahedra than this for each
 constexpr std::size_t kMostTets = 1'500'000;   // however many triangles are allowed: they take some seconds
 constexpr std::size_t kMostPieces = 100'000;   // of one tetrahedron
 constexpr std::size_t kMostCuts = 50'000'000;  // cuts of pieces by surfaces, all told
-constexpr std::size_t kTellEachCut = 1 << 16;  // of them between two looks at `go_on`
+constexpr std::size_t kFewMeshTriangles =
+    2'000;  // of all meshes in a tree: more are better sampled, if that does
+constexpr std::size_t kMostMeshTriangles = 20'000;  // of all meshes in a tree that is cut at all
+constexpr std::size_t kTellEachCut = 1 << 16;       // of them between two looks at `go_on`
 constexpr std::array<std::array<int, 2>, 6> kPieceEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 /// Of a tetrahedron of positive volume, facing out.
 constexpr std::array<std::array<int, 3>, 4> kPieceFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 
-/// A point at which pieces have a corner: one of the tetrahedra's, or where an atom cuts an edge.
+/// A point at which pieces have a corner: one of the tetrahedra's, or where a surface cuts an edge.
 struct CutPoint {
   Vector3 place;
-  std::uint32_t atom = CsgTets::kNoAtom;                  // on whose surface it was put
+  CsgSurfaces::Index surface = CsgSurfaces::kNone;        // on which it was put
   std::array<std::uint32_t, 2> ends{kNoPoint, kNoPoint};  // of the edge that was cut
   /// The corners of the smallest side of a tetrahedron that holds it, rising: all that its cuts depend on.
   Corners4 carrier{kNoPoint, kNoPoint, kNoPoint, kNoPoint};
@@ -60,24 +64,28 @@ std::uint64_t edge_of(std::uint32_t a, std::uint32_t b) {
 
 class CsgCutter {
  public:
-  CsgCutter(const CsgProgram& program, CsgTets tets)
-      : program_(program), tets_(std::move(tets.tets)), on_(kOnSurface * largest_coordinate(program)) {
-    find_likes();
+  using Surface = CsgSurfaces::Index;
+
+  CsgCutter(const CsgProgram& program, const CsgSurfaces& surfaces, CsgTets tets)
+      : program_(program),
+        surfaces_(surfaces),
+        tets_(std::move(tets.tets)),
+        on_(kOnSurface * largest_coordinate(program)) {
     for (std::uint32_t i = 0; i < tets.points.size(); ++i) {
       CutPoint point{.place = tets.points[i], .carrier = {i, kNoPoint, kNoPoint, kNoPoint}};
-      if (tets.moved_to[i] != CsgTets::kNoAtom) point.atom = like_[tets.moved_to[i]].atom;
+      if (tets.moved_to[i] != CsgSurfaces::kNone) point.surface = surfaces_.like(tets.moved_to[i]);
       points_.push_back(point);
     }
     open_at_.resize(points_.size());
     for (CsgTets::Tet& tet : tets_) {
-      tet.atoms = surfaces(tet.atoms);
+      tet.surfaces = surfaces_.unlike(std::move(tet.surfaces));
       for (const std::uint32_t corner : tet.corners)
-        open_at_[corner].insert(open_at_[corner].end(), tet.atoms.begin(), tet.atoms.end());
+        open_at_[corner].insert(open_at_[corner].end(), tet.surfaces.begin(), tet.surfaces.end());
     }
-    for (auto& atoms : open_at_) make_set(atoms);
+    for (auto& open : open_at_) make_set(open);
   }
 
-  base::Result<TriangleMesh> mesh(std::size_t max_triangles, const ContourProgress& go_on) {
+  base::Result<TriangleMesh> mesh(double cell, std::size_t max_triangles, const ContourProgress& go_on) {
     for (std::size_t i = 0; i < tets_.size(); ++i) {
       const auto done = cut(tets_[i], contour_share(go_on, double(i) / double(tets_.size()), 0.0));
       if (!done) return tl::unexpected(done.error());
@@ -88,69 +96,45 @@ class CsgCutter {
     TriangleMesh result;
     for (const CutPoint& point : points_) result.positions.push_back(point.place);
     result.triangles = std::move(triangles_);
-    std::vector<std::uint32_t> planes;
-    for (const Triangle& triangle : result.triangles) planes.push_back(plane_of(triangle));
-    return merge_flat_faces(separate_sheets(result), planes, kHighEnough * on_);
+    std::vector<Surface> faces;
+    for (const Triangle& triangle : result.triangles) faces.push_back(surface_of(triangle));
+    result = separate_sheets(result);
+    settle_vertices(result, faces, surfaces_);
+    const ChordJudge judge(program_, surfaces_, cell);
+    return merge_faces(result, faces, tips(result), kHighEnough * on_,
+                       [&](Surface face, const auto& corners) { return judge.stands_for(face, corners); });
   }
 
  private:
-  /// Atoms whose surfaces lie in one another are cut along as one: the first of them.
-  struct Like {
-    std::uint32_t atom;
-    bool opposite;
-  };
-
-  void find_likes() {
-    const auto& atoms = program_.atoms();
-    const double length = largest_coordinate(program_);
-    std::vector<std::uint32_t> firsts;
-    for (std::uint32_t i = 0; i < atoms.size(); ++i) {
-      Like like{i, false};
-      for (const std::uint32_t first : firsts) {
-        const AtomLikeness likeness = geometry::likeness(atoms[first], atoms[i], length);
-        if (likeness == AtomLikeness::None) continue;
-        like = {first, likeness == AtomLikeness::Opposite};
-        break;
-      }
-      if (like.atom == i) firsts.push_back(i);
-      like_.push_back(like);
-    }
+  static void make_set(std::vector<Surface>& surfaces) {
+    std::sort(surfaces.begin(), surfaces.end());
+    surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
   }
 
-  static void make_set(std::vector<std::uint32_t>& atoms) {
-    std::sort(atoms.begin(), atoms.end());
-    atoms.erase(std::unique(atoms.begin(), atoms.end()), atoms.end());
-  }
-
-  std::vector<std::uint32_t> surfaces(std::vector<std::uint32_t> atoms) const {
-    for (std::uint32_t& atom : atoms) atom = like_[atom].atom;
-    make_set(atoms);
-    return atoms;
-  }
-
-  /// -1 behind the atom, 1 in front of it, 0 on it. Cuts are flat: along an edge that was cut later, a point
-  /// is on the side on which the edge is.
-  int side(std::uint32_t index, std::uint32_t atom) const {
+  /// -1 behind the surface, 1 in front of it, 0 on it. Cuts are flat: along an edge that was cut later, a
+  /// point is on the side on which the edge is.
+  int side(std::uint32_t index, Surface surface) const {
     const CutPoint& point = points_[index];
-    if (point.atom == atom) return 0;
-    if (point.ends[0] != kNoPoint && atom < point.atom) {
-      const int first = side(point.ends[0], atom);
-      return first != 0 ? first : side(point.ends[1], atom);
+    if (point.surface == surface) return 0;
+    if (point.ends[0] != kNoPoint && surface < point.surface) {
+      const int first = side(point.ends[0], surface);
+      return first != 0 ? first : side(point.ends[1], surface);
     }
-    const double distance = height(point.place, atom);
+    const double distance = height(point.place, surface);
     return std::abs(distance) <= on_ ? 0 : distance < 0.0 ? -1 : 1;
   }
 
-  /// The distance from an atom's surface, m, as far as its transform is even.
-  double height(const Vector3& place, std::uint32_t index) const {
-    const CsgAtom& atom = program_.atoms()[index];
+  /// The distance from a surface, m, as far as its transform is even.
+  double height(const Vector3& place, Surface surface) const {
+    const CsgAtom& atom = surfaces_.shape(surface);
     return signed_distance(atom, atom.atom_from_tree * place) * std::sqrt(3.0) / atom.most_stretch;
   }
 
-  /// Does every tetrahedron around the edge that the atom may pass cut it?
-  bool cuts_along(std::uint32_t atom, const Corners4& carrier) const {
+  /// Does every tetrahedron around the edge that the surface may pass cut it?
+  bool cuts_along(Surface surface, const Corners4& carrier) const {
     return std::all_of(carrier.begin(), carrier.end(), [&](std::uint32_t corner) {
-      return corner == kNoPoint || std::binary_search(open_at_[corner].begin(), open_at_[corner].end(), atom);
+      return corner == kNoPoint ||
+             std::binary_search(open_at_[corner].begin(), open_at_[corner].end(), surface);
     });
   }
 
@@ -164,25 +148,47 @@ class CsgCutter {
     return carrier;
   }
 
-  /// The plane that the triangle was cut along; kNoPlane where a bent surface was.
-  std::uint32_t plane_of(const Triangle& triangle) const {
-    for (const std::uint32_t atom : open_at_[points_[triangle[0]].carrier[0]]) {
-      if (program_.atoms()[atom].kind != CsgAtom::Kind::Plane) continue;
-      if (std::all_of(triangle.begin(), triangle.end(), [&](auto corner) { return side(corner, atom) == 0; }))
-        return atom;
+  /// Which vertices are the tip of a cone.
+  std::vector<bool> tips(const TriangleMesh& mesh) const {
+    std::vector<bool> tips(mesh.positions.size(), false);
+    for (Surface surface = 0; surface < surfaces_.size(); ++surface) {
+      const auto apex = surfaces_.apex(surface);
+      if (!apex || surfaces_.like(surface) != surface) continue;
+      for (std::size_t i = 0; i < tips.size(); ++i)
+        tips[i] = tips[i] || (mesh.positions[i] - *apex).norm() <= on_;
     }
-    return kNoPlane;
+    return tips;
   }
 
-  /// Where the atom's surface crosses the edge, between points on either side of it.
-  Vector3 crossing(std::uint32_t a, std::uint32_t b, std::uint32_t atom) const {
+  /// The surface that the triangle was cut along: a plane if there is one, else the one nearest to its
+  /// middle.
+  Surface surface_of(const Triangle& triangle) const {
+    Surface best = CsgSurfaces::kNone;
+    double least = std::numeric_limits<double>::infinity();
+    Vector3 middle = Vector3::Zero();
+    for (const std::uint32_t corner : triangle) middle += points_[corner].place / 3.0;
+    for (const Surface surface : open_at_[points_[triangle[0]].carrier[0]]) {
+      const bool along = std::all_of(triangle.begin(), triangle.end(),
+                                     [&](auto corner) { return side(corner, surface) == 0; });
+      if (!along) continue;
+      if (surfaces_.is_plane(surface)) return surface;
+      const double distance = std::abs(height(middle, surface));
+      if (distance >= least) continue;
+      least = distance;
+      best = surface;
+    }
+    return best;
+  }
+
+  /// Where the surface crosses the edge, between points on either side of it.
+  Vector3 crossing(std::uint32_t a, std::uint32_t b, Surface surface) const {
     const Vector3 start = points_[a].place, step = points_[b].place - start;
-    double low = 0.0, high = 1.0, at_low = height(start, atom), at_high = height(start + step, atom);
+    double low = 0.0, high = 1.0, at_low = height(start, surface), at_high = height(start + step, surface);
     if (!(at_low < 0.0 ? at_high > 0.0 : at_low > 0.0 && at_high < 0.0)) return start + 0.5 * step;
     double best = 0.5, least = std::numeric_limits<double>::infinity();
     for (int i = 0, kept = 0; i < kRootSteps && least > kRootExact * on_; ++i) {  // Illinois
       const double t = (low * at_high - high * at_low) / (at_high - at_low);
-      const double here = height(start + t * step, atom);
+      const double here = height(start + t * step, surface);
       if (std::abs(here) < least) {
         least = std::abs(here);
         best = t;
@@ -202,33 +208,33 @@ class CsgCutter {
     return start + best * step;
   }
 
-  std::uint32_t cut_point(std::uint32_t a, std::uint32_t b, std::uint32_t atom) {
+  std::uint32_t cut_point(std::uint32_t a, std::uint32_t b, Surface surface) {
     const auto [found, fresh] = cut_edges_.try_emplace(edge_of(a, b), std::uint32_t(points_.size()));
     if (fresh) {
       const std::array<std::uint32_t, 2> ends{std::min(a, b), std::max(a, b)};
-      points_.push_back({crossing(ends[0], ends[1], atom), atom, ends, carrier_of(a, b)});
+      points_.push_back({crossing(ends[0], ends[1], surface), surface, ends, carrier_of(a, b)});
     }
     return found->second;
   }
 
-  /// Divides every piece that the atom passes, edge by edge; in an order that its neighbours share.
-  void cut_along(std::uint32_t atom, std::vector<Corners4>& pieces) {
+  /// Divides every piece that the surface passes, edge by edge; in an order that its neighbours share.
+  void cut_along(Surface surface, std::vector<Corners4>& pieces) {
     std::vector<Corners4> result;
     std::vector<std::array<std::uint32_t, 2>> crossed;
     for (const Corners4& piece : pieces) {
       crossed.clear();
       std::array<int, 4> sides;
-      for (std::size_t i = 0; i < 4; ++i) sides[i] = side(piece[i], atom);
+      for (std::size_t i = 0; i < 4; ++i) sides[i] = side(piece[i], surface);
       for (const auto& edge : kPieceEdges) {
         const std::uint32_t a = piece[edge[0]], b = piece[edge[1]];
-        if (sides[edge[0]] * sides[edge[1]] < 0 && cuts_along(atom, carrier_of(a, b)))
+        if (sides[edge[0]] * sides[edge[1]] < 0 && cuts_along(surface, carrier_of(a, b)))
           crossed.push_back({std::min(a, b), std::max(a, b)});
       }
       std::sort(crossed.begin(), crossed.end());
       const std::size_t first = result.size();
       result.push_back(piece);
       for (const auto& edge : crossed) {
-        const std::uint32_t point = cut_point(edge[0], edge[1], atom);
+        const std::uint32_t point = cut_point(edge[0], edge[1], surface);
         for (std::size_t i = first, end = result.size(); i < end; ++i) {
           const auto a = std::find(result[i].begin(), result[i].end(), edge[0]) - result[i].begin();
           const auto b = std::find(result[i].begin(), result[i].end(), edge[1]) - result[i].begin();
@@ -244,18 +250,18 @@ class CsgCutter {
   }
 
   base::Result<void> cut(const CsgTets::Tet& tet, const ContourProgress& go_on) {
-    std::vector<std::uint32_t> atoms;  // that pass an edge, perhaps beyond what is open here
+    std::vector<Surface> passing;  // an edge, perhaps beyond what is open here
     for (const std::uint32_t corner : tet.corners)
-      atoms.insert(atoms.end(), open_at_[corner].begin(), open_at_[corner].end());
-    make_set(atoms);
+      passing.insert(passing.end(), open_at_[corner].begin(), open_at_[corner].end());
+    make_set(passing);
     std::vector<Corners4> pieces{tet.corners};
-    for (const std::uint32_t atom : atoms) {
+    for (const Surface surface : passing) {
       cuts_ += pieces.size();
       if (cuts_ >= tell_at_) {
         tell_at_ = cuts_ + kTellEachCut;
         if (!go_on(0.0)) return base::fail("the meshing was interrupted");
       }
-      cut_along(atom, pieces);
+      cut_along(surface, pieces);
       if (pieces.size() > kMostPieces || cuts_ > kMostCuts)
         return base::fail("too many thin parts meet in one place to mesh it");
     }
@@ -275,19 +281,23 @@ class CsgCutter {
 
   bool is_solid(const CsgTets::Tet& tet, const Corners4& piece) const {
     Bounds box;
-    Vector3 centre = Vector3::Zero();
+    Vector3 centre = Vector3::Zero(), middle = Vector3::Zero();
     for (const std::uint32_t corner : tet.corners) {
       box.extend(points_[corner].place);
       centre += 0.25 * points_[corner].place;
     }
+    for (const std::uint32_t corner : piece) middle += 0.25 * points_[corner].place;
     return program_.inside_where(box, [&](std::uint32_t atom) {
-      const Like& like = like_[atom];
-      if (std::binary_search(tet.atoms.begin(), tet.atoms.end(), like.atom)) {
+      const CsgAtom& shape = program_.atoms()[atom];
+      if (shape.kind == CsgAtom::Kind::Mesh) return behind(shape, middle);
+      const Surface first = surfaces_.like(surfaces_.of_atom(atom));
+      if (std::binary_search(tet.surfaces.begin(), tet.surfaces.end(), first)) {
         for (const std::uint32_t corner : piece) {
-          if (const int at = side(corner, like.atom); at != 0) return (at < 0) != like.opposite;
+          if (const int at = side(corner, first); at != 0)
+            return (at < 0) != surfaces_.opposite(surfaces_.of_atom(atom));
         }
       }
-      return behind(program_.atoms()[atom], centre);
+      return behind(shape, centre);
     });
   }
 
@@ -306,12 +316,12 @@ class CsgCutter {
   }
 
   const CsgProgram& program_;
+  const CsgSurfaces& surfaces_;
   std::vector<CsgTets::Tet> tets_;
   double on_;  // m
   std::size_t cuts_ = 0, tell_at_ = 0;
-  std::vector<Like> like_;
   std::vector<CutPoint> points_;
-  std::vector<std::vector<std::uint32_t>> open_at_;  // by point of the tetrahedra: atoms of all around it
+  std::vector<std::vector<Surface>> open_at_;  // by point of the tetrahedra: of all around it
   std::unordered_map<std::uint64_t, std::uint32_t> cut_edges_;
   std::vector<PieceFace> between_;  // tetrahedra
   std::vector<Triangle> triangles_;
@@ -330,24 +340,34 @@ base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t
                        Affine3(tree_from_z.conjugate()) * turned.node(turned.root()).parent_from_node);
   const CsgProgram program(turned);
   const std::size_t most_tets = std::min(kMostTets, kTetsATriangle * max_triangles);
-  auto tets = make_csg_tets(program, cell, most_tets, contour_share(go_on, 0.0, 0.4));
+  const CsgSurfaces surfaces(program);
+  auto tets = make_csg_tets(program, surfaces, cell, most_tets, contour_share(go_on, 0.0, 0.4));
   if (!tets) return tl::unexpected(tets.error());
-  auto mesh = CsgCutter(program, std::move(*tets)).mesh(max_triangles, contour_share(go_on, 0.4, 0.6));
+  auto mesh = CsgCutter(program, surfaces, std::move(*tets))
+                  .mesh(cell, max_triangles, contour_share(go_on, 0.4, 0.6));
   if (mesh) {
     for (Vector3& position : mesh->positions) position = tree_from_z * position;
   }
   return mesh;
 }
 
-bool is_flat(const CsgProgram& program) {
-  return std::all_of(program.atoms().begin(), program.atoms().end(),
-                     [](const CsgAtom& atom) { return atom.kind == CsgAtom::Kind::Plane; });
+bool has_flat_faces(const CsgProgram& program) {
+  std::size_t triangles = 0;
+  bool any = false;
+  for (const CsgAtom& atom : program.atoms()) {
+    any = any || atom.kind == CsgAtom::Kind::Plane || atom.kind == CsgAtom::Kind::Mesh;
+    if (atom.kind == CsgAtom::Kind::Mesh) triangles += atom.mesh->mesh.triangles.size();
+  }
+  return any && triangles <= kFewMeshTriangles;
 }
 
 bool csg_can_cut(const CsgProgram& program) {
-  return std::none_of(program.atoms().begin(), program.atoms().end(), [](const CsgAtom& atom) {
-    return atom.kind == CsgAtom::Kind::Mesh || atom.kind == CsgAtom::Kind::Custom;
-  });
+  std::size_t triangles = 0;
+  for (const CsgAtom& atom : program.atoms()) {
+    if (atom.kind == CsgAtom::Kind::Custom) return false;
+    if (atom.kind == CsgAtom::Kind::Mesh) triangles += atom.mesh->mesh.triangles.size();
+  }
+  return triangles <= kMostMeshTriangles;
 }
 
 bool is_thin(const CsgProgram& program, double thickness) {

@@ -179,15 +179,17 @@ class EdgeFinder {
     const Sheet one(faces_, face);
     const Bounds box = faces_.box(face);
     bool found = true;
-    faces_.near(box.center(), box.center(), 0.5 * box.sizes().norm(),
-                [&](std::uint32_t next, const Bounds& its) {
-                  if (next <= face || !box.intersects(its)) return true;
-                  const Sheet other(faces_, next);
-                  if (one.atom() == other.atom() && !one.triangle()) return true;
-                  found = one.flat() && other.flat() ? cross_planes(one, other, box.intersection(its))
-                                                     : cross_in_cells(one, other, box.intersection(its));
-                  return found;
-                });
+    SegmentQuery around(box.center(), box.center(), 0.5 * box.sizes().norm());
+    faces_.tree().near(around.only_in(box), [&](std::uint32_t next) {
+      if (next <= face) return true;
+      const Bounds its = faces_.box(next);
+      if (!box.intersects(its)) return true;
+      const Sheet other(faces_, next);
+      if (one.atom() == other.atom() && !one.triangle()) return true;
+      found = one.flat() && other.flat() ? cross_planes(one, other, box.intersection(its))
+                                         : cross_in_cells(one, other, box.intersection(its));
+      return found;
+    });
     return found;
   }
 
@@ -204,9 +206,22 @@ class EdgeFinder {
     const auto within = part_within(box, start, step, slack);
     if (!within) return true;
     auto [first, last] = *within;
-    for (const Sheet* sheet : {&one, &other}) clip(*sheet, start, step, slack, first, last);
+    for (const Sheet* sheet : {&one, &other}) {
+      clip_to_leaf(*sheet, start, step, slack, first, last);
+      clip(*sheet, start, step, slack, first, last);
+    }
     if (first < last) trim(CurveArc(start + first * step, start + last * step), one, other);
     return true;
+  }
+
+  /// To within the primitive, which in a tree that stands askew fills little of its box.
+  void clip_to_leaf(const Sheet& sheet, const Vector3& start, const Vector3& step, double slack,
+                    double& first, double& last) const {
+    const CsgAtom& atom = program_.atoms()[sheet.atom()];
+    const auto part = part_within(program_.extent(sheet.atom()), atom.atom_from_tree * start,
+                                  atom.atom_from_tree.linear() * step, slack * atom.most_stretch);
+    first = part ? std::max(first, (*part)[0]) : 1.0;
+    last = part ? std::min(last, (*part)[1]) : 0.0;
   }
 
   /// To within the edges of a triangle.
@@ -317,9 +332,9 @@ class EdgeFinder {
 
   /// Keeps the parts along which the solid's surface runs along both sheets.
   void trim(const CurveArc& arc, const Sheet& one, const Sheet& other) {
-    const Bounds box = arc.bounds();
+    const double reach = arc.sagitta() + kEdgeSlack * size_;
     std::vector<std::uint32_t> others;
-    faces_.near(box.center(), box.center(), 0.5 * box.sizes().norm(), [&](std::uint32_t face, const Bounds&) {
+    faces_.near(arc.at(arc.first()), arc.at(arc.last()), reach, [&](std::uint32_t face, const Bounds&) {
       const std::uint32_t atom = faces_.atom_of(face);
       if (atom != one.atom() && atom != other.atom()) others.push_back(atom);
       return true;

@@ -141,7 +141,8 @@ class CsgMesher {
     const bool limited = !solid_.bounds.isEmpty() && solid_.bounds.sizes().allFinite();
     if (!limited || !(options_.cell > 0.0)) return by_cells(options_.cell);
     bool can_cut = csg_can_cut(program());
-    const bool cuts_first = can_cut && (is_flat(program()) || is_thin(program(), kThinCells * options_.cell));
+    const bool cuts_first =
+        can_cut && (has_flat_faces(program()) || is_thin(program(), kThinCells * options_.cell));
     std::optional<ContourMesh> best;
     double cell = options_.cell;
     for (int i = 0; i < kMostTries; ++i, cell /= kFiner) {

@@ -17,28 +17,16 @@ constexpr double kAlong = 1e-5;        // rad, between faces that count as flush
 constexpr std::size_t kGroup = 4;      // operands of a union below one box
 constexpr unsigned kMaxBranches = 64;  // places that may count as either
 
-struct Placed {
-  double height;   // m, in the tree's frame
-  Vector3 normal;  // unit, there
-};
-
-/// Distance and normal in the tree's frame, to first order.
-Placed placed_height(const CsgAtom& atom, const Vector3& in_atom) {
-  const double distance = signed_distance(atom, in_atom);
-  const Vector3 normal = atom.normal_map * retract(atom, in_atom).normal;
-  const double stretch = normal.norm();
-  return {distance / stretch, normal / stretch};
-}
-
-/// The same for a mesh, within `reach`; nothing beyond.
-std::optional<Placed> mesh_height(const CsgAtom& atom, const Vector3& in_atom, double reach) {
+/// As height_in_tree, for a mesh, within `reach`; nothing beyond.
+std::optional<AtomHeight> mesh_height(const CsgAtom& atom, const Vector3& in_atom, double reach) {
   const auto hit = atom.mesh->tree.nearest(in_atom, reach * atom.most_stretch);
   if (!hit) return std::nullopt;
   const TriangleMesh& mesh = atom.mesh->mesh;
   const Vector3& corner = mesh.corner(hit->triangle, 0);
   const Vector3 normal =
       (mesh.corner(hit->triangle, 1) - corner).cross(mesh.corner(hit->triangle, 2) - corner);
-  return Placed{(atom.tree_from_atom.linear() * (in_atom - hit->point)).norm(), tree_normal(atom, normal)};
+  return AtomHeight{(atom.tree_from_atom.linear() * (in_atom - hit->point)).norm(),
+                    tree_normal(atom, normal)};
 }
 
 }  // namespace
@@ -309,7 +297,7 @@ CsgProgram::Side CsgProgram::side(std::uint32_t atom, const SidesView& view) con
   if (atom == view.atom) return decided(view.from_behind);
   const CsgAtom& it = atoms_[atom];
   const Vector3 in_atom = it.atom_from_tree * view.place;
-  Placed near{};
+  AtomHeight near{};
   if (it.kind == Kind::Mesh) {
     const auto height = mesh_height(it, in_atom, view.slack);
     if (!height || height->height > view.slack) return decided(behind(it, view.place));
@@ -317,7 +305,7 @@ CsgProgram::Side CsgProgram::side(std::uint32_t atom, const SidesView& view) con
   } else {
     const double distance = signed_distance(it, in_atom);
     if (std::abs(distance) > view.slack * it.most_stretch) return decided(distance <= 0.0);
-    near = placed_height(it, in_atom);
+    near = height_in_tree(it, in_atom);
     if (std::abs(near.height) > view.slack) return decided(distance <= 0.0);
   }
   if (near.normal.cross(view.normal).norm() > kAlong) return Side::Either;

@@ -15,16 +15,17 @@
 namespace icome::geometry {
 namespace {
 
-constexpr double kEdgeOfCell = 2.5;      // the longest edges where a grid's cells are as many
+constexpr double kEdgeOfCell = 2.5;      // the longest edges where many flat surfaces pass
+constexpr double kOffOfCell = 0.03;      // how far chords may be off the surface, in cells
 constexpr double kEdgeInCrowd = 0.1;     // where more than kCrowd surfaces pass
 constexpr double kChord = 0.4;           // edges, of the radius of the bend
 constexpr double kStraightChord = 0.2;   // where they may be long in the other direction
 constexpr double kParallel = 1e-9;       // what cosines of parallel directions are off 1
-constexpr double kTip = 0.1;             // of a cone's or tube's size: what is bent more counts as bent so
 constexpr std::size_t kMostFlat = 8;     // planes that one tetrahedron is cut by, where it need not be small
 constexpr std::size_t kCrowd = 12;       // more surfaces than this are better parted than cut along
 constexpr double kFinest = 0x1p-18;      // of the whole: no edge is halved below
 constexpr double kAround = 0.1;          // of a tetrahedron's size: so much around it counts as its own
+constexpr double kLeastPart = 1e-6;      // of a tetrahedron's volume: what a tip may divide it into
 constexpr double kDrawnFrom = 0.02;      // of a point's shortest edge: nearer surfaces draw it to them
 constexpr std::size_t kLooksATet = 64;   // on average, for each tetrahedron allowed
 constexpr std::size_t kTellEach = 4096;  // tetrahedra between two looks at `go_on`
@@ -35,31 +36,40 @@ constexpr double kTetRoom = 1.1;
 
 constexpr std::array<std::array<int, 2>, 6> kTetEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-using AtomList = std::shared_ptr<const std::vector<std::uint32_t>>;
+using SurfaceList = std::shared_ptr<const std::vector<CsgSurfaces::Index>>;
 
 /// In Maubach's order: the edge from corner 0 to corner `tag` is the next to be halved.
 struct OpenTet {
   std::array<std::uint32_t, 4> corners;
   unsigned tag;
-  AtomList atoms;
+  SurfaceList surfaces;
 };
 
 class TetRefiner {
  public:
-  TetRefiner(const CsgProgram& program, double cell, std::size_t most, const ContourProgress& go_on)
-      : program_(program), cell_(cell), most_(most), go_on_(go_on), length_(largest_coordinate(program)) {}
+  TetRefiner(const CsgProgram& program, const CsgSurfaces& surfaces, double cell, std::size_t most,
+             const ContourProgress& go_on)
+      : program_(program),
+        surfaces_(surfaces),
+        cell_(cell),
+        most_(most),
+        go_on_(go_on),
+        length_(largest_coordinate(program)) {}
 
   base::Result<CsgTets> refined() {
     begin();
     bool good = halve_large() && close_gaps();
-    if (good) move_beside();
+    if (good) {
+      move_beside();
+      take_up_tips();
+    }
     if (too_many_) {
       return base::fail(fmt::format("its thin and bent parts take more than {} tetrahedra to mesh", most_));
     }
     if (!good) return base::fail("the meshing was interrupted");
     for (OpenTet& tet : tets_) {
       if (volume(tet.corners) < 0.0) std::swap(tet.corners[0], tet.corners[1]);
-      result_.tets.push_back({tet.corners, *tet.atoms});
+      result_.tets.push_back({tet.corners, *tet.surfaces});
     }
     return std::move(result_);
   }
@@ -71,13 +81,14 @@ class TetRefiner {
     const auto way = straight_way(program_);
     along_z_ = way && std::abs(way->z()) > 1.0 - kParallel;
     const double across = along_z_ ? box.sizes().head<2>().maxCoeff() : box.sizes().maxCoeff();
-    Vector3 sides(across, across, along_z_ ? box.sizes().z() : across);
+    // Of a plate no less than across: each halving across is one along z, too.
+    Vector3 sides(across, across, std::max(across, box.sizes().z()));
     sides *= kTetRoom;
     finest_ = kFinest * sides.x();
     const Vector3 low = box.min() - sides.cwiseProduct(kTetShift);
     for (int i = 0; i < 8; ++i)
       result_.points.push_back(low + sides.cwiseProduct(Vector3(i & 1, i >> 1 & 1, i >> 2)));
-    auto all = std::make_shared<std::vector<std::uint32_t>>(program_.atoms().size());
+    auto all = std::make_shared<std::vector<CsgSurfaces::Index>>(surfaces_.size());
     std::iota(all->begin(), all->end(), 0U);
     std::array<std::uint32_t, 3> axes{1, 2, 4};
     do {
@@ -99,7 +110,7 @@ class TetRefiner {
       if (size(tet) > wanted_size(tet)) {
         halve(tet, waiting_);
       } else {
-        passed_ += tet.atoms->size();
+        passed_ += tet.surfaces->size();
         tets_.push_back(std::move(tet));
       }
     }
@@ -154,43 +165,28 @@ class TetRefiner {
 
   bool may_hold_surface(OpenTet& tet) const {
     const Bounds box = box_around(tet);
-    auto open = open_atoms(program_, box, *tet.atoms);
+    auto open = surfaces_.open(box, *tet.surfaces);
     if (open.empty()) return false;
-    const PartContent found = content(program_, box, open, length_);
-    if (open.size() < tet.atoms->size())
-      tet.atoms = std::make_shared<const std::vector<std::uint32_t>>(std::move(open));
+    const PartContent found = content(program_, box, surfaces_.atoms(open), length_);
+    if (open.size() < tet.surfaces->size())
+      tet.surfaces = std::make_shared<const std::vector<CsgSurfaces::Index>>(std::move(open));
     return found.solid && found.free;
   }
 
-  /// Is it passed by so many surfaces that cutting it takes longer than halving it? Those that lie in one
-  /// another count as one: halving does not part them.
-  bool is_crowded(const std::vector<std::uint32_t>& passing) const {
-    const auto& atoms = program_.atoms();
-    std::vector<std::uint32_t> unlike;
-    for (const std::uint32_t index : passing) {
-      const bool known = std::any_of(unlike.begin(), unlike.end(), [&](std::uint32_t other) {
-        return likeness(atoms[other], atoms[index], length_) != AtomLikeness::None;
-      });
-      if (!known) unlike.push_back(index);
-      if (unlike.size() > kCrowd) return true;
-    }
-    return false;
-  }
-
+  /// Where so many surfaces pass that cutting takes longer than halving, edges are shorter. Those that lie in
+  /// one another count as one: halving does not part them.
   double wanted_size(const OpenTet& tet) const {
     double wanted = std::numeric_limits<double>::infinity();
     const Vector3 centre = box_around(tet).center();
-    const double chord = along_z_ ? kStraightChord : kChord;
-    for (const std::uint32_t index : *tet.atoms) {
-      const CsgAtom& atom = program_.atoms()[index];
-      if (atom.kind == CsgAtom::Kind::Plane) continue;
-      const double bend = tightest_bend(atom, retract(atom, atom.atom_from_tree * centre).point);
-      const double least = kTip * (atom.kind == CsgAtom::Kind::Torus ? atom.b : atom.a);
-      const double in_tree = std::sqrt(3.0) / atom.most_stretch;  // least stretch, where it is even
-      wanted = std::min({wanted, kEdgeOfCell * cell_, chord * in_tree * std::max(bend, least)});
+    const std::vector<CsgSurfaces::Index> passing = surfaces_.unlike(*tet.surfaces);
+    for (const CsgSurfaces::Index surface : passing) {
+      if (surfaces_.is_plane(surface)) continue;
+      const double bend = surfaces_.bend(surface, centre, cell_);
+      wanted = std::min(wanted, std::sqrt(8.0 * bend * chord_height(cell_, bend)));
+      if (along_z_) wanted = std::min(wanted, kStraightChord * bend);
     }
-    if (tet.atoms->size() > kMostFlat) wanted = std::min(wanted, kEdgeOfCell * cell_);
-    if (is_crowded(*tet.atoms)) wanted = std::min(wanted, kEdgeInCrowd * cell_);
+    if (passing.size() > kMostFlat) wanted = std::min(wanted, kEdgeOfCell * cell_);
+    if (passing.size() > kCrowd) wanted = std::min(wanted, kEdgeInCrowd * cell_);
     return std::max(wanted, finest_);
   }
 
@@ -227,7 +223,7 @@ class TetRefiner {
       double reach = std::numeric_limits<double>::infinity();  // m
       Vector3 place;
     };
-    result_.moved_to.assign(result_.points.size(), CsgTets::kNoAtom);
+    result_.moved_to.assign(result_.points.size(), CsgSurfaces::kNone);
     std::vector<Nearest> nearest(result_.points.size());
     for (const OpenTet& tet : tets_) {
       for (const auto& edge : kTetEdges) {
@@ -239,8 +235,8 @@ class TetRefiner {
     }
     for (const OpenTet& tet : tets_) {
       for (const std::uint32_t corner : tet.corners) {
-        for (const std::uint32_t index : *tet.atoms) {
-          const CsgAtom& atom = program_.atoms()[index];
+        for (const CsgSurfaces::Index index : *tet.surfaces) {
+          const CsgAtom& atom = surfaces_.shape(index);
           const Vector3 place = atom.tree_from_atom * retract(atom, atom.atom_from_tree * at(corner)).point;
           const double distance = (place - at(corner)).norm();
           if (distance >= nearest[corner].reach) continue;
@@ -250,11 +246,45 @@ class TetRefiner {
       }
     }
     for (std::size_t i = 0; i < nearest.size(); ++i) {
-      if (result_.moved_to[i] != CsgTets::kNoAtom) result_.points[i] = nearest[i].place;
+      if (result_.moved_to[i] != CsgSurfaces::kNone) result_.points[i] = nearest[i].place;
     }
   }
 
+  /// Divides the tetrahedra that hold the tip of a cone into four around it: no edge would meet it.
+  void take_up_tips() {
+    for (CsgSurfaces::Index surface = 0; surface < surfaces_.size(); ++surface) {
+      const auto apex = surfaces_.apex(surface);
+      if (!apex || surfaces_.like(surface) != surface) continue;
+      const auto around = std::find_if(tets_.begin(), tets_.end(), [&](const OpenTet& tet) {
+        return std::binary_search(tet.surfaces->begin(), tet.surfaces->end(), surface) && holds(tet, *apex);
+      });
+      if (around == tets_.end()) continue;
+      const OpenTet whole = *around;
+      tets_.erase(around);
+      const auto tip = std::uint32_t(result_.points.size());
+      result_.points.push_back(*apex);
+      result_.moved_to.push_back(surface);
+      for (std::size_t i = 0; i < 4; ++i) {
+        tets_.push_back(whole);
+        tets_.back().corners[i] = tip;
+      }
+    }
+  }
+
+  bool holds(const OpenTet& tet, const Vector3& place) const {
+    const double whole = volume(tet.corners);
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<Vector3, 4> corners;
+      for (std::size_t k = 0; k < 4; ++k) corners[k] = k == i ? place : at(tet.corners[k]);
+      const double part =
+          (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]);
+      if (part / whole <= kLeastPart) return false;
+    }
+    return true;
+  }
+
   const CsgProgram& program_;
+  const CsgSurfaces& surfaces_;
   double cell_;
   std::size_t most_;
   const ContourProgress& go_on_;
@@ -274,7 +304,7 @@ class TetRefiner {
 std::optional<Vector3> straight_way(const CsgProgram& program) {
   std::optional<Vector3> way;
   for (const CsgAtom& atom : program.atoms()) {
-    if (atom.kind == CsgAtom::Kind::Plane) continue;
+    if (atom.kind == CsgAtom::Kind::Plane || atom.kind == CsgAtom::Kind::Mesh) continue;
     if (atom.kind != CsgAtom::Kind::Cylinder) return std::nullopt;
     const Vector3 axis = atom.tree_from_atom.linear().col(2).normalized();
     if (way && std::abs(way->dot(axis)) < 1.0 - kParallel) return std::nullopt;
@@ -283,9 +313,13 @@ std::optional<Vector3> straight_way(const CsgProgram& program) {
   return way;
 }
 
-base::Result<CsgTets> make_csg_tets(const CsgProgram& program, double cell, std::size_t most,
-                                    const ContourProgress& go_on) {
-  return TetRefiner(program, cell, most, go_on).refined();
+double chord_height(double cell, double bend) {
+  return std::min(kOffOfCell * cell, 0.125 * kChord * kChord * bend);
+}
+
+base::Result<CsgTets> make_csg_tets(const CsgProgram& program, const CsgSurfaces& surfaces, double cell,
+                                    std::size_t most, const ContourProgress& go_on) {
+  return TetRefiner(program, surfaces, cell, most, go_on).refined();
 }
 
 }  // namespace icome::geometry

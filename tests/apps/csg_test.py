@@ -228,8 +228,8 @@ class MeshTest(CsgTest):
         numbers = [struct.unpack_from("<12f", data, 84 + 50 * i)[3:] for i in range(count)]
         return report, [(row[0:3], row[3:6], row[6:9]) for row in numbers]
 
-    def test_meshes_are_closed_in_millimetres_and_near(self):
-        report, triangles = self.mesh(self.csg(PIERCED), "--cell", "0.25")
+    def closed_volume(self, triangles):
+        """In mm^3, of triangles of which each edge has two that run along it in opposite directions."""
         edges = set()
         volume = 0.0
         for a, b, c in triangles:
@@ -239,11 +239,37 @@ class MeshTest(CsgTest):
             volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
                        + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
         self.assertTrue(all((b, a) in edges for a, b in edges))
-        self.assertAlmostEqual(volume, 1000 - 3.14159265 * 4 * 10, delta=1.0)
+        return volume
+
+    def test_meshes_are_closed_in_millimetres_and_near(self):
+        report, triangles = self.mesh(self.csg(PIERCED), "--cell", "0.25")
+        self.assertAlmostEqual(self.closed_volume(triangles), 1000 - 3.14159265 * 4 * 10, delta=1.0)
         self.assertAlmostEqual(report["mesh"]["cell"], 0.00025, delta=1e-12)
         self.assertLess(report["mesh"]["error"], 0.00002)
         self.assertEqual(max(x for triangle in triangles for x, _, _ in triangle), 5.0)
         self.assertEqual(sorted(os.listdir(self.folder)), ["mesh.stl", "solid.csg"])
+
+    def test_flat_faces_are_exact_and_of_few_triangles(self):
+        hexagon = 1.5 * 3 ** 0.5
+        tetrahedron = ("polyhedron(points = [[0,0,0],[9,0,0],[0,9,0],[0,0,9]],"
+                       " faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);")
+        for text, volume, most in (
+                ("cylinder($fn = 6, h = 10, r1 = 2, r2 = 2);", 40 * hexagon, 20),
+                ("cylinder($fn = 6, h = 9, r1 = 2, r2 = 0);", 12 * hexagon, 10),
+                (tetrahedron, 121.5, 4),
+                ("difference() { cube([20, 20, 5], center = true);"
+                 " cylinder($fn = 6, h = 9, r1 = 2, r2 = 2, center = true); }",
+                 5 * (400 - 4 * hexagon), 50)):
+            report, triangles = self.mesh(self.csg(text))
+            self.assertLessEqual(len(triangles), most, text)
+            self.assertAlmostEqual(self.closed_volume(triangles), volume, delta=1e-3, msg=text)
+            self.assertLess(report["mesh"]["error"], 1e-9)
+
+    def test_round_holes_have_the_triangles_that_they_need(self):
+        _, triangles = self.mesh(self.csg("difference() { cube([100, 100, 5], center = true);"
+                                          " cylinder(h = 9, r1 = 5, r2 = 5, center = true); }"), "--cell", "0.05")
+        self.assertLess(len(triangles), 900)
+        self.assertAlmostEqual(self.closed_volume(triangles), 5 * (10000 - 3.14159265 * 25), delta=1.0)
 
     def test_by_default_a_side_has_two_hundred_cells(self):
         report, _ = self.mesh(self.csg("cube([2, 0.1, 0.1]);"))

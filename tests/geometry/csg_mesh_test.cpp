@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 
 #include "csg_meshed.h"
 #include "csg_trees.h"
@@ -82,11 +84,32 @@ TEST(CsgMesh, RandomTreesGiveClosedMeshesOfTheirSolid) {
   }
 }
 
+/// A box that is a primitive of one's own: it cannot be cut out.
+class OwnBox final : public CsgPrimitive {
+ public:
+  explicit OwnBox(const Vector3& half) : box_(Box{half}) {}
+  bool inside(const Vector3& point) const override { return geometry::inside(box_, point); }
+  SurfacePoint scp_from_inside(const Vector3& point) const override {
+    return geometry::scp_from_inside(box_, point);
+  }
+  SurfacePoint scp_from_outside(const Vector3& point) const override {
+    return geometry::scp_from_outside(box_, point);
+  }
+  Bounds bounds() const override { return geometry::bounds(box_); }
+  TriangleMesh tessellate(double tolerance) const override { return geometry::tessellate(box_, tolerance); }
+  std::string name() const override { return "own box"; }
+
+ private:
+  Primitive box_;
+};
+
 TEST(CsgMesh, WhatIsLostIsTold) {
-  // Plates that are meshes cannot be cut out, and smaller cells do not find one of a micrometre.
+  // Plates of one's own cannot be cut out, and smaller cells do not find one of a micrometre.
   for (const double thickness : {0.02, 1e-6}) {
     CsgTree tree;
-    const auto plate = tree.add_leaf(mesh_solid(box_mesh({-0.5, -0.5, 0.0}, {0.5, 0.5, thickness})));
+    const std::shared_ptr<const CsgPrimitive> own =
+        std::make_shared<const OwnBox>(Vector3(0.5, 0.5, 0.5 * thickness));
+    const auto plate = tree.add_leaf(own, moved(0.0, 0.0, 0.5 * thickness));
     const auto foot = tree.add_leaf(Primitive(Box{Vector3::Constant(0.2)}), moved(0.0, 0.0, -0.3));
     tree.add(CsgOperator::Union, plate, foot);
     const auto made = contour(tree, {.cell = 0.036, .measures = false});
@@ -95,6 +118,19 @@ TEST(CsgMesh, WhatIsLostIsTold) {
     if (made->lost) {
       EXPECT_NEAR(made->lost->z(), 0.0, 1e-5);
     }
+  }
+}
+
+TEST(CsgMesh, PlatesThatAreMeshesKeepTheirThickness) {
+  for (const double thickness : {0.02, 1e-6}) {
+    CsgTree tree;
+    const auto plate = tree.add_leaf(mesh_solid(box_mesh({-0.5, -0.5, 0.0}, {0.5, 0.5, thickness})));
+    const auto foot = tree.add_leaf(Primitive(Box{Vector3::Constant(0.2)}), moved(0.0, 0.0, -0.3));
+    tree.add(CsgOperator::Union, plate, foot);
+    const ContourMesh made = csg_meshed(tree, 0.036);
+    EXPECT_FALSE(made.lost);
+    EXPECT_NEAR(volume(made.mesh), thickness + 0.4 * 0.4 * 0.4, 1e-9);
+    EXPECT_LE(made.mesh.triangles.size(), 60u);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "geometry/flat_merge.h"
+#include "geometry/face_merge.h"
 
 #include <gtest/gtest.h>
 
@@ -50,26 +50,60 @@ GridBox grid_box(int n) {
   return box;
 }
 
-TEST(FlatMerge, BoxOfManyTrianglesBecomesTwelve) {
+bool all_fit(std::uint32_t /*face*/, const std::array<Vector3, 3>& /*corners*/) { return true; }
+
+std::vector<bool> none_pinned(const TriangleMesh& mesh) {
+  return std::vector<bool>(mesh.positions.size(), false);
+}
+
+TEST(FaceMerge, BoxOfManyTrianglesBecomesTwelve) {
   const GridBox box = grid_box(7);
   ASSERT_TRUE(is_closed(box.mesh));
-  const TriangleMesh merged = merge_flat_faces(box.mesh, box.planes, 1e-9);
+  const TriangleMesh merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, all_fit);
   EXPECT_TRUE(is_closed(merged));
   EXPECT_EQ(merged.triangles.size(), 12u);
   EXPECT_EQ(merged.positions.size(), 8u);
   EXPECT_NEAR(volume(merged), 343.0, 1e-9);
 }
 
-TEST(FlatMerge, BentFacesStayAsTheyAre) {
+TEST(FaceMerge, TrianglesOfNoFaceStayAsTheyAre) {
   GridBox box = grid_box(4);
   for (std::uint32_t& plane : box.planes) {
-    if (plane == 5) plane = kNoPlane;
+    if (plane == 5) plane = kNoFace;
   }
-  const TriangleMesh merged = merge_flat_faces(box.mesh, box.planes, 1e-9);
+  const TriangleMesh merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, all_fit);
   EXPECT_TRUE(is_closed(merged));
   EXPECT_NEAR(volume(merged), 64.0, 1e-9);
-  // All 25 vertices of the bent side, and the four corners opposite.
+  // All 25 vertices of that side, and the four corners opposite.
   EXPECT_EQ(merged.positions.size(), 29u);
+}
+
+TEST(FaceMerge, PinnedVerticesStay) {
+  const GridBox box = grid_box(4);
+  std::vector<bool> pinned = none_pinned(box.mesh);
+  for (std::size_t i = 0; i < pinned.size(); ++i) pinned[i] = box.mesh.positions[i] == Vector3(4, 2, 2);
+  const TriangleMesh merged = merge_faces(box.mesh, box.planes, pinned, 1e-9, all_fit);
+  EXPECT_TRUE(is_closed(merged));
+  EXPECT_EQ(merged.positions.size(), 9u);
+}
+
+TEST(FaceMerge, FacesKeepVerticesThatTheyNeed) {
+  // One side may not have triangles that reach over more than two squares.
+  const GridBox box = grid_box(8);
+  const auto fits = [](std::uint32_t face, const std::array<Vector3, 3>& corners) {
+    if (face != 5) return true;
+    Bounds around;
+    for (const Vector3& corner : corners) around.extend(corner);
+    return around.sizes().maxCoeff() <= 2.0;
+  };
+  const TriangleMesh merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, fits);
+  EXPECT_TRUE(is_closed(merged));
+  EXPECT_NEAR(volume(merged), 512.0, 1e-9);
+  std::size_t on_side = 0;
+  for (const Vector3& position : merged.positions) on_side += position.z() == 8.0 ? 1 : 0;
+  EXPECT_GE(on_side, 25u);
+  EXPECT_LT(on_side, 81u);
+  EXPECT_EQ(merged.positions.size(), on_side + 4);
 }
 
 }  // namespace

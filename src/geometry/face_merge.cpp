@@ -1,4 +1,4 @@
-#include "geometry/flat_merge.h"
+#include "geometry/face_merge.h"
 
 #include <algorithm>
 #include <array>
@@ -18,15 +18,19 @@ constexpr std::uint32_t kGone = ~std::uint32_t{0};
 /// Of many vertices that could go, some only can when their neighbours have.
 constexpr int kMostRounds = 100;
 
-class FlatMerger {
+class FaceMerger {
  public:
-  FlatMerger(const TriangleMesh& mesh, const std::vector<std::uint32_t>& planes, double thinnest)
+  FaceMerger(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
+             const std::vector<bool>& pinned, double thinnest, const FaceFit& fits)
       : at_(mesh.positions),
         triangles_(mesh.triangles),
-        planes_(planes),
+        faces_(faces),
+        pinned_(pinned),
         thinnest_(thinnest),
+        fits_(fits),
+        tried_(at_.size(), false),
         around_(at_.size()) {
-    assert(planes.size() == mesh.triangles.size());
+    assert(faces.size() == mesh.triangles.size() && pinned.size() == mesh.positions.size());
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       for (const std::uint32_t corner : triangles_[t]) around_[corner].push_back(t);
     }
@@ -44,15 +48,16 @@ class FlatMerger {
  private:
   /// Moves the vertex onto a neighbour, the one that leaves the best shapes, where that changes no face.
   bool take_away(std::uint32_t vertex) {
-    if (around_[vertex].empty()) return false;
-    const auto faces = planes_around(vertex);
+    if (pinned_[vertex] || tried_[vertex] || around_[vertex].empty()) return false;
+    tried_[vertex] = true;
+    const auto faces = faces_around(vertex);
     if (!faces) return false;
     std::uint32_t best = kGone;
     double least = thinnest_;
     for (const std::uint32_t other : neighbours(vertex)) {
       if (!faces->only_one && !is_crease(vertex, other)) continue;
       const double height = least_height(vertex, other);
-      if (height <= least || !links_alike(vertex, other)) continue;
+      if (height <= least || !links_alike(vertex, other) || !all_fit(vertex, other)) continue;
       least = height;
       best = other;
     }
@@ -65,11 +70,11 @@ class FlatMerger {
     bool only_one;
   };
 
-  /// Nothing where the vertex is a corner: of three faces, of a bent one, or where a face meets itself.
-  std::optional<Faces> planes_around(std::uint32_t vertex) const {
+  /// Nothing where the vertex is a corner: of three faces, of no face, or where a face meets itself.
+  std::optional<Faces> faces_around(std::uint32_t vertex) const {
     std::uint32_t creases = 0;
     for (const std::uint32_t t : around_[vertex]) {
-      if (planes_[t] == kNoPlane) return std::nullopt;
+      if (faces_[t] == kNoFace) return std::nullopt;
     }
     const auto ring = neighbours(vertex);
     for (const std::uint32_t other : ring) creases += is_crease(vertex, other) ? 1 : 0;
@@ -94,14 +99,14 @@ class FlatMerger {
     return corners[0] == vertex || corners[1] == vertex || corners[2] == vertex;
   }
 
-  /// Do the triangles at the edge lie in two planes?
+  /// Do the triangles at the edge lie in two faces?
   bool is_crease(std::uint32_t vertex, std::uint32_t other) const {
-    std::uint32_t first = kNoPlane;
+    std::uint32_t first = kNoFace;
     for (const std::uint32_t t : around_[vertex]) {
       if (!holds(t, other)) continue;
-      if (first == kNoPlane) {
-        first = planes_[t];
-      } else if (planes_[t] != first) {
+      if (first == kNoFace) {
+        first = faces_[t];
+      } else if (faces_[t] != first) {
         return true;
       }
     }
@@ -112,16 +117,26 @@ class FlatMerger {
     return (b - a).cross(c - a);
   }
 
+  /// The triangle's corners when the vertex lies where `to` does.
+  std::array<Vector3, 3> moved(std::uint32_t triangle, std::uint32_t vertex, std::uint32_t to) const {
+    std::array<Vector3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = at_[triangles_[triangle][i] == vertex ? to : triangles_[triangle][i]];
+    return corners;
+  }
+
+  bool all_fit(std::uint32_t vertex, std::uint32_t to) const {
+    return std::all_of(around_[vertex].begin(), around_[vertex].end(), [&](std::uint32_t t) {
+      return holds(t, to) || fits_(faces_[t], moved(t, vertex, to));
+    });
+  }
+
   /// Of the triangles that change, m; 0 where one is turned over.
   double least_height(std::uint32_t vertex, std::uint32_t to) const {
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t t : around_[vertex]) {
       if (holds(t, to)) continue;
-      std::array<Vector3, 3> before, after;
-      for (std::size_t i = 0; i < 3; ++i) {
-        before[i] = at_[triangles_[t][i]];
-        after[i] = at_[triangles_[t][i] == vertex ? to : triangles_[t][i]];
-      }
+      const std::array<Vector3, 3> before = moved(t, vertex, vertex), after = moved(t, vertex, to);
       const Vector3 area = twice_area(after[0], after[1], after[2]);
       if (area.dot(twice_area(before[0], before[1], before[2])) <= 0.0) return 0.0;
       const double longest = std::max(
@@ -153,6 +168,8 @@ class FlatMerger {
       }
     }
     around_[vertex].clear();
+    tried_[to] = false;
+    for (const std::uint32_t other : neighbours(to)) tried_[other] = false;
   }
 
   TriangleMesh numbered() {
@@ -174,16 +191,19 @@ class FlatMerger {
 
   const std::vector<Vector3>& at_;
   std::vector<Triangle> triangles_;
-  const std::vector<std::uint32_t>& planes_;
+  const std::vector<std::uint32_t>& faces_;
+  const std::vector<bool>& pinned_;  // by vertex
   double thinnest_;
+  const FaceFit& fits_;
+  std::vector<bool> tried_;  // by vertex: in vain, and nothing has changed around it since
   std::vector<std::vector<std::uint32_t>> around_;  // by vertex: its triangles
 };
 
 }  // namespace
 
-TriangleMesh merge_flat_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& planes,
-                              double thinnest) {
-  return FlatMerger(mesh, planes, thinnest).merged();
+TriangleMesh merge_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
+                         const std::vector<bool>& pinned, double thinnest, const FaceFit& fits) {
+  return FaceMerger(mesh, faces, pinned, thinnest, fits).merged();
 }
 
 }  // namespace icome::geometry

@@ -1,0 +1,146 @@
+#include "geometry/csg_settle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/decompositions.h"
+#include "geometry/csg_tets.h"
+
+namespace icome::geometry {
+namespace {
+
+using Surface = CsgSurfaces::Index;
+
+constexpr int kMostSettling = 8;     // steps
+constexpr double kSettled = 1e-16;   // of the coordinates: a step so small is none
+constexpr double kAlike = 1e-6;      // of the largest eigenvalue: below, normals do not tell a direction
+constexpr double kWayOfEdge = 0.5;   // of the shortest edge around: how far a vertex may go
+constexpr double kThickness = 20.0;  // walls are so many times thicker than what a chord is off
+constexpr double kFacing = 0.8;      // cosine between a triangle and its surface
+
+class VertexSettler {
+ public:
+  VertexSettler(TriangleMesh& mesh, const std::vector<Surface>& faces, const CsgSurfaces& surfaces)
+      : mesh_(mesh), faces_(faces), surfaces_(surfaces), around_(mesh.positions.size()) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (const std::uint32_t corner : mesh.triangles[t]) around_[corner].push_back(t);
+    }
+  }
+
+  void settle_all() {
+    for (std::uint32_t vertex = 0; vertex < around_.size(); ++vertex) settle(vertex);
+  }
+
+ private:
+  void settle(std::uint32_t vertex) {
+    std::vector<Surface> passing;
+    for (const std::uint32_t t : around_[vertex]) passing.push_back(faces_[t]);
+    passing = surfaces_of(std::move(passing));
+    if (passing.empty()) return;
+    const Vector3 before = mesh_.positions[vertex];
+    const auto place = common_place(before, passing);
+    if (!place || !fits(vertex, *place)) return;
+    mesh_.positions[vertex] = *place;
+  }
+
+  static std::vector<Surface> surfaces_of(std::vector<Surface> faces) {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    if (!faces.empty() && faces.back() == CsgSurfaces::kNone) faces.clear();
+    return faces;
+  }
+
+  double farthest(const Vector3& place, const std::vector<Surface>& passing) const {
+    double most = 0.0;
+    for (const Surface surface : passing)
+      most = std::max(most, std::abs(surfaces_.height(surface, place).height));
+    return most;
+  }
+
+  /// Nothing where it is no nearer to all surfaces.
+  std::optional<Vector3> common_place(const Vector3& start, const std::vector<Surface>& passing) const {
+    Vector3 place = start;
+    for (int i = 0; i < kMostSettling; ++i) {
+      const Vector3 step = step_to(place, passing);
+      place += step;
+      if (step.norm() <= kSettled * place.norm()) break;
+    }
+    if (!place.allFinite() || farthest(place, passing) >= farthest(start, passing)) return std::nullopt;
+    return place;
+  }
+
+  /// The shortest step to where the tangent planes meet, or to what is nearest to all of them.
+  Vector3 step_to(const Vector3& place, const std::vector<Surface>& passing) const {
+    Matrix3 normals = Matrix3::Zero();
+    Vector3 pull = Vector3::Zero();
+    for (const Surface surface : passing) {
+      const AtomHeight there = surfaces_.height(surface, place);
+      normals += there.normal * there.normal.transpose();
+      pull -= there.height * there.normal;
+    }
+    const base::SymmetricEigen eigen = base::symmetric_eigen(normals);
+    Vector3 step = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 along = eigen.vectors.col(k);
+      if (eigen.values[k] > kAlike * eigen.values[2]) step += along * (along.dot(pull) / eigen.values[k]);
+    }
+    return step;
+  }
+
+  /// May the vertex go there: is no triangle turned over?
+  bool fits(std::uint32_t vertex, const Vector3& place) const {
+    const Vector3& here = mesh_.positions[vertex];
+    for (const std::uint32_t t : around_[vertex]) {
+      std::array<Vector3, 3> before, after;
+      double shortest = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t corner = mesh_.triangles[t][std::size_t(i)];
+        before[std::size_t(i)] = mesh_.positions[corner];
+        after[std::size_t(i)] = corner == vertex ? place : mesh_.positions[corner];
+        if (corner != vertex) shortest = std::min(shortest, (mesh_.positions[corner] - here).norm());
+      }
+      if ((place - here).norm() > kWayOfEdge * shortest) return false;
+      const Vector3 was = (before[1] - before[0]).cross(before[2] - before[0]);
+      const Vector3 is = (after[1] - after[0]).cross(after[2] - after[0]);
+      if (is.dot(was) <= 0.0) return false;
+    }
+    return true;
+  }
+
+  TriangleMesh& mesh_;
+  const std::vector<Surface>& faces_;
+  const CsgSurfaces& surfaces_;
+  std::vector<std::vector<std::uint32_t>> around_;  // by vertex: its triangles
+};
+
+}  // namespace
+
+void settle_vertices(TriangleMesh& mesh, const std::vector<Surface>& faces, const CsgSurfaces& surfaces) {
+  VertexSettler(mesh, faces, surfaces).settle_all();
+}
+
+bool ChordJudge::stands_for(Surface surface, const std::array<Vector3, 3>& corners) const {
+  if (surfaces_.is_plane(surface)) return true;
+  const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+  const double allowed = chord_height(cell_, surfaces_.bend(surface, middle, cell_));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 between = 0.5 * (corners[i] + corners[(i + 1) % 3]);
+    if (std::abs(surfaces_.height(surface, between).height) > allowed) return false;
+  }
+  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
+  const AtomHeight there = surfaces_.height(surface, middle);
+  return std::abs(there.height) <= allowed && std::abs(normal.dot(there.normal)) >= kFacing &&
+         near_against_thickness(surface, middle);
+}
+
+/// What is so deep behind the surface as the place, and some times deeper, is all solid or all free.
+bool ChordJudge::near_against_thickness(Surface surface, const Vector3& place) const {
+  const AtomHeight there = surfaces_.height(surface, place);
+  const Vector3 deep = place + (kThickness - 1.0) * there.height * there.normal;
+  return program_.inside(place) == program_.inside(deep) &&
+         program_.inside(place) == program_.inside(0.5 * (place + deep));
+}
+
+}  // namespace icome::geometry
