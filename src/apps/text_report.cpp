@@ -153,6 +153,10 @@ std::string text_report(const TouchFigures& figures, const std::vector<TouchMode
               fmt::format("{}, {}, {}, {}", counted(*figures.pops, "pop"), counted(*figures.sticks, "stick"),
                           counted(*figures.silent, "silent tick"), counted(*figures.pulls, "pull")));
   }
+  if (figures.judge_unfinished.value_or(0) > 0) {
+    table.row("", fmt::format("{} of the check took too long: what they would have found is not counted",
+                              counted(*figures.judge_unfinished, "question")));
+  }
   table.row("memory",
             fmt::format("{:.3g} MB at most", static_cast<double>(figures.peak_memory_bytes) * 1e-6));
   return table.text();

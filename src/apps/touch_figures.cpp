@@ -60,6 +60,7 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
     figures.sticks = diary.judge()->sticks();
     figures.silent = diary.judge()->silent();
     figures.pulls = diary.judge()->pulls();
+    figures.judge_unfinished = diary.judge()->unfinished();
   }
   figures.texture = options.texture;
   for (const haptics::PlacedEffect& effect : effects_of(models, options))

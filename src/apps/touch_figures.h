@@ -34,10 +34,11 @@ struct TouchFigures {
   std::optional<std::uint64_t> sticks;
   std::optional<std::uint64_t> silent;
   std::optional<std::uint64_t> pulls;
-  std::optional<std::string> texture;  // as it was asked for
-  std::vector<std::string> effects;    // the same, then those of designs
-  std::vector<std::string> capped;     // what is felt softer than asked for, a sentence each
-  std::size_t peak_memory_bytes = 0;   // of the whole program
+  std::optional<std::uint64_t> judge_unfinished;  // questions of the judge that took too long
+  std::optional<std::string> texture;             // as it was asked for
+  std::vector<std::string> effects;               // the same, then those of designs
+  std::vector<std::string> capped;                // what is felt softer than asked for, a sentence each
+  std::size_t peak_memory_bytes = 0;              // of the whole program
 };
 
 /// The nearest-rank quantiles of raw samples, in units of `unit` of them; zeros without samples. Takes a

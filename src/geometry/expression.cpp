@@ -69,6 +69,8 @@ std::string written(Operation operation, double a, double b) {
   return fmt::format("{}({}, {})", name, a, b);
 }
 
+bool is_even(double exponent) { return std::fmod(exponent, 2.0) == 0.0; }
+
 bool commutes(Operation operation) {
   return operation == Operation::Add || operation == Operation::Multiply || operation == Operation::Min ||
          operation == Operation::Max || operation == Operation::Hypot;
@@ -113,6 +115,7 @@ Expression::Node Expression::folded(Operation operation, Node a, Node b) {
 Expression::Node Expression::unary(Operation operation, Node a) {
   if (operation == Operation::Negate) return negated(a);
   if (is_constant(a)) return folded(operation, a, a);
+  if (operation == Operation::Sqrt) return raised(a, 0.5);
   return shared({operation, a, 0, 0.0});
 }
 
@@ -156,6 +159,10 @@ Expression::Node Expression::rebuilt(const Step& step, Node a, Node b) {
     case Operation::IntegerPower:
     case Operation::ConstantPower:
       return raised(a, step.constant);
+    case Operation::SizePower:
+      return size_power(a, step.constant);
+    case Operation::OddPower:
+      return odd_power(a, step.constant);
     default:
       return is_binary(step.operation) ? binary(step.operation, a, b) : unary(step.operation, a);
   }
@@ -224,7 +231,61 @@ Expression::Node Expression::divided(Node a, Node b) {
     return scaled(a, 1.0 / value(b));
   }
   if (is_constant(a)) return scaled(unary(Operation::Reciprocal, b), value(a));
+  if (const auto quotient = sinc(a, b)) return *quotient;
   return shared({Operation::Divide, a, b, 0.0});
+}
+
+/// What a node is but for a constant factor, and that factor.
+std::pair<Expression::Node, double> Expression::factored(Node a) const {
+  const Step& step = steps_[a];
+  if (step.operation == Operation::Scale) return {step.a, step.constant};
+  if (step.operation == Operation::Negate) return {step.a, -1.0};
+  return {a, 1.0};
+}
+
+/// The quotient of a sine and of what it is taken of, each with any factor.
+std::optional<Expression::Node> Expression::sinc(Node a, Node b) {
+  const auto [sine, over] = factored(a);
+  if (steps_[sine].operation != Operation::Sin) return std::nullopt;
+  const Node angle = steps_[sine].a;
+  const auto [whole, turns] = factored(angle);
+  const auto [length, under] = factored(b);
+  if (whole != length) return std::nullopt;
+  return scaled(unary(Operation::Sinc, angle), over * turns / under);
+}
+
+std::optional<Expression::Quotient> Expression::quotient(Node a) {
+  double factor = 1.0;
+  for (Node at = a;;) {
+    const Step step = steps_[at];
+    switch (step.operation) {
+      case Operation::Scale:
+      case Operation::Negate:
+        factor *= factored(at).second;
+        at = step.a;
+        break;
+      case Operation::Divide:
+        return Quotient{step.a, step.b, factor};
+      case Operation::Reciprocal:
+        return Quotient{constant(1.0), step.a, factor};
+      default:
+        return std::nullopt;
+    }
+  }
+}
+
+bool Expression::takes_back(const Step& step) {
+  if (is_leaf(step.operation)) return false;
+  const Operation inner = steps_[step.a].operation;
+  switch (step.operation) {
+    case Operation::Asin:
+    case Operation::Acos:
+      return inner == Operation::Sin || inner == Operation::Cos;
+    case Operation::Atan:
+      return inner == Operation::Tan || quotient(step.a).has_value();
+    default:
+      return false;
+  }
 }
 
 Expression::Node Expression::raised(Node a, Node b) {
@@ -246,9 +307,37 @@ Expression::Node Expression::raised(Node a, double exponent) {
   if (exponent == 0.0) return constant(1.0);
   if (exponent == 1.0) return a;
   if (exponent < 0.0) return unary(Operation::Reciprocal, raised(a, -exponent));
-  if (exponent == 0.5) return unary(Operation::Sqrt, a);
   const bool whole = exponent == std::floor(exponent);
+  const Step base = steps_[a];
+  if (base.operation == Operation::Abs && exponent > 1.0) return size_power(base.a, exponent);
+  if (base.operation == Operation::SizePower) return size_power(base.a, base.constant * exponent);
+  if (base.operation == Operation::IntegerPower && is_even(base.constant) && !whole)
+    return size_power(base.a, base.constant * exponent);
+  if (exponent == 0.5 && base.operation == Operation::Add) {
+    const Step one = steps_[base.a], other = steps_[base.b];
+    const auto is_square = [](const Step& it) {
+      return it.operation == Operation::IntegerPower && it.constant == 2.0;
+    };
+    if (is_square(one) && is_square(other)) return binary(Operation::Hypot, one.a, other.a);
+  }
+  if (exponent == 0.5) return shared({Operation::Sqrt, a, 0, 0.0});
   return shared({whole ? Operation::IntegerPower : Operation::ConstantPower, a, 0, exponent});
+}
+
+Expression::Node Expression::size_power(Node a, double exponent) {
+  if (is_constant(a)) return raised(constant(std::fabs(value(a))), exponent);
+  if (is_even(exponent)) return raised(a, exponent);
+  if (exponent > 1.0) return shared({Operation::SizePower, a, 0, exponent});
+  return raised(unary(Operation::Abs, a), exponent);
+}
+
+Expression::Node Expression::odd_power(Node a, double exponent) {
+  if (is_constant(a)) {
+    const Node size = raised(constant(std::fabs(value(a))), exponent);
+    return value(a) < 0.0 ? negated(size) : size;
+  }
+  if (is_even(exponent + 1.0)) return raised(a, exponent);
+  return shared({Operation::OddPower, a, 0, exponent});
 }
 
 }  // namespace icome::geometry

@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace icome::geometry {
@@ -15,6 +17,8 @@ enum class Operation : std::uint8_t {
   Scale,
   IntegerPower,   // of `a`, the constant whole, 2 or more
   ConstantPower,  // of `a`, the constant not whole; undefined for a < 0
+  SizePower,      // of |a|, the constant more than 1 and no even number: smooth where |a| has its crease
+  OddPower,       // the same with the sign of `a`, the constant no odd number
   Reciprocal,
   Abs,
   Sqrt,
@@ -29,7 +33,9 @@ enum class Operation : std::uint8_t {
   Sinh,
   Cosh,
   Tanh,
-  Add,  // from here on of two or more
+  Wrap,  // `a` less as many turns as leave it between -pi and pi
+  Sinc,  // sin(a) / a, and 1 where a = 0
+  Add,   // from here on of two or more
   Subtract,
   Multiply,
   Divide,
@@ -51,8 +57,9 @@ inline bool chooses(Operation operation) {
 inline bool is_leaf(Operation operation) { return operation <= Operation::Constant; }
 
 /// A formula while it is read: a graph of operations in which equal parts are one, constants are folded,
-/// and products of equal factors are powers (whose range is known better). Operands stand before what is
-/// made of them.
+/// and products of equal factors are powers (whose range is known better). What is written with an end, a
+/// crease or a gap that it does not have is what it is: sqrt(a^2) is |a|, |a|^1.5 has no crease, sin(a)/a no
+/// gap; and sqrt(a^2 + b^2) is hypot(a, b). Operands stand before what is made of them.
 class Expression {
  public:
   using Node = std::uint32_t;
@@ -73,6 +80,21 @@ class Expression {
   Node select(Node condition, Node a, Node b);
   /// What `step`, no Select, computes of other operands (`b` counts where it has two).
   Node rebuilt(const Step& step, Node a, Node b);
+  /// |a|^exponent, the exponent more than 0.
+  Node size_power(Node a, double exponent);
+  /// The same with the sign of `a`, the exponent more than 1.
+  Node odd_power(Node a, double exponent);
+
+  /// A quotient, by its parts: factor * over / under. Nothing where a node is none.
+  struct Quotient {
+    Node over, under;
+    double factor;
+  };
+  std::optional<Quotient> quotient(Node a);
+
+  /// Does asin, acos or atan take back the sine, cosine or tangent of something, or is it the angle of a
+  /// quotient? Such a `step` is smooth but for places where it turns, or jumps.
+  bool takes_back(const Step& step);
 
   const std::vector<Step>& steps() const { return steps_; }
   /// Why a part that consists of constants has no value ("sqrt(-1) is not a finite number"); else empty.
@@ -94,6 +116,8 @@ class Expression {
   Node subtracted(Node a, Node b);
   Node multiplied(Node a, Node b);
   Node divided(Node a, Node b);
+  std::optional<Node> sinc(Node a, Node b);
+  std::pair<Node, double> factored(Node a) const;
   Node raised(Node a, Node b);
   Node raised(Node a, double exponent);
 

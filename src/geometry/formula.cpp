@@ -4,10 +4,14 @@
 
 #include <algorithm>
 
+#include "geometry/formula_allowance.h"
+
 namespace icome::geometry {
 namespace {
 
 using base::Vector3;
+
+constexpr std::uint64_t kIntervalWork = 8;  // times that of a number
 
 /// Undefined, discontinuous, or undefined everywhere there?
 struct Doubts {
@@ -33,6 +37,8 @@ Doubts doubts_of(Operation operation, const Interval& a, const Interval& b) {
       return {a.lo < -1.0 || a.hi > 1.0, a.lo > 1.0 || a.hi < -1.0};
     case Operation::Tan:
       return {may_hold_tangent_pole(a), false};
+    case Operation::Wrap:
+      return {may_hold_half_turn(a), false};
     case Operation::Atan2:
       return {b.lo <= 0.0 && a.contains(0.0), false};  // jumps by 2 pi
     default:
@@ -83,6 +89,7 @@ Doubts doubts_of_select(const Interval& range, const Doubts& condition, const Do
 template <typename Scalar, int Variables, int Order>
 Jet<Scalar, Variables, Order> Formula::run(Registers<Jet<Scalar, Variables, Order>>& registers) const {
   using Number = Jet<Scalar, Variables, Order>;
+  FormulaAllowance::count(1);
   for (const Instruction& next : program_) {
     Number& to = registers[next.to];
     if (next.operation == Operation::Constant) {
@@ -101,6 +108,7 @@ Jet<Interval, Variables, Order> Formula::run_watched(Registers<Jet<Interval, Var
                                                      Range& range) const {
   using Number = Jet<Interval, Variables, Order>;
   Registers<Doubts> doubts{};
+  FormulaAllowance::count(kIntervalWork);
   for (const Instruction& next : program_) {
     Number& to = registers[next.to];
     if (next.operation == Operation::Constant) {

@@ -16,6 +16,7 @@ constexpr std::size_t kMostBorders = 512;
 constexpr std::size_t kMostCases = 256;  // of one part of a formula
 constexpr std::size_t kMostChoices = 64;
 constexpr int kMostInversions = 4;  // of one part: roots of roots
+constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 /// What a part of a formula is where choices were made so.
 struct SmoothPart {
@@ -59,12 +60,11 @@ class Inversion {
       case Operation::Acos:
         return true;
       case Operation::ConstantPower:
-        return step.constant > 0.0 && step.constant < 1.0 && root_of(step) == std::round(root_of(step));
+        return step.constant > 0.0 && step.constant < 1.0;
       default:
         return false;
     }
   }
-  static double root_of(const Expression::Step& step) { return 1.0 / step.constant; }
 
   /// The operand that leads to what can be inverted, or the node itself if that can be.
   std::optional<Node> next_step(Node node) {
@@ -129,18 +129,22 @@ class Inversion {
       rises_ = !rises_;
       return true;
     }
-    const double root = step.operation == Operation::ConstantPower ? std::round(root_of(step)) : 2.0;
-    if (step.operation == Operation::Hypot)
-      inner_ = expression_.binary(Operation::Add, power(step.a, 2.0), power(step.b, 2.0));
-    limits_ = {difference(zero, value_)};
-    value_ = power(value_, root);
+    const double root = step.operation == Operation::ConstantPower ? 1.0 / step.constant : 2.0;
+    const double whole = std::round(root);  // 1 / (1.0 / 3) may be a little off
+    const bool is_whole = std::fabs(root - whole) <= 4.0 * rounding::kRelative * root;
+    if (step.operation == Operation::Hypot) {
+      inner_ = expression_.binary(Operation::Add, square(step.a), square(step.b));  // never ends
+    } else {
+      limits_ = {difference(zero, value_)};
+    }
+    // With its sign it rises all along: so no way goes through the bottom of a groove, or of a pit, where the
+    // walls beyond would lead apart again.
+    value_ = expression_.odd_power(value_, is_whole ? whole : root);
     return true;
   }
 
   Node difference(Node a, Node b) { return expression_.binary(Operation::Subtract, a, b); }
-  Node power(Node a, double exponent) {
-    return expression_.binary(Operation::Power, a, expression_.constant(exponent));
-  }
+  Node square(Node a) { return expression_.binary(Operation::Power, a, expression_.constant(2.0)); }
 
   static constexpr int kMostLooks = 4096;
 
@@ -159,7 +163,7 @@ class FormulaSplitter {
 
   void run() {
     const std::vector<Expression::Step> steps = expression_.steps();
-    const std::vector<bool> used = used_steps(steps);
+    const std::vector<bool> used = used_steps(steps, root_);
     parts_.resize(root_ + 1);
     for (Node i = 0; i <= root_; ++i) {
       if (!used[i]) continue;
@@ -169,9 +173,11 @@ class FormulaSplitter {
     }
   }
 
-  /// Goes on beyond the ends of roots: each part becomes what has the same zeros, trimmed by more choices.
-  void invert() {
+  /// Goes on beyond the ends of powers and roots: each part becomes what has the same zeros, trimmed by more
+  /// choices.
+  void go_on() {
     for (SmoothPart& part : parts_[root_]) {
+      extend(part);
       for (int i = 0; i < kMostInversions && invert(part); ++i) continue;
     }
   }
@@ -186,9 +192,39 @@ class FormulaSplitter {
     expression_.forget_fault();
     Inversion inversion(expression_, part.node);
     if (!inversion.found()) return false;
-    const Node solved = inversion.solved();
-    SmoothPart inverted{solved, part.by};
-    for (const Node limit : inversion.limits()) {
+    return replace(part, inversion.solved(), inversion.limits());
+  }
+
+  /// Powers that end where what they are taken of is negative go on as powers of its size, without a crease.
+  bool extend(SmoothPart& part) {
+    const std::vector<Expression::Step> steps = expression_.steps();
+    const auto ends = [](const Expression::Step& step) {
+      return step.operation == Operation::ConstantPower && step.constant > 1.0;
+    };
+    if (std::none_of(steps.begin(), steps.end(), ends)) return false;
+    const std::vector<bool> used = used_steps(steps, part.node);
+    std::vector<Node> extended(part.node + 1), limits;
+    expression_.forget_fault();
+    for (Node i = 0; i <= part.node; ++i) {
+      const Expression::Step& step = steps[i];
+      if (!used[i]) continue;
+      if (is_ternary(step.operation)) return false;  // what it does not take sets no limits
+      if (is_leaf(step.operation)) {
+        extended[i] = i;
+      } else if (ends(step)) {
+        extended[i] = expression_.size_power(extended[step.a], step.constant);
+        limits.push_back(expression_.unary(Operation::Negate, extended[step.a]));
+      } else {
+        extended[i] = expression_.rebuilt(step, extended[step.a], extended[step.b]);
+      }
+    }
+    return !limits.empty() && replace(part, extended[part.node], limits);
+  }
+
+  /// Makes a part another function with the same zeros where the limits are zero or less.
+  bool replace(SmoothPart& part, Node by, const std::vector<Node>& limits) {
+    SmoothPart replaced{by, part.by};
+    for (const Node limit : limits) {
       const Expression::Step step = expression_.steps()[limit];
       if (step.operation == Operation::Constant && step.constant <= 0.0) continue;
       const auto known = std::find(choices_.begin(), choices_.end(), limit);
@@ -196,19 +232,19 @@ class FormulaSplitter {
       if (number >= kMostChoices) return false;
       const ChoiceSet bit = ChoiceSet{1} << number;
       // A limit that is a choice already may have been made the other way.
-      if ((inverted.by.second & bit) != 0) return false;
+      if ((replaced.by.second & bit) != 0) return false;
       if (known == choices_.end()) choices_.push_back(limit);
-      inverted.by.made |= bit;
+      replaced.by.made |= bit;
     }
     if (!expression_.fault().empty()) return false;
-    part = inverted;
+    part = replaced;
     return true;
   }
 
-  std::vector<bool> used_steps(const std::vector<Expression::Step>& steps) const {
+  static std::vector<bool> used_steps(const std::vector<Expression::Step>& steps, Node root) {
     std::vector<bool> used(steps.size(), false);
-    used[root_] = true;
-    for (Node i = root_ + 1; i-- > 0;) {
+    used[root] = true;
+    for (Node i = root + 1; i-- > 0;) {
       if (!used[i] || is_leaf(steps[i].operation)) continue;
       used[steps[i].a] = true;
       if (is_binary(steps[i].operation)) used[steps[i].b] = true;
@@ -220,11 +256,67 @@ class FormulaSplitter {
   std::vector<SmoothPart> parts_of(Node node, const Expression::Step& step) {
     const std::vector<SmoothPart> as_it_is{{node, {0, 0}}};
     if (is_leaf(step.operation)) return as_it_is;
-    if (chooses(step.operation) && choices_.size() == kMostChoices) return as_it_is;
-    std::vector<SmoothPart> parts = step.operation == Operation::Atan2 ? angles(step)
-                                    : chooses(step.operation)          ? chosen(step)
-                                                                       : combined(step);
+    const bool turns = expression_.takes_back(step);
+    if ((turns || chooses(step.operation)) && choices_.size() == kMostChoices) return as_it_is;
+    std::vector<SmoothPart> parts = turns                                ? taken_back(step)
+                                    : step.operation == Operation::Atan2 ? angles(step)
+                                    : chooses(step.operation)            ? chosen(step)
+                                                                         : combined(step);
     return parts.size() > kMostCases ? as_it_is : parts;
+  }
+
+  /// What asin, acos or atan make of what they undo: straight lines, chosen by which way the sine goes there.
+  std::vector<SmoothPart> taken_back(const Expression::Step& step) {
+    const Expression::Step inner = expression_.steps()[step.a];
+    if (step.operation == Operation::Atan && inner.operation != Operation::Tan)
+      return slopes(*expression_.quotient(step.a));
+    const bool cosine = inner.operation == Operation::Cos;  // the sine of what is left to a quarter
+    const ChoiceSet bit = ChoiceSet{1} << choices_.size();
+    std::vector<SmoothPart> result;
+    for (const SmoothPart& part : parts_[inner.a]) {
+      const Node angle = cosine ? left_to(kQuarter, part.node) : part.node;
+      result.push_back({line(step.operation, angle, false), {part.by.made | bit, part.by.second}});
+      result.push_back({line(step.operation, angle, true), {part.by.made | bit, part.by.second | bit}});
+    }
+    const Node angle = cosine ? left_to(kQuarter, inner.a) : inner.a;
+    choices_.push_back(expression_.unary(Operation::Negate, expression_.unary(Operation::Cos, angle)));
+    return result;
+  }
+
+  /// The asin or acos of the sine of an angle, or the atan of its tangent, where the cosine is zero or more,
+  /// or else is `less`.
+  Node line(Operation operation, Node angle, bool less) {
+    if (operation == Operation::Atan && less)
+      angle = expression_.binary(Operation::Subtract, angle, half_turn());
+    if (operation != Operation::Atan && less) angle = left_to(2.0 * kQuarter, angle);
+    const Node wrapped = expression_.unary(Operation::Wrap, angle);
+    return operation == Operation::Acos ? left_to(kQuarter, wrapped) : wrapped;
+  }
+  Node half_turn() { return expression_.constant(2.0 * kQuarter); }
+  Node left_to(double most, Node angle) {
+    return expression_.binary(Operation::Subtract, expression_.constant(most), angle);
+  }
+
+  /// atan(a / b) where b is zero or more, and where it is less: each goes on smoothly beyond.
+  std::vector<SmoothPart> slopes(const Expression::Quotient& quotient) {
+    const ChoiceSet bit = ChoiceSet{1} << choices_.size();
+    const std::vector<SmoothPart> one{{quotient.over, {0, 0}}};  // of a reciprocal, it stands nowhere
+    const bool known = quotient.over < parts_.size() && !parts_[quotient.over].empty();
+    std::vector<SmoothPart> result;
+    for (const SmoothPart& a : known ? parts_[quotient.over] : one) {
+      for (const SmoothPart& b : parts_[quotient.under]) {
+        if (!agree(a.by, b.by)) continue;
+        const Case by{a.by.made | b.by.made | bit, a.by.second | b.by.second};
+        const Node over =
+            expression_.binary(Operation::Multiply, a.node, expression_.constant(quotient.factor));
+        result.push_back({expression_.binary(Operation::Atan2, over, b.node), by});
+        result.push_back({expression_.binary(Operation::Atan2, expression_.unary(Operation::Negate, over),
+                                             expression_.unary(Operation::Negate, b.node)),
+                          {by.made, by.second | bit}});
+      }
+    }
+    choices_.push_back(expression_.unary(Operation::Negate, quotient.under));
+    return result;
   }
 
   std::vector<SmoothPart> combined(const Expression::Step& step) {
@@ -247,7 +339,6 @@ class FormulaSplitter {
   /// atan2(y, x) where y is zero or more, and where it is less: turned by a quarter so that what jumps is on
   /// the other side.
   std::vector<SmoothPart> angles(const Expression::Step& step) {
-    constexpr double kQuarter = 0.5 * std::numbers::pi;
     const ChoiceSet bit = ChoiceSet{1} << choices_.size();
     std::vector<SmoothPart> result;
     for (const SmoothPart& y : parts_[step.a]) {
@@ -389,7 +480,7 @@ base::Result<FormulaPieces> FormulaPieces::parse(const std::string& text, Ends e
   if (!whole) return base::fail(whole.error().message);
   FormulaSplitter splitter(expression, *root);
   splitter.run();
-  if (ends == Ends::GoOn) splitter.invert();
+  if (ends == Ends::GoOn) splitter.go_on();
   if (splitter.too_many_borders())
     return base::fail("the formula has too many poles and edges of where it has values to follow them all.");
   auto pieces = pieces_of(expression, splitter.parts());

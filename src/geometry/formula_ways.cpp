@@ -41,6 +41,7 @@ class MinMaxSplitter {
   std::optional<MinMax> split(Node node) {
     const Expression::Step step = expression_.steps()[node];
     if (is_leaf(step.operation)) return MinMax{{node}};
+    if (expression_.takes_back(step)) return std::nullopt;
     const auto a = split(step.a);
     const auto b = is_binary(step.operation) ? split(step.b) : a;
     if (!a || !b) return std::nullopt;

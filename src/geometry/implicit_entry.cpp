@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/formula_allowance.h"
+
 namespace icome::geometry {
 namespace {
 
@@ -35,7 +37,7 @@ class CrossingSearch {
     stack[size++] = {line_.first, line_.last};
     for (int left = kMostCells; size > 0; --left) {
       const LinePart cell = stack[--size];
-      if (left == 0) return cell.a;
+      if (left == 0 || FormulaAllowance::spent()) return cell.a;
       switch (look_at(cell)) {
         case Outcome::Crossing:
           // A way in from within slack begins at its start, if the surface already runs there.

@@ -148,7 +148,7 @@ class ImplicitPartsMaker {
       return {};
     }
     if (sizes.maxCoeff() <= kSmallestCell * largest)
-      return "it comes to a point, a pole or an end of where the formula has values";
+      return "it comes to a point, a pole or an end of where the formula has values, or bends without limit";
     for (unsigned i = 0; i < 8; ++i) {
       if (std::string reason = cut(eighth_of_cell(cell, i), terms); !reason.empty()) return reason;
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/formula_allowance.h"
+
 namespace icome::geometry {
 namespace {
 
@@ -18,11 +20,13 @@ constexpr double kOnIt = 1e-12;
 constexpr double kNear = 1e-9;
 constexpr double kUpright = 1e-6;  // sine of the angle between pull and normal up to which a place is a foot
 constexpr int kMostLegs = 14;
+constexpr int kFewLegs = 2;  // that are walked in any case
 constexpr int kMostWalkSteps = 8;
 constexpr int kSheetHalvings = 3;  // of ways that are not sure at once
 // Legs are shortened by this factor until they are sure, and given up when they are that much shorter than
 // the size.
 constexpr double kShorter = 0.25;
+constexpr double kBack = 0.4;  // of the last step: how far the next goes back at most
 
 /// Two unit vectors that are orthogonal to `normal` and to each other.
 TangentFrame tangents(const Vector3& normal) {
@@ -115,13 +119,18 @@ std::optional<ImplicitWalk::Place> ImplicitWalk::settle(const Vector3& point, do
 std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Vector3& goal,
                                                    double reach) const {
   Vector3 at = from;
+  Vector3 last = Vector3::Zero();
   double left = reach;
   for (int i = 0; i < kMostWalkSteps; ++i) {
     const Formula::Bend here = formula_.bend(at, time_);
     if (!is_usable(here)) return std::nullopt;
     // Half of what is left, so that something is left to go on beyond an edge.
-    const NewtonStep next = newton_step(here, at, goal, 0.5 * left);
+    NewtonStep next = newton_step(here, at, goal, 0.5 * left);
+    // Where it bends ever more, as the power 1.5 does, Newton's method may go to and fro for ever.
+    if (next.step.dot(last) < -0.5 * last.squaredNorm())
+      next = newton_step(here, at, goal, std::min(0.5 * left, kBack * last.norm()));
     at += next.step;
+    last = next.step;
     left -= next.length;
     // Beyond a crease the surface is elsewhere than where it was expected.
     if (!next.curbed && next.error_after <= kExact * size_ &&
@@ -187,6 +196,7 @@ ImplicitWalk::Place ImplicitWalk::descend(const Vector3& from, const Vector3& go
   Place at = *start;
   double reach = whole;
   for (int i = 0; i < kMostLegs && reach > kExact * size_; ++i) {
+    if (i >= kFewLegs && FormulaAllowance::spent()) break;
     // Rounding alone may seem to bring it closer or away.
     const double doubt = kExact * size_ * (at.point - goal).norm();
     const auto next = leg(at.point, goal, reach);

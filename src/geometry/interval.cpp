@@ -167,6 +167,79 @@ Interval integer_power(const Interval& a, double n) {
   return {base.lo >= 0.0 ? std::max(0.0, image.lo) : image.lo, image.hi};
 }
 
+Interval odd_power(const Interval& a, double n) {
+  if (n < 0.0) {
+    if (a.contains(0.0)) return entire();
+    return a.lo > 0.0 ? power(a, {n, n}) : -power(-a, {n, n});
+  }
+  const Interval image = monotone(odd_power(a.lo, n), odd_power(a.hi, n));
+  return {a.lo >= 0.0 ? std::max(0.0, image.lo) : image.lo, a.hi <= 0.0 ? std::min(0.0, image.hi) : image.hi};
+}
+
+double wrap(double a) { return std::remainder(a, 2 * pi); }
+
+bool may_hold_half_turn(const Interval& a) { return all_around(a) || may_hold_phase(a, pi, 2 * pi); }
+
+Interval wrap(const Interval& a) {
+  if (may_hold_half_turn(a)) return monotone(-pi, pi);
+  // The rounded turn that double has is off by some units in the last place of all turns together.
+  const double doubt = 4 * rounding::kRelative * magnitude(a);
+  return {down(wrap(a.lo) - doubt), up(wrap(a.hi) + doubt)};
+}
+
+namespace {
+
+constexpr double kShortAngle = 0.1;  // up to here four terms of the series have all digits
+
+/// What a function takes whose derivative is nowhere more than `steepest`, by its value in the middle.
+template <typename Function>
+Interval around_middle(const Interval& a, double steepest, Function&& function) {
+  if (!std::isfinite(a.lo) || !std::isfinite(a.hi)) return {-1.0, 1.0};
+  const double middle = a.lo + 0.5 * (a.hi - a.lo);
+  constexpr double kDoubt = 1e-12;  // beyond the series, differences leave 13 digits
+  const double away = steepest * (up(0.5 * (a.hi - a.lo)) + kDoubt);
+  const double value = function(middle);
+  return {down(value - away, kLibrary), up(value + away, kLibrary)};
+}
+
+}  // namespace
+
+double sinc(double a) {
+  const double square = a * a;
+  if (std::fabs(a) < kShortAngle)
+    return 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)));
+  return std::sin(a) / a;
+}
+
+double sinc_slope(double a) {
+  const double square = a * a;
+  if (std::fabs(a) < kShortAngle)
+    return -a / 3.0 * (1.0 - square / 10.0 * (1.0 - square / 28.0 * (1.0 - square / 54.0)));
+  return (std::cos(a) - sinc(a)) / a;
+}
+
+double sinc_bend(double a) {
+  const double square = a * a;
+  if (std::fabs(a) < kShortAngle)
+    return -(1.0 - 0.3 * square * (1.0 - 5.0 / 84.0 * square * (1.0 - 7.0 / 270.0 * square))) / 3.0;
+  return -sinc(a) - 2.0 * sinc_slope(a) / a;
+}
+
+// sin(a) / a is the mean of cos(s * a) over s from 0 to 1, and so no derivative of it is more than the mean
+// of a power of s: 1/2, 1/3, 1/4. The first is no more than a third of a either.
+Interval sinc(const Interval& a) {
+  const double steepest = std::min(0.5, magnitude(a) / 3.0);
+  return within_range(around_middle(a, steepest, [](double u) { return sinc(u); }), -0.2173, 1.0);
+}
+
+Interval sinc_slope(const Interval& a) {
+  return within_range(around_middle(a, 1.0 / 3.0, [](double u) { return sinc_slope(u); }), -0.5, 0.5);
+}
+
+Interval sinc_bend(const Interval& a) {
+  return within_range(around_middle(a, 0.25, [](double u) { return sinc_bend(u); }), -0.3334, 0.3334);
+}
+
 Interval power(const Interval& a, const Interval& b) {
   const Interval base = within_range(a, 0.0, kUnbounded);
   // Monotone in each of the two: the extremes are at the corners.

@@ -116,6 +116,24 @@ inline double integer_power(double a, double n) {
 /// a^b for a >= 0.
 Interval power(const Interval& a, const Interval& b);
 
+/// The sign of a, times |a|^n.
+Interval odd_power(const Interval& a, double n);
+inline double odd_power(double a, double n) { return std::copysign(std::pow(std::fabs(a), n), a); }
+
+/// a less as many turns as leave it between -pi and pi.
+Interval wrap(const Interval& a);
+double wrap(double a);
+/// May wrap jump there?
+bool may_hold_half_turn(const Interval& a);
+
+/// sin(a) / a, 1 where a is 0, and its first two derivatives.
+Interval sinc(const Interval& a);
+Interval sinc_slope(const Interval& a);
+Interval sinc_bend(const Interval& a);
+double sinc(double a);
+double sinc_slope(double a);
+double sinc_bend(double a);
+
 /// sin(a) and cos(a), for little more than the price of one.
 void sine_and_cosine(const Interval& a, Interval& sine, Interval& cosine);
 

@@ -157,6 +157,39 @@ Jet<S, V, O> raise(const Jet<S, V, O>& a, double exponent, bool whole) {
   return result;
 }
 
+/// |a|^exponent, exponent > 1.
+template <typename S, int V, int O>
+Jet<S, V, O> raise_size(const Jet<S, V, O>& a, double exponent) {
+  using std::abs;
+  const S size = abs(a.value);
+  const S value = power(size, exactly<S>(exponent));
+  S d1 = value, d2 = value;
+  if constexpr (O >= 1) d1 = odd_power(a.value, exponent - 1.0) * exponent;
+  if constexpr (O >= 2) {
+    d2 = power(size, exactly<S>(exponent - 2.0)) * (exponent * (exponent - 1.0));
+    if constexpr (std::is_same_v<S, double>) {
+      if (!std::isfinite(d2)) d2 = 0.0;  // at 0 it bends infinitely: of that a single place says nothing
+    }
+  }
+  return chain(a, value, d1, d2);
+}
+
+/// The same with the sign of a.
+template <typename S, int V, int O>
+Jet<S, V, O> raise_oddly(const Jet<S, V, O>& a, double exponent) {
+  using std::abs;
+  const S value = odd_power(a.value, exponent);
+  S d1 = value, d2 = value;
+  if constexpr (O >= 1) d1 = power(S(abs(a.value)), exactly<S>(exponent - 1.0)) * exponent;
+  if constexpr (O >= 2) {
+    d2 = odd_power(a.value, exponent - 2.0) * (exponent * (exponent - 1.0));
+    if constexpr (std::is_same_v<S, double>) {
+      if (!std::isfinite(d2)) d2 = 0.0;
+    }
+  }
+  return chain(a, value, d1, d2);
+}
+
 template <typename S, int V, int O>
 Jet<S, V, O> raise(const Jet<S, V, O>& a, const Jet<S, V, O>& b) {
   const S value = power(a.value, b.value);
@@ -179,13 +212,26 @@ Jet<S, V, O> angle(const Jet<S, V, O>& y, const Jet<S, V, O>& x) {
   return chain(y, x, {value, dy, dx, mixed, dx * dx - dy * dy, -mixed});
 }
 
+// A length does not rise faster than what it is taken of. At 0, where it has a point, a double takes the
+// derivatives of the axis of that.
+inline double share_of(double a, double length) { return length > 0.0 ? a / length : 0.0 * a; }
+inline double inverse_length(double length) { return length > 0.0 ? 1.0 / length : 0.0 * length; }
+inline Interval share_of(const Interval& a, const Interval& length) {
+  const Interval share = a / length;
+  return {std::clamp(share.lo, -1.0, 1.0), std::clamp(share.hi, -1.0, 1.0)};
+}
+inline Interval inverse_length(const Interval& length) { return reciprocal(length); }
+
 template <typename S, int V, int O>
 Jet<S, V, O> length(const Jet<S, V, O>& a, const Jet<S, V, O>& b) {
   using std::hypot;
   const S value = hypot(a.value, b.value);
   if constexpr (O == 0) return {value, {}, {}};
-  const S da = a.value / value, db = b.value / value, by_value = reciprocal(value);
-  return chain(a, b, {value, da, db, db * db * by_value, -(da * db * by_value), da * da * by_value});
+  const S da = share_of(a.value, value), db = share_of(b.value, value);
+  const S by_value = inverse_length(value);
+  return chain(a, b,
+               {value, da, db, integer_power(db, 2.0) * by_value, -(da * db * by_value),
+                integer_power(da, 2.0) * by_value});
 }
 
 template <typename S, int V, int O>
@@ -228,6 +274,10 @@ Jet<S, V, O> compute_unary(Operation operation, double constant, const Jet<S, V,
       return jets::raise(a, constant, true);
     case Operation::ConstantPower:
       return jets::raise(a, constant, false);
+    case Operation::SizePower:
+      return jets::raise_size(a, constant);
+    case Operation::OddPower:
+      return jets::raise_oddly(a, constant);
     case Operation::Reciprocal: {
       const S r = reciprocal(u), r2 = r * r;
       return chain(a, r, -r2, r2 * r * 2.0);
@@ -280,6 +330,11 @@ Jet<S, V, O> compute_unary(Operation operation, double constant, const Jet<S, V,
       const S v = tanh(u), d1 = -integer_power(v, 2.0) + 1.0;
       return chain(a, v, d1, -(v * d1 * 2.0));
     }
+    case Operation::Wrap:
+      return chain(a, wrap(u), one, zero);
+    case Operation::Sinc:
+      if constexpr (O == 0) return {sinc(u), {}, {}};
+      return chain(a, sinc(u), sinc_slope(u), sinc_bend(u));
     default:
       return a;
   }

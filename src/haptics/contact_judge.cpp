@@ -126,6 +126,12 @@ class ContactJudge::Court {
     for (const JudgedObject& object : objects) parties_.emplace_back(object, settings);
   }
 
+  std::uint64_t unfinished() const {
+    std::uint64_t sum = 0;
+    for (const Party& party : parties_) sum += party.witness().unfinished();
+    return sum;
+  }
+
   Judgement judge(const JudgedTick& tick) {
     for (Party& party : parties_) party.set_time(tick.time);
     look_around(tick);
@@ -537,6 +543,8 @@ ContactJudge::ContactJudge(const std::vector<JudgedObject>& objects, const Judge
 ContactJudge::~ContactJudge() = default;
 ContactJudge::ContactJudge(ContactJudge&&) noexcept = default;
 ContactJudge& ContactJudge::operator=(ContactJudge&&) noexcept = default;
+
+std::uint64_t ContactJudge::unfinished() const { return court_->unfinished(); }
 
 Judgement ContactJudge::judge(const JudgedTick& tick) {
   const Judgement judgement = court_->judge(tick);

@@ -22,6 +22,9 @@ struct MembershipSolid {
   std::function<std::optional<base::Vector3>(const base::Vector3& point, double time, double limit,
                                              double fineness)>
       nearest = {};
+  /// How many questions about nearest places ended so far before all was looked at that might have held one.
+  /// Empty where none ever does.
+  std::function<std::uint64_t()> unfinished = {};
 };
 
 /// Something that the judged tip could touch, in its own frame. The mesh is shared, never null.
@@ -105,6 +108,9 @@ class ContactJudge {
   std::uint64_t sticks() const { return sticks_; }
   std::uint64_t silent() const { return silent_; }
   std::uint64_t pulls() const { return pulls_; }
+  /// Questions that took too long to be answered: what would have been found then, of pops and sticks, is not
+  /// told.
+  std::uint64_t unfinished() const;
 
  private:
   class Court;

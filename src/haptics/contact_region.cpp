@@ -1,6 +1,7 @@
 #include "haptics/contact_region.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -16,6 +17,27 @@ namespace {
 constexpr double kLongStep = 0.5;        // of the region's reach
 constexpr double kFirstShare = 1.0 / 8;  // of a long step, asked first
 constexpr double kShareKept = 0.999;     // of a way out of a region: what is left is surely within
+
+/// The pieces of smooth surfaces that a sweep has asked: one that stands here with several boxes answers
+/// once.
+class AskedPieces {
+ public:
+  bool knows(const Element& element) {
+    for (std::size_t i = 0; i < std::min(count_, kMost); ++i) {
+      if (known_[i].object == element.object && known_[i].piece == element.feature) return true;
+    }
+    known_[count_++ % kMost] = {element.object, element.feature};
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+  struct Asked {
+    std::uint32_t object, piece;
+  };
+  std::array<Asked, kMost> known_;
+  std::size_t count_ = 0;
+};
 
 /// Where a line from `offset` by t * `step` leaves a ball around the origin, or a cylinder when both are at
 /// right angles to its axis: t, if it meets it at all.
@@ -162,9 +184,10 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
   };
   SweepHit first;
   const Element* met = nullptr;  // what `first` is about, unless its contact is set already
+  AskedPieces asked_pieces;
   const auto ask = [&](const Element& element) {
     if (element.smooth()) {
-      if (is_ignored(element)) return;
+      if (is_ignored(element) || asked_pieces.knows(element)) return;
       Element found = element;
       const auto t = smooth_sweep(found, start, step, tolerance_);
       if (!t || (first.met && *t >= first.t)) return;

@@ -165,13 +165,17 @@ void ContactSet::follow(const Vector3& position) {
 
 ContactSet::Rest ContactSet::rest_on_one(const Vector3& goal, const Tolerance& tolerance) {
   Element& contact = elements_.front();
-  const Vector3 place =
-      contact.smooth() ? settle_ahead(contact, goal, tolerance) : settle(contact, goal, tolerance);
+  const auto [place, sure] = contact.smooth() ? settle_ahead(contact, goal, tolerance)
+                                              : SettledAhead{settle(contact, goal, tolerance), true};
   const Vector3 out = footing(contact, place).normal;
   const Vector3 pull = goal - place;
   const double press = -out.dot(pull);
   const double along = (pull + press * out).norm();
-  return {place, press >= 0.0 && along <= tolerance.gap};
+  return {place, press >= 0.0 && along <= tolerance.gap, sure};
+}
+
+bool ContactSet::all_sure(const Footings& now) const {
+  return std::all_of(now.begin(), now.begin() + size_, [](const Footing& it) { return it.sure; });
 }
 
 /// Have smooth contacts turned so much that a straight way says little?
@@ -201,12 +205,14 @@ ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, 
   double share = 1.0;  // of the pull
   double most = std::numeric_limits<double>::infinity();
   int turns = 0;
+  bool sure = all_sure(before);
   for (int i = 0; i < kMaxRests && turns < kMaxTurns; ++i) {
     const Vector3 slope = along(now, goal - at, tolerance);
     if (at != last_at) share = std::min(most, secant(share, at - last_at, last_slope - slope));
     const Vector3 step = Polyhedron(std::span(now).first(size_), tolerance).project(share * (goal - at));
-    if (step.norm() <= tolerance.gap && free(now, tolerance)) return {at, true};
+    if (step.norm() <= tolerance.gap && free(now, tolerance)) return {at, true, sure};
     const Footings there = footings(at + step);
+    sure = sure && all_sure(there);
     last_at = at;
     last_slope = slope;
     if (turned(before, there)) {
@@ -225,7 +231,7 @@ ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, 
     now = there;
     if (free(now, tolerance)) best = at;
   }
-  return {settled(at, best, goal, tolerance), false};
+  return {settled(at, best, goal, tolerance), false, sure};
 }
 
 /// The part of a pull that the contacts do not hold, were the tip on them.

@@ -52,10 +52,12 @@ class ContactSet {
 
   /// From `position`, where the contacts hold: the place nearest to `goal` that they all allow, as they
   /// curve (not as their tangent planes say), and whether it was found exactly; else it lies on the way
-  /// there. Smooth contacts are followed from their last `follow`, so far and no farther.
+  /// there. `sure`: no walk along a contact had to stop short. Smooth contacts are followed from their last
+  /// `follow`, so far and no farther.
   struct Rest {
     Vector3 place;
     bool exact;
+    bool sure = true;
   };
   Rest rest(const Vector3& position, const Vector3& goal, const Tolerance& tolerance);
 
@@ -75,6 +77,7 @@ class ContactSet {
   Vector3 settled(Vector3 at, Vector3 best, const Vector3& goal, const Tolerance& tolerance) const;
   bool turned(const Footings& before, const Footings& now) const;
   bool free(const Footings& now, const Tolerance& tolerance) const;
+  bool all_sure(const Footings& now) const;
 
   std::array<Element, kCapacity> elements_;
   std::size_t size_ = 0;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -59,6 +60,9 @@ class Witness {
   virtual bool deep(const base::Vector3& point, double depth) const {
     return distance(point, depth) >= depth && inside(point);
   }
+
+  /// How many questions so far took too long to be answered in full.
+  virtual std::uint64_t unfinished() const { return 0; }
 };
 
 /// Around the object's surface, in its own frame.

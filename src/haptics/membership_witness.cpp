@@ -75,7 +75,7 @@ class MembershipWitness final : public Witness {
     const auto look = [&](const Vector3& direction) { look_at(point + least * direction); };
     for (const Vector3& direction : around_) look(direction);
     if (solid_.nearest) {  // what lies between the directions, or ends within the ball, too
-      if (const auto place = solid_.nearest(point, time_, least, fineness(radius))) look_at(*place);
+      if (const auto place = nearest_place(point, least, radius)) look_at(*place);
     }
     for (double angle = 0.3; angle > 1e-4 && least < radius; angle *= 0.6) {
       const Vector3 side = nearest.unitOrthogonal(), other = nearest.cross(side), centre = nearest;
@@ -90,7 +90,7 @@ class MembershipWitness final : public Witness {
   bool overlaps(const Vector3& point, double radius) const override {
     if (!solid_.nearest) return overlap(point, radius) > 0.0;
     if (inside(point)) return true;
-    if (const auto place = solid_.nearest(point, time_, radius, fineness(radius))) return inside(*place);
+    if (const auto place = nearest_place(point, radius, radius)) return inside(*place);
     return std::ranges::any_of(around_, [&](const Vector3& it) { return inside(point + radius * it); });
   }
 
@@ -98,7 +98,17 @@ class MembershipWitness final : public Witness {
     return inside(point) && distance(point, depth) >= depth;
   }
 
+  std::uint64_t unfinished() const override { return unfinished_; }
+
  private:
+  std::optional<Vector3> nearest_place(const Vector3& point, double limit, double radius) const {
+    const auto unfinished = [&] { return solid_.unfinished ? solid_.unfinished() : 0; };
+    const std::uint64_t before = unfinished();  // copies of the solid share the count
+    const auto place = solid_.nearest(point, time_, limit, fineness(radius));
+    unfinished_ += unfinished() - before;
+    return place;
+  }
+
   /// Small against walls, and against what a ball of that radius cuts off from an edge.
   double fineness(double radius) const { return std::min(resolution_.wall, 0.02 * radius); }
 
@@ -163,6 +173,7 @@ class MembershipWitness final : public Witness {
   Resolution resolution_;
   std::array<Vector3, 26> around_;
   double time_ = 0.0;  // s
+  mutable std::uint64_t unfinished_ = 0;
 };
 
 }  // namespace

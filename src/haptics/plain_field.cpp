@@ -59,8 +59,11 @@ class PlainField {
       }
       halve(next, point, found.end(), open);
     }
+    unfinished_ += !open.empty() && open.top().least < found.end();
     return found.place;
   }
+
+  std::uint64_t unfinished() const { return unfinished_; }
 
  private:
   struct Part {
@@ -219,6 +222,7 @@ class PlainField {
   double time_ = 0.0;     // s, of what is kept
   double trusted_ = 0.0;  // m
   std::vector<Part> parts_;
+  std::uint64_t unfinished_ = 0;  // questions that took too many looks
 };
 
 }  // namespace
@@ -228,7 +232,8 @@ MembershipSolid plain_solid(const geometry::PlainFormula& value, const Bounds& b
   return {[field](const Vector3& point, double time) { return field->value(point, time) < 0.0; }, box,
           [field](const Vector3& point, double time, double limit, double fineness) {
             return field->nearest(point, time, limit, fineness);
-          }};
+          },
+          [field] { return field->unfinished(); }};
 }
 
 }  // namespace icome::haptics

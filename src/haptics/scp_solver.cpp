@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "geometry/formula_allowance.h"
 #include "haptics/contact_fan.h"
 #include "haptics/place_outside.h"
 #include "haptics/smooth_element.h"
@@ -29,8 +31,12 @@ constexpr double kMaxAheadGrowth = 2.0;  // of the way that a region looks ahead
 constexpr int kMaxReturns = 6;           // in a tick, to where a way out was found before
 constexpr double kCrawl = 1e-4;          // of what is left of the way: a piece of way that leads nowhere
 constexpr int kMaxCrawl = 16;            // such pieces in a tick
-constexpr double kRounding = 1e-14;      // of squared distances
-constexpr double kSteepest = 0.1;        // rise of an arch for its length
+constexpr int kFewCrawls = 3;            // after which a way in the open is looked for
+constexpr double kOpenWay = 2e-3;        // of the size of what is near: how long that is
+constexpr int kOpenSides = 12;
+constexpr double kSamePull = 0.05;   // of its length: a change that opens no way
+constexpr double kRounding = 1e-14;  // of squared distances
+constexpr double kSteepest = 0.1;    // rise of an arch for its length
 constexpr double kStride = 8.0;      // times the last slide's way, a sphere tip's next slide is looked along
 constexpr double kRoundStep = 0.28;  // rad, along a rounded edge: no way over it is then too steep
 constexpr double kFarthest = 0.3;    // of its radius: how far a region looks ahead of a sphere tip in contact
@@ -61,6 +67,7 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
   scene_ = &scene;
   elapsed_ = 0.0;
   region_.invalidate();
+  shut_in_at_.setConstant(std::numeric_limits<double>::quiet_NaN());
   if (reach_ <= 0.0) reach_ = 0.1 * largest_reach();
   if (old == nullptr || !started_) return;
   follow_reported_object(*old);
@@ -131,6 +138,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   }
   if (position_.cwiseAbs().maxCoeff() > kFarOff * region_.smallest()) move_origin();
   const Vector3 tip = in_world - origin_;
+  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
   if (scene_->moves()) carry(elapsed_, elapsed);
   elapsed_ = elapsed;
   tip_motion_ = (tip - last_tip_).norm();
@@ -154,6 +162,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
 /// moves a region serves no longer than a tick.
 void ScpSolver::look_ahead() {
   if (!started_ || scene_->moves()) return;
+  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
   grant_budget();
   if (region_.clearance(position_ + drift_) < least_room()) surround(drift_);
   region_.make_ready(position_, drift_);
@@ -164,6 +173,8 @@ void ScpSolver::move_origin() {
   origin_ += position_;
   last_tip_ -= position_;
   goal_ -= position_;
+  shut_in_at_ -= position_;
+  shut_in_tip_ -= position_;
   position_.setZero();
   contacts_.clear();
   region_.invalidate();
@@ -291,6 +302,7 @@ void ScpSolver::converge(const Vector3& tip) {
   int crawled = 0;
   double escaped_from = std::numeric_limits<double>::infinity();  // m, from the tip
   stride_ = std::numeric_limits<double>::infinity();
+  in_doubt_ = false;
   Vector3 nearest = position_;
   ContactSet nearest_contacts = contacts_;
   bool nearest_is_free = on_mesh();
@@ -301,7 +313,7 @@ void ScpSolver::converge(const Vector3& tip) {
     const bool turns = idle == kMaxIdle;
     if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
-      const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0 && !at_edge();
+      const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0 && !at_edge() && !in_doubt_;
       const bool at_rest = !turns && (on_a_face || rounded());
       const bool circle = turns && nearest_is_free && on_mesh();
       if (circle) {
@@ -330,12 +342,18 @@ void ScpSolver::converge(const Vector3& tip) {
       ++idle;
     }
     // Near such a place as the axis of a spiral stair the next tick goes on.
-    const bool crawls = contacts_.size() > 1 && contacts_.any_smooth() &&
+    const bool crawls = contacts_.any_smooth() && (contacts_.size() > 1 || in_doubt_) &&
                         (position_ - from).norm() < kCrawl * (tip - position_).norm();
-    if (crawls && ++crawled > kMaxCrawl) return;
+    if (crawls && in_doubt_ && ++crawled % kFewCrawls == 0) {
+      if (crawled <= kMaxCrawl && escape_in_the_open(tip)) continue;
+      state_.converged = !spent();
+      return;
+    }
+    if (crawls && !in_doubt_ && ++crawled > kMaxCrawl) return;
     if (met_ || contacts_.size() != held) continue;
-    const bool fast = position_ == from && contacts_.any_smooth();  // between walls
-    const bool there = whole && exact && held < 2 && !at_edge();    // else there may be an escape
+    const bool between_walls = position_ == from && contacts_.any_smooth() && !in_doubt_;
+    const bool fast = between_walls && !spent();
+    const bool there = whole && exact && held < 2 && !at_edge();  // else there may be an escape
     if (fast || there) {
       state_.converged = true;
       return;
@@ -414,6 +432,8 @@ bool ScpSolver::lets_go(const Element& contact, const Vector3& tip) const {
 Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = region_.tolerance();
   const Vector3 pull = tip - position_;
+  // Of what the tick may cost, half is left for the sweep of this step.
+  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations / 2)};
   contacts_.follow(position_);
   if (contacts_.size() == 1 && lets_go(contacts_.all().front(), tip)) {
     contacts_.clear();
@@ -421,6 +441,7 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   }
   ContactSet::Rest rest = contacts_.rest(position_, tip, tolerance);
   exact = rest.exact;
+  in_doubt_ = !rest.sure && settings_.tip_radius <= 0.0;
   const Vector3 step = rest.place - position_;
   // The spring's share along the surface: for the cone, where it would rest is where it is pressed to.
   const double share = slip(step.norm(), (tip - rest.place).norm());
@@ -467,7 +488,8 @@ bool ScpSolver::escape(const Vector3& tip) {
   if (contacts_.empty()) return false;
   if (at_edge() && escape_over_edge(tip)) return true;
   const double near = ContactFan::kNeighbourhood * ContactFan::kLength * tolerance().gap;
-  if (contacts_.any_smooth() || region_.clearance(position_) < near) return escape_without_one(tip);
+  if (contacts_.any_smooth() || region_.clearance(position_) < near)
+    return escape_without_one(tip) || (in_doubt_ && escape_in_the_open(tip));
   const std::size_t count = region_.around(position_, near, around_);
   if (region_.overflowed()) return false;
   const std::span<const Element> elements = std::span(around_).first(std::min(count, around_.size()));
@@ -487,7 +509,7 @@ bool ScpSolver::escape_without_one(const Vector3& tip) {
   if (sliding_ || surface().static_friction > 0.0) return false;
   const Vector3 pull = tip - position_;
   const ContactSet all = contacts_;
-  for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
+  for (std::size_t left_out = 0; left_out < all.size() && !spent(); ++left_out) {
     contacts_ = all;
     contacts_.forget_if([&](const Element& contact) { return &contact == &contacts_.all()[left_out]; });
     const Vector3 from = position_;
@@ -499,6 +521,36 @@ bool ScpSolver::escape_without_one(const Vector3& tip) {
     position_ = from;
   }
   contacts_ = all;
+  return false;
+}
+
+/// Where walks along surfaces have to stop short, as at nodes, and at the axis of a spiral stair, contacts
+/// say too little: looks for a short straight way that is free and leads nearer to the tip.
+bool ScpSolver::escape_in_the_open(const Vector3& tip) {
+  if (contacts_.empty() || sliding_ || surface().static_friction > 0.0) return false;
+  const Vector3 from = position_;
+  const ContactSet held = contacts_;
+  const Vector3 pull = tip - from;
+  const bool as_before = (from - shut_in_at_).norm() <= tolerance().touching() &&
+                         (tip - shut_in_tip_).norm() <= kSamePull * pull.norm();
+  if (as_before && !scene_->moves()) return false;
+  const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
+  const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
+  for (const double cosine : {0.5, 0.77, 0.27, 0.94}) {
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    for (int i = 0; i < kOpenSides && !spent() && length > tolerance().touching(); ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
+      contacts_.clear();
+      advance(length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other)));
+      if ((tip - position_).norm() < pull.norm() - 0.05 * length) return true;
+      position_ = from;
+    }
+  }
+  contacts_ = held;
+  if (!spent()) {
+    shut_in_at_ = from;
+    shut_in_tip_ = tip;
+  }
   return false;
 }
 
@@ -625,7 +677,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
   const Vector3 from = position_;
   const Tolerance& tolerance = region_.tolerance();
   double longest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMaxArches; ++i) {
+  for (int i = 0; i < kMaxArches && (i == 0 || !spent()); ++i) {
     if (step.norm() > longest) step = rest_within(longest, step);
     const std::optional<Vector3> top = contacts_.lift(from, step, tolerance);
     if (!top || top->norm() > kSteepest * step.norm()) {
@@ -658,6 +710,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
     contacts_.follow(from);  // what is met up there may have its foot farther on
     step = contacts_.rest(from, goal_, tolerance).place - from;
   }
+  step.setZero();
   return {};
 }
 
@@ -801,7 +854,7 @@ void ScpSolver::gather(const Vector3& ahead, double reach, std::size_t most_piec
 }
 
 /// Is this tick's budget spent?
-bool ScpSolver::spent() const { return region_.work() >= budget_; }
+bool ScpSolver::spent() const { return region_.work() >= budget_ || geometry::FormulaAllowance::spent(); }
 
 /// With less room than this (m) in its region the SCP had better have another.
 double ScpSolver::least_room() const { return kLeastRoom * std::max(reach_, region_.reach()); }

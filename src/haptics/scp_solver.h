@@ -13,9 +13,10 @@ namespace icome::haptics {
 struct ScpSettings {
   double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
   // The budget of a tick is counted, not timed, so that replays agree bit for bit.
-  int max_iterations = 256;  // pieces of way, usually 1 to 5
-  int max_elements = 8'000;  // looked at by sweeps, some 10 ns each, and a quarter of the pieces gathered;
-                             // usually below 100
+  int max_iterations = 256;     // pieces of way, usually 1 to 5
+  int max_elements = 8'000;     // looked at by sweeps, some 10 ns each, and a quarter of the pieces gathered;
+                                // usually below 100
+  int max_evaluations = 6'000;  // of formulas, some 100 ns each; usually some 100
 };
 
 /// Finds the surface contact point (SCP): the constraint-based method of Zilles and Salisbury (1995)
@@ -77,6 +78,7 @@ class ScpSolver final : public ContactSolver {
   bool rounded() const;
   bool escape(const Vector3& tip);
   bool escape_without_one(const Vector3& tip);
+  bool escape_in_the_open(const Vector3& tip);
   bool at_edge() const;
   bool escape_over_edge(const Vector3& tip);
   bool lets_go(const Element& contact, const Vector3& tip) const;
@@ -100,11 +102,15 @@ class ScpSolver final : public ContactSolver {
   const HapticScene* scene_ = nullptr;
   double elapsed_ = 0.0;  // s, of the last step
   bool started_ = false;
-  bool no_room_ = false;  // when it was looked for last
-  bool cut_ = false;      // did the last step go only a part of the way wanted?
-  bool met_ = false;      // did it end at something new?
+  bool no_room_ = false;   // when it was looked for last
+  bool in_doubt_ = false;  // did a walk along what holds the SCP have to stop short?
+  bool cut_ = false;       // did the last step go only a part of the way wanted?
+  bool met_ = false;       // did it end at something new?
   bool sliding_ = false;
   bool left_solid_ = false;  // put on the surface since the last report
+  // m, where no way in the open was found, and towards which tip
+  Vector3 shut_in_at_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vector3 shut_in_tip_ = Vector3::Zero();
   // m, where the frame of all that follows lies in the world: moved when the SCP is so far from it that what
   // is near would have too few digits.
   Vector3 origin_ = Vector3::Zero();

@@ -99,13 +99,14 @@ Vector3 smooth_settle(const Element& e, const Vector3& position, const Tolerance
   return above(e, foot(e, local), local, tolerance);
 }
 
-Vector3 settle_ahead(Element& e, const Vector3& position, const Tolerance& tolerance) {
+SettledAhead settle_ahead(Element& e, const Vector3& position, const Tolerance& tolerance) {
   const Vector3 local = into_surface(e, position - e.origin);
   SurfacePlace place = foot(e, local);
   const Vector3 settled = above(e, place, local, tolerance);
+  const bool sure = place.reached;
   place.reached = true;  // straight below, wherever the walk ended
   e.ahead = {into_surface(e, settled - e.origin), place, e.time};
-  return settled;
+  return {settled, sure};
 }
 
 std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vector3& step,

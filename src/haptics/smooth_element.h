@@ -10,9 +10,13 @@ Vector3 smooth_settle(const Element& element, const Vector3& position, const Tol
 std::optional<double> smooth_sweep(Element& element, const Vector3& start, const Vector3& step,
                                    const Tolerance& tolerance);
 
-/// What settle() of element.h asks; the element remembers where, as the tip is likely to go there.
-/// Real-time safe.
-Vector3 settle_ahead(Element& element, const Vector3& position, const Tolerance& tolerance);
+/// What settle() of element.h asks, and whether the walk there came to its end; the element remembers where,
+/// as the tip is likely to go there. Real-time safe.
+struct SettledAhead {
+  Vector3 place;
+  bool sure;
+};
+SettledAhead settle_ahead(Element& element, const Vector3& position, const Tolerance& tolerance);
 
 /// Makes the foot of `position` the one from which the next feet are found. Real-time safe.
 void follow_foot(Element& element, const Vector3& position);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "geometry/plane_formulas.h"
 
@@ -31,6 +32,11 @@ TEST(FormulaPieces, AreTheSmoothFunctionsOfAFormula) {
   EXPECT_EQ(count("if(x < 0 && y < 0 || z < -1, z, z + x)"), 2U);
   EXPECT_EQ(count("z - 0.01*atan2(y, x)"), 2U);
   EXPECT_EQ(count("sin(5*atan2(y, x)) + z*cos(5*atan2(y, x))"), 2U);
+  EXPECT_EQ(count("z - asin(sin(9*x))"), 2U);
+  EXPECT_EQ(count("z - acos(cos(9*x)) + atan(tan(y))"), 4U);
+  EXPECT_EQ(count("z - atan(y/x)"), 2U);
+  EXPECT_EQ(count("z - sqrt(x^2)"), 2U);
+  EXPECT_EQ(count("z - abs(x)^1.5"), 1U);        // no crease
   EXPECT_EQ(count("max(x, -0.01)"), 1U);         // a constant has no surface
   EXPECT_EQ(count("z + sqrt(min(x, -1))"), 1U);  // nor has what is never defined
 }
@@ -73,25 +79,39 @@ TEST(FormulaPieces, HaveTheFormulasValueWhereTheirChoicesAreMade) {
   }
 }
 
-TEST(FormulaPieces, AreOneAtEveryPlaceOfConditionsAndAngles) {
+/// At random places one piece has its choices made, and it has the value of the whole.
+void expect_one_piece_everywhere(const std::string& text, double exactness) {
   base::Random random(32);
+  const FormulaPieces pieces = taken_apart(text);
+  for (int k = 0; k < 1000; ++k) {
+    const Vector3 point = random.uniform(0.0, 1.0) * random.direction();
+    const FormulaPieces::ChoiceSet second = choices_at(pieces, point);
+    int made = 0;
+    for (const FormulaPieces::Piece& piece : pieces.pieces) {
+      for (const FormulaPieces::Case& it : piece.cases) {
+        if ((it.made & (it.second ^ second)) != 0) continue;
+        ++made;
+        ASSERT_NEAR(piece.formula.value(point, 0.0), pieces.whole.value(point, 0.0), exactness) << text;
+      }
+    }
+    ASSERT_EQ(made, 1) << text;
+  }
+}
+
+TEST(FormulaPieces, AreOneAtEveryPlaceOfConditionsAndAngles) {
   for (const char* text :
        {"if(x < y, z, x)", "if(x < 0 && y < 0 || z >= 0.2, x + y, if(!(x > z), -z, 2*y))",
-        "z - 0.01*atan2(y, x)", "atan2(abs(x) - 0.2, y - z) + if(atan2(x, z) < 1, x, atan2(x, z))"}) {
-    const FormulaPieces pieces = taken_apart(text);
-    for (int k = 0; k < 1000; ++k) {
-      const Vector3 point = random.uniform(0.0, 1.0) * random.direction();
-      const FormulaPieces::ChoiceSet second = choices_at(pieces, point);
-      int made = 0;
-      for (const FormulaPieces::Piece& piece : pieces.pieces) {
-        for (const FormulaPieces::Case& it : piece.cases) {
-          if ((it.made & (it.second ^ second)) != 0) continue;
-          ++made;
-          ASSERT_NEAR(piece.formula.value(point, 0.0), pieces.whole.value(point, 0.0), 1e-13) << text;
-        }
-      }
-      ASSERT_EQ(made, 1) << text;
-    }
+        "z - 0.01*atan2(y, x)", "atan2(abs(x) - 0.2, y - z) + if(atan2(x, z) < 1, x, atan2(x, z))",
+        "z - atan(-2*abs(y)/x)", "x - atan(0.2/(y + z))", "z + atan(-1/x)"}) {
+    expect_one_piece_everywhere(text, 1e-13);
+  }
+}
+
+TEST(FormulaPieces, AreOneAtEveryPlaceOfZigzags) {
+  constexpr double kExact = 1e-9;  // near a turn, asin(sin(x)) loses digits that the straight pieces have
+  for (const char* text : {"z - asin(sin(9*x + y))", "z*acos(sin(7*x))",
+                           "acos(cos(5*abs(y) - x)) - asin(cos(8*z))", "z + atan(tan(6*x - y))"}) {
+    expect_one_piece_everywhere(text, kExact);
   }
 }
 
@@ -101,6 +121,27 @@ TEST(FormulaPieces, GoOnSmoothlyWhereAnAngleJumps) {
     const auto at = piece.formula.range({{{-0.04, -0.03}, {-0.001, 0.001}, {0.0, 0.0}, {0.0, 0.0}}});
     EXPECT_TRUE(at.total);
     EXPECT_LT(at.value.hi - at.value.lo, 0.02);
+  }
+}
+
+/// Where a power, a zigzag or an angle ends or turns, its pieces have values, and slopes that say something.
+TEST(FormulaPieces, GoOnBeyondTheirEnds) {
+  struct EndAtZero {
+    const char* formula;
+    std::size_t pieces;
+  };
+  const std::vector<EndAtZero> ends{{"z - x^1.5", 1},        {"z - x^0.7", 1},
+                                    {"z - sin(x^1.3)", 1},   {"z - asin(cos(x))", 2},
+                                    {"z - acos(cos(x))", 2}, {"z - atan((y+1)/x)", 2}};
+  for (const EndAtZero& it : ends) {
+    const auto read = FormulaPieces::parse(it.formula, FormulaPieces::Ends::GoOn);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->pieces.size(), it.pieces) << it.formula;
+    for (const FormulaPieces::Piece& piece : read->pieces) {
+      const auto at = piece.formula.slope_range({{{-1e-3, 1e-3}, {0.1, 0.1}, {0.2, 0.2}, {0.0, 0.0}}});
+      EXPECT_TRUE(at.range.total) << it.formula;
+      EXPECT_LT(magnitude(at.slope[0]), 2.0) << it.formula;
+    }
   }
 }
 

@@ -82,6 +82,15 @@ const std::vector<ValueCase>& value_cases() {
       {"x^4", [](double x, double, double, double) { return pow(x, 4); }},
       {"(x*y)^7", [](double x, double y, double, double) { return pow(x * y, 7); }},
       {"x^1.5", [](double x, double, double, double) { return pow(x, 1.5); }},
+      {"abs(x - y)^3.5", [](double x, double y, double, double) { return pow(std::abs(x - y), 3.5); }},
+      {"((x - y)^2)^1.75", [](double x, double y, double, double) { return pow(std::abs(x - y), 3.5); }},
+      {"abs(x)^0.7", [](double x, double, double, double) { return pow(x, 0.7); }},
+      {"sqrt(x^4)", [](double x, double, double, double) { return x * x; }},
+      {"sin(3*x)/x", [](double x, double, double, double) { return std::sin(3 * x) / x; }},
+      {"2*sin(x*y)/(-y*x)",
+       [](double x, double y, double, double) { return -2 * std::sin(x * y) / (x * y); }},
+      {"sin(9*hypot(x,y))/hypot(x,y)",
+       [](double x, double y, double, double) { return std::sin(9 * std::hypot(x, y)) / std::hypot(x, y); }},
       {"x^0.5", [](double x, double, double, double) { return std::sqrt(x); }},
       {"x^-0.5", [](double x, double, double, double) { return 1 / std::sqrt(x); }},
       {"x^y", [](double x, double y, double, double) { return pow(x, y); }},
@@ -170,7 +179,8 @@ TEST(Formula, RangesHoldValuesAndDerivatives) {
   for (const ValueCase& each : value_cases()) texts.push_back(each.text);
   for (const char* text :
        {"sqrt(x)+y", "log(x-y)", "x/y", "tan(x*5)", "asin(x+y)", "x^y", "x^1.5", "1/x+1/y", "atan2(y,x)",
-        "abs(x)*z", "min(x,y,z)", "max(x*y,z)-t", "hypot(x,y)", "exp(x*99)"}) {
+        "abs(x)*z", "abs(x)^1.5", "sqrt((x - y)^2)", "sin(9*x)/x", "sin(hypot(x,y))/hypot(x,y)", "min(x,y,z)",
+        "max(x*y,z)-t", "hypot(x,y)", "exp(x*99)"}) {
     texts.emplace_back(text);
   }
   for (const std::string& text : texts) {

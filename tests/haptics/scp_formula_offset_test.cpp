@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "geometry/implicit_offset.h"
+#include "haptics/contact_judge.h"
 #include "haptics/plain_field.h"
 #include "haptics/scp_solver.h"
 #include "haptics/smooth_shape.h"
@@ -219,6 +220,26 @@ TEST(PlainField, FindsTheNearestPlaceOfASolid) {
     EXPECT_NEAR((*found - point).norm(), point.norm() - size, 6e-5);
     EXPECT_FALSE(ball.nearest(point, time, 0.9 * (point.norm() - size), 2e-5));
   }
+}
+
+/// Where it has to look too long, the judge says so.
+TEST(PlainField, CountsQuestionsThatItCouldNotFinish) {
+  const auto ground = [](double finest) {
+    return [finest](const Vector3& p, double) { return p.z() + 1e-4 * std::abs(std::sin(finest * p.x())); };
+  };
+  const Vector3 above(0.01, 0.02, 2.2e-3);
+  const MembershipSolid plain = plain_solid(ground(10.0), offset_box(), false);
+  EXPECT_TRUE(plain.nearest(above, 0.0, 2.5e-3, 2e-5));
+  EXPECT_EQ(plain.unfinished(), 0U);
+  const MembershipSolid rough = plain_solid(ground(1e7), offset_box(), false);
+  rough.nearest(above, 0.0, 2.19e-3, 1e-7);
+  EXPECT_EQ(rough.unfinished(), 1U);
+  JudgeSettings settings;
+  settings.tip_radius = 2e-3;
+  ContactJudge judge({{rough}}, settings);
+  judge.judge({above, above, false});
+  EXPECT_GT(judge.unfinished(), 0U);
+  EXPECT_EQ(judge.unfinished(), rough.unfinished() - 1);
 }
 
 /// Where it was looked once, a formula need not be asked again: a judge asks some seventy questions a tick.

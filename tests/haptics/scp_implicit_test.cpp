@@ -4,10 +4,13 @@
 #include <functional>
 #include <string>
 
+#include "geometry/formula_allowance.h"
 #include "geometry/implicit_surface.h"
 #include "geometry/plain_formula.h"
 #include "geometry/plane_formulas.h"
+#include "haptics/contact_judge.h"
 #include "haptics/csg_touch.h"
+#include "haptics/plain_field.h"
 
 namespace icome::haptics {
 namespace {
@@ -208,6 +211,66 @@ Field step_field() {
           1.0};
 }
 
+// ---- Solids whose formulas have ends, turns and gaps that their surfaces do not have
+
+/// Without a crease, but bent without limit at x = 0.
+Field power_field() {
+  return {"Power", "z - 2*abs(x)^1.5",
+          [](const Vector3& p) { return p.z() - 2.0 * std::pow(std::abs(p.x()), 1.5); }, 1.25};
+}
+
+Field pillow_field() {
+  return {"Pillow", "abs(x)^1.5 + abs(y)^1.5 + abs(z)^1.5 - 0.04^1.5",
+          [](const Vector3& p) { return p.cwiseAbs().array().pow(1.5).sum() - std::pow(0.04, 1.5); }, 0.64};
+}
+
+/// Ends in a wall at x = 0.
+Field half_power_field() {
+  return {
+      "HalfPower", "z - 3*x^1.5",
+      [](const Vector3& p) { return std::max(p.z() - 3.0 * std::pow(std::max(p.x(), 0.0), 1.5), -p.x()); },
+      1.5};
+}
+
+Field zigzag_field() {
+  return {"Zigzag", "z - 0.003*asin(sin(150*x))",
+          [](const Vector3& p) { return p.z() - 0.003 * std::asin(std::sin(150.0 * p.x())); }, 1.1};
+}
+
+Field folds_field() {
+  return {"Folds", "z - 0.003*acos(cos(120*x)) + 0.002*asin(cos(90*y))",
+          [](const Vector3& p) {
+            return p.z() - 0.003 * std::acos(std::cos(120.0 * p.x())) +
+                   0.002 * std::asin(std::cos(90.0 * p.y()));
+          },
+          1.1};
+}
+
+/// atan jumps along x = 0, its double sine does not.
+Field clover_field() {
+  return {"Clover", "max(sqrt(x^2 + y^2) - 0.03 - 0.001*sin(2*atan(y/x)), abs(z) - 0.04)",
+          [](const Vector3& p) {
+            const double square = p.x() * p.x() + p.y() * p.y();
+            const double turned = square > 0.0 ? 2.0 * p.x() * p.y() / square : 0.0;
+            return std::max(std::sqrt(square) - 0.03 - 0.001 * turned, std::abs(p.z()) - 0.04);
+          },
+          2.0};
+}
+
+Field ripple_field() {
+  return {"Ripple", "z - 2*sin(150*hypot(x, y))/(150*hypot(x, y))/100",
+          [](const Vector3& p) {
+            const double angle = 150.0 * std::hypot(p.x(), p.y());
+            return p.z() - 0.02 * (angle > 0.0 ? std::sin(angle) / angle : 1.0);
+          },
+          1.7};
+}
+
+Field pit_field() {
+  return {"Pit", "z - sqrt(x^2 + y^2)", [](const Vector3& p) { return p.z() - std::hypot(p.x(), p.y()); },
+          std::sqrt(2.0)};
+}
+
 // ---- Random presses and slides
 
 class TouchedFields : public testing::TestWithParam<Field> {};
@@ -217,7 +280,9 @@ INSTANTIATE_TEST_SUITE_P(Fields, TouchedFields,
                                          wave_field(), valley_field(), waves_and_wall_field(),
                                          joined_balls_field(), lens_field(), octahedron_field(), cube_field(),
                                          cross_field(), smooth_join_field(), pole_field(), begin_field(),
-                                         star_field(), step_field(), dome_field(), root_field()),
+                                         star_field(), step_field(), dome_field(), root_field(),
+                                         power_field(), pillow_field(), half_power_field(), zigzag_field(),
+                                         folds_field(), clover_field(), ripple_field(), pit_field()),
                          [](const auto& it) { return it.param.name; });
 
 TEST_P(TouchedFields, GivesTheConstrainedPlaceAndNoPops) {
@@ -479,6 +544,58 @@ TEST(ScpOnImplicit, IsNotPressedThroughTheAxisOfAStair) {
       }
     }
   }
+}
+
+// ---- Surfaces with nodes, points and axes, where there is no tangent plane
+
+struct Singular {
+  const char* name;
+  const char* formula;  // of x, y, z in units of `unit`
+  double unit;          // m
+
+  std::string text() const {
+    std::string scaled;
+    for (const char* c = formula; *c != 0; ++c) {
+      const bool variable = *c == 'x' || *c == 'y' || *c == 'z';
+      scaled += variable ? fmt::format("({}/{})", *c, unit) : std::string(1, *c);
+    }
+    return scaled;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Singular& it) { return out << it.name; }
+};
+
+class TouchedSingular : public testing::TestWithParam<Singular> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Formulas, TouchedSingular,
+    testing::Values(Singular{"Heart", "(x^2 + 2.25*y^2 + z^2 - 1)^3 - x^2*z^3 - 0.1125*y^2*z^3", 0.04},
+                    Singular{"Barth",
+                             "4*(2.618*x^2 - y^2)*(2.618*y^2 - z^2)*(2.618*z^2 - x^2) - "
+                             "4.236*(x^2 + y^2 + z^2 - 1)^2",
+                             0.03},
+                    Singular{"Cones", "x^2 + y^2 - z^2", 0.05}, Singular{"Pinch", "x^2 - y^2*z", 0.05},
+                    Singular{"Stair", "z - 0.5*atan2(y, x)", 0.02}),
+    [](const auto& it) { return it.param.name; });
+
+TEST_P(TouchedSingular, FindsAWayOnWhereThereIsOneAndTakesNoLongerThanItMay) {
+  const std::string formula = GetParam().text();
+  const auto value = *geometry::plain_formula(formula);
+  struct Known {
+    geometry::PlainFormula value;
+    bool inside(const Vector3& p) const { return implicit_box().contains(p) && value(p, 0.0) < 0.0; }
+  };
+  Toucher toucher(HapticScene::compile({object(1, formula_shape(formula))}));
+  ContactJudge judge({{plain_solid(value, implicit_box(), false)}}, {});
+  std::uint64_t most = 0;
+  for (const Vector3& tip : random_touch(Known{value}, 7, std::size_t(repeats(1500)), kImplicitSize)) {
+    const std::uint64_t before = geometry::FormulaAllowance::counted();
+    const ScpState& state = toucher.step(tip);
+    most = std::max(most, geometry::FormulaAllowance::counted() - before);
+    judge.judge({tip, state.scp, state.touching});
+  }
+  EXPECT_EQ(judge.pops(), 0U);
+  EXPECT_EQ(judge.sticks(), 0U);
+  EXPECT_LT(most, 1.5 * ScpSettings().max_evaluations);
 }
 
 TEST(ScpOnImplicit, IsHeldByTheFloorOfTheBox) {
