@@ -169,8 +169,9 @@ void add_run_options(CLI::App& touch, Entries& entries) {
 
 void add_output_options(CLI::App& touch, Entries& entries) {
   TouchOptions& options = entries.touch;
-  touch.add_flag("--check", options.check,
-                 "Judge every tick by an independent test: counts pops, sticks, silence and pulls");
+  touch.add_flag(
+      "--check", options.check,
+      "Judge every tick by an independent test: counts pops, sticks, silence, pulls and what it cannot tell");
   touch.add_option("--trace", options.trace, "Write every tick to a CSV file (columns below)")
       ->type_name("OUT.csv");
   touch.add_option("--picture", options.picture, "Draw model, path and forces")->type_name("OUT.png");

@@ -31,6 +31,7 @@ std::string json_report(const TouchFigures& figures) {
   report["sticks"] = count_or_null(figures.sticks);
   report["silent"] = count_or_null(figures.silent);
   report["pulls"] = count_or_null(figures.pulls);
+  report["unjudged"] = count_or_null(figures.unjudged);
   report["judge_unfinished"] = count_or_null(figures.judge_unfinished);
   report["texture"] = figures.texture ? Json(*figures.texture) : Json(nullptr);
   report["effects"] = figures.effects;

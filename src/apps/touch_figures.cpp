@@ -61,6 +61,7 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
     figures.silent = diary.judge()->silent();
     figures.pulls = diary.judge()->pulls();
     figures.judge_unfinished = diary.judge()->unfinished();
+    figures.unjudged = diary.judge()->unjudged();
   }
   figures.texture = options.texture;
   for (const haptics::PlacedEffect& effect : effects_of(models, options))

@@ -34,6 +34,7 @@ struct TouchFigures {
   std::optional<std::uint64_t> sticks;
   std::optional<std::uint64_t> silent;
   std::optional<std::uint64_t> pulls;
+  std::optional<std::uint64_t> unjudged;  // ticks of which the judge could not tell whether they were pops
   std::optional<std::uint64_t> judge_unfinished;  // questions of the judge that took too long
   std::optional<std::string> texture;             // as it was asked for
   std::vector<std::string> effects;               // the same, then those of designs

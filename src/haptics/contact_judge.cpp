@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "haptics/contact_witness.h"
+#include "haptics/witness_ways.h"
 
 namespace icome::haptics {
 namespace {
@@ -18,8 +19,15 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
-constexpr int kMostSteps = 20'000;       // that one search for a way tries
-constexpr int kMostStepsEver = 400'000;  // all of them: then what cannot be told counts as a pop
+constexpr int kMostSteps = 20'000;          // that one search for a way tries
+constexpr int kMostStepsEver = 400'000;     // all of them: then what cannot be told stays unjudged
+constexpr int kMostWalked = 100'000;        // triangles and falls of one search along a mesh
+constexpr int kMostWalkedEver = 4'000'000;  // of all of them
+constexpr int kMostRolled = 10'000;         // small steps of a sphere tip in one direction
+constexpr int kRolls = 24;                  // places on its way down, from which it turns to the SCP
+constexpr double kRollStep = 0.1;           // of its radius
+constexpr int kMostPushes = 24;             // out of what a small step overlaps
+constexpr double kProbe = 1e-4;             // of the radius, for slopes by differences
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise, a length is told from none
 constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
@@ -137,7 +145,9 @@ class ContactJudge::Court {
     look_around(tick);
     if (tick.time != last_.time) rise();
     Judgement judgement;
-    judgement.pop = too_deep(tick.scp) || passed_through(tick.scp, tick.tip);
+    const Passage passage = too_deep(tick.scp) ? Passage::Blocked : this->passage(tick.scp, tick.tip);
+    judgement.pop = passage == Passage::Blocked;
+    judgement.unjudged = passage == Passage::Unknown;
     if (!judgement.pop) judgement.stick = sticks(tick.tip, tick.scp, tick.touching);
     judgement.silent = unfelt(tick) && buried(tick.tip);
     pulling_ = pulls(tick) ? pulling_ + 1 : 0;
@@ -281,41 +291,152 @@ class ContactJudge::Court {
     return deep;
   }
 
+  /// What became of the way to where the SCP is now.
+  enum class Passage { Free, Unknown, Blocked };
+
   // `seen_` follows the SCP on the side where it ought to be: where the SCP is a bit behind a surface, by
   // noise or by the beginning of a pop, `seen_` stays in front of it.
-  bool passed_through(const Vector3& scp, const Vector3& tip) {
+  Passage passage(const Vector3& scp, const Vector3& tip) {
     std::optional<Vector3> place =
         clearest(scp, [&](const Vector3& to) { return seen_ ? passes(*seen_, to) : !inside(to); });
     if (!place && seen_) place = clearest(scp, [&](const Vector3& to) { return around(*seen_, to); });
-    if (!place && (!seen_ || slides_to(scp, tip))) place = scp;
-    if (place) {
-      seen_ = place;
-      return false;
+    const WaySearch search = place || !seen_ ? WaySearch::Found : long_way(scp, tip);
+    if (search == WaySearch::Found) {
+      seen_ = place.value_or(scp);
+      return Passage::Free;
     }
     const Vector3 way = scp - *seen_;
     const double met = blocked(*seen_, scp)->t * way.norm();
     const bool far = way.norm() - met > near_.pop;
     seen_ = far ? scp : Vector3(*seen_ + std::max(0.0, met - 2.0 * near_.noise) * way.normalized());
-    return far;
+    if (!far) return Passage::Free;
+    return search == WaySearch::None ? Passage::Blocked : Passage::Unknown;
+  }
+
+  /// Where an edge or a bottleneck lets go, the SCP may run far in one tick. Is there a way through free
+  /// space that never moves away from the tip?
+  WaySearch long_way(const Vector3& scp, const Vector3& tip) {
+    if (apart(scp, tip)) return WaySearch::None;
+    if (settings_.tip_radius > 0.0 ? rolls_to(scp, tip) : walks_to(scp, tip)) return WaySearch::Found;
+    return slides_to(scp, tip);
+  }
+
+  /// Does a mesh surely part the SCP, wherever noise may have put it, from where it was seen?
+  bool apart(const Vector3& scp, const Vector3& tip) const {
+    std::vector<Vector3> places;
+    for (const Vector3& place : beside(scp)) {
+      if (!inside(place)) places.push_back(place);
+    }
+    return !places.empty() && std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      const WitnessWays* ways = party.may_meet(*seen_, scp, 0.0) ? party.witness().ways() : nullptr;
+      return ways != nullptr && std::all_of(places.begin(), places.end(), [&](const Vector3& place) {
+               return ways->apart(party.in_object(*seen_), party.in_object(place), party.in_object(tip));
+             });
+    });
+  }
+
+  /// The party that is the only one within the ball around the tip that the SCP was seen on; null where there
+  /// are more or none.
+  const Party* only_party(const Vector3& tip) const {
+    const double radius = settings_.tip_radius + (*seen_ - tip).norm();
+    const Party* only = nullptr;
+    for (const Party& party : parties_) {
+      if (!party.may_meet(tip, tip, radius)) continue;
+      if (only != nullptr) return nullptr;
+      only = &party;
+    }
+    return only;
+  }
+
+  /// Does a mesh, alone within reach, lead a point tip to the SCP?
+  bool walks_to(const Vector3& scp, const Vector3& tip) {
+    const Party* party = only_party(tip);
+    const WitnessWays* ways = party == nullptr ? nullptr : party->witness().ways();
+    const int granted = std::min(kMostWalked, kMostWalkedEver - walked_);
+    if (ways == nullptr || granted <= 0) return false;
+    int left = granted;
+    const WaySearch search = ways->leads(party->in_object(*seen_), party->in_object(scp),
+                                         party->in_object(tip), near_.noise, left);
+    walked_ += granted - left;
+    return search == WaySearch::Found;
+  }
+
+  /// Does a sphere tip come to the SCP on a mesh that is alone within reach, in small steps and put back out
+  /// of what it then overlaps: on its way down to the tip, or where it turns to the SCP from there?
+  bool rolls_to(const Vector3& scp, const Vector3& tip) {
+    const Party* party = only_party(tip);
+    if (party == nullptr || party->witness().ways() == nullptr) return false;
+    std::vector<Vector3> way{*seen_};
+    if (rolls(way, tip, scp, tip)) return true;
+    const double lowest = (scp - tip).norm();
+    for (int i = kRolls; i >= 0; --i) {
+      std::vector<Vector3> turned{way[(way.size() - 1) * std::size_t(i) / kRolls]};
+      if ((turned.front() - tip).norm() >= lowest && rolls(turned, scp, scp, tip)) return true;
+    }
+    return false;
+  }
+
+  /// Goes on from the last of these places to `goal`, in steps that bring it nearer to that and none farther
+  /// from the tip. Does it pass the SCP?
+  bool rolls(std::vector<Vector3>& way, const Vector3& goal, const Vector3& scp, const Vector3& tip) {
+    const double longest = kRollStep * settings_.tip_radius;
+    const double kept = start_at(*seen_).overlap + near_.bumps + 1e-3 * longest + 4.0 * near_.noise;
+    for (double step = longest; step >= longest / 64.0; step *= 0.25) {
+      while (walked_ < kMostWalkedEver && way.size() < kMostRolled) {
+        const Vector3 from = way.back(), left = goal - from;
+        if ((scp - from).norm() <= 4.0 * longest && free(from, scp)) return true;
+        if (left.norm() <= step) break;
+        ++walked_;
+        const std::optional<Vector3> to = put_out(from + step * left.normalized(), kept);
+        if (!to || (*to - tip).norm() > (from - tip).norm() + near_.noise) break;
+        if ((goal - *to).norm() > left.norm() - 1e-2 * step || !passes(from, *to)) break;
+        way.push_back(*to);
+      }
+    }
+    return false;
+  }
+
+  /// Near `place`, where a tip overlaps by no more than `kept`; nothing where that is not to be had.
+  std::optional<Vector3> put_out(Vector3 place, double kept) const {
+    const double radius = settings_.tip_radius, probe = kProbe * radius;
+    for (int i = 0; i < kMostPushes; ++i) {
+      const double deep = overlap(place, radius);
+      if (deep <= kept) return place;
+      Vector3 slope;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3 off = probe * Vector3::Unit(axis);
+        slope[axis] = overlap(place + off, radius + 4.0 * probe) - overlap(place - off, radius + 4.0 * probe);
+      }
+      if (slope.squaredNorm() <= 0.0) return std::nullopt;
+      place -= (deep - 0.5 * kept) * slope.normalized();
+    }
+    return std::nullopt;
   }
 
   /// The SCP when it is legal there. Within noise of a surface it may be on the wrong side of it, or on
   /// neither: there the clearest of the legal places a little beside.
   template <typename Legal>
   std::optional<Vector3> clearest(const Vector3& scp, Legal&& legal) const {
-    if (distance(scp, 2.0 * near_.noise) >= 2.0 * near_.noise)
-      return legal(scp) ? std::optional(scp) : std::nullopt;
     std::optional<Vector3> best;
     double most = -1.0;
-    for (int i = 0; i < 7; ++i) {
-      Vector3 place = scp;
-      if (i > 0) place[(i - 1) / 2] += (i % 2 ? 4.0 : -4.0) * near_.noise;
+    for (const Vector3& place : beside(scp)) {
       const double clear = distance(place, 4.0 * near_.noise);
       if (clear <= most || !legal(place)) continue;
       most = clear;
       best = place;
     }
     return best;
+  }
+
+  /// Where an SCP may be that noise has moved, itself first; it alone where no surface is near.
+  std::vector<Vector3> beside(const Vector3& scp) const {
+    std::vector<Vector3> places{scp};
+    if (distance(scp, 2.0 * near_.noise) >= 2.0 * near_.noise) return places;
+    for (int i = 0; i < 6; ++i) {
+      places.push_back(scp);
+      places.back()[i / 2] += (i % 2 ? -4.0 : 4.0) * near_.noise;
+    }
+    return places;
   }
 
   /// Is there a way by one more point, no farther off than the way is long? Most likely off the face in
@@ -343,15 +464,17 @@ class ContactJudge::Court {
     return false;
   }
 
-  /// Where an edge or a bottleneck lets go, the SCP may run far in one tick. Is there a way through free
-  /// space that never moves away from the tip? The SCP went downhill as a rule, so look there first.
-  bool slides_to(const Vector3& scp, const Vector3& tip) {
-    return finds_way(scp, tip, tip) || finds_way(scp, tip, scp);
+  /// Looks in all directions for the way. The SCP went downhill as a rule, so that comes first.
+  WaySearch slides_to(const Vector3& scp, const Vector3& tip) {
+    const WaySearch down = finds_way(scp, tip, tip);
+    if (down == WaySearch::Found) return down;
+    const WaySearch there = finds_way(scp, tip, scp);
+    return there == WaySearch::GaveUp ? down : there;
   }
 
   /// Best-first search: from the place that is nearest to the goal so far, steps in all directions, and along
   /// what blocks them; shorter steps only where long ones lead no nearer.
-  bool finds_way(const Vector3& scp, const Vector3& tip, const Vector3& goal) {
+  WaySearch finds_way(const Vector3& scp, const Vector3& tip, const Vector3& goal) {
     const double far = std::max(near_.stick, (scp - *seen_).norm() / 50.0);
     const Vector3 clear = clearest(scp, [&](const Vector3& to) { return !inside(to); }).value_or(scp);
     Search search{goal, {cell(*seen_, 0.5 * far)}, {{(goal - *seen_).norm(), *seen_}}};
@@ -359,12 +482,12 @@ class ContactJudge::Court {
     while (!search.open.empty() && steps_ < last) {
       const Vector3 place = search.next();
       if (free(place, scp) || free(place, clear) || ((scp - place).norm() <= 4.0 * far && around(place, scp)))
-        return true;
+        return WaySearch::Found;
       for (double move = far; move >= 2.0 * near_.noise; move *= 0.25) {
         if (walk_on(search, place, scp, tip, move)) break;
       }
     }
-    return false;
+    return search.open.empty() ? WaySearch::None : WaySearch::GaveUp;
   }
 
   using Cell = std::array<double, 4>;  // its size and place, in sizes
@@ -534,7 +657,8 @@ class ContactJudge::Court {
   Lengths near_;  // of what the last tick had to do with
   JudgedTick last_;
   int pulling_ = 0;              // ticks in a row
-  int steps_ = 0;                // tried by all searches for a way
+  int steps_ = 0;                // tried by all searches for a way in all directions
+  int walked_ = 0;               // by all along meshes
   std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
 };
 
@@ -553,6 +677,7 @@ Judgement ContactJudge::judge(const JudgedTick& tick) {
   sticks_ += judgement.stick;
   silent_ += judgement.silent;
   pulls_ += judgement.pull;
+  unjudged_ += judgement.unjudged;
   return judgement;
 }
 

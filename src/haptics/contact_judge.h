@@ -60,6 +60,7 @@ struct Judgement {
   bool stick = false;
   bool silent = false;
   bool pull = false;
+  bool unjudged = false;  // no fault: nobody knows
 
   bool fine() const { return !pop && !stick && !silent && !pull; }
 };
@@ -73,6 +74,10 @@ struct Judgement {
 /// now more than the pop depth away from that, and no free way leads there: neither a short detour (over
 /// an edge, round a rim) nor a walk that comes ever nearer to the tip. Every tick inside counts, a
 /// passage counts once.
+///
+/// Unjudged, a tick and no pop: the SCP passed a surface, and whether a free way leads there takes too long
+/// to find out. On meshes one that leads along the surface is found however long it is, and what a surface
+/// parts within the ball that holds all such ways is known as a pop without a search.
 ///
 /// A stick: the tip is "touching" though the straight way from SCP to tip is free; or a straight move
 /// of `stick_move` from the SCP is free, leads clearly nearer to the tip (by at least a tenth of the move),
@@ -111,6 +116,7 @@ class ContactJudge {
   /// Questions that took too long to be answered: what would have been found then, of pops and sticks, is not
   /// told.
   std::uint64_t unfinished() const;
+  std::uint64_t unjudged() const { return unjudged_; }
 
  private:
   class Court;
@@ -121,6 +127,7 @@ class ContactJudge {
   std::uint64_t sticks_ = 0;
   std::uint64_t silent_ = 0;
   std::uint64_t pulls_ = 0;
+  std::uint64_t unjudged_ = 0;
 };
 
 }  // namespace icome::haptics

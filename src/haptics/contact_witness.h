@@ -7,6 +7,8 @@
 
 namespace icome::haptics {
 
+class WitnessWays;
+
 /// Where a way is blocked: the share of it that is free, and the unit normal that blocks it, against the way.
 struct Block {
   double t;
@@ -63,6 +65,8 @@ class Witness {
 
   /// How many questions so far took too long to be answered in full.
   virtual std::uint64_t unfinished() const { return 0; }
+  /// What is known of the ways along it, of a mesh; null of anything else. Made when first asked for.
+  virtual const WitnessWays* ways() const { return nullptr; }
 };
 
 /// Around the object's surface, in its own frame.

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <memory>
 
 #include "haptics/contact_witness.h"
 #include "haptics/witness_tree.h"
+#include "haptics/witness_ways.h"
 
 namespace icome::haptics {
 namespace {
@@ -11,7 +13,10 @@ using base::Vector3;
 class MeshWitness final : public Witness {
  public:
   explicit MeshWitness(const JudgedObject& object)
-      : tree_(std::get<0>(object.surface)), closed_(object.closed), two_sided_(object.two_sided) {}
+      : mesh_(std::get<0>(object.surface)),
+        tree_(mesh_),
+        closed_(object.closed),
+        two_sided_(object.two_sided) {}
 
   std::optional<Block> blocked(const Vector3& a, const Vector3& b) const override {
     double first = 2.0;
@@ -44,6 +49,11 @@ class MeshWitness final : public Witness {
   bool solid() const override { return closed_ && !two_sided_; }
   bool inside(const Vector3& point) const override { return solid() && winding(tree_, point) > 0; }
 
+  const WitnessWays* ways() const override {
+    if (!ways_) ways_ = std::make_unique<const WitnessWays>(tree_, *mesh_, two_sided_);
+    return ways_.get();
+  }
+
  private:
   /// The normal of a triangle, as long as twice its area.
   Vector3 front_of(std::uint32_t triangle) const {
@@ -51,7 +61,9 @@ class MeshWitness final : public Witness {
     return (b - a).cross(c - a);
   }
 
+  std::shared_ptr<const geometry::TriangleMesh> mesh_;
   WitnessTree tree_;
+  mutable std::unique_ptr<const WitnessWays> ways_;
   bool closed_;
   bool two_sided_;
 };

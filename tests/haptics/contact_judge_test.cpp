@@ -143,6 +143,89 @@ TEST(ContactJudge, ApprovesALongSlideOffAnEdge) {
   }
 }
 
+/// A pipe that winds down like a spiral stair, felt from within; open at both ends.
+struct Spiral {
+  static constexpr double kRadius = 0.02;  // m, of the stair
+  static constexpr double kPitch = 0.008;
+  static constexpr double kPipe = 0.002;
+  static constexpr int kSides = 24;
+  static constexpr int kRings = 600;  // six turns
+
+  static Vector3 axis(double turns) {
+    const double angle = 6.283185307179586 * turns;
+    return {kRadius * std::cos(angle), kRadius * std::sin(angle), -kPitch * turns};
+  }
+  /// So far (m) below the axis of the pipe.
+  static Vector3 below(double turns, double depth) {
+    const Vector3 along = (axis(turns + 1e-4) - axis(turns - 1e-4)).normalized();
+    const Vector3 out = Vector3(axis(turns).x(), axis(turns).y(), 0.0).normalized();
+    return axis(turns) + depth * along.cross(out).normalized();
+  }
+
+  static MeshPointer mesh() {
+    TriangleMesh mesh;
+    for (int i = 0; i < kRings; ++i) {
+      const double turns = 0.01 * i;
+      const Vector3 down = (below(turns, 1.0) - axis(turns)).normalized();
+      const Vector3 out = Vector3(axis(turns).x(), axis(turns).y(), 0.0).normalized();
+      for (int j = 0; j < kSides; ++j) {
+        const double angle = 6.283185307179586 * j / kSides;
+        mesh.positions.push_back(axis(turns) + kPipe * (std::cos(angle) * down + std::sin(angle) * out));
+      }
+    }
+    const auto at = [](int i, int j) { return std::uint32_t(i * kSides + j % kSides); };
+    for (int i = 0; i + 1 < kRings; ++i) {
+      for (int j = 0; j < kSides; ++j) {
+        mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+        mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      }
+    }
+    return shared(mesh);
+  }
+};
+
+/// Judges an SCP that runs down four turns of the pipe in one tick.
+Judgement judged_in_spiral(const std::vector<JudgedObject>& objects, double radius) {
+  ContactJudge judge = judge_of(objects, radius);
+  const double depth = radius > 0.0 ? 0.97e-3 : Spiral::kPipe - 1e-8;
+  const Vector3 tip(0.0, 0.0, -1.0), from = Spiral::below(1.0, depth), to = Spiral::below(5.0, depth);
+  judge.judge({from, from, false});
+  return judge.judge({tip, to, true});
+}
+
+TEST(ContactJudge, FindsALongWayWithinATick) {
+  for (const bool two_sided : {false, true}) {
+    const JudgedObject pipe{Spiral::mesh(), Pose::Identity(), false, two_sided};
+    for (const double radius : {0.0, 0.001}) {
+      const Judgement judgement = judged_in_spiral({pipe}, radius);
+      EXPECT_FALSE(judgement.pop) << two_sided << radius;
+      EXPECT_FALSE(judgement.unjudged) << two_sided << radius;
+    }
+  }
+}
+
+TEST(ContactJudge, TellsOfALongWayThatItCannotJudge) {
+  const JudgedObject pipe{Spiral::mesh(), Pose::Identity(), false, true};
+  const JudgedObject other = solid("box:0.01x0.01x0.01");  // meshes are followed where nothing else is near
+  const Judgement judgement = judged_in_spiral({pipe, other}, 0.0);
+  EXPECT_FALSE(judgement.pop);
+  EXPECT_TRUE(judgement.unjudged);
+}
+
+TEST(ContactJudge, KnowsAFastStabThroughAWallForAPop) {
+  for (const double radius : {0.0, 0.002}) {
+    for (const bool two_sided : {false, true}) {
+      JudgedObject wall = solid(shared(box_mesh({0.1, 0.1, 0.001})));
+      wall.two_sided = two_sided;
+      ContactJudge judge = judge_of({wall}, radius);
+      judge.judge({{0, 0, 0.02}, {0, 0, 0.02}, false});
+      const Judgement judgement = judge.judge({{0.005, 0, -0.02}, {0.005, 0, -0.02}, false});
+      EXPECT_TRUE(judgement.pop);
+      EXPECT_FALSE(judgement.unjudged);
+    }
+  }
+}
+
 TEST(ContactJudge, CatchesAContactWithNothingInTheWay) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
