@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/mesh_repair.h"
+#include "world/exact_surface.h"
 #include "world/geometry_check.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
@@ -47,6 +48,39 @@ TriangleMesh box_mesh(const Bounds& box) {
   return mesh;
 }
 
+using Entry = CollisionShape::Entry;
+
+/// Of the triangle that was hit, unit.
+Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& hit) {
+  Vector3 normal = Vector3::Zero();
+  tree.near(hit.point, hit.point, kRounding * hit.point.norm(), [&](std::uint32_t slot) {
+    if (tree.triangle(slot) != hit.triangle) return true;
+    const Corners& corners = tree.corners(slot);
+    normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    return false;
+  });
+  return normal;
+}
+
+/// Who goes out of the shape first goes in later.
+std::optional<Entry> entry_of_mesh(const geometry::TriangleTree& tree, bool closed, const Vector3& a,
+                                   const Vector3& b) {
+  constexpr int kMostPassages = 8;
+  constexpr double kOn = 1e-9;  // of the way: to be past the last one
+  const Vector3 step = b - a;
+  double from = 0.0;
+  for (int i = 0; i < kMostPassages && from < 1.0; ++i) {
+    const auto hit = tree.first_hit(a + from * step, b);
+    if (!hit) return std::nullopt;
+    const double share = from + hit->parameter * (1.0 - from);
+    const Vector3 normal = normal_at(tree, *hit);
+    const bool against = normal.dot(step) < 0.0;
+    if (against || !closed) return Entry{share, against ? normal : Vector3(-normal)};
+    from = share + kOn;
+  }
+  return std::nullopt;
+}
+
 /// How a length, by which a surface is higher than what it may meet, is to be understood.
 Meeting by_gap(double gap, double rounding) {
   return gap > rounding ? Meeting::Apart : gap < -rounding ? Meeting::Overlapping : Meeting::Touching;
@@ -72,15 +106,57 @@ CollisionShape::CollisionShape(GeometryPointer shape) : shape_(std::move(shape))
   }
 }
 
-TriangleMesh CollisionShape::triangles() const {
+const CollisionShape::Solid& CollisionShape::solid() {
+  if (solid_) return *solid_;
   const auto made = shape_->triangles(usual_tolerance(*shape_));
-  if (!made || !complaint((*made)->mesh).empty()) return box_mesh(bounds_);
-  return (*made)->mesh;
+  if (!made || !complaint((*made)->mesh).empty())
+    solid_ = std::make_shared<const Solid>(box_mesh(bounds_), nullptr);
+  else
+    solid_ = std::make_shared<const Solid>((*made)->mesh, exact_surface(*shape_));
+  return *solid_;
 }
 
-const CollisionShape::Solid& CollisionShape::solid() {
-  if (!solid_) solid_ = std::make_shared<const Solid>(triangles());
-  return *solid_;
+double CollisionShape::deviation(const Affine3& world_from_shape) const {
+  const std::optional<double> stretch = even_stretch(world_from_shape.linear());
+  if (kind_ == Kind::Sphere && stretch) return 0.0;
+  if (kind_ == Kind::Nothing || kind_ == Kind::HalfSpace || !has_exact_surface(*shape_)) return 0.0;
+  return stretch.value_or(world_from_shape.linear().norm()) * usual_deviation(*shape_);
+}
+
+std::optional<CollisionShape::Entry> CollisionShape::entry(const Vector3& a, const Vector3& b) {
+  switch (kind_) {
+    case Kind::Nothing:
+      return std::nullopt;
+    case Kind::HalfSpace:
+      return entry_of_half_space(a, b);
+    case Kind::Sphere:
+      return entry_of_sphere(a, b);
+    case Kind::Triangles:
+      break;
+  }
+  const Solid& it = solid();
+  if (!it.exact) return entry_of_mesh(*it.tree, it.closed, a, b);
+  const auto place = way_into(*it.exact, a, b);
+  return place ? std::optional(Entry{place->t, place->place.normal}) : std::nullopt;
+}
+
+std::optional<CollisionShape::Entry> CollisionShape::entry_of_half_space(const Vector3& a,
+                                                                         const Vector3& b) const {
+  const Vector3 normal = shape_from_primitive_ * Vector3::UnitZ();
+  const double share = normal.dot(a) / normal.dot(a - b);
+  if (!(normal.dot(b - a) < 0.0 && share >= 0.0 && share <= 1.0)) return std::nullopt;
+  return Entry{share, normal};
+}
+
+std::optional<CollisionShape::Entry> CollisionShape::entry_of_sphere(const Vector3& a,
+                                                                     const Vector3& b) const {
+  const Vector3 step = b - a;
+  const double square = step.squaredNorm(), half = a.dot(step);
+  const double discriminant = half * half - square * (a.norm() - radius_) * (a.norm() + radius_);
+  if (!(discriminant > 0.0)) return std::nullopt;
+  const double share = (-half - std::sqrt(discriminant)) / square;
+  if (!(share >= 0.0 && share <= 1.0)) return std::nullopt;
+  return Entry{share, (a + share * step).normalized()};
 }
 
 std::uint64_t effort_to_look_into(const Geometry& shape) {
@@ -97,7 +173,8 @@ std::uint64_t CollisionShape::effort_to_make() const {
   return is_made ? 0 : effort_to_look_into(*shape_);
 }
 
-CollisionShape::Solid::Solid(TriangleMesh mesh) {
+CollisionShape::Solid::Solid(TriangleMesh mesh, std::shared_ptr<const geometry::SmoothSurface> surface)
+    : exact(std::move(surface)) {
   const geometry::RepairReport report = geometry::repair(mesh);
   closed = report.surface.closed;
   tree.emplace(mesh);

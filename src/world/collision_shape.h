@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/smooth_surface.h"
 #include "geometry/triangle_tree.h"
 #include "world/effort.h"
 #include "world/geometry.h"
@@ -21,8 +22,9 @@ std::uint64_t effort_to_look_into(const Geometry& shape);
 
 /// A shape made ready for the question whether it meets others. Spheres (that are not stretched) and
 /// half-spaces are asked as what they are, meshes and boxes by their triangles, all other shapes by triangles
-/// of theirs, 1/1000 of their size off at most (or sampled at 100 places along their longest side). A shape
-/// of which there are no triangles counts as its box, or, without an end, as nothing.
+/// of theirs, which are off them by deviation() at most (or sampled at 100 places along their longest side);
+/// entry() alone asks these as what they are. A shape of which there are no triangles counts as its box, or,
+/// without an end, as nothing.
 class CollisionShape {
  public:
   /// The shape is shared. Triangles are made when they are first asked for.
@@ -51,6 +53,23 @@ class CollisionShape {
   /// nor a half-space.
   const geometry::TriangleTree& triangle_tree() { return *solid().tree; }
 
+  /// How far its triangles may be off what it is itself where it is placed so, m, world frame; 0 where it is
+  /// asked as what it is, or is nothing else than triangles.
+  double deviation(const Affine3& world_from_shape) const;
+
+  /// Where a straight way leads into the shape from outside, or through a sheet.
+  struct Entry {
+    double share;    // of the way, 0 to 1
+    Vector3 normal;  // of the surface there, against the way; own frame, unit
+  };
+  /// The first such place on the way from `a` to `b` (m, own frame), by what the shape is itself.
+  std::optional<Entry> entry(const Vector3& a, const Vector3& b);
+
+  /// The surface as what it is, where triangles are only near it; else null.
+  const geometry::SmoothSurface* surface() {
+    return kind_ == Kind::Triangles ? solid().exact.get() : nullptr;
+  }
+
   /// What it takes to make the triangles, if they are needed; 0 when they are there.
   std::uint64_t effort_to_make() const;
 
@@ -70,16 +89,18 @@ class CollisionShape {
 
   /// Triangles with what it takes to look into them.
   struct Solid {
-    explicit Solid(geometry::TriangleMesh mesh);
+    Solid(geometry::TriangleMesh mesh, std::shared_ptr<const geometry::SmoothSurface> surface);
     void find_probes(const geometry::TriangleMesh& mesh);
 
     bool closed = false;
     std::optional<geometry::TriangleTree> tree;
     std::vector<Vector3> probes;  // a place in each connected part: inside where it is closed
+    std::shared_ptr<const geometry::SmoothSurface> exact;  // what the triangles stand for; null: themselves
   };
 
   const Solid& solid();
-  geometry::TriangleMesh triangles() const;
+  std::optional<Entry> entry_of_half_space(const Vector3& a, const Vector3& b) const;
+  std::optional<Entry> entry_of_sphere(const Vector3& a, const Vector3& b) const;
 
   GeometryPointer shape_;
   Kind kind_ = Kind::Triangles;

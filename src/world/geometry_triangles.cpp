@@ -71,6 +71,12 @@ double usual_tolerance(const Geometry& shape) {
   return (sampled ? kSampledTolerance : kSmoothTolerance) * size;
 }
 
+double usual_deviation(const Geometry& shape) {
+  constexpr double kOfCell = 0.1;
+  const bool sampled = shape.kind() == "csg" || shape.kind() == "implicit";
+  return (sampled ? kOfCell : 1.0) * usual_tolerance(shape);
+}
+
 base::Result<Triangles> MeshGeometry::triangles(double) const {
   if (const auto self = weak_from_this().lock()) return self;
   return std::make_shared<const MeshGeometry>(*this);

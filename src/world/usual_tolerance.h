@@ -7,4 +7,8 @@ namespace icome::world {
 /// 1/100 where it is sampled, which takes time by its volume.
 double usual_tolerance(const Geometry& shape);
 
+/// How far triangles of that tolerance may be off the shape, m: where it is sampled, far less than the cells
+/// of the grid. Not for parts that the triangles lack.
+double usual_deviation(const Geometry& shape);
+
 }  // namespace icome::world

@@ -117,6 +117,12 @@ std::vector<Contact> MovingObjects::contacts(const Vector3& at, const Vector3& s
   return result;
 }
 
+double MovingObjects::deviation(const Vector3& at) const {
+  double most = 0.0;
+  for (const Pair& it : beside(at, 0.0)) most = std::max(most, it.deviation());
+  return most;
+}
+
 bool MovingObjects::overlap(const Vector3& at) const {
   const std::vector<Pair> others = pairs(at, Vector3::Zero(), 0.0);
   return std::any_of(others.begin(), others.end(),

@@ -43,6 +43,24 @@ class MovingObjects {
   /// one, 16 at most.
   std::vector<Contact> contacts(const Vector3& at, const Vector3& step, double tolerance) const;
 
+  /// One of them and something that it may meet.
+  struct Pair {
+    Passing passing;
+    world::ObjectId moved, other;
+
+    /// How far triangles may be off the two, together, m.
+    double deviation() const {
+      return passing.moved->deviation(passing.world_from_moved) +
+             passing.other->deviation(passing.world_from_other);
+    }
+  };
+  /// All pairs whose boxes are within `reach` (m) of each other at `at`.
+  std::vector<Pair> beside(const Vector3& at, double reach) const {
+    return pairs(at, Vector3::Zero(), reach);
+  }
+  /// How far triangles may be off those of them, and of what their boxes meet, that are off the most, m.
+  double deviation(const Vector3& at) const;
+
   /// Do they overlap anything at `at`?
   bool overlap(const Vector3& at) const;
 
@@ -52,10 +70,6 @@ class MovingObjects {
 
  private:
   using Standing = world::CollisionIndex::Standing;
-  struct Pair {
-    Passing passing;
-    world::ObjectId moved, other;
-  };
 
   /// All that they may meet on the way, or come within `reach` of.
   std::vector<Pair> pairs(const Vector3& at, const Vector3& step, double reach) const;

@@ -10,6 +10,7 @@
 
 #include "geometry/hilbert.h"
 #include "geometry/mesh_repair.h"
+#include "world/exact_surface.h"
 #include "world/geometry_check.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
@@ -193,6 +194,29 @@ std::optional<Place> nearest_triangle(const Affine3& world_from_shape, const Vec
   return place;
 }
 
+/// The place of what triangles stand for next to the nearest of the triangles: across them, or, where they
+/// end beyond it, on the way on; and where space is not stretched unevenly the nearest one.
+Place on_surface(const Affine3& world_from_shape, const Vector3& point, const Place& near, double deviation,
+                 const geometry::SmoothSurface& surface) {
+  const Affine3 shape_from_world = world_from_shape.inverse();
+  const auto into = [&](const Vector3& way) {
+    return world::way_into(surface, shape_from_world * Vector3(near.point - way),
+                           shape_from_world * Vector3(near.point + way));
+  };
+  auto found = into(-2.0 * deviation * near.direction);
+  if (!found) found = into(4.0 * deviation * (near.point - point).stableNormalized());
+  if (!found) return near;
+  geometry::SurfacePlace best = found->place;
+  const auto off = [&](const geometry::SurfacePlace& it) {
+    return (world_from_shape * it.point - point).norm();
+  };
+  const Vector3 own = shape_from_world * point;
+  const geometry::SurfacePlace foot = surface.foot(best, own, 0.0);
+  const double slack = 1e-11 * surface.bounds().diagonal().norm();
+  if (foot.point.allFinite() && off(foot) < off(best) && surface.covers(foot, own, 0.0, slack)) best = foot;
+  return {world_from_shape * best.point, out_of(world_from_shape, best.normal)};
+}
+
 /// Straight lines to snap to, of a mesh.
 struct MeshEdges {
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -372,7 +396,11 @@ std::optional<Place> SnapShape::face(const Affine3& world_from_shape, const Vect
     if (!(distance <= reach)) return std::nullopt;
     return Place{found.point, found.normal};
   }
-  return nearest_triangle(world_from_shape, point, reach, triangles.triangle_tree());
+  const double deviation = triangles.deviation(world_from_shape);
+  const auto near = nearest_triangle(world_from_shape, point, reach + deviation, triangles.triangle_tree());
+  if (!near || !triangles.surface()) return near;
+  const Place found = on_surface(world_from_shape, point, *near, deviation, *triangles.surface());
+  return (found.point - point).norm() <= reach ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace icome::interaction

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "interaction/snapping/close_fit.h"
 #include "world/solid_geometry.h"
 
 namespace icome::interaction {
@@ -76,6 +77,35 @@ std::optional<Vector3> lifted(const MovingObjects& moving, const Vector3& from, 
   return std::nullopt;
 }
 
+/// Where it goes into others by no more than what triangles may be off them: back along its way to where it
+/// does not; else where it is.
+Vector3 drawn_back(const MovingObjects& moving, const Vector3& from, const Vector3& direction,
+                   double tolerance) {
+  const double most = 2.0 * moving.deviation(from);
+  double taken = 0.0;
+  for (const double share : {0.01, 0.1, 0.3, 1.0}) {
+    double free = share * most;
+    if (moving.overlap(from - free * direction)) {
+      taken = free;
+      continue;
+    }
+    while (free - taken > tolerance) {
+      const double middle = 0.5 * (free + taken);
+      (moving.overlap(from - middle * direction) ? taken : free) = middle;
+    }
+    return from - free * direction;
+  }
+  return from;
+}
+
+/// Where the way begins by triangles.
+Vector3 where_it_begins(const MovingObjects& moving, const Vector3& from, const Vector3& way, bool slide,
+                        double tolerance) {
+  if (!moving.overlap(from)) return from;
+  if (slide) return lifted(moving, from, tolerance).value_or(from);
+  return way.isZero(0.0) ? from : drawn_back(moving, from, way.normalized(), tolerance);
+}
+
 base::Result<void> check_tolerance(double tolerance) {
   if (tolerance > 0.0 && tolerance < 0.1) return {};
   return base::fail("The tolerance of a move is a share of the objects' size: choose one from 1e-9 to 1e-4.");
@@ -86,6 +116,27 @@ base::Result<void> check_way(const MovingObjects& objects, const Vector3& way) {
   if (!(way.norm() <= kLongestWay * std::max(1.0, objects.size())))
     return base::fail("That is too far away to be moved to in one go: choose a nearer place.");
   return {};
+}
+
+/// As far as triangles let them go.
+StoppedMove stopped_by_triangles(const MovingObjects& moving, const Vector3& from, const Vector3& wanted,
+                                 const StopSettings& settings) {
+  const double tolerance = settings.tolerance * moving.size();
+  StoppedMove result{from, false, {}};
+  Vector3& at = result.offset;
+  at = where_it_begins(moving, from, wanted - from, settings.slide, tolerance);
+  for (int turn = 0; turn <= (settings.slide ? settings.most_slides : 0); ++turn) {
+    const double share = moving.free_share(at, wanted - at, 0.1 * tolerance);
+    if (share >= 1.0) return StoppedMove{wanted, false, {}};
+    at += share * (wanted - at);
+    if (moving.is_spent()) break;
+    result.contacts = moving.contacts(at, wanted - at, tolerance);
+    if (!settings.slide || turn == settings.most_slides) break;
+    const Vector3 way = Corner(moving, at, wanted - at, tolerance).way_along(result.contacts);
+    if (way.isZero(0.0)) break;
+    at += moving.free_share(at, way, 0.1 * tolerance) * way;
+  }
+  return result;
 }
 
 }  // namespace
@@ -101,21 +152,15 @@ base::Result<StoppedMove> stopped_move(const MovingObjects& moving, const Vector
   if (auto fine = check_way(moving, wanted - from); !fine) return tl::unexpected(fine.error());
   if (!settings.stop) return StoppedMove{wanted, false, {}};
   const double tolerance = settings.tolerance * moving.size();
-  StoppedMove result{from, false, {}};
+  StoppedMove result = stopped_by_triangles(moving, from, wanted, settings);
   Vector3& at = result.offset;
-  if (settings.slide && moving.overlap(from)) at = lifted(moving, from, tolerance).value_or(from);
-  for (int turn = 0; turn <= (settings.slide ? settings.most_slides : 0); ++turn) {
-    const double share = moving.free_share(at, wanted - at, 0.1 * tolerance);
-    if (share >= 1.0) return StoppedMove{wanted, false, {}};
-    at += share * (wanted - at);
-    if (moving.is_spent()) break;
-    result.contacts = moving.contacts(at, wanted - at, tolerance);
-    if (!settings.slide || turn == settings.most_slides) break;
-    const Vector3 way = Corner(moving, at, wanted - at, tolerance).way_along(result.contacts);
-    if (way.isZero(0.0)) break;
-    at += moving.free_share(at, way, 0.1 * tolerance) * way;
+  if (const auto fit = close_fit(moving, {from, at, wanted, settings.slide, tolerance})) {
+    at = fit->offset;
+    if (!fit->contacts.empty()) result.contacts = fit->contacts;
   }
   result.spent = moving.is_spent();
+  // What triangles are off by is known too late then.
+  if (result.spent && moving.deviation(at) > 0.0) at = from;
   if (result.spent) result.contacts.clear();
   result.stopped = (wanted - at).norm() > tolerance;
   // What rests at a surface does not creep up to it.
@@ -135,16 +180,20 @@ base::Result<StoppedMove> landing(world::CollisionIndex& index, std::span<const 
     return base::fail("There is nothing that could fall: choose objects with a shape.");
   world::CollisionShape floor(std::make_shared<world::PrimitiveGeometry>(geometry::Plane{}, world::Axis::Y));
   if (settings.floor && direction.y() < 0.0) moving.add_obstacle(floor, Affine3::Identity());
-  if (moving.overlap(Vector3::Zero()))
+  const double tolerance = settings.tolerance * moving.size();
+  const Vector3 from = where_it_begins(moving, Vector3::Zero(), direction, false, tolerance);
+  if (moving.overlap(from))
     return base::fail("It goes through something where it is: move it out before it lands.");
   const Vector3 way = moving.way_past_all(direction) * direction;
   if (auto fine = check_way(moving, way); !fine) return tl::unexpected(fine.error());
-  const double tolerance = settings.tolerance * moving.size();
-  const double share = moving.free_share(Vector3::Zero(), way, 0.1 * tolerance);
+  const double share = moving.free_share(from, way, 0.1 * tolerance);
   if (share >= 1.0)
     return base::fail("There is nothing below to land on: put something there, or let it fall to the floor.");
-  StoppedMove result{share * way, true, {}};
+  StoppedMove result{from + share * way, true, {}};
   result.contacts = moving.contacts(result.offset, way, tolerance);
+  const Vector3 beyond = result.offset + way;
+  if (const auto fit = close_fit(moving, {Vector3::Zero(), result.offset, beyond, false, tolerance}))
+    result.offset = fit->offset;
   return result;
 }
 

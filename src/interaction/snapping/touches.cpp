@@ -63,14 +63,14 @@ class TouchSearch {
     const Side moved{*passing_.moved, passing_.world_from_moved, passing_.step};
     const Side standing{*passing_.other, passing_.world_from_other, -passing_.step};
     if (one && other) return of_half_spaces(*one, *other);
-    if (one) return of_half_space(*one, standing);
+    if (one) return of_half_space(*one, turned(standing));
     if (other) return of_half_space(*other, moved);
     const auto ball = moved.shape.ball(moved.place), other_ball = standing.shape.ball(standing.place);
     if (ball && other_ball) return around(ball->centre, moved.step, other_ball->centre, *ball, *other_ball);
     if (ball) return of_ball(*ball, moved.step, standing);
-    if (other_ball) return of_ball(*other_ball, standing.step, moved);
+    if (other_ball) return of_ball(*other_ball, turned(standing).step, moved);
     if (standing.shape.triangle_tree().size() < moved.shape.triangle_tree().size())
-      of_triangles(standing, moved);
+      of_triangles(turned(standing), moved);
     else
       of_triangles(moved, standing);
   }
@@ -83,50 +83,67 @@ class TouchSearch {
     Vector3 step;
   };
 
+  /// What stands is taken to go past what is moved: touches are found in the frame of that.
+  const Side& turned(const Side& standing) {
+    frame_step_ = passing_.step;
+    return standing;
+  }
+
   bool may_go_on(std::uint64_t units = 1) { return !passing_.effort || passing_.effort->spend(units); }
 
-  void add(double share, const Vector3& normal) {
+  void add(double share, const Vector3& normal, const Vector3& place) {
     if (!(share >= from_ && share <= until_)) return;
-    until_ = std::min(until_, visit_({share, normal.dot(passing_.step) > 0.0 ? Vector3(-normal) : normal}));
+    const Vector3 against = normal.dot(passing_.step) > 0.0 ? Vector3(-normal) : normal;
+    until_ = std::min(until_, visit_({share, against, place + share * frame_step_}));
   }
 
   void of_half_spaces(const HalfSpace& one, const HalfSpace& other) {
     if ((one.normal + other.normal).cwiseAbs().maxCoeff() >= 1e-12) return;
-    cross_plane(other.normal.dot(one.foot - other.foot), other.normal, passing_.step);
+    cross_plane(other.normal.dot(one.foot - other.foot), other.normal, passing_.step, one.foot);
   }
 
-  /// Something, that is `height` above a plane, goes by `step`.
-  void cross_plane(double height, const Vector3& normal, const Vector3& step) {
-    const double speed = normal.dot(step);
-    if (std::abs(speed) > rounding_) add(-height / speed, normal);
+  /// A place, that is `height` above a plane, goes by `step`.
+  void cross_plane(double height, const Vector3& normal, const Vector3& step, const Vector3& place) {
+    const double speed = normal.dot(step), share = -height / speed;
+    if (std::abs(speed) > rounding_) add(share, normal, place + share * step);
   }
 
   void of_half_space(const HalfSpace& space, const Side& side) {
     const auto height = [&](const Vector3& point) { return space.normal.dot(point - space.foot); };
     double lowest = std::numeric_limits<double>::infinity();
+    Vector3 place = side.place.translation();
     if (const auto ball = side.shape.ball(side.place)) {
       lowest = height(ball->centre) - ball->radius;
+      place = ball->centre - ball->radius * space.normal;
     } else {
       const geometry::TriangleTree& tree = side.shape.triangle_tree();
       if (!may_go_on(tree.size() / kCornersAUnit)) return;
       for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
-        for (const Vector3& corner : tree.corners(slot))
-          lowest = std::min(lowest, height(side.place * corner));
+        for (const Vector3& corner : tree.corners(slot)) {
+          const Vector3 there = side.place * corner;
+          if (!(height(there) < lowest)) continue;
+          lowest = height(there);
+          place = there;
+        }
       }
     }
-    if (std::isfinite(lowest)) cross_plane(lowest, space.normal, side.step);
+    if (std::isfinite(lowest)) cross_plane(lowest, space.normal, side.step, place);
   }
 
   void around(const Vector3& point, const Vector3& step, const Vector3& centre, const Ball& one,
               const Ball& other) {
-    cross_sphere(point, step, centre, one.radius + other.radius);
+    cross_sphere(point, step, centre, one.radius + other.radius, other.radius);
   }
 
-  void cross_sphere(const Vector3& point, const Vector3& step, const Vector3& centre, double radius) {
+  /// What they touch at is `inner` off the centre.
+  void cross_sphere(const Vector3& point, const Vector3& step, const Vector3& centre, double radius,
+                    double inner) {
     const Vector3 offset = point - centre;
     const double a = step.squaredNorm(), b = offset.dot(step);
-    for (const double share : roots(a, b, (offset.norm() - radius) * (offset.norm() + radius)))
-      add(share, (offset + share * step).normalized());
+    for (const double share : roots(a, b, (offset.norm() - radius) * (offset.norm() + radius))) {
+      const Vector3 normal = (offset + share * step).normalized();
+      add(share, normal, centre + inner * normal);
+    }
   }
 
   void of_ball(const Ball& ball, const Vector3& step, const Side& mesh) {
@@ -145,12 +162,14 @@ class TouchSearch {
     const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     const double speed = normal.dot(step), height = normal.dot(ball.centre - corners[0]);
     if (std::abs(speed) > rounding_) {
-      for (const double share : {(ball.radius - height) / speed, (-ball.radius - height) / speed}) {
-        if (covers(corners, normal, ball.centre + share * step, slack(step, speed))) add(share, normal);
+      for (const double radius : {ball.radius, -ball.radius}) {
+        const double share = (radius - height) / speed;
+        const Vector3 place = ball.centre + share * step - radius * normal;
+        if (covers(corners, normal, place, slack(step, speed))) add(share, normal, place);
       }
     }
     for (int i = 0; i < 3; ++i) {
-      cross_sphere(ball.centre, step, corners[i], ball.radius);
+      cross_sphere(ball.centre, step, corners[i], ball.radius, 0.0);
       ball_on_edge(ball, step, corners[i], corners[(i + 1) % 3]);
     }
   }
@@ -165,7 +184,7 @@ class TouchSearch {
     for (const double share : roots(speed.squaredNorm(), offset.dot(speed), c)) {
       const double place = along.dot(ball.centre + share * step - from);
       if (place >= -2.0 * rounding_ && place <= length + 2.0 * rounding_)
-        add(share, (offset + share * speed).normalized());
+        add(share, (offset + share * speed).normalized(), from + place * along);
     }
   }
 
@@ -217,21 +236,22 @@ class TouchSearch {
   }
 
   void triangles_touch(const Corners& one, const Vector3& step, const Corners& other) {
-    corners_through(one, step, other);
-    corners_through(other, -step, one);
+    corners_through(one, step, other, step);
+    corners_through(other, -step, one, Vector3::Zero());
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) edges_cross(one[i], one[(i + 1) % 3], step, other[j], other[(j + 1) % 3]);
     }
   }
 
-  void corners_through(const Corners& points, const Vector3& step, const Corners& face) {
+  /// `seen`: how the points go in the frame in which touches are found.
+  void corners_through(const Corners& points, const Vector3& step, const Corners& face, const Vector3& seen) {
     const Vector3 normal = (face[1] - face[0]).cross(face[2] - face[0]).normalized();
     const double speed = normal.dot(step);
     if (!(std::abs(speed) > rounding_)) return;
     for (const Vector3& point : points) {
       const double share = -normal.dot(point - face[0]) / speed;
       if (share >= from_ && share <= until_ && covers(face, normal, point + share * step, slack(step, speed)))
-        add(share, normal);
+        add(share, normal, point + share * seen);
     }
   }
 
@@ -250,7 +270,8 @@ class TouchSearch {
     const Vector3 left = offset - share * step;
     const double s = left.cross(v).dot(normal) / square, r = left.cross(u).dot(normal) / square;
     const double end_s = 0.5 * rounding_ / u.norm(), end_r = 0.5 * rounding_ / v.norm();
-    if (s >= end_s && s <= 1.0 - end_s && r >= end_r && r <= 1.0 - end_r) add(share, normal / norm);
+    if (s >= end_s && s <= 1.0 - end_s && r >= end_r && r <= 1.0 - end_r)
+      add(share, normal / norm, other_from + r * v);
   }
 
   /// How far a place may be off that is reached when something goes through a plane at that speed: slowly,
@@ -270,7 +291,8 @@ class TouchSearch {
   const Passing& passing_;
   double from_, until_;
   base::FunctionRef<double(const Touch&)> visit_;
-  double rounding_, arithmetic_;  // m
+  double rounding_, arithmetic_;          // m
+  Vector3 frame_step_ = Vector3::Zero();  // m: by so much what stands in for the world goes on the way
 };
 
 /// Keeps the first touches in their order.

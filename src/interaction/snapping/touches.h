@@ -34,6 +34,7 @@ inline base::Bounds grown(const base::Bounds& box, double by) {
 struct Touch {
   double share;
   Vector3 normal;  // unit, of the surfaces there, against the way; world frame
+  Vector3 place;   // m, world frame: where they touch then
 };
 
 /// Distances that count as none between the two, m: those of world::meeting.

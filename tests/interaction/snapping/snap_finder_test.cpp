@@ -1,8 +1,13 @@
 #include "interaction/snapping/snap_finder.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "clutter.h"
+#include "geometry/csg_tree.h"
+#include "geometry/implicit_surface.h"
+#include "geometry/loop_surface.h"
+#include "world/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -180,6 +185,70 @@ TEST(SnapFinder, FindsTheNearestPlaceOfStretchedRoundShapes) {
         // Both are of the surface, and no sample is nearer than the nearest place.
         EXPECT_LE(face->distance, least + 1e-9) << shape.index() << ", " << round << ", " << i;
       }
+    }
+  }
+}
+
+/// Solids that are no meshes, with the question that judges.
+struct SnapSolid {
+  world::GeometryPointer shape;
+  std::function<bool(const Vector3&)> inside;
+};
+
+std::vector<SnapSolid> snap_solids() {
+  std::vector<SnapSolid> all;
+  geometry::CsgTree tree;
+  const auto block = tree.add_leaf(geometry::Primitive(geometry::Box{{0.2, 0.1, 0.2}}));
+  const auto hollow = tree.add_leaf(geometry::Primitive(geometry::Sphere{0.15}), at(0.0, 0.12, 0.0));
+  tree.add(geometry::CsgOperator::Difference, block, hollow);
+  all.push_back({std::make_shared<world::CsgGeometry>(tree),
+                 [tree](const Vector3& place) { return geometry::inside(tree, place); }});
+  const auto formula =
+      *world::ImplicitGeometry::create("x^2+y^2+z^2-0.04+0.003*sin(50*x)*sin(50*y)",
+                                       base::Bounds(Vector3::Constant(-0.3), Vector3::Constant(0.3)));
+  all.push_back({formula, [formula](const Vector3& place) {
+                   return formula->surface()->box().contains(place) && formula->surface()->inside(place);
+                 }});
+  const geometry::ControlMesh control{geometry::tessellate(geometry::Box{{0.3, 0.2, 0.4}}, 1.0), {}, {}};
+  const std::shared_ptr<const geometry::LoopSurface> loop = *geometry::LoopSurface::create(control);
+  all.push_back({std::make_shared<world::LoopGeometry>(control), [loop](const Vector3& place) {
+                   return loop->bounds().contains(place) && loop->inside(place);
+                 }});
+  return all;
+}
+
+TEST(SnapFinder, FindsFacesOfSolidsFormulasAndSubdivisionSurfacesAsTheyAre) {
+  base::Random random(24);
+  for (const SnapSolid& it : snap_solids()) {
+    for (const bool even : {true, false}) {
+      const Affine3 place = even ? any_affine(random, true)
+                                 : Affine3(Clutter::anywhere(random) * Eigen::Scaling(1.0, 1.5, 0.7));
+      Asked asked(it.shape, place);
+      int found = 0;
+      for (int i = 0; i < 40; ++i) {
+        const Vector3 point = place * Vector3(0.4 * random.direction());
+        const auto snap = asked.nearest(SnapKind::Face, point, 0.4);
+        if (!snap) continue;
+        ++found;
+        EXPECT_NEAR((snap->point - point).norm(), snap->distance, 1e-12);
+        // Where it is flat enough, a place a little above is out and one below is in.
+        const Affine3 solid_from_world = place.inverse();
+        const auto in = [&](double height) {
+          return it.inside(solid_from_world * Vector3(snap->point + height * snap->direction));
+        };
+        EXPECT_TRUE(in(-1e-8)) << it.shape->kind() << " " << i;
+        EXPECT_FALSE(in(1e-8)) << it.shape->kind() << " " << i;
+        if (!even) continue;
+        // Nothing of the solid is nearer: not on ways that are nearly straight there either.
+        for (int k = 0; k < 50; ++k) {
+          const Vector3 way =
+              (snap->point - point).normalized() + 0.1 * random.uniform() * random.direction();
+          EXPECT_FALSE(
+              !it.inside(solid_from_world * point) &&
+              it.inside(solid_from_world * Vector3(point + (snap->distance - 1e-7) * way.normalized())));
+        }
+      }
+      EXPECT_GT(found, 10) << it.shape->kind();
     }
   }
 }
