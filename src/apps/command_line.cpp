@@ -149,6 +149,8 @@ void add_feel_options(CLI::App& touch, Entries& entries) {
       ->type_name("MODEL:X,Y,Z[,RX,RY,RZ]")
       ->expected(1)
       ->take_all();
+  touch.add_flag("--still", options.still,
+                 "Objects stay where they are at rest, whatever motions their file brings");
   touch.add_option("--radius", options.radius, "Radius of the tip in metres (default 0: a point)")
       ->type_name("R");
 }
@@ -257,6 +259,10 @@ void add_shot_options(CLI::App& shot, Entries& entries) {
                   "(default: its first, else iso)")
       ->type_name("NAME");
   shot.add_option("--scene", options.scene, "Draw this scene of the design only")->type_name("NAME");
+  shot.add_option("--time", options.time,
+                  "Of the motions in the design, s: draw it as it is then (default: at rest)")
+      ->type_name("T")
+      ->check(CLI::Range(0.0, 1e9));
   shot.add_flag("--studio", options.studio,
                 "Leave the design's own lights off and light it as a studio does");
   shot.add_option("--background", entries.shot_background,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "world/motion.h"
+
 namespace icome::apps {
 namespace {
 
@@ -39,6 +41,11 @@ void count_tables(const World& world, DesignFigures& figures) {
     ++figures.kinds[std::string(geometry.shape->kind())];
   }
   for (const auto& [id, texture] : world.textures()) figures.bytes += texture.bytes->size();
+  for (const ObjectId id : world::moving_objects(world)) {
+    const PhysicalObject& object = *world.find(id);
+    figures.motions.push_back({object.name, world::key_count(*object.motion), world::duration(*object.motion),
+                               world::loops(*object.motion)});
+  }
 }
 
 /// Walks down the tree, measuring what is shown.

@@ -23,6 +23,14 @@ struct DesignFigures {
   base::Bounds bounds;    // without endless planes
   std::size_t bytes = 0;  // of memory for shapes and pictures
   double read_seconds = 0.0;
+  /// An object that moves by itself.
+  struct Mover {
+    std::string name;
+    std::size_t keys = 0;  // key frames
+    double seconds = 0.0;  // until its motion is over or begins anew
+    bool loops = true;
+  };
+  std::vector<Mover> motions;
   std::unordered_map<world::GeometryId, std::size_t> shown;  // triangles of each shape
   std::vector<std::string> warnings;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/design_eyes.h"
+#include "apps/design_motions.h"
 #include "apps/design_work.h"
 #include "apps/exact_models.h"
 #include "apps/interrupt.h"
@@ -47,8 +48,9 @@ Affine3 placing(const World& world, const TouchOptions& options) {
 class BodyMaker {
  public:
   /// `check`: will somebody judge?
-  BodyMaker(const World& world, const session::HapticRepresentation& felt, bool check)
-      : world_(world), felt_(felt), check_(check) {}
+  BodyMaker(const World& world, const session::HapticRepresentation& felt, bool check, DesignMotions& motions,
+            const Affine3& world_from_design)
+      : world_(world), felt_(felt), check_(check), motions_(motions), world_from_design_(world_from_design) {}
 
   TouchBody body(const haptics::HapticObject& object) {
     const world::PhysicalObject& of = *world_.find(*felt_.object(object.id));
@@ -56,6 +58,7 @@ class BodyMaker {
     const world::Geometry& geometry = *shape;
     const session::FeltShapePointer felt = felt_.felt(*felt_.object(object.id));
     TouchBody body{eyes_.eye(shape, felt), object.shape, object.world_from_object};
+    body.course = motions_.of_body(*felt_.object(object.id), world_from_design_, *felt);
     body.primitive = felt->primitive;
     if (!body.eye) {
       body.csg = felt->solid;
@@ -112,6 +115,8 @@ class BodyMaker {
   const World& world_;
   const session::HapticRepresentation& felt_;
   bool check_;
+  DesignMotions& motions_;
+  const Affine3& world_from_design_;
   DesignEyes eyes_;
   std::map<const session::FeltShape*, haptics::MembershipSolid> memberships_;
   std::map<const session::FeltShape*, JudgedMesh> limits_;
@@ -206,23 +211,28 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
                    .shares_meshes = true};
   settings.world_from_design = placing(design->world, options);
   const Stopwatch building;
+  DesignMotions motions(design->world, options.still);
+  const World& world = motions.at_start();
   session::HapticRepresentation felt(settings);
-  felt.show(design->world);
+  felt.show(world);
 
-  const std::vector<std::string> remarks = felt.remarks(design->world);
+  const std::vector<std::string> remarks = felt.remarks(world);
   const auto& objects = felt.scene()->objects();
   model.effects = felt.effects();
+  for (const haptics::PlacedEffect& effect : model.effects)
+    model.effect_courses.push_back(motions.of_effect({effect.id}, settings.world_from_design));
   if (objects.empty() && model.effects.empty()) return nothing_to_touch(text, *design, remarks);
   model.bodies.clear();
   model.bodies.reserve(objects.size());
-  BodyMaker maker(design->world, felt, options.check && !options.subdivision);
+  BodyMaker maker(world, felt, options.check && !options.subdivision, motions, settings.world_from_design);
   for (const haptics::HapticObject& object : objects) model.bodies.push_back(maker.body(object));
   const std::size_t count = model.bodies.size();
   model.kind = count == 0   ? fmt::format("{}, effects alone", design->format)
                : count == 1 ? design->format
                             : fmt::format("{}, {} bodies", design->format, count);
   tell_sentences(model, sentences_of(*design, text));
-  tell_sentences(model, repairs_of(design->world, felt));
+  tell_sentences(model, repairs_of(world, felt));
+  tell_sentences(model, motions.sentences());
   tell_sentences(model, remarks);
   if (const auto rendered = render_as_asked(model, options); !rendered)
     return tl::unexpected(rendered.error());

@@ -4,6 +4,7 @@
 
 #include "apps/design_figures.h"
 #include "apps/touch_report.h"
+#include "world/motion.h"
 #include "world/sharing.h"
 #include "world/solid_geometry.h"
 
@@ -75,6 +76,9 @@ std::string object_text(const DesignFigures& figures, const World& world, const 
   if (object.fixture) {
     parts.push_back(fixture_text(*object.fixture));
   }
+  if (object.motion)
+    parts.push_back(fmt::format("moves, {:.4g} s{}", world::duration(*object.motion),
+                                world::loops(*object.motion) ? " again and again" : ""));
   if (parts.empty()) parts.push_back(object.children.empty() ? "empty" : "group");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -135,6 +139,10 @@ std::string json_report(const DesignFigures& figures) {
   report["viewpoints"] = figures.viewpoints;
   report["inert"] = figures.scripts;
   report["depth"] = figures.depth;
+  report["motions"] = {{"count", figures.motions.size()}, {"objects", Json::array()}};
+  for (const DesignFigures::Mover& it : figures.motions)
+    report["motions"]["objects"].push_back(
+        {{"object", it.name}, {"keys", it.keys}, {"seconds", it.seconds}, {"loops", it.loops}});
   report["bytes"] = figures.bytes;
   report["read_seconds"] = figures.read_seconds;
   // Names in files may hold bytes that are no UTF-8.
@@ -156,6 +164,8 @@ std::string text_report(const DesignFigures& figures, const World& world, std::s
                                           counted(figures.viewpoints, "viewpoint"),
                                           counted(figures.scenes, "scene"), grouped(figures.scripts)));
   }
+  if (!figures.motions.empty())
+    text += table_row("motions", fmt::format("of {}", counted(figures.motions.size(), "object")));
   if (figures.bounds.isEmpty()) {
     text += table_row("bounds", "none: there is nothing to see");
   } else {

@@ -397,7 +397,7 @@ Exploration Exploration::over_surfaces(const std::vector<TouchModel>& models, do
   exploration.planned_ = pressed_share(way);
   for (const TouchModel& model : models) {
     for (const TouchBody& body : model.bodies)
-      exploration.changes_ |= model.motion != nullptr || body.shape->changes();
+      exploration.changes_ |= model.motion || body.course || body.shape->changes();
   }
   if (way.empty()) way.push_back({exploration.centre_ + 2.0 * probe.bounds().diagonal(), 0.0, false});
   exploration.follow(way, speed);

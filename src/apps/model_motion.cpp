@@ -36,14 +36,13 @@ base::Result<geometry::Formula> formula_of_time(std::string_view text, std::size
   return formula;
 }
 
-/// From `moment` on, where a thing that is at `first` at the moment 0 comes by a model's motion.
-struct Course {
+/// From `moment` on, where a thing that is at `first` at the moment 0 comes.
+struct Going {
   Pose pose;
   haptics::Motion motion;
 
-  Course(const ModelMotion& of, const Pose& first, double moment, double next)
-      : pose(carried(of, first, moment)) {
-    motion = haptics::motion_between(pose, carried(of, first, next), next - moment);
+  Going(const Carrier& by, const Pose& first, double moment, double next) : pose(by.at(first, moment)) {
+    motion = haptics::motion_between(pose, by.at(first, next), next - moment);
     motion.arrives = 0.0;
     motion.ends = haptics::Motion::kHorizon;
   }
@@ -111,36 +110,45 @@ void set_going(std::vector<TouchModel>& models, const TouchOptions& options) {
   }
 }
 
-Pose carried(const ModelMotion& motion, const Pose& first, double time) {
-  return motion.at(time) * motion.at(0.0).inverse() * first;
+Pose Carrier::at(const Pose& first, double time) const {
+  if (model == nullptr) return course ? course(time) : first;
+  const Pose within = course ? course(time) : Pose(model->at(0.0).inverse() * first);
+  return model->at(time) * within;
+}
+
+bool moves(const TouchModel& model) {
+  const auto goes = [](const Course& it) { return bool(it); };
+  return model.motion || std::ranges::any_of(model.effect_courses, goes) ||
+         std::ranges::any_of(model.bodies, goes, &TouchBody::course);
 }
 
 MovingScene::MovingScene(const std::vector<TouchModel>& models, const TouchOptions& options,
                          std::shared_ptr<const haptics::HapticScene> scene)
     : models_(models), scene_(std::move(scene)), effects_(effects_of(models, options)) {
-  carriers_.assign(effects_.size(), nullptr);
+  carriers_.resize(effects_.size());
   std::size_t next = options.effects.size();  // those of the models follow
   for (const TouchModel& model : models) {
-    moves_ = moves_ || model.motion;
-    for (std::size_t i = 0; i < model.effects.size(); ++i) carriers_[next++] = model.motion.get();
+    moves_ = moves_ || apps::moves(model);
+    for (const Course& course : model.effect_courses) carriers_[next++] = {course, model.motion.get()};
   }
 }
 
 void MovingScene::publish(haptics::Servo& servo, double moment, double next) const {
   std::vector<haptics::HapticScene::Move> moves;
   for (const haptics::HapticObject& object : scene_->objects()) {
-    const ModelMotion* const motion = models_[object.id.index].motion.get();
-    if (motion == nullptr) continue;
-    const Course course(*motion, object.world_from_object, moment, next);
-    moves.push_back({object.id, course.pose, course.motion});
+    const TouchModel& model = models_[object.id.index];
+    const Carrier by{model.bodies[object.id.generation - 1].course, model.motion.get()};
+    if (!by.moves()) continue;
+    const Going going(by, object.world_from_object, moment, next);
+    moves.push_back({object.id, going.pose, going.motion});
   }
   servo.publish(moves_ ? scene_->moved(moves, moment) : scene_);
   std::vector<haptics::PlacedEffect> effects = effects_;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (carriers_[i] == nullptr) continue;
-    const Course course(*carriers_[i], effects[i].world_from_effect, moment, next);
-    effects[i].world_from_effect = course.pose;
-    effects[i].motion = course.motion;
+    if (!carriers_[i].moves()) continue;
+    const Going going(carriers_[i], effects[i].world_from_effect, moment, next);
+    effects[i].world_from_effect = going.pose;
+    effects[i].motion = going.motion;
   }
   servo.publish_effects(effects);
 }

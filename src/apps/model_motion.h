@@ -1,6 +1,6 @@
 #pragma once
-#include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,14 +32,27 @@ class ModelMotion {
   std::vector<geometry::Formula> formulas_;  // three or six; finite at t = 0
 };
 
+/// Where a thing is at a moment (s) by the motions of its file, before its model moves; empty: it stays.
+using Course = std::function<base::Pose(double time)>;
+
+/// What carries a body or an effect: the motions of its file, and its model with all in it.
+struct Carrier {
+  Course course = {};
+  const ModelMotion* model = nullptr;  // null: that stands
+
+  bool moves() const { return course || model != nullptr; }
+  /// Where it is at a moment (s) that is at `first` at the moment 0.
+  base::Pose at(const base::Pose& first, double time) const;
+};
+
+/// Does anything of the model move?
+bool moves(const TouchModel& model);
+
 /// Are all --motion well written, each of another MODEL that there is?
 base::Result<void> check_motions(const TouchOptions& options);
 
 /// Gives the models their motions, and puts them where these begin.
 void set_going(std::vector<TouchModel>& models, const TouchOptions& options);
-
-/// Where a body or an effect is then that began at `first`.
-base::Pose carried(const ModelMotion& motion, const base::Pose& first, double time);
 
 /// What a servo feels of models, some of which move: main says again and again where they are and how they go
 /// on. One thread owns it; models and options outlive it.
@@ -62,7 +75,7 @@ class MovingScene {
   const std::vector<TouchModel>& models_;
   std::shared_ptr<const haptics::HapticScene> scene_;
   std::vector<haptics::PlacedEffect> effects_;  // as they are at the moment 0
-  std::vector<const ModelMotion*> carriers_;    // of each effect; null: it stays
+  std::vector<Carrier> carriers_;               // of each effect
   bool moves_ = false;
 };
 

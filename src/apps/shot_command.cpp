@@ -16,6 +16,7 @@
 #include "files/new_file.h"
 #include "render/picture_of_scene.h"
 #include "render/views.h"
+#include "world/motion.h"
 
 namespace icome::apps {
 namespace {
@@ -74,6 +75,17 @@ base::Result<render::Camera> choose_camera(const render::RenderScene& scene, con
                   options.view, quoted_names(scene.viewpoints(), [](const auto& it) { return it.name; })));
 }
 
+/// Everything at rest, or at a moment (s).
+render::RenderScenePointer scene_of(const world::World& world, world::SceneId scene,
+                                    std::optional<double> time) {
+  render::ScenePublisher publisher(scene);
+  if (!time) return publisher.publish(world);
+  const world::PosedWorld posed(world, *time);
+  const render::RenderScenePointer at_start = publisher.publish(posed.world());
+  const render::RenderScenePointer changed = publisher.at_time(posed.world(), *time);
+  return changed ? changed : at_start;
+}
+
 render::SceneLook look_of(const ShotOptions& options, const render::RenderScene& scene) {
   render::SceneLook look;
   look.passes = render::still_passes(scene);
@@ -94,6 +106,7 @@ std::string shot_json(const ShotFigures& figures, const ShotOptions& options) {
   report["width"] = options.width;
   report["height"] = options.height;
   report["view"] = figures.view;
+  if (options.time) report["time"] = *options.time;
   report["objects"] = figures.objects;
   report["triangles"] = figures.triangles;
   report["read_seconds"] = figures.read_seconds;
@@ -127,8 +140,7 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   if (!id) return tl::unexpected(id.error());
   status.say("Drawing");
   const Stopwatch drawing;
-  render::ScenePublisher publisher(*id);
-  const render::RenderScenePointer scene = publisher.publish(design->world);
+  const render::RenderScenePointer scene = scene_of(design->world, *id, options.time);
   const auto camera = choose_camera(*scene, options, figures.view);
   if (!camera) return tl::unexpected(camera.error());
   const auto image =

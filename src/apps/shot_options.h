@@ -17,6 +17,7 @@ struct ShotOptions {
   int height = 960;                    // pixels
   std::string view;                    // a direction or a viewpoint; empty: the first viewpoint, or iso
   std::string scene;                   // empty: all objects
+  std::optional<double> time;          // s, of the design's motions; none: at rest
   bool studio = false;                 // light it as a studio does even if the design has lights
   bool clear = false;                  // no background
   std::optional<unsigned> background;  // 0xrrggbb; none: a soft gradient

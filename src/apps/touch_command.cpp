@@ -79,9 +79,9 @@ haptics::JudgedObject judged(const TouchModel& model, const TouchBody& body,
                              const haptics::Surface& surface) {
   haptics::JudgedObject object;
   object.world_from_object = body.world_from_body;
-  if (model.motion)
-    object.motion = [of = model.motion, first = body.world_from_body](double time) {
-      return carried(*of, first, time);
+  if (model.motion || body.course)
+    object.motion = [model = model.motion, course = body.course, first = body.world_from_body](double time) {
+      return Carrier{course, model.get()}.at(first, time);
     };
   if (body.primitive) {
     object.surface = *body.primitive;
@@ -117,7 +117,7 @@ haptics::ContactJudge judge_for(const std::vector<TouchModel>& models, const Tou
 bool surfaces_alone(const std::vector<TouchModel>& models, const TouchOptions& options) {
   const auto plain = [&](const TouchBody& body) { return surface_of(body, options).texture == nullptr; };
   return options.effects.empty() && std::ranges::all_of(models, [&](const TouchModel& model) {
-           return !model.motion && model.effects.empty() && std::ranges::all_of(model.bodies, plain);
+           return !moves(model) && model.effects.empty() && std::ranges::all_of(model.bodies, plain);
          });
 }
 

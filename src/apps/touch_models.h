@@ -29,8 +29,9 @@ struct JudgedMesh {
 /// A body that is touched: an object of a design, or all of another MODEL. What bodies share, clones share.
 struct TouchBody {
   std::shared_ptr<TouchEye> eye;  // what is felt, unless `exact`; may be null where `solid` is set
-  std::shared_ptr<const haptics::Shape> shape;  // never null
-  base::Pose world_from_body = base::Pose::Identity();
+  std::shared_ptr<const haptics::Shape> shape;             // never null
+  base::Pose world_from_body = base::Pose::Identity();     // at the moment 0
+  Course course = {};                                      // by the motions of its file
   std::optional<geometry::Primitive> primitive = {};       // what a primitive is
   std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
   /// Tells where the surface is of what is touched without a mesh of it, as a point touches it. Else null.
@@ -55,6 +56,7 @@ struct TouchModel {
   std::vector<TouchBody> bodies = std::vector<TouchBody>(1);
   std::size_t triangles = 0;                            // that are touched
   std::vector<haptics::PlacedEffect> effects = {};      // that a design has
+  std::vector<Course> effect_courses = {};              // of each of these
   std::shared_ptr<const ModelMotion> motion = nullptr;  // null: it stands where it is
   std::vector<std::string> repairs = {};                // what the reader did and found, one sentence each
   double read_seconds = 0.0;                            // s, reading and repairing
@@ -89,7 +91,8 @@ bool is_half_space(const TouchBody& body);
 /// How the body feels: as its model says where the options say nothing else.
 haptics::Surface surface_of(const TouchBody& body, const TouchOptions& options);
 
-/// The scene of all models. Bodies of model i have the index i in their ids, and differ in the generation.
+/// The scene of all models. Bodies of model i have the index i in their ids, and their number, from 1, as the
+/// generation.
 std::shared_ptr<const haptics::HapticScene> compile_scene(const std::vector<TouchModel>& models,
                                                           const TouchOptions& options);
 

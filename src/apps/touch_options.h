@@ -41,6 +41,7 @@ struct TouchOptions {
   std::optional<std::filesystem::path> path;  // tip positions to replay
   double radius = 0.0;                        // m, of the tip; 0 is a point
   std::vector<std::string> motions;           // of models: ModelMotion::parse
+  bool still = false;                         // what files say of motions is left aside
 
   std::optional<haptics::TouchableSides> sides;  // none: front of closed bodies, both of open ones
   std::optional<double> stiffness;     // N/m; 0: the device's nominal stiffness; none: the models' own

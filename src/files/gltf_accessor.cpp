@@ -90,7 +90,7 @@ std::string_view view_bytes(const tinygltf::Model& model, int view) {
 
 GltfAccessor::GltfAccessor(const tinygltf::Model& model, int index, std::size_t least, std::size_t most) {
   if (index < 0 || std::size_t(index) >= model.accessors.size())
-    throw GltfError("a mesh refers to an accessor that is not there");
+    throw GltfError("a mesh or an animation refers to an accessor that is not there");
   const tinygltf::Accessor& it = model.accessors[index];
   count_ = it.count;
   components_ = component_count(it.type);

@@ -36,11 +36,13 @@ int GltfBuffer::add_view(const void* data, std::size_t bytes, int target) {
 }
 
 template <std::size_t Size>
-int GltfBuffer::add_rows(const std::vector<std::array<float, Size>>& rows, bool with_bounds) {
+int GltfBuffer::add_rows(const std::vector<std::array<float, Size>>& rows, bool with_bounds, int target) {
   tinygltf::Accessor accessor;
-  accessor.bufferView = add_view(rows.data(), rows.size() * sizeof(rows[0]), TINYGLTF_TARGET_ARRAY_BUFFER);
+  constexpr std::array<int, 4> kTypes = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
+                                         TINYGLTF_TYPE_VEC4};
+  accessor.bufferView = add_view(rows.data(), rows.size() * sizeof(rows[0]), target);
   accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-  accessor.type = Size == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC2;
+  accessor.type = kTypes[Size - 1];
   accessor.count = rows.size();
   if (with_bounds) {
     accessor.minValues.assign(Size, std::numeric_limits<double>::max());
@@ -79,7 +81,7 @@ int GltfBuffer::add_indices(const std::vector<std::uint32_t>& corners, std::size
 }
 
 int GltfBuffer::add_accessor(const std::vector<std::array<float, 3>>& rows, bool with_bounds) {
-  return add_rows(rows, with_bounds);
+  return add_rows(rows, with_bounds, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
 std::vector<std::array<float, 2>> GltfBuffer::pairs(int accessor) const {
@@ -92,6 +94,16 @@ std::vector<std::array<float, 2>> GltfBuffer::pairs(int accessor) const {
   return rows;
 }
 
-int GltfBuffer::add_accessor(const std::vector<std::array<float, 2>>& rows) { return add_rows(rows, false); }
+int GltfBuffer::add_accessor(const std::vector<std::array<float, 2>>& rows) {
+  return add_rows(rows, false, TINYGLTF_TARGET_ARRAY_BUFFER);
+}
+
+int GltfBuffer::add_times(const std::vector<std::array<float, 1>>& times) { return add_rows(times, true, 0); }
+
+int GltfBuffer::add_values(const std::vector<std::array<float, 3>>& ways) { return add_rows(ways, false, 0); }
+
+int GltfBuffer::add_values(const std::vector<std::array<float, 4>>& turns) {
+  return add_rows(turns, false, 0);
+}
 
 }  // namespace icome::files

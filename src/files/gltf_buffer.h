@@ -20,6 +20,10 @@ class GltfBuffer {
   /// An attribute of vertices; positions need bounds.
   int add_accessor(const std::vector<std::array<float, 3>>& rows, bool with_bounds = false);
   int add_accessor(const std::vector<std::array<float, 2>>& rows);
+  /// Moments of key frames (with bounds), and what something is then.
+  int add_times(const std::vector<std::array<float, 1>>& times);
+  int add_values(const std::vector<std::array<float, 3>>& ways);
+  int add_values(const std::vector<std::array<float, 4>>& turns);
   /// As 16 bits each where these hold them all.
   int add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertices);
 
@@ -31,7 +35,7 @@ class GltfBuffer {
 
  private:
   template <std::size_t Size>
-  int add_rows(const std::vector<std::array<float, Size>>& rows, bool with_bounds);
+  int add_rows(const std::vector<std::array<float, Size>>& rows, bool with_bounds, int target);
 
   tinygltf::Model& model_;
   std::string failure_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "base/srgb.h"
@@ -31,16 +32,24 @@ Affine3 parent_from_node(const tinygltf::Node& node) {
     frame.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).topRows<3>();
     return frame;
   }
-  const auto [x, y, z] = three_of(node.translation, 0.0);
-  frame.translate(base::Vector3(x, y, z));
-  if (!node.rotation.empty()) {
-    if (node.rotation.size() != 4) throw GltfError("a node's rotation has the wrong length");
-    const base::Quaternion turn(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    frame.rotate(turn.normalized());
-  }
-  const auto [sx, sy, sz] = three_of(node.scale, 1.0);
-  frame.scale(base::Vector3(sx, sy, sz));
+  const world::PlaceParts parts = parts_of_place(node);
+  frame.translate(parts.translation);
+  if (!node.rotation.empty()) frame.rotate(parts.rotation);
+  frame.scale(parts.scale);
   return frame;
+}
+
+world::PlaceParts parts_of_place(const tinygltf::Node& node) {
+  world::PlaceParts parts;
+  parts.translation = base::Vector3(three_of(node.translation, 0.0).data());
+  parts.scale = base::Vector3(three_of(node.scale, 1.0).data());
+  if (node.rotation.empty()) return parts;
+  if (node.rotation.size() != 4) throw GltfError("a node's rotation has the wrong length");
+  parts.rotation = base::Quaternion(node.rotation.data());
+  // What is of unit length already stays as it is to the last bit.
+  constexpr double kRounding = 1e-14;
+  if (!(std::abs(parts.rotation.squaredNorm() - 1.0) < kRounding)) parts.rotation.normalize();
+  return parts;
 }
 
 world::Light light_of(const tinygltf::Light& it) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "world/motion.h"
 #include "world/world.h"
 
 namespace tinygltf {
@@ -17,6 +18,9 @@ inline constexpr const char* kGltfLights = "KHR_lights_punctual";
 /// A node's matrix, or its scale, then rotation, then translation. Throws GltfError where their numbers are
 /// not as many as they must be; may be anything else.
 base::Affine3 parent_from_node(const tinygltf::Node& node);
+
+/// The place of a node without a matrix, part by part. Throws likewise.
+world::PlaceParts parts_of_place(const tinygltf::Node& node);
 
 /// A lamp as VRML 2.0 has it: an intensity of one stands for one lux or candela.
 world::Light light_of(const tinygltf::Light& light);

@@ -14,6 +14,7 @@
 #include "files/file_ending.h"
 #include "files/gltf_looks.h"
 #include "files/gltf_model.h"
+#include "files/gltf_motions.h"
 #include "files/gltf_node.h"
 #include "files/gltf_value.h"
 #include "files/mesh_formats.h"
@@ -58,6 +59,7 @@ class GltfReading {
         memory_(memory),
         options_(options),
         looks_(model, builder),
+        motions_(model, memory),
         objects_(model.nodes.size()),
         started_(base::steady_nanoseconds()) {}
 
@@ -126,7 +128,7 @@ class GltfReading {
         throw GltfError("its nodes do not form a tree");
       if (known.seen) continue;
       known.seen = true;
-      known.id = add_node(model_.nodes[std::size_t(visit.node)], visit.parent);
+      known.id = add_node(std::size_t(visit.node), visit.parent);
       if (known.id) enter(model_.nodes[std::size_t(visit.node)].children, known.id);
     }
     std::vector<ObjectId> ids;
@@ -143,9 +145,12 @@ class GltfReading {
   }
 
   /// None where the node flattens all that is in it.
-  ObjectId add_node(const tinygltf::Node& node, ObjectId parent) {
+  ObjectId add_node(std::size_t index, ObjectId parent) {
     ask_whether_to_go_on();
+    const tinygltf::Node& node = model_.nodes[index];
     PhysicalObject object{.name = node.name, .parent = parent, .parent_from_object = parent_from_node(node)};
+    object.motion = motions_.of(index);
+    if (object.motion) object.parent_from_object = world::affine(object.motion->rest);
     if (!can_be_placed(object.parent_from_object)) {
       ++flat_nodes_;
       return {};
@@ -324,7 +329,7 @@ class GltfReading {
          "left out.");
     tell(flat_nodes_, "node is", "nodes are", "left out: a scale of nothing flattens what is below.");
     tell(unseen - std::min(unseen, below_flat()), "node is", "nodes are", "left out: no scene shows it.");
-    tell(model_.animations.size(), "animation is", "animations are", "left out.");
+    for (const Remark& it : motions_.remarks()) builder_.remark(it.text);
     tell(model_.skins.size(), "skin is", "skins are", "left out: what it moves stands as it was modelled.");
     tell(morphs, "morphing shape is", "morphing shapes are", "kept as modelled.");
     tell(other_cameras_, "camera is", "cameras are", "not in perspective, kept as a viewpoint.");
@@ -404,6 +409,7 @@ class GltfReading {
   MemoryBudget& memory_;
   const DesignReadOptions& options_;
   GltfLooks looks_;
+  GltfMotions motions_;
   struct NodeObject {
     bool seen = false;
     ObjectId id = {};

@@ -20,6 +20,7 @@
 #include "base/utf8.h"
 #include "files/exact_looks.h"
 #include "files/file_ending.h"
+#include "files/gltf_animations.h"
 #include "files/gltf_buffer.h"
 #include "files/gltf_looks.h"
 #include "files/gltf_node.h"
@@ -119,6 +120,7 @@ class GltfMaking {
     if (clear_parts_ > 0)
       remark("Parts of solids that their colours make clear are opaque in other programs, as they are here.",
              false);
+    for (Remark& it : animations_.remarks()) remarks_.push_back(std::move(it));
     return std::move(model_);
   }
 
@@ -361,7 +363,8 @@ class GltfMaking {
     tinygltf::Node node;
     node.name = base::as_utf8(object.name);
     const base::Affine3& frame = object.parent_from_object;
-    if (!frame.matrix().isIdentity(0.0)) {
+    const bool moves = animations_.add(object, int(model_.nodes.size()), node);
+    if (!moves && !frame.matrix().isIdentity(0.0)) {
       node.matrix.assign(frame.matrix().data(), frame.matrix().data() + 16);
       sheared_ += has_shear(frame) ? 1 : 0;
     }
@@ -380,7 +383,7 @@ class GltfMaking {
       std::visit([&](const auto& fixture) { add_fixture(fixture, node, extras); }, *object.fixture);
     if (!extras.empty()) node.extras = extras_with(Value(std::move(extras)));
     // The library would write a node without anything as null.
-    if (node.name.empty() && node.matrix.empty()) node.translation = {0.0, 0.0, 0.0};
+    if (node.name.empty() && node.matrix.empty() && !moves) node.translation = {0.0, 0.0, 0.0};
     return node;
   }
 
@@ -448,6 +451,7 @@ class GltfMaking {
   ShownShapes shown_;
   tinygltf::Model model_;
   GltfBuffer buffer_{model_};
+  GltfAnimations animations_{model_, buffer_};
   std::unordered_map<TextureId, int> textures_;
   std::unordered_map<MaterialId, int> materials_;
   std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture

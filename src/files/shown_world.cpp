@@ -105,12 +105,14 @@ class Flattening {
 
 void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   std::size_t fixtures = 0;
+  std::size_t motions = 0;
   std::size_t clones = 0;
   std::size_t exact = 0;
   std::size_t made = 0;
   bool nested = false;
   for (const auto& [id, object] : world.objects()) {
     fixtures += object.fixture ? 1 : 0;
+    motions += object.motion ? 1 : 0;
     nested = nested || object.parent;
   }
   for (const auto& [id, geometry] : world.geometries()) {
@@ -130,6 +132,9 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
     tell(fmt::format("This format knows no parameters of shapes: {} as triangles.",
                      made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made)));
   if (fixtures > 0) tell("This format knows no lights, viewpoints or scripts: they are left out.");
+  if (motions > 0)
+    tell(fmt::format("This format knows no motions: {} left out.",
+                     motions == 1 ? "1 is" : fmt::format("{} are", motions)));
   if (!world.scenes().empty()) tell("This format knows no scenes: they are left out.");
 }
 

@@ -14,9 +14,11 @@
 
 #include "files/design_builder.h"
 #include "files/vrml_materials.h"
+#include "files/vrml_motions.h"
 #include "files/vrml_nodes.h"
 #include "files/vrml_pieces.h"
 #include "files/vrml_protos.h"
+#include "world/motion.h"
 
 namespace icome::files {
 namespace {
@@ -171,6 +173,7 @@ class VrmlBuilder {
     object.name = node.name;
     object.parent = parent;
     object.parent_from_object = node.parent_from_node;
+    if (node.motion >= 0) set_going(std::size_t(node.motion), object);
     if (node.shape_from >= 0) {
       add_shape(nodes_[std::size_t(node.shape_from)], node.name, object);
     } else if (node.look_from >= 0) {
@@ -183,6 +186,15 @@ class VrmlBuilder {
       object.parent_from_object = object.parent_from_object * placed.parent_from_fixture;
     }
     return design_.add(std::move(object));
+  }
+
+  /// Gives the object a motion, and puts it where that is at rest, to the last bit.
+  void set_going(std::size_t index, world::PhysicalObject& object) {
+    if (motions_.empty()) motions_.resize(scene_.motions()->size());
+    world::MotionPointer& motion = motions_[index];
+    if (!motion) motion = motion_of(*scene_.motions()->Get(std::uint32_t(index)), reader_, memory_);
+    object.motion = motion;
+    if (motion) object.parent_from_object = world::affine(motion->rest);
   }
 
   /// Is it at the top and nothing but its fixture? The group of such a light is everything.
@@ -329,6 +341,7 @@ class VrmlBuilder {
   std::vector<bool> with_children_;  // nodes that have objects below them
   std::vector<LookPlan> looks_;
   std::vector<PiecePlan> pieces_;
+  std::vector<world::MotionPointer> motions_;                     // null: not made yet
   std::vector<ObjectId> objects_;                                 // of the nodes
   std::unordered_map<std::uint32_t, world::TextureId> textures_;  // of the pictures that are used
   std::map<std::pair<const std::string*, std::array<bool, 2>>, world::TextureId> known_textures_;
@@ -337,7 +350,7 @@ class VrmlBuilder {
 }  // namespace
 
 Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources, Patience& patience,
-                                MemoryBudget& memory) {
+                                MemoryBudget& memory, VrmlMoving* moving) {
   world::FlatReader reader(answer);
   const flat::Scene* const scene = verified(reader);
   if (!scene)
@@ -346,6 +359,7 @@ Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sour
   if (scene->error() && scene->error()->size() > 0)
     return base::fail(
         fmt::format("{}: {}", sources.name, scene->error()->string_view().substr(0, kLongestNote)));
+  if (moving) *moving = what_moves(*scene, reader);
   return VrmlBuilder(sources, *scene, reader, patience, memory).build();
 }
 

@@ -35,8 +35,8 @@ struct VrmlSources {
 /// - Objects whose transforms flatten them, which VRML uses to hide things, are left out with all below.
 ///
 /// Fails when the answer tells of an error, or is damaged, or patience or memory ends. Remarks are those of
-/// the answer and of what was put right here.
+/// the answer and of what was put right here. `moving` hears what motions were made of; may be null.
 base::Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources, Patience& patience,
-                                      MemoryBudget& memory);
+                                      MemoryBudget& memory, VrmlMoving* moving = nullptr);
 
 }  // namespace icome::files

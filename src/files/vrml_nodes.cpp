@@ -58,6 +58,7 @@ class NodeReader {
     node.is_object = !from.scene();
     node.piece = index(from.piece(), scene_.pieces());
     node.look = index(from.look(), scene_.looks());
+    node.motion = index(from.motion(), scene_.motions());
     node.name = reader_.text(from.name());
     node.def = reader_.text(from.def());
     if (node.name == node.def) node.name = said_by(node.def);

@@ -22,6 +22,7 @@ struct VrmlNode {
   std::int32_t parent = kNone;  // before this one
   std::int32_t piece = kNone;   // of the scene, and there
   std::int32_t look = kNone;    // the same
+  std::int32_t motion = kNone;  // the same
   std::string name = {};
   std::string def = {};
   base::Affine3 parent_from_node = base::Affine3::Identity();

@@ -42,14 +42,31 @@ DesignReadOptions options_of_worker(const DesignReadOptions& options, bool& stop
   return result;
 }
 
+VrmlTaken taken_of(const VrmlMoving& moving, const std::string& file) {
+  const auto found = moving.find(file);
+  return found == moving.end() ? VrmlTaken() : found->second;
+}
+
+/// Remarks on the design itself, but for what was taken after all.
+std::vector<Remark> remarks_on(const fs::path& path, const DesignReadOptions& options, const VrmlTaken& taken,
+                               std::vector<Remark> before) {
+  if (taken.routes.empty()) return before;
+  bool packed = false;
+  const auto text = read_text(path, options.size_limit, packed, nullptr);
+  if (!text) return before;
+  auto left_out = scan_vrml(*text, path.string(), {}, taken);
+  return left_out ? std::move(left_out->remarks) : std::move(before);
+}
+
 /// Remarks on the files that are inlined, which were good enough for the parser.
 void add_remarks_of_others(const std::vector<fs::path>& files, const DesignReadOptions& options,
-                           std::vector<Remark>& remarks) {
+                           const VrmlMoving& moving, std::vector<Remark>& remarks) {
   for (std::size_t i = 1; i < files.size(); ++i) {
     bool packed = false;
     const auto text = read_text(files[i], options.size_limit, packed, nullptr);
     if (!text) continue;
-    const auto left_out = scan_vrml(*text, files[i].string(), files[i].string());
+    const std::string name = files[i].string();
+    const auto left_out = scan_vrml(*text, name, name, taken_of(moving, name));
     if (left_out) remarks.insert(remarks.end(), left_out->remarks.begin(), left_out->remarks.end());
   }
 }
@@ -103,16 +120,17 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   if (!memory.take(answer->bytes.size()))
     return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
 
-  std::vector<Remark> remarks = std::move(left_out->remarks);
-  add_remarks_of_others(answer->files, options, remarks);
   UrlReach reach(path, options.follows_urls_above);
   for (const fs::path& file : answer->files) reach.note(file);
   const VrmlSources sources = {path.string(), beside(path, answer->files, reach),
                                mesh_finder(path, answer->files, reach), options.size_limit,
                                std::move(left_out->scripts)};
   Patience patience(options.seconds_limit, options.progress, kVrmlParsedPart);
-  auto design = build_vrml(answer->bytes, sources, patience, memory);
+  VrmlMoving moving;
+  auto design = build_vrml(answer->bytes, sources, patience, memory, &moving);
   if (!design) return design;
+  std::vector<Remark> remarks = remarks_on(path, options, taken_of(moving, {}), std::move(left_out->remarks));
+  add_remarks_of_others(answer->files, options, moving, remarks);
   if (packed) design->format += ", gzip";
   for (std::string& sentence : reach.sentences()) remarks.push_back({{}, 0, std::move(sentence)});
   design->remarks.insert(design->remarks.begin(), remarks.begin(), remarks.end());

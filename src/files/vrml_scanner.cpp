@@ -29,14 +29,20 @@ constexpr std::array<Character, 256> kCharacters = characters();
 
 Character character(char c) { return kCharacters[static_cast<unsigned char>(c)]; }
 
+bool makes_motions(std::string_view type) {
+  return type == "TimeSensor" || type == "PositionInterpolator" || type == "OrientationInterpolator" ||
+         type == "ScalarInterpolator";
+}
+
 bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
 
 /// Goes through the tokens of a text once.
 class VrmlScan {
  public:
-  VrmlScan(std::string_view text, bool tells_unknown)
+  VrmlScan(std::string_view text, bool tells_unknown, const VrmlTaken& taken)
       : text_(text),
         tells_unknown_(tells_unknown),
+        taken_(taken),
         line_end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
 
   /// False when it is nested too deeply.
@@ -93,7 +99,15 @@ class VrmlScan {
     words_[0] = {begin, static_cast<std::size_t>(at_ - begin)};
     if (words_[1] == "PROTO" || words_[1] == "EXTERNPROTO") protos_.insert(words_[0]);
     if (words_[0] == "USE" || words_[0] == "IS") script_refers_ = true;
-    if (words_[0] == "ROUTE") tallies_.add(words_[0], VrmlFate::Route, line());
+    if (words_[0] == "ROUTE") route();
+  }
+
+  void route() {
+    const int here = line();
+    if (const auto taken = taken_.routes.find(here); taken != taken_.routes.end())
+      taken_.routes.erase(taken);
+    else
+      tallies_.add(words_[0], VrmlFate::Route, here);
   }
 
   void string() {
@@ -135,6 +149,7 @@ class VrmlScan {
     const std::string_view type = words_[0];
     if (type == "Script") return Frame::Script;
     const VrmlFate fate = fate_of(type);
+    if (words_[2] == "DEF" && makes_motions(type) && taken_.nodes.contains(words_[1])) return Frame::Plain;
     if (protos_.count(type) == 0 && (tells_unknown_ || fate != VrmlFate::Unknown))
       tallies_.add(type, fate, line());
     return Frame::Plain;
@@ -167,6 +182,7 @@ class VrmlScan {
 
   std::string_view text_;
   bool tells_unknown_;
+  VrmlTaken taken_;  // and not met yet
   char line_end_;
   const char* at_ = nullptr;
   std::array<std::string_view, 3> words_;  // that lie side by side before here, the last one first
@@ -186,11 +202,12 @@ class VrmlScan {
 
 }  // namespace
 
-base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& name, const std::string& of) {
+base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& name, const std::string& of,
+                                    const VrmlTaken& taken) {
   const bool is_part = !of.empty();
   const auto header = find_vrml_header(text);
   if (!header && !is_part) return base::fail(fmt::format("{}: {}", name, header.error().message));
-  VrmlScan scan(text, !is_part);
+  VrmlScan scan(text, !is_part, taken);
   if (!scan.run())
     return base::fail(fmt::format("{}:{}: braces and brackets lie more than {} deep within each other", name,
                                   scan.line(), kMostNestedVrml));

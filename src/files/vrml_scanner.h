@@ -1,4 +1,7 @@
 #pragma once
+#include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +24,14 @@ struct VrmlLeftOut {
   std::vector<Remark> remarks;      // one on each type of node, in the order of their first lines
 };
 
+/// What of a file was taken after all, for motions.
+struct VrmlTaken {
+  std::multiset<int> routes = {};                 // their lines
+  std::set<std::string, std::less<>> nodes = {};  // TimeSensors and interpolators, by their DEF names
+};
+/// By file; the design itself is "".
+using VrmlMoving = std::map<std::string, VrmlTaken>;
+
 /// How deep braces and brackets may lie within each other: parsers go into them by recursion.
 inline constexpr int kMostNestedVrml = 2000;
 
@@ -29,8 +40,8 @@ inline constexpr int kMostNestedVrml = 2000;
 /// is for the parser to say. Fails when the text is not VRML 2.0 or nested deeper than kMostNestedVrml;
 /// `name` names the file in the error, and `of` in the remarks: empty for the file that was asked for, else
 /// it is a part of that, which needs no header
-/// and of which the parser tells what nobody knows.
+/// and of which the parser tells what nobody knows. Nothing is said of what was `taken`.
 base::Result<VrmlLeftOut> scan_vrml(std::string_view text, const std::string& name,
-                                    const std::string& of = {});
+                                    const std::string& of = {}, const VrmlTaken& taken = {});
 
 }  // namespace icome::files

@@ -10,6 +10,7 @@
 #include "files/number_text.h"
 #include "files/vrml_fixtures.h"
 #include "files/vrml_looks.h"
+#include "files/vrml_moves.h"
 #include "files/vrml_names.h"
 #include "files/vrml_place.h"
 #include "files/vrml_protos.h"
@@ -51,7 +52,7 @@ const world::ForceEffect* effect_of(const PhysicalObject& object) {
 /// Is the object nothing but its fixture?
 bool is_bare(const PhysicalObject& object) {
   return !object.parent && object.children.empty() && !object.geometry && !object.material &&
-         object.parent_from_object.matrix() == base::Affine3::Identity().matrix();
+         !object.motion && object.parent_from_object.matrix() == base::Affine3::Identity().matrix();
 }
 
 base::Vector3 in_single_precision(const base::Vector3& direction) {
@@ -82,7 +83,7 @@ base::Vector3 written_direction(const base::Vector3& unit) {
 std::optional<base::Vector3> direction_alone(const PhysicalObject& object) {
   const auto* const light = object.fixture ? std::get_if<Light>(&*object.fixture) : nullptr;
   if (light == nullptr || light->kind != Light::Kind::Directional || object.geometry || object.material ||
-      !object.children.empty())
+      object.motion || !object.children.empty())
     return {};
   constexpr double kRounding = 1e-9;
   const base::Affine3& frame = object.parent_from_object;
@@ -124,6 +125,7 @@ class VrmlWriter {
         text_(file),
         looks_(path, world, names_, text_, remarks_),
         shapes_(text_, remarks_),
+        moves_(text_, names_),
         objects_(all_objects(world)) {}
 
   Result<std::vector<Remark>> write() {
@@ -132,6 +134,7 @@ class VrmlWriter {
     text_.add("#VRML V2.0 utf8\n");
     write_protos();
     if (const auto written = write_objects(); !written) return tl::unexpected(written.error());
+    moves_.write();
     write_scenes();
     text_.finish();
     tell_what_is_left();
@@ -178,6 +181,7 @@ class VrmlWriter {
   VrmlText text_;
   VrmlLooks looks_;
   VrmlShapes shapes_;
+  VrmlMoves moves_;
   std::vector<ObjectId> objects_;
   std::unordered_set<ObjectId> in_scenes_;
   std::unordered_map<ObjectId, std::string> object_names_;      // DEF names, of those that have one
@@ -216,8 +220,8 @@ void VrmlWriter::give_names() {
   }
   for (const ObjectId id : objects_) {
     const std::string& name = world_.find(id)->name;
-    if (object_names_.contains(id) || scripts_.contains(id) || (name.empty() && !in_scenes_.contains(id)))
-      continue;
+    const bool is_named = in_scenes_.contains(id) || world_.find(id)->motion;
+    if (object_names_.contains(id) || scripts_.contains(id) || (name.empty() && !is_named)) continue;
     object_names_[id] = names_.take_like(name);
   }
   std::vector<MaterialId> materials;
@@ -298,7 +302,10 @@ Result<VrmlWriter::Open> VrmlWriter::open(ObjectId id) {
     return Open{id, 0, false};
   }
   text_.open(name.empty() ? "Transform" : fmt::format("DEF {} Transform", name));
-  write_frame(object.parent_from_object);
+  if (const world::Motion* const motion = moves_.motion_of(object))
+    moves_.write_rest(*motion, name);
+  else
+    write_frame(object.parent_from_object);
   const bool has_shape = object.geometry || object.material;
   const bool has_fixture =
       object.fixture && (!std::holds_alternative<world::Inert>(*object.fixture) || with_script_.contains(id));
@@ -437,6 +444,7 @@ void VrmlWriter::tell_what_is_left() {
                         fmt::format("VRML 2.0 knows no parameters of shapes: {} as triangles.",
                                     made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made))});
   for (Remark& it : looks_.losses()) remarks_.push_back(std::move(it));
+  for (Remark& it : moves_.remarks()) remarks_.push_back(std::move(it));
   unused(world_.geometries(), "shapes that no object has are");
   unused(world_.materials(), "materials that no object has are");
   unused(world_.textures(), "textures that no material shows are");

@@ -35,6 +35,11 @@ struct Edited {
   /// the shapes that main has made in performing `edit`, so that nobody makes them once more.
   std::shared_ptr<const world::Edit> for_replicas = nullptr;
   std::optional<world::SceneId> shown = {};  // another scene (none: the whole world) is looked at and touched
+  /// The motions of objects are played.
+  struct Play {
+    std::optional<double> since = {};  // s, of session_seconds; none: all is at rest from now on
+  };
+  std::optional<Play> play = {};
   std::shared_ptr<const SavedWork> saved = nullptr;  // not null: the design was saved, opened or recovered
   std::uint64_t bytes =
       0;  // of memory that its edits may take, as world::memory_of counts; the queue counts them

@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +9,7 @@
 #include "realtime/latest_value.h"
 #include "session/follower.h"
 #include "session/haptic_representation.h"
+#include "session/playback.h"
 
 namespace icome::session {
 
@@ -31,12 +34,21 @@ class FeltWorld final : public Representation {
   void open(const world::World& world, world::SceneId shown) override;
   void show(const world::World& world, world::SceneId shown) override;
   void follow(const world::World& world, const world::Changes& changes) override;
+  void play(const world::World& world, std::optional<double> since) override;
+  std::optional<std::chrono::nanoseconds> pause(const world::World& world) const override;
+  void go_on(const world::World& world) override;
 
  private:
+  double played() const;
   void look_for_remarks(const world::World& world);
   void publish();
 
   HapticRepresentation felt_;
+  std::function<double()> clock_;
+  double ahead_;  // s, by which motions are felt ahead, as things take that long to where they are put
+  Playback playback_ = {};
+  double played_since_ = 0.0;  // s on the clock
+  double due_ = 0.0;           // s on the clock: when what moves is to be felt anew
   std::vector<haptics::Servo*> servos_;
   realtime::LatestValue<FeltVersion>& newest_;
   FeltVersion published_ = {};

@@ -35,7 +35,7 @@ void Follower::run() {
     // They are in the replica, which is opened where this was not to be followed.
     whole_.reset();
     edits_.clear();
-    other_scene_ = false;
+    other_scene_ = other_play_ = false;
     rounds_.store(rounds_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     followed_.store(taken_, std::memory_order_release);
   }
@@ -63,6 +63,7 @@ void Follower::take(Edited& edited) {
     whole_ = std::move(edited.whole);
     edits_.clear();
     shown_ = {};
+    played_since_.reset();
     lost_ = true;  // until it is there
     replica_ = *whole_;
     lost_ = false;
@@ -79,6 +80,10 @@ void Follower::take(Edited& edited) {
     shown_ = *edited.shown;
     other_scene_ = true;
   }
+  if (edited.play) {
+    played_since_ = edited.play->since;
+    other_play_ = true;
+  }
 }
 
 void Follower::bring_up_to_date() {
@@ -87,11 +92,13 @@ void Follower::bring_up_to_date() {
   half_way_ = true;  // until it is there
   if (anew) {
     representation_->open(replica_, shown_);
+    if (played_since_) representation_->play(replica_, played_since_);
   } else {
     std::vector<const world::Edit*> edits;
     for (const auto& edit : edits_) edits.push_back(edit.get());
     if (!edits.empty()) representation_->follow(replica_, world::changes_of(edits));
     if (other_scene_) representation_->show(replica_, shown_);
+    if (other_play_) representation_->play(replica_, played_since_);
   }
   half_way_ = false;
 }

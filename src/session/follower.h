@@ -61,6 +61,8 @@ class Follower {
   std::shared_ptr<const world::World> whole_;
   std::vector<std::shared_ptr<const world::Edit>> edits_;
   bool other_scene_ = false;
+  std::optional<double> played_since_ = {};  // none: motions are not played
+  bool other_play_ = false;
   std::uint64_t taken_ = 0;
   bool lost_ = false;      // the replica is not main's world, until there is another
   bool half_way_ = false;  // the representation threw

@@ -19,6 +19,9 @@ class Representation {
   virtual void show(const world::World& world, world::SceneId shown) = 0;
   /// The world has been through edits that may have changed this.
   virtual void follow(const world::World& world, const world::Changes& changes) = 0;
+  /// Since this moment (s, of session_seconds) the motions of the world's objects are played, or they are
+  /// not: everything is at rest again. Another world is at rest.
+  virtual void play(const world::World& /*world*/, std::optional<double> /*since*/) {}
   /// How long it waits, at most, until it goes on by itself, as it shows time; none: it waits for edits
   /// alone.
   virtual std::optional<std::chrono::nanoseconds> pause(const world::World& /*world*/) const { return {}; }

@@ -84,9 +84,9 @@ void Session::Parts::start_followers() {
   followers.push_back(std::make_unique<Follower>(
       queue, std::make_unique<FeltWorld>(felt_settings(settings.servo), hands.servos(), felt), "felt world"));
   // A tip with a radius feels what changes as it is at t = 0, and so it is seen.
-  const auto clock = settings.servo.scp.tip_radius > 0.0 ? std::function<double()>() : session_seconds;
-  followers.push_back(
-      std::make_unique<Follower>(queue, std::make_unique<SeenWorld>(display, seen, clock), "seen world"));
+  const bool shapes_change = !(settings.servo.scp.tip_radius > 0.0);
+  auto eye = std::make_unique<SeenWorld>(display, seen, session_seconds, shapes_change);
+  followers.push_back(std::make_unique<Follower>(queue, std::move(eye), "seen world"));
   if (!settings.autosave_folder.empty())
     journal =
         std::make_unique<AutosaveJournal>(queue.add_reader(), AutosaveSettings{settings.autosave_folder});

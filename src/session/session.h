@@ -157,6 +157,14 @@ class Session {
   /// Shows and touches one scene of the world, or all of it.
   void show_scene(world::SceneId scene);
   world::SceneId shown_scene() const;
+  // Motions.
+  /// Has any object a motion? Looks at all of them.
+  bool has_motions() const;
+  /// Shows and feels objects where their motions have them, from their beginning on and on; or, as at first
+  /// and after another design was opened, where they are at rest. The world stays what it is, and who puts a
+  /// moving object elsewhere moves all of its way.
+  void play(bool on);
+  bool playing() const;
   /// In the order of selecting. Those that are gone are left out by themselves.
   const std::vector<world::ObjectId>& selection() const;
   void select(std::vector<world::ObjectId> objects);

@@ -4,6 +4,7 @@
 
 #include "files/design.h"
 #include "session/session_parts.h"
+#include "world/motion.h"
 
 namespace icome::session {
 namespace {
@@ -38,7 +39,12 @@ void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
       tell(SessionEvent::Kind::Recovered,
            fmt::format("{}: your unsaved work was recovered. Save it to keep it.", name), std::move(details));
     } else {
-      tell(SessionEvent::Kind::Opened, fmt::format("{} was opened ({}).", name, loaded.format),
+      const std::size_t moving = world::moving_objects(world).size();
+      const std::string motions = moving == 0 ? ""
+                                  : moving == 1
+                                      ? " One object of it can move by itself."
+                                      : fmt::format(" {} objects of it can move by themselves.", moving);
+      tell(SessionEvent::Kind::Opened, fmt::format("{} was opened ({}).{}", name, loaded.format, motions),
            std::move(details));
     }
   }

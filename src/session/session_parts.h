@@ -99,6 +99,7 @@ struct Session::Parts {
   std::shared_ptr<ClaimedWork> recovering;     // not null: it is what the loader reads
   std::filesystem::path path;
   world::SceneId shown_scene = {};
+  std::optional<double> played_since;  // s, of session_seconds; none: motions are not played
   std::vector<world::ObjectId> selection;
   // A listener may let another one in while it is called.
   std::deque<std::function<void(const world::Changes*)>> change_listeners;

@@ -5,6 +5,7 @@
 #include "interaction/object_move.h"
 #include "session/session_parts.h"
 #include "session/shared_edit.h"
+#include "world/motion.h"
 
 namespace icome::session {
 
@@ -93,6 +94,7 @@ void Session::Parts::open_world(world::World opened, const std::filesystem::path
   told.clear();
   path = design;
   shown_scene = {};
+  played_since.reset();
   Edited edited;
   edited.whole = std::make_shared<const world::World>(world);
   edited.saved = std::make_shared<const SavedWork>(
@@ -182,6 +184,18 @@ void Session::show_scene(world::SceneId scene) {
 }
 
 world::SceneId Session::shown_scene() const { return parts_->shown_scene; }
+
+bool Session::has_motions() const { return !world::moving_objects(world()).empty(); }
+
+bool Session::playing() const { return parts_->played_since.has_value(); }
+
+void Session::play(bool on) {
+  if (on == playing()) return;
+  parts_->played_since = on ? std::optional<double>(session_seconds()) : std::nullopt;
+  Edited edited;
+  edited.play = Edited::Play{parts_->played_since};
+  parts_->queue.post(std::move(edited));
+}
 
 const std::vector<ObjectId>& Session::selection() const { return parts_->selection; }
 

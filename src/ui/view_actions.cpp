@@ -54,6 +54,7 @@ void ViewActions::fill(QMenu& menu) {
   fill_directions(menu);
   fill_viewpoints(menu);
   fill_scenes(menu);
+  fill_motions(menu);
   menu.addSeparator();
   grid_ = add_switch(menu, "view.grid", "&Grid", QKeySequence("G"));
   shadows_ = add_switch(menu, "view.shadows", "&Shadows", {});
@@ -125,6 +126,18 @@ void ViewActions::fill_scenes(QMenu& menu) {
   });
 }
 
+void ViewActions::fill_motions(QMenu& menu) {
+  play_ = add_action(menu, "view.play", "&Play Motions", QKeySequence("F5"), [this] {
+    session_.play(!session_.playing() && session_.has_motions());
+    refresh();
+  });
+  play_->setCheckable(true);
+  QObject::connect(&menu, &QMenu::aboutToShow, play_, [this] {
+    play_->setText(session_.has_motions() ? "&Play Motions" : "&Play Motions (This Design Has None)");
+  });
+  play_->setToolTip("Objects move as their files say, seen and felt; again puts them back");
+}
+
 void ViewActions::fill_modes(QMenu& menu) {
   auto* modes = new QActionGroup(&menu);
   const auto add = [&](const char* name, const QString& text, NavigationMode mode) {
@@ -160,6 +173,7 @@ void ViewActions::show_theme(Theme theme) {
 void ViewActions::refresh() {
   const bool camera = session_.navigation_mode() == NavigationMode::Camera;
   if (camera_->isChecked() != camera) (camera ? camera_ : hand_)->setChecked(true);
+  if (play_->isChecked() != session_.playing()) play_->setChecked(session_.playing());
 }
 
 }  // namespace icome::ui

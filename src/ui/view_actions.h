@@ -40,13 +40,14 @@ class ViewActions {
   void fill_scenes(QMenu& menu);
   void fill_modes(QMenu& menu);
   void fill_themes(QMenu& menu);
+  void fill_motions(QMenu& menu);
   QAction* add_switch(QMenu& menu, const char* name, const QString& text, const QKeySequence& keys);
 
   session::Session& session_;
   SceneTools& tools_;
   QSettings& settings_;
   QAction *home_ = nullptr, *zoom_ = nullptr, *grid_ = nullptr, *shadows_ = nullptr;
-  QAction *camera_ = nullptr, *hand_ = nullptr;
+  QAction *camera_ = nullptr, *hand_ = nullptr, *play_ = nullptr;
   QActionGroup* themes_ = nullptr;
   std::function<void(Theme)> theme_changed_ = [](Theme) {};
   std::function<void()> look_changed_ = [] {};

@@ -7,6 +7,7 @@
 
 #include "world/edit.h"
 #include "world/mesh_geometry.h"
+#include "world/motion.h"
 #include "world/permit.h"
 #include "world/row.h"
 
@@ -15,11 +16,6 @@ namespace {
 
 using base::fail;
 using base::Result;
-
-bool invertible(const Affine3& frame) {
-  const double volume = frame.linear().determinant();
-  return frame.matrix().allFinite() && std::isfinite(volume) && volume != 0.0;
-}
 
 tl::unexpected<base::Error> bad_frame() {
   return fail("An object's place must be a finite transform that does not flatten it.");
@@ -51,7 +47,7 @@ class EditApplier {
       return tl::unexpected(fresh.error());
     const PhysicalObject& object = it.object;
     if (!object.children.empty()) return fail("A new object cannot have children yet.");
-    if (!invertible(object.parent_from_object)) return bad_frame();
+    if (!can_be_placed(object.parent_from_object)) return bad_frame();
     if (object.parent && !world_.find(object.parent))
       return fail("The object to put the new one under is not there any more.");
     if (object.geometry && !world_.find(object.geometry))
@@ -59,6 +55,7 @@ class EditApplier {
     if (object.material && !world_.find(object.material))
       return fail("The material that the new object should have is not there any more.");
     if (const auto good = check(object.fixture); !good) return tl::unexpected(good.error());
+    if (const auto good = check(object.motion); !good) return tl::unexpected(good.error());
     if (it.place > siblings(object.parent).size()) return bad_place();
     PhysicalObject& kept = world_.objects_[it.id] = object;
     kept.place_hint = std::uint32_t(it.place);
@@ -91,7 +88,7 @@ class EditApplier {
     const auto found = world_.objects_.find(it.id);
     if (found == world_.objects_.end()) return gone("object");
     PhysicalObject& object = found->second;
-    if (!invertible(it.parent_from_object)) return bad_frame();
+    if (!can_be_placed(it.parent_from_object)) return bad_frame();
     if (it.parent && !world_.find(it.parent))
       return fail(fmt::format("The object to put {} under is not there any more.", called(object, it.id)));
     if (it.parent && is_within(world_, it.parent, it.id))
@@ -110,7 +107,7 @@ class EditApplier {
   }
 
   Result<Edit> operator()(const PlaceObject& it) {
-    if (!invertible(it.parent_from_object)) return bad_frame();
+    if (!can_be_placed(it.parent_from_object)) return bad_frame();
     return exchange(it, &PhysicalObject::parent_from_object, &PlaceObject::parent_from_object);
   }
   Result<Edit> operator()(const RenameObject& it) {
@@ -125,6 +122,10 @@ class EditApplier {
   Result<Edit> operator()(const ChangeFixture& it) {
     if (const auto good = check(it.fixture); !good) return tl::unexpected(good.error());
     return exchange(it, &PhysicalObject::fixture, &ChangeFixture::fixture);
+  }
+  Result<Edit> operator()(const ChangeMotion& it) {
+    if (const auto good = check(it.motion); !good) return tl::unexpected(good.error());
+    return exchange(it, &PhysicalObject::motion, &ChangeMotion::motion);
   }
 
   Result<Edit> operator()(const CreateGeometry& it) {
@@ -322,6 +323,9 @@ class EditApplier {
     return {};
   }
 
+  static Result<void> check(const MotionPointer& motion) {
+    return motion ? check_motion(*motion) : Result<void>();
+  }
   static Result<void> check(const FixturePointer& fixture) {
     return fixture ? std::visit([](const auto& it) { return check(it); }, *fixture) : Result<void>();
   }
@@ -419,6 +423,11 @@ class EditApplier {
   bool alone_;
   Permit permit_;
 };
+
+bool can_be_placed(const Affine3& frame) {
+  const double volume = frame.linear().determinant();
+  return frame.matrix().allFinite() && std::isfinite(volume) && volume != 0.0;
+}
 
 base::Result<Edit> apply(World& world, const Edit& edit) {
   return std::visit(EditApplier(world, false), edit.what);

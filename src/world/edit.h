@@ -52,6 +52,12 @@ struct ChangeFixture {
   FixturePointer fixture;
 };
 
+/// Gives the object a motion of its own, or takes it away.
+struct ChangeMotion {
+  ObjectId id;
+  MotionPointer motion;
+};
+
 struct CreateGeometry {
   GeometryId id;
   GeometryPointer shape;
@@ -136,10 +142,10 @@ struct EditGroup {
 /// Undo, the journal, the network, speech and replays all carry these.
 struct Edit {
   using What = std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
-                            ChooseMaterial, ChangeFixture, CreateGeometry, CopyGeometry, DeleteGeometry,
-                            ReplaceGeometry, MoveVertices, CreateMaterial, DeleteMaterial, ChangeMaterial,
-                            CreateTexture, DeleteTexture, CreateScene, DeleteScene, RenameScene, EnterScene,
-                            LeaveScene, SpendNumbers, EditGroup>;
+                            ChooseMaterial, ChangeFixture, ChangeMotion, CreateGeometry, CopyGeometry,
+                            DeleteGeometry, ReplaceGeometry, MoveVertices, CreateMaterial, DeleteMaterial,
+                            ChangeMaterial, CreateTexture, DeleteTexture, CreateScene, DeleteScene,
+                            RenameScene, EnterScene, LeaveScene, SpendNumbers, EditGroup>;
 
   template <typename Kind,
             typename = std::enable_if_t<std::conjunction_v<
@@ -148,6 +154,9 @@ struct Edit {
 
   What what;
 };
+
+/// May an object stand so: is the transform finite, and flattens it nothing?
+bool can_be_placed(const Affine3& frame);
 
 /// Changes the world and gives the edit that takes it back. A refused edit changes nothing, and the error
 /// says why in terms of what people see.

@@ -6,6 +6,7 @@
 
 #include "world/edit_bytes.h"
 #include "world/flat_bytes.h"
+#include "world/motion.h"
 
 namespace icome::world {
 namespace {
@@ -26,6 +27,21 @@ Colour colour_from(const flat::Colour& from) {
   Colour colour;
   for (std::uint16_t i = 0; i < 3; ++i) colour[i] = from.parts()->Get(i);
   return colour;
+}
+
+template <int Size, typename Numbers>
+Eigen::Matrix<double, Size, 1> vector_from(const Numbers& from) {
+  Eigen::Matrix<double, Size, 1> vector;
+  for (std::uint16_t i = 0; i < Size; ++i) vector[i] = from.Get(i);
+  return vector;
+}
+
+PlaceParts place_from(const flat::PlaceNumbers& from) {
+  return {.translation = vector_from<3>(*from.translation()),
+          .rotation = base::Quaternion(vector_from<4>(*from.rotation())),
+          .scale = vector_from<3>(*from.scale()),
+          .centre = vector_from<3>(*from.centre()),
+          .stretch_axes = base::Quaternion(vector_from<4>(*from.stretch_axes()))};
 }
 
 template <typename Number>
@@ -57,6 +73,8 @@ class EditReader {
         return make(*from.what_as_ChooseMaterial());
       case flat::What::ChangeFixture:
         return make(*from.what_as_ChangeFixture());
+      case flat::What::ChangeMotion:
+        return make(*from.what_as_ChangeMotion());
       case flat::What::CreateGeometry:
         return make(*from.what_as_CreateGeometry());
       case flat::What::DeleteGeometry:
@@ -105,7 +123,8 @@ class EditReader {
                           .parent_from_object = frame_from(*from.frame()),
                           .geometry = {from.geometry()},
                           .material = {from.material()},
-                          .fixture = fixture(from.fixture())};
+                          .fixture = fixture(from.fixture()),
+                          .motion = motion(from.motion())};
     for (const std::uint64_t child : reader_.items<std::uint64_t>(from.children()))
       object.children.push_back({child});
     return CreateObject{{from.id()}, from.place(), std::move(object)};
@@ -119,6 +138,8 @@ class EditReader {
   Edit make(const flat::ChooseMaterial& from) { return ChooseMaterial{{from.id()}, {from.material()}}; }
 
   Edit make(const flat::ChangeFixture& from) { return ChangeFixture{{from.id()}, fixture(from.fixture())}; }
+
+  Edit make(const flat::ChangeMotion& from) { return ChangeMotion{{from.id()}, motion(from.motion())}; }
 
   Edit make(const flat::CreateGeometry& from) { return CreateGeometry{{from.id()}, shape(from.shape())}; }
   Edit make(const flat::CopyGeometry& from) { return CopyGeometry{{from.id()}, {from.model()}}; }
@@ -182,6 +203,25 @@ class EditReader {
     if (!permit_ || permit_(bytes)) return true;
     reader_.refuse("The shapes of an edit take more memory or time than they may.");
     return false;
+  }
+
+  KeyFrames key_frames(const flat::KeyFrames* from) {
+    if (!from) return {};
+    if (from->interpolation() > std::uint8_t(Interpolation::CubicSpline))
+      reader_.refuse("A motion of an edit goes on in a way that is unknown here: use a newer version.");
+    return {.interpolation = Interpolation(from->interpolation()),
+            .times = reader_.items<double>(from->times()),
+            .values = reader_.items<double>(from->values()),
+            .cycle = from->cycle(),
+            .loops = from->loops()};
+  }
+
+  MotionPointer motion(const flat::Motion* from) {
+    if (!from) return nullptr;
+    return std::make_shared<const Motion>(Motion{.rest = place_from(*from->rest()),
+                                                 .translation = key_frames(from->translation()),
+                                                 .rotation = key_frames(from->rotation()),
+                                                 .scale = key_frames(from->scale())});
   }
 
   FixturePointer fixture(const flat::Fixture* from) {

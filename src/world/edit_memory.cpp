@@ -1,5 +1,7 @@
 #include "world/edit_memory.h"
 
+#include "world/motion.h"
+
 namespace icome::world {
 namespace {
 
@@ -8,13 +10,16 @@ std::size_t memory_of_fixture(const FixturePointer& fixture) {
   return inert ? sizeof(Inert) + inert->source.size() : 0;
 }
 
+std::size_t memory_of_motion(const MotionPointer& motion) { return motion ? bytes_of(*motion) : 0; }
+
 /// What an edit holds beside itself.
 struct HeldMemory {
   std::size_t operator()(const CreateObject& it) const {
-    return it.object.name.size() + memory_of_fixture(it.object.fixture);
+    return it.object.name.size() + memory_of_fixture(it.object.fixture) + memory_of_motion(it.object.motion);
   }
   std::size_t operator()(const RenameObject& it) const { return it.name.size(); }
   std::size_t operator()(const ChangeFixture& it) const { return memory_of_fixture(it.fixture); }
+  std::size_t operator()(const ChangeMotion& it) const { return memory_of_motion(it.motion); }
   std::size_t operator()(const CreateGeometry& it) const { return it.shape->bytes(); }
   std::size_t operator()(const ReplaceGeometry& it) const { return it.shape->bytes(); }
   std::size_t operator()(const MoveVertices& it) const {

@@ -4,6 +4,7 @@
 
 #include "world/edit_bytes.h"
 #include "world/flat_bytes.h"
+#include "world/motion.h"
 
 namespace icome::world {
 namespace {
@@ -17,6 +18,16 @@ flat::Frame flat_frame(const Affine3& frame) {
 }
 
 flat::Colour flat_colour(const Colour& colour) { return flat::Colour(flatbuffers::make_span(colour)); }
+
+template <int Size>
+auto numbers_of(const Eigen::Matrix<double, Size, 1>& vector) {
+  return flatbuffers::span<const double, Size>(vector.data(), Size);
+}
+
+flat::PlaceNumbers flat_place(const PlaceParts& it) {
+  return {numbers_of<3>(it.translation), numbers_of<4>(it.rotation.coeffs()), numbers_of<3>(it.scale),
+          numbers_of<3>(it.centre), numbers_of<4>(it.stretch_axes.coeffs())};
+}
 
 template <typename Number>
 flatbuffers::Optional<Number> flat_optional(const std::optional<Number>& value) {
@@ -52,10 +63,11 @@ class EditWriter {
     for (const ObjectId child : object.children) ids.push_back(child.value);
     const auto children = numbers<std::uint64_t>(ids);
     const auto fixed = fixture(object.fixture);
+    const auto moving = motion(object.motion);
     const flat::Frame frame = flat_frame(object.parent_from_object);
     return as_edit(flat::CreateCreateObject(builder_, it.id.value, it.place, name, object.parent.value,
                                             children, &frame, object.geometry.value, object.material.value,
-                                            fixed));
+                                            fixed, moving));
   }
   WrittenEdit operator()(const DeleteObject& it) {
     return as_edit(flat::CreateDeleteObject(builder_, it.id.value));
@@ -79,6 +91,9 @@ class EditWriter {
   }
   WrittenEdit operator()(const ChangeFixture& it) {
     return as_edit(flat::CreateChangeFixture(builder_, it.id.value, fixture(it.fixture)));
+  }
+  WrittenEdit operator()(const ChangeMotion& it) {
+    return as_edit(flat::CreateChangeMotion(builder_, it.id.value, motion(it.motion)));
   }
 
   WrittenEdit operator()(const CreateGeometry& it) {
@@ -214,6 +229,22 @@ class EditWriter {
       effect = flat::CreateForceEffect(builder_, text(force->text), force->on);
     }
     return flat::CreateFixture(builder_, light, viewpoint, inert, effect);
+  }
+
+  Offset<flat::KeyFrames> key_frames(const KeyFrames& it) {
+    if (it == KeyFrames()) return 0;
+    const auto times = numbers<double>(it.times);
+    const auto values = numbers<double>(it.values);
+    return flat::CreateKeyFrames(builder_, std::uint8_t(it.interpolation), times, values, it.cycle, it.loops);
+  }
+
+  Offset<flat::Motion> motion(const MotionPointer& motion) {
+    if (!motion) return 0;
+    const auto translation = key_frames(motion->translation);
+    const auto rotation = key_frames(motion->rotation);
+    const auto scale = key_frames(motion->scale);
+    const flat::PlaceNumbers rest = flat_place(motion->rest);
+    return flat::CreateMotion(builder_, &rest, translation, rotation, scale);
   }
 
   Offset<flat::MaterialState> material(const Material& it) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "world/hasher.h"
+#include "world/motion.h"
 
 namespace icome::world {
 namespace {
@@ -33,6 +34,25 @@ void add_to(Hasher& hasher, const ForceEffect& it) {
   hasher.add(it.on);
 }
 
+void add_to(Hasher& hasher, const KeyFrames& it) {
+  hasher.add(it.interpolation);
+  for (const std::vector<double>* numbers : {&it.times, &it.values}) {
+    hasher.add(numbers->size());
+    for (const double number : *numbers) hasher.add(number);
+  }
+  hasher.add(it.cycle);
+  hasher.add(it.loops);
+}
+
+void add_to(Hasher& hasher, const Motion& it) {
+  hasher.add(it.rest.translation);
+  hasher.add(it.rest.rotation.coeffs());
+  hasher.add(it.rest.scale);
+  hasher.add(it.rest.centre);
+  hasher.add(it.rest.stretch_axes.coeffs());
+  for (const KeyFrames* frames : {&it.translation, &it.rotation, &it.scale}) add_to(hasher, *frames);
+}
+
 void add_to(Hasher& hasher, const PhysicalObject& it) {
   hasher.add(std::string_view(it.name));
   add_id(hasher, it.parent.value);
@@ -43,6 +63,7 @@ void add_to(Hasher& hasher, const PhysicalObject& it) {
   add_id(hasher, it.material.value);
   hasher.add(it.fixture ? it.fixture->index() + 1 : 0);
   if (it.fixture) std::visit([&](const auto& fixture) { add_to(hasher, fixture); }, *it.fixture);
+  if (it.motion) add_to(hasher, *it.motion);
 }
 
 void add_to(Hasher& hasher, const GeometryObject& it) { hasher.add(it.shape->hash()); }

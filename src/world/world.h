@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -11,6 +12,9 @@
 
 namespace icome::world {
 
+struct Motion;
+using MotionPointer = std::shared_ptr<const Motion>;  // null: none; motion.h
+
 /// A thing in the world (thesis 2.4.1, 5.6.2): where it is with respect to its parent, what it is made of
 /// and what it looks and feels like. It owns nothing that it names.
 struct PhysicalObject {
@@ -21,6 +25,7 @@ struct PhysicalObject {
   GeometryId geometry = {};  // none: only a group
   MaterialId material = {};  // none: the default
   FixturePointer fixture = {};
+  MotionPointer motion = {};  // by itself; null: it stays
 
   // Kept by the world, for speed.
   std::uint32_t place_hint = 0;  // about where it is among its siblings

@@ -119,7 +119,14 @@ flatbuffers::Offset<flat::Node> add(Flat& flat, const AnswerNode& from) {
   const auto scene = from.scene ? flat.CreateString(*from.scene) : flatbuffers::Offset<flatbuffers::String>();
   const auto members = words(flat, from.members);
   return flat::CreateNode(flat, from.parent, name, def, matrix, from.piece, from.look, lamp, eye, from.reused,
-                          scene, members);
+                          scene, members, 0, from.motion);
+}
+
+flatbuffers::Offset<flat::Motion> add(Flat& flat, const AnswerMotion& from) {
+  const auto rest = numbers(flat, from.rest);
+  const auto times = numbers(flat, from.times);
+  const auto values = numbers(flat, from.values);
+  return flat::CreateMotion(flat, rest, flat::CreateKeyFrames(flat, times, values, from.cycle));
 }
 
 flatbuffers::Offset<flat::Note> add(Flat& flat, const AnswerNote& from) {
@@ -144,7 +151,9 @@ std::string bytes_of(const Answer& answer) {
   const auto pictures = tables<flat::Picture>(flat, answer.pictures);
   const auto notes = tables<flat::Note>(flat, answer.notes);
   const auto error = text(flat, answer.error);
-  flat.Finish(flat::CreateScene(flat, nodes, pieces, looks, pictures, notes, error), flat::SceneIdentifier());
+  const auto motions = tables<flat::Motion>(flat, answer.motions);
+  flat.Finish(flat::CreateScene(flat, nodes, pieces, looks, pictures, notes, error, motions),
+              flat::SceneIdentifier());
   return {reinterpret_cast<const char*>(flat.GetBufferPointer()), flat.GetSize()};
 }
 

@@ -83,6 +83,15 @@ struct AnswerNode {
   std::optional<std::string> scene = {};
   std::vector<std::string> members = {};
   std::string def = {};  // as name, where empty
+  int motion = -1;
+};
+
+/// Of the translation alone.
+struct AnswerMotion {
+  std::vector<double> rest = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1};
+  std::vector<double> times = {0.0, 1.0};
+  std::vector<double> values = {0, 0, 0, 1, 2, 3};
+  double cycle = 1.0;
 };
 
 struct AnswerNote {
@@ -98,6 +107,7 @@ struct Answer {
   std::vector<AnswerPicture> pictures = {};
   std::vector<AnswerNote> notes = {};
   std::string error = {};
+  std::vector<AnswerMotion> motions = {};
 };
 
 /// The answer as bytes.

@@ -8,6 +8,7 @@
 
 #include "files/vrml_answers.h"
 #include "world/mesh_geometry.h"
+#include "world/motion.h"
 #include "world/solid_geometry.h"
 
 namespace icome::files {
@@ -533,6 +534,35 @@ TEST(VrmlBuilder, PassesNotesOn) {
 }
 
 // ---- Answers that cannot be used -----------------------------------------------------------------------
+
+TEST(VrmlBuilder, GivesMotionsThatAreUsedAgainToAll) {
+  const LoadedDesign design = built_from(
+      {.nodes = {{.name = "a", .motion = 0}, {.name = "b", .motion = 0}}, .motions = {AnswerMotion()}});
+  ASSERT_EQ(design.world.roots().size(), 2U);
+  const PhysicalObject &a = *design.world.find(design.world.roots()[0]),
+                       &b = *design.world.find(design.world.roots()[1]);
+  ASSERT_NE(a.motion, nullptr);
+  EXPECT_EQ(a.motion, b.motion);
+  EXPECT_EQ(a.motion->translation.values, AnswerMotion().values);
+}
+
+TEST(VrmlBuilder, RefusesMotionsThatNobodyCouldPlay) {
+  const std::string why =
+      "test.wrl: the process that reads VRML gave an answer that makes no sense: a motion cannot be played";
+  const auto failure = [](const AnswerMotion& motion) {
+    return build_failure({.nodes = {{.motion = 0}}, .motions = {motion}});
+  };
+  EXPECT_EQ(failure({}), "none");
+  EXPECT_EQ(failure({.rest = {1, 2, 3}}), why);
+  EXPECT_EQ(failure({.times = {1.0, 0.0}}), why);
+  EXPECT_EQ(failure({.times = {0.0, std::nan("")}}), why);
+  EXPECT_EQ(failure({.times = {0.0}}), why);
+  EXPECT_EQ(failure({.cycle = -1.0}), why);
+  EXPECT_EQ(
+      build_failure({.nodes = {{.motion = 0}}}),
+      "test.wrl: the process that reads VRML gave an answer that makes no sense: a node names what is not "
+      "there");
+}
 
 TEST(VrmlBuilder, FailsWithTheError) {
   EXPECT_EQ(build_failure({.error = "line 3 makes no sense"}), "test.wrl: line 3 makes no sense");

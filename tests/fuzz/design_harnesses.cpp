@@ -165,7 +165,10 @@ std::vector<std::string> vrml_seeds() {
           "children [ "
           "Shape { geometry DEF B Box { size 1 2 3 } } USE B ] } }\nP { n 4 } # comment\n"
           "EXTERNPROTO E [ field SFColor c ] \"e.wrl#E\"\nE { c 1 0 0 }\nDEF S Script { url \"javascript:\" "
-          "eventOut SFBool o }\nROUTE S.o TO S.o\nUnknown { a [ 1 2 ] b { } }\n"};
+          "eventOut SFBool o }\nROUTE S.o TO S.o\nUnknown { a [ 1 2 ] b { } }\n",
+          "#VRML V2.0 utf8\nDEF T Transform { children Shape { geometry Box {} } }\nDEF C TimeSensor { "
+          "cycleInterval 2 }\nDEF P PositionInterpolator { key [ 0 1 ] keyValue [ 0 0 0 1 2 3 ] }\n"
+          "ROUTE C.fraction_changed TO P.set_fraction\nROUTE P.value_changed TO T.set_translation\n"};
 }
 std::vector<std::string> vrml_answer_seeds() {
   using files::flat::PieceKind;

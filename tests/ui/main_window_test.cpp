@@ -16,6 +16,7 @@
 #include "places.h"
 #include "ui/scene_window.h"
 #include "ui/window_test.h"
+#include "world/motion.h"
 #include "world/sample_world.h"
 
 namespace icome::ui {
@@ -402,6 +403,26 @@ TEST_F(MainWindowTest, NoTwoActionsHaveTheSameKeys) {
     }
   }
   EXPECT_GE(users.size(), 25);
+}
+
+TEST_F(MainWindowTest, PlaysMotionsAndPutsThingsBack) {
+  QAction* const play = action("view.play");
+  EXPECT_EQ(play->shortcut(), QKeySequence("F5"));
+  play->trigger();
+  EXPECT_FALSE(session().playing());  // nothing moves
+  EXPECT_FALSE(play->isChecked());
+  world::Motion motion;
+  motion.translation = {.times = {0.0, 1.0}, .values = {0, 0, 0, 1, 0, 0}};
+  perform(world::ChangeMotion{add("lift"), std::make_shared<const world::Motion>(motion)});
+  play->trigger();
+  EXPECT_TRUE(session().playing());
+  EXPECT_TRUE(play->isChecked());
+  play->trigger();
+  EXPECT_FALSE(session().playing());
+  EXPECT_FALSE(play->isChecked());
+  play->trigger();
+  session().make_new();
+  EXPECT_TRUE(until([&] { return !play->isChecked(); }));
 }
 
 }  // namespace

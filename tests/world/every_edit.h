@@ -1,5 +1,6 @@
 #pragma once
 #include "sample_world.h"
+#include "world/motion.h"
 
 namespace icome::world {
 
@@ -99,6 +100,18 @@ inline FixturePointer spot_light() {
                                                .beam_width = 0.5});
 }
 
+/// Key frames of every kind.
+inline MotionPointer spinning() {
+  return std::make_shared<const Motion>(Motion{
+      .rest = {.translation = {1.0, -0.0, 3.0}, .scale = {2.0, 1.0, -1.0}, .centre = {0.0, 0.5, 0.0}},
+      .translation = {.interpolation = Interpolation::CubicSpline,
+                      .times = {0.25},
+                      .values = {0, 0, 0, 1, 2, 3, -0.0, 0, 0},
+                      .cycle = 0.5},
+      .rotation = {.times = {0.0, 1.0 / 3.0}, .values = {0, 0, 0, 1, 1, 0, 0, 0}, .loops = false},
+      .scale = {.interpolation = Interpolation::Step, .times = {0.0}, .values = {1, 1, 1}, .cycle = 7.0}});
+}
+
 /// Edits of all kinds that an empty world allows one after the other.
 inline std::vector<Edit> every_edit() {
   const TextureId picture{1}, sketch{2};
@@ -129,7 +142,8 @@ inline std::vector<Edit> every_edit() {
   const std::vector<Edit> rest{
       CreateObject{
           table, 0, {.name = "table", .parent_from_object = turned, .geometry = {101}, .material = wood}},
-      CreateObject{leg, 0, {.parent = table, .geometry = {102}, .fixture = spot_light()}},
+      CreateObject{
+          leg, 0, {.parent = table, .geometry = {102}, .fixture = spot_light(), .motion = spinning()}},
       MoveObject{leg, {}, 1, turned},
       PlaceObject{leg, turned},
       RenameObject{leg, "leg"},
@@ -142,6 +156,8 @@ inline std::vector<Edit> every_edit() {
       ChangeFixture{leg, std::make_shared<const Fixture>(Inert{"Script", "Script { url \"a\" }"})},
       ChangeFixture{leg, std::make_shared<const Fixture>(ForceEffect{"viscous:2", false})},
       ChangeFixture{leg, nullptr},
+      ChangeMotion{leg, nullptr},
+      ChangeMotion{table, spinning()},
       DeleteMaterial{paint},
       ReplaceGeometry{{102}, csg()},
       DeleteGeometry{{103}},

@@ -1,5 +1,6 @@
 #pragma once
 #include "sample_world.h"
+#include "world/motion.h"
 
 namespace icome::world {
 
@@ -9,7 +10,7 @@ class RandomEdits {
   explicit RandomEdits(std::uint64_t seed) : random_(seed) {}
 
   Edit next(const World& world) {
-    switch (random_.index(17)) {
+    switch (random_.index(18)) {
       case 0:
       case 1:
         return create(world);
@@ -44,6 +45,8 @@ class RandomEdits {
         return unused(world);
       case 15:
         return ChangeFixture{any(world.objects()), fixture()};
+      case 16:
+        return ChangeMotion{any(world.objects()), motion()};
       default: {
         auto made = duplicate(world, any(world.objects()), Duplicate(random_.index(6)),
                               any_or_none(world.objects()), ids_);
@@ -102,6 +105,12 @@ class RandomEdits {
       default:
         return std::make_shared<const Fixture>(Inert{"Script", "Script {}"});
     }
+  }
+  MotionPointer motion() {
+    if (random_.index(4) == 0) return nullptr;
+    Motion motion;
+    motion.translation = {.times = {0.0, 1.0}, .values = std::vector<double>(6, random_.uniform())};
+    return std::make_shared<const Motion>(std::move(motion));
   }
   Edit scene(const World& world) {
     const SceneId one = any(world.scenes());

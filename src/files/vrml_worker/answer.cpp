@@ -51,12 +51,21 @@ struct Answer::Parts {
     return builder.CreateVector(offsets);
   }
 
+  Offset<flat::KeyFrames> key_frames(const FrameParts& from) {
+    if (from.times.empty()) return 0;
+    const auto times = numbers(from.times);
+    const auto values = numbers(from.values);
+    return flat::CreateKeyFrames(builder, times, values, from.cycle, from.loops);
+  }
+
   flatbuffers::FlatBufferBuilder builder;
   std::vector<Offset<flat::Node>> nodes;
   std::vector<Offset<flat::Piece>> pieces;
   std::vector<Offset<flat::Look>> looks;
   std::vector<Offset<flat::Picture>> pictures;
   std::vector<Offset<flat::Note>> notes;
+  std::vector<Offset<flat::Motion>> motions;
+  std::vector<Offset<flat::Moving>> moving;
 };
 
 Answer::Answer(std::size_t expected) : parts_(std::make_unique<Parts>(expected)) {}
@@ -148,6 +157,24 @@ int Answer::add(const LookParts& look) {
   return static_cast<int>(to.looks.size()) - 1;
 }
 
+int Answer::add(const MotionParts& motion) {
+  Parts& to = *parts_;
+  const auto rest = to.numbers(std::span<const double>(motion.rest));
+  const auto translation = to.key_frames(motion.translation);
+  const auto rotation = to.key_frames(motion.rotation);
+  const auto scale = to.key_frames(motion.scale);
+  to.motions.push_back(flat::CreateMotion(to.builder, rest, translation, rotation, scale));
+  return static_cast<int>(to.motions.size()) - 1;
+}
+
+void Answer::add(const MovingParts& moving) {
+  Parts& to = *parts_;
+  const auto file = to.text(moving.file);
+  const auto routes = to.numbers(std::span<const int>(moving.routes));
+  const auto nodes = to.words(moving.nodes);
+  to.moving.push_back(flat::CreateMoving(to.builder, file, routes, nodes));
+}
+
 int Answer::add(const NodeParts& node) {
   Parts& to = *parts_;
   to.claim(512);
@@ -177,7 +204,7 @@ int Answer::add(const NodeParts& node) {
   Offset<flat::Force> force;
   if (node.force) force = flat::CreateForce(to.builder, to.text(node.force->text), node.force->on);
   to.nodes.push_back(flat::CreateNode(to.builder, node.parent, name, def, matrix, node.piece, node.look, lamp,
-                                      eye, node.reused, scene, members, force));
+                                      eye, node.reused, scene, members, force, node.motion));
   return static_cast<int>(to.nodes.size()) - 1;
 }
 
@@ -192,15 +219,18 @@ void Answer::note(const std::string& file, int line, const std::string& text) {
 std::string_view Answer::finish(const std::string& error) {
   Parts& to = *parts_;
   const auto why = to.text(error);
-  to.claim((to.nodes.size() + to.pieces.size() + to.looks.size() + to.pictures.size()) *
+  to.claim((to.nodes.size() + to.pieces.size() + to.looks.size() + to.pictures.size() + to.motions.size() +
+            to.moving.size()) *
            sizeof(Offset<void>));
   const auto nodes = to.builder.CreateVector(to.nodes);
   const auto pieces = to.builder.CreateVector(to.pieces);
   const auto looks = to.builder.CreateVector(to.looks);
   const auto pictures = to.builder.CreateVector(to.pictures);
   const auto notes = to.builder.CreateVector(to.notes);
-  flat::FinishSceneBuffer(to.builder,
-                          flat::CreateScene(to.builder, nodes, pieces, looks, pictures, notes, why));
+  const auto motions = to.builder.CreateVector(to.motions);
+  const auto moving = to.builder.CreateVector(to.moving);
+  flat::FinishSceneBuffer(
+      to.builder, flat::CreateScene(to.builder, nodes, pieces, looks, pictures, notes, why, motions, moving));
   return {reinterpret_cast<const char*>(to.builder.GetBufferPointer()), to.builder.GetSize()};
 }
 

@@ -110,6 +110,28 @@ struct ForceParts {
   bool on = true;
 };
 
+/// KeyFrames of vrml_answer.fbs.
+struct FrameParts {
+  std::vector<double> times = {};
+  std::vector<double> values = {};
+  double cycle = 1.0;
+  bool loops = true;
+};
+
+struct MotionParts {
+  std::array<double, 17> rest = {};
+  FrameParts translation = {};
+  FrameParts rotation = {};
+  FrameParts scale = {};
+};
+
+/// Moving of vrml_answer.fbs.
+struct MovingParts {
+  std::string file = {};
+  std::vector<int> routes = {};
+  std::vector<std::string> nodes = {};
+};
+
 struct NodeParts {
   int parent = -1;
   std::string name = {};
@@ -123,6 +145,7 @@ struct NodeParts {
   std::string scene = {};
   std::vector<std::string> members = {};
   std::optional<ForceParts> force = {};
+  int motion = -1;
 };
 
 /// Puts the answer together, each thing as it is found. Throws Refusal when it becomes larger than an answer
@@ -139,7 +162,9 @@ class Answer {
   int add(const PieceParts& piece);
   int add(const PictureParts& picture);
   int add(const LookParts& look);
+  int add(const MotionParts& motion);
   int add(const NodeParts& node);
+  void add(const MovingParts& moving);
   /// After some thousand notes no more are kept. `file` is empty for the design itself.
   void note(const std::string& file, int line, const std::string& text);
   /// The whole answer, with an error if it could not be read. Lives as long as this does; call once.

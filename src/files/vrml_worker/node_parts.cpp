@@ -1,11 +1,13 @@
 #include "files/vrml_worker/node_parts.h"
 
+#include <Inventor/SbRotation.h>
 #include <Inventor/VRMLnodes/SoVRMLDirectionalLight.h>
 #include <Inventor/VRMLnodes/SoVRMLPointLight.h>
 #include <Inventor/VRMLnodes/SoVRMLSpotLight.h>
 #include <Inventor/VRMLnodes/SoVRMLTransform.h>
 #include <Inventor/VRMLnodes/SoVRMLViewpoint.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vector.h"
@@ -20,17 +22,17 @@ struct AxisAngle {
 };
 
 /// Is this what the file said, as far as Coin kept it?
-bool is_kept(const AxisAngle& turn, const SoSFRotation& field) {
+bool is_kept(const AxisAngle& turn, const SbRotation& rotation) {
   const SbVec3f axis(static_cast<float>(turn.axis[0]), static_cast<float>(turn.axis[1]),
                      static_cast<float>(turn.axis[2]));
-  return axis.length() > 0.0F && SbRotation(axis, static_cast<float>(turn.angle)) == field.getValue();
+  return axis.length() > 0.0F && SbRotation(axis, static_cast<float>(turn.angle)) == rotation;
 }
 
 /// Coin keeps a rotation as a quaternion in single precision. The numbers of the file are the roundest that
 /// give this one, or a multiple of 15 degrees, which is then meant whatever digits the file has of it; where
 /// there are none, the file had too many digits to be kept.
-AxisAngle axis_angle(const SoSFRotation& field) {
-  const float* const kept = field.getValue().getValue();
+AxisAngle axis_angle(const SbRotation& rotation) {
+  const float* const kept = rotation.getValue();
   // Not as Coin does it, from the cosine, which hardly tells small angles.
   const base::Vector3 sine(kept[0], kept[1], kept[2]);
   const double length = sine.norm();
@@ -46,9 +48,9 @@ AxisAngle axis_angle(const SoSFRotation& field) {
       const base::Vector3 scaled = axis * (1.0 + off / unit);
       AxisAngle round = {{round_to(scaled[0], unit), round_to(scaled[1], unit), round_to(scaled[2], unit)},
                          round_to(angle, unit)};
-      if (is_kept(round, field)) return round;
+      if (is_kept(round, rotation)) return round;
       round.angle = step;
-      if (is_kept(round, field)) return round;
+      if (is_kept(round, rotation)) return round;
     }
   }
   return {{axis[0], axis[1], axis[2]}, angle};
@@ -56,8 +58,14 @@ AxisAngle axis_angle(const SoSFRotation& field) {
 
 base::Vector3 vector(const SbVec3f& v) { return base::Vector3(as_written(v).data()); }
 
+base::Quaternion quaternion(const AxisAngle& turn) {
+  const base::Vector3 axis(turn.axis.data());
+  if (turn.angle == 0.0 || axis.isZero(0.0)) return base::Quaternion::Identity();
+  return base::Quaternion(Eigen::AngleAxisd(turn.angle, axis.stableNormalized()));
+}
+
 base::Matrix3 rotation(const SoSFRotation& field) {
-  const AxisAngle turn = axis_angle(field);
+  const AxisAngle turn = axis_angle(field.getValue());
   const base::Vector3 axis(turn.axis.data());
   if (turn.angle == 0.0 || axis.isZero(0.0)) return base::Matrix3::Identity();
   return Eigen::AngleAxisd(turn.angle, axis.stableNormalized()).toRotationMatrix();
@@ -93,10 +101,27 @@ std::array<double, 12> matrix_of(const SoVRMLTransform& transform) {
   return rows;
 }
 
+std::array<double, 17> rest_of(const SoVRMLTransform& transform) {
+  std::array<double, 17> rest{};
+  auto* end = rest.begin();
+  const auto put = [&end](const auto& numbers) { end = std::copy(numbers.begin(), numbers.end(), end); };
+  put(as_written(transform.translation.getValue()));
+  put(turn_as_written(transform.rotation.getValue()));
+  put(as_written(transform.scale.getValue()));
+  put(as_written(transform.center.getValue()));
+  put(turn_as_written(transform.scaleOrientation.getValue()));
+  return rest;
+}
+
+std::array<double, 4> turn_as_written(const SbRotation& turn) {
+  const base::Quaternion written = quaternion(axis_angle(turn));
+  return {written.x(), written.y(), written.z(), written.w()};
+}
+
 bool fill_lamp_or_eye(const SoNode& node, NodeParts& parts) {
   if (node.isOfType(SoVRMLViewpoint::getClassTypeId())) {
     const auto& view = static_cast<const SoVRMLViewpoint&>(node);
-    const AxisAngle turn = axis_angle(view.orientation);
+    const AxisAngle turn = axis_angle(view.orientation.getValue());
     parts.eye = EyeParts{as_written(view.fieldOfView.getValue()), EyeParts().position, turn.axis, turn.angle};
     // Coin's own default is the origin, against the standard.
     if (!view.position.isDefault()) parts.eye->position = as_written(view.position.getValue());

@@ -22,6 +22,7 @@ constexpr std::size_t kLongString = 4000;
 /// Of what is no name of a node: types, fields and PROTOs.
 constexpr std::size_t kWordLimit = 1000;
 constexpr std::size_t kTextNoteLimit = 1000;
+constexpr std::size_t kRouteLimit = 1'000'000;
 constexpr const char* kHeaderLine = "#VRML V2.0 utf8\n";
 
 /// What one field type of VRML 2.0 is when nothing is said.
@@ -80,6 +81,7 @@ class TextReader {
     }
     ready.stand_ins = std::move(stand_ins_);
     ready.notes = std::move(notes_);
+    ready.routes = std::move(routes_);
     ready.text.reserve(ready.text.size() + text_.size() + 64);
     std::size_t copied = 0;
     for (const Change& change : changes_) {
@@ -151,6 +153,7 @@ class TextReader {
 
   void statements(Kind last);
   bool statement(const Token& first);
+  void keep_route(int line, const Token& from, const Token& to);
   void proto(bool is_extern);
   Fields interface(bool is_extern, std::string& stand_in);
   void route(const Token& first);
@@ -161,6 +164,7 @@ class TextReader {
   bool script_field(const Token& access);
   void skip_value();
   SharedFields find_proto(const std::string& name) const;
+  std::string name_for_coin(std::string_view name) const;
   void change_name(const Token& name);
   void change_string(const Token& string);
 
@@ -171,6 +175,7 @@ class TextReader {
   std::vector<std::string>& names_;
   std::vector<Change> changes_;
   std::vector<TextNote> notes_;
+  std::vector<TextRoute> routes_;
   std::vector<std::string> stand_ins_;
   int depth_ = 0;
   bool in_script_ = false;
@@ -193,11 +198,27 @@ bool TextReader::statement(const Token& first) {
     return true;
   }
   if (word(first) != "ROUTE") return false;
-  expect_name();
+  const Token from = expect_name();
   if (word(expect(Kind::Word)) != "TO") throw Unclear{};
-  expect_name();
+  keep_route(tokens_.line(first.begin), from, expect_name());
   drop(first.begin);
   return true;
+}
+
+void TextReader::keep_route(int line, const Token& from, const Token& to) {
+  if (scopes_.size() > 1 || routes_.size() == kRouteLimit) return;
+  const std::string_view source = word(from), target = word(to);
+  const std::size_t source_dot = source.find('.'), target_dot = target.find('.');
+  if (source_dot == std::string_view::npos || target_dot == std::string_view::npos) return;
+  routes_.push_back({name_for_coin(source.substr(0, source_dot)), std::string(source.substr(source_dot + 1)),
+                     name_for_coin(target.substr(0, target_dot)), std::string(target.substr(target_dot + 1)),
+                     line});
+}
+
+/// As change_name() has it.
+std::string TextReader::name_for_coin(std::string_view name) const {
+  const auto changed = changed_.find(std::string(name));
+  return changed == changed_.end() ? std::string(name) : changed->second;
 }
 
 void TextReader::proto(bool is_extern) {

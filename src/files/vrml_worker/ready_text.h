@@ -14,17 +14,27 @@ struct TextNote {
   std::string text;
 };
 
+/// "ROUTE clock.fraction_changed TO path.set_fraction".
+struct TextRoute {
+  std::string from;  // as Coin reads the name
+  std::string out;
+  std::string to;  // likewise
+  std::string in;
+  int line = 0;  // of the file
+};
+
 /// The text of a VRML file made ready for Coin, which gives up a whole file for one field or node that it
-/// does not know: such are taken out, and so are uses of names that nothing has and all ROUTEs, since
-/// nothing moves here. Names that Coin would change become `IcomeName_7`, and so do long strings, which it
-/// reads in a time that grows with the square of their length. Lines stay where they were.
+/// does not know: such are taken out, and so are uses of names that nothing has and all ROUTEs, which
+/// would have Coin move things. Names that Coin would change become `IcomeName_7`, and so do long strings,
+/// which it reads in a time that grows with the square of their length. Lines stay where they were.
 struct ReadyText {
   std::string text;  // begins with the header of VRML 2.0
   /// For each EXTERNPROTO in order: a PROTO that can stand in for it and shows nothing.
   std::vector<std::string> stand_ins;
   std::vector<TextNote> notes;
-  std::string error;    // why nobody should read this; empty: Coin may
-  int added_lines = 0;  // before the first line of the file
+  std::vector<TextRoute> routes;  // of the file itself, not of its PROTOs
+  std::string error;              // why nobody should read this; empty: Coin may
+  int added_lines = 0;            // before the first line of the file
 };
 
 inline constexpr std::string_view kChangedName = "IcomeName_";

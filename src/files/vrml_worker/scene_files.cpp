@@ -206,6 +206,27 @@ std::vector<std::string> SceneFiles::strings(const SoMFString& field) const {
   return strings;
 }
 
+const std::vector<NodeRoute>& SceneFiles::routes_to(const SoNode& node) const {
+  static const std::vector<NodeRoute> kNone;
+  const auto found = routes_.find(&node);
+  return found == routes_.end() ? kNone : found->second;
+}
+
+/// Of several nodes of one name the last one counts, as Coin has it.
+void SceneFiles::keep_routes(const Reading& reading) {
+  const auto named = [&](const std::string& name) -> const SoNode* {
+    const SoBase* const found = reading.findReference(SbName(name.c_str()));
+    const bool is_node = found && found->isOfType(SoNode::getClassTypeId());
+    return is_node ? static_cast<const SoNode*>(found) : nullptr;
+  };
+  for (const TextRoute& route : reading.ready.routes) {
+    const SoNode* const from = named(route.from);
+    const SoNode* const to = named(route.to);
+    if (!from || !to) continue;
+    routes_[to].push_back({from, route.out, route.in, &reading.file, route.line});
+  }
+}
+
 /// Reads node by node, so that what comes before a mistake is there.
 void SceneFiles::read(SceneFile& file, std::string_view bytes) {
   ReadyText ready = make_ready(
@@ -224,6 +245,7 @@ void SceneFiles::read(SceneFile& file, std::string_view bytes) {
     if (!is_whole || !root) break;
     file.roots.push_back(root);
   }
+  keep_routes(reading);
   file.is_being_read = false;
   reading_.pop_back();
   is_whole = is_whole && reading.eof();

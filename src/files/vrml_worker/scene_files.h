@@ -15,6 +15,17 @@ class SoProto;
 
 namespace icome::files {
 
+struct SceneFile;
+
+/// A ROUTE between nodes that are there.
+struct NodeRoute {
+  const SoNode* from = nullptr;  // never null
+  std::string out = {};
+  std::string in = {};
+  const SceneFile* file = nullptr;  // never null
+  int line = 0;
+};
+
 /// A file as Coin read it. Its nodes live as long as the process.
 struct SceneFile {
   int number = 0;  // by which the reader knows it
@@ -46,17 +57,21 @@ class SceneFiles {
   std::string original(const char* text) const;
   std::string original_name(const SbName& name) const;
   std::vector<std::string> strings(const SoMFString& field) const;
+  /// The ROUTEs to a node, in the order of their file.
+  const std::vector<NodeRoute>& routes_to(const SoNode& node) const;
 
  private:
   struct Callbacks;
   struct Reading;
   void read(SceneFile& file, std::string_view bytes);
+  void keep_routes(const Reading& reading);
   static SoProto* stand_in(const std::string& text);
 
   Channel& channel_;
   Answer& answer_;
   std::unordered_map<int, std::unique_ptr<SceneFile>> files_;
   std::unordered_map<const SoProto*, const SceneFile*> homes_;
+  std::unordered_map<const SoNode*, std::vector<NodeRoute>> routes_;  // by where they lead
   std::vector<std::string> changed_names_;
   std::vector<Reading*> reading_;  // innermost last
 };

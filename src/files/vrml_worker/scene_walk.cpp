@@ -46,11 +46,13 @@ SceneWalk::SceneWalk(SceneFiles& files, Answer& answer)
       answer_(answer),
       wrapping_(files),
       looks_(files, answer, wrapping_),
-      pieces_(files, answer, wrapping_) {}
+      pieces_(files, answer, wrapping_),
+      motions_(files, answer) {}
 
 void SceneWalk::walk(SceneFile& design) {
   design.inlined = 1;
   for (SoNode* root : design.roots) visit(root, Place{&design});
+  motions_.tell_what_moves();
 }
 
 void SceneWalk::count_visit() {
@@ -93,7 +95,10 @@ bool SceneWalk::visit_group(const Unwrapped& it, NodeParts& parts, const Place& 
   if (const auto* group = as<SoVRMLParent>(it.node)) {
     children = &group->children;
     last = children->getNum();
-    if (const auto* transform = as<SoVRMLTransform>(it.node)) parts.matrix = matrix_of(*transform);
+    if (const auto* transform = as<SoVRMLTransform>(it.node)) {
+      parts.matrix = matrix_of(*transform);
+      parts.motion = motions_.number_of(*transform);
+    }
   } else if (const auto* levels = as<SoVRMLLOD>(it.node)) {
     children = &levels->level;
     last = std::min(children->getNum(), 1);

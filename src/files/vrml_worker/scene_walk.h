@@ -5,6 +5,7 @@
 
 #include "files/vrml_worker/answer.h"
 #include "files/vrml_worker/looks.h"
+#include "files/vrml_worker/motions.h"
 #include "files/vrml_worker/pieces.h"
 #include "files/vrml_worker/scene_files.h"
 #include "files/vrml_worker/wrapping.h"
@@ -45,6 +46,7 @@ class SceneWalk {
   Wrapping wrapping_;
   Looks looks_;
   Pieces pieces_;
+  Motions motions_;
   std::unordered_set<const SoNode*> met_ = {};    // in the innermost Inline
   std::unordered_set<const SoNode*> above_ = {};  // that the walk is in
   int visits_ = 0;
