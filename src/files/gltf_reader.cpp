@@ -18,11 +18,11 @@
 #include "files/gltf_node.h"
 #include "files/gltf_value.h"
 #include "files/mesh_formats.h"
+#include "world/edit.h"
 
 namespace icome::files {
 namespace {
 
-using base::Affine3;
 using tinygltf::Value;
 using world::GeometryId;
 using world::ObjectId;
@@ -42,11 +42,6 @@ bool has_foreign_extras(const Value& extras) {
   if (!extras.IsObject()) return extras.Type() != tinygltf::NULL_TYPE;
   const std::vector<std::string> names = extras.Keys();
   return std::any_of(names.begin(), names.end(), [](const std::string& it) { return it != "icome"; });
-}
-
-bool can_be_placed(const Affine3& frame) {
-  const double volume = frame.linear().determinant();
-  return frame.matrix().allFinite() && std::isfinite(volume) && volume != 0.0;
 }
 
 /// Reads one file into a design.
@@ -151,7 +146,7 @@ class GltfReading {
     PhysicalObject object{.name = node.name, .parent = parent, .parent_from_object = parent_from_node(node)};
     object.motion = motions_.of(index);
     if (object.motion) object.parent_from_object = world::affine(object.motion->rest);
-    if (!can_be_placed(object.parent_from_object)) {
+    if (!world::can_be_placed(object.parent_from_object)) {
       ++flat_nodes_;
       return {};
     }
