@@ -17,6 +17,7 @@
 #include "haptics/plain_solid.h"
 #include "session/haptic_representation.h"
 #include "session/stretched.h"
+#include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
 
 namespace icome::apps {

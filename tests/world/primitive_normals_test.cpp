@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
+#include "world/mesh_geometry.h"
+
 namespace icome::world {
 namespace {
 
