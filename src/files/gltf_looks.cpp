@@ -128,11 +128,22 @@ std::pair<double, double> GltfLooks::metal_and_roughness(const tinygltf::Materia
   const auto& pbr = from.pbrMetallicRoughness;
   const int map = pbr.metallicRoughnessTexture.index;
   const bool is_there = map >= 0 && std::size_t(map) < textures_.size();
-  const world::Texture* const picture = is_there ? builder_.world().find(texture(map)) : nullptr;
-  const auto mean = picture ? picture_mean(*picture->bytes) : std::nullopt;
+  const auto mean = is_there ? mean_of(map) : std::nullopt;
   if (!mean) return {pbr.metallicFactor, pbr.roughnessFactor};
   ++averaged_maps_;
   return {pbr.metallicFactor * (*mean)[2], pbr.roughnessFactor * (*mean)[1]};
+}
+
+std::optional<std::array<double, 3>> GltfLooks::mean_of(int index) {
+  const world::Texture* const picture = builder_.world().find(texture(index));
+  if (!picture) return {};
+  const tinygltf::Image& image = model_.images[std::size_t(model_.textures[std::size_t(index)].source)];
+  const void* const begin = image.bufferView >= 0
+                                ? static_cast<const void*>(view_bytes(model_, image.bufferView).data())
+                                : image.image.data();
+  const auto [found, is_new] = means_.try_emplace(begin);
+  if (is_new) found->second = picture_mean(*picture->bytes);
+  return found->second;
 }
 
 void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surface,

@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +42,8 @@ class GltfLooks {
   void read_alpha(const tinygltf::Material& from, world::Material& material) const;
   /// Those of a map as its means.
   std::pair<double, double> metal_and_roughness(const tinygltf::Material& from);
+  /// picture_mean of a texture.
+  std::optional<std::array<double, 3>> mean_of(int index);
   void count_maps(const tinygltf::Material& from);
   void tell_what_is_left_out();
   world::TextureId texture(int index);
@@ -57,6 +62,8 @@ class GltfLooks {
     std::size_t mirrored = 0, unsmoothed = 0;                             // textures
   } left_out_;
   std::size_t averaged_maps_ = 0;
+  /// By where a picture begins in the file: many textures may be one picture, which is large when unpacked.
+  std::map<const void*, std::optional<std::array<double, 3>>> means_;
 };
 
 }  // namespace icome::files
