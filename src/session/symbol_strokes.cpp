@@ -94,8 +94,8 @@ double distance_to_strokes(const render::SceneOverlay& symbol, const Vector3& pl
     const Vector3 along = to - from;
     const double squared = along.squaredNorm();
     const double share = squared > 0.0 ? std::clamp((place - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-    const double distance = std::max(0.0, (place - from - share * along).norm() - radius);
-    if (distance < least) least = distance;
+    const double distance = (place - from - share * along).norm() - radius;
+    if (distance < least) least = std::max(0.0, distance);  // no number where a line is parted
   });
   return least;
 }

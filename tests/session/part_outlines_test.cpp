@@ -77,10 +77,14 @@ TEST(PartOutlines, ARayPicksTheGhostThatItPassesThoughItLiesInTheSolid) {
   ASSERT_TRUE(outer);
   EXPECT_EQ(outer->part.operand, block);
   EXPECT_FALSE(picked(1.3, 0.13)) << "between their lines";
+  EXPECT_EQ(it.outlines.nearest(Vector3(1.0, 0.203, 0.0), 5e-3),
+            (interaction::PlacedPart{it.object, hollow}));
+  EXPECT_FALSE(it.outlines.nearest(Vector3(1.0, 0.21, 0.0), 5e-3));
 }
 
 TEST(PartOutlines, ProjectorsAreTheFrameOfOnePicture) {
-  const auto& mesh = dynamic_cast<const world::MeshGeometry&>(*world::one_triangle());
+  const world::GeometryPointer triangle = world::one_triangle();
+  const auto& mesh = dynamic_cast<const world::MeshGeometry&>(*triangle);
   for (const auto projection :
        {geometry::TextureProjection::Planar, geometry::TextureProjection::Box,
         geometry::TextureProjection::Cylindrical, geometry::TextureProjection::Spherical}) {
