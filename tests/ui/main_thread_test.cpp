@@ -49,9 +49,10 @@ class MainThreadTest : public WindowTest {
   QPointF pixel(const Vector3& point) {
     const interaction::View& view = session().view();
     const Vector3 seen = view.world_from_eye.inverse() * point;
-    const double half = 0.5 * std::min(SceneMouse::kWidth, SceneMouse::kHeight);
-    const double scale = half / (std::tan(0.5 * view.field) * -seen.z());
-    return {0.5 * SceneMouse::kWidth + scale * seen.x(), 0.5 * SceneMouse::kHeight - scale * seen.y()};
+    const QSizeF size = mouse_->size();
+    const double scale =
+        0.5 * std::min(size.width(), size.height()) / (std::tan(0.5 * view.field) * -seen.z());
+    return {0.5 * size.width() + scale * seen.x(), 0.5 * size.height() - scale * seen.y()};
   }
   /// Where the object is seen: a place at which a ray meets it.
   QPointF place_of(const std::string& name) {
@@ -61,7 +62,7 @@ class MainThreadTest : public WindowTest {
       for (int i = 0; i < 12; ++i) {
         const double angle = 0.5 * i;
         const QPointF at = middle + 5.0 * ring * QPointF(std::cos(angle), std::sin(angle));
-        const SceneInput input{.at = at, .size = QSizeF(SceneMouse::kWidth, SceneMouse::kHeight)};
+        const SceneInput input{.at = at, .size = mouse_->size()};
         const auto picked = session().pick(input.ray(session().view()));
         if (picked && id && world::is_within(world(), picked->object, *id)) return at;
       }
@@ -120,9 +121,9 @@ TEST_F(MainThreadTest, IsNeverLongAtWorkWhileTheViewIsTurnedAndPartsAreDragged) 
   live();
   // By the ghost of one of its operands, wherever that is seen.
   std::optional<QPointF> ghost;
-  for (double x = 0.0; x < SceneMouse::kWidth && !ghost; x += 3.0)
-    for (double y = 0.0; y < SceneMouse::kHeight && !ghost; y += 3.0) {
-      const SceneInput input{.at = {x, y}, .size = QSizeF(SceneMouse::kWidth, SceneMouse::kHeight)};
+  for (double x = 0.0; x < mouse_->size().width() && !ghost; x += 3.0)
+    for (double y = 0.0; y < mouse_->size().height() && !ghost; y += 3.0) {
+      const SceneInput input{.at = {x, y}, .size = mouse_->size()};
       if (session().pick_part(input.ray(session().view()))) ghost = input.at;
     }
   ASSERT_TRUE(ghost);

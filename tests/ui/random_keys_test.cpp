@@ -72,6 +72,8 @@ class RandomKeysTest : public WindowTest, public ::testing::WithParamInterface<i
     session().update();
     session().home();
     live();
+    QApplication::setActiveWindow(window_.get());
+    retry->setFocus();  // where the scene would be
   }
 
   static world::World some_world() {
@@ -140,7 +142,7 @@ class RandomKeysTest : public WindowTest, public ::testing::WithParamInterface<i
     if (QAction* const action = window_->findChild<QAction*>(name)) action->trigger();
   }
   QPointF somewhere() {
-    return {random_.uniform(0.0, SceneMouse::kWidth), random_.uniform(0.0, SceneMouse::kHeight)};
+    return {random_.uniform(0.0, mouse_.size().width()), random_.uniform(0.0, mouse_.size().height())};
   }
   void drag_in_scene() {
     const auto button = any_of(std::array{Qt::LeftButton, Qt::LeftButton, Qt::RightButton});

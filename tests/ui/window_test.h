@@ -5,7 +5,6 @@
 #include <QGuiApplication>
 #include <QLineEdit>
 #include <QMouseEvent>
-#include <QResizeEvent>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <chrono>
@@ -79,20 +78,18 @@ class WindowTest : public DesktopTest {
   std::unique_ptr<MainWindow> window_;
 };
 
-/// The mouse over the scene of the one window that there is, which is given a size.
+/// The mouse over the scene of the one window that there is.
 class SceneMouse {
  public:
-  static constexpr int kWidth = 800, kHeight = 600;  // pixels
-
   SceneMouse() {
     for (QWindow* window : QGuiApplication::allWindows())
       if (auto* scene = dynamic_cast<SceneWindow*>(window)) scene_ = scene;
     if (!scene_) throw std::runtime_error("there is no scene");
-    scene_->resize(kWidth, kHeight);
-    QResizeEvent resized(scene_->size(), QSize());
-    QCoreApplication::sendEvent(scene_, &resized);
+    scene_->resize(800, 600);
   }
   SceneWindow& window() { return *scene_; }
+  /// Pixels; the window may lay it out anew.
+  QSizeF size() const { return scene_->size(); }
   void press(QPointF at, Qt::MouseButton button = Qt::LeftButton, Qt::KeyboardModifiers modifiers = {}) {
     button_ = button;
     send(QEvent::MouseButtonPress, at, button, button, modifiers);
