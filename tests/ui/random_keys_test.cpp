@@ -230,14 +230,14 @@ class RandomKeysTest : public WindowTest, public ::testing::WithParamInterface<i
 };
 
 TEST_P(RandomKeysTest, LeaveTheDesignWhatItsHistoryMakesOfItAndTheKeyboardSomewhere) {
-  constexpr int kSteps = 300;
+  constexpr int kSteps = 150;
   close_what_opened();
   for (int i = 1; i <= kSteps; ++i) {
     step();
     live();
     close_what_opened();
     ASSERT_NO_FATAL_FAILURE(expect_focus()) << "step " << i;
-    if (i % 20 != 0) continue;
+    if (i % 25 != 0) continue;
     ASSERT_NO_FATAL_FAILURE(expect_history_makes_design()) << "step " << i;
   }
   EXPECT_TRUE(window_->isVisible());
