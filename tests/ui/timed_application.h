@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QEvent>
+#include <QThread>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ class TimedApplication final : public QApplication {
   const std::vector<LongCall>& long_calls() const { return long_calls_; }
 
   bool notify(QObject* of, QEvent* event) override {
-    if (within_) return QApplication::notify(of, event);
+    // Objects of other threads hear of their events there.
+    if (QThread::currentThread() != thread() || within_) return QApplication::notify(of, event);
     within_ = true;
     // Who it was for may be gone when it is over.
     const QEvent::Type type = event->type();
