@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
 
+#include "files/design.h"
 #include "files/design_maker.h"
 #include "files/file_bytes.h"
 #include "files/sample_files.h"
@@ -270,9 +273,9 @@ TEST(MotionsInFiles, ThatNoFormatKnowsAreTold) {
                                              Motion{.rotation = {.times = {0.0}, .values = {0, 0, 0, 1}}})});
   const auto told = [&](const std::string& name) {
     const ScratchFolder folder;
+    const auto remarks = write_design(folder.path() / name, design.world);
     std::string all;
-    for (const Remark& remark : write_design(folder.path() / name, design.world).value())
-      all += remark.text + "\n";
+    for (const Remark& remark : remarks.value()) all += remark.text + "\n";
     return all;
   };
   EXPECT_NE(told("a.wrl").find("1 motion is left out: what moves was stretched unevenly"), std::string::npos);
