@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "interaction/shaping/placed_part.h"
 
 namespace icome::session {
