@@ -1,6 +1,7 @@
 #include "geometry/csg_settle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,12 +14,14 @@ namespace {
 
 using Surface = CsgSurfaces::Index;
 
-constexpr int kMostSettling = 8;     // steps
-constexpr double kSettled = 1e-16;   // of the coordinates: a step so small is none
-constexpr double kAlike = 1e-6;      // of the largest eigenvalue: below, normals do not tell a direction
-constexpr double kWayOfEdge = 0.5;   // of the shortest edge around: how far a vertex may go
-constexpr double kThickness = 20.0;  // walls are so many times thicker than what a chord is off
-constexpr double kFacing = 0.8;      // cosine between a triangle and its surface
+constexpr int kMostSettling = 8;      // steps
+constexpr double kSettled = 1e-16;    // of the coordinates: a step so small is none
+constexpr double kAlike = 1e-6;       // of the largest eigenvalue: below, normals do not tell a direction
+constexpr double kWayOfEdge = 0.5;    // of the shortest edge around: how far a vertex may go
+constexpr double kFacing = 0.8;       // cosine between a triangle and its surface
+constexpr double kOnSurface = 1e-12;  // of the coordinates: what is so near a surface is on it
+/// So many times deeper than what a chord is off, a wall or a gap goes on.
+constexpr std::array<double, 5> kDepths{1.0, 2.0, 5.0, 10.0, 20.0};
 
 class VertexSettler {
  public:
@@ -131,16 +134,21 @@ bool ChordJudge::stands_for(Surface surface, const std::array<Vector3, 3>& corne
   }
   const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
   const AtomHeight there = surfaces_.height(surface, middle);
-  return std::abs(there.height) <= allowed && std::abs(normal.dot(there.normal)) >= kFacing &&
-         near_against_thickness(surface, middle);
+  const double facing = normal.dot(there.normal);
+  return std::abs(there.height) <= allowed && std::abs(facing) >= kFacing &&
+         near_against_thickness(middle, there, facing > 0.0);
 }
 
-/// What is so deep behind the surface as the place, and some times deeper, is all solid or all free.
-bool ChordJudge::near_against_thickness(Surface surface, const Vector3& place) const {
-  const AtomHeight there = surfaces_.height(surface, place);
-  const Vector3 deep = place + (kThickness - 1.0) * there.height * there.normal;
-  return program_.inside(place) == program_.inside(deep) &&
-         program_.inside(place) == program_.inside(0.5 * (place + deep));
+/// All is solid behind the surface and free in front of it, some times deeper than the place is off: what a
+/// chord takes away from a wall or adds to it is a small part of it.
+bool ChordJudge::near_against_thickness(const Vector3& place, const AtomHeight& there, bool faces_out) const {
+  if (std::abs(there.height) <= kOnSurface * place.norm()) return true;
+  const Vector3 foot = place - there.height * there.normal;
+  const bool solid = (there.height < 0.0) == faces_out;  // where the place is
+  return std::all_of(kDepths.begin(), kDepths.end(), [&](double depth) {
+    const Vector3 way = depth * there.height * there.normal;
+    return program_.inside(foot + way) == solid && program_.inside(foot - way) != solid;
+  });
 }
 
 }  // namespace icome::geometry

@@ -25,11 +25,12 @@ class ChordJudge {
       : program_(program), surfaces_(surfaces), cell_(cell) {}
 
   /// On a plane, all. On a bent surface those that are no farther off than a chord may be, nor than a small
-  /// part of the wall behind or of the gap in front of it, and that face as the surface does.
+  /// part of the wall behind or of the gap in front of it, and that face as the surface does. Triangles face
+  /// out of the solid.
   bool stands_for(CsgSurfaces::Index surface, const std::array<Vector3, 3>& corners) const;
 
  private:
-  bool near_against_thickness(CsgSurfaces::Index surface, const Vector3& place) const;
+  bool near_against_thickness(const Vector3& place, const AtomHeight& there, bool faces_out) const;
 
   const CsgProgram& program_;
   const CsgSurfaces& surfaces_;

@@ -96,8 +96,10 @@ class TetRefiner {
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
 
-  bool goes_on() {
-    too_many_ = tets_.size() + waiting_.size() + passed_ / kMostFlat > most_ || ++looks_ > kLooksATet * most_;
+  /// `others`: tetrahedra beside those that are done or wait.
+  bool goes_on(std::size_t others = 0) {
+    too_many_ = tets_.size() + waiting_.size() + others + passed_ / kMostFlat > most_ ||
+                ++looks_ > kLooksATet * most_;
     return !too_many_ && (looks_ % kTellEach != 0 || go_on_(0.5));
   }
 
@@ -121,18 +123,21 @@ class TetRefiner {
   bool close_gaps() {
     for (bool any = true; any;) {
       any = false;
-      std::vector<OpenTet> kept;
-      for (OpenTet& tet : tets_) {
-        if (!goes_on()) return false;
+      std::vector<OpenTet> kept, halves;
+      waiting_.swap(tets_);
+      while (!waiting_.empty()) {
+        if (!goes_on(kept.size())) return false;
+        OpenTet tet = std::move(waiting_.back());
+        waiting_.pop_back();
         if (!has_halved_edge(tet)) {
           kept.push_back(std::move(tet));
           continue;
         }
         any = true;
-        std::vector<OpenTet> halves;
+        halves.clear();
         halve(tet, halves);
         for (OpenTet& half : halves) {
-          if (may_hold_surface(half)) kept.push_back(std::move(half));
+          if (may_hold_surface(half)) waiting_.push_back(std::move(half));
         }
       }
       tets_ = std::move(kept);

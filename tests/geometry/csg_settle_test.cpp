@@ -55,8 +55,8 @@ TEST(CsgSettle, ChordsStandForBentFacesWhileTheyAreNear) {
   EXPECT_TRUE(judge.stands_for(1, strip(2.0)));    // planes have no chords
 }
 
-TEST(CsgSettle, ChordsAreNearAgainstTheWallBehindThem) {
-  // A tube with a wall of 0.01: chords may be a twentieth of that off.
+TEST(CsgSettle, ChordsAreNearAgainstTheirWall) {
+  // A tube with a wall of 0.01: chords of both sides may be a twentieth of that off, however large its hole.
   CsgTree tree;
   const auto whole = tree.add_leaf(Primitive(Cylinder{1.0, 2.0}));
   const auto hole = tree.add_leaf(Primitive(Cylinder{0.99, 3.0}));
@@ -64,10 +64,13 @@ TEST(CsgSettle, ChordsAreNearAgainstTheWallBehindThem) {
   const CsgProgram program(tree);
   const CsgSurfaces surfaces(program);
   const ChordJudge judge(program, surfaces, 1.0);
-  for (const double angle : {0.05, 0.1}) {  // 0.0003 and 0.0012 off
-    const std::array<Vector3, 3> corners{
-        Vector3(1.0, 0.0, -0.8), Vector3(std::cos(angle), std::sin(angle), -0.8), Vector3(1.0, 0.0, 0.8)};
-    EXPECT_EQ(judge.stands_for(0, corners), angle < 0.08);
+  for (const double angle : {0.05, 0.1, 0.35}) {  // 0.0003, 0.0012 and, beyond the wall, 0.015 off
+    const Vector3 along(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, 0.8);
+    const std::array<Vector3, 3> outside{Vector3::UnitX() - up, along - up, Vector3::UnitX() + up};
+    EXPECT_EQ(judge.stands_for(0, outside), angle < 0.08) << angle;
+    const std::array<Vector3, 3> within{0.99 * along - up, 0.99 * Vector3::UnitX() - up,
+                                        0.99 * Vector3::UnitX() + up};
+    EXPECT_EQ(judge.stands_for(3, within), angle < 0.08) << angle;
   }
 }
 
