@@ -23,11 +23,6 @@ constexpr int kMostSteps = 20'000;          // that one search for a way tries
 constexpr int kMostStepsEver = 400'000;     // all of them: then what cannot be told stays unjudged
 constexpr int kMostWalked = 100'000;        // triangles and falls of one search along a mesh
 constexpr int kMostWalkedEver = 4'000'000;  // of all of them
-constexpr int kMostRolled = 10'000;         // small steps of a sphere tip in one direction
-constexpr int kRolls = 24;                  // places on its way down, from which it turns to the SCP
-constexpr double kRollStep = 0.1;           // of its radius
-constexpr int kMostPushes = 24;             // out of what a small step overlaps
-constexpr double kProbe = 1e-4;             // of the radius, for slopes by differences
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise, a length is told from none
 constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
@@ -317,8 +312,17 @@ class ContactJudge::Court {
   /// space that never moves away from the tip?
   WaySearch long_way(const Vector3& scp, const Vector3& tip) {
     if (apart(scp, tip)) return WaySearch::None;
-    if (settings_.tip_radius > 0.0 ? rolls_to(scp, tip) : walks_to(scp, tip)) return WaySearch::Found;
-    return slides_to(scp, tip);
+    if (settings_.tip_radius <= 0.0 && walks_to(scp, tip)) return WaySearch::Found;
+    const WaySearch search = slides_to(scp, tip);
+    // Of other shapes nothing is proved, so that what is not found there has to count.
+    return search == WaySearch::GaveUp && !mesh_between(scp) ? WaySearch::None : search;
+  }
+
+  /// Does a mesh lie on the straight way, or near it?
+  bool mesh_between(const Vector3& scp) const {
+    return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
+      return party.may_meet(*seen_, scp, 0.0) && party.witness().ways() != nullptr;
+    });
   }
 
   /// Does a mesh surely part the SCP, wherever noise may have put it, from where it was seen?
@@ -359,58 +363,6 @@ class ContactJudge::Court {
                                          party->in_object(tip), near_.noise, left);
     walked_ += granted - left;
     return search == WaySearch::Found;
-  }
-
-  /// Does a sphere tip come to the SCP on a mesh that is alone within reach, in small steps and put back out
-  /// of what it then overlaps: on its way down to the tip, or where it turns to the SCP from there?
-  bool rolls_to(const Vector3& scp, const Vector3& tip) {
-    const Party* party = only_party(tip);
-    if (party == nullptr || party->witness().ways() == nullptr) return false;
-    std::vector<Vector3> way{*seen_};
-    if (rolls(way, tip, scp, tip)) return true;
-    const double lowest = (scp - tip).norm();
-    for (int i = kRolls; i >= 0; --i) {
-      std::vector<Vector3> turned{way[(way.size() - 1) * std::size_t(i) / kRolls]};
-      if ((turned.front() - tip).norm() >= lowest && rolls(turned, scp, scp, tip)) return true;
-    }
-    return false;
-  }
-
-  /// Goes on from the last of these places to `goal`, in steps that bring it nearer to that and none farther
-  /// from the tip. Does it pass the SCP?
-  bool rolls(std::vector<Vector3>& way, const Vector3& goal, const Vector3& scp, const Vector3& tip) {
-    const double longest = kRollStep * settings_.tip_radius;
-    const double kept = start_at(*seen_).overlap + near_.bumps + 1e-3 * longest + 4.0 * near_.noise;
-    for (double step = longest; step >= longest / 64.0; step *= 0.25) {
-      while (walked_ < kMostWalkedEver && way.size() < kMostRolled) {
-        const Vector3 from = way.back(), left = goal - from;
-        if ((scp - from).norm() <= 4.0 * longest && free(from, scp)) return true;
-        if (left.norm() <= step) break;
-        ++walked_;
-        const std::optional<Vector3> to = put_out(from + step * left.normalized(), kept);
-        if (!to || (*to - tip).norm() > (from - tip).norm() + near_.noise) break;
-        if ((goal - *to).norm() > left.norm() - 1e-2 * step || !passes(from, *to)) break;
-        way.push_back(*to);
-      }
-    }
-    return false;
-  }
-
-  /// Near `place`, where a tip overlaps by no more than `kept`; nothing where that is not to be had.
-  std::optional<Vector3> put_out(Vector3 place, double kept) const {
-    const double radius = settings_.tip_radius, probe = kProbe * radius;
-    for (int i = 0; i < kMostPushes; ++i) {
-      const double deep = overlap(place, radius);
-      if (deep <= kept) return place;
-      Vector3 slope;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vector3 off = probe * Vector3::Unit(axis);
-        slope[axis] = overlap(place + off, radius + 4.0 * probe) - overlap(place - off, radius + 4.0 * probe);
-      }
-      if (slope.squaredNorm() <= 0.0) return std::nullopt;
-      place -= (deep - 0.5 * kept) * slope.normalized();
-    }
-    return std::nullopt;
   }
 
   /// The SCP when it is legal there. Within noise of a surface it may be on the wrong side of it, or on

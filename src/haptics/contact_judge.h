@@ -75,9 +75,10 @@ struct Judgement {
 /// an edge, round a rim) nor a walk that comes ever nearer to the tip. Every tick inside counts, a
 /// passage counts once.
 ///
-/// Unjudged, a tick and no pop: the SCP passed a surface, and whether a free way leads there takes too long
-/// to find out. On meshes one that leads along the surface is found however long it is, and what a surface
-/// parts within the ball that holds all such ways is known as a pop without a search.
+/// Unjudged, a tick and no pop: the SCP passed a mesh, and whether a free way leads there takes too long to
+/// find out. Of a point tip a way that leads along a single mesh is found however long it is, and what a mesh
+/// parts within the ball that holds all such ways is known as a pop without a search. Of other shapes what
+/// takes too long to find out counts as a pop.
 ///
 /// A stick: the tip is "touching" though the straight way from SCP to tip is free; or a straight move
 /// of `stick_move` from the SCP is free, leads clearly nearer to the tip (by at least a tenth of the move),

@@ -14,7 +14,7 @@ namespace {
 
 using base::Vector3;
 
-constexpr double kAside = 1e-3;          // of the straight way, how far its middle is moved off edges
+constexpr double kAside = 1e-3;          // of the straight way, how far it is moved off edges
 constexpr int kBends = 6;                // ways that are tried
 constexpr double kOffEdge = 1e-9;        // the least barycentric part of a passage that is in no doubt
 constexpr double kOffCorner = 1e-3;      // of a triangle, how far inside its rim it is left from
@@ -106,19 +106,22 @@ std::optional<std::vector<WitnessWays::Passage>> WitnessWays::passages(const Vec
   return clear ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// The same of a way that is bent a little, so that no edge lies on it.
+/// The same of a way that is moved aside a little, so that no edge lies on it where it begins or ends.
 std::optional<std::vector<WitnessWays::Passage>> WitnessWays::bent_passages(const Vector3& a,
                                                                             const Vector3& b) const {
   const Vector3 way = b - a;
   const Vector3 side = way.unitOrthogonal(), other = way.normalized().cross(side);
   for (int i = 0; i < kBends; ++i) {
-    const Vector3 off = std::cos(1.0 + i) * side + std::sin(1.0 + i) * other;
-    const Vector3 middle = 0.5 * (a + b) + kAside * way.norm() * off;
-    auto first = passages(a, middle);
-    const auto second = passages(middle, b);
-    if (!first || !second) continue;
-    first->insert(first->end(), second->begin(), second->end());
-    return first;
+    const Vector3 aside = kAside * way.norm() * (std::cos(1.0 + i) * side + std::sin(1.0 + i) * other);
+    const std::array<Vector3, 4> places{a, a + aside, b + aside, b};
+    std::vector<Passage> result;
+    bool clear = true;
+    for (std::size_t k = 0; k + 1 < places.size() && clear; ++k) {
+      const auto leg = passages(places[k], places[k + 1]);
+      clear = leg.has_value();
+      if (clear) result.insert(result.end(), leg->begin(), leg->end());
+    }
+    if (clear) return result;
   }
   return std::nullopt;
 }
