@@ -45,6 +45,13 @@ constexpr int kMaxHalvings = 24;     // of such a chord, until a region holds it
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
+/// Is a place within a smooth solid that one of these contacts is with, as far as that is known quickly?
+bool any_swallows(const ContactSet& contacts, const Vector3& position) {
+  const std::span<const Element> all = contacts.all();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Element& it) { return it.smooth() && has_swallowed(it, position); });
+}
+
 }  // namespace
 
 ScpSolver::ScpSolver(const ScpSettings& settings) : settings_(settings), around_(ContactFan::kCapacity) {}
@@ -363,11 +370,7 @@ void ScpSolver::converge(const Vector3& tip) {
 
 /// Is a place within a smooth solid that is touched, or was when the tick began?
 bool ScpSolver::swallowed(const Vector3& position) const {
-  const auto has = [&](const Element& it) { return it.smooth() && has_swallowed(it, position); };
-  const auto any = [&](const ContactSet& set) {
-    return std::any_of(set.all().begin(), set.all().end(), has);
-  };
-  return any(last_contacts_) || any(contacts_);
+  return any_swallows(last_contacts_, position) || any_swallows(contacts_, position);
 }
 
 /// Where a surface has no tangent plane, as at the axis of a spiral stair, a step may end in the solid after
@@ -534,14 +537,19 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   const bool as_before = (from - shut_in_at_).norm() <= tolerance().touching() &&
                          (tip - shut_in_tip_).norm() <= kSamePull * pull.norm();
   if (as_before && !scene_->moves()) return false;
+  const bool two_sided = std::any_of(held.all().begin(), held.all().end(),
+                                     [](const Element& contact) { return contact.two_sided; });
   const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
   const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
   for (const double cosine : {0.5, 0.77, 0.27, 0.94}) {
     const double sine = std::sqrt(1.0 - cosine * cosine);
     for (int i = 0; i < kOpenSides && !spent() && length > tolerance().touching(); ++i) {
       const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
+      const Vector3 way =
+          length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other));
+      if (!two_sided && any_swallows(held, from + way)) continue;  // which one evaluation tells
       contacts_.clear();
-      advance(length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other)));
+      advance(way);
       if ((tip - position_).norm() < pull.norm() - 0.05 * length) return true;
       position_ = from;
     }
@@ -699,6 +707,12 @@ SweepHit ScpSolver::arch(Vector3& step) {
       hit = sweep_past(0.5 * step + *top, from, from);
       if (!hit.met && !region_.overflowed()) hit = sweep_past(end - position_, end, end);
       if (!hit.met && !region_.overflowed()) return hit;
+      // No time is left to tell what is in the way: what is surely free of it counts.
+      if (spent() && !region_.overflowed() && nearer(from, goal_)) {
+        step = position_ - from;
+        lifted_ = 2.0 * top->norm();
+        return {};
+      }
     }
     position_ = from;
     if (region_.overflowed()) return hit;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/formula_allowance.h"
+
 namespace icome::haptics {
 namespace {
 
@@ -124,7 +126,9 @@ std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vecto
     if (!entry) continue;
     const double fall = std::abs(entry->place.normal.dot(way));
     const double back = fall > 0.0 ? tolerance.gap / fall : entry->t;
-    const double rest = stretch * std::max(0.0, entry->t - back);
+    // Who ran out of time says only how far the way is surely free, however it grazes the surface there.
+    const double least = geometry::FormulaAllowance::spent() ? 0.5 * entry->t : 0.0;
+    const double rest = stretch * std::max(least, entry->t - back);
     if (rest > 1.0 || (first && rest >= *first)) continue;
     first = rest;
     e.inverted = from_behind;

@@ -1,4 +1,5 @@
 // The surface contact point on implicit surfaces, against closed forms and plain search.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
