@@ -145,7 +145,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   }
   if (position_.cwiseAbs().maxCoeff() > kFarOff * region_.smallest()) move_origin();
   const Vector3 tip = in_world - origin_;
-  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
+  const geometry::FormulaAllowance allowance{2 * std::uint64_t(settings_.max_evaluations)};
   if (scene_->moves()) carry(elapsed_, elapsed);
   elapsed_ = elapsed;
   tip_motion_ = (tip - last_tip_).norm();
@@ -435,8 +435,8 @@ bool ScpSolver::lets_go(const Element& contact, const Vector3& tip) const {
 Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = region_.tolerance();
   const Vector3 pull = tip - position_;
-  // Of what the tick may cost, half is left for the sweep of this step.
-  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations / 2)};
+  // Half of what the tick may cost is left for the sweep of this step.
+  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
   contacts_.follow(position_);
   if (contacts_.size() == 1 && lets_go(contacts_.all().front(), tip)) {
     contacts_.clear();
