@@ -100,8 +100,9 @@ class CsgCutter {
     for (const Triangle& triangle : result.triangles) faces.push_back(surface_of(triangle));
     result = separate_sheets(result);
     settle_vertices(result, faces, surfaces_);
+    const std::vector<bool> tips = settle_tips(result, faces, program_, surfaces_, cell);
     const ChordJudge judge(program_, surfaces_, cell);
-    return merge_faces(result, faces, tips(result), kHighEnough * on_,
+    return merge_faces(result, faces, tips, kHighEnough * on_,
                        [&](Surface face, const auto& corners) { return judge.stands_for(face, corners); });
   }
 
@@ -146,18 +147,6 @@ class CsgCutter {
     Corners4 carrier{kNoPoint, kNoPoint, kNoPoint, kNoPoint};
     std::copy(both.begin(), std::min(end, both.begin() + 4), carrier.begin());
     return carrier;
-  }
-
-  /// Which vertices are the tip of a cone.
-  std::vector<bool> tips(const TriangleMesh& mesh) const {
-    std::vector<bool> tips(mesh.positions.size(), false);
-    for (Surface surface = 0; surface < surfaces_.size(); ++surface) {
-      const auto apex = surfaces_.apex(surface);
-      if (!apex || surfaces_.like(surface) != surface) continue;
-      for (std::size_t i = 0; i < tips.size(); ++i)
-        tips[i] = tips[i] || (mesh.positions[i] - *apex).norm() <= on_;
-    }
-    return tips;
   }
 
   /// The surface that the triangle was cut along: a plane if there is one, else the one nearest to its

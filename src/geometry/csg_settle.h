@@ -16,6 +16,11 @@ namespace icome::geometry {
 void settle_vertices(TriangleMesh& mesh, const std::vector<CsgSurfaces::Index>& faces,
                      const CsgSurfaces& surfaces);
 
+/// Moves the vertex nearest to each tip of a cone that the solid has onto it, where one lies within a `cell`
+/// (m), on the cone alone: no edge of what was cut meets a tip. Says which vertices are tips.
+std::vector<bool> settle_tips(TriangleMesh& mesh, const std::vector<CsgSurfaces::Index>& faces,
+                              const CsgProgram& program, const CsgSurfaces& surfaces, double cell);
+
 /// Says which triangles may stand for a part of the surface that they were cut along. Refers to what it is
 /// made from.
 class ChordJudge {

@@ -187,10 +187,11 @@ double CsgSurfaces::bend(Index surface, const Vector3& place, double cell) const
   return std::max(in_tree * bend, std::min(in_tree * kTip * size, kTipOfCell * cell));
 }
 
-std::optional<Vector3> CsgSurfaces::apex(Index surface) const {
+std::optional<SurfacePoint> CsgSurfaces::apex(Index surface) const {
   const CsgAtom& atom = shape(surface);
   if (atom.kind != Kind::ConeSide) return std::nullopt;
-  return atom.tree_from_atom * Vector3(0.0, 0.0, -atom.a / atom.b);
+  return SurfacePoint{atom.tree_from_atom * Vector3(0.0, 0.0, -atom.a / atom.b),
+                      tree_normal(atom, Vector3(0.0, 0.0, atom.b < 0.0 ? 1.0 : -1.0))};
 }
 
 }  // namespace icome::geometry

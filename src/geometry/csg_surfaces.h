@@ -42,8 +42,8 @@ class CsgSurfaces {
   /// The radius of the tightest bend near the place, as far as the transform is even, as it matters for a
   /// mesh with cells of `cell`: tips bend no more than what such a mesh can follow. Infinite for a plane.
   double bend(Index surface, const Vector3& place, double cell) const;
-  /// The tip of a cone.
-  std::optional<Vector3> apex(Index surface) const;
+  /// The tip of a cone, and the way out of it along the axis.
+  std::optional<SurfacePoint> apex(Index surface) const;
 
  private:
   struct Surface {

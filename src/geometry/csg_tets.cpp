@@ -25,7 +25,6 @@ constexpr std::size_t kMostFlat = 8;     // planes that one tetrahedron is cut b
 constexpr std::size_t kCrowd = 12;       // more surfaces than this are better parted than cut along
 constexpr double kFinest = 0x1p-18;      // of the whole: no edge is halved below
 constexpr double kAround = 0.1;          // of a tetrahedron's size: so much around it counts as its own
-constexpr double kLeastPart = 1e-6;      // of a tetrahedron's volume: what a tip may divide it into
 constexpr double kDrawnFrom = 0.02;      // of a point's shortest edge: nearer surfaces draw it to them
 constexpr std::size_t kLooksATet = 64;   // on average, for each tetrahedron allowed
 constexpr std::size_t kTellEach = 4096;  // tetrahedra between two looks at `go_on`
@@ -59,10 +58,7 @@ class TetRefiner {
   base::Result<CsgTets> refined() {
     begin();
     bool good = halve_large() && close_gaps();
-    if (good) {
-      move_beside();
-      take_up_tips();
-    }
+    if (good) move_beside();
     if (too_many_) {
       return base::fail(fmt::format("its thin and bent parts take more than {} tetrahedra to mesh", most_));
     }
@@ -253,39 +249,6 @@ class TetRefiner {
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       if (result_.moved_to[i] != CsgSurfaces::kNone) result_.points[i] = nearest[i].place;
     }
-  }
-
-  /// Divides the tetrahedra that hold the tip of a cone into four around it: no edge would meet it.
-  void take_up_tips() {
-    for (CsgSurfaces::Index surface = 0; surface < surfaces_.size(); ++surface) {
-      const auto apex = surfaces_.apex(surface);
-      if (!apex || surfaces_.like(surface) != surface) continue;
-      const auto around = std::find_if(tets_.begin(), tets_.end(), [&](const OpenTet& tet) {
-        return std::binary_search(tet.surfaces->begin(), tet.surfaces->end(), surface) && holds(tet, *apex);
-      });
-      if (around == tets_.end()) continue;
-      const OpenTet whole = *around;
-      tets_.erase(around);
-      const auto tip = std::uint32_t(result_.points.size());
-      result_.points.push_back(*apex);
-      result_.moved_to.push_back(surface);
-      for (std::size_t i = 0; i < 4; ++i) {
-        tets_.push_back(whole);
-        tets_.back().corners[i] = tip;
-      }
-    }
-  }
-
-  bool holds(const OpenTet& tet, const Vector3& place) const {
-    const double whole = volume(tet.corners);
-    for (std::size_t i = 0; i < 4; ++i) {
-      std::array<Vector3, 4> corners;
-      for (std::size_t k = 0; k < 4; ++k) corners[k] = k == i ? place : at(tet.corners[k]);
-      const double part =
-          (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]);
-      if (part / whole <= kLeastPart) return false;
-    }
-    return true;
   }
 
   const CsgProgram& program_;
