@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -217,7 +218,7 @@ class GltfReading {
       if (const GeometryId geometry = exact_shape(*exact)) return geometry;
     }
     if (!has_triangles(primitive)) {
-      ++other_primitives_;
+      other_primitives_.insert(&primitive);
       return {};
     }
     GltfSurface surface = looks_.surface(primitive.material);
@@ -320,7 +321,7 @@ class GltfReading {
     }
     const auto unseen = std::size_t(
         std::count_if(objects_.begin(), objects_.end(), [](const NodeObject& it) { return !it.seen; }));
-    tell(other_primitives_, "primitive of points or lines is", "primitives of points or lines are",
+    tell(other_primitives_.size(), "primitive of points or lines is", "primitives of points or lines are",
          "left out.");
     tell(flat_nodes_, "node is", "nodes are", "left out: a scale of nothing flattens what is below.");
     tell(unseen - std::min(unseen, below_flat()), "node is", "nodes are", "left out: no scene shows it.");
@@ -413,7 +414,7 @@ class GltfReading {
   std::unordered_map<std::string, GeometryId> shapes_;
   std::unordered_map<int, GeometryId> exact_;
   std::size_t steps_ = 0;
-  std::size_t other_primitives_ = 0;
+  std::set<const tinygltf::Primitive*> other_primitives_;  // that are no triangles
   std::size_t flat_nodes_ = 0;
   std::size_t other_cameras_ = 0;
   std::size_t renamed_meshes_ = 0;

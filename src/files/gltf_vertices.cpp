@@ -19,7 +19,7 @@ std::array<float, Size> floats_of(const Vector& vector) {
   return floats;
 }
 
-Vector3 facing(const geometry::TriangleMesh& mesh, std::size_t t) {
+Vector3 facing_of(const geometry::TriangleMesh& mesh, std::size_t t) {
   const Vector3& a = mesh.corner(t, 0);
   return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).stableNormalized();
 }
@@ -28,7 +28,7 @@ Vector3 facing(const geometry::TriangleMesh& mesh, std::size_t t) {
 bool all_flat(const world::MeshGeometry& shape) {
   constexpr double kRounding = 1e-6;  // of unit vectors
   for (std::size_t t = 0; t < shape.normals.size(); ++t) {
-    const Vector3 normal = facing(shape.mesh, t);
+    const Vector3 normal = facing_of(shape.mesh, t);
     if (normal.isZero(0.0)) continue;
     for (const Vector3& given : shape.normals[t]) {
       if ((given - normal).squaredNorm() > kRounding * kRounding) return false;
@@ -118,10 +118,17 @@ GltfVertices as_they_are(const geometry::TriangleMesh& mesh) {
   return result;
 }
 
+/// Of the mesh as it is written, in single precision: so those of what is read back are the same.
+std::vector<Vector3> smooth_normals(const geometry::TriangleMesh& mesh) {
+  geometry::TriangleMesh written = mesh;
+  for (Vector3& position : written.positions) position = position.cast<float>().cast<double>();
+  return geometry::vertex_normals(written);
+}
+
 /// Of meshes whose normals follow from their triangles.
 void add_smooth_normals(const geometry::TriangleMesh& mesh, GltfVertices& result) {
   result.smooth = true;
-  for (const Vector3& normal : geometry::vertex_normals(mesh)) {
+  for (const Vector3& normal : smooth_normals(mesh)) {
     // A vertex of no triangle has no normal, but must have one.
     result.normals.push_back(normal.isZero(0.0) ? std::array<float, 3>{0.0F, 0.0F, 1.0F}
                                                 : floats_of<3>(normal));
@@ -140,7 +147,7 @@ GltfVertices gltf_vertices(const world::MeshGeometry& shape) {
     }
     // Normals of vertices that will be split: each part keeps that of the whole.
     world::MeshGeometry with_normals = shape;
-    const std::vector<Vector3> normals = geometry::vertex_normals(shape.mesh);
+    const std::vector<Vector3> normals = smooth_normals(shape.mesh);
     for (const auto& [a, b, c] : shape.mesh.triangles)
       with_normals.normals.push_back({normals[a], normals[b], normals[c]});
     GltfVertices result = Splitting(with_normals, true).run();

@@ -55,9 +55,9 @@ class EditTest(ProgramTest):
         out = self.folder / "rests.wrl"
         script = self.script(SEAT, ball, land)
         text = self.succeeds("edit", "new", "--apply", script, "--out", out).stdout
-        self.assertIn(f"{script}:3: land: on seat", text)
+        self.assertIn(f"{script}:3: land: on 'seat'", text)
         notes = json.loads(self.succeeds("edit", "new", "--apply", script, "--out", out, "--json").stdout)["notes"]
-        self.assertEqual(notes, [{"line": 3, "op": "land", "text": "on seat"}])
+        self.assertEqual(notes, [{"line": 3, "op": "land", "text": "on 'seat'"}])
 
     def test_a_result_of_nothing_is_told(self):
         script = self.script(SEAT, {"op": "delete", "objects": "seat"})
