@@ -33,7 +33,7 @@ constexpr double kCrawl = 1e-4;          // of what is left of the way: a piece 
 constexpr int kMaxCrawl = 16;            // such pieces in a tick
 constexpr int kFewCrawls = 3;            // after which a way in the open is looked for
 constexpr double kOpenWay = 2e-3;        // of the size of what is near: how long that is
-constexpr int kOpenSides = 12;
+constexpr int kOpenSides = 24;
 constexpr double kSamePull = 0.05;   // of its length: a change that opens no way
 constexpr double kRounding = 1e-14;  // of squared distances
 constexpr double kSteepest = 0.1;    // rise of an arch for its length
@@ -541,7 +541,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
                                      [](const Element& contact) { return contact.two_sided; });
   const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
   const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
-  for (const double cosine : {0.5, 0.77, 0.27, 0.94}) {
+  for (const double cosine : {0.5, 0.77, 0.27, 0.94, 0.12}) {
     const double sine = std::sqrt(1.0 - cosine * cosine);
     for (int i = 0; i < kOpenSides && !spent() && length > tolerance().touching(); ++i) {
       const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
