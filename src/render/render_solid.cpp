@@ -1,7 +1,9 @@
 #include "render/render_solid.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <unordered_set>
@@ -28,7 +30,21 @@ class Cells {
  public:
   explicit Cells(double side) : side_(side) {}
 
-  void add(const Vector3& point) { filled_.insert(key(cell(point))); }
+  /// Of a triangle, so densely that all of it has a cell of these within reach: flat faces have large ones.
+  void add(std::array<Vector3, 3> corners) {
+    const auto edge = [&](std::size_t i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
+    const std::size_t longest = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0 : edge(1) >= edge(2) ? 1 : 2;
+    std::rotate(corners.begin(), corners.begin() + std::ptrdiff_t(longest), corners.end());
+    const auto& [a, b, tip] = corners;
+    const double area = (b - a).cross(tip - a).norm(), length = (b - a).norm();
+    const int rows = steps_over(length > 0.0 ? area / length : 0.0);
+    for (int r = 0; r <= rows; ++r) {
+      const double up = double(r) / rows;
+      const Vector3 begin = a + up * (tip - a), end = b + up * (tip - b);
+      const int steps = steps_over((end - begin).norm());
+      for (int i = 0; i <= steps; ++i) add_point(begin + double(i) / steps * (end - begin));
+    }
+  }
 
   /// In the point's cell or one beside it?
   bool has_near(const Vector3& point) const {
@@ -41,6 +57,10 @@ class Cells {
   }
 
  private:
+  void add_point(const Vector3& point) { filled_.insert(key(cell(point))); }
+  /// Each no longer than a side.
+  int steps_over(double length) const { return std::max(1, int(std::ceil(length / side_))); }
+
   std::array<std::int64_t, 3> cell(const Vector3& point) const {
     std::array<std::int64_t, 3> c;
     for (int i = 0; i < 3; ++i) c[std::size_t(i)] = std::int64_t(std::floor(point[i] / side_));
@@ -70,7 +90,11 @@ bool is_whole(const MeshGeometry& surface, const CsgGeometry& images, const geom
               double cell) {
   constexpr std::size_t kMostAsked = 20'000;
   Cells cells(2.0 * cell);
-  for (const Vector3& position : surface.mesh.positions) cells.add(position - images.centre);
+  const auto corner = [&](std::size_t t, int k) -> Vector3 {
+    return surface.mesh.corner(t, k) - images.centre;
+  };
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t)
+    cells.add({corner(t, 0), corner(t, 1), corner(t, 2)});
   const std::size_t step = 1 + images.surface.size() / kMostAsked;
   for (std::size_t i = 0; i < images.surface.size(); i += step) {
     const Vector3& point = images.surface[i];
