@@ -45,6 +45,14 @@ constexpr int kMaxHalvings = 24;     // of such a chord, until a region holds it
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
+/// Are all of these contacts with formulas' solids, which tell at once what is in them?
+bool all_know_inside(const ContactSet& contacts) {
+  const std::span<const Element> all = contacts.all();
+  return std::all_of(all.begin(), all.end(), [](const Element& it) {
+    return it.smooth() && !it.two_sided && it.surface->knows_inside_quickly();
+  });
+}
+
 /// Is a place within a smooth solid that one of these contacts is with, as far as that is known quickly?
 bool any_swallows(const ContactSet& contacts, const Vector3& position) {
   const std::span<const Element> all = contacts.all();
@@ -444,7 +452,7 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   }
   ContactSet::Rest rest = contacts_.rest(position_, tip, tolerance);
   exact = rest.exact;
-  in_doubt_ = !rest.sure && settings_.tip_radius <= 0.0;
+  in_doubt_ = !rest.sure && settings_.tip_radius <= 0.0 && all_know_inside(contacts_);
   const Vector3 step = rest.place - position_;
   // The spring's share along the surface: for the cone, where it would rest is where it is pressed to.
   const double share = slip(step.norm(), (tip - rest.place).norm());
@@ -492,7 +500,9 @@ bool ScpSolver::escape(const Vector3& tip) {
   if (at_edge() && escape_over_edge(tip)) return true;
   const double near = ContactFan::kNeighbourhood * ContactFan::kLength * tolerance().gap;
   if (contacts_.any_smooth() || region_.clearance(position_) < near)
-    return escape_without_one(tip) || (in_doubt_ && escape_in_the_open(tip));
+    return in_doubt_ && contacts_.size() == 1
+               ? escape_in_the_open(tip)
+               : escape_without_one(tip) || (in_doubt_ && escape_in_the_open(tip));
   const std::size_t count = region_.around(position_, near, around_);
   if (region_.overflowed()) return false;
   const std::span<const Element> elements = std::span(around_).first(std::min(count, around_.size()));
@@ -537,8 +547,6 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   const bool as_before = (from - shut_in_at_).norm() <= tolerance().touching() &&
                          (tip - shut_in_tip_).norm() <= kSamePull * pull.norm();
   if (as_before && !scene_->moves()) return false;
-  const bool two_sided = std::any_of(held.all().begin(), held.all().end(),
-                                     [](const Element& contact) { return contact.two_sided; });
   const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
   const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
   for (const double cosine : {0.5, 0.77, 0.27, 0.94, 0.12}) {
@@ -547,7 +555,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
       const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
       const Vector3 way =
           length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other));
-      if (!two_sided && any_swallows(held, from + way)) continue;  // which one evaluation tells
+      if (any_swallows(held, from + way)) continue;  // which one evaluation tells
       contacts_.clear();
       advance(way);
       if ((tip - position_).norm() < pull.norm() - 0.05 * length) return true;
