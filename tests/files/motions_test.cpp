@@ -149,7 +149,8 @@ TEST(VrmlMotions, OfKeysThatMakeNoSenseAreTold) {
           "'i' moves nothing: its keys go back.");
   refused(moved_by(position, "key [ -1 1 ] keyValue [ 0 0 0 1 1 1 ]", "set_translation"),
           "'i' moves nothing: its keys begin before 0.");
-  refused(moved_by(position, "key [ 0 1e39 ] keyValue [ 0 0 0 1 1 1 ]", "set_translation"),
+  refused(moved_by(position, "key [ 0 3e38 ] keyValue [ 0 0 0 1 1 1 ]", "set_translation",
+                   "cycleInterval 1e300 loop TRUE"),
           "'i' moves nothing: it has numbers that are not finite.");
   refused(moved_by(position, "key [ 0 1 ] keyValue [ 0 0 0 1 1 1 ]", "set_translation", "cycleInterval 0"),
           "'c' moves nothing: its cycleInterval is not above 0.");
