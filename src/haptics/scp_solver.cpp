@@ -45,6 +45,11 @@ constexpr int kMaxHalvings = 24;     // of such a chord, until a region holds it
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
+/// Of formulas in a tick. A point tip's sweeps begin on surfaces, where they cost most.
+std::uint64_t evaluations_of(const ScpSettings& settings) {
+  return std::uint64_t(settings.max_evaluations) * (settings.tip_radius > 0.0 ? 1 : 2);
+}
+
 /// Are all of these contacts with formulas' solids, which tell at once what is in them?
 bool all_know_inside(const ContactSet& contacts) {
   const std::span<const Element> all = contacts.all();
@@ -153,7 +158,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   }
   if (position_.cwiseAbs().maxCoeff() > kFarOff * region_.smallest()) move_origin();
   const Vector3 tip = in_world - origin_;
-  const geometry::FormulaAllowance allowance{2 * std::uint64_t(settings_.max_evaluations)};
+  const geometry::FormulaAllowance allowance{evaluations_of(settings_)};
   if (scene_->moves()) carry(elapsed_, elapsed);
   elapsed_ = elapsed;
   tip_motion_ = (tip - last_tip_).norm();
@@ -444,7 +449,7 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = region_.tolerance();
   const Vector3 pull = tip - position_;
   // Half of what the tick may cost is left for the sweep of this step.
-  const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
+  const geometry::FormulaAllowance allowance{evaluations_of(settings_) / 2};
   contacts_.follow(position_);
   if (contacts_.size() == 1 && lets_go(contacts_.all().front(), tip)) {
     contacts_.clear();
@@ -716,7 +721,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
       if (!hit.met && !region_.overflowed()) hit = sweep_past(end - position_, end, end);
       if (!hit.met && !region_.overflowed()) return hit;
       // No time is left to tell what is in the way: what is surely free of it counts.
-      if (spent() && !region_.overflowed() && nearer(from, goal_)) {
+      if (spent() && settings_.tip_radius <= 0.0 && !region_.overflowed() && nearer(from, goal_)) {
         step = position_ - from;
         lifted_ = 2.0 * top->norm();
         return {};

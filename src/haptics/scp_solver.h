@@ -16,8 +16,8 @@ struct ScpSettings {
   int max_iterations = 256;     // pieces of way, usually 1 to 5
   int max_elements = 8'000;     // looked at by sweeps, some 10 ns each, and a quarter of the pieces gathered;
                                 // usually below 100
-  int max_evaluations = 6'000;  // of formulas, some 100 ns each, to follow what is touched; usually some 100,
-                                // and as many again for sweeps
+  int max_evaluations = 6'000;  // of formulas, some 100 ns each, and twice as many for a point tip; usually
+                                // some 100
 };
 
 /// Finds the surface contact point (SCP): the constraint-based method of Zilles and Salisbury (1995)
