@@ -12,6 +12,7 @@
 #include <QPushButton>
 #include <QTest>
 #include <QTreeView>
+#include <thread>
 
 #include "places.h"
 #include "ui/scene_window.h"
