@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
 
@@ -189,23 +188,6 @@ TEST(GltfWriter, WhatIsReadIsWrittenAgainToTheLastByte) {
   const std::string first = written_as(world, "a.glb");
   const std::string second = written_as(read_from(first, "a.glb"), "a.glb");
   EXPECT_EQ(written_as(read_from(second, "a.glb"), "a.glb"), second);
-}
-
-/// Its normals are those of the rounded places that are read back.
-TEST(GltfWriter, SmoothMeshesStayTheSameFromTheFirstSaveOn) {
-  World world;
-  IdSource ids;
-  const auto round =
-      std::make_shared<MeshGeometry>(**PrimitiveGeometry(geometry::Torus{0.31, 0.07}).triangles(0.001));
-  add_object(world, ids, "plain", round);
-  auto pictured = std::make_shared<MeshGeometry>(*round);
-  for (const auto& [a, b, c] : round->mesh.triangles) {
-    auto& row = pictured->texture_coordinates.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) row[k] = round->mesh.positions[std::array{a, b, c}[k]].head<2>();
-  }
-  add_object(world, ids, "pictured", pictured);
-  const std::string first = written_as(world, "a.glb");
-  EXPECT_EQ(written_as(read_from(first, "a.glb"), "a.glb"), first);
 }
 
 /// In VRML and OBJ, which know no metal, it would shine white.
