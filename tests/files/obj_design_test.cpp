@@ -10,6 +10,7 @@
 #include "files/damage.h"
 #include "files/design.h"
 #include "files/mtl_library.h"
+#include "files/picture_bytes.h"
 #include "files/same_design.h"
 #include "files/sample_files.h"
 #include "world/sample_world.h"
@@ -284,7 +285,8 @@ TEST(ObjDesign, ColoursThatAPictureReplacesAreLeftOutAndTold) {
     shape->colours = {{Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 1}}};
     shape->texture_coordinates = {{base::Vector2(0, 0), base::Vector2(1, 0), base::Vector2(0, 1)}};
     const auto texture = ids.next<TextureId>();
-    applied(world, CreateTexture{texture, {"p.png", "image/png", std::make_shared<std::string>(kPicture)}});
+    const auto png = png_of({1, 1, 3, "abc"});  // in colours: grey ones replace nothing
+    applied(world, CreateTexture{texture, {"p.png", "image/png", std::make_shared<std::string>(*png)}});
     Material look{.name = "pictured"};
     look.texture = texture;
     look.tints = tints;
