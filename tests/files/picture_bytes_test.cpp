@@ -58,7 +58,8 @@ TEST(PictureBytes, HaveAMean) {
   expect_mean(*png_of({2, 1, 3, std::string("\xff\x80\x00\x00\x80\x33", 6)}), {0.5, 0.5, 0.1});
   std::vector<unsigned char> pixels;
   for (int i = 0; i < 40 * 24; ++i) {
-    for (const int part : {i % 40 < 20 ? 255 : 0, 100, 50}) pixels.push_back(static_cast<unsigned char>(part));
+    for (const int part : {i % 40 < 20 ? 255 : 0, 100, 50})
+      pixels.push_back(static_cast<unsigned char>(part));
   }
   const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitCompress(), tjDestroy);
   unsigned char* bytes = nullptr;
