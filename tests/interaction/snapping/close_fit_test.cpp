@@ -120,7 +120,7 @@ struct GapJudge {
   double least(const Vector3& place, double reach) const {
     const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
     return least_of(reach, [&](double one) {
-      return least_of(reach, [&](double other) { return gap(place + one * u + other * v); });
+      return least_of(reach, [&](double two) { return gap(place + one * u + two * v); });
     });
   }
 
