@@ -7,6 +7,7 @@
 
 #include "files/csg_text.h"
 #include "world/mesh_geometry.h"
+#include "world/motion.h"
 #include "world/solid_geometry.h"
 
 namespace icome::files {
@@ -108,8 +109,12 @@ class Comparison {
     const std::vector<base::Matrix3> axes{one.parent_from_object.linear()},
         other_axes{other.parent_from_object.linear()};
     near(axes, other_axes, "axes");
-    const std::vector<base::Vector3> shift{one.parent_from_object.translation()},
+    std::vector<base::Vector3> shift{one.parent_from_object.translation()},
         other_shift{other.parent_from_object.translation()};
+    if (one.motion && other.motion) {  // what turns about a place far off is shifted by what its turn is off
+      shift.push_back(one.motion->rest.centre);
+      other_shift.push_back(other.motion->rest.centre);
+    }
     near(shift, other_shift, "shift");
     if (expect(bool(one.geometry) == bool(other.geometry), "a shape and none") && one.geometry) {
       bool fresh = false;
