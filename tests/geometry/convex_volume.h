@@ -49,6 +49,14 @@ inline std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, const H
 /// By its faces' distances from the origin. Precondition: it is limited, within 100 m.
 inline double convex_volume(const ConvexBody& body) {
   constexpr double kSamePlane = 1e-9, kFar = 200.0;
+  // Of bodies that lie against each other rounding might leave one side of the flat face that they share.
+  const auto opposite = [](const HalfSpace& one, const HalfSpace& other) {
+    return (one.normal + other.normal).norm() < kSamePlane && one.offset + other.offset < kSamePlane;
+  };
+  for (const HalfSpace& one : body) {
+    if (std::any_of(body.begin(), body.end(), [&](const HalfSpace& other) { return opposite(one, other); }))
+      return 0.0;
+  }
   double volume = 0.0;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const HalfSpace& face = body[i];
