@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostFootSteps = 30;
 constexpr int kMostFootHalvings = 12;
 constexpr double kTileFootDone = 1e-11;  // of the surface's size: distances are then exact by far
-constexpr int kMostAdvances = 200;
+constexpr int kMostTileAdvances = 200;
 constexpr double kSharpestBend = 0.95;  // bend times distance, up to which curvature says how distances fall
 constexpr double kBarelyOnSide = 1e-9;  // cosine: a ball beside a rim touches it from the front and the back
 constexpr double kGoingIn = 1e-12;      // cosine between way and normal: along the surface counts as inwards
@@ -241,7 +241,7 @@ std::optional<TileTouch> first_touch(const LoopPatches& patches, const LoopTile&
   const double end = (*part)[1] * length;
   double way = (*part)[0] * length;
   bool at_start = way <= 0.0, overlaps = false;
-  for (int i = 0; i < kMostAdvances; ++i) {
+  for (int i = 0; i < kMostTileAdvances; ++i) {
     const TileFoot foot = foot_on_tile(cursor, patches, tile, start + way * along);
     const double gap = foot.distance - ball.radius;
     const double fall = foot.distance > 0.0 ? -along.dot(foot.away) / foot.distance : 1.0;
