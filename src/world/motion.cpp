@@ -13,7 +13,9 @@ namespace {
 
 using base::Quaternion;
 
-constexpr double kLeastScale = 1e-6;
+constexpr double kLeastScale = 1e-6;   // of key frames
+constexpr double kLeastTurn = 1e-100;  // length: below, squares of its numbers are lost
+constexpr double kUnit = 1e-6;         // off 1: a length that still is that of a turn
 
 template <int Size>
 using Numbers = Eigen::Matrix<double, Size, 1>;
@@ -86,8 +88,11 @@ Quaternion turn_at(const KeyFrames& frames, const Quaternion& at_rest, double ti
 
 bool is_turn(const Numbers<4>& numbers) {
   const double length = numbers.norm();
-  return std::isfinite(length) && length > 0.0;
+  return std::isfinite(length) && length > kLeastTurn;
 }
+
+/// Turns at rest are used as they are: another length would stretch the object.
+bool is_unit_turn(const Quaternion& turn) { return std::abs(turn.norm() - 1.0) < kUnit; }
 
 base::Result<void> check_frames(const KeyFrames& frames, std::size_t size, const char* what) {
   const auto bad = [what](const char* why) { return base::fail(fmt::format("The {} {}.", what, why)); };
@@ -164,7 +169,7 @@ Affine3 affine(const PlaceParts& parts) {
 
 base::Result<void> check_motion(const Motion& motion) {
   const PlaceParts& rest = motion.rest;
-  if (!is_turn(rest.rotation.coeffs()) || !is_turn(rest.stretch_axes.coeffs()) ||
+  if (!is_unit_turn(rest.rotation) || !is_unit_turn(rest.stretch_axes) ||
       rest.scale.cwiseAbs().minCoeff() == 0.0 || !can_be_placed(affine(rest)))
     return base::fail("A motion must begin at a finite place that does not flatten the object.");
   for (const auto& checked : {check_frames(motion.translation, 3, "key frames of a way"),
@@ -180,8 +185,11 @@ PlaceParts parts_at(const Motion& motion, double time) {
   PlaceParts parts = motion.rest;
   parts.translation = vector_at(motion.translation, parts.translation, time);
   parts.rotation = turn_at(motion.rotation, parts.rotation, time);
-  parts.scale = vector_at(motion.scale, parts.scale, time).unaryExpr([](double scale) {
-    return std::copysign(std::max(std::abs(scale), kLeastScale), scale);
+  if (motion.scale.times.empty()) return parts;
+  // Who is smaller than that at rest stays as small.
+  const double least = std::min(kLeastScale, motion.rest.scale.cwiseAbs().minCoeff());
+  parts.scale = vector_at(motion.scale, parts.scale, time).unaryExpr([least](double scale) {
+    return std::copysign(std::max(std::abs(scale), least), scale);
   });
   return parts;
 }

@@ -53,7 +53,8 @@ struct Motion {
 /// Says what is wrong with a motion that nobody could play.
 base::Result<void> check_motion(const Motion& motion);
 
-/// The parts of the place at a moment (s); before 0 it is as at 0. No scale is nearer to 0 than a millionth.
+/// The parts of the place at a moment (s); before 0 it is as at 0. Key frames bring no scale nearer to 0 than
+/// a millionth, or than the smallest at rest where that is less.
 PlaceParts parts_at(const Motion& motion, double time);
 
 /// Where an object is at a moment (s) that stands at `at_rest` when nothing moves: who has put it elsewhere
@@ -68,7 +69,7 @@ std::optional<Motion> moved_along(const Motion& motion, const Affine3& at_rest);
 double duration(const Motion& motion);
 bool loops(const Motion& motion);
 std::size_t key_count(const Motion& motion);
-/// Of memory, beside itself.
+/// The memory that a motion takes, itself included, bytes.
 std::size_t bytes_of(const Motion& motion);
 
 /// Those that have a motion, in the order of their ids.

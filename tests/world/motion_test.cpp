@@ -139,8 +139,21 @@ TEST(Motions, NeverFlatten) {
   const Motion motion{.scale = frames({0.0, 1.0}, {1, 1, 1, 0, 0, 0})};
   EXPECT_TRUE(can_be_placed(now(motion, 1.0)));
   EXPECT_LT(now(motion, 1.0).linear().norm(), 1e-5);
+  const Motion tiny{.rest = {.scale = Vector3::Constant(1e-8)},
+                    .scale = frames({0.0, 1.0}, {1e-8, 1e-8, 1e-8, 0, 0, 0})};
+  EXPECT_TRUE(can_be_placed(now(tiny, 1.0)));
+  expect_near(now(tiny, 1.0), affine(tiny.rest), 1e-20);
   const Motion beyond{.translation = frames({0.0, 1.0}, {0, 0, 0, 1e308, 0, 0})};
   EXPECT_TRUE(place_at(beyond, Affine3(Eigen::Scaling(1e9)), 1.0).matrix().allFinite());
+}
+
+TEST(Motions, LeaveATinyObjectAsSmallAsItIs) {
+  const PlaceParts rest{.translation = {1.0, 0.0, 0.0}, .scale = Vector3(1e-8, -1e-8, 1e-8)};
+  const Motion still{.rest = rest};
+  EXPECT_EQ(now(still, 0.0).matrix(), affine(rest).matrix());
+  const Motion goes{.rest = rest, .translation = frames({0.0, 1.0}, {1, 0, 0, 2, 0, 0})};
+  EXPECT_EQ(now(goes, 0.0).matrix(), affine(rest).matrix());
+  EXPECT_EQ(now(goes, 1.0).linear(), affine(rest).linear());
 }
 
 /// One of everything: splines of a way, turns about a centre, sizes.
@@ -200,6 +213,9 @@ TEST(Motions, AreRefusedWhereNobodyCouldPlayThem) {
   refused([](Motion& it) { std::fill_n(it.rotation.values.begin(), 4, 0.0); }, "one that is none");
   refused([](Motion& it) { it.rest.scale.y() = 0.0; }, "does not flatten");
   refused([](Motion& it) { it.rest.rotation.coeffs().setZero(); }, "does not flatten");
+  refused([](Motion& it) { it.rest.rotation.coeffs() *= 1.1; }, "does not flatten");
+  refused([](Motion& it) { it.rest.stretch_axes.coeffs() *= 0.9; }, "does not flatten");
+  refused([](Motion& it) { std::fill_n(it.rotation.values.begin(), 4, 1e-140); }, "one that is none");
 }
 
 TEST(Motions, TellHowLongTheyAre) {
