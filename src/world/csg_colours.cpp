@@ -15,6 +15,9 @@ namespace {
 using geometry::CsgLeaf;
 using geometry::CsgTree;
 
+constexpr double kSameRounding = 1e-6;  // of how far is looked: surfaces that coincide are equally far
+constexpr double kSameChord = 0.05;     // of how far off them a chord is, which uneven stretches change
+
 /// An operand where it stands in the tree.
 struct OwnedLeaf {
   CsgLeaf leaf;
@@ -70,16 +73,17 @@ class SurfaceOwners {
     boxes_ = geometry::BoxTree(boxes);
   }
 
-  /// Within `reach` of the place; where surfaces lie within a thousandth of that, the first leaf has it.
+  /// Within `reach` of the place; where surfaces coincide, the first leaf has it. On flat faces a place is on
+  /// one of them up to rounding, and triangles are large: what lies a little under it is another.
   Colour colour_at(const Vector3& place, double reach) const {
     const OwnedLeaf* nearest = nullptr;
     double distance = reach;
-    const double same = 1e-3 * reach;
     boxes_.near(geometry::SegmentQuery(place, place, reach), [&](std::uint32_t index) {
       const OwnedLeaf& own = leaves_[index];
       const geometry::SurfacePoint at =
           own.leaf.inside(place) ? own.leaf.scp_from_inside(place) : own.leaf.scp_from_outside(place);
       const double away = (at.point - place).norm();
+      const double same = kSameRounding * reach + kSameChord * std::min(away, distance);
       if (away < distance - same || (away < distance + same && nearest && own.rank < nearest->rank)) {
         distance = std::min(distance, away);
         nearest = &own;

@@ -53,6 +53,27 @@ TEST(ColouredByOperands, TheFirstOfSurfacesThatCoincideCounts) {
   for (const auto& corners : coloured->colours) EXPECT_EQ(corners[0], blue);
 }
 
+TEST(ColouredByOperands, AThinSheetIsNotWhatItLiesOn) {
+  const CsgTree::Colour grey{0.5F, 0.5F, 0.5F, 1.0F}, red{1.0F, 0.0F, 0.0F, 1.0F};
+  CsgTree tree;
+  const auto table = tree.add_leaf(Primitive(Box{{0.5, 0.5, 0.02}}), at(0.0, 0.0, -0.02), grey);
+  const auto sheet = tree.add_leaf(Primitive(Box{{0.3, 0.2, 0.0002}}), at(0.0, 0.0, 0.0002), red);
+  const auto both = tree.add(CsgOperator::Union, table, sheet);
+  const auto badge = tree.add_leaf(Primitive(geometry::Cylinder{0.04, 0.0004}), at(0.4, 0.4, 0.0002), red);
+  tree.add(CsgOperator::Union, both, badge);
+  const auto made = coloured_triangles(tree);
+  std::size_t above = 0;
+  for (std::size_t t = 0; t < made->mesh.triangles.size(); ++t) {
+    const double height =
+        (made->mesh.corner(t, 0) + made->mesh.corner(t, 1) + made->mesh.corner(t, 2)).z() / 3.0;
+    if (height > 1e-6 && height < 3.9e-4) continue;  // sides, which chords may leave
+    const Colour expected = height > 1e-6 ? Colour{1.0F, 0.0F, 0.0F} : Colour{0.5F, 0.5F, 0.5F};
+    EXPECT_EQ(made->colours[t][0], expected) << height;
+    above += height > 1e-6;
+  }
+  EXPECT_GE(above, 4U);  // the top of the sheet is two triangles at least, and so is the badge's
+}
+
 TEST(ColouredByOperands, WithoutColoursTrianglesStayWhatTheyAre) {
   CsgTree tree;
   tree.add_leaf(Primitive(Sphere{1.0}));
