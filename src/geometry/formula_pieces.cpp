@@ -415,6 +415,8 @@ class FormulaSplitter {
       case Operation::Negate:
       case Operation::Scale:
       case Operation::IntegerPower:
+      case Operation::SizePower:
+      case Operation::OddPower:
       case Operation::Sqrt:
       case Operation::ConstantPower:
         return add_zeros_of(step.a);

@@ -148,13 +148,16 @@ TEST(FormulaPieces, GoOnBeyondTheirEnds) {
 TEST(FormulaPieces, KnowsWhereAFormulaMayJump) {
   const auto borders = [](const std::string& text) { return taken_apart(text).borders; };
   EXPECT_TRUE(borders("x*y - abs(z)").empty());
-  for (const char* text : {"1/x", "z - y/x^2", "sqrt(x)", "log(3*x)", "y - x^0.3", "1/abs(x)"}) {
+  for (const char* text :
+       {"1/x", "z - y/x^2", "sqrt(x)", "log(3*x)", "y - x^0.3", "1/abs(x)", "1/abs(x)^1.5", "x/sqrt(x^6)"}) {
     const std::vector<Formula> both = borders(text);
     ASSERT_EQ(both.size(), 2U) << text;
     for (const double x : {-0.3, 0.0, 0.4}) {
       EXPECT_EQ(std::abs(both[0].value({x, 0.7, 0.2}, 0.0)) > 0.0, x != 0.0) << text;
       EXPECT_EQ(both[0].value({x, 0.7, 0.2}, 0.0), -both[1].value({x, 0.7, 0.2}, 0.0)) << text;
     }
+    // A border has two sides, else nothing that is followed goes through it.
+    EXPECT_LT(both[0].value({-0.3, 0.7, 0.2}, 0.0) * both[0].value({0.4, 0.7, 0.2}, 0.0), 0.0) << text;
   }
   EXPECT_EQ(borders("asin(x)").size(), 4U);  // at -1 and 1
   EXPECT_EQ(borders("1/(x*y)").size(), 4U);
