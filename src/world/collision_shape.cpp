@@ -50,10 +50,12 @@ TriangleMesh box_mesh(const Bounds& box) {
 
 using Entry = CollisionShape::Entry;
 
-/// Of the triangle that was hit, unit.
-Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& hit) {
+/// Of the triangle that was hit on a way of this step, unit. The place is rounded as the way is long, also
+/// where it is near the origin.
+Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& hit, const Vector3& step) {
   Vector3 normal = Vector3::Zero();
-  tree.near(hit.point, hit.point, kRounding * hit.point.norm(), [&](std::uint32_t slot) {
+  const double rounding = kRounding * std::max(hit.point.norm(), step.norm());
+  tree.near(hit.point, hit.point, rounding, [&](std::uint32_t slot) {
     if (tree.triangle(slot) != hit.triangle) return true;
     const Corners& corners = tree.corners(slot);
     normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
@@ -73,7 +75,7 @@ std::optional<Entry> entry_of_mesh(const geometry::TriangleTree& tree, bool clos
     const auto hit = tree.first_hit(a + from * step, b);
     if (!hit) return std::nullopt;
     const double share = from + hit->parameter * (1.0 - from);
-    const Vector3 normal = normal_at(tree, *hit);
+    const Vector3 normal = normal_at(tree, *hit, step);
     const bool against = normal.dot(step) < 0.0;
     if (against || !closed) return Entry{share, against ? normal : Vector3(-normal)};
     from = share + kOn;

@@ -29,8 +29,21 @@ double share_by_halving(const Primitive& it, const Vector3& a, const Vector3& b)
   return in;
 }
 
+/// Does the way, which begins out of it, stay clearly out of it?
+bool passes_by(const Primitive& it, const Vector3& a, const Vector3& b) {
+  constexpr int kSteps = 1000;
+  constexpr double kClear = 1e-3;  // m, more than half a step
+  for (int i = 0; i <= kSteps; ++i) {
+    const Vector3 place = a + (double(i) / kSteps) * (b - a);
+    if (geometry::inside(it, place) || (geometry::scp_from_outside(it, place).point - place).norm() < kClear)
+      return false;
+  }
+  return true;
+}
+
 TEST(ExactSurface, WaysLeadIntoPrimitivesWhereTheyAre) {
   base::Random random(5);
+  int passed_by = 0;
   for (const Primitive& it :
        {Primitive(geometry::Sphere{0.1}), Primitive(geometry::Cylinder{0.1, 0.2}),
         Primitive(geometry::Cone{0.1, 0.02, 0.2}), Primitive(geometry::Torus{0.1, 0.04}),
@@ -41,7 +54,12 @@ TEST(ExactSurface, WaysLeadIntoPrimitivesWhereTheyAre) {
       const Vector3 a = 0.4 * random.direction(), b = 0.15 * random.direction() - a;
       const double share = share_by_halving(it, a, b);
       const auto found = shape.entry(a, b);
-      if (share < 0.0) continue;
+      if (share < 0.0) {
+        const bool stays_out = passes_by(it, a, b);
+        EXPECT_FALSE(stays_out && found) << geometry::name(it) << " " << i;
+        passed_by += stays_out ? 1 : 0;
+        continue;
+      }
       ++hits;
       ASSERT_TRUE(found) << geometry::name(it) << " " << i;
       EXPECT_NEAR(found->share, share, 1e-9) << geometry::name(it);
@@ -49,6 +67,22 @@ TEST(ExactSurface, WaysLeadIntoPrimitivesWhereTheyAre) {
       EXPECT_NEAR(found->normal.norm(), 1.0, 1e-9);
     }
     EXPECT_GT(hits, 5) << geometry::name(it);
+  }
+  EXPECT_GT(passed_by, 10);
+}
+
+TEST(ExactSurface, FlatMeshesHaveANormalWhereTheirOriginIs) {
+  geometry::TriangleMesh mesh;
+  mesh.positions = {{-1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}, {0.0, 1.0, 0.0}};
+  mesh.triangles = {{0, 1, 2}};
+  CollisionShape shape(std::make_shared<MeshGeometry>(mesh));
+  base::Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 a = random.direction(), b = -0.7 * a;  // through the origin, up to rounding
+    const auto found = shape.entry(a, b);
+    ASSERT_TRUE(found) << i;
+    EXPECT_NEAR(std::abs(found->normal.z()), 1.0, 1e-12) << i;
+    EXPECT_LT(found->normal.dot(b - a), 0.0) << i;
   }
 }
 
