@@ -55,7 +55,7 @@ TEST(SelfCrossing, FindsWhatCrossesAllAlongSidesOfTriangles) {
 
 TEST(SelfCrossing, AgreesWithSamplesOfTwoTriangles) {
   base::Random random(7);
-  int crossings = 0;
+  int crossings = 0, apart = 0;
   for (int i = 0; i < 3000; ++i) {
     TriangleMesh mesh;
     for (int v = 0; v < 6; ++v) {
@@ -65,7 +65,7 @@ TEST(SelfCrossing, AgreesWithSamplesOfTwoTriangles) {
     }
     mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
     // Another algorithm: an edge of one goes through the middle of the other, by solving for where.
-    const auto pierces = [&](int edge, int triangle) {
+    const auto pierces = [&](int edge, int triangle, double margin) {
       const Vector3 &a = mesh.corner(std::size_t(triangle), 0), &b = mesh.corner(std::size_t(triangle), 1),
                     &c = mesh.corner(std::size_t(triangle), 2);
       const Vector3& from = mesh.corner(std::size_t(1 - triangle), edge);
@@ -78,19 +78,29 @@ TEST(SelfCrossing, AgreesWithSamplesOfTwoTriangles) {
       const double area = normal.squaredNorm();
       const double u = (b - at).cross(c - at).dot(normal) / area,
                    v = (c - at).cross(a - at).dot(normal) / area;
-      return std::min({share, 1.0 - share, u, v, 1.0 - u - v}) > 1e-9;
+      return std::min({share, 1.0 - share, u, v, 1.0 - u - v}) > margin;
     };
-    const auto area = [&](std::size_t t) {
-      return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).norm();
+    const auto normal_of = [&](std::size_t t) -> Vector3 {
+      return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
     };
-    bool crosses = false;
+    const auto area = [&](std::size_t t) { return normal_of(t).norm(); };
+    const auto parallel = [&] { return normal_of(0).cross(normal_of(1)).isZero(0.0); };
     if (area(0) == 0.0 || area(1) == 0.0) continue;
-    for (int edge = 0; edge < 3; ++edge) crosses = crosses || pierces(edge, 0) || pierces(edge, 1);
-    if (!crosses) continue;
+    const auto any_pierces = [&](double margin) {
+      bool any = false;
+      for (int edge = 0; edge < 3; ++edge) any = any || pierces(edge, 0, margin) || pierces(edge, 1, margin);
+      return any;
+    };
+    if (!any_pierces(-1e-9) && !parallel()) {
+      ++apart;
+      EXPECT_FALSE(crossing_of(mesh)) << i;
+    }
+    if (!any_pierces(1e-9)) continue;
     ++crossings;
     ASSERT_TRUE(crossing_of(mesh)) << i;
   }
   EXPECT_GT(crossings, 300);
+  EXPECT_GT(apart, 300);
 }
 
 TEST(SelfCrossing, SpiralsGoThroughThemselvesWhereTheyClimbLessThanTheyAreThick) {
