@@ -36,6 +36,8 @@ constexpr std::size_t kFewMeshTriangles =
     2'000;  // of all meshes in a tree: more are better sampled, if that does
 constexpr std::size_t kMostMeshTriangles = 20'000;  // of all meshes in a tree that is cut at all
 constexpr std::size_t kTellEachCut = 1 << 16;       // of them between two looks at `go_on`
+constexpr double kMakingTetsPart = 0.4;             // of the whole work
+constexpr double kCuttingPart = 2.0 / 3.0;          // of what follows; the rest is merging
 constexpr std::array<std::array<int, 2>, 6> kPieceEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 /// Of a tetrahedron of positive volume, facing out.
 constexpr std::array<std::array<int, 3>, 4> kPieceFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -86,13 +88,24 @@ class CsgCutter {
   }
 
   base::Result<TriangleMesh> mesh(double cell, std::size_t max_triangles, const ContourProgress& go_on) {
+    const auto done = cut_all(max_triangles, contour_share(go_on, 0.0, kCuttingPart));
+    if (!done) return tl::unexpected(done.error());
+    return merged(cell, contour_share(go_on, kCuttingPart, 1.0 - kCuttingPart));
+  }
+
+ private:
+  base::Result<void> cut_all(std::size_t max_triangles, const ContourProgress& go_on) {
     for (std::size_t i = 0; i < tets_.size(); ++i) {
       const auto done = cut(tets_[i], contour_share(go_on, double(i) / double(tets_.size()), 0.0));
-      if (!done) return tl::unexpected(done.error());
+      if (!done) return done;
       if (triangles_.size() > max_triangles)
         return base::fail(fmt::format("the mesh would have more than {} triangles", max_triangles));
     }
     pair_up(between_, nullptr);
+    return {};
+  }
+
+  base::Result<TriangleMesh> merged(double cell, const ContourProgress& go_on) {
     TriangleMesh result;
     for (const CutPoint& point : points_) result.positions.push_back(point.place);
     result.triangles = std::move(triangles_);
@@ -102,11 +115,10 @@ class CsgCutter {
     settle_vertices(result, faces, surfaces_);
     const std::vector<bool> tips = settle_tips(result, faces, program_, surfaces_, cell);
     const ChordJudge judge(program_, surfaces_, cell);
-    return merge_faces(result, faces, tips, kHighEnough * on_,
-                       [&](Surface face, const auto& corners) { return judge.stands_for(face, corners); });
+    const auto fits = [&](Surface face, const auto& corners) { return judge.stands_for(face, corners); };
+    return merge_faces(result, faces, tips, kHighEnough * on_, fits, go_on);
   }
 
- private:
   static void make_set(std::vector<Surface>& surfaces) {
     std::sort(surfaces.begin(), surfaces.end());
     surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
@@ -330,10 +342,10 @@ base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t
   const CsgProgram program(turned);
   const std::size_t most_tets = std::min(kMostTets, kTetsATriangle * max_triangles);
   const CsgSurfaces surfaces(program);
-  auto tets = make_csg_tets(program, surfaces, cell, most_tets, contour_share(go_on, 0.0, 0.4));
+  auto tets = make_csg_tets(program, surfaces, cell, most_tets, contour_share(go_on, 0.0, kMakingTetsPart));
   if (!tets) return tl::unexpected(tets.error());
   auto mesh = CsgCutter(program, surfaces, std::move(*tets))
-                  .mesh(cell, max_triangles, contour_share(go_on, 0.4, 0.6));
+                  .mesh(cell, max_triangles, contour_share(go_on, kMakingTetsPart, 1.0 - kMakingTetsPart));
   if (mesh) {
     for (Vector3& position : mesh->positions) position = tree_from_z * position;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -17,6 +18,7 @@ using Triangle = TriangleMesh::Triangle;
 constexpr std::uint32_t kGone = ~std::uint32_t{0};
 /// Of many vertices that could go, some only can when their neighbours have.
 constexpr int kMostRounds = 100;
+constexpr std::uint32_t kAskEach = 4096;  // vertices between two looks at `go_on`
 
 class FaceMerger {
  public:
@@ -36,16 +38,25 @@ class FaceMerger {
     }
   }
 
-  TriangleMesh merged() {
+  base::Result<TriangleMesh> merged(const ContourProgress& go_on) {
     for (int round = 0; round < kMostRounds; ++round) {
       bool any = false;
-      for (std::uint32_t vertex = 0; vertex < at_.size(); ++vertex) any = take_away(vertex) || any;
+      for (std::uint32_t vertex = 0; vertex < at_.size(); ++vertex) {
+        if (vertex % kAskEach == 0 && !go_on(done(round, vertex)))
+          return base::fail("the meshing was interrupted");
+        any = take_away(vertex) || any;
+      }
       if (!any) break;
     }
     return numbered();
   }
 
  private:
+  /// The first round takes most of the time; how many follow is not known: each counts half of what is left.
+  double done(int round, std::uint32_t vertex) const {
+    return 1.0 - std::ldexp(1.0 - 0.5 * double(vertex) / double(at_.size()), -round);
+  }
+
   /// Moves the vertex onto a neighbour, the one that leaves the best shapes, where that changes no face.
   bool take_away(std::uint32_t vertex) {
     if (pinned_[vertex] || tried_[vertex] || around_[vertex].empty()) return false;
@@ -201,9 +212,10 @@ class FaceMerger {
 
 }  // namespace
 
-TriangleMesh merge_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
-                         const std::vector<bool>& pinned, double thinnest, const FaceFit& fits) {
-  return FaceMerger(mesh, faces, pinned, thinnest, fits).merged();
+base::Result<TriangleMesh> merge_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
+                                       const std::vector<bool>& pinned, double thinnest, const FaceFit& fits,
+                                       const ContourProgress& go_on) {
+  return FaceMerger(mesh, faces, pinned, thinnest, fits).merged(go_on);
 }
 
 }  // namespace icome::geometry

@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "base/result.h"
+#include "geometry/contour_progress.h"
 #include "geometry/triangle_mesh.h"
 
 namespace icome::geometry {
@@ -19,8 +21,9 @@ using FaceFit = std::function<bool(std::uint32_t face, const std::array<Vector3,
 /// and no triangle is turned over. `faces` says for each triangle on which plane or bent surface it lies, the
 /// same from both of its sides; those with kNoFace stay. Where `fits` allows only what is exact for planes,
 /// the surface is the same up to rounding. `pinned` says which vertices stay, such as the tips of bent faces.
-/// `thinnest` (m): no triangle is made that is less high.
-TriangleMesh merge_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
-                         const std::vector<bool>& pinned, double thinnest, const FaceFit& fits);
+/// `thinnest` (m): no triangle is made that is less high. Fails where `go_on`, asked now and then, says no.
+base::Result<TriangleMesh> merge_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
+                                       const std::vector<bool>& pinned, double thinnest, const FaceFit& fits,
+                                       const ContourProgress& go_on);
 
 }  // namespace icome::geometry

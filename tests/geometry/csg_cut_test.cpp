@@ -226,6 +226,15 @@ TEST(CsgCut, CanBeInterruptedWithinATetrahedron) {
   EXPECT_NE(made.error().message.find("interrupted"), std::string::npos) << made.error().message;
 }
 
+TEST(CsgCut, CanBeInterruptedWhileFacesAreMerged) {
+  const auto progress = [](double part) {
+    return part < 0.7;
+  };  // cutting ends at 0.64, the first round at 0.72
+  const auto made = contour(crossing_bars(3), {.cell = 0.2, .measures = false, .progress = progress});
+  ASSERT_FALSE(made.has_value());
+  EXPECT_NE(made.error().message.find("interrupted"), std::string::npos) << made.error().message;
+}
+
 TEST(MeshSheets, CubesThatShareAnEdgeAreTwo) {
   // Two tetrahedra that share the edge from vertex 0 to 1.
   TriangleMesh mesh;

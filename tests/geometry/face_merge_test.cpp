@@ -56,10 +56,16 @@ std::vector<bool> none_pinned(const TriangleMesh& mesh) {
   return std::vector<bool>(mesh.positions.size(), false);
 }
 
+TriangleMesh merged_faces(const GridBox& box, const std::vector<bool>& pinned, const FaceFit& fits) {
+  const auto merged = merge_faces(box.mesh, box.planes, pinned, 1e-9, fits, [](double) { return true; });
+  EXPECT_TRUE(merged.has_value());
+  return merged.value_or(TriangleMesh());
+}
+
 TEST(FaceMerge, BoxOfManyTrianglesBecomesTwelve) {
   const GridBox box = grid_box(7);
   ASSERT_TRUE(is_closed(box.mesh));
-  const TriangleMesh merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, all_fit);
+  const TriangleMesh merged = merged_faces(box, none_pinned(box.mesh), all_fit);
   EXPECT_TRUE(is_closed(merged));
   EXPECT_EQ(merged.triangles.size(), 12u);
   EXPECT_EQ(merged.positions.size(), 8u);
@@ -71,7 +77,7 @@ TEST(FaceMerge, TrianglesOfNoFaceStayAsTheyAre) {
   for (std::uint32_t& plane : box.planes) {
     if (plane == 5) plane = kNoFace;
   }
-  const TriangleMesh merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, all_fit);
+  const TriangleMesh merged = merged_faces(box, none_pinned(box.mesh), all_fit);
   EXPECT_TRUE(is_closed(merged));
   EXPECT_NEAR(volume(merged), 64.0, 1e-9);
   // All 25 vertices of that side, and the four corners opposite.
@@ -82,7 +88,7 @@ TEST(FaceMerge, PinnedVerticesStay) {
   const GridBox box = grid_box(4);
   std::vector<bool> pinned = none_pinned(box.mesh);
   for (std::size_t i = 0; i < pinned.size(); ++i) pinned[i] = box.mesh.positions[i] == Vector3(4, 2, 2);
-  const TriangleMesh merged = merge_faces(box.mesh, box.planes, pinned, 1e-9, all_fit);
+  const TriangleMesh merged = merged_faces(box, pinned, all_fit);
   EXPECT_TRUE(is_closed(merged));
   EXPECT_EQ(merged.positions.size(), 9u);
 }
@@ -96,7 +102,7 @@ TEST(FaceMerge, FacesKeepVerticesThatTheyNeed) {
     for (const Vector3& corner : corners) around.extend(corner);
     return around.sizes().maxCoeff() <= 2.0;
   };
-  const TriangleMesh merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, fits);
+  const TriangleMesh merged = merged_faces(box, none_pinned(box.mesh), fits);
   EXPECT_TRUE(is_closed(merged));
   EXPECT_NEAR(volume(merged), 512.0, 1e-9);
   std::size_t on_side = 0;
@@ -104,6 +110,22 @@ TEST(FaceMerge, FacesKeepVerticesThatTheyNeed) {
   EXPECT_GE(on_side, 25u);
   EXPECT_LT(on_side, 81u);
   EXPECT_EQ(merged.positions.size(), on_side + 4);
+}
+
+TEST(FaceMerge, StopsWhereItIsToldTo) {
+  const GridBox box = grid_box(27);
+  ASSERT_GT(box.mesh.positions.size(), 4096u);  // so that it asks once more in the first round
+  std::vector<double> parts;
+  const auto go_on = [&](double part) {
+    parts.push_back(part);
+    return part == 0.0;
+  };
+  const auto merged = merge_faces(box.mesh, box.planes, none_pinned(box.mesh), 1e-9, all_fit, go_on);
+  ASSERT_FALSE(merged.has_value());
+  EXPECT_NE(merged.error().message.find("interrupted"), std::string::npos) << merged.error().message;
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_GT(parts[1], 0.4);
+  EXPECT_LT(parts[1], 0.5);
 }
 
 }  // namespace
