@@ -122,7 +122,10 @@ void CsgSurfaces::add_faces(const CsgAtom& mesh, std::uint32_t atom, const Bound
 }
 
 void CsgSurfaces::find_likes(double length) {
-  std::multimap<double, Index> planes;  // the first ones, by their distance from the origin
+  // The first ones, by how far they are from a place that no shape is made around: the facets of a ball are
+  // all as far from its middle.
+  std::multimap<double, Index> planes;
+  const Vector3 place = length * Vector3(0.7316, -0.4487, 0.5923);
   std::vector<Index> bent;
   double farthest = length;
   for (const Surface& it : surfaces_)
@@ -138,8 +141,8 @@ void CsgSurfaces::find_likes(double length) {
       it.like = first;
     };
     if (is_plane(i)) {
-      const double distance =
-          std::abs(tree_normal(it.shape, Vector3::UnitZ()).dot(it.shape.tree_from_atom.translation()));
+      const double distance = std::abs(
+          tree_normal(it.shape, Vector3::UnitZ()).dot(it.shape.tree_from_atom.translation() - place));
       const double window = kLikeDistance * farthest;
       const auto end = planes.upper_bound(distance + window);
       for (auto near = planes.lower_bound(distance - window); near != end; ++near) try_out(near->second);

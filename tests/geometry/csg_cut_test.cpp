@@ -227,10 +227,9 @@ TEST(CsgCut, CanBeInterruptedWithinATetrahedron) {
 }
 
 TEST(CsgCut, CanBeInterruptedWhileFacesAreMerged) {
-  const auto progress = [](double part) {
-    return part < 0.7;
-  };  // cutting ends at 0.64, the first round at 0.72
-  const auto made = contour(crossing_bars(3), {.cell = 0.2, .measures = false, .progress = progress});
+  // Cutting ends at 0.8; the first time that all vertices were tried is half of the rest.
+  const auto go_on = [](double part) { return part < 0.85; };
+  const auto made = cut_csg(crossing_bars(4), 0.005, 20'000'000, go_on);
   ASSERT_FALSE(made.has_value());
   EXPECT_NE(made.error().message.find("interrupted"), std::string::npos) << made.error().message;
 }
