@@ -322,7 +322,6 @@ void ScpSolver::converge(const Vector3& tip) {
   int crawled = 0;
   double escaped_from = std::numeric_limits<double>::infinity();  // m, from the tip
   stride_ = std::numeric_limits<double>::infinity();
-  in_doubt_ = false;
   Vector3 nearest = position_;
   ContactSet nearest_contacts = contacts_;
   bool nearest_is_free = on_mesh();
@@ -407,6 +406,7 @@ bool ScpSolver::nearer(const Vector3& from, const Vector3& tip) const {
 Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   const Vector3 pull = tip - position_;
   const Tolerance& tolerance = region_.tolerance();
+  in_doubt_ = false;
   exact = true;
   for (const Element& contact : contacts_.all()) exact = exact && contact.flat();
   if (contacts_.any_smooth()) return next_smooth_step(tip, exact);
@@ -554,9 +554,10 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   if (as_before && !scene_->moves()) return false;
   const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
   const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
+  const auto may_look = [&] { return !spent() && !region_.overflowed(); };
   for (const double cosine : {0.5, 0.77, 0.27, 0.94, 0.12}) {
     const double sine = std::sqrt(1.0 - cosine * cosine);
-    for (int i = 0; i < kOpenSides && !spent() && length > tolerance().touching(); ++i) {
+    for (int i = 0; i < kOpenSides && may_look() && length > tolerance().touching(); ++i) {
       const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
       const Vector3 way =
           length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other));
@@ -568,7 +569,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
     }
   }
   contacts_ = held;
-  if (!spent()) {
+  if (may_look()) {
     shut_in_at_ = from;
     shut_in_tip_ = tip;
   }
@@ -601,6 +602,7 @@ bool ScpSolver::escape_over_edge(const Vector3& tip) {
   }
   position_ = from;
   contacts_ = held;
+  in_doubt_ = false;  // of the flat face that holds it
   return false;
 }
 
