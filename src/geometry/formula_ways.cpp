@@ -11,7 +11,8 @@ using Node = Expression::Node;
 
 constexpr std::size_t kMostWays = 256;
 constexpr std::size_t kMostTerms = 64;
-constexpr const char* kTooManyWays = "its abs, min, max, if and atan2 have too many combinations";
+constexpr const char* kTooManyWays =
+    "its abs, min, max, if, atan2, atan(a/b), asin(sin(a)) and the like have too many combinations";
 
 /// The least, over the ways, of the greatest of some smooth functions.
 using MinMax = std::vector<std::vector<Node>>;

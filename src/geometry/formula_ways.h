@@ -6,10 +6,11 @@
 
 namespace icome::geometry {
 
-/// A formula f without abs, min and max: the solid f <= 0 is the union of ways, and each way is where none of
-/// some smooth functions is positive. Where f rises with what is chosen from, as z - max(x, -2*x) falls
-/// with it, min joins solids and max cuts them with each other. Otherwise each combination of choices is a
-/// way, bounded also by where it is made.
+/// A formula f without choices, which abs, min, max, if and atan2 make, and asin, acos and atan of what they
+/// undo or of a quotient, as asin(sin(a)) and atan(a/b): the solid f <= 0 is the union of ways, and each way
+/// is where none of some smooth functions is positive. Where f rises with what is chosen from, as z - max(x,
+/// -2*x) falls with it, min joins solids and max cuts them with each other. Otherwise each combination of
+/// choices is a way, bounded also by where it is made.
 struct FormulaWays {
   /// sign * formula <= 0
   struct Term {
