@@ -19,10 +19,12 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
-constexpr int kMostSteps = 20'000;          // that one search for a way tries
-constexpr int kMostStepsEver = 400'000;     // all of them: then what cannot be told stays unjudged
-constexpr int kMostWalked = 100'000;        // triangles and falls of one search along a mesh
-constexpr int kMostWalkedEver = 4'000'000;  // of all of them
+constexpr int kMostSteps = 20'000;  // that one search for a way tries
+// All of them: then of meshes what cannot be told stays unjudged, of others it is a pop.
+constexpr int kMostStepsEver = 400'000;
+constexpr int kMostWalked = 100'000;         // triangles and falls of one search along a mesh
+constexpr int kMostWalkedEver = 4'000'000;   // of all of them
+constexpr int kMostMarkedEver = 20'000'000;  // triangles looked at to prove that meshes part places, all told
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise, a length is told from none
 constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
@@ -57,7 +59,10 @@ Bounds placed(const Bounds& box, const Pose& world_from_object) {
 class Party {
  public:
   Party(const JudgedObject& object, const JudgeSettings& settings)
-      : motion_(object.motion), box_(bounds(object)), lengths_(lengths_of(object, box_, settings)) {
+      : motion_(object.motion),
+        is_mesh_(std::holds_alternative<std::shared_ptr<const geometry::TriangleMesh>>(object.surface)),
+        box_(bounds(object)),
+        lengths_(lengths_of(object, box_, settings)) {
     limited_ = !box_.isEmpty() && box_.min().allFinite() && box_.max().allFinite();
     witness_ = make_witness(object, {lengths_.noise, lengths_.pop / 8.0});
     place(object.world_from_object);
@@ -70,6 +75,7 @@ class Party {
 
   const Lengths& lengths() const { return lengths_; }
   const Witness& witness() const { return *witness_; }
+  bool is_mesh() const { return is_mesh_; }
   Vector3 in_object(const Vector3& point) const { return object_from_world_ * point; }
   Vector3 in_world(const Vector3& direction) const {
     return object_from_world_.linear().transpose() * direction;
@@ -98,6 +104,7 @@ class Party {
   }
 
   std::function<Pose(double)> motion_;
+  bool is_mesh_;
   Bounds box_;  // own frame
   Lengths lengths_;
   bool limited_ = false;
@@ -318,15 +325,16 @@ class ContactJudge::Court {
     return search == WaySearch::GaveUp && !mesh_between(scp) ? WaySearch::None : search;
   }
 
-  /// Does a mesh lie on the straight way, or near it?
+  /// Is a mesh in the straight way? One that merely is around, as a room, does not make it hard to tell.
   bool mesh_between(const Vector3& scp) const {
     return std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
-      return party.may_meet(*seen_, scp, 0.0) && party.witness().ways() != nullptr;
+      return party.is_mesh() && party.may_meet(*seen_, scp, 0.0) &&
+             party.witness().blocked(party.in_object(*seen_), party.in_object(scp)).has_value();
     });
   }
 
   /// Does a mesh surely part the SCP, wherever noise may have put it, from where it was seen?
-  bool apart(const Vector3& scp, const Vector3& tip) const {
+  bool apart(const Vector3& scp, const Vector3& tip) {
     std::vector<Vector3> places;
     for (const Vector3& place : beside(scp)) {
       if (!inside(place)) places.push_back(place);
@@ -334,7 +342,8 @@ class ContactJudge::Court {
     return !places.empty() && std::any_of(parties_.begin(), parties_.end(), [&](const Party& party) {
       const WitnessWays* ways = party.may_meet(*seen_, scp, 0.0) ? party.witness().ways() : nullptr;
       return ways != nullptr && std::all_of(places.begin(), places.end(), [&](const Vector3& place) {
-               return ways->apart(party.in_object(*seen_), party.in_object(place), party.in_object(tip));
+               return ways->apart(party.in_object(*seen_), party.in_object(place), party.in_object(tip),
+                                  marks_left_);
              });
     });
   }
@@ -608,9 +617,10 @@ class ContactJudge::Court {
   std::vector<Party> parties_;
   Lengths near_;  // of what the last tick had to do with
   JudgedTick last_;
-  int pulling_ = 0;              // ticks in a row
-  int steps_ = 0;                // tried by all searches for a way in all directions
-  int walked_ = 0;               // by all along meshes
+  int pulling_ = 0;  // ticks in a row
+  int steps_ = 0;    // tried by all searches for a way in all directions
+  int walked_ = 0;   // by all along meshes
+  int marks_left_ = kMostMarkedEver;
   std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
 };
 

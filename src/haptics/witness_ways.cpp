@@ -126,7 +126,7 @@ std::optional<std::vector<WitnessWays::Passage>> WitnessWays::bent_passages(cons
   return std::nullopt;
 }
 
-bool WitnessWays::apart(const Vector3& a, const Vector3& b, const Vector3& centre) const {
+bool WitnessWays::apart(const Vector3& a, const Vector3& b, const Vector3& centre, int& steps) const {
   const double bend = 2.0 * kAside * (b - a).norm();
   if (bend <= 0.0) return false;
   const auto all = bent_passages(a, b);
@@ -137,7 +137,7 @@ bool WitnessWays::apart(const Vector3& a, const Vector3& b, const Vector3& centr
   std::vector<bool> rimmed;  // has it a rim in the ball?
   for (const auto& [triangle, side] : *all) {
     if (!part_of.contains(triangle)) {
-      rimmed.push_back(mark_part(triangle, passed.size(), ball, part_of));
+      rimmed.push_back(mark_part(triangle, passed.size(), ball, part_of, steps));
       passed.push_back(0);
     }
     passed[part_of[triangle]] += side;
@@ -148,13 +148,15 @@ bool WitnessWays::apart(const Vector3& a, const Vector3& b, const Vector3& centr
   return false;
 }
 
-/// Marks what hangs together with a triangle within the ball. Has it a rim there?
+/// Marks what hangs together with a triangle within the ball. Has it a rim there, as far as the steps go?
 bool WitnessWays::mark_part(std::uint32_t start, std::size_t part, const Ball& ball,
-                            std::unordered_map<std::uint32_t, std::size_t>& part_of) const {
+                            std::unordered_map<std::uint32_t, std::size_t>& part_of, int& steps) const {
   bool rimmed = false;
   std::vector<std::uint32_t> open{start};
   part_of[start] = part;
   while (!open.empty()) {
+    if (steps <= 0) return true;  // what is not looked at may have one
+    --steps;
     const std::uint32_t triangle = open.back();
     open.pop_back();
     const WitnessTree::Corners corners = tree_.corners(triangle);
@@ -287,7 +289,11 @@ class WitnessWays::Walk {
     const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     const auto from = [&](const Vector3& place) {
       const Vector3 inner = place + kOffCorner * (middle - place);
-      if (!found_ && (inner - tip_).norm() <= level + noise_) leave(inner + 2.0 * noise_ * out);
+      if (found_ || (inner - tip_).norm() > level + noise_) return;
+      const Vector3 off = inner + 2.0 * noise_ * out;
+      // Beside a sharp concave crease that is behind the triangle next to it.
+      if (first_met(middle + 2.0 * noise_ * out, off)) return;
+      leave(off);
     };
     from(middle);
     from(nearest_on(corners, tip_));

@@ -23,8 +23,8 @@ class WitnessWays {
   /// Must every way from `a` to `b` that leads no farther from `centre` than these are pass a side that stops
   /// the point? Proved by the parts of the surface within that ball: one without a rim in it, which the
   /// straight way passes more often from the front than from behind, is passed so by every way. False where
-  /// that proves nothing.
-  bool apart(const base::Vector3& a, const base::Vector3& b, const base::Vector3& centre) const;
+  /// that proves nothing, also when `steps` (triangles looked at) are used up; takes off what it needed.
+  bool apart(const base::Vector3& a, const base::Vector3& b, const base::Vector3& centre, int& steps) const;
 
   /// Is there a way from `a` to `b` that leads along the surface and falls straight to `tip`, and from one
   /// triangle to the next never farther from the tip? On each triangle a place at least as high is known as
@@ -60,7 +60,7 @@ class WitnessWays {
   std::optional<std::vector<Passage>> bent_passages(const base::Vector3& a, const base::Vector3& b) const;
 
   bool mark_part(std::uint32_t start, std::size_t part, const Ball& ball,
-                 std::unordered_map<std::uint32_t, std::size_t>& part_of) const;
+                 std::unordered_map<std::uint32_t, std::size_t>& part_of, int& steps) const;
 
   const WitnessTree& tree_;
   bool two_sided_;

@@ -211,6 +211,45 @@ TEST(ContactJudge, KnowsAFastStabThroughAWallForAPop) {
   }
 }
 
+/// A flat sheet with a hole, too small for a ball of 2 mm to come through, 9 mm beside its middle.
+MeshPointer sheet_with_a_hole() {
+  TriangleMesh mesh = height_field(0.1, 40, [](double, double) { return 0.0; });
+  const base::Bounds hole(Vector3(7.5e-3, 5e-3, -1.0), Vector3(10e-3, 7.5e-3, 1.0));
+  std::erase_if(mesh.triangles, [&](const TriangleMesh::Triangle& it) {
+    const auto& at = mesh.positions;
+    return hole.contains(Vector3((at[it[0]] + at[it[1]] + at[it[2]]) / 3.0));
+  });
+  return shared(mesh);
+}
+
+constexpr double kAboveIt = 0.006, kBelowIt = -0.004;  // m
+
+/// Judges an SCP that is found on the other side of what lies in the plane z = 0.
+Judgement judgement_of_passage(const std::vector<JudgedObject>& objects, double tip_radius) {
+  const Vector3 from(1e-4, 5e-5, kAboveIt), to(1e-4, 5e-5, kBelowIt);
+  ContactJudge judge = judge_of(objects, tip_radius);
+  judge.judge({from, from, false});
+  return judge.judge({to, to, false});
+}
+
+TEST(ContactJudge, LeavesUnjudgedWhatTakesTooLongToTellOfAMesh) {
+  // The hole lies in the ball around the tip that the SCP was on, so that the sheet surely parts nothing
+  // there; and the space above has more places to look at than a search may.
+  const Judgement judgement = judgement_of_passage({sheet(sheet_with_a_hole())}, 0.002);
+  EXPECT_TRUE(judgement.unjudged);
+  EXPECT_FALSE(judgement.pop);
+}
+
+TEST(ContactJudge, CountsAPopThroughWhatIsNoMeshAlsoWithinARoom) {
+  const JudgedObject wall = samples("box:0.1x0.1x0.001");
+  const JudgedObject room = sheet(shared(box_mesh({1.0, 1.0, 1.0})));
+  for (const std::vector<JudgedObject>& objects : {std::vector{wall}, std::vector{wall, room}}) {
+    const Judgement judgement = judgement_of_passage(objects, 0.0);
+    EXPECT_TRUE(judgement.pop) << objects.size();
+    EXPECT_FALSE(judgement.unjudged) << objects.size();
+  }
+}
+
 TEST(ContactJudge, CatchesAContactWithNothingInTheWay) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
