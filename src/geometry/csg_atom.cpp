@@ -46,13 +46,11 @@ bool beyond_apex(const CsgAtom& cone, const Vector3& point) {
   return radius * cone.b * cone.b < -(cone.a + cone.b * point.z());
 }
 
-Vector3 apex(const CsgAtom& cone) { return {0.0, 0.0, -cone.a / cone.b}; }
-
 /// From the apex to `point`, also in the tree's frame, which may be stretched.
 Vector3 beyond_normal(const CsgAtom& cone, const Vector3& point) {
   const Vector3 way = cone.metric * (point - apex(cone));
   const double length = way.norm();
-  return length > 0.0 ? Vector3(way / length) : Vector3(0.0, 0.0, cone.b < 0.0 ? 1.0 : -1.0);
+  return length > 0.0 ? Vector3(way / length) : way_out_of_apex(cone);
 }
 
 Vector3 gradient(const CsgAtom& atom, const Vector3& point) {

@@ -83,6 +83,12 @@ struct WalkEnd {
 };
 WalkEnd walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal);
 
+/// The apex of a cone's side. Precondition: b != 0.
+inline Vector3 apex(const CsgAtom& cone) { return {0.0, 0.0, -cone.a / cone.b}; }
+
+/// The way out of the cone along its axis at the apex, unit.
+inline Vector3 way_out_of_apex(const CsgAtom& cone) { return {0.0, 0.0, cone.b < 0.0 ? 1.0 : -1.0}; }
+
 /// The unit normal in the tree's frame for one in the atom's.
 inline Vector3 tree_normal(const CsgAtom& atom, const Vector3& normal) {
   return (atom.normal_map * normal).normalized();

@@ -60,10 +60,6 @@ struct PieceFace {
 
 bool operator<(const PieceFace& a, const PieceFace& b) { return a.key < b.key; }
 
-std::uint64_t edge_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
 class CsgCutter {
  public:
   using Surface = CsgSurfaces::Index;
@@ -117,11 +113,6 @@ class CsgCutter {
     const ChordJudge judge(program_, surfaces_, cell);
     const auto fits = [&](Surface face, const auto& corners) { return judge.stands_for(face, corners); };
     return merge_faces(result, faces, tips, kHighEnough * on_, fits, go_on);
-  }
-
-  static void make_set(std::vector<Surface>& surfaces) {
-    std::sort(surfaces.begin(), surfaces.end());
-    surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
   }
 
   /// -1 behind the surface, 1 in front of it, 0 on it. Cuts are flat: along an edge that was cut later, a
@@ -210,7 +201,7 @@ class CsgCutter {
   }
 
   std::uint32_t cut_point(std::uint32_t a, std::uint32_t b, Surface surface) {
-    const auto [found, fresh] = cut_edges_.try_emplace(edge_of(a, b), std::uint32_t(points_.size()));
+    const auto [found, fresh] = cut_edges_.try_emplace(edge_key(a, b), std::uint32_t(points_.size()));
     if (fresh) {
       const std::array<std::uint32_t, 2> ends{std::min(a, b), std::max(a, b)};
       points_.push_back({crossing(ends[0], ends[1], surface), surface, ends, carrier_of(a, b)});

@@ -322,9 +322,8 @@ class EdgeFinder {
   void take_apex(const Sheet& sheet) {
     const CsgAtom& atom = program_.atoms()[sheet.atom()];
     if (atom.kind != Kind::ConeSide || atom.subtracted || atom.b == 0.0) return;
-    const Vector3 apex(0.0, 0.0, -atom.a / atom.b);
-    const Vector3 place = atom.tree_from_atom * apex;
-    const Vector3 normal = tree_normal(atom, Vector3(0.0, 0.0, atom.b < 0.0 ? 1.0 : -1.0));
+    const Vector3 place = atom.tree_from_atom * apex(atom);
+    const Vector3 normal = tree_normal(atom, way_out_of_apex(atom));
     if (program_.relevant(sheet.atom()).contains(place) &&
         program_.on_surface(sheet.atom(), place, normal, kEdgeSlack * size_))
       edges.emplace_back(place, place);

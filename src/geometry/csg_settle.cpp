@@ -71,8 +71,7 @@ class VertexSettler {
   }
 
   static std::vector<Surface> surfaces_of(std::vector<Surface> faces) {
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    make_set(faces);
     if (!faces.empty() && faces.back() == CsgSurfaces::kNone) faces.clear();
     return faces;
   }

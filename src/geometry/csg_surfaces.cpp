@@ -22,11 +22,6 @@ constexpr double kTipOfCell = 0.6;       // in cells: the same
 constexpr double kInFace = 1e-11;        // of the coordinates: corners so near its plane lie in a face
 constexpr double kLikeDistance = 4e-12;  // of the coordinates: planes that may be alike are as far away
 
-void make_set(std::vector<Index>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 CsgAtom plane_through(const Vector3& place, const Vector3& normal) {
   Affine3 frame = Affine3::Identity();
   frame.linear() = base::rotation_between(Vector3::UnitZ(), normal).toRotationMatrix();
@@ -98,6 +93,11 @@ class FaceGatherer {
 };
 
 }  // namespace
+
+void make_set(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
 
 CsgSurfaces::CsgSurfaces(const CsgProgram& program) {
   const double length = largest_coordinate(program);
@@ -193,8 +193,7 @@ double CsgSurfaces::bend(Index surface, const Vector3& place, double cell) const
 std::optional<SurfacePoint> CsgSurfaces::apex(Index surface) const {
   const CsgAtom& atom = shape(surface);
   if (atom.kind != Kind::ConeSide) return std::nullopt;
-  return SurfacePoint{atom.tree_from_atom * Vector3(0.0, 0.0, -atom.a / atom.b),
-                      tree_normal(atom, Vector3(0.0, 0.0, atom.b < 0.0 ? 1.0 : -1.0))};
+  return SurfacePoint{atom.tree_from_atom * geometry::apex(atom), tree_normal(atom, way_out_of_apex(atom))};
 }
 
 }  // namespace icome::geometry

@@ -8,6 +8,9 @@
 
 namespace icome::geometry {
 
+/// Brings numbers into rising order, each once.
+void make_set(std::vector<std::uint32_t>& numbers);
+
 /// The surfaces along which a CSG solid can be cut: those of its atoms in closed form, and for each mesh the
 /// planes of its faces, one for all triangles side by side that lie in it. Owns copies; the program that it
 /// was made from must stay. Lengths m, tree's frame.

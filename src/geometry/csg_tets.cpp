@@ -191,10 +191,6 @@ class TetRefiner {
     return std::max(wanted, finest_);
   }
 
-  static std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-  }
-
   bool has_halved_edge(const OpenTet& tet) const {
     return std::any_of(kTetEdges.begin(), kTetEdges.end(), [&](const auto& edge) {
       return middles_.contains(edge_key(tet.corners[edge[0]], tet.corners[edge[1]]));

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,11 @@ struct CsgTets {
   std::vector<CsgSurfaces::Index> moved_to;  // by point: the surface on which it was put, or kNone
   std::vector<Tet> tets;
 };
+
+/// Tells an edge between two points, in either order.
+inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
 
 /// How far a chord of a surface with this bend (its radius, m) may be off, where a mesh has cells of `cell`
 /// m.

@@ -7,6 +7,7 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/exact_sign.h"
+#include "geometry/mesh_topology.h"
 #include "geometry/triangle_tree.h"
 
 namespace icome::geometry {
@@ -113,46 +114,10 @@ bool spans_area(const Corners& corners) {
   return !(corners[1] - corners[0]).cross(corners[2] - corners[0]).isZero(0.0);
 }
 
-/// The triangle on the other side of each side of each triangle; a number that is none where there is none,
-/// or are several.
-class Neighbours {
- public:
-  static constexpr std::uint32_t kNone = ~0U;
-
-  explicit Neighbours(const TriangleMesh& mesh) : of_(mesh.triangles.size(), {kNone, kNone, kNone}) {
-    std::vector<Side> all;
-    all.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
-        all.push_back({{low, high}, t, i});
-      }
-    std::ranges::sort(all, {}, &Side::ends);
-    for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
-      while (to < all.size() && all[to].ends == all[from].ends) ++to;
-      closed_ = closed_ && (to - from) % 2 == 0;
-      if (to - from != 2) continue;
-      of_[all[from].triangle][all[from].side] = all[from + 1].triangle;
-      of_[all[from + 1].triangle][all[from + 1].side] = all[from].triangle;
-    }
-  }
-  std::uint32_t across(std::uint32_t triangle, std::uint32_t side) const { return of_[triangle][side]; }
-  /// Has the surface no rim?
-  bool closed() const { return closed_; }
-
- private:
-  struct Side {
-    std::pair<std::uint32_t, std::uint32_t> ends;
-    std::uint32_t triangle, side;
-  };
-  std::vector<std::array<std::uint32_t, 3>> of_;
-  bool closed_ = true;
-};
-
 class SelfCrossingSearch {
  public:
   SelfCrossingSearch(const TriangleMesh& mesh, std::uint64_t most_tests)
-      : mesh_(mesh), tests_left_(most_tests), neighbours_(mesh), origin_(mesh.corner(0, 0)) {
+      : mesh_(mesh), tests_left_(most_tests), topology_(analyse_topology(mesh)), origin_(mesh.corner(0, 0)) {
     std::vector<FloatBox> boxes;
     boxes.reserve(mesh.triangles.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) boxes.push_back(float_box(box_of(t)));
@@ -207,7 +172,7 @@ class SelfCrossingSearch {
     if (signs == Signs{1, 1, 1} || signs == Signs{-1, -1, -1}) return false;
     const Signs other_signs = sides(corners, others);
     if (is_in_plane(signs))
-      return overlap_in_plane(corners, others) && (!neighbours_.closed() || face_alike(corners, others));
+      return overlap_in_plane(corners, others) && (!topology_.report.closed || face_alike(corners, others));
     if (is_on_both_sides(signs) && is_on_both_sides(other_signs) &&
         go_through(corners, signs, others, other_signs))
       return true;
@@ -221,8 +186,8 @@ class SelfCrossingSearch {
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::size_t next = (i + 1) % 3, last = (i + 2) % 3;
       if (signs[i] != 0 || signs[next] != 0) continue;
-      const std::uint32_t beyond = neighbours_.across(t, i);
-      if (beyond == Neighbours::kNone) return false;
+      const std::uint32_t beyond = topology_.neighbours[t][i];
+      if (beyond == kNoTriangle) return false;
       const Signs there = sides(through, corners_of(beyond));
       // Its third corner is the only one that is not in the plane.
       const int side = there[0] + there[1] + there[2];
@@ -233,7 +198,7 @@ class SelfCrossingSearch {
 
   const TriangleMesh& mesh_;
   std::uint64_t tests_left_;
-  Neighbours neighbours_;
+  MeshTopology topology_;
   Vector3 origin_;
   BoxTree tree_ = {};
 };
