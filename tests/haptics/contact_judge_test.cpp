@@ -222,11 +222,9 @@ MeshPointer sheet_with_a_hole() {
   return shared(mesh);
 }
 
-constexpr double kAboveIt = 0.006, kBelowIt = -0.004;  // m
-
 /// Judges an SCP that is found on the other side of what lies in the plane z = 0.
 Judgement judgement_of_passage(const std::vector<JudgedObject>& objects, double tip_radius) {
-  const Vector3 from(1e-4, 5e-5, kAboveIt), to(1e-4, 5e-5, kBelowIt);
+  const Vector3 from(1e-4, 5e-5, 0.006), to(1e-4, 5e-5, -0.004);
   ContactJudge judge = judge_of(objects, tip_radius);
   judge.judge({from, from, false});
   return judge.judge({to, to, false});
