@@ -11,7 +11,7 @@ namespace icome::session {
 /// A part of an object that is pointed out, and where a drag of it leads that is not an edit yet.
 struct MarkedPart {
   interaction::PlacedPart part = {};
-  std::optional<base::Affine3> motion = {};  // of the world, from where it is
+  std::optional<base::Affine3> motion = {};  // of the world, from where it is; none: it is not dragged
 };
 
 /// What parts of the selection with places of their own are seen as: operands of solids as ghosts of their

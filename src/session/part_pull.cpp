@@ -9,7 +9,7 @@ namespace icome::session {
 base::Result<PartPull> PartPull::take(Session& session, const interaction::PlacedPart& part) {
   auto drag = interaction::PartDrag::take(session.world(), part);
   if (!drag) return tl::unexpected(drag.error());
-  session.mark_part(MarkedPart{.part = part});
+  session.mark_part(MarkedPart{.part = part, .motion = base::Affine3::Identity()});
   return PartPull(std::move(*drag));
 }
 

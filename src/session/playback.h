@@ -9,7 +9,6 @@ namespace icome::session {
 /// while they are played.
 class Playback {
  public:
-  bool plays() const { return posed_.has_value(); }
   /// Does anything move?
   bool moves() const { return posed_ && posed_->moves(); }
   /// What is to be shown of a world that is this at rest.

@@ -208,8 +208,10 @@ class Session {
   interaction::Shaping* shaping();
   /// Points out what the mouse is over or holds; each hand points out its own.
   void mark_handle(const std::optional<interaction::MarkedHandle>& marked);
-  /// Points out an operand or a projector of the selection, which the mouse is over or drags.
+  /// Points out an operand or a projector of the selection, which the mouse is over, or which is dragged.
   void mark_part(const std::optional<MarkedPart>& marked);
+  /// With a motion: it is dragged, by the mouse or by a hand.
+  const std::optional<MarkedPart>& marked_part() const;
   /// How things are moved from now on, and felt then.
   void set_grab(const GrabSettings& settings);
   const GrabSettings& grab() const;

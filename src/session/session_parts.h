@@ -138,7 +138,7 @@ struct Session::Parts {
   bool symbols_are_new = false;  // they may be
   render::SceneOverlay symbols;  // of the effects, as they are drawn
   PartOutlines part_outlines;
-  std::optional<MarkedPart> marked_part;     // as the mouse's tool says
+  std::optional<MarkedPart> marked_part;     // as the mouse's tool or who drags it says
   bool parts_are_new = false;                // outlines may be others
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
   std::vector<bool> ungrabbed;               // pointers that begin to grab when their button has come up

@@ -252,6 +252,8 @@ void Session::mark_part(const std::optional<MarkedPart>& marked) {
   parts_->look_is_new = true;
 }
 
+const std::optional<MarkedPart>& Session::marked_part() const { return parts_->marked_part; }
+
 std::vector<ForceSample> Session::take_forces() { return parts_->hands.take_forces(); }
 
 }  // namespace icome::session

@@ -185,6 +185,7 @@ void MainWindow::make_tool_bar() {
 void MainWindow::show_tool(Tool tool) {
   tool_actions_[int(tool)]->setChecked(true);
   shaping_->setVisible(tool == Tool::Shape);
+  operation_->forget_remark();
   is_stale_ = true;
   show_look();
 }

@@ -37,6 +37,7 @@ struct OperationPanel::Parts {
   void build(OperationPanel& panel);
   void listen();
   void follow();
+  void forget_remark();
 
   void change();
   void schedule();
@@ -144,13 +145,21 @@ void OperationPanel::Parts::build(OperationPanel& panel) {
 
 void OperationPanel::Parts::listen() {
   const std::weak_ptr<bool> guard = alive;
-  const auto heard = [this, guard] {
-    if (!guard.expired()) follow();
-  };
-  session.on_selection(heard);
-  session.on_change([heard](const world::Changes* changes) {
-    if (!changes || !changes->objects.empty()) heard();  // names may be others
+  session.on_selection([this, guard] {
+    if (guard.expired()) return;
+    forget_remark();
+    follow();
   });
+  session.on_change([this, guard](const world::Changes* changes) {
+    if (guard.expired()) return;
+    forget_remark();
+    if (!changes || !changes->objects.empty()) follow();  // names may be others
+  });
+}
+
+/// Whoever goes on with something else has done with what was told of the last that was applied.
+void OperationPanel::Parts::forget_remark() {
+  if (!awake && !preview.busy() && note->text() != kStays) note->clear();
 }
 
 /// Takes in what the selection says now.
@@ -323,6 +332,8 @@ void OperationPanel::keep() {
 }
 
 void OperationPanel::leave() { parts_->leave(); }
+
+void OperationPanel::forget_remark() { parts_->forget_remark(); }
 
 void OperationPanel::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape) return parts_->close->click();

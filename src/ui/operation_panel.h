@@ -27,8 +27,11 @@ class OperationPanel final : public QWidget {
   void ask(const interaction::Operation& operation);
   /// Where typing begins; null: nothing is asked.
   QWidget* first_field() const;
-  /// What is to be known of what is shown or was done last; or empty.
+  /// What is to be known of what is shown, or was done last until anything else is done or selected; or
+  /// empty.
   QString remark() const;
+  /// Something else is gone on with: what was remarked on what is done already is over.
+  void forget_remark();
   /// Performs what has been said, as one action; a failed one changes nothing and is told on the panel.
   void apply();
   /// What is shown is in a file now: it stays.

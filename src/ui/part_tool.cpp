@@ -94,8 +94,11 @@ void PartTool::step() {
 
 bool PartTool::hover(const std::optional<SceneInput>& input) {
   if (busy()) return false;
+  hovered_.reset();
+  // What a hand drags is its to point out until it lets go.
+  if (const auto& marked = session_.marked_part(); marked && marked->motion) return false;
   const auto picked = input ? session_.pick_part(input->ray(session_.view())) : std::nullopt;
-  hovered_ = picked ? std::optional(picked->part) : std::nullopt;
+  if (picked) hovered_ = picked->part;
   session_.mark_part(hovered_ ? std::optional(session::MarkedPart{.part = *hovered_}) : std::nullopt);
   return hovered_.has_value();
 }
@@ -122,9 +125,9 @@ void PartTool::finish() {
 void PartTool::drop() {
   press_.reset();
   due_.reset();
-  if (drag_ || hovered_) session_.mark_part(std::nullopt);
-  hovered_.reset();
+  if (drag_) session_.mark_part(std::nullopt);
   drag_.reset();
+  hover(std::nullopt);
 }
 
 void PartTool::hear(const base::Result<void>& done) {

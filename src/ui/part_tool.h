@@ -25,8 +25,8 @@ class PartTool {
   std::optional<SceneInput> release(const SceneInput& input);
   /// Brings what is held to where the mouse went since the last call.
   void tick();
-  /// Points out what is under the mouse while nothing is held; none: it is elsewhere. True: there is
-  /// something.
+  /// Points out what is under the mouse while nothing is held, by no hand either; none: it is elsewhere.
+  /// True: there is something.
   bool hover(const std::optional<SceneInput>& input);
   /// What was dragged goes back to where it was.
   void cancel();

@@ -1,11 +1,14 @@
 // How long the main thread works on one thing while people drag and touch: nobody may see the window stand.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "base/random.h"
 #include "places.h"
 #include "ui/window_test.h"
 
@@ -18,11 +21,32 @@ namespace {
 
 using base::Vector3;
 
+// Times are those of a machine on which the reference below takes so long; elsewhere they are as many times
+// as long. What is looked for, a window that stands, takes seconds.
+constexpr double kReferenceSeconds = 0.02;
+constexpr double kRoom = 2.0;      // what one piece of work says of another is not exact
 constexpr double kLongest = 0.05;  // s: three pictures of a screen
 /// Of what each test does, as it is known: some steps of a drag of the bunny, whose 69,666 triangles are
 /// asked.
 constexpr std::size_t kMostLongCalls = 3;
 constexpr double kNeverLonger = 0.25;  // s
+
+/// s of this thread for work that is always the same: to sort, which waits for memory and guesses wrong, as
+/// most of what is judged does.
+double reference_seconds() {
+  base::Random random(1);
+  std::array<double, 5> took{};
+  for (double& it : took) {
+    std::vector<double> numbers(200'000);
+    for (double& number : numbers) number = random.uniform(0.0, 1.0);
+    const double before = TimedApplication::thread_seconds();
+    std::ranges::sort(numbers);
+    it = TimedApplication::thread_seconds() - before;
+    EXPECT_LT(numbers.front(), numbers.back());
+  }
+  std::ranges::sort(took);
+  return took[2];
+}
 
 class MainThreadTest : public WindowTest {
  protected:
@@ -88,12 +112,13 @@ class MainThreadTest : public WindowTest {
     for (int i = 0; i < 5; ++i) live();
   }
   void expect_few_long_calls(const char* while_what) {
+    const double scale = kRoom * std::max(1.0, reference_seconds() / kReferenceSeconds);
     for (const auto& it : application().long_calls()) {
-      EXPECT_LT(it.seconds, kNeverLonger) << it.what << ", " << while_what;
+      EXPECT_LT(it.seconds, scale * kNeverLonger) << it.what << ", " << while_what;
       std::cout << 1e3 * it.seconds << " ms in one go, " << it.what << ", " << while_what << "\n";
+      long_calls_ += it.seconds > scale * kLongest ? 1 : 0;
     }
-    long_calls_ += application().long_calls().size();
-    EXPECT_LE(long_calls_, kMostLongCalls) << while_what;
+    EXPECT_LE(long_calls_, kMostLongCalls) << while_what << ", beyond " << 1e3 * scale * kLongest << " ms";
     EXPECT_GT(application().calls(), 50U);
     application().watch(kLongest);
   }

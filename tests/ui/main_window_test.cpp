@@ -297,6 +297,29 @@ TEST_F(MainWindowTest, ATechniqueIsInSightAsLongAsItIsAtWork) {
   ASSERT_TRUE(until([&] { return !again.isVisible(); }));
 }
 
+TEST_F(MainWindowTest, WhatAnOperationRemarkedGivesWayToTheHintOfAnotherTool) {
+  const auto shape = session().ids().next<world::GeometryId>();
+  perform(world::CreateGeometry{shape, world::box(0.2)});
+  for (const char* name : {"one", "other"}) {
+    const auto id = session().ids().next<world::ObjectId>();
+    perform(world::CreateObject{id, 0, {.name = name, .geometry = shape}});
+    session().select({id});
+  }
+  action("model.reshape")->trigger();
+  auto* size = window_->findChild<QLineEdit*>("parameter.size");
+  ASSERT_TRUE(size);
+  size->setFocus();
+  size->selectAll();
+  QTest::keyClicks(size, "300");
+  window_->findChild<QPushButton*>("operation.apply")->click();
+  const QString remark = window_->findChild<QLabel*>("operation.note")->text();
+  EXPECT_NE(remark, "");
+  auto& hint = *window_->findChild<QLabel*>("status.hint");
+  ASSERT_TRUE(until([&] { return hint.text() == remark; }));
+  action("tool.touch")->trigger();
+  EXPECT_TRUE(until([&] { return hint.text().startsWith("Press to touch"); }));
+}
+
 TEST_F(MainWindowTest, ClosingAsksAboutWhatIsBeingTyped) {
   const auto leg = add("leg");
   session().save(path_of(file("a.icome")));

@@ -322,6 +322,36 @@ TEST_F(OperationPreviewTest, TellsWhatAnOperationRemarks) {
   EXPECT_TRUE(foot().contains("2 objects")) << foot().toStdString();
 }
 
+TEST_F(OperationPreviewTest, WhatWasRemarkedIsOverWhenSomethingElseIsGoneOnWith) {
+  const ObjectId other = make("other");
+  session().select({box_});
+  ask("clone");
+  settle();
+  part<QPushButton>("operation.apply").click();
+  session().select({box_});
+  ask("reshape");
+  const auto reshape = [&](const char* size) {
+    type("size", size);
+    settle();
+    part<QPushButton>("operation.apply").click();
+    EXPECT_TRUE(panel_.remark().contains("2 objects")) << panel_.remark().toStdString();
+  };
+  reshape("300");
+  session().select({other});
+  EXPECT_EQ(panel_.remark(), "");
+  session().select({box_});
+  reshape("400");
+  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(panel_.remark(), "") << "though no object has changed but its shape";
+  reshape("500");
+  panel_.forget_remark();
+  EXPECT_EQ(panel_.remark(), "");
+  type("size", "600");
+  settle();
+  panel_.forget_remark();
+  EXPECT_TRUE(panel_.remark().contains("2 objects")) << "of what is only shown it stays";
+}
+
 int slow_runs = 0;
 std::chrono::milliseconds slowness{0};
 

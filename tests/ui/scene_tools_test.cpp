@@ -88,6 +88,17 @@ class SceneToolsTest : public DesktopTest {
     QCoreApplication::sendEvent(&window_, &event);
   }
   Vector3 at(ObjectId id) { return world_from_object(world(), id).translation(); }
+  /// Runs the hand until what was waited for has come.
+  template <typename Come>
+  bool hand_until(const Come& come) {
+    for (int i = 0; i < 6000; ++i) {
+      tools_.tick();
+      session().update();
+      if (come()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
 
   std::string refused_;
   int asked_ = 0;
@@ -337,17 +348,6 @@ class PenTest : public SceneToolsTest {
     QCoreApplication::sendEvent(&window_, &event);
     return event.isAccepted();
   }
-  /// Runs the hand until what was waited for has come.
-  template <typename Come>
-  bool hand_until(const Come& come) {
-    for (int i = 0; i < 6000; ++i) {
-      tools_.tick();
-      session().update();
-      if (come()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
 };
 
 TEST_F(PenTest, PressesIntoWhatIsUnderIt) {
@@ -497,6 +497,32 @@ TEST_F(PartToolTest, EscapeTakesItBackAndAnAxisKeepsIt) {
   EXPECT_TRUE(goes_through(0.05, 0.0));
   EXPECT_EQ(session().history().undo_name(), "Edit");
   mouse(QEvent::MouseButtonRelease, rim(0.0));
+}
+
+TEST_F(PartToolTest, WhatAHandDragsStaysPointedOutWhereverTheMouseIs) {
+  const auto marked = [this] {
+    const auto& it = session().marked_part();
+    return it ? it->part.operand : std::nullopt;
+  };
+  session().select({left_});
+  const Vector3 grip(0.05, 0.02, 0.05);  // on the rim of the hole's ghost, in the air
+  session().put_hand(grip);
+  ASSERT_TRUE(hand_until([&] { return (session().pointer(0).tip - grip).norm() < 1e-3; }));
+  session().hold_hand_buttons(1);
+  ASSERT_TRUE(hand_until([&] { return session().holds(0); }));
+  const QPointF edge = pixel(Vector3(0.0, 0.1, 0.02));  // of the block's ghost
+  for (const QPointF& there : {face(right_), edge}) {
+    mouse(QEvent::MouseMove, there);
+    tools_.tick();
+    EXPECT_EQ(marked(), 1U);
+    EXPECT_EQ(tools_.drag_words(), "");
+  }
+  session().hold_hand_buttons(0);
+  ASSERT_TRUE(hand_until([&] { return !session().holds(0); }));
+  tools_.tick();
+  EXPECT_EQ(marked(), 0U) << "what the mouse is over";
+  tools_.leave();
+  EXPECT_FALSE(session().marked_part());
 }
 
 TEST_F(PartToolTest, CtrlTurnsIt) {

@@ -28,6 +28,13 @@ class TimedApplication final : public QApplication {
   std::size_t calls() const { return calls_; }
   const std::vector<LongCall>& long_calls() const { return long_calls_; }
 
+  /// Of the processor that the thread which asks has used.
+  static double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+  }
+
   bool notify(QObject* of, QEvent* event) override {
     // Objects of other threads hear of their events there.
     if (QThread::currentThread() != thread() || within_) return QApplication::notify(of, event);
@@ -46,12 +53,6 @@ class TimedApplication final : public QApplication {
   }
 
  private:
-  static double thread_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-  }
-
   bool within_ = false;
   double longer_than_ = 1e9;
   std::size_t calls_ = 0;

@@ -69,6 +69,18 @@ TEST(PlacedPart, OfASolidAreItsShapesAndOfAPictureItsProjector) {
   }
 }
 
+TEST(PlacedPart, OfAMeshIsLookedForInShortRecipesOnly) {
+  const auto triangle = world::one_triangle();
+  const auto thrown = with_projector(dynamic_cast<const world::MeshGeometry&>(*triangle),
+                                     {.mesh_from_projector = turned_place()});
+  ASSERT_TRUE(thrown);
+  world::MeshGeometry mesh((*thrown)->mesh);
+  mesh.recipe = (*thrown)->recipe;
+  EXPECT_TRUE(projector_in(mesh));
+  mesh.recipe.insert(1, 1'000'000, ' ');  // JSON that says the same
+  EXPECT_FALSE(projector_in(mesh)) << "so much would have to be read at each step of a drag";
+}
+
 TEST(PartDrag, CarriesAHoleWithTheHandAndEveryStepCountsFromTheBeginning) {
   Plate it;
   const std::uint64_t before = hash(it.world);

@@ -2,6 +2,7 @@
 // and places out, the least gap by the golden section along two sides.
 #include "interaction/snapping/close_fit.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "clutter.h"
@@ -188,6 +189,15 @@ double judged_gap(const JudgedSolid& moved, const Affine3& world_from_moved, con
   return std::isfinite(least) ? std::min(least, judge.least(nearest, 4e-3)) : least;
 }
 
+/// How many of these places of a solid's surface, drawn in towards its own origin by 1/50, are in another:
+/// contacts or not, it is deep in there then. For solids that are round their origins.
+int places_deep_in(const Affine3& world_from_moved, const JudgedSolid& other, const Affine3& world_from_other,
+                   const std::vector<Vector3>& places) {
+  const Affine3 other_from_moved = world_from_other.inverse() * world_from_moved;
+  return int(std::ranges::count_if(
+      places, [&](const Vector3& it) { return other.inside(other_from_moved * (0.98 * it)); }));
+}
+
 class CloseFitOf : public ::testing::TestWithParam<int> {};
 
 TEST_P(CloseFitOf, RandomMovesRestsAtTheSolidsThemselves) {
@@ -217,6 +227,7 @@ TEST_P(CloseFitOf, RandomMovesRestsAtTheSolidsThemselves) {
       ASSERT_TRUE(move);
       stops += int(move->stopped);
       const Affine3 there = Eigen::Translation3d(move->offset) * place;
+      EXPECT_EQ(places_deep_in(there, other, stands, places), 0);
       for (const Contact& it : move->contacts) {
         const double gap = judged_gap(moved, there, other, stands, it.normal, places);
         if (!std::isfinite(gap)) continue;
