@@ -12,7 +12,7 @@ StatsJson interval_json(const study::TestResult& test) {
   return {test.effect_interval->low, test.effect_interval->high};
 }
 
-/// The members of a test; nulls with "why" where there is none.
+/// The members of a test; nulls where there is none, and "why".
 StatsJson test_json(const study::Tested& tested) {
   if (!tested.result)
     return {{"test", nullptr},   {"statistic", nullptr}, {"df", StatsJson::array()},     {"p", nullptr},
@@ -30,7 +30,8 @@ StatsJson test_json(const study::Tested& tested) {
                     {"people", test.people},
                     {"counts", test.counts.empty() ? StatsJson(nullptr) : StatsJson(test.counts)},
                     {"doubts", test.doubts},
-                    {"notes", test.notes}};
+                    {"notes", test.notes},
+                    {"why", nullptr}};
   return json;
 }
 

@@ -21,6 +21,7 @@
 #include "session/revisions.h"
 #include "session/seen_world.h"
 #include "session/session.h"
+#include "session/target_maker.h"
 #include "session/user_interaction.h"
 
 namespace icome::session {
@@ -138,8 +139,9 @@ struct Session::Parts {
   bool symbols_are_new = false;  // they may be
   render::SceneOverlay symbols;  // of the effects, as they are drawn
   PartOutlines part_outlines;
-  std::optional<MarkedPart> marked_part;     // as the mouse's tool or who drags it says
-  bool parts_are_new = false;                // outlines may be others
+  std::optional<MarkedPart> marked_part;  // as the mouse's tool or who drags it says
+  bool parts_are_new = false;             // outlines may be others
+  std::shared_ptr<TargetMaker> target_maker = std::make_shared<TargetMaker>();
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
   std::vector<bool> ungrabbed;               // pointers that begin to grab when their button has come up
   std::vector<bool> lost;                    // the pointer's device, as a person was told last

@@ -120,7 +120,7 @@ base::Result<void> Session::set_technique(const std::optional<interaction::Techn
   if (held) parts.feel_held(false);
   parts.ungrabbed.assign(parts.ungrabbed.size(), true);
   parts.technique.reset();
-  if (technique) parts.technique = std::make_shared<TechniqueHand>(*technique);
+  if (technique) parts.technique = std::make_shared<TechniqueHand>(*technique, parts.target_maker);
   parts.technique_since = parts.moved_at;
   return {};
 }

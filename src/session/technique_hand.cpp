@@ -8,6 +8,7 @@
 
 #include "interaction/techniques/similarity.h"
 #include "session/session.h"
+#include "session/target_maker.h"
 #include "session/user_interaction.h"
 
 namespace icome::session {
@@ -81,12 +82,29 @@ Pose TechniqueHand::carried(const Affine3& room_before) const {
   return by;
 }
 
+/// False: something that the hands may meet is still being made. Buttons that are down then have to be
+/// pressed anew.
+bool TechniqueHand::get_ready(const world::World& world) {
+  if (!maker_->is_at_work()) {
+    for (auto& [shape, made] : maker_->take()) technique_.keep(shape, std::move(made));
+    auto slow = technique_.slow_shapes(world);
+    is_getting_ready_ = !slow.empty();
+    if (is_getting_ready_) maker_->make(std::move(slow));
+  }
+  if (!is_getting_ready_) return true;
+  technique_.let_go();
+  outcome_ = {};
+  stale_ = {~0U, ~0U};
+  return false;
+}
+
 std::optional<Pose> TechniqueHand::update(Session& session, const TechniqueMoment& moment,
                                           const Revisions& revisions, std::string& refused) {
   if (revision_ && *revision_ != revisions.now()) {
     technique_.let_go();
     if (recording_) recording_->is_over = true;
   }
+  if (!get_ready(session.world())) return std::nullopt;
   place_room(moment);
   input_ = input_of(moment);
   keep(input_);
@@ -120,7 +138,8 @@ void TechniqueHand::perform(Session& session, const interaction::WorldTechnique:
 }
 
 std::optional<Affine3> TechniqueHand::copy_from_stage(const Session& session) {
-  if (!revision_ || !uses_miniature(technique())) return std::nullopt;
+  if (!revision_ || !uses_miniature(technique()) || !technique_.slow_shapes(session.world()).empty())
+    return std::nullopt;
   const interaction::SelectingSettings sizes = interaction::sizes_now(technique(), technique_.state());
   return interaction::copy_from_world(sizes.miniature, technique_.scene(session.world()).bounds(), input_,
                                       stage_from_room());

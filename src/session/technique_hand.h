@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "interaction/techniques/technique_recording.h"
 #include "session/revisions.h"
@@ -10,6 +12,7 @@
 namespace icome::session {
 
 class Session;
+class TargetMaker;
 
 /// What a technique reads of a session at one moment; stage frame.
 struct TechniqueMoment {
@@ -33,10 +36,15 @@ struct TechniqueMoment {
 /// The room of the technique is where the pointers' workspace lies, as large as the view shows it: at 0.6 of
 /// its metres from the eye is what one looks at, as for UserInteraction. While a person holds something,
 /// travels or records, the room is a place of its own that only the technique moves.
+///
+/// Solids, scans and other shapes that take long to be made into triangles are made on a thread of their own;
+/// until they are there, the hands do nothing.
 class TechniqueHand {
  public:
-  /// The technique has to pass check().
-  explicit TechniqueHand(const interaction::Technique& technique) : technique_(technique) {}
+  /// The technique has to pass check(). `maker` outlives the technique, so that choosing another one does not
+  /// wait for what it makes.
+  TechniqueHand(const interaction::Technique& technique, std::shared_ptr<TargetMaker> maker)
+      : technique_(technique), maker_(std::move(maker)) {}
 
   /// Call it once for each update of the session. Gives by what the view and the workspaces are to be
   /// carried, when the person travels. `refused` is told why something could not be moved.
@@ -55,6 +63,8 @@ class TechniqueHand {
   bool holds() const { return technique_.holds(); }
   /// Nothing is held, and nobody is on the way.
   bool resting() const { return technique_.resting(); }
+  /// Is what it may meet being made?
+  bool is_getting_ready() const { return is_getting_ready_; }
   /// What the last step showed, in the stage's frame, and what went into it.
   const interaction::TechniqueOutcome& outcome() const { return outcome_; }
   const interaction::TechniqueInput& input() const { return input_; }
@@ -85,11 +95,14 @@ class TechniqueHand {
   interaction::TechniqueInput input_of(const TechniqueMoment& moment);
   interaction::HandInput hand_of(const TechniqueMoment& moment, std::size_t which);
   void place_room(const TechniqueMoment& moment);
+  bool get_ready(const world::World& world);
   void keep(const interaction::TechniqueInput& input);
   void perform(Session& session, const interaction::WorldTechnique::Step& step, std::string& refused);
   base::Pose carried(const base::Affine3& room_before) const;
 
   interaction::WorldTechnique technique_;
+  std::shared_ptr<TargetMaker> maker_;
+  bool is_getting_ready_ = false;
   interaction::TechniqueOutcome outcome_ = {};
   interaction::TechniqueInput input_ = {};
   std::array<std::uint32_t, 2> stale_ = {~0U, ~0U};  // buttons that have not come up since the hand is there

@@ -111,9 +111,10 @@ ProgressRow::ProgressRow(const std::function<void()>& cancel, QWidget* parent)
   bar_ = new QProgressBar(this);
   bar_->setObjectName("banner.bar");
   bar_->setTextVisible(false);
-  bar_->setFixedWidth(60 * kGrid);
-  line()->addWidget(text_, 1);
-  line()->addWidget(bar_);
+  bar_->setMinimumWidth(20 * kGrid);
+  bar_->setMaximumWidth(60 * kGrid);
+  line()->addWidget(text_, 2);
+  line()->addWidget(bar_, 1);
   if (!cancel) return;
   auto* button = new QPushButton("Cancel", this);
   button->setObjectName("banner.cancel");

@@ -194,7 +194,8 @@ void MainWindow::show_hint() {
   const std::vector<world::ObjectId>& selected = session_.selection();
   QString text = kTools[int(tools_.tool())].hint;
   const QString by = techniques_.name();
-  if (tools_.tool() == Tool::Touch && !by.isEmpty()) text = techniques_.hint();
+  technique_hint_ = techniques_.hint();
+  if (tools_.tool() == Tool::Touch && !by.isEmpty()) text = technique_hint_;
   technique_->setVisible(!by.isEmpty());
   technique_->setText("Technique: " + by);
   if (tools_.tool() == Tool::Select && !selected.empty()) {

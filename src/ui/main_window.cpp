@@ -188,7 +188,9 @@ void MainWindow::tick() {
   show_title();
   show_count();
   const auto labelled = wanted_label();
-  if (is_stale_ || tools_.drag_words() != drag_words_ || operation_->remark() != remark_) show_hint();
+  if (is_stale_ || tools_.drag_words() != drag_words_ || operation_->remark() != remark_ ||
+      techniques_.hint() != technique_hint_)
+    show_hint();
   if (is_stale_ || labelled != labelled_ || devicePixelRatio() != pixel_ratio_) {
     labelled_ = labelled;
     show_look();

@@ -109,6 +109,7 @@ class MainWindow final : public QMainWindow {
   std::optional<world::ObjectId> labelled_ = {};
   std::string drag_words_;    // as shown
   QString remark_;            // of an operation, as shown
+  QString technique_hint_;    // as shown
   double pixel_ratio_ = 0.0;  // as shown; another screen may have another
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // to close

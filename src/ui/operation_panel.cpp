@@ -7,13 +7,13 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QShortcut>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
+#include "ui/column_area.h"
 #include "ui/operation_form.h"
 #include "ui/operation_preview.h"
 #include "ui/panel_note.h"
@@ -55,7 +55,7 @@ struct OperationPanel::Parts {
   Hooks hooks;
   QLabel* title;
   QLabel* summary;
-  QScrollArea* scroll;
+  ColumnArea* scroll;
   OperationForm* form = nullptr;  // null: nothing is asked yet
   PanelNote* note;
   QCheckBox* previews;
@@ -74,7 +74,7 @@ OperationPanel::Parts::Parts(session::Session& of, Hooks its, OperationPanel& pa
       hooks(std::move(its)),
       title(new QLabel(&panel)),
       summary(new QLabel(&panel)),
-      scroll(new QScrollArea(&panel)),
+      scroll(new ColumnArea(&panel)),
       note(new PanelNote(&panel)),
       previews(new QCheckBox("&Preview", &panel)),
       apply(new QPushButton("&Apply", &panel)),
@@ -102,9 +102,6 @@ void OperationPanel::Parts::build(OperationPanel& panel) {
   summary->setForegroundRole(QPalette::PlaceholderText);
   summary->setContentsMargins(4 * kGrid, kGrid, 3 * kGrid, 2 * kGrid);
   summary->setText("Choose what to make or to change in the Model menu.");
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   note->setObjectName("operation.note");
   note->setContentsMargins(4 * kGrid, kGrid, 3 * kGrid, kGrid);
   previews->setObjectName("operation.preview");
@@ -273,7 +270,6 @@ void OperationPanel::Parts::show_state() {
 OperationPanel::OperationPanel(session::Session& session, Hooks hooks, QWidget* parent)
     : QWidget(parent), parts_(std::make_unique<Parts>(session, std::move(hooks), *this)) {
   setAccessibleName("Operation");
-  setMinimumWidth(64 * kGrid);
 }
 
 OperationPanel::~OperationPanel() {

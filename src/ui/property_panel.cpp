@@ -3,12 +3,12 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QTimer>
 #include <QVBoxLayout>
 
 #include "interaction/operations/effect_making.h"
 #include "interaction/operations/material_library.h"
+#include "ui/column_area.h"
 #include "ui/fixture_properties.h"
 #include "ui/material_properties.h"
 #include "ui/object_look.h"
@@ -420,15 +420,11 @@ void PropertyPanel::Parts::refresh() {
 PropertyPanel::PropertyPanel(session::Session& session, QWidget* parent)
     : QWidget(parent), parts_(std::make_unique<Parts>(session, *this)) {
   setAccessibleName("Properties of what is selected");
-  auto* scroll = new QScrollArea(this);
+  auto* scroll = new ColumnArea(this);
   scroll->setWidget(parts_->sheet);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->addWidget(scroll);
-  setMinimumWidth(64 * kGrid);
 }
 
 PropertyPanel::~PropertyPanel() = default;

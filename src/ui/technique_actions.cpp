@@ -122,6 +122,8 @@ QString TechniqueActions::name() const {
 QString TechniqueActions::hint() const {
   const QString by = name();
   if (by.isEmpty()) return {};
+  if (session_.technique() && session_.technique()->is_getting_ready())
+    return by + ": getting ready to meet what is in the scene; solids and scans take their time";
   return by +
          ": press to take what is meant and drag it, Ctrl and press to travel, turn the wheel while pressing "
          "to move the hand nearer or farther (Tools > Technique)";

@@ -9,6 +9,7 @@
 #include "files/design.h"
 #include "session/recording_files.h"
 #include "session/sessions.h"
+#include "world/solid_geometry.h"
 
 namespace icome::session {
 namespace {
@@ -106,6 +107,28 @@ TEST_F(TechniqueHandTest, ARaySelectsAtADistanceWhatItMeetsFirst) {
   EXPECT_TRUE(session_->selection().empty()) << "it meets nothing there";
   press(0, 0);
   EXPECT_NE(session_->world().find(behind), nullptr);
+}
+
+// Made on main, a solid of many operands would hold up the window for seconds.
+TEST_F(TechniqueHandTest, SolidsAreGotReadyBesideTheWindow) {
+  geometry::CsgTree tree;
+  const auto ball = tree.add_leaf(geometry::Primitive(geometry::Sphere{0.2}));
+  const auto hole =
+      tree.add_leaf(geometry::Primitive(geometry::Box{Vector3::Constant(0.1)}), world::at(0.2, 0.0, 0.0));
+  tree.set_root(tree.add(geometry::CsgOperator::Difference, ball, hole));
+  const auto solid =
+      add_shape(*session_, std::make_shared<world::CsgGeometry>(tree), world::at(0.0, 0.0, -3.0), "solid");
+  session_->settle();
+  hands_[0]->hold_buttons(1);
+  choose(Selecting::RayPointer, Holding::AlongRay);
+  EXPECT_TRUE(session_->technique()->is_getting_ready());
+  run_until(*session_, [&] { return !session_->technique()->is_getting_ready(); });
+  EXPECT_FALSE(session_->holds(0)) << "a button that was down all the time presses nothing";
+  press(0, 0);
+  put(0, {0.0, 0.0, 0.1});
+  EXPECT_EQ(session_->technique()->outcome().pointed.id, solid.value);
+  press(0, 1);
+  EXPECT_TRUE(session_->holds(0));
 }
 
 TEST_F(TechniqueHandTest, WhatHangsOnARayIsMovedAsOneAction) {

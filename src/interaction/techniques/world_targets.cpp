@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 #include <utility>
 
 #include "base/decompositions.h"
 #include "geometry/mesh_repair.h"
 #include "geometry/triangle_tree.h"
 #include "world/mesh_geometry.h"
+#include "world/solid_geometry.h"
 #include "world/usual_tolerance.h"
 
 namespace icome::interaction {
@@ -79,16 +81,22 @@ bool MeshTarget::meets(const base::Affine3& world_from_target, const SelectionCo
   return met;
 }
 
-/// Null where there are no triangles to meet.
-std::shared_ptr<const TargetShape> mesh_target(const world::Geometry& shape) {
+bool takes_long(const world::Geometry& shape) {
+  constexpr std::size_t kManyTriangles = 20'000;
+  if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape))
+    return mesh->mesh.triangles.size() > kManyTriangles;
+  return dynamic_cast<const world::PrimitiveGeometry*>(&shape) == nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<const TargetShape> target_shape(const world::Geometry& shape) {
   const base::Bounds box = shape.bounds();
   if (box.isEmpty() || !box.sizes().allFinite() || !(box.sizes().maxCoeff() > 0.0)) return nullptr;
   const auto triangles = shape.triangles(world::usual_tolerance(shape));
   if (!triangles || (*triangles)->mesh.triangles.empty()) return nullptr;
   return std::make_shared<const MeshTarget>((*triangles)->mesh);
 }
-
-}  // namespace
 
 TechniqueScene targets_of(const world::World& world) { return WorldTargets().of(world); }
 
@@ -110,6 +118,27 @@ void WorldTargets::changed(const world::Changes* changes) {
     if (moved_.empty() || moved_.back() != id) moved_.push_back(id);
 }
 
+std::vector<world::GeometryPointer> WorldTargets::slow_shapes(const world::World& world) const {
+  std::vector<world::GeometryPointer> found;
+  std::unordered_set<world::GeometryId> seen;
+  const auto look_at = [&](const world::PhysicalObject& object) {
+    if (!object.geometry || !seen.insert(object.geometry).second) return;
+    const world::GeometryPointer& shape = world.find(object.geometry)->shape;
+    if (takes_long(*shape) && !shapes_.contains(shape)) found.push_back(shape);
+  };
+  if (is_stale_) {
+    for (const auto& [id, object] : world.objects()) look_at(object);
+  } else {
+    for (const world::ObjectId id : moved_)
+      if (const world::PhysicalObject* const object = world.find(id)) look_at(*object);
+  }
+  return found;
+}
+
+void WorldTargets::keep(const world::GeometryPointer& shape, std::shared_ptr<const TargetShape> made) {
+  shapes_.try_emplace(shape, std::move(made));
+}
+
 void WorldTargets::read(const world::World& world) {
   const auto known = std::exchange(shapes_, {});
   made_of_.clear();
@@ -122,20 +151,19 @@ void WorldTargets::read(const world::World& world) {
     const world::GeometryId geometry = world.find(id)->geometry;
     const world::GeometryPointer& shape = world.find(geometry)->shape;
     made_of_.emplace(id, geometry);
-    auto [made, is_new] = shapes_.try_emplace(geometry);
+    auto [made, is_new] = shapes_.try_emplace(shape);
     if (is_new) {
-      const auto before = known.find(geometry);
-      const bool same = before != known.end() && before->second.of == shape;
-      made->second = same ? before->second : Made{shape, mesh_target(*shape)};
+      const auto before = known.find(shape);
+      made->second = before != known.end() ? before->second : target_shape(*shape);
     }
-    if (!made->second.shape) continue;
+    if (!made->second) continue;
     const base::Bounds box = shape->bounds();
     SceneTarget target;
     target.id = id.value;
     target.world_from_target = world_from_object(world, id);
     target.centre = box.center();
     target.radius = 0.5 * box.sizes().norm();
-    target.shape = made->second.shape;
+    target.shape = made->second;
     // What a parent has squeezed to nothing cannot be pointed at.
     if (const auto added = scene_.add(target); !added) continue;
   }
@@ -156,7 +184,7 @@ bool WorldTargets::follow(const world::World& world, world::ObjectId id) {
   const auto before = made_of_.find(id);
   if (!geometry) return before == made_of_.end();
   if (before == made_of_.end() || before->second != geometry) return false;
-  if (!shapes_.at(geometry).shape) return true;
+  if (!shapes_.at(world.find(geometry)->shape)) return true;
   return scene_.move(id.value, world_from_object(world, id));
 }
 

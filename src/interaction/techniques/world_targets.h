@@ -14,6 +14,9 @@ namespace icome::interaction {
 /// which there are no triangles are left out.
 TechniqueScene targets_of(const world::World& world);
 
+/// What a technique meets of one shape; null: nothing. Any thread.
+std::shared_ptr<const TargetShape> target_shape(const world::Geometry& shape);
+
 /// The targets of a world that changes: what targets_of gives, to the last bit, at the cost of what has
 /// changed. Owns the shapes.
 class WorldTargets {
@@ -23,17 +26,20 @@ class WorldTargets {
   /// Null: it is another world.
   void changed(const world::Changes* changes);
 
+  /// The shapes that of() would have to make into targets first, and that take long: solids under union,
+  /// intersection and difference, subdivision surfaces, formulas, meshes of many triangles. Each once.
+  std::vector<world::GeometryPointer> slow_shapes(const world::World& world) const;
+  /// What target_shape() gave for a shape of the world, so that of() does not make it.
+  void keep(const world::GeometryPointer& shape, std::shared_ptr<const TargetShape> made);
+
  private:
-  struct Made {
-    world::GeometryPointer of;
-    std::shared_ptr<const TargetShape> shape;  // null: there is nothing to meet
-  };
   void read(const world::World& world);
   bool follow(const world::World& world);
   bool follow(const world::World& world, world::ObjectId id);
 
   TechniqueScene scene_;
-  std::unordered_map<world::GeometryId, Made> shapes_;
+  // Null: there is nothing to meet.
+  std::unordered_map<world::GeometryPointer, std::shared_ptr<const TargetShape>> shapes_;
   std::unordered_map<world::ObjectId, world::GeometryId> made_of_;  // those objects that have a shape
   std::vector<world::ObjectId> moved_;                              // or otherwise another
   bool is_stale_ = true;

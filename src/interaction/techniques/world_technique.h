@@ -1,4 +1,8 @@
 #pragma once
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "interaction/techniques/world_targets.h"
 
 namespace icome::interaction {
@@ -36,6 +40,13 @@ class WorldTechnique {
   const Technique& technique() const { return technique_; }
   const TechniqueState& state() const { return state_; }
   bool holds() const { return state_.hold.has_value(); }
+  /// What has to be made before a step, as WorldTargets says; who does not make it waits for it in the step.
+  std::vector<world::GeometryPointer> slow_shapes(const world::World& world) const {
+    return targets_.slow_shapes(world);
+  }
+  void keep(const world::GeometryPointer& shape, std::shared_ptr<const TargetShape> made) {
+    targets_.keep(shape, std::move(made));
+  }
   /// Of the world as it is.
   const TechniqueScene& scene(const world::World& world) { return targets_.of(world); }
 

@@ -1,0 +1,36 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "interaction/techniques/world_targets.h"
+#include "session/background_task.h"
+
+namespace icome::session {
+
+/// Makes shapes into what techniques meet, on a thread of its own. Main's.
+class TargetMaker {
+ public:
+  using Made = std::pair<world::GeometryPointer, std::shared_ptr<const interaction::TargetShape>>;
+
+  TargetMaker() = default;
+  /// Waits for the shape under way.
+  ~TargetMaker() { given_up_.store(true, std::memory_order_relaxed); }
+  TargetMaker(const TargetMaker&) = delete;
+  TargetMaker& operator=(const TargetMaker&) = delete;
+
+  bool is_at_work() const { return task_ && !task_->is_done(); }
+  /// Begins with these; not while it is at work.
+  void make(std::vector<world::GeometryPointer> shapes);
+  /// What it has made since it was asked last. What could not be made is there as nothing to meet. Not while
+  /// it is at work.
+  std::vector<Made> take();
+
+ private:
+  std::atomic<bool> given_up_ = false;
+  std::vector<world::GeometryPointer> asked_;
+  std::unique_ptr<BackgroundTask<std::vector<Made>>> task_;  // ends before the others
+};
+
+}  // namespace icome::session

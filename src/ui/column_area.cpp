@@ -1,0 +1,30 @@
+#include "ui/column_area.h"
+
+#include <QEvent>
+#include <QScrollBar>
+#include <algorithm>
+
+#include "ui/theme.h"
+
+namespace icome::ui {
+
+ColumnArea::ColumnArea(QWidget* parent) : QScrollArea(parent) {
+  setWidgetResizable(true);
+  setFrameShape(QFrame::NoFrame);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+}
+
+QSize ColumnArea::minimumSizeHint() const {
+  constexpr int kNarrowest = 64 * kGrid;
+  const QSize own = QScrollArea::minimumSizeHint();
+  const int within = widget() ? widget()->minimumSizeHint().width() : 0;
+  return {std::max(kNarrowest, within + verticalScrollBar()->sizeHint().width()), own.height()};
+}
+
+/// What is in it has become wider or narrower.
+bool ColumnArea::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+  return QScrollArea::eventFilter(watched, event);
+}
+
+}  // namespace icome::ui
