@@ -417,5 +417,17 @@ TEST(GltfMotions, OfManyKeyFramesInFewBytesAreRefusedBeforeTheyTakeMemory) {
   EXPECT_NE(refused.error().message.find("memory"), std::string::npos) << refused.error().message;
 }
 
+TEST(GltfMotions, CountAsMemoryOnce) {
+  GltfFile file;
+  for (const char* type : {"SCALAR", "VEC3"}) file.add_accessor(type, 100'000);  // 3.2 MB of numbers
+  file.animate("clip", "translation", 0, 1);
+  file.add({0.0F}, "SCALAR", 1);
+  DesignReadOptions options;
+  options.memory_limit = 5'000'000;
+  const auto design = file.read(options);
+  ASSERT_TRUE(design.has_value()) << design.error().message;
+  EXPECT_EQ(moving_objects(design->world).size(), 1U);
+}
+
 }  // namespace
 }  // namespace icome::files
