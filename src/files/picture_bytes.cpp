@@ -30,6 +30,9 @@ std::vector<std::uint8_t> png_pixels(std::string_view bytes) {
   if (image.width > kMostPixelSide || image.height > kMostPixelSide ||
       std::uint64_t{image.width} * image.height > kMostPixels)
     return {};
+  // Without this flag the library takes numbers of 16 bits for linear ones, and makes them brighter, wherever
+  // no gAMA part says otherwise. With it only such a part changes them, as it does those of 8 bits.
+  image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
   if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) return {};
