@@ -295,7 +295,7 @@ TEST(MotionsInFiles, AreSampledWhereGltfKnowsNoCentre) {
 }
 
 /// A door of one metre that turns about its edge by these key frames.
-World door(KeyFrames rotation) {
+World swinging_door(KeyFrames rotation) {
   DesignMaker design;
   const ObjectId id = design.add("door", box(1.0), {}, at(2.0, 0.0, 0.0));
   Motion swing{.rest = {.translation = {2.0, 0.0, 0.0}, .centre = {0.5, 0.0, 0.0}},
@@ -322,22 +322,23 @@ void expect_door_kept(const World& world, const std::vector<double>& moments) {
 }
 
 TEST(MotionsInFiles, AboutACentreEndWithTheirCycleInGltf) {
-  expect_door_kept(door({.times = {0.0, 2.0}, .values = turns_about_y({0.0, 1.5}), .cycle = 1.25}),
+  expect_door_kept(swinging_door({.times = {0.0, 2.0}, .values = turns_about_y({0.0, 1.5}), .cycle = 1.25}),
                    {0.1, 0.9, 1.2, 1.3});
   expect_door_kept(
-      door(
+      swinging_door(
           {.times = {0.0, 1.0, 2.0}, .values = turns_about_y({0.0, 0.5, 1.5}), .cycle = 1.5, .loops = false}),
       {0.9, 1.2, 1.45, 3.0});
 }
 
 TEST(MotionsInFiles, AboutACentreJumpAtOnceInGltf) {
   expect_door_kept(
-      door({.times = {0.0, 1.0, 1.0, 2.0}, .values = turns_about_y({0.0, 0.5, 1.5, 2.0}), .cycle = 2.0}),
+      swinging_door(
+          {.times = {0.0, 1.0, 1.0, 2.0}, .values = turns_about_y({0.0, 0.5, 1.5, 2.0}), .cycle = 2.0}),
       {0.5, 0.97, 0.999, 1.001, 1.5});
-  expect_door_kept(door({.interpolation = Interpolation::Step,
-                         .times = {0.0, 0.3, 1.0},
-                         .values = turns_about_y({0.0, 0.5, 1.5}),
-                         .cycle = 2.0}),
+  expect_door_kept(swinging_door({.interpolation = Interpolation::Step,
+                                  .times = {0.0, 0.3, 1.0},
+                                  .values = turns_about_y({0.0, 0.5, 1.5}),
+                                  .cycle = 2.0}),
                    {0.1, 0.299, 0.301, 0.7, 0.999, 1.001, 1.9});
 }
 
@@ -365,7 +366,7 @@ std::string told_by_glb(const World& world) {
 }
 
 TEST(MotionsInFiles, ThatGltfCannotHoldAreToldByTheirReasons) {
-  World world = door({.times = {0.0, 1.0}, .values = turns_about_y({0.0, 1.5})});
+  World world = swinging_door({.times = {0.0, 1.0}, .values = turns_about_y({0.0, 1.5})});
   const ObjectId id = moving_objects(world).front();
   Motion motion = *world.find(id)->motion;
   motion.translation = {.times = {0.0}, .values = {2.0, 0.0, 0.0}, .cycle = 3.0};
