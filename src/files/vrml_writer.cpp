@@ -8,6 +8,7 @@
 #include <set>
 
 #include "files/number_text.h"
+#include "files/shown_world.h"
 #include "files/vrml_fixtures.h"
 #include "files/vrml_looks.h"
 #include "files/vrml_moves.h"
