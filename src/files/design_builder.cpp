@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "world/edit_memory.h"
+#include "world/motion.h"
 #include "world/solid_geometry.h"
 
 namespace icome::files {
 
-void DesignBuilder::put(const world::Edit& edit) {
+void DesignBuilder::put(const world::Edit& edit, std::size_t known_bytes) {
   if (!refusal_.empty()) return;
-  if (!memory_.take(world::memory_of(edit))) {
+  if (!memory_.take(world::memory_of(edit) - known_bytes)) {
     refusal_ = memory_.problem().message;
   } else if (const auto applied = world::replay(design_.world, edit); !applied) {
     refusal_ = applied.error().message;
@@ -49,7 +50,9 @@ world::ObjectId DesignBuilder::add(world::PhysicalObject object) {
   const auto id = ids_.next<world::ObjectId>();
   const world::PhysicalObject* const parent = world().find(object.parent);
   const std::size_t place = parent ? parent->children.size() : world().roots().size();
-  put(world::CreateObject{id, place, std::move(object)});
+  const bool moves_alike = object.motion && !motions_.insert(object.motion).second;
+  const std::size_t known_bytes = moves_alike ? world::bytes_of(*object.motion) : 0;
+  put(world::CreateObject{id, place, std::move(object)}, known_bytes);
   return id;
 }
 

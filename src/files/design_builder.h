@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "files/design.h"
 #include "files/memory_budget.h"
@@ -13,7 +14,8 @@ namespace icome::files {
 /// that readers ask once.
 class DesignBuilder {
  public:
-  /// All that is added counts as memory that is taken. Refers to the budget.
+  /// All that is added counts as memory that is taken, a motion that many objects have once. Refers to the
+  /// budget.
   explicit DesignBuilder(MemoryBudget& memory) : memory_(memory) {}
 
   /// Each is a shape of its own in the world; primitives that are equal lie in memory once.
@@ -33,13 +35,15 @@ class DesignBuilder {
   base::Result<LoadedDesign> take(std::string format, const std::string& name);
 
  private:
-  void put(const world::Edit& edit);
+  /// Of its memory, `known_bytes` have been counted before.
+  void put(const world::Edit& edit, std::size_t known_bytes = 0);
   world::GeometryPointer known(world::GeometryPointer shape);
 
   MemoryBudget& memory_;
   LoadedDesign design_;
   world::IdSource ids_;
   std::unordered_map<std::uint64_t, world::GeometryPointer> primitives_;  // by hash
+  std::unordered_set<world::MotionPointer> motions_;
   std::string refusal_;
 };
 

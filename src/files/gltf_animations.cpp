@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <string>
 #include <string_view>
 
 #include "files/gltf_value.h"
@@ -36,40 +36,94 @@ bool moves_about_centre(const Motion& motion) {
   return !motion.rest.centre.isZero(0.0) && (!motion.rotation.times.empty() || !motion.scale.times.empty());
 }
 
-/// The moments of all parts, finely; none where these do not have one cycle.
-std::optional<KeyFrames> common_moments(const Motion& motion) {
-  KeyFrames common;
+/// A moment to be written, and the one whose place it has: earlier where something jumps.
+struct Moment {
+  double time = 0.0;
+  double seen = 0.0;
+  auto operator<=>(const Moment&) const = default;
+};
+
+/// The moment before, as files have it in single precision.
+double just_before(double time) { return double(std::nextafter(float(time), 0.0F)); }
+
+/// Where it jumps: two key frames at one moment, as the file will have them, or one that nothing leads to.
+std::vector<Moment> jumps_in(const KeyFrames& frames) {
+  std::vector<Moment> jumps;
+  for (std::size_t key = 1; key < frames.times.size(); ++key) {
+    const double time = frames.times[key], before = just_before(time);
+    if (frames.times[key - 1] == time)
+      jumps.push_back({time, before});
+    else if (frames.interpolation == Interpolation::Step)
+      jumps.push_back({before, before});
+  }
+  return jumps;
+}
+
+/// Do all parts that move have one cycle?
+bool in_one_cycle(const Motion& motion) {
+  const KeyFrames* first = nullptr;
   for (const KeyFrames* frames : {&motion.rotation, &motion.scale, &motion.translation}) {
     if (frames->times.empty()) continue;
-    const bool other = frames->cycle != common.cycle || frames->loops != common.loops;
-    if (!common.times.empty() && other) return std::nullopt;
-    common.cycle = frames->cycle;
-    common.loops = frames->loops;
-    common.times.insert(common.times.end(), frames->times.begin(), frames->times.end());
+    if (!first) first = frames;
+    if (frames->cycle != first->cycle || frames->loops != first->loops) return false;
   }
-  std::sort(common.times.begin(), common.times.end());
-  std::erase_if(common.times, [&](double time) { return time > common.cycle; });
-  common.times.erase(std::unique(common.times.begin(), common.times.end()), common.times.end());
-  common.times = cut_finer(common.times, kPiecesOfBend);
-  return common;
+  return true;
+}
+
+/// The moments of all parts, finely, up to the end of the cycle, beyond which key frames may lie.
+std::vector<Moment> common_moments(const Motion& motion, double cycle) {
+  std::vector<double> times;
+  std::vector<Moment> moments;
+  for (const KeyFrames* frames : {&motion.rotation, &motion.scale, &motion.translation}) {
+    times.insert(times.end(), frames->times.begin(), frames->times.end());
+    const std::vector<Moment> jumps = jumps_in(*frames);
+    moments.insert(moments.end(), jumps.begin(), jumps.end());
+  }
+  std::sort(times.begin(), times.end());
+  if (std::erase_if(times, [&](double time) { return time > cycle; }) > 0) times.push_back(cycle);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::erase_if(moments, [&](const Moment& it) { return it.time > cycle; });
+  for (const double time : cut_finer(times, kPiecesOfBend)) moments.push_back({time, time});
+  std::sort(moments.begin(), moments.end());
+  moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
+  return moments;
 }
 
 /// The way of a node without a centre that says the same.
 Vector3 way_of(const PlaceParts& parts) { return world::affine(parts).translation(); }
 
-/// The same without a centre and axes of a stretch, which nodes have not. None where that cannot be.
-std::optional<Motion> as_node(const Motion& motion) {
+/// The way of what turns or grows about a centre, all of it in one cycle, for a node without.
+KeyFrames way_about_centre(const Motion& motion) {
+  const KeyFrames& like = motion.rotation.times.empty() ? motion.scale : motion.rotation;
+  KeyFrames way{.cycle = like.cycle, .loops = like.loops};
+  for (const Moment& moment : common_moments(motion, like.cycle)) {
+    const Vector3 place = way_of(world::parts_at(motion, moment.seen));
+    way.times.push_back(moment.time);
+    way.values.insert(way.values.end(), place.begin(), place.end());
+  }
+  return way;
+}
+
+/// Does single precision hold all its numbers, also moments that are moved apart?
+bool fits_singles(const Motion& motion) {
+  constexpr double kMost = 0.5 * double(std::numeric_limits<float>::max());
+  const auto fits = [](double number) { return std::abs(number) <= kMost; };
+  return std::ranges::all_of(
+      std::array{&motion.translation, &motion.rotation, &motion.scale}, [&](const KeyFrames* it) {
+        return std::ranges::all_of(it->times, fits) && std::ranges::all_of(it->values, fits);
+      });
+}
+
+using NodeMotion = tl::expected<Motion, GltfAnimations::Loss>;
+
+/// The same without a centre and axes of a stretch, which nodes have not; or why that cannot be.
+NodeMotion as_node(const Motion& motion) {
   Motion node = motion;
   if (!always_even(motion) && !motion.rest.stretch_axes.isApprox(base::Quaternion::Identity(), 1e-12))
-    return std::nullopt;
+    return tl::unexpected(GltfAnimations::Loss::Stretch);
   if (moves_about_centre(motion)) {
-    auto common = common_moments(motion);
-    if (!common) return std::nullopt;
-    for (const double time : common->times) {
-      const Vector3 way = way_of(world::parts_at(motion, time));
-      common->values.insert(common->values.end(), way.begin(), way.end());
-    }
-    node.translation = std::move(*common);
+    if (!in_one_cycle(motion)) return tl::unexpected(GltfAnimations::Loss::Cycles);
+    node.translation = way_about_centre(motion);
   } else if (!motion.rest.centre.isZero(0.0)) {
     // It shifts all places alike.
     PlaceParts beside = motion.rest;
@@ -84,6 +138,7 @@ std::optional<Motion> as_node(const Motion& motion) {
   node.rest.translation = way_of(motion.rest);
   node.rest.centre.setZero();
   node.rest.stretch_axes.setIdentity();
+  if (!fits_singles(node)) return tl::unexpected(GltfAnimations::Loss::Size);
   return node;
 }
 
@@ -116,9 +171,11 @@ const char* sampling_name(Interpolation interpolation) {
 bool GltfAnimations::add(const world::PhysicalObject& object, int index, tinygltf::Node& node) {
   if (!object.motion) return false;
   const auto moved = world::moved_along(*object.motion, object.parent_from_object);
-  const auto motion = moved ? as_node(*moved) : std::nullopt;
-  lost_ += motion ? 0 : 1;
-  if (!motion) return false;
+  const NodeMotion motion = moved ? as_node(*moved) : tl::unexpected(Loss::Stretch);
+  if (!motion) {
+    ++lost_[std::size_t(motion.error())];
+    return false;
+  }
   bent_ += moves_about_centre(*moved) ? 1 : 0;
   const PlaceParts& rest = motion->rest;
   node.translation.assign(rest.translation.begin(), rest.translation.end());
@@ -165,11 +222,14 @@ std::vector<Remark> GltfAnimations::remarks() const {
          fmt::format("{} about a centre, which glTF does not know: the way is written in straight "
                      "pieces.",
                      bent_ == 1 ? "1 object turns" : fmt::format("{} objects turn", bent_))});
-  if (lost_ > 0)
-    remarks.push_back({{},
-                       0,
-                       fmt::format("{} left out: glTF knows no such stretching.",
-                                   lost_ == 1 ? "1 motion is" : fmt::format("{} motions are", lost_))});
+  constexpr std::array<const char*, 3> kWhy = {"glTF knows no such stretching",
+                                               "glTF knows no turns about a centre in several cycles",
+                                               "numbers of it are too large for single precision"};
+  for (std::size_t i = 0; i < lost_.size(); ++i) {
+    if (lost_[i] == 0) continue;
+    const std::string motions = lost_[i] == 1 ? "1 motion is" : fmt::format("{} motions are", lost_[i]);
+    remarks.push_back({{}, 0, fmt::format("{} left out: {}.", motions, kWhy.at(i))});
+  }
   return remarks;
 }
 

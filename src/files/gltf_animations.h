@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -26,13 +28,17 @@ class GltfAnimations {
   bool add(const world::PhysicalObject& object, int index, tinygltf::Node& node);
   std::vector<Remark> remarks() const;
 
+  /// Why a motion cannot be written.
+  enum class Loss : std::uint8_t { Stretch, Cycles, Size };
+
  private:
   void add(const world::KeyFrames& frames, int node, const char* path);
 
   tinygltf::Model& model_;
   GltfBuffer& buffer_;
   std::map<std::pair<double, bool>, std::size_t> animations_;  // by cycle, and whether it begins anew
-  std::size_t bent_ = 0, lost_ = 0;
+  std::size_t bent_ = 0;
+  std::array<std::size_t, 3> lost_ = {};  // by why
 };
 
 }  // namespace icome::files

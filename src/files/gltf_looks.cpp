@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/srgb.h"
 #include "files/gltf_accessor.h"
@@ -68,8 +69,12 @@ world::PictureFrame upside_down(const world::PictureFrame& frame) {
   return turned;
 }
 
-GltfLooks::GltfLooks(const tinygltf::Model& model, DesignBuilder& builder)
-    : model_(model), builder_(builder), textures_(model.textures.size()) {
+GltfLooks::GltfLooks(const tinygltf::Model& model, DesignBuilder& builder, MemoryBudget& memory, GoOn go_on)
+    : model_(model),
+      builder_(builder),
+      memory_(memory),
+      go_on_(std::move(go_on)),
+      textures_(model.textures.size()) {
   for (std::size_t i = 0; i < model.materials.size(); ++i) read(int(i));
   for (std::size_t i = 0; i < model.textures.size(); ++i) texture(int(i));
   tell_what_is_left_out();
@@ -134,16 +139,26 @@ std::pair<double, double> GltfLooks::metal_and_roughness(const tinygltf::Materia
   return {pbr.metallicFactor * (*mean)[2], pbr.roughnessFactor * (*mean)[1]};
 }
 
-std::optional<std::array<double, 3>> GltfLooks::mean_of(int index) {
+GltfLooks::Mean GltfLooks::mean_of(int index) {
   const world::Texture* const picture = builder_.world().find(texture(index));
   if (!picture) return {};
-  const tinygltf::Image& image = model_.images[std::size_t(model_.textures[std::size_t(index)].source)];
-  const void* const begin = image.bufferView >= 0
-                                ? static_cast<const void*>(view_bytes(model_, image.bufferView).data())
-                                : image.image.data();
-  const auto [found, is_new] = means_.try_emplace(begin);
-  if (is_new) found->second = picture_mean(*picture->bytes);
+  const auto [found, is_new] = means_.try_emplace(*picture->bytes);
+  if (is_new) found->second = new_mean(*picture->bytes);
   return found->second;
+}
+
+GltfLooks::Mean GltfLooks::new_mean(std::string_view bytes) {
+  go_on_();
+  constexpr std::uint64_t kMostPixels = 256'000'000;  // of all maps: some seconds
+  const std::uint64_t pixels = pixel_count(bytes);
+  const bool is_too_large = pixels > kMostPixels - unpacked_pixels_ || 4 * pixels > memory_.left();
+  heavy_maps_ += is_too_large ? 1 : 0;
+  if (is_too_large) return {};
+  unpacked_pixels_ += pixels;
+  memory_.take(4 * pixels);
+  const Mean mean = picture_mean(bytes);
+  memory_.give_back(4 * pixels);
+  return mean;
 }
 
 void GltfLooks::read_picture(const tinygltf::Material& from, GltfSurface& surface,
@@ -198,6 +213,12 @@ void GltfLooks::tell_what_is_left_out() {
   add(left_out_.emission, "emission");
   if (!maps.empty()) builder_.remark(fmt::format("Only maps of colours are kept. Left out: those {}.", maps));
   if (averaged_maps_ > 0) builder_.remark("Of maps of metal and roughness the means count, all over.");
+  if (heavy_maps_ > 0)
+    builder_.remark(fmt::format("{} too large to be unpacked with the rest, so that not even {} counted.",
+                                heavy_maps_ == 1
+                                    ? "1 map of metal and roughness is"
+                                    : fmt::format("{} maps of metal and roughness are", heavy_maps_),
+                                heavy_maps_ == 1 ? "its mean is" : "their means are"));
   const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
     if (count > 0) builder_.remark(fmt::format("{} {} {}", count, count == 1 ? one : several, what));
   };

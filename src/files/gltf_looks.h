@@ -1,8 +1,11 @@
 #pragma once
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,8 +30,11 @@ world::PictureFrame upside_down(const world::PictureFrame& frame);
 /// The materials and pictures of a glTF file, put into the design that is being read.
 class GltfLooks {
  public:
-  /// Throws GltfError.
-  GltfLooks(const tinygltf::Model& model, DesignBuilder& builder);
+  using GoOn = std::function<void()>;
+
+  /// Throws GltfError, and what `go_on` does, which is asked before each picture that is unpacked. `memory`
+  /// is the one of the builder.
+  GltfLooks(const tinygltf::Model& model, DesignBuilder& builder, MemoryBudget& memory, GoOn go_on);
 
   /// Of a primitive; none where it names none.
   world::MaterialId material(int index) const;
@@ -40,16 +46,21 @@ class GltfLooks {
   void read(int index);
   void read_picture(const tinygltf::Material& from, GltfSurface& surface, world::Material& material);
   void read_alpha(const tinygltf::Material& from, world::Material& material) const;
+  using Mean = std::optional<std::array<double, 3>>;
   /// Those of a map as its means.
   std::pair<double, double> metal_and_roughness(const tinygltf::Material& from);
   /// picture_mean of a texture.
-  std::optional<std::array<double, 3>> mean_of(int index);
+  Mean mean_of(int index);
+  /// The same of a picture that was not met before; none also where unpacking it would go too far.
+  Mean new_mean(std::string_view bytes);
   void count_maps(const tinygltf::Material& from);
   void tell_what_is_left_out();
   world::TextureId texture(int index);
 
   const tinygltf::Model& model_;
   DesignBuilder& builder_;
+  MemoryBudget& memory_;
+  GoOn go_on_;
   std::vector<world::MaterialId> materials_;
   std::vector<GltfSurface> surfaces_;
   struct ReadTexture {
@@ -62,8 +73,10 @@ class GltfLooks {
     std::size_t mirrored = 0, unsmoothed = 0;                             // textures
   } left_out_;
   std::size_t averaged_maps_ = 0;
-  /// By where a picture begins in the file: many textures may be one picture, which is large when unpacked.
-  std::map<const void*, std::optional<std::array<double, 3>>> means_;
+  std::size_t heavy_maps_ = 0;         // that are too large to be unpacked with the others
+  std::uint64_t unpacked_pixels_ = 0;  // of all maps
+  /// By the bytes of pictures, which the world holds: many images may be one, which is large when unpacked.
+  std::map<std::string_view, Mean> means_;
 };
 
 }  // namespace icome::files

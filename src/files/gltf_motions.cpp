@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "files/gltf_accessor.h"
 #include "files/gltf_model.h"
@@ -54,8 +55,8 @@ std::vector<double> all_numbers(const GltfAccessor& from) {
 
 }  // namespace
 
-GltfMotions::GltfMotions(const tinygltf::Model& model, MemoryBudget& memory)
-    : model_(model), memory_(memory) {
+GltfMotions::GltfMotions(const tinygltf::Model& model, MemoryBudget& memory, GoOn go_on)
+    : model_(model), memory_(memory), go_on_(std::move(go_on)) {
   for (const tinygltf::Animation& animation : model.animations) read(animation);
 }
 
@@ -63,6 +64,7 @@ void GltfMotions::read(const tinygltf::Animation& animation) {
   std::vector<Course> courses;
   double last = 0.0;
   for (const tinygltf::AnimationChannel& channel : animation.channels) {
+    go_on_();
     Course course;
     if (!read(animation, channel, course)) continue;
     last = std::max(last, course.frames.times.back());
@@ -70,15 +72,19 @@ void GltfMotions::read(const tinygltf::Animation& animation) {
   }
   for (const Course& it : courses) {
     const auto found = motions_.find(it.node);
-    if (found != motions_.end() && !(found->second.*it.part).times.empty())
-      return findings_.add(kOtherClip, animation.name);
+    if (found == motions_.end() || (found->second.*it.part).times.empty()) continue;
+    for (const Course& unused : courses) let_go(unused.frames);
+    return findings_.add(kOtherClip, animation.name);
   }
   const tinygltf::Value& extras = icome_extras(animation.extras);
   const double cycle = number_in(extras, "cycle").value_or(last);
   const tinygltf::Value& loops = member(extras, "loops");
   for (Course& it : courses) {
     KeyFrames& frames = motions_[it.node].*it.part;
-    if (!frames.times.empty()) continue;  // two channels of one place are no glTF
+    if (!frames.times.empty()) {  // two channels of one place are no glTF
+      let_go(it.frames);
+      continue;
+    }
     frames = std::move(it.frames);
     constexpr double kStill = 1.0;  // s, where all is at the moment 0
     frames.cycle = cycle > 0.0 && std::isfinite(cycle) ? cycle : kStill;
@@ -121,7 +127,13 @@ bool GltfMotions::read_frames(const tinygltf::Animation& animation, int sampler,
   frames.values = all_numbers(values);
   Motion alone;
   alone.*(size == 4 ? &Motion::rotation : &Motion::translation) = frames;
-  return world::check_motion(alone).has_value();
+  if (world::check_motion(alone)) return true;
+  let_go(frames);
+  return false;
+}
+
+void GltfMotions::let_go(const KeyFrames& frames) {
+  memory_.give_back((frames.times.size() + frames.values.size()) * sizeof(double));
 }
 
 world::MotionPointer GltfMotions::of(std::size_t node) {
@@ -129,6 +141,7 @@ world::MotionPointer GltfMotions::of(std::size_t node) {
   if (found == motions_.end()) return nullptr;
   Motion motion = std::move(found->second);
   motions_.erase(found);  // a node is one object
+  for (const KeyFrames* frames : {&motion.translation, &motion.rotation, &motion.scale}) let_go(*frames);
   motion.rest = parts_of_place(model_.nodes[node]);
   if (!world::check_motion(motion)) return nullptr;  // it is flat, which is told
   return std::make_shared<const Motion>(std::move(motion));

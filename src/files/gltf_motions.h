@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,11 +21,13 @@ namespace icome::files {
 /// between which the format has no order: the first one counts. What cannot be taken is told.
 class GltfMotions {
  public:
-  /// Reads all of them. Throws GltfError where they refer to what is not there, or take more memory than
-  /// there is. The model outlives it.
-  GltfMotions(const tinygltf::Model& model, MemoryBudget& memory);
+  using GoOn = std::function<void()>;
 
-  /// The motion of a node; null: it has none.
+  /// Reads all of them. Throws GltfError where they refer to what is not there, or take more memory than
+  /// there is, and what `go_on` does, which is asked before each. The model outlives it.
+  GltfMotions(const tinygltf::Model& model, MemoryBudget& memory, GoOn go_on);
+
+  /// The motion of a node, whose memory counts no more; null: it has none.
   world::MotionPointer of(std::size_t node);
   std::vector<Remark> remarks() const { return findings_.remarks(); }
 
@@ -42,8 +45,12 @@ class GltfMotions {
   bool read_frames(const tinygltf::Animation& animation, int sampler, std::size_t size,
                    world::KeyFrames& frames);
 
+  /// These key frames are needed no more.
+  void let_go(const world::KeyFrames& frames);
+
   const tinygltf::Model& model_;
   MemoryBudget& memory_;
+  GoOn go_on_;
   Findings findings_;
   std::map<std::size_t, world::Motion> motions_;  // by node, without rest
 };

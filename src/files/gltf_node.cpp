@@ -49,6 +49,8 @@ world::PlaceParts parts_of_place(const tinygltf::Node& node) {
   // What is of unit length already stays as it is to the last bit.
   constexpr double kRounding = 1e-14;
   if (!(std::abs(parts.rotation.squaredNorm() - 1.0) < kRounding)) parts.rotation.normalize();
+  // Four zeros turn nothing.
+  if (parts.rotation.coeffs().isZero(0.0)) parts.rotation.setIdentity();
   return parts;
 }
 

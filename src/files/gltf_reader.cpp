@@ -45,6 +45,13 @@ bool has_foreign_extras(const Value& extras) {
   return std::any_of(names.begin(), names.end(), [](const std::string& it) { return it != "icome"; });
 }
 
+/// How often at most reading a model asks whether to go on, exact shapes aside.
+std::size_t steps_in(const tinygltf::Model& model) {
+  std::size_t steps = model.nodes.size() + model.meshes.size() + model.materials.size() + 1;
+  for (const tinygltf::Animation& animation : model.animations) steps += animation.channels.size();
+  return steps;
+}
+
 /// Reads one file into a design.
 class GltfReading {
  public:
@@ -54,10 +61,10 @@ class GltfReading {
         builder_(builder),
         memory_(memory),
         options_(options),
-        looks_(model, builder),
-        motions_(model, memory),
-        objects_(model.nodes.size()),
-        started_(base::steady_nanoseconds()) {}
+        all_steps_(steps_in(model) + root_shapes().ArrayLen()),
+        looks_(model, builder, memory, [this] { ask_whether_to_go_on(); }),
+        motions_(model, memory, [this] { ask_whether_to_go_on(); }),
+        objects_(model.nodes.size()) {}
 
   void run() {
     for (const std::string& extension : model_.extensionsRequired) {
@@ -395,8 +402,7 @@ class GltfReading {
     const double seconds = 1e-9 * double(base::steady_nanoseconds() - started_);
     if (seconds > options_.seconds_limit)
       throw GltfError(fmt::format("it takes longer than {:.0f} s", options_.seconds_limit));
-    const double all = double(model_.nodes.size() + model_.meshes.size() + root_shapes().ArrayLen() + 1);
-    if (options_.progress && !options_.progress(std::min(double(steps_) / all, 1.0)))
+    if (options_.progress && !options_.progress(std::min(double(steps_) / double(all_steps_), 1.0)))
       throw GltfError("interrupted");
   }
 
@@ -404,6 +410,10 @@ class GltfReading {
   DesignBuilder& builder_;
   MemoryBudget& memory_;
   const DesignReadOptions& options_;
+  // Before looks and motions, which ask whether to go on while they are made.
+  std::int64_t started_ = base::steady_nanoseconds();
+  std::size_t steps_ = 0;
+  std::size_t all_steps_;
   GltfLooks looks_;
   GltfMotions motions_;
   struct NodeObject {
@@ -413,12 +423,10 @@ class GltfReading {
   std::vector<NodeObject> objects_;
   std::unordered_map<std::string, GeometryId> shapes_;
   std::unordered_map<int, GeometryId> exact_;
-  std::size_t steps_ = 0;
   std::set<const tinygltf::Primitive*> other_primitives_;  // that are no triangles
   std::size_t flat_nodes_ = 0;
   std::size_t other_cameras_ = 0;
   std::size_t renamed_meshes_ = 0;
-  std::int64_t started_;
 };
 
 }  // namespace

@@ -226,10 +226,13 @@ class GltfMaking {
     return found->second;
   }
 
-  /// Colours that a picture replaces stand under a name that other programs leave alone.
+  /// Colours that a picture replaces stand under a name that other programs leave alone. Where nothing says
+  /// how the picture lies there is none, and the colours are seen.
   void hide_colours(const world::Material& material, tinygltf::Primitive& primitive) const {
     const auto colours = primitive.attributes.find("COLOR_0");
-    if (colours == primitive.attributes.end() || !shown_material(world_, material).hides_colours) return;
+    if (colours == primitive.attributes.end() || primitive.attributes.count("TEXCOORD_0") == 0 ||
+        !hides_colours(world_, material))
+      return;
     primitive.attributes[kGltfHiddenColours] = colours->second;
     primitive.attributes.erase(colours);
   }

@@ -371,8 +371,9 @@ base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& 
     const world::PhysicalObject& object = *world.find(it.object);
     const world::Material& material = object.material ? *world.find(object.material) : plain;
     if (material.texture) it.mesh = with_picture_places(*world.find(object.geometry)->shape, it.mesh);
-    // Readers of OBJ multiply them.
-    if (!it.mesh->colours.empty() && shown_material(world, material).hides_colours) {
+    // Readers of OBJ multiply them. Where nothing says how the picture lies, only the colours are seen.
+    if (!it.mesh->colours.empty() && !it.mesh->texture_coordinates.empty() &&
+        hides_colours(world, material)) {
       it.mesh = without_colours(*it.mesh);
       ++hidden;
     }

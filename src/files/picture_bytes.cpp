@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "files/byte_order.h"
+
 namespace icome::files {
 namespace {
 
@@ -28,27 +30,44 @@ std::vector<std::uint8_t> png_pixels(std::string_view bytes) {
   if (image.width > kMostPixelSide || image.height > kMostPixelSide ||
       std::uint64_t{image.width} * image.height > kMostPixels)
     return {};
+  // Without this flag the library takes numbers of 16 bits for linear ones, and makes them brighter, wherever
+  // no gAMA part says otherwise. With it only such a part changes them, as it does those of 8 bits.
+  image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
   if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) return {};
   return pixels;
 }
 
+using Jpeg = std::unique_ptr<void, decltype(&tjDestroy)>;
+
+const unsigned char* jpeg_data(std::string_view bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+
+/// Width and height that a JPEG file says; none of what is no such file.
+std::optional<std::array<int, 2>> jpeg_size(const Jpeg& jpeg, std::string_view bytes) {
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  if (!jpeg || tjDecompressHeader3(jpeg.get(), jpeg_data(bytes), bytes.size(), &width, &height, &subsampling,
+                                   &colours) != 0)
+    return {};
+  if (width < 1 || height < 1) return {};
+  return {{width, height}};
+}
+
 /// The same of a JPEG file, of the means of squares of eight pixels, which are quick to come by.
 std::vector<std::uint8_t> jpeg_squares(std::string_view bytes) {
-  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), tjDestroy);
-  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-  int width = 0, height = 0, subsampling = 0, colours = 0;
-  if (!jpeg ||
-      tjDecompressHeader3(jpeg.get(), data, bytes.size(), &width, &height, &subsampling, &colours) != 0)
-    return {};
+  const Jpeg jpeg(tjInitDecompress(), tjDestroy);
+  const auto size = jpeg_size(jpeg, bytes);
+  if (!size) return {};
+  const auto [width, height] = *size;
   constexpr int kMostSide = int(kMostPixelSide);
-  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) return {};
+  if (width > kMostSide || height > kMostSide) return {};
   constexpr tjscalingfactor kEighth = {1, 8};
   const int columns = TJSCALED(width, kEighth), rows = TJSCALED(height, kEighth);
   std::vector<std::uint8_t> pixels(4 * std::size_t(columns) * std::size_t(rows));
-  const int done = tjDecompress2(jpeg.get(), data, bytes.size(), pixels.data(), columns, 0, rows, TJPF_RGBA,
-                                 TJFLAG_LIMITSCANS);
+  const int done = tjDecompress2(jpeg.get(), jpeg_data(bytes), bytes.size(), pixels.data(), columns, 0, rows,
+                                 TJPF_RGBA, TJFLAG_LIMITSCANS);
   if (done != 0) return {};
   return pixels;
 }
@@ -87,6 +106,19 @@ base::Result<std::string> png_of(const PixelPicture& picture) {
   bytes.resize(size);
   bytes.shrink_to_fit();
   return bytes;
+}
+
+std::uint64_t pixel_count(std::string_view bytes) {
+  const std::string_view type = picture_type(bytes);
+  constexpr std::size_t kPngSizes = 16;  // where its first part says them
+  if (type == "image/png" && bytes.size() >= kPngSizes + 8) {
+    const char* const sizes = bytes.data() + kPngSizes;
+    return std::uint64_t{load<std::uint32_t>(sizes, ByteOrder::BigEndian)} *
+           load<std::uint32_t>(sizes + 4, ByteOrder::BigEndian);
+  }
+  if (type != "image/jpeg") return 0;
+  const auto size = jpeg_size(Jpeg(tjInitDecompress(), tjDestroy), bytes);
+  return size ? std::uint64_t((*size)[0]) * std::uint64_t((*size)[1]) : 0;
 }
 
 world::PictureOpacity picture_opacity(std::string_view bytes) {

@@ -29,6 +29,9 @@ inline constexpr std::uint32_t kMostPixelSide = 16384;
 /// other files, and for what cannot be read, as above.
 std::optional<std::array<double, 3>> picture_mean(std::string_view bytes);
 
+/// How many pixels a PNG or JPEG file says that it has; 0 for other files.
+std::uint64_t pixel_count(std::string_view bytes);
+
 /// How much a picture lets be seen through it; one that cannot be read, or is larger than kMostPixelSide,
 /// counts as opaque.
 world::PictureOpacity picture_opacity(std::string_view bytes);

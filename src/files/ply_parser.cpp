@@ -165,9 +165,9 @@ class LeftOutNames {
  public:
   void add(const std::string& name) {
     constexpr std::size_t kMostNames = 12, kLongestName = 40;
-    if (++count_ > kMostNames) return;
-    text_ += (count_ > 1 ? ", " : "") + name.substr(0, kLongestName);
-    if (count_ == kMostNames) text_ += " and so on";
+    ++count_;
+    if (count_ <= kMostNames) text_ += (count_ > 1 ? ", " : "") + name.substr(0, kLongestName);
+    if (count_ == kMostNames + 1) text_ += " and so on";
   }
   void tell(const char* what, std::vector<std::string>& notes) const {
     if (count_ > 0) notes.push_back(fmt::format("{} left out: {}", what, text_));

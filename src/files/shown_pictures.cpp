@@ -7,20 +7,30 @@
 #include "world/picture_places.h"
 
 namespace icome::files {
+namespace {
+
+/// What is multiplied with the picture's colour, if there is one.
+world::Colour shown_colour(const world::World& world, const world::Material& material) {
+  return hides_colours(world, material) ? world::Colour{1.0F, 1.0F, 1.0F} : material.diffuse;
+}
+
+}  // namespace
+
+bool hides_colours(const world::World& world, const world::Material& material) {
+  const world::Texture* const texture = world.find(material.texture);
+  // VRML 2.0, 4.14: colours of pictures replace those of materials, greys are multiplied.
+  return texture && !material.tints && !world::is_grey_picture(*texture->bytes);
+}
 
 ShownMaterial shown_material(const world::World& world, const world::Material& material) {
   using world::AlphaMode;
   using world::PictureOpacity;
-  ShownMaterial it{.colour = material.diffuse, .opacity = 1.0F - material.transparency};
+  ShownMaterial it{.colour = shown_colour(world, material), .opacity = 1.0F - material.transparency};
   it.cutoff = material.alpha_cutoff;
   const world::Texture* const texture = world.find(material.texture);
   const PictureOpacity picture = texture ? picture_opacity(*texture->bytes) : PictureOpacity::Opaque;
-  // VRML 2.0, 4.14: colours and opacities of pictures replace those of materials, greys are multiplied.
-  if (texture && !material.tints) {
-    it.hides_colours = !world::is_grey_picture(*texture->bytes);
-    if (it.hides_colours) it.colour = {1.0F, 1.0F, 1.0F};
-    if (picture != PictureOpacity::Opaque) it.opacity = 1.0F;
-  }
+  // VRML 2.0, 4.14: opacities of pictures replace those of materials.
+  if (texture && !material.tints && picture != PictureOpacity::Opaque) it.opacity = 1.0F;
   if (material.alpha_mode != AlphaMode::ByPicture) {
     it.mode = material.alpha_mode;
   } else if (picture != PictureOpacity::Opaque) {
@@ -36,7 +46,7 @@ world::Colour shown_specular(const world::World& world, const world::Material& m
   const world::Texture* const texture = metal > 0.0F ? world.find(material.texture) : nullptr;
   const auto mean = texture ? picture_mean(*texture->bytes) : std::nullopt;
   if (!mean) return material.specular;
-  const world::Colour factor = shown_material(world, material).colour;
+  const world::Colour factor = shown_colour(world, material);
   std::array<double, 3> colour{};
   for (std::size_t i = 0; i < 3; ++i)
     colour[i] = base::linear_from_srgb((*mean)[i]) * base::linear_from_srgb(double(factor[i]));

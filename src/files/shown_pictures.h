@@ -13,9 +13,12 @@ struct ShownMaterial {
   float opacity = 1.0F;                              // in [0, 1]
   world::AlphaMode mode = world::AlphaMode::Opaque;  // never ByPicture
   float cutoff = 0.5F;                               // of AlphaMode::Mask
-  bool hides_colours = false;                        // of meshes: its picture's replace them
 };
 ShownMaterial shown_material(const world::World& world, const world::Material& material);
+
+/// Do the colours of its picture replace those of the material and of meshes, wherever it lies on them? By
+/// the picture's header alone.
+bool hides_colours(const world::World& world, const world::Material& material);
 
 /// The specular colour for formats that know no metal: of metal beneath a picture, what shines on average.
 world::Colour shown_specular(const world::World& world, const world::Material& material);

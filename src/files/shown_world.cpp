@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
@@ -35,6 +36,12 @@ bool has_colours(const World& world, const std::vector<ShownObject>& objects) {
   return std::any_of(objects.begin(), objects.end(), [&](const ShownObject& it) {
     return !it.mesh->colours.empty() || world.find(it.object)->material;
   });
+}
+
+/// Is the recipe that of a picture that was thrown on a mesh, whose shape it does not tell?
+bool tells_of_a_picture(std::string_view recipe) {
+  const auto said = nlohmann::json::parse(recipe, nullptr, false);
+  return said.is_object() && said.value("op", nlohmann::json()) == "texture";
 }
 
 /// Adds the meshes of objects to one.
@@ -108,7 +115,6 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   std::size_t motions = 0;
   std::size_t clones = 0;
   std::size_t exact = 0;
-  std::size_t made = 0;
   bool nested = false;
   for (const auto& [id, object] : world.objects()) {
     fixtures += object.fixture ? 1 : 0;
@@ -118,7 +124,6 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   for (const auto& [id, geometry] : world.geometries()) {
     clones += geometry.users > 1 ? geometry.users - 1 : 0;
     exact += geometry.users > 0 && geometry.shape->kind() != "mesh" ? 1 : 0;
-    made += geometry.users > 0 && !world::recipe_of(*geometry.shape).empty() ? 1 : 0;
   }
   const auto tell = [&](std::string text) { remarks.push_back({{}, 0, std::move(text)}); };
   if (nested) tell("This format knows no hierarchy: all objects are written where they stand in the world.");
@@ -128,9 +133,7 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   if (exact > 0)
     tell(fmt::format("{} written as triangles.",
                      exact == 1 ? "1 exact shape is" : fmt::format("{} exact shapes are", exact)));
-  if (made > 0)
-    tell(fmt::format("This format knows no parameters of shapes: {} as triangles.",
-                     made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made)));
+  for (Remark& it : lost_recipes(world, "This format")) remarks.push_back(std::move(it));
   if (fixtures > 0) tell("This format knows no lights, viewpoints or scripts: they are left out.");
   if (motions > 0)
     tell(fmt::format("This format knows no motions: {} left out.",
@@ -176,6 +179,26 @@ class ExactLooks {
 
 std::string object_name(const PhysicalObject& object) {
   return object.name.empty() ? "An object without a name" : fmt::format("\"{}\"", object.name);
+}
+
+std::vector<Remark> lost_recipes(const World& world, std::string_view format) {
+  std::size_t made = 0, pictured = 0;
+  for (const auto& [id, geometry] : world.geometries()) {
+    const std::string_view recipe = world::recipe_of(*geometry.shape);
+    if (geometry.users > 0 && !recipe.empty()) ++(tells_of_a_picture(recipe) ? pictured : made);
+  }
+  std::vector<Remark> remarks;
+  if (made > 0)
+    remarks.push_back({{},
+                       0,
+                       fmt::format("{} knows no parameters of shapes: {} as triangles.", format,
+                                   made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made))});
+  if (pictured > 0)
+    remarks.push_back({{},
+                       0,
+                       fmt::format("{} does not keep where pictures were thrown on {} from.", format,
+                                   pictured == 1 ? "1 mesh" : fmt::format("{} meshes", pictured))});
+  return remarks;
 }
 
 bool shows_nothing(const World& world) {

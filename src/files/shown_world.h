@@ -48,6 +48,10 @@ struct ShownObject {
 /// Has no object anything to be seen, by what can be told without making triangles?
 bool shows_nothing(const world::World& world);
 
+/// Sentences on what is lost of how meshes were made, by a format that is called so: the parameters of
+/// shapes, and where pictures were thrown on from.
+std::vector<Remark> lost_recipes(const world::World& world, std::string_view format);
+
 /// For remarks: the name in quotes, or that there is none.
 std::string object_name(const world::PhysicalObject& object);
 

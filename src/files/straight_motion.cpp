@@ -1,5 +1,6 @@
 #include "files/straight_motion.h"
 
+#include <cmath>
 #include <utility>
 
 namespace icome::files {
@@ -27,15 +28,18 @@ void cut_steps(KeyFrames& frames, std::size_t size) {
   frames = std::move(cut);
 }
 
-/// `part` gives the numbers of the part at a moment of the cycle.
+/// `part` gives the numbers of the part at a moment of the cycle. Where it jumps, the first of the two key
+/// frames is as the part was just before.
 template <typename Part>
 void cut_spline(KeyFrames& frames, const Part& part) {
   KeyFrames cut = frames;
   cut.interpolation = Interpolation::Linear;
   cut.times = cut_finer(frames.times, kPiecesOfBend);
   cut.values.clear();
-  for (const double time : cut.times) {
-    const auto numbers = part(time);
+  for (std::size_t key = 0; key < cut.times.size(); ++key) {
+    const double time = cut.times[key];
+    const bool jumps = key + 1 < cut.times.size() && cut.times[key + 1] == time;
+    const auto numbers = part(jumps ? std::nextafter(time, 0.0) : time);
     cut.values.insert(cut.values.end(), numbers.begin(), numbers.end());
   }
   frames = std::move(cut);

@@ -48,13 +48,10 @@ VrmlTaken taken_of(const VrmlMoving& moving, const std::string& file) {
 }
 
 /// Remarks on the design itself, but for what was taken after all.
-std::vector<Remark> remarks_on(const fs::path& path, const DesignReadOptions& options, const VrmlTaken& taken,
+std::vector<Remark> remarks_on(const std::string& text, const fs::path& path, const VrmlTaken& taken,
                                std::vector<Remark> before) {
   if (taken.routes.empty()) return before;
-  bool packed = false;
-  const auto text = read_text(path, options.size_limit, packed, nullptr);
-  if (!text) return before;
-  auto left_out = scan_vrml(*text, path.string(), {}, taken);
+  auto left_out = scan_vrml(text, path.string(), {}, taken);
   return left_out ? std::move(left_out->remarks) : std::move(before);
 }
 
@@ -112,9 +109,12 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   const auto answer = ask_vrml_worker(*text, path, options_of_worker(options, stopped));
   if (stopped) return base::fail("interrupted");
   if (!answer) return tl::unexpected(answer.error());
-  memory.give_back(text->size());
-  text->clear();
-  text->shrink_to_fit();
+  // Where nothing can move, it is needed no more.
+  if (text->find("ROUTE") == std::string::npos) {
+    memory.give_back(text->size());
+    text->clear();
+    text->shrink_to_fit();
+  }
   memory.add_file(answer->inlined_bytes);
   memory.give_back(answer->inlined_bytes);
   if (!memory.take(answer->bytes.size()))
@@ -129,7 +129,7 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   VrmlMoving moving;
   auto design = build_vrml(answer->bytes, sources, patience, memory, &moving);
   if (!design) return design;
-  std::vector<Remark> remarks = remarks_on(path, options, taken_of(moving, {}), std::move(left_out->remarks));
+  std::vector<Remark> remarks = remarks_on(*text, path, taken_of(moving, {}), std::move(left_out->remarks));
   add_remarks_of_others(answer->files, options, moving, remarks);
   if (packed) design->format += ", gzip";
   for (std::string& sentence : reach.sentences()) remarks.push_back({{}, 0, std::move(sentence)});

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "files/number_text.h"
+#include "files/shown_world.h"
 #include "files/vrml_fixtures.h"
 #include "files/vrml_looks.h"
 #include "files/vrml_moves.h"
@@ -436,13 +437,7 @@ void VrmlWriter::tell_what_is_left() {
                         fmt::format("{} scripts will be objects of their own, not parts of the objects that "
                                     "they are in now.",
                                     inert_moved_)});
-  const auto made = std::count_if(world_.geometries().begin(), world_.geometries().end(), [](const auto& it) {
-    return it.second.users > 0 && !world::recipe_of(*it.second.shape).empty();
-  });
-  if (made > 0)
-    remarks_.push_back({"", 0,
-                        fmt::format("VRML 2.0 knows no parameters of shapes: {} as triangles.",
-                                    made == 1 ? "1 shape stays" : fmt::format("{} shapes stay", made))});
+  for (Remark& it : lost_recipes(world_, "VRML 2.0")) remarks_.push_back(std::move(it));
   for (Remark& it : looks_.losses()) remarks_.push_back(std::move(it));
   for (Remark& it : moves_.remarks()) remarks_.push_back(std::move(it));
   unused(world_.geometries(), "shapes that no object has are");

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <set>
 
+#include "world/motion.h"
 #include "world/solid_geometry.h"
 
 namespace icome::files {
@@ -50,6 +52,24 @@ TEST(DesignBuilder, EqualPrimitivesAreShapesOfTheirOwnThatLieInMemoryOnce) {
     }
   }
   EXPECT_EQ(in_memory.size(), different.size());
+}
+
+TEST(DesignBuilder, AMotionThatManyObjectsHaveTakesMemoryOnce) {
+  world::Motion motion;
+  for (int key = 0; key < 10'000; ++key) {
+    motion.translation.times.push_back(1e-4 * key);
+    motion.translation.values.insert(motion.translation.values.end(), {0.0, 0.0, 1e-4 * key});
+  }
+  MemoryBudget memory(1'000'000);
+  DesignBuilder builder(memory);
+  const auto add_some = [&](const world::MotionPointer& moves) {
+    for (int i = 0; i < 100; ++i) builder.add(world::PhysicalObject{.name = "a", .motion = moves});
+  };
+  add_some(std::make_shared<const world::Motion>(motion));
+  EXPECT_FALSE(builder.has_failed());
+  EXPECT_LT(memory.left(), 1'000'000 - world::bytes_of(motion));
+  for (int i = 0; i < 3; ++i) add_some(std::make_shared<const world::Motion>(motion));
+  EXPECT_TRUE(builder.has_failed()) << "others count";
 }
 
 }  // namespace

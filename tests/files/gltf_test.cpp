@@ -1,8 +1,12 @@
 // Designs through glTF files and back.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "files/design.h"
 #include "files/gltf_reader.h"
+#include "files/picture_bytes.h"
 #include "files/same_design.h"
 #include "files/sample_files.h"
 #include "world/every_edit.h"
@@ -242,6 +246,58 @@ TEST(Gltf, NumbersThatSinglesHoldComeBackAsTheyWereWritten) {
   add_object(world, ids, "square", shape);
   const World back = through(world, "a.glb");
   EXPECT_EQ(back.find(back.find(back.roots()[0])->geometry)->shape->hash(), shape->hash());
+}
+
+/// A file of materials, each with the map of metal and roughness of that name.
+std::string with_maps(const std::vector<std::string>& names) {
+  std::string images, textures, materials;
+  for (const std::string& name : names) {
+    const char* const comma = images.empty() ? "" : ",";
+    textures += fmt::format(R"({}{{"source":{}}})", comma, std::count(textures.begin(), textures.end(), '{'));
+    materials += fmt::format(R"({}{{"pbrMetallicRoughness":{{"metallicRoughnessTexture":{{"index":{}}}}}}})",
+                             comma, std::count(images.begin(), images.end(), '{'));
+    images += fmt::format(R"({}{{"uri":"{}"}})", comma, name);
+  }
+  return fmt::format(R"({{"asset":{{"version":"2.0"}},"nodes":[{{"name":"a"}}],"scenes":[{{"nodes":[0]}}],)"
+                     R"("images":[{}],"textures":[{}],"materials":[{}]}})",
+                     images, textures, materials);
+}
+
+TEST(Gltf, AsksWhetherToGoOnBeforeEachMapAndUnpacksEachOnce) {
+  const ScratchFolder folder;
+  const std::vector<std::string> names = {"0.png", "1.png", "2.png"};
+  for (const std::string& name : names)
+    folder.write(name, *png_of({1, 1, 3, std::string(1, name[0]) + "ab"}));
+  const auto asked = [&](const std::vector<std::string>& maps) {
+    int count = 0;
+    DesignReadOptions options;
+    options.progress = [&](double) { return ++count > 0; };
+    const auto design = read_design(folder.write("a.gltf", with_maps(maps)), options);
+    EXPECT_TRUE(design) << design.error().message;
+    return count;
+  };
+  // The others have one that is there already.
+  const int once = asked({names[0]});
+  EXPECT_EQ(asked(names), once + 2);
+  EXPECT_EQ(asked(std::vector<std::string>(50, names[0])), once);
+}
+
+TEST(Gltf, TellsOfMapsThatAreTooLargeToUnpack) {
+  const ScratchFolder folder;
+  folder.write("p.png", *png_of({1000, 1000, 1, std::string(1'000'000, 'a')}));
+  const auto path = folder.write("a.gltf", with_maps({"p.png"}));
+  const auto told = [&](std::uint64_t memory_limit) {
+    DesignReadOptions options;
+    options.memory_limit = memory_limit;
+    const auto design = read_design(path, options);
+    if (!design) throw std::runtime_error(design.error().message);
+    std::string all;
+    for (const Remark& it : design->remarks) all += it.text + "\n";
+    return all;
+  };
+  EXPECT_NE(told(3'000'000).find("1 map of metal and roughness is too large to be unpacked"),
+            std::string::npos);
+  EXPECT_NE(told(5'000'000).find("the means count"), std::string::npos);
 }
 
 }  // namespace

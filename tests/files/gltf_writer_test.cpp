@@ -67,8 +67,9 @@ std::shared_ptr<MeshGeometry> dressed_square() {
   return shape;
 }
 
-/// The square beneath a picture in colours.
-World pictured(bool tints, const PictureFrame& frame = kPictureAsItLies) {
+/// The square, or another shape, beneath a picture in colours.
+World pictured(bool tints, const PictureFrame& frame = kPictureAsItLies,
+               const GeometryPointer& shape = dressed_square()) {
   World world;
   IdSource ids;
   const auto picture = ids.next<TextureId>();
@@ -80,7 +81,7 @@ World pictured(bool tints, const PictureFrame& frame = kPictureAsItLies) {
   look.tints = tints;
   const auto material = ids.next<MaterialId>();
   applied(world, CreateMaterial{material, look});
-  const ObjectId square = add_object(world, ids, "square", dressed_square());
+  const ObjectId square = add_object(world, ids, "square", shape);
   applied(world, ChooseMaterial{square, material});
   return world;
 }
@@ -92,6 +93,23 @@ TEST(GltfWriter, ColoursThatAPictureReplacesAreNotSeen) {
   EXPECT_EQ(seen_look(seen).diffuse, (Colour{1.0F, 1.0F, 1.0F}));
   EXPECT_EQ(difference(world, read_from(written_as(world, "a.glb"), "a.glb"), {.tolerance = 1e-5}), "")
       << "ICOME keeps them";
+}
+
+/// Nothing says how the picture lies: it is not seen.
+TEST(GltfWriter, ColoursWithoutCoordinatesAreSeenWhateverThePictureAndStayFromSaveToSave) {
+  const auto square = dressed_square();
+  square->texture_coordinates.clear();
+  const World world = pictured(false, kPictureAsItLies, square);
+  EXPECT_FALSE(seen_mesh(seen_by_others(world)).colours.empty());
+  const World once = read_from(written_as(world, "a.glb"), "a.glb");
+  EXPECT_EQ(difference(world, once, {.tolerance = 1e-5}), "");
+  EXPECT_EQ(difference(world, read_from(written_as(once, "a.glb"), "a.glb"), {.tolerance = 1e-5}), "");
+  geometry::CsgTree tree;
+  tree.add_leaf(geometry::Primitive(geometry::Box{{0.1, 0.1, 0.1}}), at(0.0, 0.0, 0.0),
+                geometry::CsgTree::Colour{1.0F, 0.0F, 0.0F, 1.0F});
+  const World solid = seen_by_others(pictured(false, kPictureAsItLies, std::make_shared<CsgGeometry>(tree)));
+  ASSERT_FALSE(seen_mesh(solid).colours.empty());
+  EXPECT_EQ(seen_mesh(solid).colours[0][0], (Colour{1.0F, 0.0F, 0.0F}));
 }
 
 TEST(GltfWriter, ColoursThatAPictureIsMultipliedWithAreSeen) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "sample_files.h"
@@ -101,6 +103,28 @@ TEST(PlyParser, WhatIsLeftOutIsToldByName) {
   EXPECT_EQ(parsed->notes,
             (std::vector<std::string>{"properties of vertices left out: s, t",
                                       "properties of faces left out: red", "elements left out: edge"}));
+}
+
+TEST(PlyParser, NamesOfWhatIsLeftOutGoOnWhereThereAreMore) {
+  const auto told = [](int count) {
+    std::string properties, numbers;
+    for (int i = 0; i < count; ++i) {
+      properties += "property float p" + std::to_string(i) + "\n";
+      numbers += " 0";
+    }
+    const auto parsed = parse_ply(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+            properties + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0" +
+            numbers + "\n1 0 0" + numbers + "\n0 1 0" + numbers + "\n3 0 1 2\n",
+        "f");
+    if (!parsed) throw std::runtime_error(parsed.error().message);
+    return parsed->notes.at(0);
+  };
+  const std::string twelve =
+      "properties of vertices left out: p0, p1, p2, p3, p4, p5, p6, p7, p8, p9, p10, p11";
+  EXPECT_EQ(told(12), twelve);
+  EXPECT_EQ(told(13), twelve + " and so on");
+  EXPECT_EQ(told(14), twelve + " and so on");
 }
 
 TEST(OffParser, WhatIsLeftOutIsTold) {

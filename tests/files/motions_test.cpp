@@ -166,6 +166,33 @@ TEST(VrmlMotions, OfKeysThatMakeNoSenseAreTold) {
             std::vector<std::string>{"'c' is switched off in the file; what it moves moves here."});
 }
 
+TEST(VrmlMotions, OfPlacesThatAreNoneAreTold) {
+  const LoadedDesign design = vrml_design(
+      "DEF t Transform { center 1e39 0 0 children Shape { geometry Box {} } }\n"
+      "DEF c TimeSensor {} DEF i PositionInterpolator { key [ 0 1 ] keyValue [ 0 0 0 1 0 0 ] }\n"
+      "ROUTE c.fraction_changed TO i.set_fraction\nROUTE i.value_changed TO t.translation\n");
+  EXPECT_TRUE(moving_objects(design.world).empty());
+  const std::vector<std::string> told = sentences(design);
+  for (const char* sentence : {"'t' does not move: its place has numbers that are not finite.",
+                               "2 ROUTEs are left out, the first at line 4."})
+    EXPECT_NE(std::find(told.begin(), told.end(), sentence), told.end()) << testing::PrintToString(told);
+}
+
+TEST(VrmlMotions, AreTakenFromTheFileAsItWasRead) {
+  const ScratchFolder folder;
+  const fs::path path = folder.write("a.wrl", "#VRML V2.0 utf8\n" + kMill);
+  DesignReadOptions options;
+  options.progress = [&](double part) {
+    if (part >= 0.1) fs::remove(path);  // it has been read
+    return true;
+  };
+  const auto design = read_design(path, options);
+  ASSERT_TRUE(design.has_value()) << design.error().message;
+  EXPECT_FALSE(fs::exists(path));
+  for (const std::string& sentence : sentences(*design))
+    EXPECT_EQ(sentence.find("left out"), std::string::npos) << sentence;
+}
+
 std::string bytes_saved(const World& world, const fs::path& path) {
   const auto written = write_design(path, world);
   if (!written) throw std::runtime_error(written.error().message);
@@ -265,6 +292,95 @@ TEST(MotionsInFiles, AreSampledWhereGltfKnowsNoCentre) {
     expect_place(place_of(kept, "door", time), place_of(design.world, "door", time), 1e-3);
   expect_place(place_of(kept_in(design.world, "a.wrl"), "door", 0.77), place_of(design.world, "door", 0.77),
                1e-6);
+}
+
+/// A door of one metre that turns about its edge by these key frames.
+World swinging_door(KeyFrames rotation) {
+  DesignMaker design;
+  const ObjectId id = design.add("door", box(1.0), {}, at(2.0, 0.0, 0.0));
+  Motion swing{.rest = {.translation = {2.0, 0.0, 0.0}, .centre = {0.5, 0.0, 0.0}},
+               .rotation = std::move(rotation)};
+  applied(design.world, ChangeMotion{id, std::make_shared<const Motion>(std::move(swing))});
+  return design.world;
+}
+
+std::vector<double> turns_about_y(const std::vector<double>& angles) {
+  std::vector<double> values;
+  for (const double angle : angles) {
+    const base::Quaternion turn(Eigen::AngleAxisd(angle, Vector3::UnitY()));
+    values.insert(values.end(), turn.coeffs().begin(), turn.coeffs().end());
+  }
+  return values;
+}
+
+void expect_door_kept(const World& world, const std::vector<double>& moments) {
+  const World kept = kept_in(world, "a.glb");
+  for (const double time : moments) {
+    SCOPED_TRACE(time);
+    expect_place(place_of(kept, "door", time), place_of(world, "door", time), 2e-3);
+  }
+}
+
+TEST(MotionsInFiles, AboutACentreEndWithTheirCycleInGltf) {
+  expect_door_kept(swinging_door({.times = {0.0, 2.0}, .values = turns_about_y({0.0, 1.5}), .cycle = 1.25}),
+                   {0.1, 0.9, 1.2, 1.3});
+  expect_door_kept(
+      swinging_door(
+          {.times = {0.0, 1.0, 2.0}, .values = turns_about_y({0.0, 0.5, 1.5}), .cycle = 1.5, .loops = false}),
+      {0.9, 1.2, 1.45, 3.0});
+}
+
+TEST(MotionsInFiles, AboutACentreJumpAtOnceInGltf) {
+  expect_door_kept(
+      swinging_door(
+          {.times = {0.0, 1.0, 1.0, 2.0}, .values = turns_about_y({0.0, 0.5, 1.5, 2.0}), .cycle = 2.0}),
+      {0.5, 0.97, 0.999, 1.001, 1.5});
+  expect_door_kept(swinging_door({.interpolation = Interpolation::Step,
+                                  .times = {0.0, 0.3, 1.0},
+                                  .values = turns_about_y({0.0, 0.5, 1.5}),
+                                  .cycle = 2.0}),
+                   {0.1, 0.299, 0.301, 0.7, 0.999, 1.001, 1.9});
+}
+
+TEST(MotionsInFiles, OfSplinesThatJumpDoSoInVrml) {
+  DesignMaker design;
+  const ObjectId id = design.add("bent", box(1.0));
+  KeyFrames way{.interpolation = Interpolation::CubicSpline, .times = {0.0, 1.0, 1.0, 2.0}, .cycle = 2.0};
+  for (const double x : {0.0, 1.0, 5.0, 6.0})
+    way.values.insert(way.values.end(), {0.0, 0.0, 0.0, x, 0.0, 0.0, 0.0, 0.0, 0.0});
+  applied(design.world, ChangeMotion{id, std::make_shared<const Motion>(Motion{.translation = way})});
+  const World kept = kept_in(design.world, "a.wrl");
+  for (const double time : {0.5, 0.97, 0.999, 1.001, 1.5}) {
+    SCOPED_TRACE(time);
+    expect_place(place_of(kept, "bent", time), place_of(design.world, "bent", time), 0.02);
+  }
+}
+
+std::string told_by_glb(const World& world) {
+  const ScratchFolder folder;
+  const auto remarks = write_design(folder.path() / "a.glb", world);
+  if (!remarks) throw std::runtime_error(remarks.error().message);
+  std::string all;
+  for (const Remark& remark : *remarks) all += remark.text + "\n";
+  return all;
+}
+
+TEST(MotionsInFiles, ThatGltfCannotHoldAreToldByTheirReasons) {
+  World world = swinging_door({.times = {0.0, 1.0}, .values = turns_about_y({0.0, 1.5})});
+  const ObjectId id = moving_objects(world).front();
+  Motion motion = *world.find(id)->motion;
+  motion.translation = {.times = {0.0}, .values = {2.0, 0.0, 0.0}, .cycle = 3.0};
+  applied(world, ChangeMotion{id, std::make_shared<const Motion>(motion)});
+  EXPECT_NE(
+      told_by_glb(world).find("1 motion is left out: glTF knows no turns about a centre in several cycles."),
+      std::string::npos);
+  const std::string too_large = "1 motion is left out: numbers of it are too large for single precision.";
+  for (const KeyFrames& way : {KeyFrames{.times = {0.0, 1.0}, .values = {2, 0, 0, 1e39, 0, 0}},
+                               KeyFrames{.times = {0.0, 1e39}, .values = {2, 0, 0, 3, 0, 0}}}) {
+    motion = Motion{.rest = {.translation = {2.0, 0.0, 0.0}}, .translation = way};
+    applied(world, ChangeMotion{id, std::make_shared<const Motion>(motion)});
+    EXPECT_NE(told_by_glb(world).find(too_large), std::string::npos);
+  }
 }
 
 TEST(MotionsInFiles, ThatNoFormatKnowsAreTold) {
@@ -415,6 +531,26 @@ TEST(GltfMotions, OfManyKeyFramesInFewBytesAreRefusedBeforeTheyTakeMemory) {
   const auto refused = file.read(options);
   ASSERT_FALSE(refused.has_value());
   EXPECT_NE(refused.error().message.find("memory"), std::string::npos) << refused.error().message;
+}
+
+TEST(GltfMotions, MoveNodesWhoseTurnIsFourZeros) {
+  GltfFile file;
+  file.json()["nodes"][0]["rotation"] = nlohmann::json::parse("[0, 0, 0, 0]");
+  const int times = file.add({0.0F, 1.0F}, "SCALAR", 1);
+  file.animate("walk", "translation", times, file.add({0, 0, 0, 1, 0, 0}, "VEC3", 3));
+  expect_place(place_of(file.design().world, "arm", 0.5), at(0.5, 0.0, 0.0));
+}
+
+TEST(GltfMotions, CountAsMemoryOnce) {
+  GltfFile file;
+  for (const char* type : {"SCALAR", "VEC3"}) file.add_accessor(type, 100'000);  // 3.2 MB of numbers
+  file.animate("clip", "translation", 0, 1);
+  file.add({0.0F}, "SCALAR", 1);
+  DesignReadOptions options;
+  options.memory_limit = 5'000'000;
+  const auto design = file.read(options);
+  ASSERT_TRUE(design.has_value()) << design.error().message;
+  EXPECT_EQ(moving_objects(design->world).size(), 1U);
 }
 
 }  // namespace

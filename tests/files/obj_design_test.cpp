@@ -277,22 +277,36 @@ TEST(ObjDesign, ExactShapesHaveTheirNormalsAndColours) {
   EXPECT_FALSE(block.normals.empty()) << "its edges are sharp";
 }
 
+/// A triangle with colours of its corners beneath a picture in colours.
+World coloured_beneath_a_picture(bool tints, bool with_coordinates) {
+  World world;
+  IdSource ids;
+  auto shape = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
+  shape->colours = {{Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 1}}};
+  if (with_coordinates)
+    shape->texture_coordinates = {{base::Vector2(0, 0), base::Vector2(1, 0), base::Vector2(0, 1)}};
+  const auto texture = ids.next<TextureId>();
+  const auto png = png_of({1, 1, 3, "abc"});  // in colours: grey ones replace nothing
+  applied(world, CreateTexture{texture, {"p.png", "image/png", std::make_shared<std::string>(*png)}});
+  Material look{.name = "pictured"};
+  look.texture = texture;
+  look.tints = tints;
+  const auto material = ids.next<MaterialId>();
+  applied(world, CreateMaterial{material, look});
+  applied(world, ChooseMaterial{add_object(world, ids, "one", shape), material});
+  return world;
+}
+
+TEST(ObjDesign, ColoursWithoutCoordinatesStayFromSaveToSave) {
+  const World world = coloured_beneath_a_picture(false, false);
+  const World once = through_obj(world);
+  EXPECT_EQ(obj_mesh(once).colours, obj_mesh(world).colours);
+  EXPECT_EQ(obj_mesh(through_obj(once)).colours, obj_mesh(world).colours);
+}
+
 TEST(ObjDesign, ColoursThatAPictureReplacesAreLeftOutAndTold) {
   for (const bool tints : {false, true}) {
-    World world;
-    IdSource ids;
-    auto shape = std::make_shared<MeshGeometry>(dynamic_cast<const MeshGeometry&>(*one_triangle()));
-    shape->colours = {{Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 1}}};
-    shape->texture_coordinates = {{base::Vector2(0, 0), base::Vector2(1, 0), base::Vector2(0, 1)}};
-    const auto texture = ids.next<TextureId>();
-    const auto png = png_of({1, 1, 3, "abc"});  // in colours: grey ones replace nothing
-    applied(world, CreateTexture{texture, {"p.png", "image/png", std::make_shared<std::string>(*png)}});
-    Material look{.name = "pictured"};
-    look.texture = texture;
-    look.tints = tints;
-    const auto material = ids.next<MaterialId>();
-    applied(world, CreateMaterial{material, look});
-    applied(world, ChooseMaterial{add_object(world, ids, "one", shape), material});
+    const World world = coloured_beneath_a_picture(tints, true);
     const ScratchFolder folder;
     const auto told = write_design(folder.path() / "a.obj", world);
     ASSERT_TRUE(told);

@@ -5,6 +5,7 @@
 #include <turbojpeg.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -70,6 +71,37 @@ TEST(PictureBytes, HaveAMean) {
   expect_mean(file, {0.5, 100.0 / 255.0, 50.0 / 255.0});
   EXPECT_FALSE(picture_mean(file.substr(0, 200)).has_value());
   EXPECT_FALSE(picture_mean("GIF89a").has_value());
+}
+
+/// One grey pixel of so much of 65535, with nothing on how bright that is.
+std::string png_of_16_bits(std::uint16_t grey) {
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  const auto append = [](png_structp to, png_bytep data, png_size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(to))->append(reinterpret_cast<const char*>(data), size);
+  };
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, info, 1, 1, 16, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  const std::array<png_byte, 2> row = {png_byte(grey >> 8U), png_byte(grey & 0xffU)};
+  png_write_row(png, row.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
+TEST(PictureBytes, OfSixteenBitsHaveTheMeanThatStandsInThem) {
+  expect_mean(png_of_16_bits(0x8000), {0.5, 0.5, 0.5});
+  expect_mean(png_of_16_bits(0x1999), {0.1, 0.1, 0.1});
+}
+
+TEST(PictureBytes, SayHowManyPixelsTheyHave) {
+  EXPECT_EQ(pixel_count(*png_of({3, 2, 1, "abcdef"})), 6U);
+  EXPECT_EQ(pixel_count("\x89PNG\r\n\x1a\n"), 0U);
+  EXPECT_EQ(pixel_count("\xff\xd8\xff"), 0U);
+  EXPECT_EQ(pixel_count("GIF89a"), 0U);
 }
 
 TEST(PictureBytes, AreKnownByTheirHead) {

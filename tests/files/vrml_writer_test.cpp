@@ -160,6 +160,14 @@ TEST(VrmlWriter, TellsThatParametersAreNotKept) {
   EXPECT_EQ(write_out(design.world, folder).remarks, two);
 }
 
+TEST(VrmlWriter, TellsThatProjectorsAreNotKept) {
+  const ScratchFolder folder;
+  DesignMaker design;
+  design.add("pictured", made_mesh(R"({"op":"texture","projection":"box"})"));
+  const std::vector<std::string> one{"VRML 2.0 does not keep where pictures were thrown on 1 mesh from."};
+  EXPECT_EQ(write_out(design.world, folder).remarks, one);
+}
+
 class OwnShape final : public Geometry {
  public:
   std::string_view kind() const override { return "egg"; }

@@ -71,7 +71,7 @@ std::vector<double> sizes(const SoMFFloat& field) {
   return values;
 }
 
-bool are_finite(const std::vector<double>& numbers) {
+bool are_finite(std::span<const double> numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double it) { return std::isfinite(it); });
 }
 
@@ -83,10 +83,14 @@ int Motions::number_of(const SoVRMLTransform& transform) {
   const auto [found, is_new] = known_.try_emplace(&transform, -1);
   if (!is_new) return found->second;
   MotionParts motion;
+  motion.rest = rest_of(transform);
+  if (!are_finite(motion.rest)) {
+    note(routes.front(), transform, "does not move: its place has numbers that are not finite.");
+    return -1;
+  }
   bool moves = false;
   for (const NodeRoute& route : routes) moves = add(route, motion) || moves;
   if (!moves) return -1;
-  motion.rest = rest_of(transform);
   return found->second = answer_.add(motion);
 }
 
@@ -103,25 +107,19 @@ bool Motions::add(const NodeRoute& route, MotionParts& motion) {
 }
 
 bool Motions::fill(const NodeRoute& route, FrameParts& frames, bool turns_wanted) {
-  FrameParts made;
-  int count = 0;
-  if (const auto* way = cast_to<SoVRMLPositionInterpolator>(*route.from); way && !turns_wanted) {
-    made.values = ways(way->keyValue);
-    count = way->keyValue.getNum();
-  } else if (const auto* turn = cast_to<SoVRMLOrientationInterpolator>(*route.from); turn && turns_wanted) {
-    made.values = turns(turn->keyValue);
-    count = turn->keyValue.getNum();
-  } else if (const auto* size = cast_to<SoVRMLScalarInterpolator>(*route.from); size && !turns_wanted) {
-    made.values = sizes(size->keyValue);
-    count = size->keyValue.getNum();
-  } else {
-    return false;
-  }
+  const auto* const way = cast_to<SoVRMLPositionInterpolator>(*route.from);
+  const auto* const turn = cast_to<SoVRMLOrientationInterpolator>(*route.from);
+  const auto* const size = cast_to<SoVRMLScalarInterpolator>(*route.from);
+  if (turns_wanted ? !turn : !way && !size) return false;
   const NodeRoute* const by = clock_route(files_, *route.from);
   if (!by) return false;
   const auto& clock = static_cast<const SoVRMLTimeSensor&>(*by->from);
+  const int count = way ? way->keyValue.getNum() : turn ? turn->keyValue.getNum() : size->keyValue.getNum();
+  FrameParts made;
   if (!fill_keys(static_cast<const SoVRMLInterpolator&>(*route.from), clock, count, route, made))
     return false;
+  made.values = values_of(*route.from);
+  if (!are_finite(made.values)) return refuse(route, *route.from, "it has numbers that are not finite.");
   if (!clock.enabled.getValue()) note(*by, clock, "is switched off in the file; what it moves moves here.");
   frames = std::move(made);
   take(route);
@@ -129,28 +127,41 @@ bool Motions::fill(const NodeRoute& route, FrameParts& frames, bool turns_wanted
   return true;
 }
 
+const std::vector<double>& Motions::values_of(const SoNode& interpolator) {
+  const auto [found, is_new] = values_.try_emplace(&interpolator);
+  if (!is_new) return found->second;
+  if (const auto* const way = cast_to<SoVRMLPositionInterpolator>(interpolator))
+    found->second = ways(way->keyValue);
+  else if (const auto* const turn = cast_to<SoVRMLOrientationInterpolator>(interpolator))
+    found->second = turns(turn->keyValue);
+  else if (const auto* const size = cast_to<SoVRMLScalarInterpolator>(interpolator))
+    found->second = sizes(size->keyValue);
+  return found->second;
+}
+
 bool Motions::fill_keys(const SoVRMLInterpolator& from, const SoVRMLTimeSensor& clock, int values,
                         const NodeRoute& route, FrameParts& frames) {
   const int count = from.key.getNum();
-  const auto refuse = [&](const SoNode& node, const std::string& why) {
-    note(route, node, "moves nothing: " + why);
-    return false;
-  };
-  if (count == 0) return refuse(from, "it has no keys.");
+  if (count == 0) return refuse(route, from, "it has no keys.");
   if (count != values)
-    return refuse(from,
+    return refuse(route, from,
                   "it has " + std::to_string(count) + " keys and " + std::to_string(values) + " values.");
   frames.cycle = clock.cycleInterval.getValue().getValue();
   frames.loops = clock.loop.getValue() != FALSE;
   if (!(frames.cycle > 0.0) || !std::isfinite(frames.cycle))
-    return refuse(clock, "its cycleInterval is not above 0.");
+    return refuse(route, clock, "its cycleInterval is not above 0.");
   frames.times.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) frames.times.push_back(as_written(from.key[i]) * frames.cycle);
-  if (!are_finite(frames.times) || !are_finite(frames.values))
-    return refuse(from, "it has numbers that are not finite.");
-  if (frames.times.front() < 0.0) return refuse(from, "its keys begin before 0.");
-  if (!std::is_sorted(frames.times.begin(), frames.times.end())) return refuse(from, "its keys go back.");
+  if (!are_finite(frames.times)) return refuse(route, from, "it has numbers that are not finite.");
+  if (frames.times.front() < 0.0) return refuse(route, from, "its keys begin before 0.");
+  if (!std::is_sorted(frames.times.begin(), frames.times.end()))
+    return refuse(route, from, "its keys go back.");
   return true;
+}
+
+bool Motions::refuse(const NodeRoute& route, const SoNode& node, const std::string& why) {
+  note(route, node, "moves nothing: " + why);
+  return false;
 }
 
 void Motions::note(const NodeRoute& route, const SoNode& node, const std::string& text) {

@@ -3,10 +3,12 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "files/vrml_worker/answer.h"
 #include "files/vrml_worker/scene_files.h"
 
+class SoNode;
 class SoVRMLInterpolator;
 class SoVRMLTimeSensor;
 class SoVRMLTransform;
@@ -28,14 +30,19 @@ class Motions {
   /// False, with a note where one helps: the route leads from nothing that moves this part.
   bool add(const NodeRoute& route, MotionParts& motion);
   bool fill(const NodeRoute& route, FrameParts& frames, bool turns);
+  /// All that an interpolator gives, found once.
+  const std::vector<double>& values_of(const SoNode& interpolator);
   bool fill_keys(const SoVRMLInterpolator& from, const SoVRMLTimeSensor& clock, int values,
                  const NodeRoute& route, FrameParts& frames);
+  /// False, with a note.
+  bool refuse(const NodeRoute& route, const SoNode& node, const std::string& why);
   void note(const NodeRoute& route, const SoNode& node, const std::string& text);
   void take(const NodeRoute& route);
 
   const SceneFiles& files_;
   Answer& answer_;
   std::unordered_map<const SoVRMLTransform*, int> known_ = {};
+  std::unordered_map<const SoNode*, std::vector<double>> values_ = {};  // of interpolators
   std::unordered_set<const NodeRoute*> taken_ = {};
   std::map<std::string, MovingParts> moving_ = {};  // by file, as notes call it
 };
