@@ -6,19 +6,16 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/box_tree.h"
 #include "geometry/contour_error.h"
 #include "geometry/csg_cut.h"
+#include "geometry/csg_leaf_surfaces.h"
 #include "geometry/csg_part.h"
 #include "geometry/csg_solid.h"
-#include "geometry/hilbert.h"
 #include "geometry/triangle_tree.h"
 
 namespace icome::geometry {
 namespace {
 
-/// A transform stretches evenly when its squared stretches differ by less than this part.
-constexpr double kEven = 1e-9;
 /// Walls below this many cells may slip between the points of a grid.
 constexpr double kThinCells = 2.0;
 constexpr double kMakingPart = 0.8;  // of the whole work, without measuring
@@ -28,82 +25,18 @@ constexpr double kFiner = 2.0;
 /// Distances from a primitive are trusted to this part of the coordinates.
 constexpr double kDistanceRounding = 1e-9;
 
-bool stretches_evenly(const Affine3& transform) {
-  const Matrix3 squared = transform.linear().transpose() * transform.linear();
-  const double mean = squared.trace() / 3;
-  return (squared - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= kEven * mean;
+/// May one of the surfaces pass the box?
+bool may_cross(const CsgLeafSurfaces& surfaces, const Bounds& box) {
+  const Vector3 centre = box.center();
+  const double size = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double radius = box.diagonal().norm() / 2 + kDistanceRounding * size;
+  bool crossed = false;
+  surfaces.near(centre, radius, [&](const CsgLeafSurfaces::Leaf& it) {
+    crossed = !it.even || distance_to_surface(it.leaf, centre) <= radius;
+    return !crossed;
+  });
+  return crossed;
 }
-
-/// Says where the surfaces of a tree's primitives are, and with them all of the solid's surface.
-class CsgLeafSurfaces {
- public:
-  /// Of the primitives that reach into `box`.
-  CsgLeafSurfaces(const CsgTree& tree, const Bounds& box) {
-    std::vector<Leaf> unsorted;
-    std::vector<Bounds> parts;
-    std::vector<Eigen::Vector3f> centres;
-    const std::vector<Affine3> tree_from_node = tree.tree_from_node();
-    for (const CsgTree::Index index : leaves_below_root(tree)) {
-      const CsgLeaf leaf(*tree.node(index).shape, tree_from_node[index]);
-      const Bounds part = leaf.bounds().intersection(box);
-      if (part.isEmpty()) continue;
-      unsorted.push_back({leaf, stretches_evenly(tree_from_node[index])});
-      parts.push_back(part);
-      centres.emplace_back(part.center().cast<float>());
-    }
-    std::vector<FloatBox> boxes;
-    for (const std::uint32_t i : hilbert_order(centres)) {
-      leaves_.push_back(unsorted[i]);
-      boxes.push_back(float_box(parts[i]));
-    }
-    boxes_ = BoxTree(boxes);
-  }
-
-  /// May one of them pass the box?
-  bool may_cross(const Bounds& box) const {
-    const Vector3 centre = box.center();
-    const double size = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-    const double radius = box.diagonal().norm() / 2 + kDistanceRounding * size;
-    bool crossed = false;
-    boxes_.near(SegmentQuery(centre, centre, radius), [&](std::uint32_t index) {
-      const Leaf& leaf = leaves_[index];
-      crossed = !leaf.even || distance(leaf.leaf, centre) <= radius;
-      return !crossed;
-    });
-    return crossed;
-  }
-
- private:
-  struct Leaf {
-    CsgLeaf leaf;
-    bool even;  // distances from it are exact
-  };
-
-  static std::vector<CsgTree::Index> leaves_below_root(const CsgTree& tree) {
-    std::vector<CsgTree::Index> leaves, todo{tree.root()};
-    while (!todo.empty()) {
-      const CsgTree::Index index = todo.back();
-      todo.pop_back();
-      const CsgTree::Node& node = tree.node(index);
-      if (node.is_leaf) {
-        leaves.push_back(index);
-      } else {
-        todo.push_back(node.right);
-        todo.push_back(node.left);
-      }
-    }
-    return leaves;
-  }
-
-  static double distance(const CsgLeaf& leaf, const Vector3& point) {
-    const SurfacePoint nearest =
-        leaf.inside(point) ? leaf.scp_from_inside(point) : leaf.scp_from_outside(point);
-    return (nearest.point - point).norm();
-  }
-
-  std::vector<Leaf> leaves_;
-  BoxTree boxes_;
-};
 
 /// A place of the solid's surface that is farther from the mesh than `reach` (m), where chance finds one.
 std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMesh& mesh, double reach) {
@@ -132,7 +65,7 @@ class CsgMesher {
       const double nowhere = std::numeric_limits<double>::quiet_NaN();  // then it is found by halving
       return compiled_.crossing(a, b).value_or(SurfacePoint{Vector3::Constant(nowhere), b - a});
     };
-    solid_.may_cross = [this](const Bounds& box) { return surfaces_.may_cross(box); };
+    solid_.may_cross = [this](const Bounds& box) { return geometry::may_cross(surfaces_, box); };
   }
   CsgMesher(const CsgMesher&) = delete;
   CsgMesher& operator=(const CsgMesher&) = delete;
