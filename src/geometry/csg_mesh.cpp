@@ -38,17 +38,24 @@ bool may_cross(const CsgLeafSurfaces& surfaces, const Bounds& box) {
   return crossed;
 }
 
-/// A place of the solid's surface that is farther from the mesh than `reach` (m), where chance finds one.
+/// A place of the solid's surface that is farther from the mesh than `reach` (m), where chance finds one. Of
+/// a primitive that has little share in the surface many places are thrown away before one counts, as of two
+/// large spheres whose intersection is a thin lens.
 std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMesh& mesh, double reach) {
-  constexpr std::size_t kMostAsked = 2000;  // atoms
-  constexpr int kThrows = 48;               // for each
+  constexpr std::size_t kMostAsked = 2000;      // atoms
+  constexpr int kFound = 48;                    // for each
+  constexpr std::size_t kMostThrown = 100'000;  // for all together
   base::Random random(2);
   const TriangleTree triangles(mesh);
   const std::size_t stride = 1 + program.atoms().size() / kMostAsked;
+  const std::size_t asked = 1 + program.atoms().size() / stride;
   for (std::uint32_t atom = 0; atom < program.atoms().size(); atom += std::uint32_t(stride)) {
-    for (int i = 0; i < kThrows; ++i) {
+    int found = 0;
+    for (std::size_t i = 0; i < kMostThrown / asked && found < kFound; ++i) {
       const auto place = random_place(program, atom, random);
-      if (place && !triangles.nearest(place->point, reach)) return place->point;
+      if (!place) continue;
+      if (!triangles.nearest(place->point, reach)) return place->point;
+      ++found;
     }
   }
   return std::nullopt;

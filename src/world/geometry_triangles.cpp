@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/csg_mesh.h"
+#include "geometry/implicit_loss.h"
 #include "world/mesh_geometry.h"
 #include "world/solid_geometry.h"
 #include "world/usual_tolerance.h"
@@ -122,8 +123,21 @@ base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
   return std::move(made->mesh);
 }
 
+/// Thin parts may slip between the points of the grid: then a finer one is tried, as far as there is one.
 base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
-  return triangles_at(0.0, tolerance);
+  for (double finer = tolerance;; finer *= 0.5) {
+    auto made = triangles_at(0.0, finer);
+    if (!made) return made;
+    const double cell = cell_for(finer, bounds());
+    const auto lost = geometry::place_that_mesh_lacks(*surface_, 0.0, (*made)->mesh, 2.0 * cell);
+    if (!lost) return made;
+    if (cell <= finer) continue;
+    if (!(*made)->mesh.triangles.empty()) return made;
+    return base::fail(fmt::format(
+        "The solid is too thin to be made triangles, as at ({:.4g}, {:.4g}, {:.4g}) m of its own frame: make "
+        "its box smaller or itself thicker, or keep it in a format that holds formulas, such as .icome.",
+        lost->x(), lost->y(), lost->z()));
+  }
 }
 
 base::Result<Triangles> ImplicitGeometry::triangles_at(double time, double tolerance) const {

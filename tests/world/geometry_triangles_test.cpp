@@ -1,5 +1,8 @@
+#include <numbers>
+
 #include "every_edit.h"
 #include "geometry/mesh_topology.h"
+#include "world/usual_tolerance.h"
 
 namespace icome::world {
 namespace {
@@ -40,6 +43,37 @@ TEST(Triangles, OfSolidsLieWithinTheToleranceOfThem) {
     ASSERT_FALSE(mesh->mesh.triangles.empty());
     for (const Vector3& position : mesh->mesh.positions) EXPECT_NEAR(position.norm(), 0.05, kTolerance);
   }
+}
+
+// Closed form: a cap of height h of a sphere of radius r has the volume pi h^2 (3 r - h) / 3.
+TEST(Triangles, OfALensOfTwoLargeSpheresAreThere) {
+  using geometry::CsgOperator;
+  geometry::CsgTree tree;
+  const auto one = tree.add_leaf(geometry::Primitive(geometry::Sphere{0.1}), at(0.0, 0.0995, 0.0));
+  const auto two = tree.add_leaf(geometry::Primitive(geometry::Sphere{0.1}), at(0.0, -0.0995, 0.0));
+  tree.set_root(tree.add(CsgOperator::Intersection, one, two));
+  const CsgGeometry lens(tree);
+  const auto mesh = lens.triangles(usual_tolerance(lens));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  const double cap = std::numbers::pi * 0.0005 * 0.0005 * (0.3 - 0.0005) / 3.0;
+  EXPECT_NEAR(geometry::signed_volume((*mesh)->mesh), 2.0 * cap, 0.2 * cap);
+}
+
+TEST(Triangles, OfAThinPlateByAFormulaAreThere) {
+  const Bounds box(Vector3(-0.3, -0.1, -0.3), Vector3(0.3, 0.1, 0.3));
+  const auto plate = *ImplicitGeometry::create("max(abs(y)-0.002, 0.02-sqrt(x^2+z^2))", box);
+  const auto mesh = plate->triangles(usual_tolerance(*plate));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  const double hole = std::numbers::pi * 0.02 * 0.02;
+  EXPECT_NEAR(geometry::signed_volume((*mesh)->mesh), 0.004 * (0.36 - hole), 0.05 * 0.004 * 0.36);
+}
+
+TEST(Triangles, AreRefusedForASheetTooThinToBeMet) {
+  const Bounds box(Vector3(-0.5, -0.1, -0.5), Vector3(0.5, 0.1, 0.5));
+  const auto sheet = *ImplicitGeometry::create("abs(y)-0.0002", box);
+  const auto made = sheet->triangles(usual_tolerance(*sheet));
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("too thin"), std::string::npos) << made.error().message;
 }
 
 TEST(Triangles, OfALoopSurfaceLieOnItsLimit) {

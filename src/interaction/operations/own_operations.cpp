@@ -17,7 +17,7 @@ Result<Plan> plan_mesh(const world::World& world, const Arguments& arguments, wo
     return fail(fmt::format("'{}' is a mesh already", arguments.text("object")));
   const double tolerance =
       arguments.has("tolerance") ? arguments.number("tolerance") : world::usual_tolerance(*change->shape);
-  const auto triangles = change->shape->triangles(tolerance);
+  const auto triangles = triangles_of(*change, tolerance);
   if (!triangles) return tl::unexpected(triangles.error());
   return plan_of_shape(*change, *triangles, ids);
 }

@@ -32,7 +32,7 @@ Result<void> make_triangles(ShapeChange& change, const Arguments& arguments, std
         fmt::format("'{}' is {} and {}: perform 'mesh' first, which makes triangles of it, or say "
                     "\"as_mesh\": true to do so in the same step",
                     name, kind_in_words(*change.shape), wanted));
-  auto triangles = change.shape->triangles(world::usual_tolerance(*change.shape));
+  auto triangles = triangles_of(change, world::usual_tolerance(*change.shape));
   if (!triangles) return tl::unexpected(triangles.error());
   change.shape = std::move(*triangles);
   change.made_triangles = true;
@@ -49,6 +49,17 @@ world::GeometryId own_copy(const ShapeChange& change, world::EditGroup& group, w
 }
 
 }  // namespace
+
+Result<world::GeometryPointer> triangles_of(const ShapeChange& change, double tolerance) {
+  const auto made = change.shape->triangles(tolerance);
+  if (!made) return tl::unexpected(made.error());
+  if ((*made)->mesh.triangles.empty())
+    return fail(
+        fmt::format("no triangles can be made of '{}': it is empty, or nothing of it is large enough to be "
+                    "found; leave it as it is, or make a smaller solid of the part that matters",
+                    change.world->find(change.object)->name));
+  return world::GeometryPointer(*made);
+}
 
 Parameter object_parameter(std::string meaning) {
   return {.name = "object", .kind = ParameterKind::Object, .meaning = std::move(meaning), .required = true};

@@ -22,6 +22,10 @@ struct ShapeChange {
   bool alone = false;            // gets the object a shape of its own?
 };
 
+/// The triangles of what is to be changed, off by no more than `tolerance` (m). Fails, too, where there are
+/// none.
+base::Result<world::GeometryPointer> triangles_of(const ShapeChange& change, double tolerance);
+
 /// `object`; `alone`; and `as_mesh`, for operations that can make triangles first.
 Parameter object_parameter(std::string meaning);
 Parameter alone_parameter();
