@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "files/exact_looks.h"
@@ -110,11 +111,21 @@ class Flattening {
   FlatWorld flat_;
 };
 
-void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
+std::size_t count_exact_shapes(const World& world, const std::vector<ShownObject>& shown) {
+  std::unordered_set<world::GeometryId> exact;
+  for (const ShownObject& it : shown) {
+    const world::GeometryId geometry = world.find(it.object)->geometry;
+    if (world.find(geometry)->shape->kind() != "mesh") exact.insert(geometry);
+  }
+  return exact.size();
+}
+
+void remark_on_losses(const World& world, const std::vector<ShownObject>& shown,
+                      std::vector<Remark>& remarks) {
   std::size_t fixtures = 0;
   std::size_t motions = 0;
   std::size_t clones = 0;
-  std::size_t exact = 0;
+  const std::size_t exact = count_exact_shapes(world, shown);
   bool nested = false;
   for (const auto& [id, object] : world.objects()) {
     fixtures += object.fixture ? 1 : 0;
@@ -123,7 +134,6 @@ void remark_on_losses(const World& world, std::vector<Remark>& remarks) {
   }
   for (const auto& [id, geometry] : world.geometries()) {
     clones += geometry.users > 1 ? geometry.users - 1 : 0;
-    exact += geometry.users > 0 && geometry.shape->kind() != "mesh" ? 1 : 0;
   }
   const auto tell = [&](std::string text) { remarks.push_back({{}, 0, std::move(text)}); };
   if (nested) tell("This format knows no hierarchy: all objects are written where they stand in the world.");
@@ -267,6 +277,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, bool wi
   ExactLooks looks(world);
   std::vector<ShownObject> shown;
   std::size_t triangles = 0;
+  std::string refusal;  // of the first object that cannot be shown
   std::vector<Visit> open;
   const auto enter = [&](const std::vector<ObjectId>& row, const base::Affine3& world_from_parent) {
     for (auto id = row.rbegin(); id != row.rend(); ++id) open.push_back({*id, world_from_parent});
@@ -290,11 +301,14 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, bool wi
       if (with_looks) mesh = looks.of(object, std::move(mesh));
       shown.push_back({visit.object, std::move(mesh), here});
     } else {
-      remarks.push_back(
-          {{}, 0, fmt::format("{} is left out: {}", object_name(object), shapes.why(object.geometry))});
+      const std::string told =
+          fmt::format("{} is left out: {}", object_name(object), shapes.why(object.geometry));
+      if (refusal.empty()) refusal = told;
+      remarks.push_back({{}, 0, told});
     }
   }
-  remark_on_losses(world, remarks);
+  if (shown.empty() && !refusal.empty()) return base::fail("Nothing would be left of the design: " + refusal);
+  remark_on_losses(world, shown, remarks);
   tell_of_part_colours(world, with_looks, remarks);
   return shown;
 }
