@@ -38,6 +38,14 @@ bool may_cross(const CsgLeafSurfaces& surfaces, const Bounds& box) {
   return crossed;
 }
 
+/// Is there solid behind the place, and none before it, by more than rounding? Faces that lie in one another
+/// have slivers between them that are none.
+bool is_more_than_rounding(const CsgProgram& program, const SurfacePoint& place) {
+  constexpr double kRounding = 1e-9;  // of the coordinates
+  const Vector3 off = kRounding * largest_coordinate(program) * place.normal;
+  return program.inside(place.point - off) && !program.inside(place.point + off);
+}
+
 /// A place of the solid's surface that is farther from the mesh than `reach` (m), where chance finds one. Of
 /// a primitive that has little share in the surface many places are thrown away before one counts, as of two
 /// large spheres whose intersection is a thin lens.
@@ -53,7 +61,7 @@ std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMe
     int found = 0;
     for (std::size_t i = 0; i < kMostThrown / asked && found < kFound; ++i) {
       const auto place = random_place(program, atom, random);
-      if (!place) continue;
+      if (!place || !is_more_than_rounding(program, *place)) continue;
       if (!triangles.nearest(place->point, reach)) return place->point;
       ++found;
     }
