@@ -277,7 +277,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, bool wi
   ExactLooks looks(world);
   std::vector<ShownObject> shown;
   std::size_t triangles = 0;
-  std::string refusal;  // of the first object that cannot be shown
+  std::string refusal;  // of the first object that cannot be made triangles, but is something
   std::vector<Visit> open;
   const auto enter = [&](const std::vector<ObjectId>& row, const base::Affine3& world_from_parent) {
     for (auto id = row.rbegin(); id != row.rend(); ++id) open.push_back({*id, world_from_parent});
@@ -301,13 +301,12 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, bool wi
       if (with_looks) mesh = looks.of(object, std::move(mesh));
       shown.push_back({visit.object, std::move(mesh), here});
     } else {
-      const std::string told =
-          fmt::format("{} is left out: {}", object_name(object), shapes.why(object.geometry));
-      if (refusal.empty()) refusal = told;
-      remarks.push_back({{}, 0, told});
+      const std::string& why = shapes.why(object.geometry);
+      if (why != kNothingOfIt && refusal.empty()) refusal = why;
+      remarks.push_back({{}, 0, fmt::format("{} is left out: {}", object_name(object), why)});
     }
   }
-  if (shown.empty() && !refusal.empty()) return base::fail("Nothing would be left of the design: " + refusal);
+  if (shown.empty() && !refusal.empty()) return base::fail("Nothing would be left of the design. " + refusal);
   remark_on_losses(world, shown, remarks);
   tell_of_part_colours(world, with_looks, remarks);
   return shown;

@@ -78,6 +78,16 @@ class ConvertTest(ProgramTest):
             self.assertEqual(done["triangles"], 0)
             self.assertTrue(any("no triangles" in it for it in done["warnings"]), (ending, done["warnings"]))
 
+    def test_what_would_be_lost_altogether_is_refused(self):
+        """A formula for a sheet of 0.4 mm in a metre of box: exact as it is, too thin for triangles."""
+        bounds = [[-0.5, -0.1, -0.5], [0.5, 0.1, 0.5]]
+        edits = self.write("edits.jsonl", json.dumps(
+            {"op": "create", "shape": "implicit", "formula": "abs(y)-0.0002", "bounds": bounds}) + "\n")
+        design = self.folder / "sheet.icome"
+        self.succeeds("edit", "new", "--apply", edits, "--out", design)
+        self.fails("convert", design, self.folder / "sheet.stl", code=1, saying="too thin")
+        self.assertFalse((self.folder / "sheet.stl").exists())
+
     def test_losses_are_told(self):
         solid = self.write("solid.csg", "cube(size = [10, 20, 30], center = false);\n")
         done = json.loads(self.succeeds("convert", solid, self.folder / "solid.ply", "--json").stdout)

@@ -113,9 +113,9 @@ class ErrorTest(CsgTest):
         self.fails("csg", self.csg("hull();"), "--mesh", old, code=1, saying="hull")
         apart = self.csg("intersection() { cube(1); multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }")
         self.fails("csg", apart, "--mesh", old, code=1, saying="the solid is empty")
-        mesh = self.csg("polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"
-                        " faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]], convexity = 1);")
-        self.fails("csg", mesh, "--mesh", old, "--cell", "100", code=1, saying="--cell")
+        needle = self.csg("union() { sphere(r = 100, $fn = 0, $fa = 12, $fs = 2);"
+                          " cylinder(h = 1000, r1 = 0.05, r2 = 0.05, center = true, $fn = 0, $fa = 12, $fs = 2); }")
+        self.fails("csg", needle, "--mesh", old, "--cell", "100", code=1, saying="--cell")
         self.fails("csg", self.csg(PIERCED), "--mesh", self.folder / "no" / "m.stl", code=1, saying="m.stl")
         self.assertEqual(old.read_text(), "of another day\n")
         self.assertEqual(sorted(os.listdir(self.folder)), ["old.stl", "solid.csg"])
