@@ -50,9 +50,9 @@ bool is_more_than_rounding(const CsgProgram& program, const SurfacePoint& place)
 /// a primitive that has little share in the surface many places are thrown away before one counts, as of two
 /// large spheres whose intersection is a thin lens.
 std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMesh& mesh, double reach) {
-  constexpr std::size_t kMostAsked = 2000;      // atoms
-  constexpr int kFound = 48;                    // for each
-  constexpr std::size_t kMostThrown = 100'000;  // for all together
+  constexpr std::size_t kMostAsked = 2000;     // atoms
+  constexpr int kFound = 48;                   // for each
+  constexpr std::size_t kMostThrown = 20'000;  // for all together
   base::Random random(2);
   const TriangleTree triangles(mesh);
   const std::size_t stride = 1 + program.atoms().size() / kMostAsked;
