@@ -57,8 +57,8 @@ std::string object_name(const world::PhysicalObject& object);
 
 /// All objects of a world that have triangles, parents before children, in the order that people see; exact
 /// ones `with_looks` (with_exact_looks) for formats that can hold colours. Remarks tell what cannot be shown
-/// and, once each, what else formats without a hierarchy lose. Fails where none of what there is can be shown,
-/// and for more than kMostShownTriangles: few bytes with many clones can stand for very many.
+/// and, once each, what else formats without a hierarchy lose. Fails where nothing of them can be shown, and
+/// for more than kMostShownTriangles: few bytes with many clones can stand for very many.
 inline constexpr std::size_t kMostShownTriangles = 100'000'000;
 base::Result<std::vector<ShownObject>> shown_objects(const world::World& world, bool with_looks,
                                                      std::vector<Remark>& remarks);
