@@ -23,7 +23,7 @@ class TargetMaker {
   bool is_at_work() const { return task_ && !task_->is_done(); }
   /// Begins with these; not while it is at work.
   void make(std::vector<world::GeometryPointer> shapes);
-  /// What it has made since it was asked last. What could not be made is there as nothing to meet. Not while
+  /// Gives all that was made since the last call; a shape that could not be made is null there. Not while
   /// it is at work.
   std::vector<Made> take();
 

@@ -50,7 +50,7 @@ TriangleMesh box_mesh(const Bounds& box) {
 
 using Entry = CollisionShape::Entry;
 
-/// Of the triangle that was hit on a way of this step, unit. The place is rounded as the way is long, also
+/// The unit normal of the triangle hit on a way of this step. The place is rounded as the way is long, also
 /// where it is near the origin.
 Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& hit, const Vector3& step) {
   Vector3 normal = Vector3::Zero();

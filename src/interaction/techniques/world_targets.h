@@ -14,7 +14,7 @@ namespace icome::interaction {
 /// which there are no triangles are left out.
 TechniqueScene targets_of(const world::World& world);
 
-/// What a technique meets of one shape; null: nothing. Any thread.
+/// Makes the target that techniques meet of a shape; null: there is nothing to meet. Any thread.
 std::shared_ptr<const TargetShape> target_shape(const world::Geometry& shape);
 
 /// The targets of a world that changes: what targets_of gives, to the last bit, at the cost of what has
@@ -29,7 +29,7 @@ class WorldTargets {
   /// The shapes that of() would have to make into targets first, and that take long: solids under union,
   /// intersection and difference, subdivision surfaces, formulas, meshes of many triangles. Each once.
   std::vector<world::GeometryPointer> slow_shapes(const world::World& world) const;
-  /// What target_shape() gave for a shape of the world, so that of() does not make it.
+  /// Takes what target_shape() gave for a shape of the world, so that of() does not make it again.
   void keep(const world::GeometryPointer& shape, std::shared_ptr<const TargetShape> made);
 
  private:

@@ -40,7 +40,7 @@ class WorldTechnique {
   const Technique& technique() const { return technique_; }
   const TechniqueState& state() const { return state_; }
   bool holds() const { return state_.hold.has_value(); }
-  /// What has to be made before a step, as WorldTargets says; who does not make it waits for it in the step.
+  /// Shapes that a step would have to make first, as WorldTargets says; a step waits for those not kept.
   std::vector<world::GeometryPointer> slow_shapes(const world::World& world) const {
     return targets_.slow_shapes(world);
   }
