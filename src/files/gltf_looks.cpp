@@ -250,7 +250,7 @@ world::TextureId GltfLooks::texture(int index) {
   if (texture.media_type.empty()) {
     builder_.remark(fmt::format("Picture {}{} is left out: {}.", it.source,
                                 texture.name.empty() ? "" : fmt::format(" (\"{}\")", texture.name),
-                                bytes.empty() ? "it is not there" : "it is no picture"));
+                                bytes.empty() ? "nothing of it was read" : "it is no picture"));
     return {};
   }
   texture.bytes = std::make_shared<const std::string>(bytes);

@@ -169,16 +169,29 @@ TEST(VrmlReader, PicturesLieOnTextByTheHeightOfItsLetters) {
   }
 }
 
-TEST(VrmlReader, PixelsOfTooManyRowsAreToldWithoutOtherNumbers) {
-  const ScratchFolder folder;
-  const LoadedDesign design = read_good(folder.write(
-      "a.wrl", kVrmlHead + kRedBall +
-                   "Shape { geometry Box {} appearance Appearance { texture PixelTexture { image 40000 "
-                   "2 3 0xff0000 } } }\n"));
-  std::string told;
-  for (const Remark& remark : design.remarks) told += remark.text + "\n";
-  EXPECT_NE(told.find("pixels are left out"), std::string::npos) << told;
-  EXPECT_EQ(told.find("-25536"), std::string::npos) << told;
+TEST(VrmlReader, AnImageThatDoesNotFitItsSizeIsLeftOutAndTheRestRead) {
+  const struct {
+    std::string image;
+    std::string told;
+  } cases[] = {{"40000 2 3 0xff0000", "its size is 40000 x 2 with 3 components"},
+               {"2 2 5 0 0 0 0", "its size is 2 x 2 with 5 components"},
+               {"-1 2 3 0 0", "its size is -1 x 2 with 3 components"},
+               {"2 2 3 0 0xff", "of its 2 x 2 pixels there are 2."},
+               {"1 1 1 0 0 0", "of its 1 x 1 pixels there are 3."},
+               {"32000 32000 4 1", "of its 32000 x 32000 pixels there are 1."}};
+  for (const auto& it : cases) {
+    const ScratchFolder folder;
+    const LoadedDesign design = read_good(folder.write(
+        "a.wrl", kVrmlHead + "Shape { geometry Box {} appearance Appearance { texture PixelTexture { image " +
+                     it.image + " repeatS FALSE } } }\n" + kRedBall));
+    EXPECT_EQ(design.world.objects().size(), 2U) << it.image;
+    std::string told;
+    for (const Remark& remark : design.remarks)
+      told += std::to_string(remark.line) + ": " + remark.text + "\n";
+    EXPECT_NE(told.find("2: The image of a PixelTexture is left out: " + it.told), std::string::npos)
+        << it.image << "\n"
+        << told;
+  }
 }
 
 TEST(VrmlReader, KeepsScriptsOfTheFile) {

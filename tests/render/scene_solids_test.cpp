@@ -14,6 +14,7 @@
 #include "render/csg_scenes.h"
 #include "render/drawn_world.h"
 #include "render/offscreen.h"
+#include "repeats.h"
 #include "world/solid_geometry.h"
 
 namespace icome::render {
@@ -345,7 +346,7 @@ CsgTree random_tree(base::Random& random, int operands) {
 
 TEST_F(SolidPictures, RandomTreesLookTheSameBothWays) {
   base::Random random(42);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < repeats(12); ++i) {
     DrawnWorld it;
     it.add(csg_shape(random_tree(random, 2 + i % 5)), at(0.0, 0.0, 0.0), coloured({0.8F, 0.7F, 0.5F}));
     it.add(box(0.3), at(1.0, -1.0, 0.0), coloured(kRed));

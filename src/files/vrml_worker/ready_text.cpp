@@ -1,6 +1,9 @@
 #include "files/vrml_worker/ready_text.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -22,6 +25,8 @@ constexpr std::size_t kLongString = 4000;
 /// Of what is no name of a node: types, fields and PROTOs.
 constexpr std::size_t kWordLimit = 1000;
 constexpr std::size_t kTextNoteLimit = 1000;
+/// Of the rows and columns of a PixelTexture: Coin keeps them in 16 bits.
+constexpr std::uint64_t kImageSideLimit = 32767;
 constexpr std::size_t kRouteLimit = 1'000'000;
 constexpr const char* kHeaderLine = "#VRML V2.0 utf8\n";
 
@@ -161,6 +166,7 @@ class TextReader {
   Outcome node(Token first);
   void list();
   void body(const std::string& type, const SharedFields& proto_fields);
+  void image();
   bool script_field(const Token& access);
   void skip_value();
   SharedFields find_proto(const std::string& name) const;
@@ -341,6 +347,11 @@ void TextReader::body(const std::string& type, const SharedFields& proto_fields)
     if (type == "Script" && !proto_fields && script_field(first)) continue;
     const std::string field(word(first));
     if (proto_fields ? proto_fields->contains(field) : has_field_(type, field)) {
+      if (!proto_fields && type == "PixelTexture" && field == "image" &&
+          tokens_.peek().kind == Kind::Number) {
+        image();
+        continue;
+      }
       if (value() == Outcome::Dropped) drop(first.begin);
       continue;
     }
@@ -350,6 +361,34 @@ void TextReader::body(const std::string& type, const SharedFields& proto_fields)
     skip_value();
     drop(first.begin);
   }
+}
+
+/// Reads the image of a PixelTexture. It becomes an empty one where its pixels are not those that its size
+/// asks for, since Coin gives up the whole file for that.
+void TextReader::image() {
+  const std::size_t begin = tokens_.peek().begin;
+  std::array<std::string, 3> size;  // width, height, components
+  std::array<std::uint64_t, 3> numbers{};
+  bool is_right = true;
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    size[i] = word(expect(Kind::Number)).substr(0, 20);
+    const auto [end, error] = std::from_chars(size[i].data(), size[i].data() + size[i].size(), numbers[i]);
+    is_right &= error == std::errc() && end == size[i].data() + size[i].size();
+  }
+  const auto [width, height, components] = numbers;
+  is_right &= width <= kImageSideLimit && height <= kImageSideLimit && components <= 4;
+  std::uint64_t pixels = 0;
+  for (; tokens_.peek().kind == Kind::Number; ++pixels) tokens_.next();
+  const std::string named = "The image of a PixelTexture is left out: ";
+  if (!is_right)
+    note(begin, named + "its size is " + size[0] + " x " + size[1] + " with " + size[2] +
+                    " components; it may have up to 32767 x 32767 with 4.");
+  else if (pixels != width * height)
+    note(begin,
+         named + "of its " + size[0] + " x " + size[1] + " pixels there are " + std::to_string(pixels) + ".");
+  else
+    return;
+  replace(begin, tokens_.place(), "0 0 0");
 }
 
 /// A Script has fields of its own. Nothing here runs it.

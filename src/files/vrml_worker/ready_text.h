@@ -24,9 +24,10 @@ struct TextRoute {
 };
 
 /// The text of a VRML file made ready for Coin, which gives up a whole file for one field or node that it
-/// does not know: such are taken out, and so are uses of names that nothing has and all ROUTEs, which
-/// would have Coin move things. Names that Coin would change become `IcomeName_7`, and so do long strings,
-/// which it reads in a time that grows with the square of their length. Lines stay where they were.
+/// does not know: such are taken out, and so are images whose pixels do not fit their size, uses of names
+/// that nothing has and all ROUTEs, which would have Coin move things. Names that Coin would change become
+/// `IcomeName_7`, and so do long strings, which it reads in a time that grows with the square of their
+/// length. Lines stay where they were.
 struct ReadyText {
   std::string text;  // begins with the header of VRML 2.0
   /// For each EXTERNPROTO in order: a PROTO that can stand in for it and shows nothing.

@@ -55,9 +55,6 @@ TextNote told_by_coin(const SbString& message) {
   constexpr std::string_view kStart = "Coin read error: ";
   if (text.starts_with(kStart)) text.remove_prefix(kStart.size());
   text = text.substr(0, text.find('\n'));
-  // Of sizes beyond what it has room for, Coin shows something else than the file says.
-  if (text.starts_with("Invalid image specification"))
-    text = "A picture's pixels are left out: its size is none, or more than 32767 either way";
   note.text = text;
   // Coin's own names of nodes.
   for (std::size_t at = 0; (at = note.text.find("VRML", at)) != std::string::npos;)

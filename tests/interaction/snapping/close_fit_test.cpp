@@ -10,6 +10,7 @@
 #include "geometry/implicit_surface.h"
 #include "geometry/loop_surface.h"
 #include "interaction/snapping/stopped_move.h"
+#include "repeats.h"
 #include "world/solid_geometry.h"
 
 namespace icome::interaction {
@@ -204,7 +205,7 @@ TEST_P(CloseFitOf, RandomMovesRestsAtTheSolidsThemselves) {
   base::Random random(40 + std::uint64_t(GetParam()));
   const std::vector<JudgedSolid> standing = standing_solids();
   const JudgedSolid moved = moved_solids()[std::size_t(GetParam())];
-  const std::vector<Vector3> places = surface_places(moved, 3000, random);
+  const std::vector<Vector3> places = surface_places(moved, kSanitizerShare > 1 ? 300 : 3000, random);
   const double size = moved.shape->bounds().diagonal().norm();
   int stops = 0, judged = 0, in = 0, off = 0;
   double deepest = INFINITY;
@@ -214,7 +215,7 @@ TEST_P(CloseFitOf, RandomMovesRestsAtTheSolidsThemselves) {
     clutter.add(other.shape, stands);
     const ObjectId thing = clutter.add(moved.shape, Affine3::Identity());
     CollisionIndex index(clutter.world);
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < repeats(8); ++i) {
       SCOPED_TRACE(testing::Message() << GetParam() << " on " << other.shape->kind() << " " << i);
       const Affine3 place = Eigen::Translation3d(0.5 * random.direction()) *
                             turned(random.uniform(0.0, 3.0), random.direction());
@@ -238,8 +239,9 @@ TEST_P(CloseFitOf, RandomMovesRestsAtTheSolidsThemselves) {
       }
     }
   }
-  EXPECT_GT(stops, 20);
-  EXPECT_GT(judged, 10);
+  EXPECT_GE(stops, repeats(21));
+  EXPECT_GE(judged, repeats(11));
+  if (kSanitizerShare > 1) return;  // so few places find the least gap too seldom
   // Where edges meet edges, the place is not always found: then triangles, 1/1000 of the size off, have told.
   const bool has_edges = GetParam() != 0;
   EXPECT_GT(deepest, (has_edges ? -1e-3 : -1e-6) * size);
@@ -247,7 +249,7 @@ TEST_P(CloseFitOf, RandomMovesRestsAtTheSolidsThemselves) {
   EXPECT_LE(off, (has_edges ? 0.4 : 0.1) * judged) << "they touch";
 }
 
-INSTANTIATE_TEST_SUITE_P(Moved, CloseFitOf, testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(Moved, CloseFitOf, testing::Range(0, kSanitizerShare > 1 ? 3 : 4));
 
 /// A ball of 40 mm in a bowl of 150 mm.
 struct InABowl {
