@@ -10,13 +10,13 @@
 #include "coin_frames.h"
 #include "desktop_figures.h"
 #include "frame_scenes.h"
-#include "render/offscreen.h"
-#include "render/scene_renderer.h"
-#include "render/scene_targets.h"
-#include "render/views.h"
-#include "world/edit.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "render/gl/offscreen.h"
+#include "render/model/views.h"
+#include "render/scene/scene_renderer.h"
+#include "render/scene/scene_targets.h"
+#include "world/edit/edit.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::benchmarks {
 namespace {

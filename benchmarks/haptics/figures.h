@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 #include "table.h"
 
 namespace icome::benchmarks {

@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "figures.h"
-#include "geometry/geodesic_sphere.h"
-#include "geometry/triangle_tree.h"
-#include "haptics/mesh_shape.h"
+#include "geometry/mesh/geodesic_sphere.h"
+#include "geometry/tree/triangle_tree.h"
+#include "haptics/shapes/mesh_shape.h"
 #include "peers/cgal_mesh.h"
 #include "tip_paths.h"
 #include "touch_run.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "figures.h"
-#include "files/mesh_reader.h"
-#include "haptics/mesh_shape.h"
+#include "files/mesh/mesh_reader.h"
+#include "haptics/shapes/mesh_shape.h"
 #include "tip_paths.h"
 #include "touch_run.h"
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "figures.h"
-#include "haptics/mesh_shape.h"
-#include "haptics/primitive_shape.h"
+#include "haptics/shapes/mesh_shape.h"
+#include "haptics/shapes/primitive_shape.h"
 #include "tip_paths.h"
 #include "touch_run.h"
 

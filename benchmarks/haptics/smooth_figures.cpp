@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "figures.h"
-#include "geometry/geodesic_sphere.h"
-#include "geometry/implicit_surface.h"
-#include "geometry/loop_surface.h"
-#include "haptics/mesh_shape.h"
-#include "haptics/smooth_shape.h"
+#include "geometry/implicit/implicit_surface.h"
+#include "geometry/loop/loop_surface.h"
+#include "geometry/mesh/geodesic_sphere.h"
+#include "haptics/shapes/mesh_shape.h"
+#include "haptics/shapes/smooth_shape.h"
 #include "tip_paths.h"
 #include "touch_run.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/decompositions.h"
 #include "base/random.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/tree/triangle_tree.h"
 
 namespace icome::benchmarks {
 namespace {

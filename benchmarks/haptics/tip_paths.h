@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 
 namespace icome::benchmarks {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/haptic_scene.h"
+#include "haptics/contact/haptic_scene.h"
 #include "measure.h"
 #include "table.h"
 

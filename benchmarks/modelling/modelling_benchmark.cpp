@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "geometry/extrusion.h"
-#include "geometry/free_form_deformation.h"
-#include "geometry/triangle_subdivision.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/deform/free_form_deformation.h"
+#include "geometry/deform/triangle_subdivision.h"
+#include "geometry/sweep/extrusion.h"
+#include "geometry/tree/triangle_tree.h"
 #include "measure.h"
-#include "world/history.h"
-#include "world/mesh_geometry.h"
+#include "world/edit/history.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::benchmarks {
 namespace {

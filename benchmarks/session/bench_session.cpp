@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "world/edit.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "world/edit/edit.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::benchmarks {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "session/session.h"
-#include "world/geometry.h"
+#include "world/shape/geometry.h"
 
 namespace icome::benchmarks {
 

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "bench_session.h"
 #include "session_figures.h"
-#include "world/mesh_geometry.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::benchmarks {
 namespace {

@@ -3,7 +3,7 @@
 #include "bench_session.h"
 #include "session_figures.h"
 #include "watching_display.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::benchmarks {
 namespace {

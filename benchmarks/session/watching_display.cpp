@@ -8,8 +8,8 @@
 #include <cstdlib>
 
 #include "base/clock.h"
-#include "render/offscreen.h"
-#include "render/scene_targets.h"
+#include "render/gl/offscreen.h"
+#include "render/scene/scene_targets.h"
 
 namespace icome::benchmarks {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <thread>
 
-#include "session/display_feed.h"
+#include "session/display/display_feed.h"
 
 namespace icome::benchmarks {
 

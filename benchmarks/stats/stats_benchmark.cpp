@@ -15,8 +15,8 @@
 
 #include "measure.h"
 #include "places.h"
-#include "stats/anova.h"
-#include "stats/repeated_measures.h"
+#include "stats/models/anova.h"
+#include "stats/models/repeated_measures.h"
 #include "stats_peer.h"
 #include "stats_samples.h"
 #include "textbook_sums.h"

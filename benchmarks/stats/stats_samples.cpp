@@ -7,8 +7,8 @@
 #include <fstream>
 #include <random>
 
-#include "files/file_bytes.h"
-#include "stats/table_reader.h"
+#include "io/file_bytes.h"
+#include "stats/tables/table_reader.h"
 
 namespace icome::benchmarks {
 namespace {
@@ -86,7 +86,7 @@ void write_sample(const StatsSample& sample, const std::filesystem::path& file) 
 }
 
 StatsSample read_sample(const std::filesystem::path& file) {
-  const auto bytes = files::read_bytes(file, kLargestSample);
+  const auto bytes = io::read_bytes(file, kLargestSample);
   if (!bytes) std::abort();
   const auto table = stats::read_any_table(*bytes, file.string());
   if (!table) std::abort();

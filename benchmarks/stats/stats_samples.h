@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "stats/factor.h"
+#include "stats/tables/factor.h"
 
 namespace icome::benchmarks {
 

@@ -20,11 +20,11 @@
 #include "haptics/servo/servo.h"
 #include "places.h"
 #include "realtime/message_pipe.h"
-#include "session/haptic_representation.h"
+#include "session/felt/haptic_representation.h"
 #include "session/session.h"
-#include "study/data_folder.h"
-#include "study/study_reader.h"
-#include "study/templates.h"
+#include "study/definition/study_reader.h"
+#include "study/definition/templates.h"
+#include "study/records/data_folder.h"
 
 namespace icome::benchmarks {
 namespace {

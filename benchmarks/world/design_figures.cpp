@@ -1,7 +1,7 @@
 #include "coin_peer.h"
 #include "files/design.h"
 #include "sample_worlds.h"
-#include "world/mesh_geometry.h"
+#include "world/shape/mesh_geometry.h"
 #include "world_figures.h"
 
 namespace icome::benchmarks {

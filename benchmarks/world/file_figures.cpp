@@ -1,6 +1,6 @@
 #include <unistd.h>
 
-#include "files/journaled_world.h"
+#include "files/journal/journaled_world.h"
 #include "sample_worlds.h"
 #include "world_figures.h"
 

@@ -1,8 +1,8 @@
 #include "base/random.h"
-#include "files/journaled_world.h"
+#include "files/journal/journaled_world.h"
 #include "sample_worlds.h"
 #include "sqlite_journal.h"
-#include "world/edit_bytes.h"
+#include "world/edit/edit_bytes.h"
 #include "world_figures.h"
 
 namespace icome::benchmarks {

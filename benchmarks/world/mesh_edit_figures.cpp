@@ -1,7 +1,7 @@
-#include "files/journaled_world.h"
+#include "files/journal/journaled_world.h"
 #include "sample_worlds.h"
-#include "world/history.h"
-#include "world/mesh_geometry.h"
+#include "world/edit/history.h"
+#include "world/shape/mesh_geometry.h"
 #include "world_figures.h"
 
 namespace icome::benchmarks {

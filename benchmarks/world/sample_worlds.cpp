@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::benchmarks {
 

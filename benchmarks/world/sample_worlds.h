@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/result.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::benchmarks {
 

@@ -10,14 +10,14 @@
 #include <sstream>
 #include <string_view>
 
-#include "apps/desktop_command.h"
-#include "apps/effect_options.h"
+#include "apps/desktop/desktop_command.h"
 #include "apps/help_text.h"
-#include "apps/stats_command.h"
-#include "apps/stats_help.h"
-#include "apps/study_command.h"
-#include "apps/study_help.h"
+#include "apps/stats/stats_command.h"
+#include "apps/stats/stats_help.h"
+#include "apps/study/study_command.h"
+#include "apps/study/study_help.h"
 #include "apps/terminal.h"
+#include "apps/touch/effect_options.h"
 #include "base/version.h"
 
 namespace icome::apps {

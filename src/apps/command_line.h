@@ -1,14 +1,14 @@
 #pragma once
 #include <optional>
 
-#include "apps/csg_options.h"
-#include "apps/design_options.h"
-#include "apps/desktop_options.h"
-#include "apps/shot_options.h"
-#include "apps/stats_options.h"
-#include "apps/study_options.h"
-#include "apps/techniques_options.h"
-#include "apps/touch_options.h"
+#include "apps/csg/csg_options.h"
+#include "apps/design/design_options.h"
+#include "apps/design/shot_options.h"
+#include "apps/desktop/desktop_options.h"
+#include "apps/stats/stats_options.h"
+#include "apps/study/study_options.h"
+#include "apps/techniques/techniques_options.h"
+#include "apps/touch/touch_options.h"
 
 namespace icome::apps {
 

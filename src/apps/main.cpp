@@ -2,17 +2,17 @@
 #include <new>
 
 #include "apps/command_line.h"
-#include "apps/convert_command.h"
-#include "apps/csg_command.h"
-#include "apps/desktop_command.h"
-#include "apps/edit_command.h"
-#include "apps/info_command.h"
-#include "apps/shot_command.h"
-#include "apps/stats_command.h"
-#include "apps/study_command.h"
-#include "apps/techniques_command.h"
+#include "apps/csg/csg_command.h"
+#include "apps/design/convert_command.h"
+#include "apps/design/edit_command.h"
+#include "apps/design/info_command.h"
+#include "apps/design/shot_command.h"
+#include "apps/desktop/desktop_command.h"
+#include "apps/stats/stats_command.h"
+#include "apps/study/study_command.h"
+#include "apps/techniques/techniques_command.h"
 #include "apps/terminal.h"
-#include "apps/touch_command.h"
+#include "apps/touch/touch_command.h"
 
 int main(int argc, char** argv) {
   try {

@@ -8,19 +8,19 @@
 #include <utility>
 
 #include "base/clock.h"
-#include "files/file_ending.h"
-#include "files/flat_writers.h"
-#include "files/gltf_reader.h"
-#include "files/gltf_writer.h"
-#include "files/journal_design.h"
-#include "files/memory_budget.h"
-#include "files/mesh_design.h"
-#include "files/obj_design.h"
-#include "files/stl_writer.h"
-#include "files/vrml_reader.h"
-#include "files/vrml_writer.h"
-#include "world/edit.h"
-#include "world/solid_geometry.h"
+#include "files/gltf/gltf_reader.h"
+#include "files/gltf/gltf_writer.h"
+#include "files/journal/journal_design.h"
+#include "files/mesh/flat_writers.h"
+#include "files/mesh/mesh_design.h"
+#include "files/mesh/obj_design.h"
+#include "files/mesh/stl_writer.h"
+#include "files/vrml/read/vrml_reader.h"
+#include "files/vrml/write/vrml_writer.h"
+#include "io/file_ending.h"
+#include "io/memory_budget.h"
+#include "world/edit/edit.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::files {
 namespace {
@@ -28,13 +28,13 @@ namespace {
 using world::World;
 using Remarks = std::vector<Remark>;
 using DesignReader = base::Result<LoadedDesign> (*)(const std::filesystem::path&, const DesignReadOptions&,
-                                                    MemoryBudget&);
+                                                    io::MemoryBudget&);
 using DesignWriter = base::Result<Remarks> (*)(const std::filesystem::path&, const World&);
 
 template <typename Write>
 base::Result<Remarks> write_flat(const std::filesystem::path& path, const World& world, bool with_colours,
                                  const Write& write) {
-  auto file = NewFile::create(path);
+  auto file = io::NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   Remarks remarks;
   const auto objects = shown_objects(world, with_colours, remarks);
@@ -51,7 +51,7 @@ base::Result<Remarks> write_flat(const std::filesystem::path& path, const World&
 }
 
 base::Result<Remarks> write_ply_design(const std::filesystem::path& path, const World& world) {
-  auto remarks = write_flat(path, world, true, [](const FlatWorld& flat, NewFile& file) {
+  auto remarks = write_flat(path, world, true, [](const FlatWorld& flat, io::NewFile& file) {
     write_ply(flat, file);
     return base::Result<void>();
   });
@@ -61,7 +61,7 @@ base::Result<Remarks> write_ply_design(const std::filesystem::path& path, const 
 }
 
 base::Result<Remarks> write_off_design(const std::filesystem::path& path, const World& world) {
-  return write_flat(path, world, false, [](const FlatWorld& flat, NewFile& file) {
+  return write_flat(path, world, false, [](const FlatWorld& flat, io::NewFile& file) {
     write_off(flat, file);
     return base::Result<void>();
   });
@@ -69,7 +69,7 @@ base::Result<Remarks> write_off_design(const std::filesystem::path& path, const 
 
 base::Result<Remarks> write_stl_design(const std::filesystem::path& path, const World& world) {
   return write_flat(path, world, false,
-                    [](const FlatWorld& flat, NewFile& file) { return write_stl(flat.mesh, 1.0, file); });
+                    [](const FlatWorld& flat, io::NewFile& file) { return write_stl(flat.mesh, 1.0, file); });
 }
 
 struct Format {
@@ -92,7 +92,7 @@ constexpr std::array<Format, 11> kFormats{
      {".csg", UpAxis::Z, read_csg_design, true, nullptr},
      {".icome", UpAxis::Y, read_journal_design, false, write_journal_design}}};
 
-const Format* format_of(const FileEnding& ending) {
+const Format* format_of(const io::FileEnding& ending) {
   const auto* const found = std::find_if(kFormats.begin(), kFormats.end(),
                                          [&](const Format& it) { return it.ending == ending.type; });
   return found == kFormats.end() ? nullptr : found;
@@ -124,7 +124,7 @@ tl::unexpected<base::Error> cannot_read(const std::filesystem::path& path, const
 /// Has a reader do its work within the limits of memory and time, which it hears of by being stopped.
 base::Result<LoadedDesign> read_within_limits(DesignReader read, const std::filesystem::path& path,
                                               const DesignReadOptions& options) {
-  MemoryBudget memory(options.memory_limit);
+  io::MemoryBudget memory(options.memory_limit);
   const std::int64_t end = base::steady_nanoseconds() + std::int64_t(1e9 * options.seconds_limit);
   bool late = false;
   DesignReadOptions limited = options;
@@ -182,7 +182,7 @@ std::string sentence(const Remark& remark, const std::string& file) {
 
 base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
                                        const DesignReadOptions& options) try {
-  const FileEnding ending = ending_of(path);
+  const io::FileEnding ending = io::ending_of(path);
   const Format* const format = format_of(ending);
   if (format == nullptr || format->read == nullptr) {
     return cannot_read(path, fmt::format("is not of a known type; {} can be read",
@@ -207,7 +207,7 @@ base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
 }
 
 base::Result<void> check_can_write(const std::filesystem::path& path) {
-  const FileEnding ending = ending_of(path);
+  const io::FileEnding ending = io::ending_of(path);
   const Format* const format = format_of(ending);
   if (format != nullptr && format->write != nullptr && !ending.packed) return {};
   return base::fail(fmt::format("{}: designs cannot be written so; {} can be written", path.string(),
@@ -216,7 +216,7 @@ base::Result<void> check_can_write(const std::filesystem::path& path) {
 
 base::Result<Remarks> write_design(const std::filesystem::path& path, const World& world) try {
   if (const auto able = check_can_write(path); !able) return tl::unexpected(able.error());
-  const Format& format = *format_of(ending_of(path));
+  const Format& format = *format_of(io::ending_of(path));
   World turned;
   const bool turns = format.up == UpAxis::Z;
   if (turns) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "files/file_stamp.h"
+#include "files/journal/file_stamp.h"
 #include "world/world.h"
 
 namespace icome::files {

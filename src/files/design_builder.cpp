@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "world/edit_memory.h"
+#include "world/edit/edit_memory.h"
 #include "world/motion.h"
-#include "world/solid_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::files {
 

@@ -5,8 +5,8 @@
 #include <unordered_set>
 
 #include "files/design.h"
-#include "files/memory_budget.h"
-#include "world/edit.h"
+#include "io/memory_budget.h"
+#include "world/edit/edit.h"
 
 namespace icome::files {
 
@@ -16,7 +16,7 @@ class DesignBuilder {
  public:
   /// All that is added counts as memory that is taken, a motion that many objects have once. Refers to the
   /// budget.
-  explicit DesignBuilder(MemoryBudget& memory) : memory_(memory) {}
+  explicit DesignBuilder(io::MemoryBudget& memory) : memory_(memory) {}
 
   /// Each is a shape of its own in the world; primitives that are equal lie in memory once.
   world::GeometryId add(world::GeometryPointer shape);
@@ -39,7 +39,7 @@ class DesignBuilder {
   void put(const world::Edit& edit, std::size_t known_bytes = 0);
   world::GeometryPointer known(world::GeometryPointer shape);
 
-  MemoryBudget& memory_;
+  io::MemoryBudget& memory_;
   LoadedDesign design_;
   world::IdSource ids_;
   std::unordered_map<std::uint64_t, world::GeometryPointer> primitives_;  // by hash

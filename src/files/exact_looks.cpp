@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "files/crease_normals.h"
-#include "world/csg_colours.h"
-#include "world/primitive_normals.h"
-#include "world/solid_geometry.h"
+#include "world/shape/csg_colours.h"
+#include "world/shape/primitive_normals.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::files {
 namespace {

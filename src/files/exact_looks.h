@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "world/mesh_geometry.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::files {
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "files/csg_text.h"
-#include "files/number_text.h"
-#include "files/text_scanner.h"
-#include "geometry/primitive.h"
-#include "world/geometry_check.h"
+#include "files/csg/csg_text.h"
+#include "geometry/primitive/primitive.h"
+#include "io/number_text.h"
+#include "io/text_scanner.h"
+#include "world/shape/geometry_check.h"
 
 namespace icome::files {
 namespace {
@@ -22,7 +22,7 @@ using world::GeometryPointer;
 template <typename Number>
 void append_word(std::string& text, Number number) {
   if (!text.empty()) text += ' ';
-  append_number(text, number);
+  io::append_number(text, number);
 }
 
 std::string text_of(const std::vector<Vector3>& points) {
@@ -53,7 +53,7 @@ base::Result<std::vector<double>> numbers_of(const ShapeText& text, const char* 
   std::vector<double> numbers;
   const auto found = text.find(key);
   if (found == text.end()) return numbers;
-  TextScanner scanner(found->second, key, TextScanner::Lines::AreSpace, '\0');
+  io::TextScanner scanner(found->second, key, io::TextScanner::Lines::AreSpace, '\0');
   while (!scanner.at_end()) numbers.push_back(scanner.number("a number"));
   if (scanner.failed()) return tl::unexpected(scanner.error());
   if (numbers.size() % row != 0) return base::fail(fmt::format("{}: ends within a row of {}", key, row));
@@ -165,7 +165,7 @@ base::Result<GeometryPointer> shape_from_text(const ShapeText& text) {
   if (kind == "csg") return csg_of(text);
   if (kind == "implicit") return implicit_of(text);
   if (kind == "loop") return loop_of(text);
-  return base::fail(fmt::format("{} is not a kind of shape", files::quoted(kind)));
+  return base::fail(fmt::format("{} is not a kind of shape", io::quoted(kind)));
 }
 
 }  // namespace icome::files

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "world/geometry.h"
+#include "world/shape/geometry.h"
 
 namespace icome::files {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "files/exact_looks.h"
-#include "files/file_ending.h"
+#include "io/file_ending.h"
 
 namespace icome::files {
 namespace {
@@ -241,7 +241,7 @@ MadeTriangles shown_triangles(const world::Geometry& shape) {
 
 ShownShapes::Maker written_triangles(const std::filesystem::path& path) {
   static constexpr std::array<std::string_view, 4> kFlat{".obj", ".ply", ".stl", ".off"};
-  const FileEnding ending = ending_of(path);
+  const io::FileEnding ending = io::ending_of(path);
   return std::find(kFlat.begin(), kFlat.end(), ending.type) != kFlat.end() ? fine_triangles : shown_triangles;
 }
 

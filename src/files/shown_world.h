@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/design.h"
-#include "world/mesh_geometry.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::files {
 

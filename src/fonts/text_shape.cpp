@@ -10,8 +10,8 @@
 
 #include "base/utf8.h"
 #include "fonts/font_face.h"
-#include "geometry/outline.h"
-#include "geometry/profile.h"
+#include "geometry/sweep/outline.h"
+#include "geometry/sweep/profile.h"
 
 namespace icome::fonts {
 namespace {

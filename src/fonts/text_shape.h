@@ -2,7 +2,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 
 namespace icome::fonts {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/function_ref.h"
-#include "geometry/primitive.h"
+#include "geometry/primitive/primitive.h"
 
 namespace icome::geometry {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::interaction {
 

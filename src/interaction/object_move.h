@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::interaction {
 

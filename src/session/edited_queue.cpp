@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "world/edit_memory.h"
+#include "world/edit/edit_memory.h"
 
 namespace icome::session {
 namespace {

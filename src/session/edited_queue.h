@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "realtime/message_pipe.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::session {
 

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <optional>
 
-#include "world/changes.h"
+#include "world/edit/changes.h"
 
 namespace icome::session {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "session/display/technique_marks.h"
 #include "session/session_parts.h"
-#include "session/technique_marks.h"
 #include "world/hasher.h"
 
 namespace icome::session {

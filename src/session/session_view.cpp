@@ -5,16 +5,16 @@
 
 #include "base/clock.h"
 #include "interaction/object_move.h"
-#include "render/views.h"
-#include "session/picking.h"
+#include "render/model/views.h"
+#include "session/display/picking.h"
 #include "session/session_parts.h"
 
 namespace icome::session {
 namespace {
 
-constexpr render::Colour kHandleColour{0.10, 0.35, 0.80};
-constexpr render::Colour kHandleLineColour{0.30, 0.40, 0.60, 0.7};
-constexpr render::Colour kMarkedHandleColour{1.0, 0.55, 0.10};
+constexpr charts::Colour kHandleColour{0.10, 0.35, 0.80};
+constexpr charts::Colour kHandleLineColour{0.30, 0.40, 0.60, 0.7};
+constexpr charts::Colour kMarkedHandleColour{1.0, 0.55, 0.10};
 constexpr std::size_t kMostHandledObjects = 32;
 constexpr double kSymbolSlack = 0.01;  // of the field of view: some 6 pixels of 600
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::session {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::world {
 namespace {

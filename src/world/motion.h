@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "world/changes.h"
+#include "world/edit/changes.h"
 #include "world/world.h"
 
 namespace icome::world {

@@ -6,9 +6,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "world/fixture.h"
-#include "world/geometry.h"
 #include "world/id.h"
+#include "world/shape/fixture.h"
+#include "world/shape/geometry.h"
 
 namespace icome::world {
 

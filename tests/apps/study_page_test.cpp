@@ -1,4 +1,4 @@
-#include "apps/study_page.h"
+#include "apps/study/study_page.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/stats_chart.h"
+#include "apps/stats/stats_chart.h"
 #include "study/analysis_test_data.h"
-#include "study/needs.h"
-#include "ui/pdf_page.h"
+#include "study/definition/needs.h"
+#include "ui/plots/pdf_page.h"
 
 namespace icome::apps {
 namespace {

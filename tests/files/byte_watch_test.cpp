@@ -1,5 +1,5 @@
 // Whatever a mesh is read from, people see how far that is and may stop it at any time.
-#include "files/byte_watch.h"
+#include "io/byte_watch.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "files/design.h"
-#include "geometry/weld.h"
-#include "packed_xz.h"
-#include "sample_files.h"
+#include "files/packed_xz.h"
+#include "files/sample_files.h"
+#include "geometry/mesh/weld.h"
 
-namespace icome::files {
+namespace icome::io {
 namespace {
 
 constexpr int kSide = 110;  // cells of the plate that is written
@@ -211,4 +211,4 @@ TEST(WeldEqual, LeavesAMeshThatItIsNotToFinish) {
 }
 
 }  // namespace
-}  // namespace icome::files
+}  // namespace icome::io

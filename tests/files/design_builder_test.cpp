@@ -8,7 +8,7 @@
 #include <set>
 
 #include "world/motion.h"
-#include "world/solid_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::files {
 namespace {
@@ -31,7 +31,7 @@ TEST(DesignBuilder, EqualPrimitivesAreShapesOfTheirOwnThatLieInMemoryOnce) {
       {geometry::Cylinder{0.1, 0.2}, Axis::Y},
       {geometry::Cone{0.0, 0.1, 0.2}, Axis::Z},
   };
-  MemoryBudget memory;
+  io::MemoryBudget memory;
   DesignBuilder builder(memory);
   std::vector<std::vector<world::GeometryId>> ids(different.size());
   for (int round = 0; round < 3; ++round) {
@@ -60,7 +60,7 @@ TEST(DesignBuilder, AMotionThatManyObjectsHaveTakesMemoryOnce) {
     motion.translation.times.push_back(1e-4 * key);
     motion.translation.values.insert(motion.translation.values.end(), {0.0, 0.0, 1e-4 * key});
   }
-  MemoryBudget memory(1'000'000);
+  io::MemoryBudget memory(1'000'000);
   DesignBuilder builder(memory);
   const auto add_some = [&](const world::MotionPointer& moves) {
     for (int i = 0; i < 100; ++i) builder.add(world::PhysicalObject{.name = "a", .motion = moves});

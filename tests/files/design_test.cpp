@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "design_maker.h"
-#include "sample_files.h"
-#include "world/solid_geometry.h"
+#include "files/design_maker.h"
+#include "files/sample_files.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::files {
 namespace {

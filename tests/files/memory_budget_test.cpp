@@ -1,4 +1,4 @@
-#include "files/memory_budget.h"
+#include "io/memory_budget.h"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -8,10 +8,10 @@
 
 #include "base/clock.h"
 #include "files/design.h"
-#include "packed_xz.h"
-#include "sample_journals.h"
+#include "files/packed_xz.h"
+#include "files/sample_journals.h"
 
-namespace icome::files {
+namespace icome::io {
 namespace {
 
 TEST(MemoryBudget, IsTwentyTimesTheFilesAnd256MegabytesUnlessSomebodySays) {
@@ -186,4 +186,4 @@ TEST(MemoryBudget, StopsAJournalWithinOneLongEdit) {
 }
 
 }  // namespace
-}  // namespace icome::files
+}  // namespace icome::io

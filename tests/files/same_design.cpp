@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "files/csg_text.h"
-#include "world/mesh_geometry.h"
+#include "files/csg/csg_text.h"
 #include "world/motion.h"
-#include "world/solid_geometry.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::files {
 namespace {

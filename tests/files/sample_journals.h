@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "../world/random_edits.h"
-#include "files/journaled_world.h"
-#include "sample_files.h"
+#include "files/journal/journaled_world.h"
+#include "files/sample_files.h"
+#include "world/random_edits.h"
 
 namespace icome::files {
 

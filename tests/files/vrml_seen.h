@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "files/vrml_process.h"
+#include "files/vrml/read/vrml_process.h"
 
 namespace icome::files {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 
-#include "../geometry/closed_mesh.h"
 #include "fonts/font_face.h"
-#include "geometry/mesh_topology.h"
+#include "geometry/closed_mesh.h"
+#include "geometry/mesh/mesh_topology.h"
 
 namespace icome::fonts {
 namespace {

@@ -5,20 +5,20 @@
 #include <fstream>
 #include <iterator>
 
-#include "files/csg_reader.h"
-#include "files/csg_text.h"
+#include "files/csg/csg_reader.h"
+#include "files/csg/csg_text.h"
 #include "files/design.h"
-#include "files/gltf_reader.h"
-#include "files/journal_replay.h"
+#include "files/gltf/gltf_reader.h"
+#include "files/journal/journal_replay.h"
 #include "files/sample_files.h"
+#include "files/vrml/read/vrml_builder.h"
+#include "files/vrml/read/vrml_scanner.h"
+#include "files/vrml/worker/ready_text.h"
 #include "files/vrml_answers.h"
-#include "files/vrml_builder.h"
-#include "files/vrml_scanner.h"
-#include "files/vrml_worker/ready_text.h"
 #include "fuzz/harness.h"
-#include "geometry/csg_mesh.h"
-#include "world/edit_bytes.h"
-#include "world/edits_of.h"
+#include "geometry/csg/csg_mesh.h"
+#include "world/edit/edit_bytes.h"
+#include "world/edit/edits_of.h"
 #include "world/every_edit.h"
 
 namespace icome::fuzz {
@@ -61,7 +61,7 @@ void require_good(const base::Result<LoadedDesign>& design) {
 void run_gltf(std::string_view bytes) {
   files::DesignReadOptions options;
   options.size_limit = 16ULL << 20U;
-  files::MemoryBudget memory(256ULL << 20U);
+  io::MemoryBudget memory(256ULL << 20U);
   require_good(files::read_gltf_bytes(bytes, "f", options, memory));
 }
 
@@ -89,8 +89,8 @@ void run_vrml_answer(std::string_view bytes) {
   sources.fetch_picture = [](const std::string&, const std::string& url, std::uint64_t) {
     return url.size() % 2 == 0 ? base::Result<std::string>("GIF89a" + url) : base::fail("there is none");
   };
-  files::Patience patience(20.0, nullptr, 0.0);
-  files::MemoryBudget memory;
+  io::Patience patience(20.0, nullptr, 0.0);
+  io::MemoryBudget memory;
   memory.add_file(bytes.size());
   require_good(files::build_vrml(std::string(bytes), sources, patience, memory));
 }
@@ -114,9 +114,9 @@ void run_csg_text(std::string_view bytes) {
 
 void run_journal(std::string_view bytes) {
   const auto path = memory_folder().write("journal.icome", bytes);
-  const auto file = files::OpenFile::open(path, files::OpenFile::Use::Read);
+  const auto file = io::OpenFile::open(path, io::OpenFile::Use::Read);
   require(file.has_value(), "a file that was written can be opened");
-  files::MemoryBudget memory;
+  io::MemoryBudget memory;
   memory.add_file(bytes.size());
   const world::GeometryFactory factory;
   const auto replayed = files::replay_journal(*file, factory, {}, &memory);

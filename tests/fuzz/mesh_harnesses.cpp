@@ -3,17 +3,17 @@
 #include <array>
 #include <cmath>
 
-#include "files/mesh_formats.h"
-#include "files/mtl_library.h"
+#include "files/mesh/mesh_formats.h"
+#include "files/mesh/mtl_library.h"
 #include "files/sample_files.h"
 #include "fuzz/harness.h"
-#include "geometry/mesh_repair.h"
+#include "geometry/mesh/mesh_repair.h"
 
 namespace icome::fuzz {
 namespace {
 
 using files::ParsedMesh;
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, files::Patience*);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::Patience*);
 
 void read_mesh_with(Parser parse, std::string_view bytes) {
   const auto parsed = parse(bytes, "f", nullptr);

@@ -4,12 +4,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "apps/edit_script.h"
+#include "apps/design/edit_script.h"
 #include "fuzz/harness.h"
-#include "geometry/formula.h"
-#include "geometry/plain_formula.h"
+#include "geometry/implicit/formula.h"
+#include "geometry/implicit/plain_formula.h"
 #include "places.h"
-#include "study/study_reader.h"
+#include "study/definition/study_reader.h"
 
 namespace icome::fuzz {
 namespace {

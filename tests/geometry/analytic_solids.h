@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/dual_contouring.h"
-#include "geometry/primitive.h"
+#include "geometry/contour/dual_contouring.h"
+#include "geometry/primitive/primitive.h"
 
 namespace icome::geometry {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 
 namespace icome::geometry {
 

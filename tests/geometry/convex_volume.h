@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 
 namespace icome::geometry {
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "closed_mesh.h"
-#include "geometry/csg_mesh.h"
-#include "geometry/mesh_topology.h"
+#include "geometry/closed_mesh.h"
+#include "geometry/csg/csg_mesh.h"
+#include "geometry/mesh/mesh_topology.h"
 
 namespace icome::geometry {
 

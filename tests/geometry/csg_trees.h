@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "geometry/csg_tree.h"
-#include "meshes.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/meshes.h"
 
 namespace icome::geometry {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "geometry/loop_surface.h"
+#include "geometry/loop/loop_surface.h"
 
 namespace icome::geometry::loop_reference {
 

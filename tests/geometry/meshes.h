@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 
 namespace icome::geometry {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "base/random.h"
-#include "geometry/triangle_mesh.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/mesh_shape.h"
-#include "haptics/primitive_shape.h"
-#include "haptics/scp_solver.h"
+#include "geometry/mesh/triangle_mesh.h"
+#include "haptics/contact/haptic_scene.h"
+#include "haptics/contact/scp_solver.h"
+#include "haptics/shapes/mesh_shape.h"
+#include "haptics/shapes/primitive_shape.h"
 
 namespace icome::haptics {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/csg_tree.h"
+#include "geometry/csg/csg_tree.h"
 #include "haptics/contact_world.h"
 
 namespace icome::haptics {

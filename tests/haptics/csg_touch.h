@@ -4,11 +4,11 @@
 #include <functional>
 #include <ostream>
 
-#include "geometry/csg_solid.h"
+#include "geometry/csg/csg_solid.h"
 #include "haptics/csg_brute.h"
 #include "haptics/csg_way.h"
 #include "haptics/csg_world.h"
-#include "haptics/smooth_shape.h"
+#include "haptics/shapes/smooth_shape.h"
 
 namespace icome::haptics {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "geometry/csg_tree.h"
+#include "geometry/csg/csg_tree.h"
 
 namespace icome::haptics {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/loop_reference.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/tree/triangle_tree.h"
 #include "haptics/csg_touch.h"
 
 namespace icome::haptics {

@@ -1,6 +1,6 @@
 #pragma once
-#include "command_samples.h"
-#include "geometry/bent_normals.h"
+#include "geometry/mesh/bent_normals.h"
+#include "interaction/command_samples.h"
 #include "interaction/operations/value.h"
 #include "world/sample_world.h"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "world/edit_bytes.h"
-#include "world/history.h"
+#include "world/edit/edit_bytes.h"
+#include "world/edit/history.h"
 
 namespace icome::interaction {
 namespace {

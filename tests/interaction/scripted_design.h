@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "command_samples.h"
+#include "interaction/command_samples.h"
 #include "world/sample_world.h"
 
 namespace icome::interaction {

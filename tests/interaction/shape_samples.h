@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_samples.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "interaction/command_samples.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 

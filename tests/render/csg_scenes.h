@@ -2,7 +2,7 @@
 // CSG trees that the tests of pictures share.
 #include <cmath>
 
-#include "geometry/csg_tree.h"
+#include "geometry/csg/csg_tree.h"
 
 namespace icome::render {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "render/image.h"
-#include "render/picture_of_scene.h"
-#include "render/views.h"
+#include "charts/image.h"
+#include "render/model/views.h"
+#include "render/pictures/picture_of_scene.h"
 #include "world/sample_world.h"
 
 namespace icome::render {
@@ -80,15 +80,15 @@ inline SceneLook plain_look() {
 
 constexpr int kSide = 96;  // pixels
 
-inline Image drawn(const RenderScene& scene, const Camera& camera, const SceneLook& look, int width = kSide,
-                   int height = kSide) {
+inline charts::Image drawn(const RenderScene& scene, const Camera& camera, const SceneLook& look,
+                           int width = kSide, int height = kSide) {
   auto image = draw_picture(scene, camera, look, width, height);
   EXPECT_TRUE(image.has_value()) << (image ? "" : image.error().message);
   return image ? std::move(*image)
-               : Image{width, height, std::vector<std::uint8_t>(4 * std::size_t(width * height))};
+               : charts::Image{width, height, std::vector<std::uint8_t>(4 * std::size_t(width * height))};
 }
 
-inline Image drawn(const DrawnWorld& it, const Camera& camera, const SceneLook& look = plain_look()) {
+inline charts::Image drawn(const DrawnWorld& it, const Camera& camera, const SceneLook& look = plain_look()) {
   return drawn(*ScenePublisher().publish(it.world), camera, look);
 }
 
@@ -97,12 +97,12 @@ struct Rgb {
   int red, green, blue, alpha;
   int light() const { return red + green + blue; }
 };
-inline Rgb at_share(const Image& image, double x, double y) {
+inline Rgb at_share(const charts::Image& image, double x, double y) {
   const auto* p = image.pixel(std::min(int(x * image.width), image.width - 1),
                               std::min(int(y * image.height), image.height - 1));
   return {p[0], p[1], p[2], p[3]};
 }
-inline Rgb middle(const Image& image) { return at_share(image, 0.5, 0.5); }
+inline Rgb middle(const charts::Image& image) { return at_share(image, 0.5, 0.5); }
 
 inline bool is_red(const Rgb& c) { return c.red > 60 && c.red > 2 * c.green && c.red > 2 * c.blue; }
 inline bool is_green(const Rgb& c) { return c.green > 60 && c.green > 2 * c.red && c.green > 2 * c.blue; }
@@ -123,7 +123,7 @@ inline std::shared_ptr<world::MeshGeometry> square() {
 
 /// A PNG file of these pixels, from the top left.
 inline std::string png_of(int width, int height, std::vector<std::uint8_t> rgba) {
-  const auto bytes = encode_png({width, height, std::move(rgba)});
+  const auto bytes = charts::encode_png({width, height, std::move(rgba)});
   return bytes ? std::string(bytes->begin(), bytes->end()) : std::string();
 }
 

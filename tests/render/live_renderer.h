@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "render/drawn_world.h"
-#include "render/offscreen.h"
-#include "render/scene_renderer.h"
-#include "render/scene_targets.h"
+#include "render/gl/offscreen.h"
+#include "render/scene/scene_renderer.h"
+#include "render/scene/scene_targets.h"
 
 namespace icome::render {
 
@@ -22,17 +22,17 @@ class LiveRenderer {
   SceneTarget target() const { return {canvas_.frame.name(), canvas_.width, canvas_.height, {}}; }
   SceneRenderer& renderer() { return renderer_; }
 
-  Image draw(const RenderScene& scene, const Camera& camera, const SceneLook& look) {
+  charts::Image draw(const RenderScene& scene, const Camera& camera, const SceneLook& look) {
     return taken(renderer_.draw(scene, camera, look, target()));
   }
-  Image draw_pass(const RenderScene& scene, const Camera& camera, const SceneLook& look, int number) {
+  charts::Image draw_pass(const RenderScene& scene, const Camera& camera, const SceneLook& look, int number) {
     return taken(renderer_.draw_pass(scene, camera, look, target(), number));
   }
 
  private:
-  Image taken(const base::Result<void>& done) const {
+  charts::Image taken(const base::Result<void>& done) const {
     EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
-    Image image{canvas_.width, canvas_.height, {}};
+    charts::Image image{canvas_.width, canvas_.height, {}};
     const std::size_t row = 4 * std::size_t(image.width);
     std::vector<std::uint8_t> pixels(row * std::size_t(image.height));
     glBindFramebuffer(GL_FRAMEBUFFER, canvas_.frame.name());
@@ -49,7 +49,7 @@ class LiveRenderer {
 };
 
 /// Mean over all of how far colours differ, in 255ths.
-inline double mean_difference(const Image& a, const Image& b) {
+inline double mean_difference(const charts::Image& a, const charts::Image& b) {
   EXPECT_EQ(a.rgba.size(), b.rgba.size());
   double sum = 0.0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(int(a.rgba[i]) - int(b.rgba[i]));

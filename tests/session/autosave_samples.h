@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "files/design.h"
-#include "files/journal.h"
+#include "files/journal/journal.h"
 #include "files/sample_files.h"
-#include "session/autosave_journal.h"
-#include "session/claimed_work.h"
+#include "session/storage/autosave_journal.h"
+#include "session/storage/claimed_work.h"
 #include "world/sample_world.h"
 
 namespace icome::session {

@@ -2,8 +2,8 @@
 #include <atomic>
 #include <memory>
 
-#include "geometry/geodesic_sphere.h"
-#include "world/mesh_geometry.h"
+#include "geometry/mesh/geodesic_sphere.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::session {
 

@@ -1,12 +1,12 @@
 // What a hand feels of what it moves: surfaces that stop it, snaps that pull, and weight.
 #include <cmath>
 
-#include "geometry/csg_tree.h"
-#include "geometry/primitive.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/primitive/primitive.h"
 #include "session/sessions.h"
-#include "world/collisions.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "world/collision/collisions.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::session {
 namespace {

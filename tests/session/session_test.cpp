@@ -7,11 +7,11 @@
 #include <limits>
 #include <new>
 
-#include "autosave_samples.h"
 #include "devices/simulated/simulated_navigation.h"
-#include "render/views.h"
+#include "render/model/views.h"
+#include "session/autosave_samples.h"
 #include "session/sessions.h"
-#include "world/mesh_geometry.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::session {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <atomic>
 
-#include "autosave_samples.h"
 #include "devices/simulated/simulated_device.h"
 #include "render/live_renderer.h"
+#include "session/autosave_samples.h"
 #include "session/held_shape.h"
 #include "session/sessions.h"
 

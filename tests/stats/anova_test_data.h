@@ -13,7 +13,7 @@
 
 #include "base/random.h"
 #include "places.h"
-#include "stats/factor.h"
+#include "stats/tables/factor.h"
 
 namespace icome::stats::anova_data {
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/random.h"
-#include "study/conditions.h"
-#include "study/data_folder.h"
-#include "study/session_length.h"
-#include "study/study_reader.h"
-#include "study/templates.h"
+#include "study/definition/conditions.h"
+#include "study/definition/session_length.h"
+#include "study/definition/study_reader.h"
+#include "study/definition/templates.h"
+#include "study/records/data_folder.h"
 
 namespace icome::study {
 

@@ -10,10 +10,10 @@
 
 #include "base/random.h"
 #include "files/sample_files.h"
-#include "study/conditions.h"
-#include "study/counterbalancing.h"
-#include "study/data_folder.h"
-#include "study/study_reader.h"
+#include "study/definition/conditions.h"
+#include "study/definition/counterbalancing.h"
+#include "study/definition/study_reader.h"
+#include "study/records/data_folder.h"
 
 namespace icome::study {
 

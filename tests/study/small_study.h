@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "study/study_reader.h"
-#include "study/templates.h"
+#include "study/definition/study_reader.h"
+#include "study/definition/templates.h"
 
 namespace icome::study {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "files/design.h"
-#include "study/study_reader.h"
-#include "study/templates.h"
+#include "study/definition/study_reader.h"
+#include "study/definition/templates.h"
 
 namespace icome::study {
 

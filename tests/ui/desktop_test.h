@@ -5,7 +5,7 @@
 
 #include "session/session.h"
 #include "ui/timed_application.h"
-#include "world/edits_of.h"
+#include "world/edit/edits_of.h"
 
 namespace icome::ui {
 

@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "ui/desktop_test.h"
-#include "ui/main_window.h"
-#include "ui/scene_window.h"
+#include "ui/window/main_window.h"
+#include "ui/window/scene_window.h"
 
 namespace icome::ui {
 

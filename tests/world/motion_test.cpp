@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "sample_world.h"
-#include "world/edit_memory.h"
+#include "world/edit/edit_memory.h"
+#include "world/sample_world.h"
 
 namespace icome::world {
 namespace {

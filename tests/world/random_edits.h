@@ -1,6 +1,6 @@
 #pragma once
-#include "sample_world.h"
 #include "world/motion.h"
+#include "world/sample_world.h"
 
 namespace icome::world {
 

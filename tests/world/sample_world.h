@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "world/copy.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "world/edit/copy.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::world {
 

@@ -1,6 +1,6 @@
 #include "world/sharing.h"
 
-#include "sample_world.h"
+#include "world/sample_world.h"
 
 namespace icome::world {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "geometry/triangle_mesh.h"
+#include "geometry/mesh/triangle_mesh.h"
 
 namespace icome::benchmarks {
 

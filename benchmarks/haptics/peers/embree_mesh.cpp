@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/clock.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/tree/triangle_tree.h"
 
 namespace icome::benchmarks {
 namespace {

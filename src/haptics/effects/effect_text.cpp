@@ -10,11 +10,11 @@
 #include <span>
 #include <utility>
 
-#include "geometry/formula.h"
+#include "geometry/implicit/formula.h"
 #include "haptics/effects/drag.h"
 #include "haptics/effects/fields.h"
+#include "haptics/effects/parameter_text.h"
 #include "haptics/effects/springs.h"
-#include "haptics/parameter_text.h"
 
 namespace icome::haptics {
 namespace {

@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "haptics/effects/effect.h"
-#include "haptics/surface_force.h"
+#include "haptics/effects/surface_force.h"
 
 namespace icome::haptics {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "haptics/effects/fields.h"
-#include "haptics/surface_force.h"
+#include "haptics/effects/surface_force.h"
 
 namespace icome::haptics {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "haptics/contact/motion.h"
 #include "haptics/effects/effect.h"
-#include "haptics/motion.h"
 #include "haptics/servo/scene_feed.h"
 #include "realtime/latest_value.h"
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "haptics/haptic_scene.h"
-#include "haptics/scp_solver.h"
+#include "haptics/contact/haptic_scene.h"
+#include "haptics/contact/scp_solver.h"
 #include "realtime/latest_value.h"
 
 namespace icome::haptics {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "devices/pointer_device.h"
+#include "haptics/effects/energy_tank.h"
 #include "haptics/effects/grip.h"
-#include "haptics/energy_tank.h"
-#include "haptics/force_limiter.h"
-#include "haptics/renderer.h"
 #include "haptics/servo/effect_feed.h"
+#include "haptics/servo/force_limiter.h"
+#include "haptics/servo/renderer.h"
 #include "haptics/servo/scene_feed.h"
 #include "realtime/latest_value.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "haptics/element.h"
+#include "haptics/shapes/element.h"
 
 namespace icome::haptics {
 namespace {

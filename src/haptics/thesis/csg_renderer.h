@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geometry/csg_normal_form.h"
+#include "geometry/csg/csg_normal_form.h"
 #include "haptics/thesis/direct_memory.h"
 
 namespace icome::haptics {

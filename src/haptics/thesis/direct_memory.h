@@ -1,5 +1,5 @@
 #pragma once
-#include "geometry/primitive.h"
+#include "geometry/primitive/primitive.h"
 
 namespace icome::haptics {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "haptics/shape.h"
+#include "haptics/shapes/shape.h"
 #include "haptics/thesis/csg_renderer.h"
 #include "haptics/thesis/loop_renderer.h"
 

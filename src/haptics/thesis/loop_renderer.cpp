@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/tree/triangle_tree.h"
 
 namespace icome::haptics {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/loop_levels.h"
-#include "geometry/primitive.h"
+#include "geometry/loop/loop_levels.h"
+#include "geometry/primitive/primitive.h"
 #include "haptics/thesis/direct_memory.h"
 
 namespace icome::haptics {

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "base/result.h"
-#include "geometry/csg_tree.h"
-#include "geometry/loop_levels.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/loop/loop_levels.h"
 #include "haptics/thesis/direct_shape.h"
 
 namespace icome::haptics {

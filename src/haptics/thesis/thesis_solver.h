@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "haptics/contact_solver.h"
+#include "haptics/contact/contact_solver.h"
 #include "haptics/thesis/direct_shape.h"
 
 namespace icome::haptics {

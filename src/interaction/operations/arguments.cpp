@@ -11,7 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "interaction/operations/colour_names.h"
+#include "interaction/operations/looks/colour_names.h"
 #include "interaction/operations/near_names.h"
 
 namespace icome::interaction {

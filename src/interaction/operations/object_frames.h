@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::interaction {
 

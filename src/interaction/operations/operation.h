@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "interaction/operations/arguments.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::interaction {
 

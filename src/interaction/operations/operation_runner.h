@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "interaction/operations/operation.h"
-#include "world/history.h"
+#include "world/edit/history.h"
 
 namespace icome::interaction {
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include "interaction/operations/material_edits.h"
+#include "interaction/operations/looks/material_edits.h"
 
 namespace icome::interaction {
 namespace {

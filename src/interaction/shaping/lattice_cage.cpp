@@ -7,7 +7,7 @@
 #include <limits>
 #include <unordered_set>
 
-#include "geometry/mesh_check.h"
+#include "geometry/mesh/mesh_check.h"
 #include "interaction/object_move.h"
 
 namespace icome::interaction {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/free_form_deformation.h"
+#include "geometry/deform/free_form_deformation.h"
 #include "interaction/shaping/point_drag.h"
 
 namespace icome::interaction {

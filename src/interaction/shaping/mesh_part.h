@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/tree/triangle_tree.h"
 #include "interaction/navigation.h"
 #include "world/world.h"
 

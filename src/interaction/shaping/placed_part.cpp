@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "interaction/object_move.h"
-#include "interaction/operations/combine_solids.h"
+#include "interaction/operations/looks/texture_projector.h"
 #include "interaction/operations/object_frames.h"
-#include "interaction/operations/texture_projector.h"
+#include "interaction/operations/shapes/combine_solids.h"
 
 namespace icome::interaction {
 namespace {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geometry/csg_tree.h"
-#include "geometry/texture_projection.h"
-#include "world/edit.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/deform/texture_projection.h"
+#include "world/edit/edit.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 

@@ -5,9 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "geometry/mesh_check.h"
-#include "interaction/operations/shape_change.h"
-#include "world/mesh_geometry.h"
+#include "geometry/mesh/mesh_check.h"
+#include "interaction/operations/shapes/shape_change.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::interaction {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geometry/soft_selection.h"
+#include "geometry/deform/soft_selection.h"
 #include "interaction/shaping/mesh_part.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 
 namespace icome::interaction {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "interaction/object_move.h"
-#include "world/mesh_geometry.h"
+#include "world/shape/mesh_geometry.h"
 
 namespace icome::interaction {
 namespace {

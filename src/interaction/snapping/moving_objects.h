@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "interaction/snapping/passage.h"
-#include "world/collisions.h"
+#include "world/collision/collisions.h"
 
 namespace icome::interaction {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "interaction/snapping/snap_shape.h"
-#include "world/collisions.h"
+#include "world/collision/collisions.h"
 
 namespace icome::interaction {
 

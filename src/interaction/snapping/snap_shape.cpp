@@ -8,12 +8,12 @@
 #include <numbers>
 #include <utility>
 
-#include "geometry/hilbert.h"
-#include "geometry/mesh_repair.h"
-#include "world/exact_surface.h"
-#include "world/geometry_check.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "geometry/mesh/mesh_repair.h"
+#include "geometry/tree/hilbert.h"
+#include "world/shape/exact_surface.h"
+#include "world/shape/geometry_check.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {

@@ -2,8 +2,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/box_tree.h"
-#include "world/collision_shape.h"
+#include "geometry/tree/box_tree.h"
+#include "world/collision/collision_shape.h"
 
 namespace icome::interaction {
 

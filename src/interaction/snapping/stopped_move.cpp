@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "interaction/snapping/close_fit.h"
-#include "world/solid_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {

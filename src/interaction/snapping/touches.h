@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/function_ref.h"
-#include "world/collision_shape.h"
+#include "world/collision/collision_shape.h"
 
 namespace icome::interaction {
 

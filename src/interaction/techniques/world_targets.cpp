@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "base/decompositions.h"
-#include "geometry/mesh_repair.h"
-#include "geometry/triangle_tree.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
-#include "world/usual_tolerance.h"
+#include "geometry/mesh/mesh_repair.h"
+#include "geometry/tree/triangle_tree.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
+#include "world/shape/usual_tolerance.h"
 
 namespace icome::interaction {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "interaction/techniques/technique.h"
-#include "world/changes.h"
+#include "world/edit/changes.h"
 
 namespace icome::interaction {
 

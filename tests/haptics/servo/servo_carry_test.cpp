@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "haptics/contact_judge.h"
 #include "haptics/contact_world.h"
+#include "haptics/judge/contact_judge.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/servo_fixture.h"
 #include "realtime/guard/guard.h"

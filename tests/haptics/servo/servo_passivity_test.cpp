@@ -16,11 +16,11 @@
 #include "base/random.h"
 #include "devices/device_profiles.h"
 #include "devices/simulated/simulated_device.h"
-#include "geometry/geodesic_sphere.h"
+#include "geometry/mesh/geodesic_sphere.h"
 #include "haptics/contact_world.h"
+#include "haptics/effects/texture_text.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/servo_fixture.h"
-#include "haptics/texture_text.h"
 
 namespace icome::haptics {
 namespace {

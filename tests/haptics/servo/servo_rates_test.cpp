@@ -4,12 +4,12 @@
 
 #include <functional>
 
-#include "geometry/geodesic_sphere.h"
-#include "geometry/implicit_surface.h"
-#include "geometry/plain_formula.h"
-#include "haptics/contact_judge.h"
+#include "geometry/implicit/implicit_surface.h"
+#include "geometry/implicit/plain_formula.h"
+#include "geometry/mesh/geodesic_sphere.h"
 #include "haptics/csg_touch.h"
-#include "haptics/plain_solid.h"
+#include "haptics/judge/contact_judge.h"
+#include "haptics/judge/plain_solid.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/servo_fixture.h"
 

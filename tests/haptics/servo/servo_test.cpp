@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/geodesic_sphere.h"
+#include "geometry/mesh/geodesic_sphere.h"
 #include "haptics/contact_world.h"
 #include "haptics/servo/servo_fixture.h"
 #include "haptics/thesis/thesis_shapes.h"

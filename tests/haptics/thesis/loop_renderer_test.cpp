@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "geometry/geodesic_sphere.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/mesh/geodesic_sphere.h"
+#include "geometry/tree/triangle_tree.h"
 #include "haptics/contact_world.h"
 #include "haptics/thesis/thesis_shapes.h"
 

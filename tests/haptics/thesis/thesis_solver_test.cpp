@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/contact_world.h"
-#include "haptics/renderer.h"
+#include "haptics/servo/renderer.h"
 #include "haptics/servo/scene_feed.h"
 #include "haptics/thesis/thesis_shapes.h"
 

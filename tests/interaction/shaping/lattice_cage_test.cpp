@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "interaction/shaping/shaping_samples.h"
-#include "world/history.h"
+#include "world/edit/history.h"
 
 namespace icome::interaction {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "interaction/operations/texture_projector.h"
+#include "interaction/operations/looks/texture_projector.h"
 #include "world/sample_world.h"
 
 namespace icome::interaction {

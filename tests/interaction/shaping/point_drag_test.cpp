@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/bent_normals.h"
+#include "geometry/mesh/bent_normals.h"
 #include "interaction/shaping/shaping_samples.h"
-#include "world/edit_bytes.h"
-#include "world/history.h"
+#include "world/edit/edit_bytes.h"
+#include "world/edit/history.h"
 
 namespace icome::interaction {
 namespace {

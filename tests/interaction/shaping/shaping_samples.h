@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "interaction/shaping/shaping.h"
-#include "world/edit.h"
+#include "world/edit/edit.h"
 #include "world/sample_world.h"
 
 namespace icome::interaction {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <functional>
 
-#include "clutter.h"
-#include "geometry/csg_tree.h"
-#include "geometry/implicit_surface.h"
-#include "geometry/loop_surface.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/implicit/implicit_surface.h"
+#include "geometry/loop/loop_surface.h"
+#include "interaction/snapping/clutter.h"
 #include "interaction/snapping/stopped_move.h"
 #include "repeats.h"
-#include "world/solid_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {

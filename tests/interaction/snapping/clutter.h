@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/primitive.h"
-#include "world/collisions.h"
+#include "geometry/primitive/primitive.h"
+#include "world/collision/collisions.h"
 #include "world/sample_world.h"
 
 namespace icome::interaction {

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "clutter.h"
-#include "geometry/csg_tree.h"
-#include "world/solid_geometry.h"
+#include "geometry/csg/csg_tree.h"
+#include "interaction/snapping/clutter.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {

@@ -1,6 +1,6 @@
 #include "interaction/snapping/snap_feel.h"
 
-#include "clutter.h"
+#include "interaction/snapping/clutter.h"
 
 namespace icome::interaction {
 namespace {

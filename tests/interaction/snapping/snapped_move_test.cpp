@@ -1,8 +1,8 @@
 #include "interaction/snapping/snapped_move.h"
 
-#include "clutter.h"
+#include "interaction/snapping/clutter.h"
 #include "interaction/snapping/snap_feel.h"
-#include "world/history.h"
+#include "world/edit/history.h"
 
 namespace icome::interaction {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <functional>
 
-#include "clutter.h"
-#include "geometry/implicit_surface.h"
-#include "geometry/loop_surface.h"
+#include "geometry/implicit/implicit_surface.h"
+#include "geometry/loop/loop_surface.h"
 #include "interaction/object_move.h"
+#include "interaction/snapping/clutter.h"
 #include "interaction/snapping/moving_objects.h"
 #include "repeats.h"
-#include "world/solid_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {

@@ -1,8 +1,8 @@
 #include "interaction/techniques/world_targets.h"
 
 #include "interaction/techniques/technique_cases.h"
-#include "world/mesh_geometry.h"
-#include "world/solid_geometry.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
 
 namespace icome::interaction {
 namespace {

@@ -1,0 +1,63 @@
+#include "apps/design/convert_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/design/design_figures.h"
+#include "apps/design/design_work.h"
+#include "apps/interrupt.h"
+#include "apps/touch/touch_report.h"
+
+namespace icome::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string convert_json(const ConvertOptions& options, const DesignFigures& figures,
+                         const std::vector<std::string>& warnings) {
+  Json report;
+  report["in"] = options.in.string();
+  report["out"] = options.out.string();
+  report["objects"] = figures.objects;
+  report["triangles"] = figures.triangles;
+  report["bytes"] = std::filesystem::file_size(options.out);
+  report["warnings"] = warnings;
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string convert_text(const ConvertOptions& options, std::size_t objects,
+                         const std::vector<std::string>& warnings) {
+  std::string text = fmt::format("{}: {} object{}, {} bytes\n", options.out.string(), grouped(objects),
+                                 objects == 1 ? "" : "s", grouped(std::filesystem::file_size(options.out)));
+  for (const std::string& warning : warnings) text += "  " + warning + "\n";
+  return text;
+}
+
+}  // namespace
+
+int run_convert(const ConvertOptions& options) {
+  catch_interrupts();
+  StatusLine status;
+  // That a format cannot be written is better told before a long read.
+  if (const auto able = files::check_can_write(options.out); !able)
+    return end_without_result(able.error(), status);
+  const auto design = read_for_person(options.in, options.reading, status);
+  if (!design) return end_without_result(design.error(), status);
+  if (const auto free = check_can_replace(options.out, options.in, *design); !options.force && !free)
+    return end_without_result(free.error(), status);
+  status.say("Writing " + options.out.string());
+  const auto losses = files::write_design(options.out, design->world);
+  if (!losses) return end_without_result(losses.error(), status);
+  status.clear();
+  std::vector<std::string> warnings;
+  for (const files::Remark& remark : design->remarks)
+    warnings.push_back(sentence(remark, options.in.string()));
+  for (const files::Remark& remark : *losses) warnings.push_back(sentence(remark, options.out.string()));
+  if (!options.json) return print_answer(convert_text(options, design->world.objects().size(), warnings));
+  const auto figures = figures_of(*design, options.in.string(), files::written_triangles(options.out),
+                                  [](std::size_t, std::size_t) { return true; });
+  return print_answer(convert_json(options, *figures, warnings));
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/design/design_options.h"
+#include "apps/status_line.h"
+#include "files/design.h"
+
+namespace icome::apps {
+
+// What the commands on whole designs share.
+
+constexpr int kDesignFailed = 1;
+constexpr int kDesignInterrupted = 130;  // what shells report for Ctrl-C
+
+/// What the command line says about reading, as readers take it.
+base::Result<files::DesignReadOptions> understood_reading(const ReadingOptions& reading);
+
+/// Reads a design, telling a person who waits how far it is, until Ctrl-C; catch_interrupts() was called.
+base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& file,
+                                                  const ReadingOptions& reading, StatusLine& status);
+
+/// The first sentences of what is remarked on a design, and how many more there are.
+std::vector<std::string> first_sentences(const std::vector<files::Remark>& remarks, const std::string& file);
+
+/// Fails where writing `out` would lose what another program wrote there since `design` was read from `in`,
+/// or what a damaged file still holds; says how to insist.
+base::Result<void> check_can_replace(const std::filesystem::path& out, const std::filesystem::path& in,
+                                     const files::LoadedDesign& design);
+
+/// Fails for the name of a picture that does not say PNG, which is what is written.
+base::Result<void> check_picture_name(const std::filesystem::path& picture);
+
+/// Tells on standard error why there is no result, and gives the exit code.
+int end_without_result(const base::Error& error, StatusLine& status);
+
+/// Prints the answer; gives the exit code.
+int print_answer(const std::string& text);
+
+}  // namespace icome::apps

@@ -1,0 +1,62 @@
+#include "apps/design/edit_script.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace icome::apps {
+namespace {
+
+using interaction::Value;
+
+constexpr std::string_view kSpace = " \t\r";
+
+std::string_view trimmed(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return line.substr(begin, line.find_last_not_of(kSpace) + 1 - begin);
+}
+
+std::string operation_of(const Value& command) {
+  const Value* name = command.fields() ? interaction::field(*command.fields(), "op") : nullptr;
+  return name && name->text() ? *name->text() : "";
+}
+
+/// Counts what went well, with what there is to know of it, or keeps the error.
+bool perform_line(interaction::OperationRunner& runner, std::string_view text, std::size_t line,
+                  EditOutcome& outcome) {
+  const auto command = interaction::value_from_json(text);
+  if (!command) {
+    outcome.errors.push_back({line, {}, command.error().message});
+    return false;
+  }
+  const std::string operation = operation_of(*command);
+  const auto done = runner.perform(*command);
+  if (!done) {
+    outcome.errors.push_back({line, operation, done.error().message});
+    return false;
+  }
+  ++outcome.operations;
+  if (!done->note.empty()) outcome.notes.push_back({line, operation, done->note});
+  return true;
+}
+
+}  // namespace
+
+EditOutcome perform_script(interaction::OperationRunner& runner, std::string_view text, bool keep_going,
+                           const std::function<bool(double part)>& progress) {
+  EditOutcome outcome;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::size_t at = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  for (std::size_t number = 1; at < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    if (const std::string_view said = trimmed(line); said.empty() || said.front() == '#') continue;
+    outcome.stopped = !progress(double(end) / double(text.size()));
+    if (outcome.stopped) break;
+    if (!perform_line(runner, line, number, outcome) && !keep_going) break;
+  }
+  return outcome;
+}
+
+}  // namespace icome::apps

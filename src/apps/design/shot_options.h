@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/design/design_options.h"
+#include "base/result.h"
+
+namespace icome::apps {
+
+/// What a person asked `icome shot` for, as the command line says it.
+struct ShotOptions {
+  std::filesystem::path file;
+  std::filesystem::path out;
+  ReadingOptions reading;
+  int width = 1280;                    // pixels
+  int height = 960;                    // pixels
+  std::string view;                    // a direction or a viewpoint; empty: the first viewpoint, or iso
+  std::string scene;                   // empty: all objects
+  std::optional<double> time;          // s, of the design's motions; none: at rest
+  bool studio = false;                 // light it as a studio does even if the design has lights
+  bool clear = false;                  // no background
+  std::optional<unsigned> background;  // 0xrrggbb; none: a soft gradient
+  bool json = false;
+};
+
+/// "1280x960", sides of 1 to 16384 pixels.
+base::Result<void> parse_size(const std::string& text, ShotOptions& options);
+
+/// "none", "white", "black" or "#rrggbb".
+base::Result<void> parse_background(const std::string& text, ShotOptions& options);
+
+}  // namespace icome::apps

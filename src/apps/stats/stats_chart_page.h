@@ -1,0 +1,74 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/stats/stats_chart.h"
+#include "charts/canvas.h"
+
+namespace icome::apps {
+
+// What the drawings of stats_chart have in common; lengths in page units.
+
+inline constexpr double kChartWidth = 960.0;
+inline constexpr double kChartHeight = 640.0;
+inline const charts::Colour kChartInk{0.12, 0.14, 0.18};
+inline const charts::Colour kChartQuiet{0.40, 0.43, 0.48};
+inline const charts::Colour kChartGrid{0.90, 0.91, 0.93};
+inline const charts::Colour kChartPaper{1.0, 1.0, 1.0};
+
+/// The colours of Okabe and Ito, which colour-blind eyes tell apart, and grey; then the same lighter, then
+/// darker, then again from the first.
+charts::Colour chart_colour(std::size_t which);
+
+/// From a quantity to a stretch of the page.
+struct ChartScale {
+  double low = 0.0, high = 1.0, from = 0.0, to = 1.0;
+  double operator()(double value) const { return from + (to - from) * (value - low) / (high - low); }
+};
+
+/// Where the marks go, and how quantities become places.
+struct ChartFrame {
+  charts::Area area{};
+  ChartScale x, y;
+  double slot = 0.0;  // width of a group's place
+  double slot_middle(std::size_t group) const { return area.x + slot * (double(group) + 0.5); }
+};
+
+/// An axis and its ticks.
+struct AxisRange {
+  double low = 0.0, high = 1.0;
+  std::vector<double> at;
+  double step = 1.0;
+};
+/// From `low` to `high`, a little wider where they are the same.
+AxisRange axis_over(double low, double high, int count);
+
+/// Mean and interval of a group, as charts show them. NaN where there are too few values.
+struct ChartMean {
+  double mean = 0.0, low = 0.0, high = 0.0;
+};
+ChartMean chart_mean(const std::vector<double>& values, double confidence);
+
+/// The line of least squares and the interval of its mean, as the chart of a scatter shows them.
+struct FittedLine {
+  base::Vector2 from, to;                   // its ends, above the first and the last point
+  std::vector<base::Vector2> lower, upper;  // the interval's limits from left to right
+};
+/// Empty `lower` where there is none: less than three points, or all at one x.
+FittedLine fitted_line(const StatsChart& chart);
+
+/// A minus sign for every hyphen that is one.
+std::string with_minus(std::string_view text);
+
+// The marks of each kind; `frame` is made.
+void draw_boxes(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
+void draw_bars(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
+void draw_interaction(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
+void draw_scatter(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
+void draw_curve(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
+void draw_shares(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
+/// The whole page but its head.
+void draw_matrix(charts::Canvas& canvas, const StatsChart& chart, const charts::Area& area);
+
+}  // namespace icome::apps

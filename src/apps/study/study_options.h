@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/study/study_report_command.h"
+
+namespace icome::apps {
+
+/// What a person asked `icome study` for.
+struct StudyOptions {
+  std::string task;            // the subcommand: "new", "check", "run", "resume", "report"
+  std::filesystem::path file;  // the study
+  std::string from = "blank";  // of new: the template
+  bool json = false;
+  // Of run and resume.
+  std::filesystem::path data;              // empty: beside the study file
+  std::optional<std::string> participant;  // none: the next number; of resume the only one to go on
+  std::string language;                    // empty: the study's first
+  std::vector<std::string> with;           // "age=31": control variables
+  std::size_t simulate = 0;                // people; 0: a real one
+  bool pointer_alone = false;
+  bool in_window = false;  // not over the whole screen
+  StudyReportOptions report;
+};
+
+}  // namespace icome::apps

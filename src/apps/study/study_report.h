@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "study/definition/study.h"
+#include "study/definition/study_check.h"
+
+namespace icome::apps {
+
+/// What a study is, for a person. `source` names its file where something is to be thought about.
+std::string study_text(const study::Study& study, const study::StudyCheck& check, const std::string& source);
+
+/// The same as JSON.
+std::string study_json(const study::Study& study, const study::StudyCheck& check);
+
+}  // namespace icome::apps

@@ -1,0 +1,317 @@
+#include "apps/study/study_run_command.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "apps/design/design_work.h"
+#include "apps/desktop/desktop_command.h"
+#include "apps/interrupt.h"
+#include "apps/terminal.h"
+#include "io/file_bytes.h"
+#include "study/definition/needs.h"
+#include "study/definition/scene_check.h"
+#include "study/definition/study_reader.h"
+#include "study/records/data_folder.h"
+#include "study/run/session_run.h"
+#include "study/simulation/simulation.h"
+#include "ui/study/study_window.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr std::uint64_t kLargestStudyFile = 16U << 20U;  // bytes
+constexpr std::uint64_t kLargestScene = 1U << 30U;       // bytes
+
+std::vector<study::TrialScene> scenes_of_trials(const study::Study& study) {
+  std::vector<study::TrialScene> scenes = study.trials.scenes;
+  if (study.trials.practice_scene) scenes.push_back(*study.trials.practice_scene);
+  return scenes;
+}
+
+/// The study without what the program does not have yet.
+base::Result<study::Study> pointer_alone(const study::Study& study) {
+  std::vector<std::string> needs;
+  for (const study::UnmetNeed& need : study::unmet_needs(study))
+    if (std::ranges::find(needs, need.id) == needs.end()) needs.push_back(need.id);
+  return study::without_needs(study, needs);
+}
+
+/// What is run: with what there is, and with nothing missing.
+base::Result<OpenedStudy> study_to_run(const StudyOptions& options) {
+  auto opened = open_study(options.file);
+  if (!opened) return opened;
+  if (options.pointer_alone) {
+    auto alone = pointer_alone(opened->study);
+    if (!alone) return tl::unexpected(alone.error());
+    opened->study = std::move(*alone);
+  }
+  study::StudyCheck check = study::check_study(opened->study);
+  study::check_scenes(opened->study, opened->folder, check);
+  const auto unmet = study::unmet_needs(opened->study);
+  std::string why;
+  const std::string name = options.file.string();
+  // Reasons begin with unmet needs, and simulated people need no devices.
+  for (std::size_t i = options.simulate > 0 ? unmet.size() : 0; i < check.reasons.size(); ++i)
+    why += fmt::format(" {}", check.reasons[i].sentence);
+  if (why.empty()) return opened;
+  if (!unmet.empty() && options.simulate == 0)
+    why += " With --pointer-only what needs these is left out; --simulate needs no devices.";
+  return base::fail(fmt::format("{} cannot be run as it is:{}", name, why));
+}
+
+std::filesystem::path data_folder(const StudyOptions& options) {
+  if (!options.data.empty()) return options.data;
+  return options.file.parent_path() / fmt::format("{}-{}{}", options.file.stem().string(),
+                                                  options.pointer_alone ? "pointer-" : "",
+                                                  options.simulate > 0 ? "simulated" : "data");
+}
+
+/// The scenes as they are now.
+base::Result<std::vector<study::SceneFile>> scenes_of(const OpenedStudy& opened) {
+  std::vector<study::SceneFile> files;
+  for (const study::TrialScene& scene : scenes_of_trials(opened.study)) {
+    auto bytes = io::read_bytes(opened.folder / scene.file, kLargestScene);
+    if (!bytes) return tl::unexpected(bytes.error());
+    files.push_back({scene.file, std::move(*bytes)});
+  }
+  return files;
+}
+
+base::Result<study::DataFolder> open_data(const StudyOptions& options, const OpenedStudy& opened) {
+  const auto scenes = scenes_of(opened);
+  if (!scenes) return tl::unexpected(scenes.error());
+  return study::DataFolder::open(opened.study, opened.text, data_folder(options), options.simulate > 0,
+                                 *scenes);
+}
+
+int simulate_people(const StudyOptions& options, const OpenedStudy& opened) {
+  StatusLine status;
+  auto data = open_data(options, opened);
+  if (!data) return end_without_result(data.error(), status);
+  catch_interrupts();
+  const auto show = [&](double share) {
+    status.progress("Simulating", std::round(1000.0 * share) / 10.0, 100.0, "%");
+    return !interrupted();
+  };
+  const auto done = study::simulate(opened.study, opened.folder, *data, options.simulate, show);
+  status.clear();
+  if (!done) return end_without_result(done.error(), status);
+  if (interrupted()) {
+    tell("interrupted; the same command goes on with what is done.");
+    return kDesignInterrupted;
+  }
+  if (options.json) {
+    const nlohmann::ordered_json answer = {{"study", opened.study.name},
+                                           {"simulated", true},
+                                           {"folder", data->path().string()},
+                                           {"participants", options.simulate}};
+    return print_answer(answer.dump(2) + "\n");
+  }
+  return print_answer(fmt::format(
+      "{} SIMULATED {} through the study; nobody took part. Data: {}\nNext: icome study report {}\n",
+      options.simulate, options.simulate == 1 ? "person is" : "people are", data->path().string(),
+      data->path().string()));
+}
+
+base::Result<std::size_t> language_of(const study::Study& study, const std::string& language) {
+  const auto found = std::ranges::find(study.languages, language);
+  if (language.empty()) return 0;
+  if (found != study.languages.end()) return std::size_t(found - study.languages.begin());
+  return base::fail(fmt::format("the study has no texts in '{}'; there are {}.", language,
+                                fmt::join(study.languages, ", ")));
+}
+
+std::string possible_values(const study::ControlVariable& variable) {
+  if (variable.levels.empty())
+    return variable.unit.empty() ? "NUMBER" : fmt::format("NUMBER ({})", variable.unit);
+  std::string all;
+  for (const study::Level& level : variable.levels) all.append(all.empty() ? "" : "|").append(level.id);
+  return all;
+}
+
+/// Of --with, in the order of the study; what was not given is "n/a".
+base::Result<std::vector<std::string>> control_answers(const study::Study& study,
+                                                       const std::vector<std::string>& with) {
+  std::vector<std::string> answers(study.control.size(), "n/a");
+  for (const std::string& said : with) {
+    const std::string id = said.substr(0, said.find('='));
+    const auto found = std::ranges::find(study.control, id, &study::ControlVariable::id);
+    if (found == study.control.end() || id.size() == said.size())
+      return base::fail(
+          fmt::format("--with {}: write a control variable of the study and its value, such as "
+                      "age=31.",
+                      said));
+    std::string& answer = answers[std::size_t(found - study.control.begin())];
+    if (answer != "n/a") return base::fail(fmt::format("--with {}: {} is given twice.", said, id));
+    answer = said.substr(id.size() + 1);
+  }
+  std::string missing;
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (study.control[i].balanced && answers[i] == "n/a")
+      missing += fmt::format(" --with {}={}", study.control[i].id, possible_values(study.control[i]));
+  if (!missing.empty())
+    return base::fail(fmt::format("groups are balanced by what people bring along; give{}.", missing));
+  return answers;
+}
+
+std::string names_of(const std::vector<study::Participant>& people) {
+  std::string names;
+  for (const study::Participant& person : people) names.append(names.empty() ? "" : ", ").append(person.id);
+  return names;
+}
+
+/// Who is to go on.
+base::Result<study::Participant> to_resume(const study::DataFolder& data, const StudyOptions& options) {
+  if (options.participant) return data.find(*options.participant);
+  const auto unfinished = data.unfinished();
+  if (!unfinished) return tl::unexpected(unfinished.error());
+  if (unfinished->size() == 1) return unfinished->front();
+  if (unfinished->empty())
+    return base::fail("nobody has begun without being through; start with icome study run.");
+  return base::fail(fmt::format("several have begun: {}; say who goes on, as --participant {}.",
+                                names_of(*unfinished), unfinished->front().id));
+}
+
+constexpr double kLongestBreak = 366.0 * 86400.0;  // s; a clock that says more is wrong
+
+using Moment = std::chrono::sys_time<std::chrono::milliseconds>;
+
+Moment now() { return std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now()); }
+
+std::string text_of(Moment moment) {
+  const auto whole = std::chrono::floor<std::chrono::seconds>(moment);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", whole, (moment - whole).count());
+}
+
+std::optional<Moment> moment_of(const std::string& text) {
+  std::tm parts = {};
+  int milliseconds = 0;
+  if (std::sscanf(text.c_str(), "%d-%d-%dT%d:%d:%d.%dZ", &parts.tm_year, &parts.tm_mon, &parts.tm_mday,
+                  &parts.tm_hour, &parts.tm_min, &parts.tm_sec, &milliseconds) != 7)
+    return {};
+  parts.tm_year -= 1900;
+  parts.tm_mon -= 1;
+  return Moment(std::chrono::seconds(timegm(&parts)) + std::chrono::milliseconds(milliseconds));
+}
+
+/// Seconds since the person's session began, going on evenly while this program runs.
+study::SessionRun::Clock clock_of(const study::Progress& progress) {
+  double before = 0.0;  // s
+  for (const study::EventRecord& event : progress.events) {
+    if (event.kind != study::EventKind::Session) continue;
+    if (const auto began = moment_of(event.value))
+      before = std::clamp(std::chrono::duration<double>(now() - *began).count(), 0.0, kLongestBreak);
+  }
+  const auto since = std::chrono::steady_clock::now();
+  return [before, since] {
+    return before + std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+  };
+}
+
+base::Result<study::SessionRun> begin_session(const StudyOptions& options, const OpenedStudy& opened,
+                                              study::DataFolder& data) {
+  const auto language = language_of(opened.study, options.language);
+  if (!language) return tl::unexpected(language.error());
+  base::Result<study::Participant> person = base::fail("");
+  if (options.task == "resume") {
+    person = to_resume(data, options);
+  } else {
+    const auto control = control_answers(opened.study, options.with);
+    if (!control) return tl::unexpected(control.error());
+    person = data.enrol(options.participant, *language, *control);
+  }
+  if (!person) return tl::unexpected(person.error());
+  auto log = data.open_log(*person);
+  if (!log) return tl::unexpected(log.error());
+  for (const std::string& notice : log->notices()) tell(notice);
+  auto clock = clock_of(log->progress());
+  return study::SessionRun::begin(opened.study, std::move(*log), std::move(clock), text_of(now()));
+}
+
+/// How the person's session ended, and what comes next.
+void tell_end(const StudyOptions& options, const study::DataFolder& data, const std::string& id,
+              bool through) {
+  const std::string folder = data.path().string();
+  if (through) {
+    print(fmt::format("{} is through. Data: {}\nNext: icome study report {}\n", id, folder, folder));
+    return;
+  }
+  const auto unfinished = data.unfinished();
+  if (unfinished && std::ranges::find(*unfinished, id, &study::Participant::id) == unfinished->end()) {
+    print(fmt::format("{} did not agree to take part, which is noted in {}.\n", id, folder));
+    return;
+  }
+  const std::string where = options.data.empty() ? std::string() : fmt::format(" --data {}", folder);
+  print(fmt::format(
+      "{} is not through; what is done is kept. Go on with: icome study resume {} --participant {}{}{}\n", id,
+      options.file.string(), id, where, options.pointer_alone ? " --pointer-only" : ""));
+}
+
+/// Forces that nobody feels are told before somebody takes part.
+void tell_of_forces(const study::Study& study) {
+  const auto gives = [](const study::Level& level) { return level.forces.value_or(false); };
+  const bool varied = std::ranges::any_of(study.independent, [&](const study::IndependentVariable& factor) {
+    return std::ranges::any_of(factor.levels, gives);
+  });
+  if (varied)
+    tell(
+        "there is no force-feedback device: the mouse or a pen drives a simulated hand, which forces "
+        "push, and which nobody feels. Do not take such data for a study of force feedback.");
+}
+
+/// Whether there is anybody who can go on.
+base::Result<void> check_begun(const StudyOptions& options) {
+  std::error_code failed;
+  const std::filesystem::path folder = data_folder(options);
+  if (options.task != "resume" || std::filesystem::is_directory(folder, failed)) return {};
+  return base::fail(fmt::format("{}: there are no data; begin with icome study run.", folder.string()));
+}
+
+int run_person(int argc, char** argv, const StudyOptions& options, const OpenedStudy& opened) {
+  StatusLine status;
+  if (const auto begun = check_begun(options); !begun) return end_without_result(begun.error(), status);
+  catch_interrupts();
+  session::SessionSettings settings = desktop_settings();
+  const bool has_device = !settings.pointers.empty();
+  ui::StudyWindowOptions window;
+  window.full_screen = !options.in_window;
+  window.interrupted = [] { return interrupted(); };
+  std::string id;
+  std::optional<study::DataFolder> data;  // opened when there is a display, which nothing begins without
+  const int code = ui::run_study_window(argc, argv, window, opened.folder, std::move(settings), [&] {
+    auto folder = open_data(options, opened);
+    if (!folder) return base::Result<study::SessionRun>(tl::unexpected(folder.error()));
+    data.emplace(std::move(*folder));
+    auto run = begin_session(options, opened, *data);
+    if (run) id = run->participant().id;
+    if (run && !has_device) tell_of_forces(opened.study);
+    return run;
+  });
+  if (!id.empty()) tell_end(options, *data, id, code == 0);
+  return code;
+}
+
+}  // namespace
+
+base::Result<OpenedStudy> open_study(const std::filesystem::path& file) {
+  auto bytes = io::read_bytes(file, kLargestStudyFile);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto study = study::read_study(*bytes, file.string());
+  if (!study) return tl::unexpected(study.error());
+  return OpenedStudy{std::move(*study), std::move(*bytes), file.parent_path()};
+}
+
+int run_study_session(int argc, char** argv, const StudyOptions& options) {
+  const auto opened = study_to_run(options);
+  if (!opened) {
+    StatusLine status;
+    return end_without_result(opened.error(), status);
+  }
+  return options.simulate > 0 ? simulate_people(options, *opened) : run_person(argc, argv, options, *opened);
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,41 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "apps/touch/touch_models.h"
+#include "base/vector.h"
+#include "geometry/tree/box_tree.h"
+
+namespace icome::apps {
+
+/// A place on the surface of the models and the direction away from it, on the side that was looked from.
+struct ProbedPoint {
+  base::Vector3 point;   // m, world frame
+  base::Vector3 normal;  // unit
+};
+
+/// What a hand can know of the models before touching them: where they are and where a line of sight
+/// ends. Refers to the models.
+class SurfaceProbe {
+ public:
+  explicit SurfaceProbe(const std::vector<TouchModel>& models);
+
+  /// Where the line of sight from `from` to `to` ends, if it does; an open surface turns its normal towards
+  /// `from`.
+  std::optional<ProbedPoint> look(const base::Vector3& from, const base::Vector3& to) const;
+
+  const base::Bounds& bounds() const { return bounds_; }
+  /// The direction from which all of the surface can be seen when it is a sheet or a half-space; zero
+  /// when it must be looked at from everywhere.
+  const base::Vector3& front() const { return front_; }
+
+ private:
+  void find_front();
+
+  std::vector<const TouchBody*> bodies_;  // in spatial order
+  geometry::BoxTree boxes_;               // around them
+  base::Bounds bounds_;
+  base::Vector3 front_ = base::Vector3::Zero();
+};
+
+}  // namespace icome::apps

@@ -1,0 +1,99 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/touch/model_motion.h"
+#include "apps/touch/touch_eye.h"
+#include "apps/touch/touch_options.h"
+#include "base/result.h"
+#include "charts/colour.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/primitive/primitive.h"
+#include "haptics/contact/haptic_scene.h"
+#include "haptics/judge/contact_judge.h"
+#include "haptics/servo/effect_feed.h"
+#include "haptics/shapes/smooth_shape.h"
+
+namespace icome::apps {
+
+/// A mesh that stands for an exact surface before the judge, within `error` (m).
+struct JudgedMesh {
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: none
+  double error = 0.0;
+};
+
+/// A body that is touched: an object of a design, or all of another MODEL. What bodies share, clones share.
+struct TouchBody {
+  std::shared_ptr<TouchEye> eye;  // what is felt, unless `exact`; may be null where `solid` is set
+  std::shared_ptr<const haptics::Shape> shape;             // never null
+  base::Pose world_from_body = base::Pose::Identity();     // at the moment 0
+  Course course = {};                                      // by the motions of its file
+  std::optional<geometry::Primitive> primitive = {};       // what a primitive is
+  std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
+  /// Tells where the surface is of what is touched without a mesh of it, as a point touches it. Else null.
+  std::shared_ptr<const haptics::SmoothShape> solid = nullptr;
+  /// What lies in it, as its model says: of solids that are touched without a mesh; else empty.
+  std::optional<haptics::MembershipSolid> membership = {};
+  JudgedMesh judged = {};  // of a Loop surface, in its own frame; only where somebody judges
+  bool exact = false;      // touched as what it is, without a mesh; primitives are, too
+  bool is_mesh = false;    // a mesh is what it is
+  bool closed = true;
+  haptics::Surface surface = {};              // what the model itself says; the options come before it
+  std::optional<charts::Colour> colour = {};  // none: the picture's own
+};
+
+inline constexpr const char* kPrimitive = "primitive";
+
+/// One MODEL of the command line, ready to be touched.
+struct TouchModel {
+  std::string name;  // as the person wrote it
+  std::string kind;  // "binary PLY", "primitive" and so on
+  /// Of a primitive and of a formula one, of a design that has effects alone none.
+  std::vector<TouchBody> bodies = std::vector<TouchBody>(1);
+  std::size_t triangles = 0;                            // that are touched
+  std::vector<haptics::PlacedEffect> effects = {};      // that a design has
+  std::vector<Course> effect_courses = {};              // of each of these
+  std::shared_ptr<const ModelMotion> motion = nullptr;  // null: it stands where it is
+  std::vector<std::string> repairs = {};                // what the reader did and found, one sentence each
+  double read_seconds = 0.0;                            // s, reading and repairing
+  double build_seconds = 0.0;                           // s, building what the servo touches
+
+  TouchBody& body() { return bodies.front(); }
+  const TouchBody& body() const { return bodies.front(); }
+};
+
+/// Is this MODEL a primitive (a keyword before a colon, or "plane"), not a file?
+bool names_primitive(std::string_view text);
+
+/// Reads one MODEL: what has a primitive's keyword before a colon, or is "plane", is a primitive, everything
+/// else the file of a design. Models stand in the world as they are: a design as read_design() gives it,
+/// which all commands have in common, scaled by `fit` about the origin and never moved, so that a path in
+/// the world frame can rely on it.
+base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options);
+
+/// All MODELs, in the order of the command line, the surface of --implicit last. `say` hears what is read.
+base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
+                                                  const std::function<void(const std::string&)>& say);
+
+/// Around its surface, of a half-space around the square that pictures show of it; in its own frame or the
+/// world's.
+base::Bounds own_bounds(const TouchBody& body);
+base::Bounds bounds(const TouchBody& body);
+base::Bounds bounds(const TouchModel& model);
+
+/// Is the body the unlimited plane, solid below the z = 0 of its own frame?
+bool is_half_space(const TouchBody& body);
+
+/// How the body feels: as its model says where the options say nothing else.
+haptics::Surface surface_of(const TouchBody& body, const TouchOptions& options);
+
+/// The scene of all models. Bodies of model i have the index i in their ids, and their number, from 1, as the
+/// generation.
+std::shared_ptr<const haptics::HapticScene> compile_scene(const std::vector<TouchModel>& models,
+                                                          const TouchOptions& options);
+
+}  // namespace icome::apps

@@ -1,0 +1,282 @@
+#include "charts/canvas.h"
+
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+namespace icome::charts {
+namespace {
+
+using base::Vector2;
+
+/// Cairo keeps coordinates in 24.8 fixed point pixels; what lies farther out is off any page anyway.
+constexpr double kFarOut = 1e5;
+
+double bounded(double v) { return std::clamp(v, -kFarOut, kFarOut); }
+
+void set_colour(cairo_t* cairo, const Colour& c) {
+  cairo_set_source_rgba(cairo, c.red, c.green, c.blue, c.alpha);
+}
+
+void set_stroke(cairo_t* cairo, const Stroke& stroke) {
+  set_colour(cairo, stroke.colour);
+  cairo_set_line_width(cairo, stroke.width);
+  cairo_set_dash(cairo, stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0.0);
+}
+
+void set_font(cairo_t* cairo, const TextStyle& style) {
+  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                         style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, style.size);
+}
+
+void trace(cairo_t* cairo, std::span<const Vector2> points) {
+  cairo_new_path(cairo);
+  for (const Vector2& p : points) cairo_line_to(cairo, bounded(p.x()), bounded(p.y()));
+}
+
+void add_stops(cairo_pattern_t* pattern, std::span<const Colour> colours) {
+  const double last = std::max<double>(1.0, static_cast<double>(colours.size()) - 1.0);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const Colour& c = colours[i];
+    cairo_pattern_add_color_stop_rgba(pattern, static_cast<double>(i) / last, c.red, c.green, c.blue,
+                                      c.alpha);
+  }
+}
+
+void fill_with(cairo_t* cairo, cairo_pattern_t* pattern, std::span<const Colour> colours) {
+  add_stops(pattern, colours);
+  cairo_set_source(cairo, pattern);
+  cairo_fill(cairo);
+  cairo_pattern_destroy(pattern);
+}
+
+/// The bytes of the UTF-8 character at the start of `text`; 0 where there is none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80         ? 1
+                             : first >> 5 == 0x6  ? 2
+                             : first >> 4 == 0xe  ? 3
+                             : first >> 3 == 0x1e ? 4
+                                                  : 0;
+  if (length == 0 || length > text.size()) return 0;
+  std::uint32_t code = length == 1 ? first : first & (0x7fU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr std::uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  return code < kSmallest[length] || code > 0x10ffff || surrogate ? 0 : length;
+}
+
+cairo_status_t append_to_text(void* text, const unsigned char* bytes, unsigned int count) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const bool control = length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7f);
+    out += length == 0 ? std::string_view("\xef\xbf\xbd") : control ? " " : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(1, length));
+  }
+  return out;
+}
+
+struct Canvas::Page {
+  cairo_surface_t* surface;
+  cairo_t* cairo;
+  double width;                      // page units
+  double height;                     // page units
+  std::unique_ptr<std::string> svg;  // where the surface writes; null of a page with pixels
+
+  Page(cairo_surface_t* made, double wide, double high, std::unique_ptr<std::string> text)
+      : surface(made), cairo(cairo_create(surface)), width(wide), height(high), svg(std::move(text)) {}
+  Page(const Page&) = delete;
+  Page& operator=(const Page&) = delete;
+  ~Page() {
+    cairo_destroy(cairo);
+    cairo_surface_destroy(surface);
+  }
+};
+
+Canvas::Canvas(std::unique_ptr<Page> page) : page_(std::move(page)) {
+  cairo_set_line_join(page_->cairo, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_cap(page_->cairo, CAIRO_LINE_CAP_ROUND);
+  // Letters keep their shape at any scale, so that a picture of twice the size is the same picture.
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(page_->cairo, options);
+  cairo_font_options_destroy(options);
+}
+
+Canvas::Canvas(int width, int height, double scale)
+    : Canvas(std::make_unique<Page>(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height),
+                                    width / scale, height / scale, nullptr)) {
+  cairo_scale(page_->cairo, scale, scale);
+  fill({0.0, 0.0, width / scale, height / scale}, {1.0, 1.0, 1.0});
+}
+
+Canvas Canvas::of_lines(double width, double height) {
+  auto text = std::make_unique<std::string>();
+  cairo_surface_t* surface = cairo_svg_surface_create_for_stream(append_to_text, text.get(), width, height);
+  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  Canvas canvas(std::make_unique<Page>(surface, width, height, std::move(text)));
+  canvas.fill({0.0, 0.0, width, height}, {1.0, 1.0, 1.0});
+  return canvas;
+}
+
+Canvas::Canvas(Canvas&&) noexcept = default;
+Canvas::~Canvas() = default;
+
+double Canvas::width() const { return page_->width; }
+double Canvas::height() const { return page_->height; }
+
+void Canvas::fill(const Area& area, const Colour& colour) {
+  set_colour(page_->cairo, colour);
+  cairo_rectangle(page_->cairo, area.x, area.y, area.width, area.height);
+  cairo_fill(page_->cairo);
+}
+
+void Canvas::fill_gradient(const Area& area, std::span<const Colour> colours, bool upward) {
+  cairo_rectangle(page_->cairo, area.x, area.y, area.width, area.height);
+  fill_with(page_->cairo,
+            upward ? cairo_pattern_create_linear(0.0, area.bottom(), 0.0, area.y)
+                   : cairo_pattern_create_linear(area.x, 0.0, area.right(), 0.0),
+            colours);
+}
+
+void Canvas::fill_gradient(std::span<const Vector2> polygon, const Area& span,
+                           std::span<const Colour> colours) {
+  trace(page_->cairo, polygon);
+  fill_with(page_->cairo, cairo_pattern_create_linear(0.0, span.bottom(), 0.0, span.y), colours);
+}
+
+void Canvas::fill_polygon(std::span<const Vector2> points, const Colour& colour) {
+  trace(page_->cairo, points);
+  set_colour(page_->cairo, colour);
+  cairo_fill(page_->cairo);
+}
+
+void Canvas::fill_disc(const Vector2& centre, double radius, const Colour& colour) {
+  cairo_new_path(page_->cairo);
+  cairo_arc(page_->cairo, bounded(centre.x()), bounded(centre.y()), radius, 0.0, 2.0 * M_PI);
+  set_colour(page_->cairo, colour);
+  cairo_fill(page_->cairo);
+}
+
+void Canvas::circle(const Vector2& centre, double radius, const Stroke& stroke) {
+  cairo_new_path(page_->cairo);
+  cairo_arc(page_->cairo, bounded(centre.x()), bounded(centre.y()), radius, 0.0, 2.0 * M_PI);
+  set_stroke(page_->cairo, stroke);
+  cairo_stroke(page_->cairo);
+}
+
+void Canvas::line(std::span<const Vector2> points, const Stroke& stroke) {
+  trace(page_->cairo, points);
+  set_stroke(page_->cairo, stroke);
+  cairo_stroke(page_->cairo);
+}
+
+void Canvas::text(const Vector2& at, std::string_view text, const TextStyle& style) {
+  const std::string shown = printable(text);
+  cairo_save(page_->cairo);
+  set_font(page_->cairo, style);
+  cairo_text_extents_t extents;
+  cairo_text_extents(page_->cairo, shown.c_str(), &extents);
+  cairo_translate(page_->cairo, at.x(), at.y());
+  cairo_rotate(page_->cairo, -style.turn);
+  cairo_move_to(page_->cairo, -style.align * extents.x_advance, 0.0);
+  set_colour(page_->cairo, style.colour);
+  cairo_show_text(page_->cairo, shown.c_str());
+  cairo_restore(page_->cairo);
+}
+
+double Canvas::text_width(std::string_view text, const TextStyle& style) const {
+  set_font(page_->cairo, style);
+  cairo_text_extents_t extents;
+  cairo_text_extents(page_->cairo, printable(text).c_str(), &extents);
+  return extents.x_advance;
+}
+
+void Canvas::image(const Image& image, const Area& area) {
+  cairo_surface_t* source = cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
+  unsigned char* data = cairo_image_surface_get_data(source);
+  if (data) {
+    const int stride = cairo_image_surface_get_stride(source);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const std::uint8_t* p = image.pixel(x, y);
+        const std::uint32_t word = std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+        std::memcpy(data + std::ptrdiff_t{y} * stride + std::ptrdiff_t{x} * 4, &word, sizeof word);
+      }
+    }
+    cairo_surface_mark_dirty(source);
+  }
+  cairo_save(page_->cairo);
+  cairo_translate(page_->cairo, area.x, area.y);
+  cairo_scale(page_->cairo, area.width / image.width, area.height / image.height);
+  cairo_set_source_surface(page_->cairo, source, 0.0, 0.0);
+  cairo_paint(page_->cairo);
+  cairo_restore(page_->cairo);
+  cairo_surface_destroy(source);
+}
+
+void Canvas::clip(const Area& area) {
+  cairo_save(page_->cairo);
+  cairo_rectangle(page_->cairo, area.x, area.y, area.width, area.height);
+  cairo_clip(page_->cairo);
+}
+
+void Canvas::unclip() { cairo_restore(page_->cairo); }
+
+Image Canvas::snapshot() const {
+  assert(!page_->svg);
+  cairo_surface_flush(page_->surface);
+  Image out{
+      cairo_image_surface_get_width(page_->surface), cairo_image_surface_get_height(page_->surface), {}};
+  const unsigned char* data = cairo_image_surface_get_data(page_->surface);
+  const int stride = cairo_image_surface_get_stride(page_->surface);
+  out.rgba.reserve(4 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, data + std::ptrdiff_t{y} * stride + std::ptrdiff_t{x} * 4, sizeof word);
+      // The page starts out opaque white and stays opaque, so colours are not premultiplied by less than 1.
+      for (const int shift : {16, 8, 0}) out.rgba.push_back(static_cast<std::uint8_t>(word >> shift));
+      out.rgba.push_back(255);
+    }
+  }
+  return out;
+}
+
+std::string Canvas::svg() {
+  assert(page_->svg);
+  cairo_surface_finish(page_->surface);
+  return *page_->svg;
+}
+
+std::string fitted(const Canvas& canvas, std::string_view text, const TextStyle& style, double width) {
+  std::string shown = printable(text);
+  if (canvas.text_width(shown, style) <= width) return shown;
+  while (!shown.empty() && canvas.text_width(shown + "\u2026", style) > width) {
+    // A whole character goes: its last bytes 10xxxxxx, then its first.
+    while (shown.size() > 1 && (static_cast<unsigned char>(shown.back()) & 0xc0) == 0x80) shown.pop_back();
+    shown.pop_back();
+  }
+  return shown + "\u2026";
+}
+
+}  // namespace icome::charts

@@ -1,0 +1,94 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/vector.h"
+#include "charts/colour.h"
+#include "charts/image.h"
+
+namespace icome::charts {
+
+/// A rectangle of a page, in page units; y grows downward.
+struct Area {
+  double x, y, width, height;
+
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+};
+
+/// How a line is drawn; lengths in page units.
+struct Stroke {
+  Colour colour;
+  double width = 1.0;
+  std::vector<double> dashes;  ///< lengths on, off, on, ...; empty is solid
+};
+
+/// How text is set, in the DejaVu Sans family.
+struct TextStyle {
+  double size = 14.0;  ///< page units
+  Colour colour;
+  bool bold = false;
+  double align = 0.0;  ///< 0: starts at the point, 0.5: is centred on it, 1: ends there
+  double turn = 0.0;   ///< rad, counter-clockwise
+};
+
+/// A white page to draw and write on. Owns its pixels, or what was drawn where it has none; `scale` pixels
+/// make one page unit.
+class Canvas {
+ public:
+  /// Sides in pixels, 1 ... 32767 each; scale > 0.
+  Canvas(int width, int height, double scale);
+  /// A page without pixels, which svg() gives; sides in page units.
+  static Canvas of_lines(double width, double height);
+  Canvas(Canvas&&) noexcept;
+  ~Canvas();
+
+  double width() const;   ///< page units
+  double height() const;  ///< page units
+
+  void fill(const Area& area, const Colour& colour);
+  /// From the colour at the left or, if `upward`, at the bottom, evenly through all of them.
+  void fill_gradient(const Area& area, std::span<const Colour> colours, bool upward);
+  /// The polygon, filled with `colours` from the bottom of `span` to its top.
+  void fill_gradient(std::span<const base::Vector2> polygon, const Area& span,
+                     std::span<const Colour> colours);
+  void fill_polygon(std::span<const base::Vector2> points, const Colour& colour);
+  void fill_disc(const base::Vector2& centre, double radius, const Colour& colour);
+  void circle(const base::Vector2& centre, double radius, const Stroke& stroke);
+  /// An open line through the points, with round joins and ends.
+  void line(std::span<const base::Vector2> points, const Stroke& stroke);
+  /// The text's baseline passes through `at`. Bytes that are not UTF-8 show as a replacement mark.
+  void text(const base::Vector2& at, std::string_view text, const TextStyle& style);
+  /// How wide that text is, page units.
+  double text_width(std::string_view text, const TextStyle& style) const;
+  /// Puts an image there, scaled to fit; sharp when it has exactly the area's pixels.
+  void image(const Image& image, const Area& area);
+
+  /// Draws only inside the area until unclip().
+  void clip(const Area& area);
+  void unclip();
+
+  /// What was drawn so far. Of a page with pixels only.
+  Image snapshot() const;
+  /// What was drawn as an SVG file in which letters are shapes, so that it needs no font; a page unit is a
+  /// pixel of CSS. Of a page without pixels only, which takes nothing more then.
+  std::string svg();
+
+ private:
+  struct Page;
+  explicit Canvas(std::unique_ptr<Page> page);
+
+  std::unique_ptr<Page> page_;
+};
+
+/// The text, cut with an ellipsis where it would be wider than `width` page units.
+std::string fitted(const Canvas& canvas, std::string_view text, const TextStyle& style, double width);
+
+/// The text with each byte that is not part of valid UTF-8 replaced by U+FFFD, and control characters
+/// by spaces.
+std::string printable(std::string_view text);
+
+}  // namespace icome::charts

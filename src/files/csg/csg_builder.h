@@ -1,0 +1,47 @@
+#pragma once
+// From the statements of a .csg file to a tree: first what each statement makes, then the tree of it.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "files/csg/csg_document.h"
+#include "files/csg/csg_keywords.h"
+#include "geometry/csg/csg_tree.h"
+
+namespace icome::files {
+
+/// What a statement and all in it make.
+enum class CsgVolume : std::uint8_t {
+  LeftOut,  // disabled, background or outside the root: as if it were not there
+  None,     // the empty solid
+  Some
+};
+
+struct CsgParts {
+  struct Part {
+    CsgKeyword keyword = CsgKeyword::Unknown;
+    CsgVolume volume = CsgVolume::LeftOut;
+  };
+  struct Leaf {
+    CsgDocument::Index statement = 0;
+    geometry::CsgShape shape;
+    geometry::Affine3 tree_from_shape;
+    std::optional<geometry::CsgTree::Colour> colour;
+  };
+  CsgDocument::Index begin = 0, end = 0;  // the statements that count
+  std::vector<Part> parts;                // one for each statement of the document
+  std::vector<Leaf> leaves;               // in the order of their statements
+};
+
+/// Understands every statement that counts. Adds to `notes` what was left out or put right. Fails also when
+/// patience ends.
+base::Result<CsgParts> gather_parts(const CsgDocument& document, std::size_t max_primitives,
+                                    std::vector<std::string>& notes, io::Patience& patience);
+
+/// The tree of the parts; empty when they have no volume. It is not whole when patience ends.
+geometry::CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::Patience& patience);
+
+}  // namespace icome::files

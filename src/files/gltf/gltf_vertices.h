@@ -1,0 +1,24 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "world/shape/mesh_geometry.h"
+
+namespace icome::files {
+
+/// A mesh as glTF has it: whatever belongs to a corner belongs to a vertex.
+struct GltfVertices {
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> normals;      // of every vertex or none: every triangle is flat
+  std::vector<std::array<float, 2>> coordinates;  // of every vertex or none
+  std::vector<std::array<float, 3>> colours;      // of every vertex or none; linear
+  std::vector<std::uint32_t> corners;             // three of each triangle
+  bool smooth = false;                            // the normals are those of a mesh without any
+};
+
+/// Splits vertices as little as can be. A mesh without normals, which is smooth, gets normals that make
+/// other programs show it so.
+GltfVertices gltf_vertices(const world::MeshGeometry& shape);
+
+}  // namespace icome::files

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vector.h"
+#include "io/memory_budget.h"
+#include "io/patience.h"
+#include "world/shape/fixture.h"
+
+namespace icome::files {
+
+/// What a Wavefront OBJ text says: faces as they stand, every corner naming a position that is there.
+struct ObjDocument {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  struct Corner {
+    std::uint32_t position = 0;
+    std::uint32_t coordinate = kNone;  // may be one that is not there
+    std::uint32_t normal = kNone;      // the same
+  };
+  /// What faces belong to, from one statement on.
+  struct Part {
+    std::string object, group, material;
+    bool operator==(const Part&) const = default;
+  };
+  struct Face {
+    std::uint32_t corners = 0;  // how many
+    std::uint32_t part = 0;
+    std::uint32_t smoothing = kNone;  // its group; 0: it is flat, kNone: nothing has been said so far
+  };
+  struct Library {
+    std::string url;
+    int line = 0;
+  };
+
+  std::vector<base::Vector3> positions;
+  std::vector<world::Colour> colours;  // of every position, not finite where it has none; or of none
+  std::vector<base::Vector2> coordinates;
+  std::vector<base::Vector3> normals;
+  std::vector<Corner> corners;  // of all faces, one after the other
+  std::vector<Face> faces;
+  std::vector<Part> parts;  // the first has no names
+  std::vector<Library> libraries;
+  std::size_t others = 0;  // curves, surfaces, points and lines
+};
+
+/// Parts: positions, and what faces belong to. All: also normals, texture coordinates and colours.
+enum class ObjContent { Positions, Parts, All };
+
+/// `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`, `g`,
+/// `usemtl`, `mtllib`, `s`, which are then in order even where they are not kept. Errors name the line. Fails
+/// also when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. All
+/// that is read is counted there, as few bytes may stand for much, packed ones for any amount.
+base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
+                                             ObjContent content, io::Patience* patience = nullptr,
+                                             io::MemoryBudget* memory = nullptr);
+
+}  // namespace icome::files

@@ -1,0 +1,22 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/mesh/triangle_mesh.h"
+
+namespace icome::files {
+
+/// A polygon of an OBJ file that became triangles.
+struct SmoothedFace {
+  std::uint32_t triangles = 0;  // so many, one after the other
+  std::uint32_t group = 0;      // of polygons that are smooth where they meet; 0: it is flat
+};
+
+/// The unit normals of all corners, as smoothing groups ask for them: the mean of the polygons of the group
+/// around the vertex, weighted by their angles there. `faces` have all triangles of the mesh.
+std::vector<std::array<geometry::Vector3, 3>> smoothed_normals(const geometry::TriangleMesh& mesh,
+                                                               std::span<const SmoothedFace> faces);
+
+}  // namespace icome::files

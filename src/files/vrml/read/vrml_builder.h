@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "files/design.h"
+#include "files/vrml/read/vrml_meshes.h"
+#include "files/vrml/read/vrml_pictures.h"
+#include "files/vrml/read/vrml_scanner.h"
+#include "io/memory_budget.h"
+#include "io/patience.h"
+
+namespace icome::files {
+
+/// What a design is made of beside the answer of the process that parses VRML.
+struct VrmlSources {
+  std::string name = {};                  // of the file, for errors
+  FetchPicture fetch_picture = {};        // never empty
+  FindMesh find_mesh = {};                // never empty
+  std::uint64_t picture_limit = 1 << 30;  // bytes, of all pictures together, and of all meshes
+  std::vector<VrmlScript> scripts = {};   // become objects behind all others
+};
+
+/// Makes a world of an answer (vrml_answer.fbs), nothing of which is trusted: whatever the bytes are, memory
+/// stays in proportion to their size, and time too or until `patience` ends. How VRML becomes objects:
+///
+/// - Every node is an object, but a Shape that is the only one of its parent, has no name and no place of
+///   its own gives its shape and material to the parent; so does a nameless lamp or eye that stands at the
+///   parent's origin and looks along -z, if the parent has none. Other lamps and eyes are objects that
+///   stand and look as they do.
+/// - A shape that several nodes use is one, shared by their objects, unless it is seen with several texture
+///   transforms: these are part of the texture coordinates here.
+/// - Objects whose transforms flatten them, which VRML uses to hide things, are left out with all below.
+///
+/// Fails when the answer tells of an error, or is damaged, or patience or memory ends. Remarks are those of
+/// the answer and of what was put right here. `moving` hears what motions were made of; may be null.
+base::Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources,
+                                      io::Patience& patience, io::MemoryBudget& memory,
+                                      VrmlMoving* moving = nullptr);
+
+}  // namespace icome::files

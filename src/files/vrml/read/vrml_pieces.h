@@ -1,0 +1,20 @@
+#pragma once
+#include "files/findings.h"
+#include "files/vrml/read/vrml_face_set.h"
+#include "io/patience.h"
+#include "world/edit/flat_bytes.h"
+#include "world/shape/geometry.h"
+
+namespace icome::files {
+
+namespace flat {
+struct Piece;
+}
+
+/// The shape of a piece; null where it cannot be made, which `findings` tells. `shows_picture`: is it seen
+/// with one? Takes what it reads out of `reader`. Pieces of ICOME's own kinds that cannot be made become
+/// their triangles.
+world::GeometryPointer shape_of(const flat::Piece& piece, world::FlatReader& reader, bool shows_picture,
+                                Findings& findings, io::Patience& patience);
+
+}  // namespace icome::files

@@ -1,0 +1,51 @@
+#pragma once
+#include <optional>
+#include <unordered_map>
+
+#include "files/vrml/worker/answer.h"
+#include "files/vrml/worker/scene_files.h"
+#include "files/vrml/worker/wrapping.h"
+
+class SoVRMLElevationGrid;
+class SoVRMLExtrusion;
+class SoVRMLIndexedFaceSet;
+class SoVRMLText;
+
+namespace icome::files {
+
+struct FaceFields;
+struct MadeFaces;
+
+/// Puts geometry nodes into the answer, each once.
+class Pieces {
+ public:
+  Pieces(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
+      : files_(files), answer_(answer), wrapping_(wrapping) {}
+
+  /// The number of the piece that a geometry node makes. None, with a note where one helps: it makes none.
+  std::optional<int> number_of(const Unwrapped& geometry);
+
+ private:
+  /// Each gives the number of the piece; none: there is none, and that is told.
+  std::optional<int> add(const Unwrapped& it, PieceParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, PieceParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLElevationGrid& node, PieceParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLExtrusion& node, PieceParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLText& node, PieceParts& parts);
+  std::optional<int> add_solid(const Unwrapped& it, PieceParts& parts);
+  std::optional<int> add_faces(const Unwrapped& it, const FaceFields& fields, PieceParts& parts);
+  std::optional<int> add_made(const Unwrapped& it, const MadeFaces& made, PieceParts& parts);
+  /// A shape of ICOME's own, which PROTOs stand for; none: this is no such, and to be read as what it shows.
+  std::optional<int> add_own(const Unwrapped& it, PieceParts& parts);
+  std::optional<int> leave_out(const Unwrapped& it, const std::string& why);
+  void fill_attributes(const Unwrapped& it, const SoSFNode& texture, const SoSFNode& normal,
+                       const SoSFNode& colour, FaceFields& fields);
+  void note(const Unwrapped& it, const std::string& text);
+
+  const SceneFiles& files_;
+  Answer& answer_;
+  Wrapping& wrapping_;
+  std::unordered_map<const void*, std::optional<int>> known_ = {};  // by node
+};
+
+}  // namespace icome::files

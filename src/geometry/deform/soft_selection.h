@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "geometry/mesh/triangle_mesh.h"
+
+namespace icome::geometry {
+
+/// How the pull of a drag dies away with the distance t from the seeds, in radii.
+enum class Falloff {
+  Constant,  // 1 as far as the radius, which is inside
+  Linear,    // 1 - t: a cone
+  Smooth,    // Hermite's 1 - 3 t^2 + 2 t^3: a bell, flat at the seeds and at the rim
+  Sharp,     // (1 - t)^2: a thorn, flat at the rim only
+};
+
+/// How far a vertex is from the seeds.
+enum class SoftDistance {
+  Straight,   // to the nearest seed, through whatever is between
+  AlongEdges  // the shortest way over edges of the mesh: never across a gap or to a part that is not
+              // connected
+};
+
+struct SoftSelection {
+  double radius = 0;  // m; 0: the seeds alone
+  Falloff falloff = Falloff::Smooth;
+  SoftDistance distance = SoftDistance::Straight;
+};
+
+/// How much a vertex follows what is dragged: all the way at 1.
+struct SoftWeight {
+  std::uint32_t vertex;
+  double weight;
+  bool operator==(const SoftWeight&) const = default;
+};
+
+/// The weight at `t` radii from the seeds, t >= 0: 1 at 0, 0 beyond 1, never rising between.
+double falloff_weight(Falloff falloff, double t);
+
+/// The vertices that follow when the seeds (one for a vertex, two for an edge, three for a face; repeats do
+/// not matter) are dragged: those of weight above 0, by index. Seeds weigh 1. Fails on seeds that are not
+/// there, radii that are not finite or negative, and meshes with non-finite vertices or wrong indices.
+base::Result<std::vector<SoftWeight>> soft_weights(const TriangleMesh& mesh,
+                                                   std::span<const std::uint32_t> seeds,
+                                                   const SoftSelection& selection);
+
+}  // namespace icome::geometry

@@ -1,0 +1,230 @@
+#include "haptics/contact/contact_region.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "haptics/contact/haptic_scene.h"
+#include "haptics/shapes/smooth_element.h"
+
+namespace icome::haptics {
+
+using geometry::FourBoxes;
+
+namespace {
+
+constexpr double kLongStep = 0.5;        // of the region's reach
+constexpr double kFirstShare = 1.0 / 8;  // of a long step, asked first
+constexpr double kShareKept = 0.999;     // of a way out of a region: what is left is surely within
+
+/// The pieces of smooth surfaces that a sweep has asked: one that stands here with several boxes answers
+/// once.
+class AskedPieces {
+ public:
+  bool knows(const Element& element) {
+    for (std::size_t i = 0; i < std::min(count_, kMost); ++i) {
+      if (known_[i].object == element.object && known_[i].piece == element.feature) return true;
+    }
+    known_[count_++ % kMost] = {element.object, element.feature};
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+  struct Asked {
+    std::uint32_t object, piece;
+  };
+  std::array<Asked, kMost> known_;
+  std::size_t count_ = 0;
+};
+
+/// Where a line from `offset` by t * `step` leaves a ball around the origin, or a cylinder when both are at
+/// right angles to its axis: t, if it meets it at all.
+std::optional<double> exit_from(const Vector3& offset, const Vector3& step, double radius) {
+  const double a = step.squaredNorm();
+  const double b = offset.dot(step);
+  const double discriminant = b * b - a * (offset.squaredNorm() - radius * radius);
+  if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
+  return (std::sqrt(discriminant) - b) / a;
+}
+
+}  // namespace
+
+ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::kCount) {
+  elements_.reserve(kElements);
+}
+
+void ContactRegion::start(const HapticScene& scene, const Frame& frame, const Vector3& a, const Vector3& b,
+                          double reach, std::size_t limit) {
+  limit_ = std::min(limit, kPieces);
+  scene_ = &scene;
+  frame_ = frame;
+  a_ = a;
+  b_ = b;
+  reach_ = reach;
+  tolerance_ = Tolerance::for_coordinates(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
+  smallest_ = std::numeric_limits<double>::infinity();
+  overflowed_ = false;
+  size_ = 0;
+  elements_.clear();
+}
+
+void ContactRegion::hold(double size) {
+  tolerance_.gap = std::max(tolerance_.gap, Tolerance::for_size(size).gap);
+  if (size > 0.0) smallest_ = std::min(smallest_, size);
+}
+
+void ContactRegion::invalidate() {
+  reach_ = -1.0;
+  overflowed_ = false;
+  size_ = 0;
+}
+
+bool ContactRegion::take_box(const Bounds& bounds) {
+  overflowed_ = overflowed_ || size_ == limit_ || elements_.size() == kElements;
+  if (overflowed_) return false;
+  ++gathered_;
+  FourBoxes& boxes = boxes_[size_ / FourBoxes::kCount];
+  if (size_ % FourBoxes::kCount == 0) boxes = FourBoxes();
+  boxes.set(size_ % FourBoxes::kCount, geometry::float_box(Bounds(bounds.min() - a_, bounds.max() - a_)));
+  return true;
+}
+
+bool ContactRegion::add(const Element& element, const Bounds& bounds) {
+  if (!take_box(bounds)) return false;
+  pieces_[size_++] = {element.object, element.feature, std::uint32_t(elements_.size()), 1};
+  elements_.push_back(element);
+  return true;
+}
+
+bool ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds) {
+  if (!take_box(bounds)) return false;
+  pieces_[size_++] = {object, piece, 0, 0};
+  return true;
+}
+
+std::span<const Element> ContactRegion::elements_of(Piece& piece) {
+  if (piece.count == 0) {
+    PieceElements made(elements_);
+    scene_->expand(piece.object, piece.piece, frame_, made);
+    overflowed_ = overflowed_ || !made.complete();
+    piece.first = std::uint32_t(made.all().data() - elements_.data());
+    piece.count = std::uint32_t(made.all().size());
+  }
+  return {elements_.data() + piece.first, piece.count};
+}
+
+geometry::SegmentQuery ContactRegion::relative_query(const Vector3& from, const Vector3& to,
+                                                     double reach) const {
+  return {from - a_, to - a_, reach + frame_.tip, frame_.tip > 0.0};
+}
+
+double ContactRegion::clearance(const Vector3& position) const {
+  const Vector3 along = b_ - a_;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((position - a_).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return reach_ - (a_ + t * along - position).norm();
+}
+
+// The region is the union of two balls and of the cylinder between them, and convex: the way out of it is the
+// farthest of the ways out of those.
+double ContactRegion::share_within(const Vector3& position, const Vector3& step) const {
+  double share = 0.0;
+  for (const Vector3& centre : {a_, b_}) {
+    const std::optional<double> out = exit_from(position - centre, step, reach_);
+    if (out) share = std::max(share, *out);
+  }
+  const Vector3 along = b_ - a_;
+  const double squared = along.squaredNorm();
+  if (squared > 0.0) {
+    const auto beside = [&](const Vector3& v) { return Vector3(v - along * (along.dot(v) / squared)); };
+    const std::optional<double> out = exit_from(beside(position - a_), beside(step), reach_);
+    const double at = out ? along.dot(position - a_ + *out * step) : -1.0;
+    if (at >= 0.0 && at <= squared) share = std::max(share, *out);
+  }
+  share *= kShareKept;
+  return share >= 1.0 ? 1.0 : clearance(position + share * step) >= 0.0 ? share : 0.0;
+}
+
+std::size_t ContactRegion::around(const Vector3& position, double distance, std::span<Element> into) {
+  const geometry::SegmentQuery here = relative_query(position, position, distance);
+  const Tolerance near = Tolerance::reaching(distance);
+  std::size_t count = 0;
+  for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+    for (unsigned mask = boxes_[block].near_mask(here); mask != 0; mask &= mask - 1) {
+      const auto which = unsigned(__builtin_ctz(mask));
+      const std::span<const Element> elements = elements_of(pieces_[block * FourBoxes::kCount + which]);
+      looked_at_ += elements.size();
+      for (const Element& element : elements) {
+        if (element.flat() &&
+            (std::abs(height(element, position)) > distance || !covers(element, position, near)))
+          continue;
+        if (count < into.size()) into[count] = facing(element, position);
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+void ContactRegion::make_ready(const Vector3& start, const Vector3& step) {
+  const geometry::SegmentQuery path = relative_query(start, start + step, step.norm());
+  for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+    for (unsigned mask = boxes_[block].near_mask(path); mask != 0; mask &= mask - 1)
+      elements_of(pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))]);
+  }
+}
+
+SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::span<const Element> ignored,
+                              std::uint32_t ignored_object) {
+  const auto is_ignored = [&](const Element& element) {
+    return std::any_of(ignored.begin(), ignored.end(),
+                       [&](const Element& contact) { return same_surface(contact, element); });
+  };
+  SweepHit first;
+  const Element* met = nullptr;  // what `first` is about, unless its contact is set already
+  AskedPieces asked_pieces;
+  const auto ask = [&](const Element& element) {
+    if (element.smooth()) {
+      if (is_ignored(element) || asked_pieces.knows(element)) return;
+      Element found = element;
+      const auto t = smooth_sweep(found, start, step, tolerance_);
+      if (!t || (first.met && *t >= first.t)) return;
+      first = {*t, true, found};
+      met = nullptr;
+    } else {
+      const auto t = haptics::sweep(element, start, step, tolerance_);
+      if (!t || (first.met && *t >= first.t) || is_ignored(element)) return;
+      first.t = *t;
+      first.met = true;
+      met = &element;
+    }
+  };
+  // A long step is often stopped soon: what is near its beginning is asked first, and then the rest up to
+  // where it was stopped.
+  const double margin = tolerance_.touching() + edge_dip(frame_.tip);
+  double share = step.norm() > kLongStep * reach_ ? kFirstShare : 1.0;
+  std::optional<geometry::SegmentQuery> asked;
+  while (true) {
+    const geometry::SegmentQuery path = relative_query(start, start + share * step, margin);
+    for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
+      unsigned mask = boxes_[block].near_mask(path);
+      if (asked && mask != 0) mask &= ~boxes_[block].near_mask(*asked);
+      for (; mask != 0; mask &= mask - 1) {
+        Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
+        if (piece.object == ignored_object) continue;
+        const std::span<const Element> elements = elements_of(piece);
+        looked_at_ += elements.size();
+        for (const Element& element : elements) ask(element);
+      }
+    }
+    if (share >= first.t) break;
+    share = first.t;
+    asked = path;
+  }
+  if (met != nullptr) first.contact = facing(*met, start);
+  return first;
+}
+
+}  // namespace icome::haptics

@@ -1,0 +1,175 @@
+#include "haptics/contact/haptic_scene.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "geometry/tree/hilbert.h"
+
+namespace icome::haptics {
+namespace {
+
+/// Where the tree should sort an unlimited box: anywhere, but at a number.
+Eigen::Vector3f sorting_point(const Bounds& bounds) {
+  const Vector3 centre = bounds.center();
+  return centre.allFinite() ? Eigen::Vector3f(centre.cast<float>()) : Eigen::Vector3f::Zero();
+}
+
+/// How far a box reaches from its middle. One that lies far from its own origin counts as larger: its
+/// coordinates have fewer digits.
+double own_size(const Bounds& box) {
+  if (box.isEmpty()) return 0.0;
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double share = Tolerance::for_coordinates(1.0).gap / Tolerance::for_size(1.0).gap;
+  return std::max(0.5 * box.sizes().maxCoeff(), share * largest);
+}
+
+}  // namespace
+
+std::shared_ptr<const HapticScene> HapticScene::compile(std::vector<HapticObject> objects, double moment) {
+  std::shared_ptr<HapticScene> scene(new HapticScene());
+  scene->objects_ = std::move(objects);
+  scene->moment_ = moment;
+  const auto count = std::uint32_t(scene->objects_.size());
+  std::vector<Eigen::Vector3f> places(count);
+  for (std::uint32_t i = 0; i < count; ++i) places[i] = sorting_point(scene->object_bounds(i));
+  scene->order_ = geometry::hilbert_order(places);
+  scene->tree_ = geometry::BoxTree(scene->slot_boxes());
+  scene->by_id_.resize(count);
+  std::iota(scene->by_id_.begin(), scene->by_id_.end(), 0u);
+  std::sort(scene->by_id_.begin(), scene->by_id_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return scene->objects_[a].id < scene->objects_[b].id; });
+  scene->measure();
+  return scene;
+}
+
+std::shared_ptr<const HapticScene> HapticScene::moved(std::span<const Move> moves, double moment) const {
+  std::shared_ptr<HapticScene> scene(new HapticScene(*this));
+  scene->moment_ = moment;
+  for (const Move& move : moves) {
+    const std::optional<std::uint32_t> object = find(move.id);
+    if (!object) continue;
+    scene->objects_[*object].world_from_object = move.world_from_object;
+    scene->objects_[*object].motion = move.motion;
+  }
+  scene->tree_.refit(scene->slot_boxes());
+  scene->measure();
+  return scene;
+}
+
+void HapticScene::measure() {
+  bounds_.setEmpty();
+  moves_ = false;
+  sizes_.resize(objects_.size());
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    const Bounds box = object_bounds(i);
+    if (box.min().allFinite() && box.max().allFinite()) bounds_.extend(box);
+    moves_ = moves_ || restless(i);
+    sizes_[i] = own_size(objects_[i].shape->bounds());
+  }
+  extent_ = bounds_.isEmpty()
+                ? 1.0
+                : std::max(bounds_.min().cwiseAbs().maxCoeff(), bounds_.max().cwiseAbs().maxCoeff());
+}
+
+// The box sweeps over everything the object can reach within the horizon, so that the tree stays
+// right between two scenes.
+Bounds HapticScene::object_bounds(std::uint32_t object) const {
+  const HapticObject& it = objects_[object];
+  const Bounds local = it.shape->bounds();
+  if (local.isEmpty()) return local;
+  if (!local.min().allFinite() || !local.max().allFinite()) {
+    const Vector3 far = Vector3::Constant(std::numeric_limits<double>::infinity());
+    return {-far, far};
+  }
+  const Vector3 centre = it.world_from_object * Vector3(local.center());
+  Vector3 reach = it.world_from_object.linear().cwiseAbs() * (0.5 * local.sizes());
+  if (!it.motion.still()) {
+    const double turn_radius = local.center().norm() + 0.5 * local.sizes().norm();
+    const double longest = std::max(it.motion.arrives, it.motion.ends - it.motion.arrives);  // s
+    const double chord = std::min(2.0, it.motion.angular.norm() * longest) * turn_radius;
+    reach += it.motion.linear.cwiseAbs() * longest + Vector3::Constant(chord);
+  }
+  return {centre - reach, centre + reach};
+}
+
+std::vector<geometry::FloatBox> HapticScene::slot_boxes() const {
+  std::vector<geometry::FloatBox> boxes(objects_.size());
+  for (std::size_t slot = 0; slot < boxes.size(); ++slot) {
+    boxes[slot] = geometry::float_box(object_bounds(order_[slot]));
+  }
+  return boxes;
+}
+
+void HapticScene::gather(ContactRegion& region) const {
+  const auto& [origin, tip, elapsed] = region.frame();
+  near(origin + region.a(), origin + region.b(), region.reach() + tip + edge_dip(tip),
+       [&](std::uint32_t object) {
+         gather_object(region, object);
+         return !region.overflowed();
+       });
+}
+
+void HapticScene::gather_object(ContactRegion& region, std::uint32_t object) const {
+  const HapticObject& it = objects_[object];
+  const ContactRegion::Frame& frame = region.frame();
+  const Pose region_from_object = pose_in(frame.origin, object, frame.elapsed);
+  const Pose object_from_region = region_from_object.inverse();
+  ElementSink sink(region, object, region_from_object);
+  const double reach = region.reach() + edge_dip(frame.tip);
+  const std::size_t before = region.size();
+  it.shape->gather({object_from_region * region.a(), object_from_region * region.b(), reach, frame.tip,
+                    it.surface.sides, time(object, frame.elapsed)},
+                   sink);
+  if (region.size() != before) region.hold(size_near(object, object_from_region * region.a()));
+}
+
+void HapticScene::expand(std::uint32_t object, std::uint32_t piece, const ContactRegion::Frame& frame,
+                         PieceElements& elements) const {
+  const HapticObject& it = objects_[object];
+  it.shape->expand(piece, frame.tip, it.surface.sides, elements);
+  const Pose region_from_object = pose_in(frame.origin, object, frame.elapsed);
+  const bool in_place = region_from_object.matrix().isIdentity(0.0);
+  for (Element& element : elements.all()) {
+    element.object = object;
+    element.time = this->time(object, frame.elapsed);
+    if (!in_place) element = transformed(region_from_object, element);
+  }
+}
+
+// What has no end is as large as the place on it is far out.
+double HapticScene::size_near(std::uint32_t object, const Vector3& place) const {
+  return std::isfinite(sizes_[object]) ? sizes_[object] : std::max(1.0, place.cwiseAbs().maxCoeff());
+}
+
+Tolerance HapticScene::tolerance_near(std::uint32_t object, const Vector3& place) const {
+  return Tolerance::for_size(size_near(object, place));
+}
+
+Pose HapticScene::pose_in(const Vector3& origin, std::uint32_t object, double elapsed) const {
+  Pose result = pose(object, elapsed);
+  result.translation() -= origin;
+  return result;
+}
+
+Pose HapticScene::pose(std::uint32_t object, double elapsed) const {
+  const HapticObject& it = objects_[object];
+  return haptics::moved(it.world_from_object, it.motion, elapsed);
+}
+
+std::optional<std::uint32_t> HapticScene::find(ObjectId id) const {
+  const auto place =
+      std::lower_bound(by_id_.begin(), by_id_.end(), id,
+                       [&](std::uint32_t object, ObjectId key) { return objects_[object].id < key; });
+  if (place == by_id_.end() || objects_[*place].id != id) return std::nullopt;
+  return *place;
+}
+
+std::size_t HapticScene::bytes() const {
+  return sizeof(*this) + objects_.capacity() * sizeof(HapticObject) + tree_.bytes() +
+         (order_.capacity() + by_id_.capacity()) * sizeof(std::uint32_t);
+}
+
+}  // namespace icome::haptics

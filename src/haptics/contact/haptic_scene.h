@@ -1,0 +1,119 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/object_id.h"
+#include "geometry/tree/box_tree.h"
+#include "haptics/contact/motion.h"
+#include "haptics/effects/surface_force.h"
+#include "haptics/shapes/shape.h"
+
+namespace icome::haptics {
+
+using base::ObjectId;
+
+/// One thing that can be touched.
+struct HapticObject {
+  ObjectId id;
+  std::shared_ptr<const Shape> shape;  // never null
+  Pose world_from_object = Pose::Identity();
+  Motion motion;
+  Surface surface;
+  double time = 0.0;  // s, the own time of a shape that changes, at the moment 0
+};
+
+/// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the
+/// shapes. The servo may read it while any other thread does too.
+class HapticScene {
+ public:
+  /// Compiles a scene for the moment `moment` (s) of the shapes' own times. Ids must differ.
+  static std::shared_ptr<const HapticScene> compile(std::vector<HapticObject> objects, double moment = 0.0);
+
+  /// The scene at a moment (s), with other poses for some objects: the broad phase is refitted, not built
+  /// anew. Ids that the scene does not hold are passed over.
+  struct Move {
+    ObjectId id;
+    Pose world_from_object;
+    Motion motion;
+  };
+  std::shared_ptr<const HapticScene> moved(std::span<const Move> moves, double moment = 0.0) const;
+
+  /// Fills a region that was started for this scene. Real-time safe.
+  void gather(ContactRegion& region) const;
+  /// The same for one object. Real-time safe.
+  void gather_object(ContactRegion& region, std::uint32_t object) const;
+  /// The elements of a deferred piece of an object, in the frame of a region. Real-time safe.
+  void expand(std::uint32_t object, std::uint32_t piece, const ContactRegion::Frame& frame,
+              PieceElements& elements) const;
+
+  /// Calls `visit(object)` for objects near the ball or segment until it returns false. Real-time safe
+  /// when `visit` is.
+  template <typename Visit>
+  void near(const Vector3& a, const Vector3& b, double reach, Visit&& visit) const {
+    tree_.near(geometry::SegmentQuery(a, b, reach), [&](std::uint32_t slot) { return visit(order_[slot]); });
+  }
+
+  /// The own time of an object's shape then, s. Real-time safe.
+  double time(std::uint32_t object, double elapsed) const {
+    return objects_[object].time + moment_ + elapsed;
+  }
+
+  /// Does the object move from then on, or its shape change? Real-time safe.
+  bool restless(std::uint32_t object, double elapsed = 0.0) const {
+    return objects_[object].motion.moves(elapsed) || objects_[object].shape->changes();
+  }
+
+  /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
+  Pose pose(std::uint32_t object, double elapsed) const;
+
+  /// How fast the object moves as a whole at a place then, m/s. Real-time safe.
+  Vector3 velocity(std::uint32_t object, double elapsed, const Vector3& place) const {
+    return velocity_at(pose(object, elapsed), objects_[object].motion, elapsed, place);
+  }
+
+  /// What contact arithmetic does not tell apart at a place on the object (in its frame). Real-time safe.
+  Tolerance tolerance_near(std::uint32_t object, const Vector3& place) const;
+
+  /// Everything the object can reach from its pose within the horizon, world frame.
+  Bounds object_bounds(std::uint32_t object) const;
+
+  /// The same in a frame that lies at `origin`, with the world's axes. Real-time safe.
+  Pose pose_in(const Vector3& origin, std::uint32_t object, double elapsed) const;
+
+  /// The object's index in this scene. Real-time safe.
+  std::optional<std::uint32_t> find(ObjectId id) const;
+
+  const std::vector<HapticObject>& objects() const { return objects_; }
+  /// The largest coordinate of what is limited, m; 1 where nothing is.
+  double extent() const { return extent_; }
+  /// What arithmetic with any coordinate of the scene does not tell apart.
+  Tolerance tolerance() const { return Tolerance::for_size(extent_); }
+  /// The moment of the poses, s, on the clock of shapes that change.
+  double moment() const { return moment_; }
+  /// Is any object restless?
+  bool moves() const { return moves_; }
+  /// The box around all limited objects; empty when there are none.
+  const Bounds& bounds() const { return bounds_; }
+  std::size_t bytes() const;
+
+ private:
+  HapticScene() = default;
+
+  std::vector<geometry::FloatBox> slot_boxes() const;
+  double size_near(std::uint32_t object, const Vector3& place) const;
+  void measure();
+
+  std::vector<HapticObject> objects_;
+  std::vector<std::uint32_t> order_;  // slot in the tree to object
+  std::vector<std::uint32_t> by_id_;  // objects in the order of their ids
+  std::vector<double> sizes_;         // how far each object reaches from its middle, m
+  geometry::BoxTree tree_;
+  double moment_ = 0.0;  // s
+  double extent_ = 1.0;  // m
+  Bounds bounds_;
+  bool moves_ = false;
+};
+
+}  // namespace icome::haptics

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "geometry/mesh/triangle_mesh.h"
+
+namespace icome::haptics {
+
+/// Which edges and corners of a triangle a sphere tip needs beside the faces. An edge or a corner is the
+/// nearest place of the surface to some position only where the surface is convex there, which on a scan half
+/// of the edges are and few of the corners; what several triangles share is one triangle's to hand out.
+/// Bit i: edge i, from corner i to the next; bit 3 + i: corner i.
+struct MeshFeatures {
+  std::uint8_t front;  // of a closed mesh that is touched from outside
+  std::uint8_t both;   // touched from both sides
+};
+
+/// The features of every triangle, in the mesh's order. Where triangles are too slender to tell, or more than
+/// two meet in an edge, all are kept. O(triangles) for meshes without extremely crowded vertices.
+std::vector<MeshFeatures> mesh_features(const geometry::TriangleMesh& mesh);
+
+}  // namespace icome::haptics

@@ -1,9 +1,0 @@
-#include "interaction/operations/shape_operations.h"
-
-namespace icome::interaction {
-
-std::vector<Operation> shape_operations() {
-  return {create_operation(), reshape_operation(), extrude_operation(), repeat_operation()};
-}
-
-}  // namespace icome::interaction

@@ -1,0 +1,36 @@
+#include "io/single.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace icome::io {
+
+double from_single(float value) {
+  // Whole numbers are very common, and exact as they are.
+  constexpr float kWhole = 1 << 24;
+  if (!std::isfinite(value) || (std::fabs(value) < kWhole && std::trunc(value) == value)) return value;
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double result = value;
+  std::from_chars(text.data(), end, result);
+  return result;
+}
+
+double from_short_single(float value) {
+  // So many places behind the point that at most one such number has this float nearest to it.
+  struct Magnitude {
+    float below;
+    double places;
+  };
+  constexpr std::array<Magnitude, 4> kMagnitudes{
+      {{16.0F, 1e6}, {128.0F, 1e5}, {1024.0F, 1e4}, {16384.0F, 1e3}}};
+  for (const auto& [below, places] : kMagnitudes) {
+    if (!(std::fabs(value) < below)) continue;
+    const double candidate = std::round(double(value) * places) / places;
+    return float(candidate) == value ? candidate : double(value);
+  }
+  return value;
+}
+
+}  // namespace icome::io

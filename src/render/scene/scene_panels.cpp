@@ -1,0 +1,90 @@
+#include "render/scene/scene_panels.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace icome::render {
+namespace {
+
+using base::Vector2;
+
+/// Bytes that are there, and a size that the driver takes.
+bool can_be_drawn(const SceneOverlay::Panel& panel) {
+  if (!panel.picture || !(panel.scale > 0.0) || !std::isfinite(panel.scale) || !(panel.alpha > 0.0))
+    return false;
+  const charts::Image& it = *panel.picture;
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  return it.width >= 1 && it.height >= 1 && it.width <= largest && it.height <= largest &&
+         it.rgba.size() == 4 * std::size_t(it.width) * std::size_t(it.height);
+}
+
+/// Pixels of the whole picture, from its lower left; nothing for what is behind the eye.
+std::optional<Vector2> place_of(const SceneOverlay::Panel& panel, const Camera& camera, const Vector2& size) {
+  if (!panel.at) return Vector2(panel.in_window.cwiseProduct(size));
+  const auto seen = project(camera, *panel.at);
+  if (!seen) return std::nullopt;
+  return Vector2(seen->x * size.x(), (1.0 - seen->y) * size.y());
+}
+
+}  // namespace
+
+unsigned ScenePanels::texture(const std::shared_ptr<const charts::Image>& picture) {
+  Entry& found = entries_[picture.get()];
+  // Another may have come to lie where one that is gone was.
+  if (found.picture.lock() != picture) {
+    found = {picture, GlObject(GlObject::Kind::Texture)};
+    glBindTexture(GL_TEXTURE_2D, found.texture.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 picture->rgba.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+  return found.texture.name();
+}
+
+base::Result<void> ScenePanels::draw(const SceneOverlay& overlay, const Camera& camera,
+                                     const SceneTarget& target, ScenePrograms& programs) {
+  std::erase_if(entries_, [](const auto& it) { return it.second.picture.expired(); });
+  if (overlay.panels.empty()) return {};
+  const auto program = programs.panel();
+  if (!program) return tl::unexpected(program.error());
+  const GlObject& name = (*program)->program;
+  glUseProgram(name.name());
+  set_uniform(name, "source", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindVertexArray(no_arrays_.name());
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const Vector2 part(target.width, target.height);
+  const PictureWindow& window = target.window;
+  const Vector2 whole = part.cwiseQuotient(Vector2(window.width, window.height));
+  const Vector2 corner = whole.cwiseProduct(Vector2(window.left, window.bottom));
+  for (const SceneOverlay::Panel& panel : overlay.panels) {
+    if (!can_be_drawn(panel)) continue;
+    const auto place = place_of(panel, camera, whole);
+    if (!place || !place->allFinite()) continue;
+    const Vector2 size = panel.scale * Vector2(panel.picture->width, panel.picture->height);
+    // On whole pixels, so that letters stay sharp.
+    const Vector2 low = (*place + panel.shift - panel.anchor.cwiseProduct(size)).array().round();
+    const Vector2 from = (low - corner).cwiseQuotient(0.5 * part) - Vector2::Ones();
+    const Vector2 to = (low + size - corner).cwiseQuotient(0.5 * part) - Vector2::Ones();
+    glBindTexture(GL_TEXTURE_2D, texture(panel.picture));
+    set_uniform(name, "alpha", float(std::min(panel.alpha, 1.0)));
+    glUniform4f(glGetUniformLocation(name.name(), "area"), float(from.x()), float(from.y()), float(to.x()),
+                float(to.y()));
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  glDisable(GL_BLEND);
+  return {};
+}
+
+}  // namespace icome::render

@@ -1,0 +1,85 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "interaction/navigation.h"
+#include "realtime/latest_value.h"
+#include "realtime/recorder.h"
+#include "render/scene/scene_renderer.h"
+#include "session/hands/pointer_view.h"
+
+namespace icome::session {
+
+/// How the main thread wants the world to be shown.
+struct DisplayWish {
+  interaction::View view = {};
+  render::SceneLook look = {};  // its passes: how many a view at rest is refined to
+  bool pointers = true;         // tips, surface contact points and forces are shown
+  /// From the scene to a copy of it that is drawn over it, when there is one.
+  std::optional<base::Affine3> miniature = {};
+  /// Written beside a hand whose force is held down, as the motors would become too warm; null: nothing is.
+  std::shared_ptr<const charts::Image> spared_sign = nullptr;
+  double marker_size = 0.004;  // share of the distance to the eye: radius of the tip's ball
+};
+
+/// What brings the world to the eye: the display thread asks it what to draw, and never waits for anybody.
+/// Knows no window; whoever has an OpenGL context draws with it (a window's thread, an off-screen one).
+class DisplayFeed {
+ public:
+  explicit DisplayFeed(std::size_t pointers);
+
+  // The main thread.
+  void wish(const DisplayWish& wish) { wish_.publish(wish); }
+  /// The frames drawn so far: how long each took, and when.
+  const realtime::LoopRecorder& recorder() const { return recorder_; }
+  std::uint64_t frames() const { return frames_.load(std::memory_order_acquire); }
+
+  // The thread that makes versions of the world for drawing.
+  void publish(const render::RenderScenePointer& scene) { scene_.publish(scene); }
+
+  // The servo thread. Real-time safe.
+  void publish(std::size_t pointer, const PointerView& view) { pointers_[pointer]->newest.publish(view); }
+
+  // The display thread.
+  /// Is there something to draw: news since the last frame, or a picture that can be refined? Call it before
+  /// draw().
+  bool is_due();
+  /// Draws the newest of all, or refines the last frame where there is no news, into the target.
+  base::Result<void> draw(render::SceneRenderer& renderer, const render::SceneTarget& target);
+  /// What is drawn next.
+  const render::RenderScenePointer& scene() const { return scene_.read(); }
+
+ private:
+  struct PointerBox {
+    realtime::LatestValue<PointerView> newest;
+    PointerView drawn;  // in the last frame
+  };
+
+  void take_news();
+  void take_wish();
+  void note_target(const render::SceneRenderer& renderer, const render::SceneTarget& target);
+  bool has_moved(const PointerView& before, const PointerView& now) const;
+  bool is_shown(const PointerView& pointer) const;
+  render::Camera camera(double aspect) const;
+  void add_markers(render::SceneOverlay& overlay) const;
+
+  realtime::LatestValue<DisplayWish> wish_;
+  realtime::LatestValue<render::RenderScenePointer> scene_;
+  std::vector<std::unique_ptr<PointerBox>> pointers_;
+  realtime::LoopRecorder recorder_;
+  std::atomic<std::uint64_t> frames_ = 0;
+
+  // The display thread's.
+  DisplayWish shown_ = {};                           // the newest wish
+  bool is_new_ = true;                               // another picture: what was refined is of no use
+  bool has_moved_ = false;                           // only what is drawn over the picture is another
+  int passes_ = 0;                                   // of this picture, so far
+  render::SceneTarget target_ = {};                  // the last
+  render::Matrix4 lens_ = render::Matrix4::Zero();   // of the last frame
+  const render::SceneRenderer* renderer_ = nullptr;  // the last; only compared
+};
+
+}  // namespace icome::session

@@ -1,0 +1,69 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/csg/csg_tree.h"
+#include "haptics/shapes/shape.h"
+#include "session/felt/rigid_part.h"
+#include "world/shape/geometry.h"
+
+namespace icome::session {
+
+/// What a tip must be told of before shapes are made for it.
+struct FeltSettings {
+  double tip_radius = 0.0;           // m; 0 is a point
+  bool interpolate_normals = false;  // of meshes, for force shading
+  /// Surfaces that change with time do so under the hand; else they are felt as they are at t = 0, as which
+  /// they are seen and picked.
+  bool with_time = false;
+  /// A mesh that needs no change to be felt is the shape's own, no copy: for who changes none in place.
+  bool shares_meshes = false;
+};
+
+/// A shape of the world as it is touched, stretched as its object is. Immutable; clones share it.
+struct FeltShape {
+  std::shared_ptr<const haptics::Shape> shape = nullptr;  // null: it cannot be touched
+  bool closed = true;                                     // it encloses a solid
+  bool exact = true;   // touched as what it is, also if that is a mesh; else as triangles of it
+  std::string remark;  // a clause about what cannot be touched or is not quite itself; empty: nothing
+  std::vector<std::string> repairs = {};  // what was put right in a mesh and what is still wrong: sentences
+
+  /// m, where the frame of what is felt lies in the felt frame: not at its origin where it has
+  /// coordinates far larger than itself.
+  base::Vector3 middle = base::Vector3::Zero();
+
+  // What it is, for those who judge or draw what was felt; at most one of the first three. In the frame of
+  // what is felt.
+  std::shared_ptr<const geometry::TriangleMesh> mesh = nullptr;
+  std::optional<geometry::Primitive> primitive = {};
+  std::shared_ptr<const geometry::CsgTree> solid = nullptr;
+  bool sound = false;  // the mesh is just the shape's own, which needed no repair
+  std::function<bool(const base::Vector3& point, double time)> inside = {};  // of a closed smooth surface
+  base::Matrix3 felt_from_geometry = base::Matrix3::Identity();              // the shape's own frame to that
+};
+using FeltShapePointer = std::shared_ptr<const FeltShape>;
+
+/// Where a shape is felt whose own frame lies in the world like that. What is not rigid about the place is
+/// in the shape, but for a half-space, whose image is one wherever it goes.
+struct FeltPlace {
+  base::Pose world_from_felt = base::Pose::Identity();
+  base::Matrix3 felt_from_geometry = base::Matrix3::Identity();
+};
+FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_from_geometry);
+
+/// The shape as it is felt. Exact where that is possible: a mesh's vertices go along with the place, so do
+/// control meshes and CSG trees; a primitive stays one where its stretched self is, and else becomes a CSG
+/// tree of one leaf. Only stretched implicit surfaces, shapes of one's own kinds, and, under a tip with a
+/// radius, what geometry::CsgOffset, geometry::ImplicitOffset and geometry::LoopOffset refuse are felt as
+/// triangles: 1/2000 of their size off at most, or sampled at 100 places along their longest side.
+///
+/// `before`, where given, is what was made of it with the same settings before an edit. A sound mesh whose
+/// vertices alone have moved follows it, many times as soon as one made anew: its surface stays as it was
+/// connected, and is repaired again when a triangle has lost its area.
+FeltShapePointer make_felt_shape(const world::Geometry& shape, const base::Matrix3& felt_from_geometry,
+                                 const FeltSettings& settings, const FeltShape* before = nullptr);
+
+}  // namespace icome::session

@@ -1,0 +1,97 @@
+#include "session/felt/felt_world.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace icome::session {
+namespace {
+
+constexpr double kShortestMoveTime = 0.008;  // s: well below what a thing takes to where it is put
+/// What moves is put elsewhere for at most a quarter of the time of one core.
+constexpr double kWorkShare = 3.0;
+
+}  // namespace
+
+FeltWorld::FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
+                     realtime::LatestValue<FeltVersion>& newest)
+    : felt_(settings),
+      clock_(settings.clock),
+      ahead_(settings.glide_seconds),
+      servos_(std::move(servos)),
+      newest_(newest) {}
+
+void FeltWorld::open(const world::World& world, world::SceneId shown) {
+  playback_ = {};
+  felt_.open(world, shown);
+  look_for_remarks(world);
+  publish();
+}
+
+void FeltWorld::show(const world::World& world, world::SceneId shown) {
+  felt_.show(playback_.shown(world), shown);
+  look_for_remarks(world);
+  publish();
+}
+
+void FeltWorld::follow(const world::World& world, const world::Changes& changes) {
+  const world::Changes all = playback_.follow(world, changes, played());
+  felt_.follow(playback_.shown(world), all);
+  // Looking goes through all objects, which what is dragged must not wait for.
+  if (!changes.geometries.empty() || !changes.materials.empty()) look_for_remarks(world);
+  publish();
+}
+
+void FeltWorld::play(const world::World& world, std::optional<double> since) {
+  played_since_ = since.value_or(0.0);
+  const world::Changes changes =
+      playback_.play(world, since ? std::optional<double>(played()) : std::nullopt);
+  felt_.follow(playback_.shown(world), changes);
+  publish();
+}
+
+/// How long motions will have been played when things are where they are put now.
+double FeltWorld::played() const { return clock_() + ahead_ - played_since_; }
+
+std::optional<std::chrono::nanoseconds> FeltWorld::pause(const world::World& /*world*/) const {
+  if (!playback_.moves()) return std::nullopt;
+  return std::chrono::nanoseconds(std::int64_t(1e9 * std::max(0.0, due_ - clock_())));
+}
+
+void FeltWorld::go_on(const world::World& world) {
+  const double now = clock_();
+  if (!playback_.moves() || now < due_) return;
+  const world::Changes moved = playback_.go_to(played());
+  if (!moved.objects.empty()) {
+    felt_.follow(playback_.shown(world), moved);
+    publish();
+  }
+  const double done = clock_();
+  due_ = done + std::max(kShortestMoveTime, kWorkShare * (done - now));
+}
+
+void FeltWorld::look_for_remarks(const world::World& world) {
+  std::vector<std::string> remarks = felt_.remarks(world);
+  if (remarks_ ? *remarks_ == remarks : remarks.empty()) return;
+  remarks_ = std::make_shared<const std::vector<std::string>>(std::move(remarks));
+}
+
+void FeltWorld::publish() {
+  if (felt_.effects() != published_effects_) {
+    published_effects_ = felt_.effects();
+    for (haptics::Servo* servo : servos_) servo->publish_effects(published_effects_);
+  }
+  FeltVersion version{felt_.scene(), felt_.names(), published_.capped, remarks_};
+  if (version.scene != published_.scene)
+    for (haptics::Servo* servo : servos_) servo->publish(version.scene);
+  auto capped = servos_.empty() ? std::vector<haptics::CappedEffect>() : servos_.front()->capped_effects();
+  if (!version.capped || *version.capped != capped)
+    version.capped = std::make_shared<const std::vector<haptics::CappedEffect>>(std::move(capped));
+  if (version.scene == published_.scene && version.names == published_.names &&
+      version.capped == published_.capped && version.remarks == published_.remarks)
+    return;
+  published_ = version;
+  newest_.publish(version);
+}
+
+}  // namespace icome::session

@@ -1,0 +1,59 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptics/servo/servo.h"
+#include "realtime/latest_value.h"
+#include "session/felt/haptic_representation.h"
+#include "session/follower.h"
+#include "session/playback.h"
+
+namespace icome::session {
+
+/// What can be touched, as others than the servo look at it.
+struct FeltVersion {
+  std::shared_ptr<const haptics::HapticScene> scene;
+  std::shared_ptr<const TouchedNames> names;
+  std::shared_ptr<const std::vector<haptics::CappedEffect>> capped =
+      nullptr;  // by the first pointer; null: none
+  /// Sentences on what is not felt, or not as it is.
+  std::shared_ptr<const std::vector<std::string>> remarks = nullptr;  // null: none
+};
+
+/// Keeps the world under the hand: brings each version of what can be touched to the servos of all pointers,
+/// and to main.
+class FeltWorld final : public Representation {
+ public:
+  /// The servos and the box outlive this; it alone publishes to them.
+  FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
+            realtime::LatestValue<FeltVersion>& newest);
+
+  void open(const world::World& world, world::SceneId shown) override;
+  void show(const world::World& world, world::SceneId shown) override;
+  void follow(const world::World& world, const world::Changes& changes) override;
+  void play(const world::World& world, std::optional<double> since) override;
+  std::optional<std::chrono::nanoseconds> pause(const world::World& world) const override;
+  void go_on(const world::World& world) override;
+
+ private:
+  double played() const;
+  void look_for_remarks(const world::World& world);
+  void publish();
+
+  HapticRepresentation felt_;
+  std::function<double()> clock_;
+  double ahead_;  // s, by which motions are felt ahead, as things take that long to where they are put
+  Playback playback_ = {};
+  double played_since_ = 0.0;  // s on the clock
+  double due_ = 0.0;           // s on the clock: when what moves is to be felt anew
+  std::vector<haptics::Servo*> servos_;
+  realtime::LatestValue<FeltVersion>& newest_;
+  FeltVersion published_ = {};
+  std::vector<haptics::PlacedEffect> published_effects_ = {};
+  std::shared_ptr<const std::vector<std::string>> remarks_ = nullptr;
+};
+
+}  // namespace icome::session

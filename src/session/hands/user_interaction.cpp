@@ -1,0 +1,200 @@
+#include "session/hands/user_interaction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace icome::session {
+namespace {
+
+using base::Pose;
+using base::Quaternion;
+using base::Vector3;
+using devices::DeviceStatus;
+using interaction::NavigationMode;
+using interaction::View;
+
+constexpr std::uint32_t kModeButton = 1U << 0;
+constexpr std::uint32_t kHomeButton = 1U << 1;
+constexpr double kLongestStep = 0.1;   // s: after a hang nobody should fly through a wall
+constexpr double kPatience = 0.25;     // s, for which a device that says nothing new is believed
+constexpr double kRecall = 0.1;        // s, in which most of a way back is done
+constexpr double kFarthestHand = 2.0;  // of the view's distance: what is further off is hardly in sight
+constexpr double kFarthestHead = 2.0;  // m
+
+/// The turn about the vertical that brings x to the picture's right: level also for views from straight
+/// above.
+Pose heading_of(const View& view) {
+  const auto axes = view.world_from_eye.linear();
+  Vector3 right(axes(0, 0), 0.0, axes(2, 0));
+  // Who lies on the side has the right above; what is up in the picture is then to the left.
+  if (right.norm() < 1e-6) right = Vector3(axes(0, 1), 0.0, axes(2, 1));
+  const double angle = std::atan2(-right.z(), right.x());
+  return Pose(Eigen::AngleAxisd(angle, Vector3::UnitY()));
+}
+
+bool is_rigid(const Pose& pose) {
+  return pose.matrix().allFinite() && pose.linear().isUnitary(1e-6) && pose.linear().determinant() > 0.0;
+}
+
+/// Part of the way to where the head is when nothing is known of it.
+Pose relaxed(const Pose& pose, double part) {
+  Pose result = Pose::Identity();
+  result.linear() = Quaternion(pose.linear()).slerp(part, Quaternion::Identity()).toRotationMatrix();
+  result.translation() = (1.0 - part) * pose.translation();
+  return result;
+}
+
+}  // namespace
+
+UserInteraction::UserInteraction(std::unique_ptr<devices::NavigationDevice> navigation,
+                                 std::unique_ptr<devices::HeadDevice> head)
+    : navigation_(std::move(navigation)), head_(std::move(head)) {
+  place();
+}
+
+void UserInteraction::set_view(const View& view) {
+  flight_.reset();
+  view_ = interaction::usable(view);
+  place();
+}
+
+void UserInteraction::fly_to(const View& view, double seconds) {
+  flight_.emplace(view_, view, seconds);
+  flown_for_ = 0.0;
+}
+
+void UserInteraction::carry(const Pose& by) {
+  if (!is_rigid(by)) return;
+  flight_.reset();
+  View view = view_;
+  view.world_from_eye = by * view.world_from_eye;
+  view_ = interaction::usable(view);
+  const Pose there = by * stage_from_device_;
+  const Pose heading = heading_of(view_);
+  const Vector3 offset = there.translation() - interaction::looked_at(view_);
+  hand_offset_ = heading.linear().transpose() * offset / view_.distance;
+  const Pose upright = heading * Eigen::AngleAxisd(hand_turn_, Vector3::UnitY());
+  hand_tilt_ = Quaternion(upright.linear().transpose() * there.linear()).normalized();
+  carried_ = true;
+  place();
+}
+
+/// Brings workspaces that were tilted back upright.
+void UserInteraction::right_hands(double dt) {
+  if (std::exchange(carried_, false)) return;
+  constexpr double kUpright = 1e-4;  // rad: cannot be seen
+  const double left = hand_tilt_.angularDistance(Quaternion::Identity());
+  if (left == 0.0) return;
+  hand_tilt_ = left < kUpright ? Quaternion::Identity()
+                               : hand_tilt_.slerp(1.0 - std::exp(-dt / kRecall), Quaternion::Identity());
+}
+
+UserInteraction::News UserInteraction::update(double dt) {
+  const double step = std::isfinite(dt) ? std::clamp(dt, 0.0, kLongestStep) : 0.0;
+  News news;
+  read_navigation(step, news);
+  read_head(step, news);
+  steer(step);
+  if (flight_) {
+    flown_for_ += step;
+    view_ = flight_->at(flown_for_);
+    if (flight_->over(flown_for_)) flight_.reset();
+  }
+  move_hands(step);
+  right_hands(step);
+  place();
+  return news;
+}
+
+void UserInteraction::note(const std::string& name, Presence& presence, DeviceStatus status, double dt,
+                           News& news) {
+  const bool there = status != DeviceStatus::Lost;
+  if (there && presence.asked && !presence.there)
+    news.devices.push_back({false, name + " is there and can be used."});
+  if (!there && presence.there) {
+    news.devices.push_back({true, name + " is gone. Plug it in again, or see whether its driver runs: it "
+                                         "will go on by itself."});
+  }
+  presence.asked = true;
+  presence.there = there;
+  presence.silent = status == DeviceStatus::Ok ? 0.0 : presence.silent + dt;
+}
+
+void UserInteraction::read_navigation(double dt, News& news) {
+  if (!navigation_) return;
+  const bool was_there = navigation_presence_.there;
+  devices::NavigationState state = steering_;
+  const DeviceStatus status = navigation_->read(state);
+  note(navigation_->name(), navigation_presence_, status, dt, news);
+  if (!state.push.allFinite() || !state.turn.allFinite()) state.push = state.turn = Vector3::Zero();
+  // Nobody holds it, as far as one can tell.
+  if (status == DeviceStatus::Lost || navigation_presence_.silent > kPatience)
+    state.push = state.turn = Vector3::Zero();
+  // Who plugs it in with a button down has not pressed it.
+  const std::uint32_t pressed = was_there ? state.buttons & ~steering_.buttons : 0U;
+  const bool other_mode = status == DeviceStatus::Ok && (pressed & kModeButton) != 0;
+  news.home = status == DeviceStatus::Ok && (pressed & kHomeButton) != 0;
+  steering_ = state;
+  if (other_mode) mode_ = mode_ == NavigationMode::Camera ? NavigationMode::Hand : NavigationMode::Camera;
+  if (news.home) recall_hands();
+}
+
+void UserInteraction::read_head(double dt, News& news) {
+  if (!head_) return;
+  Pose pose = user_from_head_;
+  const DeviceStatus status = head_->read(pose);
+  note(head_->name(), head_presence_, status, dt, news);
+  if (status == DeviceStatus::Ok && is_rigid(pose)) {
+    user_from_head_ = pose;
+    auto at = user_from_head_.translation();
+    at = at.cwiseMax(-kFarthestHead).cwiseMin(kFarthestHead).eval();
+  } else if (status == DeviceStatus::Lost) {
+    user_from_head_ = relaxed(user_from_head_, 1.0 - std::exp(-dt / kRecall));
+  }
+}
+
+void UserInteraction::steer(double dt) {
+  if (steering_.push.isZero(0.0) && steering_.turn.isZero(0.0)) return;
+  if (mode_ == NavigationMode::Hand) return;
+  flight_.reset();
+  view_ = interaction::flown(view_, steering_, dt);
+}
+
+void UserInteraction::move_hands(double dt) {
+  const bool moved = !steering_.push.isZero(0.0) || !steering_.turn.isZero(0.0);
+  if (mode_ == NavigationMode::Hand && moved) {
+    recalled_ = false;
+    const auto axes = [](const Vector3& it) { return Vector3(it.cwiseMax(-1.0).cwiseMin(1.0)); };
+    // As one sees it: also after the workspace was turned, right is right.
+    hand_offset_ += dt * axes(steering_.push);
+    hand_offset_ = hand_offset_.cwiseMax(-kFarthestHand).cwiseMin(kFarthestHand).eval();
+    hand_turn_ = std::remainder(hand_turn_ + 0.5 * std::numbers::pi * dt * axes(steering_.turn).y(),
+                                2.0 * std::numbers::pi);
+  }
+  if (!recalled_) return;
+  constexpr double kThere = 1e-4;  // of the view's distance, rad: cannot be seen
+  const double left = std::exp(-dt / kRecall);
+  hand_offset_ *= left;
+  hand_turn_ *= left;
+  if (hand_offset_.norm() + std::abs(hand_turn_) > kThere) return;
+  hand_offset_.setZero();
+  hand_turn_ = 0.0;
+  recalled_ = false;
+}
+
+void UserInteraction::place() {
+  const Pose heading = heading_of(view_);
+  stage_from_device_ = heading * Eigen::AngleAxisd(hand_turn_, Vector3::UnitY()) * hand_tilt_;
+  stage_from_device_.translation() =
+      interaction::looked_at(view_) + view_.distance * (heading.linear() * hand_offset_);
+  drawn_ = view_;
+  if (!head_) return;
+  Pose eye_from_head = user_from_head_;
+  eye_from_head.translation() *= view_.distance / kScreenDistance;
+  drawn_.world_from_eye = view_.world_from_eye * eye_from_head;
+  drawn_ = interaction::usable(drawn_);
+}
+
+}  // namespace icome::session

@@ -1,0 +1,37 @@
+#include "study/analysis/analysis.h"
+
+#include "study/analysis/analysis_parts.h"
+
+namespace icome::study {
+
+namespace {
+
+/// A question of which a hypothesis holds two answers against each other has the test of the hypothesis.
+void take_tests_of_hypotheses(const Study& study, Analysis& analysis) {
+  for (QuestionSummary& question : analysis.questions) {
+    if (question.dependent >= study.dependent.size()) continue;
+    for (const HypothesisResult& result : analysis.hypotheses) {
+      const Hypothesis& hypothesis = study.hypotheses[result.hypothesis];
+      if (hypothesis.test == Test::Binomial && hypothesis.dependent == study.dependent[question.dependent].id)
+        question.test = result.test;
+    }
+  }
+}
+
+}  // namespace
+
+Analysis analyse(const StudyData& data) {
+  Analysis analysis;
+  analysis.participants = summarise_participants(data);
+  analysis.tables = result_tables(data);
+  analysis.variances = analyse_variances(data);
+  analysis.correlations = correlate_quantities(data);
+  analysis.questions = summarise_questions(data);
+  analysis.hypotheses = test_hypotheses(data);
+  take_tests_of_hypotheses(data.study, analysis);
+  analysis.checks = check_assumptions(data);
+  analysis.warnings = warnings_of(data, analysis.participants);
+  return analysis;
+}
+
+}  // namespace icome::study

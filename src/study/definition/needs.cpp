@@ -1,0 +1,81 @@
+#include "study/definition/needs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace icome::study {
+namespace {
+
+// A row becomes available when the program can do it in a trial.
+constexpr std::array kCapabilities = {
+    Capability{"pointer", "a device that points in three dimensions, or the simulated hand", true},
+    Capability{"force-feedback", "a device that gives forces, or the simulated hand", true},
+    Capability{"head-tracking", "a device that tells where the head is", false},
+    Capability{"haptic-menu", "menus in the scene that are clicked or pushed", false},
+    Capability{"stereo", "a picture for each eye", false},
+    Capability{"speech", "commands that are spoken", false},
+};
+
+constexpr std::array<std::string_view, 5> kQuantities = {"time", "approach-time", "homing-time", "distance",
+                                                         "errors"};
+
+bool has_any(const std::vector<std::string>& needs, const std::vector<std::string>& of) {
+  return std::ranges::any_of(
+      needs, [&](const std::string& need) { return std::ranges::find(of, need) != of.end(); });
+}
+
+template <typename Part>
+void leave_out(std::vector<Part>& parts, const std::vector<std::string>& needs) {
+  std::erase_if(parts, [&](const Part& part) { return has_any(part.needs, needs); });
+}
+
+void add_unmet(const std::vector<std::string>& needs, const std::string& of, Place place,
+               std::vector<UnmetNeed>& unmet) {
+  for (const std::string& need : needs) {
+    const auto found = std::ranges::find(kCapabilities, need, &Capability::id);
+    if (found != kCapabilities.end() && found->available) continue;
+    const std::string_view what = found == kCapabilities.end() ? "what nobody knows" : found->what;
+    unmet.push_back({need, std::string(what), of, place});
+  }
+}
+
+}  // namespace
+
+std::span<const Capability> capabilities() { return kCapabilities; }
+
+std::span<const std::string_view> measured_quantities() { return kQuantities; }
+
+std::vector<UnmetNeed> unmet_needs(const Study& study) {
+  std::vector<UnmetNeed> unmet;
+  add_unmet(study.needs, "the study", study.needs_place, unmet);
+  for (const IndependentVariable& factor : study.independent)
+    for (const Level& level : factor.levels)
+      add_unmet(level.needs, std::string("level '").append(level.id).append("' of '") + factor.id + "'",
+                level.place, unmet);
+  for (const TrialScene& scene : study.trials.scenes)
+    add_unmet(scene.needs, std::string("scene '").append(scene.id).append("'"), scene.place, unmet);
+  return unmet;
+}
+
+base::Result<Study> without_needs(const Study& study, const std::vector<std::string>& needs) {
+  Study rest = study;
+  rest.without = needs;
+  for (const std::string& need : needs) {
+    std::erase(rest.needs, need);
+    for (const char letter : need) rest.hash = rest.hash * 0x100000001b3ULL ^ std::uint64_t(letter);
+  }
+  for (IndependentVariable& factor : rest.independent) {
+    leave_out(factor.levels, needs);
+    if (factor.levels.empty())
+      return base::fail(
+          fmt::format("no level of '{}' can be run without {}.", factor.id, fmt::join(needs, ", ")));
+  }
+  leave_out(rest.trials.scenes, needs);
+  if (rest.trials.scenes.empty() && !study.trials.scenes.empty())
+    return base::fail(fmt::format("no scene of the study can be run without {}.", fmt::join(needs, ", ")));
+  return rest;
+}
+
+}  // namespace icome::study

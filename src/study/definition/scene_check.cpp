@@ -1,0 +1,187 @@
+#include "study/definition/scene_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "study/definition/scene_reader.h"
+#include "study/definition/study_parts.h"
+#include "study/definition/trial_goal.h"
+
+namespace icome::study {
+namespace {
+
+constexpr std::size_t kMostDraws = 500;      // looked at in a scene
+constexpr std::size_t kMostThingsTold = 10;  // in a sentence
+
+bool is_practised(const Trials& trials) { return trials.practice > 0 || trials.criterion.has_value(); }
+
+/// The trial variables that change which things are meant: places in Trials::variables.
+std::vector<std::size_t> variables_of_names(const Study& study) {
+  std::set<std::string> ids;
+  const auto add = [&](const std::string& name) {
+    for (std::string& id : variables_in(name)) ids.insert(std::move(id));
+  };
+  add(study.task->target);
+  add(study.task->wrong);
+  for (const std::string& name : study.task->shown) add(name);
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < study.trials.variables.size(); ++i)
+    if (ids.contains(study.trials.variables[i].id)) places.push_back(i);
+  return places;
+}
+
+/// The values that may be drawn for a trial, one vector a draw, as far as they change which things are meant.
+/// Where there are too many, each value is there at least with some of the others.
+std::vector<std::vector<std::size_t>> possible_draws(const Study& study) {
+  const auto& variables = study.trials.variables;
+  const std::vector<std::size_t> changed = variables_of_names(study);
+  std::size_t count = 1, longest = 1;
+  for (const std::size_t place : changed) {
+    count = std::min(count * variables[place].values.size(), kMostDraws + 1);
+    longest = std::max(longest, variables[place].values.size());
+  }
+  const bool all = count <= kMostDraws;
+  std::vector<std::vector<std::size_t>> draws(all ? count : std::min(longest, kMostDraws),
+                                              std::vector<std::size_t>(variables.size(), 0));
+  for (std::size_t draw = 0; draw < draws.size(); ++draw) {
+    std::size_t rest = draw;
+    for (const std::size_t place : changed) {
+      const std::size_t values = variables[place].values.size();
+      draws[draw][place] = rest % values;
+      if (all) rest /= values;
+    }
+  }
+  return draws;
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string all;
+  std::size_t told = 0;
+  for (const std::string& name : names) {
+    if (told++ == kMostThingsTold) return all + fmt::format(" and {} more", names.size() - kMostThingsTold);
+    all += fmt::format("{}'{}'", all.empty() ? "" : ", ", name);
+  }
+  return all;
+}
+
+/// As a sentence ends; messages that files and lines begin do not.
+std::string ended(const std::string& message) { return message.ends_with('.') ? message : message + "."; }
+
+/// Goes through the scenes and the trials that may take place in each.
+class SceneChecker {
+ public:
+  SceneChecker(const Study& study, const std::filesystem::path& folder, StudyCheck& check)
+      : study_(study), folder_(folder), check_(check), reader_(study, folder) {
+    if (study.task) draws_ = possible_draws(study);
+  }
+
+  void go() {
+    const Trials& trials = study_.trials;
+    for (std::size_t i = 0; i < trials.scenes.size(); ++i) {
+      TrialPlan plan;
+      plan.scene = i;
+      if (is_there(trials.scenes[i])) look_into(trials.scenes[i], plan);
+    }
+    // The practice scene goes into the data even where nobody practises.
+    if (trials.practice_scene && is_there(*trials.practice_scene) && is_practised(trials)) {
+      TrialPlan plan;
+      plan.practice = true;
+      look_into(*trials.practice_scene, plan);
+    }
+    check_wrong();
+  }
+
+ private:
+  void refuse(const TrialScene& scene, Place place, const std::string& why) {
+    refused_ = true;
+    check_.reasons.push_back({place, fmt::format("scene '{}': {}", scene.id, why)});
+  }
+
+  bool is_there(const TrialScene& scene) {
+    if (scene.file.empty()) return false;
+    std::error_code failed;
+    if (std::filesystem::is_regular_file(folder_ / scene.file, failed)) return true;
+    refuse(scene, scene.place, fmt::format("there is no file {} beside the study.", scene.file));
+    return false;
+  }
+
+  void look_into(const TrialScene& scene, TrialPlan plan) {
+    const auto& world = reader_.whole(scene.file);
+    if (!world) return refuse(scene, scene.place, ended(world.error().message));
+    if (!study_.task) return;
+    looked_ = true;
+    std::string why;             // of the first draw that has no goal
+    std::set<std::string> none;  // targets of those that follow
+    for (const std::vector<std::size_t>& draw : draws_) {
+      plan.values = draw;
+      const auto goal = goal_of(plan);
+      if (goal) {
+        wrong_found_ |= std::ranges::any_of(goal->things, &Thing::wrong);
+        continue;
+      }
+      if (why.empty())
+        why = goal.error().message;
+      else
+        none.insert(name_in_trial(study_, plan, study_.task->target));
+    }
+    if (!none.empty()) why += fmt::format(" Trials with {} as the target have none either.", listed(none));
+    if (!why.empty()) refuse(scene, study_.task->place, why);
+    check_shown(scene, *world);
+  }
+
+  /// Groups and conditions change how things are chosen, not which they are: any will do.
+  base::Result<TrialGoal> goal_of(const TrialPlan& plan) {
+    const auto world = reader_.in_trial(plan);
+    if (!world) return tl::unexpected(world.error());
+    return trial_goal(study_, {}, plan, *world);
+  }
+
+  void check_shown(const TrialScene& scene, const world::World& world) {
+    std::set<std::string> names, missing;
+    for (const auto& [id, object] : world.objects()) names.insert(object.name);
+    for (const std::vector<std::size_t>& draw : draws_) {
+      TrialPlan plan;
+      plan.values = draw;
+      for (const std::string& shown : study_.task->shown) {
+        std::string name = name_in_trial(study_, plan, shown);
+        if (!names.contains(name)) missing.insert(std::move(name));
+      }
+    }
+    if (missing.empty()) return;
+    check_.warnings.push_back(
+        {study_.task->place,
+         fmt::format("scene '{}': the task shows {}, and nothing in the scene is called so.", scene.id,
+                     listed(missing))});
+  }
+
+  void check_wrong() {
+    // Where a target is missing the reasons say so, and what is wrong cannot be told.
+    if (!study_.task || refused_ || !looked_) return;
+    const std::string& wrong = study_.task->wrong;
+    if (wrong.empty() || wrong == "*" || wrong_found_) return;
+    check_.warnings.push_back(
+        {study_.task->place,
+         fmt::format("choosing '{}' is an error, and no scene has things called so beside the target: there "
+                     "will be no errors.",
+                     wrong)});
+  }
+
+  const Study& study_;
+  const std::filesystem::path& folder_;
+  StudyCheck& check_;
+  SceneReader reader_;
+  std::vector<std::vector<std::size_t>> draws_;  // see possible_draws()
+  bool looked_ = false;                          // into a scene at least
+  bool refused_ = false;                         // one at least
+  bool wrong_found_ = false;                     // in any
+};
+
+}  // namespace
+
+void check_scenes(const Study& study, const std::filesystem::path& folder, StudyCheck& check) {
+  SceneChecker(study, folder, check).go();
+}
+
+}  // namespace icome::study

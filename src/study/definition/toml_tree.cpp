@@ -1,0 +1,108 @@
+#include "study/definition/toml_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+// toml++ 3.3 asserts that a key begins behind every '[', where "[=" and "[[[" are only bad TOML, which it
+// tells of itself a few lines later; without assertions it even has the compiler rely on it.
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(expression) static_cast<void>(0)
+#define TOML_HEADER_ONLY 1
+#define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
+
+namespace icome::study {
+namespace {
+
+Place place_of(const toml::source_region& region) { return {region.begin.line, region.begin.column}; }
+
+TomlNode node_of(const toml::node& source);
+
+void add_members(const toml::table& table, TomlNode& node) {
+  for (const auto& [key, value] : table)
+    node.members.push_back({std::string(key.str()), place_of(key.source()), node_of(value)});
+  // The library sorts by name; errors read better in the order of the file.
+  std::ranges::stable_sort(node.members, [](const TomlMember& a, const TomlMember& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+}
+
+/// The library bounds how deep values may lie in each other, and with it this recursion.
+TomlNode node_of(const toml::node& source) {
+  TomlNode node;
+  node.place = place_of(source.source());
+  if (const toml::table* const table = source.as_table()) {
+    add_members(*table, node);
+  } else if (const toml::array* const array = source.as_array()) {
+    node.kind = TomlNode::Kind::Array;
+    for (const toml::node& element : *array) node.elements.push_back(node_of(element));
+  } else if (const auto* const text = source.as_string()) {
+    node.kind = TomlNode::Kind::String;
+    node.text = text->get();
+  } else if (const auto* const boolean = source.as_boolean()) {
+    node.kind = TomlNode::Kind::Boolean;
+    node.boolean = boolean->get();
+  } else if (source.is_number()) {
+    node.kind = TomlNode::Kind::Number;
+    node.number =
+        source.is_integer() ? double(source.as_integer()->get()) : source.as_floating_point()->get();
+  } else {
+    node.kind = TomlNode::Kind::Date;
+  }
+  return node;
+}
+
+/// Every value with its length before it, so that no two trees give the same bytes.
+void write_canonical(const TomlNode& node, std::string& out) {
+  const auto write_text = [&](char mark, const std::string& text) {
+    out += fmt::format("{}{}:{}", mark, text.size(), text);
+  };
+  switch (node.kind) {
+    case TomlNode::Kind::String:
+      return write_text('t', node.text);
+    case TomlNode::Kind::Number:
+      return write_text('n', fmt::format("{}", node.number));
+    case TomlNode::Kind::Boolean:
+      return write_text('b', node.boolean ? "1" : "0");
+    case TomlNode::Kind::Date:
+      return write_text('d', "");
+    case TomlNode::Kind::Array:
+      break;
+    case TomlNode::Kind::Table:
+      break;
+  }
+  out += fmt::format("{}{}:", node.kind == TomlNode::Kind::Array ? 'a' : 'o',
+                     node.elements.size() + node.members.size());
+  for (const TomlNode& element : node.elements) write_canonical(element, out);
+  std::vector<const TomlMember*> sorted;
+  for (const TomlMember& member : node.members) sorted.push_back(&member);
+  std::ranges::sort(sorted, {}, &TomlMember::key);
+  for (const TomlMember* const member : sorted) {
+    write_text('k', member->key);
+    write_canonical(member->value, out);
+  }
+}
+
+}  // namespace
+
+base::Result<TomlNode> parse_toml(std::string_view text, const std::string& source) {
+  const toml::parse_result parsed = toml::parse(text, source);
+  if (parsed) return node_of(parsed.table());
+  const Place place = place_of(parsed.error().source());
+  return base::fail(fmt::format("{}:{}:{}: this is not TOML: {}", source, place.line, place.column,
+                                parsed.error().description()));
+}
+
+std::uint64_t toml_hash(const TomlNode& node) {
+  std::string bytes;
+  write_canonical(node, bytes);
+  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return hash;
+}
+
+}  // namespace icome::study

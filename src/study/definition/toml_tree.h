@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "study/definition/study.h"
+
+namespace icome::study {
+
+struct TomlMember;
+
+/// A value of a TOML file and where it stands.
+struct TomlNode {
+  enum class Kind : std::uint8_t { Table, Array, String, Number, Boolean, Date };
+  Kind kind = Kind::Table;
+  Place place;
+  std::string text;
+  double number = 0.0;
+  bool boolean = false;
+  std::vector<TomlNode> elements;
+  std::vector<TomlMember> members;  // as they stand in the file
+};
+
+struct TomlMember {
+  std::string key;
+  Place place;  // of the key
+  TomlNode value;
+};
+
+/// Reads TOML 1.0. Fails with the source, line and column of what is no TOML.
+base::Result<TomlNode> parse_toml(std::string_view text, const std::string& source);
+
+/// The same for files that say the same: comments, layout, the order of keys and how numbers are spelled do
+/// not count.
+std::uint64_t toml_hash(const TomlNode& node);
+
+}  // namespace icome::study

@@ -1,0 +1,156 @@
+#include "study/definition/trial_goal.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "study/definition/conditions.h"
+#include "study/definition/study_parts.h"
+
+namespace icome::study {
+namespace {
+
+double distance(const base::Bounds& bounds, const base::Vector3& point) {
+  return bounds.exteriorDistance(point);
+}
+
+/// The names of an object and of all that it is part of, its own first.
+std::vector<std::string> names_of(const world::World& world, world::ObjectId id) {
+  std::vector<std::string> names;
+  for (const world::PhysicalObject* object = world.find(id); object != nullptr;
+       object = world.find(object->parent))
+    if (!object->name.empty()) names.push_back(object->name);
+  return names;
+}
+
+bool any_meant(const std::string& pattern, const std::vector<std::string>& names) {
+  return std::ranges::any_of(names, [&](const std::string& name) { return is_meant(pattern, name); });
+}
+
+/// Objects with a shape, in the order that people see.
+std::vector<world::ObjectId> shaped_objects(const world::World& world) {
+  std::vector<world::ObjectId> shaped;
+  for (const world::ObjectId root : world.roots())
+    for (const world::ObjectId id : world::subtree(world, root))
+      if (world.find(id)->geometry) shaped.push_back(id);
+  return shaped;
+}
+
+/// What the levels of a crossing change.
+void apply_levels(const Study& study, bool between, std::size_t crossing, TrialGoal& goal) {
+  const auto factors = factors_of(study, between);
+  const Crossing levels = crossings(study, between)[crossing];
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const Level& level = factors[i]->levels[levels[i]];
+    goal.choosing = level.choosing.value_or(goal.choosing);
+    goal.forces = level.forces.value_or(goal.forces);
+  }
+}
+
+/// The name with a variable in braces replaced.
+std::string with_value(const std::string& name, const std::string& variable, const std::string& value) {
+  const std::string braced = fmt::format("{{{}}}", variable);
+  std::string full;
+  std::size_t from = 0;
+  for (std::size_t at = name.find(braced); at != std::string::npos; at = name.find(braced, from)) {
+    full.append(name, from, at - from).append(value);
+    from = at + braced.size();
+  }
+  return full.append(name, from);
+}
+
+base::Error no_target(const std::string& target, const std::vector<Thing>& things) {
+  std::set<std::string> names;
+  for (const Thing& thing : things) names.insert(thing.name);
+  const std::string all = fmt::format("{}", fmt::join(names, ", "));
+  return {fmt::format("the task's target is '{}', and nothing in the scene is called so; there {}.", target,
+                      all.empty() ? "is nothing with a name" : fmt::format("are {}", all))};
+}
+
+}  // namespace
+
+double TrialGoal::distance_to_vicinity(const base::Vector3& tip) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Thing& thing : things)
+    if (thing.target || (thing.wrong && choosing != Choosing::Touch))
+      least = std::min(least, distance(thing.bounds, tip));
+  return least;
+}
+
+int TrialGoal::nearest(const base::Vector3& tip) const {
+  int best = -1;
+  double least = near;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (!things[i].target && !things[i].wrong) continue;
+    const double far = distance(things[i].bounds, tip);
+    if (far > least || (far == least && best >= 0)) continue;
+    least = far;
+    best = int(i);
+  }
+  return best;
+}
+
+std::string name_in_trial(const Study& study, const TrialPlan& plan, const std::string& name) {
+  std::string full = name;
+  for (std::size_t i = 0; i < study.trials.variables.size(); ++i)
+    full =
+        with_value(full, study.trials.variables[i].id, study.trials.variables[i].values[plan.values[i]].id);
+  return full;
+}
+
+bool is_meant(const std::string& pattern, const std::string& name) {
+  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+std::vector<world::ObjectId> hidden_things(const Study& study, const TrialPlan& plan,
+                                           const world::World& world) {
+  std::vector<world::ObjectId> hidden;
+  if (!study.task) return hidden;
+  for (const std::string& shown : study.task->shown) {
+    std::string family = shown;
+    for (const std::string& variable : variables_in(shown)) family = with_value(family, variable, "*");
+    const std::string one = name_in_trial(study, plan, shown);
+    for (const auto& [id, object] : world.objects())
+      if (is_meant(family, object.name) && object.name != one) hidden.push_back(id);
+  }
+  std::ranges::sort(hidden);
+  return hidden;
+}
+
+base::Result<TrialGoal> trial_goal(const Study& study, const Participant& participant, const TrialPlan& plan,
+                                   const world::World& world) {
+  if (!study.task) return base::fail("the study has no [task]: nothing says what is to be done in a trial.");
+  const Task& task = *study.task;
+  const TrialScene* const scene = scene_of(study, plan);
+  TrialGoal goal;
+  goal.choosing = task.choosing;
+  goal.forces = task.forces;
+  goal.start = scene != nullptr && scene->start ? *scene->start : task.start;
+  goal.near = task.near;
+  goal.depth = task.depth;
+  goal.vicinity = task.vicinity;
+  goal.limit = task.limit;
+  goal.hold = study.trials.hold;
+  apply_levels(study, true, participant.group, goal);
+  apply_levels(study, false, plan.condition, goal);
+  const std::string target = name_in_trial(study, plan, task.target);
+  const std::string wrong = name_in_trial(study, plan, task.wrong);
+  for (const world::ObjectId id : shaped_objects(world)) {
+    const auto names = names_of(world, id);
+    Thing thing;
+    thing.name = names.empty() ? std::string() : names.front();
+    thing.bounds = world::bounds(world, id);
+    thing.target = any_meant(target, names);
+    thing.wrong = !thing.target && (task.wrong == "*" || any_meant(wrong, names));
+    thing.object = id;
+    goal.things.push_back(std::move(thing));
+  }
+  if (std::ranges::none_of(goal.things, &Thing::target))
+    return tl::unexpected(no_target(target, goal.things));
+  return goal;
+}
+
+}  // namespace icome::study

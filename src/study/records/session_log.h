@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "study/records/data_folder.h"
+#include "study/records/disk.h"
+#include "study/records/phenotypes.h"
+#include "study/records/study_folder.h"
+
+namespace icome::study {
+
+/// What a folder that is open shares with the sessions in it.
+struct OpenFolder {
+  StudyFolder folder;
+  /// What those have answered whose sessions are over, so that it is read once. Used under the folder's lock.
+  std::unordered_map<std::string, Progress> over;
+};
+
+/// Brings the tables of all answers up to date.
+base::Result<void> update_phenotypes(OpenFolder& open);
+
+struct SessionLog::Parts {
+  std::shared_ptr<OpenFolder> open;
+  Participant participant;
+  FileLock lock;
+  AppendFile trials, events;
+  Progress progress;
+  std::vector<std::string> notices;
+
+  /// Opens what is on record, and puts right what an end of the program has left half done.
+  static base::Result<std::unique_ptr<Parts>> create(std::shared_ptr<OpenFolder> open,
+                                                     const Participant& participant);
+};
+
+}  // namespace icome::study

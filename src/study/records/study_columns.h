@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "study/definition/study.h"
+#include "study/records/tsv.h"
+
+namespace icome::study {
+
+/// In the first language of the study; empty where there is none.
+inline std::string first_text(const Text& text) { return text.empty() ? std::string() : text.front(); }
+
+/// What the levels of a variable are called in tables.
+inline std::vector<std::string> level_ids(const std::vector<Level>& levels) {
+  std::vector<std::string> ids;
+  for (const Level& level : levels) ids.push_back(level.id);
+  return ids;
+}
+
+/// With what they mean.
+inline std::vector<ColumnLevel> column_levels(const std::vector<Level>& levels) {
+  std::vector<ColumnLevel> result;
+  for (const Level& level : levels) result.push_back({level.id, first_text(level.name)});
+  return result;
+}
+
+/// The column of a factor, or of a variable of trials.
+inline Column level_column(const std::string& id, const Text& name, const std::vector<Level>& levels) {
+  return {id, first_text(name), "", column_levels(levels), true};
+}
+
+}  // namespace icome::study

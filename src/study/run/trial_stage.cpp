@@ -1,0 +1,280 @@
+#include "study/run/trial_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "interaction/object_edits.h"
+#include "study/run/trial_watch.h"
+
+namespace icome::study {
+namespace {
+
+using session::SessionEvent;
+
+const charts::Colour kStartColour{0.10, 0.45, 0.95};
+constexpr double kStartRadius = 0.006;           // m
+const base::Vector3 kTowardEye(0.0, 0.25, 1.0);  // from the front, a little above
+constexpr double kHeldApart = 0.002;             // m, as far as the mouse's hand is let go astray
+
+double seconds(std::int64_t nanoseconds) { return double(nanoseconds) * 1e-9; }
+
+}  // namespace
+
+struct TrialStage::Parts {
+  Parts(session::Session& where, const Study& what, std::filesystem::path beside, Participant who)
+      : session(where), study(what), folder(std::move(beside)), participant(std::move(who)) {}
+
+  session::Session& session;
+  const Study& study;
+  std::filesystem::path folder;
+  Participant participant;
+
+  State state = State::Idle;
+  TrialPlan plan;
+  std::filesystem::path loaded;  // what is on the stage; empty: nothing of ours
+  std::filesystem::path loading;
+  std::vector<SessionEvent> events;
+  session::DisplayWish look;
+  std::optional<TrialWatch> watch;
+  std::map<world::ObjectId, int> thing_numbers;
+  std::int64_t began = 0;  // ns, the first tick
+  std::uint64_t lost_before = 0;
+  bool beep = false;
+  bool hides = false;  // things are tried to be away
+  TrialMeasures measures;
+  Trace trace;
+  std::string why;
+
+  void fail(const std::string& reason);
+  void load();
+  void hear(const SessionEvent& event);
+  void begin_seeking();
+  void hide_things();
+  void bring_back();
+  void show_start();
+  void light(int thing);
+  void take_ticks();
+  void take_tick(const session::PointerView& tick, const session::TouchedNames& names);
+  void hold();
+  void release();
+  void end();
+  void leave();
+};
+
+TrialStage::TrialStage(session::Session& session, const Study& study, std::filesystem::path folder,
+                       const Participant& participant)
+    : parts_(std::make_unique<Parts>(session, study, std::move(folder), participant)) {
+  session::GrabSettings settings = session.grab();
+  settings.takes_hold = false;
+  session.set_grab(settings);
+}
+
+TrialStage::~TrialStage() { stop(); }
+
+void TrialStage::set_look(const session::DisplayWish& look) {
+  parts_->look = look;
+  parts_->show_start();
+}
+
+void TrialStage::begin(const TrialPlan& plan) {
+  stop();  // with the things of the trial before back, which nobody is to see
+  parts_->plan = plan;
+  parts_->load();
+}
+
+void TrialStage::stop() {
+  parts_->leave();
+  parts_->bring_back();
+  parts_->state = State::Idle;
+}
+
+/// What a trial has changed of the session is as before.
+void TrialStage::Parts::leave() {
+  session.trace(false);
+  session.hold_pointer({});
+  session.give_forces(true);
+  light(-1);
+  watch.reset();
+  show_start();
+}
+
+void TrialStage::Parts::fail(const std::string& reason) {
+  leave();
+  state = State::Failed;
+  why = reason;
+}
+
+void TrialStage::Parts::load() {
+  const TrialScene* const scene = scene_of(study, plan);
+  if (scene == nullptr || scene->file.empty())
+    return fail(
+        "No scene file says where this trial takes place: write one in the study file, as file = "
+        "\"room.wrl\".");
+  loading = folder / scene->file;
+  state = State::Loading;
+  if (loading == loaded) return begin_seeking();
+  loaded.clear();
+  session.open(loading);
+}
+
+void TrialStage::Parts::hear(const SessionEvent& event) {
+  if (event.kind == SessionEvent::Kind::DeviceLost && state > State::Loading && state < State::Over)
+    return fail(event.text);
+  if (state != State::Loading) return;
+  if (event.kind == SessionEvent::Kind::OpenFailed) fail(event.text);
+  if (event.kind != SessionEvent::Kind::Opened) return;
+  loaded = loading;
+  begin_seeking();
+}
+
+void TrialStage::Parts::begin_seeking() {
+  hide_things();
+  auto goal = trial_goal(study, participant, plan, session.world());
+  if (!goal) return fail(goal.error().message);
+  session.settle();
+  thing_numbers.clear();
+  trace = {};
+  for (const Thing& thing : goal->things) {
+    thing_numbers[thing.object] = int(trace.things.size());
+    trace.things.push_back(thing.name);
+  }
+  trace.rate_hz = session.servo().rate_hz;
+  trace.device = session.pointer_info(0).name;
+  base::Bounds all;
+  for (const Thing& thing : goal->things) all.extend(thing.bounds);
+  all.extend(goal->start);
+  session.set_view(
+      interaction::fitted(session.view(), all, kTowardEye, base::Vector3::UnitY(), session.aspect()));
+  watch.emplace(std::move(*goal));
+  session.take_trace();  // what is left of another trial
+  lost_before = session.take_trace().lost;
+  session.trace(true);
+  began = 0;
+  state = State::Seeking;
+  show_start();
+}
+
+void TrialStage::Parts::hide_things() {
+  const auto hidden = hidden_things(study, plan, session.world());
+  if (hidden.empty()) return;
+  const auto done = session.try_out(interaction::delete_objects(session.world(), hidden), "Trial");
+  hides = done.has_value();
+  if (!done) fail(done.error().message);
+}
+
+void TrialStage::Parts::bring_back() {
+  if (std::exchange(hides, false)) (void)session.take_back();
+}
+
+/// A ball at the start while it is sought.
+void TrialStage::Parts::show_start() {
+  session::DisplayWish wish = look;
+  if (state == State::Seeking && watch)
+    wish.look.overlay.balls.push_back({watch->goal().start, kStartRadius, kStartColour});
+  session.set_look(wish);
+}
+
+void TrialStage::Parts::light(int thing) {
+  std::vector<world::ObjectId> lit;
+  if (watch && thing >= 0) lit.push_back(watch->goal().things[std::size_t(thing)].object);
+  if (session.selection() != lit) session.select(lit);
+}
+
+TrialStage::State TrialStage::update() {
+  for (SessionEvent& event : parts_->session.update()) {
+    parts_->hear(event);
+    parts_->events.push_back(std::move(event));
+  }
+  if (parts_->watch && parts_->state != State::Over) parts_->take_ticks();
+  return parts_->state;
+}
+
+void TrialStage::Parts::take_ticks() {
+  const session::Session::Ticks taken = session.take_trace();
+  // What is lost before the pointer is caught is not kept anyway.
+  if (watch->state() == TrialWatch::State::Seeking) lost_before = taken.lost;
+  if (taken.lost > lost_before)
+    return fail("The computer was too busy to keep every movement: the trial has to be done again.");
+  for (const session::PointerView& tick : taken.ticks)
+    if (watch->state() != TrialWatch::State::Over) take_tick(tick, *taken.names);
+  if (watch->is_due()) release();
+  if (watch->state() == TrialWatch::State::Over) return end();
+  if (state == State::Seeking || state == State::Holding) hold();
+  light(watch->lit());
+}
+
+void TrialStage::Parts::take_tick(const session::PointerView& tick, const session::TouchedNames& names) {
+  if (tick.status == devices::DeviceStatus::Lost) return;  // update() hears of it
+  if (began == 0) began = tick.time;
+  Sample sample;
+  sample.time = seconds(tick.time - began);
+  sample.tip = tick.tip;
+  sample.orientation = tick.orientation;
+  sample.scp = tick.scp;
+  sample.force = tick.force;
+  sample.buttons = tick.buttons;
+  if (tick.touching) {
+    const auto object = names.object(tick.touched);
+    const auto number = object ? thing_numbers.find(*object) : thing_numbers.end();
+    if (number != thing_numbers.end()) sample.touched = number->second;
+  }
+  const TrialWatch::State before = watch->state();
+  if (watch->step(sample) == before) return;
+  if (watch->state() == TrialWatch::State::Holding) {
+    state = State::Holding;
+    session.hold_pointer(watch->goal().start);
+  } else if (watch->state() == TrialWatch::State::Seeking) {
+    state = State::Seeking;
+    session.hold_pointer({});
+  }
+  show_start();
+}
+
+/// A mouse does not find a place in three dimensions, and its hand would pull stronger than a device may: it
+/// is put there, and back, also where a new view has carried it away.
+void TrialStage::Parts::hold() {
+  const base::Vector3& start = watch->goal().start;
+  if (session.is_mouse_driven() && (session.pointer(0).tip - start).norm() > kHeldApart)
+    session.put_hand(start);
+}
+
+void TrialStage::Parts::release() {
+  if (state == State::Running) return;  // the tick that starts it is still to come
+  // Springs hold the pointer in all conditions alike; what the condition has of forces begins now.
+  session.hold_pointer({});
+  session.give_forces(watch->goal().forces);
+  watch->release();
+  state = State::Running;
+  beep = study.trials.beep;
+}
+
+void TrialStage::Parts::end() {
+  trace.samples = watch->samples();
+  measures = watch->measures();
+  leave();
+  state = State::Over;
+}
+
+TrialStage::State TrialStage::state() const { return parts_->state; }
+
+std::vector<SessionEvent> TrialStage::take_events() { return std::exchange(parts_->events, {}); }
+
+bool TrialStage::take_beep() { return std::exchange(parts_->beep, false); }
+
+double TrialStage::hold_left() const { return parts_->watch ? parts_->watch->hold_left() : 0.0; }
+
+base::Vector3 TrialStage::start() const {
+  return parts_->watch ? parts_->watch->goal().start : base::Vector3(base::Vector3::Zero());
+}
+
+const TrialMeasures& TrialStage::measures() const { return parts_->measures; }
+
+const Trace& TrialStage::trace() const { return parts_->trace; }
+
+const std::string& TrialStage::why() const { return parts_->why; }
+
+}  // namespace icome::study

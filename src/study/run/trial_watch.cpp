@@ -1,0 +1,118 @@
+#include "study/run/trial_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace icome::study {
+namespace {
+
+constexpr double kCatch = 0.01;  // m
+constexpr double kLose = 0.02;   // m
+/// Who loses a thing for less than this and touches it again touches it once: hands bounce.
+constexpr double kBounce = 0.25;  // s
+
+/// What is less than a microsecond or a micrometre is noise of adding up.
+double in_millionths(double value) { return std::round(value * 1e6) / 1e6; }
+
+}  // namespace
+
+double TrialWatch::hold_left() const {
+  return state_ == State::Holding ? std::max(0.0, goal_.hold - (now_ - caught_)) : 0.0;
+}
+
+TrialWatch::State TrialWatch::step(const Sample& tick) {
+  now_ = tick.time;
+  if (state_ == State::Seeking && (tick.tip - goal_.start).norm() <= kCatch) {
+    state_ = State::Holding;
+    caught_ = now_;
+  }
+  // Springs are only so strong: who pulls the pointer away brings it back.
+  if (state_ == State::Holding && !released_ && (tick.tip - goal_.start).norm() > kLose) {
+    state_ = State::Seeking;
+    samples_.clear();
+  }
+  if (state_ == State::Seeking || state_ == State::Over) return state_;
+  samples_.push_back(tick);
+  if (state_ == State::Running) {
+    run(tick);
+  } else if (released_) {
+    start(now_);
+  }
+  tip_ = tick.tip;
+  buttons_ = tick.buttons;
+  return state_;
+}
+
+void TrialWatch::start(double time) {
+  state_ = State::Running;
+  start_ = time;
+  for (Sample& sample : samples_) sample.time -= start_;
+}
+
+void TrialWatch::run(const Sample& tick) {
+  const double time = now_ - start_;
+  samples_.back().time = time;
+  measures_.distance += (tick.tip - tip_).norm();
+  if (!approached_ && goal_.distance_to_vicinity(tick.tip) <= goal_.vicinity) {
+    approached_ = true;
+    measures_.approach_time = time;
+  }
+  const int choice = chosen(tick);
+  if (choice >= 0 && goal_.things[std::size_t(choice)].target) return end(true, time);
+  if (choice >= 0 && goal_.things[std::size_t(choice)].wrong) ++measures_.errors;
+  if (time >= goal_.limit) end(false, time);
+}
+
+void TrialWatch::end(bool completed, double time) {
+  state_ = State::Over;
+  lit_ = -1;
+  measures_.completed = completed;
+  measures_.time = in_millionths(time);
+  measures_.approach_time = in_millionths(approached_ ? measures_.approach_time : time);
+  measures_.homing_time = in_millionths(measures_.time - measures_.approach_time);
+  measures_.distance = in_millionths(measures_.distance);
+}
+
+/// What is chosen in this tick; -1: nothing.
+int TrialWatch::chosen(const Sample& tick) {
+  const bool pressed = (tick.buttons & ~buttons_ & 1U) != 0;
+  if (goal_.choosing == Choosing::Click) {
+    lit_ = goal_.nearest(tick.tip);
+    return pressed ? lit_ : -1;
+  }
+  const int touched = touched_anew(tick);
+  if (goal_.choosing == Choosing::Touch) return touched;
+  lit_ = goal_.nearest(tick.tip);
+  return pushed(tick);
+}
+
+/// Parts of the same thing, which have its name, are one: the first of them.
+std::size_t TrialWatch::whole_of(int part) const {
+  const std::string& name = goal_.things[std::size_t(part)].name;
+  if (name.empty()) return std::size_t(part);
+  return std::size_t(std::ranges::find(goal_.things, name, &Thing::name) - goal_.things.begin());
+}
+
+bool TrialWatch::is_same(int one, int other) const {
+  return one == other || (one >= 0 && other >= 0 && whole_of(one) == whole_of(other));
+}
+
+/// What is touched that was not touched just now.
+int TrialWatch::touched_anew(const Sample& tick) {
+  const int before = std::exchange(in_contact_, tick.touched);
+  if (!is_same(before, tick.touched)) pushed_ = false;
+  if (tick.touched < 0) return -1;
+  double& touched_at = touched_at_[whole_of(tick.touched)];
+  const bool anew = now_ - std::exchange(touched_at, now_) > kBounce;
+  return anew ? tick.touched : -1;
+}
+
+/// Each contact is one push at most.
+int TrialWatch::pushed(const Sample& tick) {
+  if (tick.touched < 0 || pushed_ || (tick.tip - tick.scp).norm() < goal_.depth) return -1;
+  pushed_ = true;
+  return tick.touched;
+}
+
+}  // namespace icome::study

@@ -1,0 +1,318 @@
+#include "ui/actions/file_actions.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
+#include <utility>
+
+#include "ui/actions/actions.h"
+#include "ui/look/icons.h"
+
+namespace icome::ui {
+
+using session::SessionEvent;
+namespace {
+
+QString text_of_some(const std::vector<std::string>& sentences) {
+  constexpr std::size_t kMost = 3;
+  QStringList some;
+  for (std::size_t i = 0; i < sentences.size() && i < kMost; ++i)
+    some.push_back(QString::fromStdString(sentences[i]));
+  return some.join(' ') +
+         (sentences.size() > kMost ? QString(" (and %1 more)").arg(sentences.size() - kMost) : "");
+}
+
+}  // namespace
+
+FileActions::FileActions(session::Session& session, QSettings& settings, QWidget& window)
+    : session_(session), window_(window), recent_(settings) {
+  // Who goes on with this design does not want it replaced when another has been read.
+  session_.on_change([this](const world::Changes* changes) {
+    if (!changes || !session_.opening()) return;
+    session_.cancel_open();
+    given_up_ = true;
+  });
+}
+
+void FileActions::fill(QMenu& menu) {
+  add_action(menu, "file.new", "&New", QKeySequence::New, [this] { start(); })->setIcon(icon(Icon::New));
+  open_ = add_action(menu, "file.open", "&Open\u2026", QKeySequence::Open, [this] { choose_and_open(); });
+  open_->setIcon(icon(Icon::Open));
+  recent_menu_ = menu.addMenu("Open &Recent");
+  recent_menu_->setObjectName("file.recent");
+  QObject::connect(recent_menu_, &QMenu::aboutToShow, &window_, [this] { fill_recent(); });
+  recent_menu_->setEnabled(!recent_.paths().isEmpty());
+  menu.addSeparator();
+  save_ = add_action(menu, "file.save", "&Save", QKeySequence::Save, [this] { save(); });
+  save_->setIcon(icon(Icon::Save));
+  add_action(menu, "file.save_as", "Save &As\u2026", QKeySequence("Ctrl+Shift+S"), [this] { save_as(); });
+}
+
+void FileActions::fill_recent() {
+  recent_menu_->clear();
+  const QStringList labels = recent_.labels();
+  for (int i = 0; i < labels.size(); ++i) {
+    // An ampersand in a file's name is none of a shortcut.
+    const QString name = QString(labels[i]).replace('&', "&&");
+    QAction* action = recent_menu_->addAction(i < 9 ? QString("&%1  %2").arg(i + 1).arg(name) : name);
+    action->setStatusTip(recent_.paths()[i]);
+    QObject::connect(action, &QAction::triggered, &window_,
+                     [this, path = recent_.paths()[i]] { open(path_of(path)); });
+  }
+  recent_menu_->addSeparator();
+  QObject::connect(recent_menu_->addAction("&Clear This List"), &QAction::triggered, &window_, [this] {
+    recent_.clear();
+    recent_menu_->setEnabled(false);
+  });
+}
+
+QString FileActions::design_name() const {
+  return session_.path().empty() ? QString("Untitled") : text_of(session_.path().filename());
+}
+
+QString FileActions::doing() const {
+  if (session_.opening()) {
+    return opened_.empty() ? QString("Reading\u2026")
+                           : QString("Reading %1\u2026").arg(text_of(opened_.filename()));
+  }
+  if (session_.saving()) return QString("Saving %1\u2026").arg(text_of(saved_.filename()));
+  return {};
+}
+
+void FileActions::start() {
+  when_safe([this] { make_new(); });
+}
+
+void FileActions::make_new() {
+  given_up_ = false;
+  recovered_.reset();
+  opened_.clear();
+  session_.make_new();
+}
+
+void FileActions::open(const std::filesystem::path& design) {
+  when_safe([this, design] {
+    std::error_code ignored;
+    const auto whole = std::filesystem::absolute(design, ignored);
+    opened_ = whole.empty() ? design : whole;
+    recovered_.reset();
+    given_up_ = false;
+    session_.open(opened_);
+  });
+}
+
+void FileActions::recover(const std::filesystem::path& journal) {
+  for (const session::RecoverableWork& work : session_.recoverable()) {
+    if (work.journal != journal) continue;
+    when_safe([this, work] {
+      opened_ = work.design;
+      recovered_ = work;
+      given_up_ = false;
+      session_.recover(work);
+    });
+    return;
+  }
+}
+
+void FileActions::revert() {
+  if (session_.path().empty()) {
+    start();
+  } else {
+    open(session_.path());
+  }
+}
+
+void FileActions::choose_and_open() {
+  if (!begin_()) return;
+  auto* dialog = new QFileDialog(&window_, "Open a Design");
+  dialog->setObjectName("open");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->setNameFilters(open_filters());
+  if (!session_.path().empty()) {
+    dialog->setDirectory(text_of(session_.path().parent_path()));
+  } else if (!recent_.paths().isEmpty()) {
+    dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
+  }
+  QObject::connect(dialog, &QFileDialog::fileSelected, &window_,
+                   [this](const QString& path) { open(path_of(path)); });
+  dialog->open();
+}
+
+void FileActions::save() {
+  if (!begin_()) return;
+  if (session_.path().empty()) {
+    save_as();
+  } else {
+    begin_save(session_.path());
+  }
+}
+
+void FileActions::save_again() {
+  if (!begin_()) return;
+  if (saved_.empty()) {
+    save();
+  } else {
+    begin_save(saved_);
+  }
+}
+
+void FileActions::save_as() {
+  if (!begin_()) return;
+  auto* dialog = new QFileDialog(&window_, "Save the Design As");
+  dialog->setObjectName("save_as");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  const QStringList filters = save_filters();
+  dialog->setNameFilters(filters);
+  QString chosen = filters.front();
+  if (!session_.path().empty()) {
+    const QFileInfo file(text_of(session_.path()));
+    for (const QString& it : filters) {
+      if (it.contains("*." + file.suffix().toLower())) chosen = it;
+    }
+    dialog->setDirectory(file.dir());
+    dialog->selectFile(file.completeBaseName());
+  } else {
+    if (!recent_.paths().isEmpty()) dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
+    dialog->selectFile("Untitled");
+  }
+  dialog->selectNameFilter(chosen);
+  dialog->setDefaultSuffix(ending_of(chosen));
+  QObject::connect(dialog, &QFileDialog::filterSelected, dialog,
+                   [dialog](const QString& it) { dialog->setDefaultSuffix(ending_of(it)); });
+  QObject::connect(dialog, &QFileDialog::fileSelected, &window_,
+                   [this](const QString& path) { begin_save(path_of(path)); });
+  QObject::connect(dialog, &QFileDialog::rejected, &window_, [this] { then_ = nullptr; });
+  dialog->open();
+}
+
+void FileActions::begin_save(const std::filesystem::path& design) {
+  saved_ = design;
+  saving_();
+  session_.save(design);
+}
+
+void FileActions::when_safe(const std::function<void()>& then) {
+  if (!begin_()) return;
+  leaving_();
+  if (session_.modified()) {
+    ask(then);
+  } else if (session_.saving()) {
+    then_ = then;
+  } else {
+    then();
+  }
+}
+
+void FileActions::ask(const std::function<void()>& then) {
+  if (asking_) return;
+  asking_ = true;
+  auto* box = new QMessageBox(QMessageBox::Warning, "Save Changes?",
+                              QString("Save the changes to %1?").arg(design_name()),
+                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box->setObjectName("save_changes");
+  box->setTextFormat(Qt::PlainText);
+  const auto& left_out = session_.left_out();
+  box->setInformativeText(
+      left_out.empty() ? QString("Without saving, what you did since the last time is lost.")
+                       : QString("%1 cannot hold all of your design: %2\nSave it as .icome, or what is left "
+                                 "out is lost.")
+                             .arg(design_name(), text_of_some(left_out)));
+  box->button(QMessageBox::Discard)->setText("&Don\u2019t Save");
+  box->setDefaultButton(QMessageBox::Save);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  QObject::connect(box, &QMessageBox::finished, &window_, [this, then](int answer) {
+    asking_ = false;
+    if (answer == QMessageBox::Discard) {
+      then();
+    } else if (answer == QMessageBox::Save) {
+      then_ = then;
+      // The same format would leave out the same again.
+      session_.left_out().empty() ? save() : save_as();
+    }
+  });
+  box->open();
+}
+
+/// A person decides about what another program wrote, or what a damaged file still holds.
+void FileActions::ask_to_replace(const SessionEvent& event) {
+  auto* box = new QMessageBox(QMessageBox::Warning, "Replace the File?", QString::fromStdString(event.text),
+                              QMessageBox::Cancel, &window_);
+  box->setObjectName("replace_file");
+  box->setTextFormat(Qt::PlainText);
+  box->setInformativeText("Your work is still open here, and the file is as it was.");
+  const auto* replace = box->addButton("&Replace", QMessageBox::DestructiveRole);
+  const auto* elsewhere = box->addButton("Save &As\u2026", QMessageBox::AcceptRole);
+  box->setDefaultButton(QMessageBox::Cancel);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  QObject::connect(box, &QMessageBox::finished, &window_, [=, this, design = saved_] {
+    if (box->clickedButton() == replace) {
+      session_.save(design, true);
+    } else if (box->clickedButton() == elsewhere) {
+      save_as();
+    } else {
+      then_ = nullptr;
+    }
+  });
+  box->open();
+}
+
+/// A design that is not there any more is not offered again.
+void FileActions::forget_missing() {
+  std::error_code error;
+  const bool there = opened_.empty() || std::filesystem::exists(opened_, error);
+  if (there || error) return;
+  recent_.remove(opened_);
+  if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
+}
+
+/// A person who gave it up without knowing gets it back with one click.
+Note FileActions::hear_of_cancelled(const SessionEvent& event) {
+  const std::filesystem::path design = std::exchange(opened_, {});
+  const auto work = std::exchange(recovered_, std::nullopt);
+  if (!std::exchange(given_up_, false)) return note_of(event);
+  const std::string other = design_name().toStdString();
+  if (work) return note_of_given_up(*work, other);
+  return design.empty() ? note_of(event) : note_of_given_up(design, other);
+}
+
+Note FileActions::hear(const SessionEvent& event) {
+  switch (event.kind) {
+    case SessionEvent::Kind::Opened:
+    case SessionEvent::Kind::Saved:
+    case SessionEvent::Kind::SavedInPart:
+      if (!session_.path().empty()) recent_.add(session_.path());
+      if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
+      if (event.kind == SessionEvent::Kind::Opened) opened_.clear();
+      break;
+    case SessionEvent::Kind::OpenFailed:
+      forget_missing();
+      opened_.clear();
+      break;
+    case SessionEvent::Kind::Recovered:
+      opened_.clear();
+      break;
+    case SessionEvent::Kind::OpenCancelled:
+      return hear_of_cancelled(event);
+    case SessionEvent::Kind::SaveFailed:
+      then_ = nullptr;
+      break;
+    case SessionEvent::Kind::SaveAsks:
+      ask_to_replace(event);
+      break;
+    default:
+      break;
+  }
+  // Asks again if the work has gone on meanwhile. What waits to be written comes first.
+  const bool written =
+      event.kind == SessionEvent::Kind::Saved || event.kind == SessionEvent::Kind::SavedInPart;
+  if (written && then_ && !session_.saving()) when_safe(std::exchange(then_, nullptr));
+  if (event.kind == SessionEvent::Kind::Recovered && recovered_)
+    return note_of_recovered(*std::exchange(recovered_, std::nullopt), event.details);
+  return note_of(event);
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,116 @@
+#include "ui/actions/object_menu.h"
+
+#include <QAction>
+#include <algorithm>
+#include <ranges>
+
+#include "interaction/object_edits.h"
+#include "interaction/object_move.h"
+#include "ui/look/icons.h"
+#include "ui/panels/object_look.h"
+
+namespace icome::ui {
+
+using world::Duplicate;
+using world::ObjectId;
+
+namespace {
+
+bool has_children(const session::Session& session) {
+  for (const ObjectId id : session.selection()) {
+    const world::PhysicalObject* object = session.world().find(id);
+    if (object && !object->children.empty()) return true;
+  }
+  return false;
+}
+
+void add_duplicates(QMenu& menu, session::Session& session, const ObjectMenu& entries) {
+  QMenu* ways = menu.addMenu(icon(Icon::Duplicate), "&Duplicate");
+  ways->setToolTipsVisible(true);
+  const bool all = has_children(session);
+  for (const DuplicateChoice& choice : duplicate_choices()) {
+    // Without children there are but two ways.
+    const bool simple = choice.how == Duplicate::CopyObject || choice.how == Duplicate::CloneObject;
+    if (!all && !simple) continue;
+    QAction* action = ways->addAction(choice.text);
+    action->setToolTip(choice.tip);
+    QObject::connect(action, &QAction::triggered, &menu,
+                     [&session, how = choice.how, refused = entries.refused] {
+                       const auto done = duplicate_selected(session, how);
+                       if (!done && refused) refused(done.error().message);
+                     });
+  }
+}
+
+}  // namespace
+
+base::Result<void> delete_selected(session::Session& session) {
+  const std::vector<ObjectId> objects = interaction::topmost(session.world(), session.selection());
+  if (objects.empty()) return {};
+  const std::string name = action_name("Delete", session.world(), objects);
+  return session.perform(interaction::delete_objects(session.world(), objects), name);
+}
+
+base::Result<void> group_selected(session::Session& session) {
+  const std::vector<ObjectId> objects = interaction::topmost(session.world(), session.selection());
+  if (objects.empty()) return {};
+  const auto grouping = interaction::group_objects(session.world(), objects, session.ids());
+  if (!grouping) return tl::unexpected(grouping.error());
+  const auto done = session.perform(grouping->edit, action_name("Group", session.world(), objects));
+  if (done) session.select({grouping->group});
+  return done;
+}
+
+base::Result<void> duplicate_selected(session::Session& session, Duplicate how) {
+  const std::vector<ObjectId> models = interaction::topmost(session.world(), session.selection());
+  if (models.empty()) return {};
+  world::EditGroup group;
+  std::vector<ObjectId> made;
+  // Each becomes the last below its parent, as of now: the last is made first.
+  for (const ObjectId model : models | std::views::reverse) {
+    const ObjectId parent = session.world().find(model)->parent;
+    auto duplication = world::duplicate(session.world(), model, how, parent, session.ids());
+    if (!duplication) return tl::unexpected(duplication.error());
+    group.edits.push_back(std::move(duplication->edit));
+    made.push_back(duplication->object);
+  }
+  std::ranges::reverse(made);
+  const auto done =
+      session.perform(world::Edit(std::move(group)), action_name("Duplicate", session.world(), models));
+  if (done) session.select(made);
+  return done;
+}
+
+const std::vector<DuplicateChoice>& duplicate_choices() {
+  static const std::vector<DuplicateChoice> kChoices{
+      {Duplicate::CopyObjectAndChildren, "Copy with &all below", "Shapes of their own, all the way down"},
+      {Duplicate::CloneObjectAndChildren, "Clone with all &below",
+       "Shares all shapes with its model: change one, and all change"},
+      {Duplicate::CopyObject, "&Copy alone", "A shape of its own; without what is below"},
+      {Duplicate::CloneObject, "C&lone alone",
+       "Shares its shape with its model: change one, and both change; without what is below"},
+      {Duplicate::CopyObjectCloneChildren, "Copy, clone what is &under it",
+       "A shape of its own; what is below shares the model's shapes"},
+      {Duplicate::CloneObjectCopyChildren, "Clone, copy what is un&der it",
+       "Shares its own shape; what is below gets shapes of its own"},
+  };
+  return kChoices;
+}
+
+void fill_object_menu(QMenu& menu, session::Session& session, const ObjectMenu& entries) {
+  if (session.selection().empty()) return;
+  const auto report = [refused = entries.refused](const base::Result<void>& done) {
+    if (!done && refused) refused(done.error().message);
+  };
+  if (entries.zoom) menu.addAction(icon(Icon::ZoomToSelection), "&Zoom to", &menu, entries.zoom);
+  if (entries.rename) menu.addAction(icon(Icon::Rename), "&Rename", &menu, entries.rename);
+  if (entries.picture) menu.addAction("Put a &Picture On\u2026", &menu, entries.picture);
+  menu.addSeparator();
+  add_duplicates(menu, session, entries);
+  menu.addAction(icon(Icon::Group), "&Group", &menu, [&session, report] { report(group_selected(session)); });
+  menu.addSeparator();
+  menu.addAction(icon(Icon::Delete), "De&lete", &menu,
+                 [&session, report] { report(delete_selected(session)); });
+}
+
+}  // namespace icome::ui

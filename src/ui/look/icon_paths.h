@@ -1,0 +1,17 @@
+#pragma once
+#include <QPainterPath>
+
+#include "ui/look/icons.h"
+
+namespace icome::ui {
+
+/// An icon on a square of 20 by 20: lines in ink, lines in the accent's colour, and places that are filled
+/// lightly.
+struct IconPaths {
+  QPainterPath ink = {};
+  QPainterPath accent = {};
+  QPainterPath wash = {};
+};
+IconPaths paths_of(Icon which);
+
+}  // namespace icome::ui

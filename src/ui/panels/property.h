@@ -1,0 +1,69 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "world/edit/edit.h"
+
+namespace icome::ui {
+
+/// Something of an object that people see and change.
+template <typename Value>
+struct Property {
+  using Get = std::function<std::optional<Value>(const world::World&, world::ObjectId)>;
+  using Set = std::function<base::Result<world::Edit>(const world::World&, world::ObjectId, const Value&)>;
+
+  Get get;  // nothing: the object has no such thing
+  Set set;  // of an object that has
+};
+
+/// What several objects have in common.
+template <typename Value>
+struct Common {
+  bool shared_by_all = false;    // all have such a thing
+  std::optional<Value> value{};  // the same for all; none: mixed
+};
+
+template <typename Value>
+Common<Value> common(const world::World& world, const std::vector<world::ObjectId>& objects,
+                     const Property<Value>& property) {
+  Common<Value> result;
+  for (const world::ObjectId id : objects) {
+    const std::optional<Value> value = property.get(world, id);
+    if (!value) return {};
+    if (!result.shared_by_all) result.value = value;
+    result.shared_by_all = true;
+    if (result.value && *result.value != *value) result.value.reset();
+  }
+  return result;
+}
+
+/// Sets it for all of them.
+template <typename Value>
+base::Result<world::Edit> edit_all(const world::World& world, const std::vector<world::ObjectId>& objects,
+                                   const Property<Value>& property, const Value& value) {
+  world::EditGroup group;
+  for (const world::ObjectId id : objects) {
+    auto edit = property.set(world, id, value);
+    if (!edit) return tl::unexpected(edit.error());
+    group.edits.push_back(std::move(*edit));
+  }
+  return world::Edit(std::move(group));
+}
+
+/// The selected objects as what they are made of: one object stands for all that share a shape or a material,
+/// so that what is shared is changed once.
+struct Subjects {
+  std::vector<world::ObjectId> objects = {};
+  std::vector<world::ObjectId> dressed = {};    // all that have a shape or a material
+  std::vector<world::ObjectId> shapes = {};     // one for each shape
+  std::vector<world::ObjectId> materials = {};  // one for each material
+  std::vector<world::ObjectId> lights = {};
+  std::vector<world::ObjectId> viewpoints = {};
+  std::vector<world::ObjectId> effects = {};
+  bool all_have_materials = false;  // of the dressed
+};
+Subjects subjects_of(const world::World& world, const std::vector<world::ObjectId>& selection);
+
+}  // namespace icome::ui

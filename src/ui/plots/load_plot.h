@@ -1,0 +1,22 @@
+#pragma once
+#include "ui/plots/load_window.h"
+#include "ui/plots/plot_panel.h"
+
+namespace icome::ui {
+
+/// Haptic load: which share of its time the servo needs, as a histogram of its ticks.
+class LoadPlot final : public PlotPanel {
+ public:
+  explicit LoadPlot(QWidget* parent);
+
+  void show(const LoadWindow& window);
+
+ protected:
+  void paint_plot(QPainter& painter, const QRectF& area) override;
+
+ private:
+  LoadCounts counts_ = {};
+  std::optional<double> median_ = {}, p999_ = {};  // percent
+};
+
+}  // namespace icome::ui

@@ -1,0 +1,267 @@
+#include "ui/tools/scene_tools.h"
+
+#include <utility>
+
+namespace icome::ui {
+
+using base::Vector3;
+
+SceneTools::SceneTools(session::Session& session, Listener listener)
+    : session_(session),
+      listener_(std::move(listener)),
+      move_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
+      part_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
+      touch_tool_(session),
+      shape_tool_(session, [this](const std::string& why) { listener_.refused(why); }),
+      view_drag_(session) {
+  session_.on_change([this](const world::Changes* changes) {
+    if (changes) return;
+    move_tool_.drop();
+    part_tool_.drop();
+    shape_tool_.drop();
+  });
+}
+
+void SceneTools::choose(Tool tool) {
+  if (tool == tool_ || stays_) return;
+  finish();
+  tool_ = tool;
+  if (tool_ == Tool::Touch) {
+    touch_tool_.enter(size_);
+  } else {
+    touch_tool_.leave();
+  }
+  tool_ == Tool::Shape ? shape_tool_.enter() : shape_tool_.leave();
+  listener_.chosen(tool_);
+}
+
+void SceneTools::stay_with(Tool tool) {
+  choose(tool);
+  stays_ = true;
+}
+
+std::optional<ViewMove> SceneTools::view_move(const SceneInput& input) const {
+  if (stays_) return std::nullopt;
+  const bool shift = input.modifiers & Qt::ShiftModifier;
+  if (input.button == Qt::RightButton) return shift ? ViewMove::Pan : ViewMove::Orbit;
+  if (input.button == Qt::MiddleButton) return ViewMove::Pan;
+  if (input.button != Qt::LeftButton || tool_ != Tool::View) return std::nullopt;
+  if (input.modifiers & Qt::ControlModifier) return ViewMove::Look;
+  return shift ? ViewMove::Pan : ViewMove::Orbit;
+}
+
+void SceneTools::press(const SceneInput& input) {
+  mouse_ = input;
+  if (view_drag_.active() || busy()) return;  // a second button does not disturb the first
+  if (const auto how = view_move(input)) {
+    view_drag_.begin(*how, input);
+    view_button_ = input.button;
+  } else if (input.button == Qt::LeftButton && tool_ == Tool::Select) {
+    if (!part_tool_.press(input)) move_tool_.press(input);
+  } else if (input.button == Qt::LeftButton && tool_ == Tool::Shape) {
+    shape_tool_.press(input);
+  } else if (input.button == Qt::LeftButton) {
+    touch_tool_.follow(input);
+    touch_tool_.press(TouchTool::kButton);
+  }
+}
+
+void SceneTools::move(const SceneInput& input) {
+  mouse_ = input;
+  view_drag_.follow(input);
+  move_tool_.follow(input);
+  part_tool_.follow(input);
+  if (tool_ == Tool::Shape) shape_tool_.follow(input);
+  if (!view_drag_.active()) touch_tool_.follow(input);
+}
+
+void SceneTools::release(const SceneInput& input) {
+  mouse_ = input;
+  if (view_drag_.active() && input.button == view_button_) {
+    view_drag_.follow(input);
+    view_drag_.end();
+    if (view_button_ == Qt::RightButton && !view_drag_.moved()) listener_.asked(input.at);
+  } else if (input.button == Qt::LeftButton) {
+    if (const auto click = part_tool_.release(input)) move_tool_.press(*click);
+    move_tool_.release(input);
+    shape_tool_.release(input);
+    touch_tool_.press(0.0);
+  }
+}
+
+void SceneTools::double_click(const SceneInput& input) {
+  if (input.button != Qt::LeftButton || tool_ == Tool::Touch) {
+    press(input);
+    return;
+  }
+  finish();
+  if (const auto picked = session_.pick_seen(input.ray(session_.view())))
+    zoom_to(session_, picked->object, input.aspect());
+}
+
+void SceneTools::wheel(const SceneInput& input, double notches) {
+  if (tool_ == Tool::Touch && (touch_tool_.pressing() || touch_tool_.goes_freely())) {
+    touch_tool_.turn_wheel(notches);
+  } else if (!stays_) {
+    zoom_at(session_, input, notches);
+  }
+}
+
+bool SceneTools::pen(const SceneInput& input, double pressure) {
+  if (tool_ != Tool::Touch) return false;
+  mouse_ = input;
+  touch_tool_.follow(input);
+  touch_tool_.press(pressure);
+  return true;
+}
+
+bool SceneTools::escape() {
+  if (move_tool_.busy()) {
+    move_tool_.cancel();
+  } else if (part_tool_.busy()) {
+    part_tool_.cancel();
+  } else if (shape_tool_.busy()) {
+    shape_tool_.cancel();
+  } else if (view_drag_.active()) {
+    view_drag_.end();
+  } else if (tool_ != Tool::Select) {
+    choose(Tool::Select);
+  } else if (!session_.selection().empty()) {
+    session_.select({});
+  }
+  return true;
+}
+
+bool SceneTools::arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
+  const bool shift = modifiers & Qt::ShiftModifier;
+  if (tool_ == Tool::Touch) return touch_tool_.step(key, shift);
+  if (tool_ == Tool::Select && !session_.selection().empty()) {
+    const double step = shift ? 0.01 : 0.001;  // m
+    Vector3 in_view = Vector3::Zero();
+    switch (key) {
+      case Qt::Key_Left:
+        in_view.x() = -step;
+        break;
+      case Qt::Key_Right:
+        in_view.x() = step;
+        break;
+      case Qt::Key_Up:
+        in_view.y() = step;
+        break;
+      case Qt::Key_Down:
+        in_view.y() = -step;
+        break;
+      case Qt::Key_PageUp:
+        in_view.z() = -step;
+        break;
+      case Qt::Key_PageDown:
+        in_view.z() = step;
+        break;
+      default:
+        return false;
+    }
+    move_tool_.nudge(in_view, repeats);
+    return true;
+  }
+  return !stays_ && step_view(session_, key, shift ? ViewMove::Pan : ViewMove::Orbit);
+}
+
+bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
+  if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
+  switch (key) {
+    case Qt::Key_Escape:
+      return escape();
+    case Qt::Key_X:
+      keep_to(0);
+      return true;
+    case Qt::Key_Y:
+      keep_to(1);
+      return true;
+    case Qt::Key_Z:
+      keep_to(2);
+      return true;
+    case Qt::Key_Tab:
+      choose(Tool((int(tool_) + 1) % kToolCount));
+      return true;
+    case Qt::Key_Backtab:
+      choose(Tool((int(tool_) + kToolCount - 1) % kToolCount));
+      return true;
+    case Qt::Key_Space:
+      if (tool_ == Tool::Touch) touch_tool_.press(TouchTool::kButton);
+      return tool_ == Tool::Touch;
+    default:
+      return arrow(key, modifiers, repeats);
+  }
+}
+
+bool SceneTools::key_release(int key) {
+  switch (key) {
+    case Qt::Key_X:
+    case Qt::Key_Y:
+    case Qt::Key_Z:
+      if (move_tool_.axis() == key - Qt::Key_X) keep_to(std::nullopt);
+      return true;
+    case Qt::Key_Space:
+      touch_tool_.press(0.0);
+      return tool_ == Tool::Touch;
+    default:
+      return false;
+  }
+}
+
+void SceneTools::keep_to(std::optional<int> axis) {
+  move_tool_.keep_to(axis);
+  part_tool_.keep_to(axis);
+  shape_tool_.keep_to(axis);
+}
+
+void SceneTools::forget_keys() {
+  keep_to(std::nullopt);
+  touch_tool_.press(0.0);
+}
+
+void SceneTools::leave() {
+  mouse_.reset();
+  hovered_.reset();
+  part_tool_.hover(std::nullopt);
+  shape_tool_.forget_mouse();
+}
+
+void SceneTools::resize(const QSizeF& size) {
+  if (size.width() > 0.0 && size.height() > 0.0) size_ = size;
+}
+
+void SceneTools::look_for_hovered() {
+  hovered_.reset();
+  const bool looks = mouse_ && !view_drag_.active() && !busy();
+  const bool sees_parts = looks && tool_ == Tool::Select;
+  if (part_tool_.hover(sees_parts ? mouse_ : std::nullopt) || !looks) return;
+  if (tool_ == Tool::Touch) {
+    if (session_.pointers() > 0) hovered_ = session_.touched(0);
+  } else if (const auto picked = session_.pick_seen(mouse_->ray(session_.view()))) {
+    hovered_ = picked->object;
+  }
+}
+
+void SceneTools::tick() {
+  move_tool_.tick();
+  part_tool_.tick();
+  touch_tool_.tick();
+  shape_tool_.tick();
+  look_for_hovered();
+}
+
+std::string SceneTools::drag_words() const {
+  std::string words = part_tool_.words();
+  return words.empty() ? move_tool_.words() : words;
+}
+
+void SceneTools::finish() {
+  move_tool_.finish();
+  part_tool_.finish();
+  shape_tool_.finish();
+  view_drag_.end();
+  touch_tool_.press(0.0);
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,95 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "session/session.h"
+#include "ui/tools/move_tool.h"
+#include "ui/tools/part_tool.h"
+#include "ui/tools/scene_input.h"
+#include "ui/tools/shape_tool.h"
+#include "ui/tools/touch_tool.h"
+#include "ui/tools/view_moves.h"
+
+namespace icome::ui {
+
+/// What the left button does.
+enum class Tool : std::uint8_t { Select, Touch, View, Shape };
+constexpr int kToolCount = 4;
+
+/// Turns what mouse, pen and keyboard do over the scene into what the session does. The left button is the
+/// chosen tool's; right turns and middle (or Shift and right) shifts the view, the wheel zooms. The session
+/// outlives it.
+class SceneTools {
+ public:
+  struct Listener {
+    std::function<void(Tool)> chosen = [](Tool) {};
+    std::function<void(const std::string&)> refused = [](const std::string&) {
+    };                                                    // why something was not done
+    std::function<void(QPointF)> asked = [](QPointF) {};  // for the menu of what is there: a right click
+  };
+  SceneTools(session::Session& session, Listener listener);
+  SceneTools(const SceneTools&) = delete;
+  SceneTools& operator=(const SceneTools&) = delete;
+
+  Tool tool() const { return tool_; }
+  void choose(Tool tool);
+  /// Chooses it for good: from now on nothing chooses another, or moves the view.
+  void stay_with(Tool tool);
+
+  // What happens over the scene. Those that return bool: was it of use?
+  void press(const SceneInput& input);
+  void move(const SceneInput& input);
+  void release(const SceneInput& input);
+  void double_click(const SceneInput& input);
+  void wheel(const SceneInput& input, double notches);
+  /// A pen at the tablet, which presses that hard, in [0, 1]. Only Touch wants to know; to the others it is
+  /// a mouse.
+  bool pen(const SceneInput& input, double pressure);
+  bool key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats);
+  bool key_release(int key);
+  /// The keyboard goes elsewhere: nobody will hear of keys that are let go.
+  void forget_keys();
+  /// The mouse has left the scene.
+  void leave();
+  void resize(const QSizeF& size);
+
+  /// Once for each update of the session, before it.
+  void tick();
+  /// Ends what the mouse is doing where it is: something else is about to change the world.
+  void finish();
+
+  /// What the mouse is over, as of the last tick; nothing while it does something.
+  std::optional<world::ObjectId> hovered() const { return hovered_; }
+  bool dragging() const { return move_tool_.dragging() || part_tool_.dragging() || shape_tool_.dragging(); }
+  ShapeTool& shape_tool() { return shape_tool_; }
+  /// What has stopped what is dragged, or what it snaps to, or what can be dragged of what is selected; or
+  /// empty.
+  std::string drag_words() const;
+  TouchTool& touch_tool() { return touch_tool_; }
+  bool turning() const { return view_drag_.active(); }
+  double aspect() const { return size_.width() / size_.height(); }
+
+ private:
+  bool escape();
+  bool arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats);
+  std::optional<ViewMove> view_move(const SceneInput& input) const;
+  void look_for_hovered();
+  bool busy() const { return move_tool_.busy() || part_tool_.busy() || shape_tool_.busy(); }
+  void keep_to(std::optional<int> axis);
+
+  session::Session& session_;
+  Listener listener_;
+  MoveTool move_tool_;
+  PartTool part_tool_;
+  TouchTool touch_tool_;
+  ShapeTool shape_tool_;
+  ViewDrag view_drag_;
+  Qt::MouseButton view_button_ = {};  // what the view is dragged with
+  Tool tool_ = Tool::Select;
+  bool stays_ = false;  // with it
+  QSizeF size_ = {1.0, 1.0};
+  std::optional<SceneInput> mouse_ = {};
+  std::optional<world::ObjectId> hovered_ = {};
+};
+
+}  // namespace icome::ui

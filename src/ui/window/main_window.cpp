@@ -1,0 +1,371 @@
+#include "ui/window/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QScreen>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/forms/elided_label.h"
+#include "ui/look/icons.h"
+#include "ui/window/status_strip.h"
+
+namespace icome::ui {
+namespace {
+
+constexpr int kLayout = 2;  // counts up when docks and bars change, so that old layouts are not restored
+
+bool same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code error;
+  const bool same = std::filesystem::equivalent(one, other, error);
+  return error ? std::filesystem::absolute(one, error) == std::filesystem::absolute(other, error) : same;
+}
+
+QDockWidget* make_dock(QMainWindow* window, const char* name, const QString& title, QWidget* content,
+                       Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, window);
+  dock->setObjectName(name);
+  dock->setAccessibleName(title);
+  dock->setWidget(content);
+  window->addDockWidget(area, dock);
+  return dock;
+}
+
+}  // namespace
+
+MainWindow::MainWindow(session::Session& session, QSettings& settings, const Options& options)
+    : session_(session),
+      settings_(settings),
+      options_(options),
+      tools_(session, {.chosen = [this](Tool tool) { show_tool(tool); },
+                       .refused = [this](const std::string& why) { tell_error(why); },
+                       .asked = [this](QPointF at) { show_scene_menu(at); }}),
+      files_(session, settings, *this),
+      edits_(session, {.begin = [this] { return finish_work(); },
+                       .refused = [this](const std::string& why) { tell_error(why); },
+                       .rename = [this] { tree_->rename(); },
+                       .search = [this] { tree_->search(); }}),
+      operations_(session,
+                  {.begin = [this] { return finish_work(); },
+                   .refused = [this](const std::string& why) { tell_error(why); },
+                   .told = [this](const std::string& what) { tell({.text = what, .topic = "edit"}); },
+                   .ask = [this](const interaction::Operation& it) { ask(it); },
+                   .find = [this] { find_command(); }}),
+      views_(session, tools_, settings),
+      techniques_(session, settings, *this, [this](const Note& note) { tell(note); }),
+      moves_(session, settings),
+      pictures_(session,
+                {.begin = [this] { return finish_work(); },
+                 .refused = [this](const std::string& why) { tell_error(why); }},
+                *this) {
+  setObjectName("icome");
+  setWindowIcon(app_icon());
+  setAcceptDrops(true);
+  make_center();
+  make_docks();
+  make_menus();
+  make_tool_bar();
+  restore_layout();
+  files_.on_begin([this] { return finish_work(); });
+  files_.on_save([this] { operation_->keep(); });
+  files_.on_leave([this] {
+    operation_->leave();
+    techniques_.end_recording();
+  });
+  techniques_.on_choice([this] { is_stale_ = true; });
+  views_.on_look([this] { show_look(); });
+  views_.on_theme([this](Theme theme) { choose_theme(theme); });
+  views_.show_theme(options_.theme);
+  banner_->on_remedy([this](const Note& note, Note::Remedy what) { remedy(note, what); });
+  tree_->on_zoom_to([this] { zoom_to_selection(session_, tools_.aspect()); });
+  session_.on_change([this](const world::Changes*) { is_stale_ = true; });
+  session_.on_selection([this] {
+    edits_.refresh();  // a key that is pressed at once after it finds its action
+    is_stale_ = true;
+  });
+  show_tool(tools_.tool());
+  show_title();
+  timer_.setTimerType(Qt::PreciseTimer);
+  connect(&timer_, &QTimer::timeout, this, [this] { tick(); });
+  timer_.start(16);
+}
+
+MainWindow::~MainWindow() {
+  // The scene's window hands events to the tools, which go before the widgets would go by themselves.
+  delete takeCentralWidget();
+}
+
+void MainWindow::make_center() {
+  auto* center = new QWidget(this);
+  auto* rows = new QVBoxLayout(center);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+  banner_ = new Banner(center);
+  shaping_ = new ShapeOptions(session_, tools_.shape_tool(), center);
+  scene_ = new SceneView(session_, tools_, center);
+  scene_->window_of_scene().on_drop([this](QDropEvent& drop) { return offer_drop(drop, true); });
+  rows->addWidget(banner_);
+  rows->addWidget(shaping_);
+  rows->addWidget(scene_, 1);
+  setCentralWidget(center);
+  hint_ = new ElidedLabel(this);
+  hint_->setObjectName("status.hint");
+  count_ = new QLabel(this);
+  count_->setObjectName("status.count");
+  technique_ = new QLabel(this);
+  technique_->setObjectName("status.technique");
+  technique_->setToolTip(
+      "By which the hands select, hold and travel: Tools > Technique chooses another, or touch");
+  statusBar()->addWidget(hint_, 1);
+  statusBar()->addPermanentWidget(technique_);
+  statusBar()->addPermanentWidget(count_);
+}
+
+void MainWindow::make_docks() {
+  tree_ = new WorldTree(session_, this);
+  QDockWidget* world = make_dock(this, "dock.world", "World", tree_, Qt::LeftDockWidgetArea);
+  properties_ = new PropertyPanel(session_, this);
+  QDockWidget* properties =
+      make_dock(this, "dock.properties", "Properties", properties_, Qt::RightDockWidgetArea);
+  hand_ = new StatusStrip(session_, this);
+  make_dock(this, "dock.hand", "Hand", hand_, Qt::BottomDockWidgetArea);
+  operation_ = new OperationPanel(
+      session_, {.begin = [this] { return finish_work(); }, .closed = [this] { stop_asking(); }}, this);
+  operation_dock_ = make_dock(this, "dock.operation", "Operation", operation_, Qt::RightDockWidgetArea);
+  connect(operation_dock_->toggleViewAction(), &QAction::toggled, operation_, [this] {
+    if (operation_dock_->isHidden()) operation_->leave();
+  });
+  tabifyDockWidget(properties, operation_dock_);
+  resizeDocks({world, properties}, {60 * kGrid, 80 * kGrid}, Qt::Horizontal);
+}
+
+void MainWindow::restore_layout() {
+  const QSize room = screen()->availableSize();
+  resize(std::min(1240, room.width() * 31 / 32), std::min(740, room.height() * 15 / 16));
+  restoreGeometry(settings_.value("window/geometry").toByteArray());
+  restoreState(settings_.value("window/state").toByteArray(), kLayout);
+  operation_dock_->hide();  // nothing is asked yet
+}
+
+void MainWindow::begin(const std::filesystem::path& design) {
+  auto works = session_.recoverable();
+  // The work on what is asked for, or else the newest.
+  std::stable_sort(works.begin(), works.end(),
+                   [](const auto& a, const auto& b) { return a.changed > b.changed; });
+  const auto wanted = std::find_if(works.begin(), works.end(), [&](const session::RecoverableWork& it) {
+    return design.empty() || (!it.design.empty() && same_file(it.design, design));
+  });
+  if (wanted != works.end()) {
+    files_.recover(wanted->journal);
+    works.erase(wanted);
+  } else if (!design.empty()) {
+    files_.open(design);
+  }
+  for (auto work = works.rbegin(); work != works.rend(); ++work) tell(note_of(*work));
+  scene_->take_keyboard();
+}
+
+void MainWindow::tick() {
+  tools_.tick();
+  session_.set_aspect(tools_.aspect());
+  for (const session::SessionEvent& event : session_.update()) {
+    hear(event);
+  }
+  pictures_.tick();
+  scene_->tick();
+  shaping_->tick();
+  edits_.refresh();
+  views_.refresh();
+  show_progress();
+  show_title();
+  show_count();
+  const auto labelled = wanted_label();
+  if (is_stale_ || tools_.drag_words() != drag_words_ || operation_->remark() != remark_ ||
+      techniques_.hint() != technique_hint_)
+    show_hint();
+  if (is_stale_ || labelled != labelled_ || devicePixelRatio() != pixel_ratio_) {
+    labelled_ = labelled;
+    show_look();
+  }
+  is_stale_ = false;
+}
+
+void MainWindow::hear(const session::SessionEvent& event) {
+  using Kind = session::SessionEvent::Kind;
+  tell(files_.hear(event));
+  // What came last is seen, and nothing that was said of the one before is of use.
+  if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
+    banner_->forget("edit");
+    session_.home();
+  }
+}
+
+void MainWindow::tell_error(const std::string& why) {
+  tell({.weight = Note::Weight::Error, .text = why, .topic = "edit"});
+}
+
+void MainWindow::discard(const std::filesystem::path& journal) {
+  for (const session::RecoverableWork& work : session_.recoverable()) {
+    if (work.journal != journal) continue;
+    session_.discard(work);
+    return;
+  }
+}
+
+void MainWindow::remedy(const Note& note, Note::Remedy what) {
+  switch (what) {
+    case Note::Remedy::Save:
+      files_.save();
+      break;
+    case Note::Remedy::SaveAs:
+      files_.save_as();
+      break;
+    case Note::Remedy::SaveAgain:
+      files_.save_again();
+      break;
+    case Note::Remedy::OpenAnother:
+      files_.choose_and_open();
+      break;
+    case Note::Remedy::RevertToSaved:
+      files_.revert();
+      break;
+    case Note::Remedy::Recover:
+      files_.recover(note.journal);
+      break;
+    case Note::Remedy::DiscardJournal:
+      discard(note.journal);
+      break;
+    case Note::Remedy::Open:
+      files_.open(note.design);
+      break;
+  }
+}
+
+void MainWindow::show_progress() {
+  const QString doing = files_.doing();
+  if (doing.isEmpty()) {
+    busy_since_.invalidate();
+    banner_->hide_progress();
+    return;
+  }
+  if (!busy_since_.isValid()) busy_since_.start();
+  constexpr int kPatience = 300;  // ms, that nobody needs to be told about
+  if (busy_since_.elapsed() < kPatience) return;
+  const auto part = session_.opening();
+  banner_->show_progress(doing, part, part ? [this] { session_.cancel_open(); } : std::function<void()>());
+}
+
+void MainWindow::show_title() {
+  const QString title = QString("%1[*] - ICOME").arg(files_.design_name().replace("[*]", "[*][*]"));
+  if (windowTitle() != title) setWindowTitle(title);
+  setWindowModified(session_.modified());
+}
+
+/// What has its name written above it.
+std::optional<world::ObjectId> MainWindow::wanted_label() const {
+  if (tools_.hovered()) return tools_.hovered();
+  const std::vector<world::ObjectId>& selected = session_.selection();
+  return selected.size() == 1 ? std::optional(selected.front()) : std::nullopt;
+}
+
+void MainWindow::show_look() {
+  const SceneColours its = scene_colours();
+  pixel_ratio_ = devicePixelRatio();
+  session::DisplayWish wish;
+  wish.look.above = its.above;
+  wish.look.below = its.below;
+  wish.look.selection = its.selection;
+  wish.look.selection_width = int(std::lround(wish.look.selection_width * pixel_ratio_));
+  wish.look.shadows = views_.shadows();
+  wish.look.grid = views_.grid();
+  wish.look.grid_colour = its.grid;
+  wish.look.passes = 16;
+  wish.pointers = options_.hand_in_sight || tools_.tool() == Tool::Touch;
+  wish.spared_sign = spared_sign_.picture("Force held down to spare the motors", pixel_ratio_);
+  if (labelled_) {
+    if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
+      wish.look.overlay.panels.push_back(std::move(*panel));
+  }
+  session_.set_look(wish);
+}
+
+/// Ends what the mouse is doing, and commits what is being typed: it counts as done. False: that was refused.
+bool MainWindow::finish_work() {
+  tools_.finish();
+  return shaping_->finish_typing() && properties_->finish_typing() && tree_->finish_typing();
+}
+
+void MainWindow::choose_theme(Theme theme) {
+  settings_.setValue("theme", QString::fromStdString(std::string(name(theme))));
+  apply_theme(*qApp, theme);
+  views_.show_theme(theme);
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && scene_) show_look();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  closing_ = true;
+  if (!agreed_) {
+    files_.when_safe([this] {
+      agreed_ = true;
+      if (!closing_) close();
+    });
+  }
+  closing_ = false;
+  event->setAccepted(agreed_);
+  if (!agreed_) return;
+  timer_.stop();
+  settings_.setValue("window/geometry", saveGeometry());
+  settings_.setValue("window/state", saveState(kLayout));
+  session_.cancel_open();
+  session_.close();
+}
+
+bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
+  const QList<QUrl> urls = drop.mimeData()->urls();
+  if (urls.size() != 1 || !urls.front().isLocalFile()) return false;
+  drop.setDropAction(Qt::CopyAction);
+  drop.accept();
+  const std::filesystem::path file = path_of(urls.front().toLocalFile());
+  const bool dropped = drop.type() == QEvent::Drop;
+  if (!is_named_as_picture(file)) {
+    if (dropped) files_.open(file);
+    return true;
+  }
+  const SceneInput input{.at = drop.position(), .size = scene_->size()};
+  if (!dropped) {
+    if (over_scene) tools_.move(input);  // what it would fall on is named
+  } else if (over_scene) {
+    drop_picture(file, input);
+  } else {
+    tell_error("Drop a picture on the object in the scene that it is to lie on");
+  }
+  return true;
+}
+
+void MainWindow::drop_picture(const std::filesystem::path& file, const SceneInput& input) {
+  const auto picked = session_.pick_seen(input.ray(session_.view()));
+  if (!picked)
+    return tell_error("There is no object under the picture: drop it on the one that it is to lie on");
+  pictures_.put(file, {picked->object});
+}
+
+bool MainWindow::event(QEvent* event) {
+  const bool drop = event->type() == QEvent::DragEnter || event->type() == QEvent::DragMove ||
+                    event->type() == QEvent::Drop;
+  if (drop && offer_drop(static_cast<QDropEvent&>(*event), false)) return true;
+  return QMainWindow::event(event);
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,119 @@
+#pragma once
+#include <QElapsedTimer>
+#include <QMainWindow>
+#include <QSettings>
+#include <QTimer>
+
+#include "session/session.h"
+#include "ui/actions/edit_actions.h"
+#include "ui/actions/file_actions.h"
+#include "ui/actions/move_actions.h"
+#include "ui/actions/operation_actions.h"
+#include "ui/actions/picture_actions.h"
+#include "ui/actions/technique_actions.h"
+#include "ui/actions/view_actions.h"
+#include "ui/forms/operation_panel.h"
+#include "ui/look/theme.h"
+#include "ui/panels/property_panel.h"
+#include "ui/panels/world_tree.h"
+#include "ui/tools/scene_tools.h"
+#include "ui/tools/shape_options.h"
+#include "ui/window/banner.h"
+#include "ui/window/scene_label.h"
+#include "ui/window/scene_view.h"
+
+class QDockWidget;
+class QLabel;
+
+namespace icome::ui {
+
+/// The desktop's one window: the scene in the middle, messages above it, the world's tree and the properties
+/// beside it, and how the hand is doing below. Session and settings outlive it.
+class MainWindow final : public QMainWindow {
+ public:
+  struct Options {
+    Theme theme = Theme::System;
+    bool hand_in_sight = false;  // there is a pointer device: its hand is always shown
+  };
+  MainWindow(session::Session& session, QSettings& settings, const Options& options);
+  ~MainWindow() override;
+
+  /// Opens the design or what was left of it by a crash; without one, what was left of any other.
+  void begin(const std::filesystem::path& design);
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void make_center();
+  void make_docks();
+  void make_menus();
+  void make_tool_menu(QMenu& menu);
+  void make_help_menu(QMenu& menu);
+  void make_tool_bar();
+  void restore_layout();
+
+  void tick();
+  void hear(const session::SessionEvent& event);
+  void tell(const Note& note) { banner_->tell(note); }
+  void tell_error(const std::string& why);
+  void remedy(const Note& note, Note::Remedy remedy);
+  void discard(const std::filesystem::path& journal);
+  void show_progress();
+  void show_title();
+  void show_hint();
+  void show_count();
+  std::optional<world::ObjectId> wanted_label() const;
+  void show_look();
+  void show_tool(Tool tool);
+  void choose_theme(Theme theme);
+  void show_scene_menu(QPointF at);
+  void show_shortcuts();
+  void next_part();
+  void ask(const interaction::Operation& operation);
+  void stop_asking();
+  void find_command();
+  bool offer_drop(QDropEvent& drop, bool over_scene);
+  void drop_picture(const std::filesystem::path& file, const SceneInput& input);
+  bool finish_work();
+
+  session::Session& session_;
+  QSettings& settings_;
+  Options options_;
+  SceneTools tools_;
+  FileActions files_;
+  EditActions edits_;
+  OperationActions operations_;
+  ViewActions views_;
+  TechniqueActions techniques_;
+  MoveActions moves_;
+  PictureActions pictures_;
+  Banner* banner_ = nullptr;
+  ShapeOptions* shaping_ = nullptr;  // shown with its tool
+  SceneView* scene_ = nullptr;
+  WorldTree* tree_ = nullptr;
+  PropertyPanel* properties_ = nullptr;
+  OperationPanel* operation_ = nullptr;
+  QDockWidget* operation_dock_ = nullptr;  // closed while nothing is asked
+  QWidget* hand_ = nullptr;
+  QLabel* hint_ = nullptr;
+  QLabel* technique_ = nullptr;  // by which the hands work, where that is not touch
+  QLabel* count_ = nullptr;
+  QAction* tool_actions_[kToolCount] = {};
+  QTimer timer_;
+  bool is_stale_ = true;  // what is said and drawn of the selection
+  SceneLabel label_;
+  SceneWords spared_sign_;
+  std::optional<world::ObjectId> labelled_ = {};
+  std::string drag_words_;    // as shown
+  QString remark_;            // of an operation, as shown
+  QString technique_hint_;    // as shown
+  double pixel_ratio_ = 0.0;  // as shown; another screen may have another
+  QElapsedTimer busy_since_;  // invalid: nothing is being read or written
+  bool agreed_ = false;       // to close
+  bool closing_ = false;      // within the event
+};
+
+}  // namespace icome::ui

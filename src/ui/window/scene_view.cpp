@@ -1,0 +1,116 @@
+#include "ui/window/scene_view.h"
+
+#include <QApplication>
+#include <QLabel>
+#include <QPushButton>
+#include <QStackedLayout>
+#include <QVBoxLayout>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+
+namespace icome::ui {
+namespace {
+
+constexpr int kReasonWidth = 90 * kGrid;
+
+}  // namespace
+
+SceneView::SceneView(session::Session& session, SceneTools& tools, QWidget* parent)
+    : QWidget(parent),
+      tools_(tools),
+      scene_(new SceneWindow(tools, session.display())),
+      container_(createWindowContainer(scene_, this)),
+      stack_(new QStackedLayout(this)) {
+  setObjectName("scene");
+  container_->setObjectName("scene.container");
+  container_->setAccessibleName("Scene");
+  container_->setFocusPolicy(Qt::StrongFocus);
+  container_->setMinimumSize(160, 120);
+  stack_->addWidget(container_);
+  make_reason();
+}
+
+void SceneView::make_reason() {
+  auto* page = new QWidget(this);
+  auto* rows = new QVBoxLayout(page);
+  rows->setSpacing(4 * kGrid);
+  sign_ = new QLabel(page);
+  sign_->setObjectName("scene.sign");
+  draw_sign();
+  reason_ = new QLabel(page);
+  reason_->setObjectName("scene.reason");
+  reason_->setTextFormat(Qt::PlainText);
+  reason_->setWordWrap(true);
+  reason_->setAlignment(Qt::AlignCenter);
+  reason_->setFixedWidth(kReasonWidth);
+  reason_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  again_ = new QPushButton("Try Again", page);
+  again_->setObjectName("scene.retry");
+  connect(again_, &QPushButton::clicked, this, [this] {
+    stack_->setCurrentWidget(container_);
+    scene_->retry();
+  });
+  rows->addStretch();
+  rows->addWidget(sign_, 0, Qt::AlignHCenter);
+  rows->addWidget(reason_, 0, Qt::AlignHCenter);
+  rows->addWidget(again_, 0, Qt::AlignHCenter);
+  rows->addStretch();
+  stack_->addWidget(page);
+}
+
+void SceneView::tick() {
+  show_cursor();
+  const auto why = scene_->trouble();
+  if (!why) return;
+  reason_->setText(QString::fromStdString(*why) + "\n\nEverything else works meanwhile: nothing is lost.");
+  reason_->setFixedHeight(reason_->heightForWidth(kReasonWidth));
+  stack_->setCurrentIndex(1);
+}
+
+void SceneView::show_cursor() {
+  Qt::CursorShape shape = Qt::ArrowCursor;
+  if (tools_.tool() == Tool::Touch) {
+    shape = Qt::BlankCursor;  // the hand is shown in its place
+  } else if (tools_.dragging() || tools_.turning()) {
+    shape = Qt::ClosedHandCursor;
+  } else if (tools_.tool() == Tool::View) {
+    shape = Qt::OpenHandCursor;
+  }
+  if (scene_->cursor().shape() != shape) scene_->setCursor(shape);
+}
+
+bool SceneView::eventFilter(QObject* of, QEvent* event) {
+  const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
+  if (!key || of != window() || !has_keyboard()) return QWidget::eventFilter(of, event);
+  // The window manager gives the keyboard to the whole window when it was the scene that had it before.
+  QCoreApplication::sendEvent(scene_, event);
+  return event->isAccepted();
+}
+
+void SceneView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  window()->installEventFilter(this);
+}
+
+/// In the theme's colours, and as sharp as the screen.
+void SceneView::draw_sign() { sign_->setPixmap(icon(Icon::Warning).pixmap(12 * kGrid, 12 * kGrid)); }
+
+void SceneView::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && sign_) draw_sign();
+}
+
+void SceneView::take_keyboard() {
+  if (again_->isVisible()) return again_->setFocus(Qt::OtherFocusReason);
+  container_->setFocus(Qt::OtherFocusReason);
+  scene_->requestActivate();
+}
+
+bool SceneView::has_keyboard() const {
+  const QWidget* const focus = QApplication::focusWidget();
+  return QGuiApplication::focusWindow() == scene_ ||
+         (window()->isActiveWindow() && (!focus || focus == container_));
+}
+
+}  // namespace icome::ui

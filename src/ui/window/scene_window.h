@@ -1,0 +1,57 @@
+#pragma once
+#include <QDropEvent>
+#include <QSinglePointEvent>
+#include <QWindow>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "session/display/display_feed.h"
+#include "ui/tools/scene_tools.h"
+#include "ui/window/display_thread.h"
+
+namespace icome::ui {
+
+/// The part of the screen that the scene is drawn on, by a thread of its own; hands mouse, pen and keyboard
+/// to the tools. Tools and feed outlive it.
+class SceneWindow final : public QWindow {
+ public:
+  SceneWindow(SceneTools& tools, session::DisplayFeed& feed);
+  ~SceneWindow() override;
+
+  /// Why there is no picture, once; nothing while there is one.
+  std::optional<std::string> trouble();
+  /// Tries again to draw.
+  void retry();
+  /// What draws, in the driver's words; empty until the first frame.
+  QString renderer();
+  /// Who gets what is dragged and dropped here; true: it was of use.
+  void on_drop(std::function<bool(QDropEvent&)> offered) { offered_ = std::move(offered); }
+
+ protected:
+  bool event(QEvent* event) override;
+  void exposeEvent(QExposeEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void tabletEvent(QTabletEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+
+ private:
+  SceneInput input(const QSinglePointEvent& event) const;
+  void show_or_hide();
+
+  SceneTools& tools_;
+  session::DisplayFeed& feed_;
+  std::unique_ptr<DisplayThread> display_ = nullptr;  // null: not seen yet, or it cannot be
+  std::optional<std::string> trouble_ = {};
+  bool refused_ = false;  // there is no use in trying again by itself
+  std::function<bool(QDropEvent&)> offered_ = [](QDropEvent&) { return false; };
+};
+
+}  // namespace icome::ui

@@ -1,0 +1,302 @@
+#include "ui/window/status_strip.h"
+
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QTimer>
+#include <cmath>
+
+#include "base/clock.h"
+#include "charts/length_text.h"
+#include "ui/look/theme.h"
+#include "ui/panels/object_look.h"
+#include "ui/plots/force_plot.h"
+#include "ui/plots/load_plot.h"
+#include "ui/plots/load_window.h"
+
+namespace icome::ui {
+
+using devices::DeviceStatus;
+
+namespace {
+
+constexpr int kEvery = 66;  // ms
+constexpr const char* kTouchedTip = "The object under the hand";
+
+/// A lamp that says how the device is.
+class StateDot final : public QWidget {
+ public:
+  explicit StateDot(QWidget* parent) : QWidget(parent) { setFixedSize(3 * kGrid, 3 * kGrid); }
+
+  void show(DeviceStatus status) {
+    if (status == status_) return;
+    status_ = status;
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent* /*event*/) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const ThemeColours& theme = colours();
+    const QColor colour = status_ == DeviceStatus::Ok        ? theme.good
+                          : status_ == DeviceStatus::Stalled ? theme.warning
+                                                             : theme.bad;
+    const QRectF round = QRectF(rect()).adjusted(1.5, 1.5, -1.5, -1.5);
+    // Not by colour alone: a lost device is a ring.
+    painter.setPen(QPen(colour, 1.6));
+    painter.setBrush(status_ == DeviceStatus::Lost ? QBrush(Qt::NoBrush) : QBrush(colour));
+    painter.drawEllipse(round);
+  }
+
+ private:
+  DeviceStatus status_ = DeviceStatus::Lost;
+};
+
+QLabel* figure(const QString& caption, const QString& tip, QGridLayout& grid, int row, QWidget* parent) {
+  auto* name = new QLabel(caption, parent);
+  name->setForegroundRole(QPalette::PlaceholderText);
+  auto* value = new QLabel(parent);
+  value->setAccessibleName(caption);
+  value->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  name->setToolTip(tip);
+  value->setToolTip(tip);
+  grid.addWidget(name, row, 0);
+  grid.addWidget(value, row, 1, Qt::AlignRight);
+  return value;
+}
+
+void set(QLabel& label, const QString& text) {
+  if (label.text() == text) return;
+  label.setText(text);
+  label.setAccessibleDescription(text);
+}
+
+QString words_of(DeviceStatus status) {
+  switch (status) {
+    case DeviceStatus::Ok:
+      return "ready";
+    case DeviceStatus::Stalled:
+      return "no news";
+    case DeviceStatus::Lost:
+      break;
+  }
+  return "lost";
+}
+
+QString explanation_of(DeviceStatus status) {
+  switch (status) {
+    case DeviceStatus::Ok:
+      return "The pointer device gives its place at every tick.";
+    case DeviceStatus::Stalled:
+      return "The pointer device is there, but has nothing new to say.";
+    case DeviceStatus::Lost:
+      break;
+  }
+  return "The pointer device does not answer: plug it in again. Forces go nowhere meanwhile.";
+}
+
+QString softer_words(const session::PointerView& view) {
+  return QString(
+             "It was made %1 N/m hard and is felt as %2 N/m, the most that is stable on this device at this "
+             "servo rate.")
+      .arg(std::llround(view.asked_stiffness))
+      .arg(std::llround(view.stiffness));
+}
+
+QString sparing_words(const devices::DeviceInfo& device) {
+  return QString(
+             "The motors of this device can hold %1 N for long. More has been asked of them for some time, "
+             "so "
+             "the force sinks to that until they have rested.")
+      .arg(device.continuous_force);
+}
+
+/// Of the first few, what they are called and what they are felt as.
+QString capped_words(const world::World& world, const std::vector<haptics::CappedEffect>& effects) {
+  constexpr std::size_t kMostTold = 6;
+  QStringList lines{"Together with what else acts, this device renders less than was asked for:"};
+  for (std::size_t i = 0; i < std::min(effects.size(), kMostTold); ++i) {
+    const QString name = shown_name(world, world::ObjectId{effects[i].id});
+    lines << QString("%1: %2").arg(name, one_line(effects[i].what));
+  }
+  if (effects.size() > kMostTold) lines << QString("and %1 more").arg(effects.size() - kMostTold);
+  return lines.join('\n');
+}
+
+QString grouped(double number) {
+  return number >= 0.0 && number < 1e15
+             ? QString::fromStdString(charts::grouped(std::size_t(std::llround(number))))
+             : QString("–");
+}
+
+QString microseconds(double seconds) {
+  return std::isfinite(seconds) ? QString("%1 µs").arg(grouped(seconds * 1e6)) : QString("–");
+}
+
+}  // namespace
+
+struct StatusStrip::Parts {
+  Parts(session::Session& of, StatusStrip& strip);
+
+  QWidget* build_device(QWidget* strip);
+  QWidget* build_servo(QWidget* strip);
+  void look();
+  void look_at_device();
+  void look_at_effects();
+  void look_at_servo(std::int64_t now);
+
+  session::Session& session;
+  LoadWindow window{};
+  StateDot* dot = nullptr;
+  QLabel* device = nullptr;
+  QLabel* state = nullptr;
+  QLabel* touched = nullptr;
+  QLabel* capped = nullptr;
+  QLabel* rate = nullptr;
+  QLabel* overruns = nullptr;
+  QLabel* lateness = nullptr;
+  LoadPlot* load;
+  ForcePlot* force;
+  QTimer* timer;
+};
+
+StatusStrip::Parts::Parts(session::Session& of, StatusStrip& strip)
+    : session(of), load(new LoadPlot(&strip)), force(new ForcePlot(&strip)), timer(new QTimer(&strip)) {
+  auto* row = new QHBoxLayout(&strip);
+  row->setContentsMargins(3 * kGrid, 2 * kGrid, 3 * kGrid, 2 * kGrid);
+  row->setSpacing(5 * kGrid);
+  row->addWidget(build_device(&strip));
+  row->addWidget(build_servo(&strip));
+  row->addWidget(load, 3);
+  row->addWidget(force, 4);
+  QObject::connect(timer, &QTimer::timeout, &strip, [this] { look(); });
+  timer->setInterval(kEvery);
+}
+
+QWidget* StatusStrip::Parts::build_device(QWidget* strip) {
+  auto* block = new QWidget(strip);
+  block->setFixedWidth(42 * kGrid);
+  auto* grid = new QGridLayout(block);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(kGrid);
+  grid->setColumnStretch(1, 1);
+  dot = new StateDot(block);
+  device = new QLabel(block);
+  QFont bold = device->font();
+  bold.setWeight(QFont::DemiBold);
+  device->setFont(bold);
+  device->setAccessibleName("Pointer device");
+  state = new QLabel(block);
+  state->setForegroundRole(QPalette::PlaceholderText);
+  state->setAccessibleName("State of the pointer device");
+  touched = new QLabel(block);
+  touched->setAccessibleName("Object that is touched");
+  touched->setToolTip(kTouchedTip);
+  grid->addWidget(dot, 0, 0);
+  grid->addWidget(device, 0, 1);
+  grid->addWidget(state, 1, 1);
+  capped = new QLabel(block);
+  capped->setForegroundRole(QPalette::PlaceholderText);
+  capped->setAccessibleName("Effects that are felt softer than asked for");
+  grid->addWidget(touched, 2, 1);
+  grid->addWidget(capped, 3, 1);
+  grid->setRowStretch(4, 1);
+  return block;
+}
+
+QWidget* StatusStrip::Parts::build_servo(QWidget* strip) {
+  auto* block = new QWidget(strip);
+  block->setFixedWidth(46 * kGrid);
+  auto* grid = new QGridLayout(block);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(kGrid);
+  grid->setColumnStretch(0, 1);
+  rate = figure("Servo rate",
+                "How often a second the servo asks the device where the hand is and answers with a "
+                "force (Hz), and how often it was asked to.",
+                *grid, 0, block);
+  overruns = figure("Overruns",
+                    "Ticks since the start that took longer than there was time: the next one was due "
+                    "before they had ended.",
+                    *grid, 1, block);
+  lateness = figure("Lateness",
+                    "How long after its time a tick begins (p99.9 since the start: all but one in a "
+                    "thousand are earlier). The system decides; real-time priority helps.",
+                    *grid, 2, block);
+  grid->setRowStretch(3, 1);
+  return block;
+}
+
+void StatusStrip::Parts::look() {
+  const std::int64_t now = base::steady_nanoseconds();
+  look_at_device();
+  look_at_servo(now);
+  const double reach = session.pointers() > 0 ? session.pointer_info(0).max_force : 0.0;
+  force->add(session.take_forces(), now, reach);
+}
+
+void StatusStrip::Parts::look_at_device() {
+  if (session.pointers() == 0) return set(*device, "No pointer device");
+  const session::PointerView& view = session.pointer(0);
+  const QString name = one_line(session.pointer_info(0).name);
+  const QString more = session.pointers() > 1 ? QString(" + %1").arg(session.pointers() - 1) : QString();
+  set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
+  dot->show(view.status);
+  const bool spared = view.spared && view.status == DeviceStatus::Ok;
+  set(*state, spared ? QString("ready, force held down") : words_of(view.status));
+  state->setToolTip(spared ? sparing_words(session.pointer_info(0)) : explanation_of(view.status));
+  dot->setToolTip(explanation_of(view.status));
+  const auto object = view.touching ? session.touched(0) : std::nullopt;
+  const bool softer = object && view.stiffness < view.asked_stiffness;
+  const QString what =
+      object ? (softer ? "softly touches " : "touches ") + shown_name(session.world(), *object) : QString();
+  touched->setToolTip(softer ? softer_words(view) : QString(kTouchedTip));
+  set(*touched, touched->fontMetrics().elidedText(what, Qt::ElideRight, 36 * kGrid));
+  look_at_effects();
+}
+
+void StatusStrip::Parts::look_at_effects() {
+  const std::vector<haptics::CappedEffect>& softer = session.capped_effects();
+  capped->setVisible(!softer.empty());
+  if (softer.empty()) return;
+  set(*capped, softer.size() == 1 ? QString("1 effect felt softly")
+                                  : QString("%1 effects felt softly").arg(softer.size()));
+  capped->setToolTip(tip_of(capped_words(session.world(), softer)));
+}
+
+void StatusStrip::Parts::look_at_servo(std::int64_t now) {
+  const session::ServoHealth health = session.servo();
+  const double period = health.summary.period.median;
+  if (!health.running) {
+    set(*rate, "stopped");
+  } else {
+    set(*rate, QString("%1 of %2 Hz")
+                   .arg(period > 0.0 ? grouped(1.0 / period) : QString("–"), grouped(health.rate_hz)));
+  }
+  set(*overruns, grouped(double(health.summary.overruns)));
+  set(*lateness, microseconds(health.summary.lateness.p999));
+  window.add(now, health.load_histogram);
+  load->show(window);
+}
+
+StatusStrip::StatusStrip(session::Session& session, QWidget* parent)
+    : QWidget(parent), parts_(std::make_unique<Parts>(session, *this)) {
+  setAccessibleName("Hand and servo");
+}
+
+StatusStrip::~StatusStrip() = default;
+
+void StatusStrip::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  parts_->look();
+  parts_->timer->start();
+}
+
+void StatusStrip::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  parts_->timer->stop();
+}
+
+}  // namespace icome::ui

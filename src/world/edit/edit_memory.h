@@ -1,0 +1,12 @@
+#pragma once
+#include <cstddef>
+
+#include "world/edit/edit.h"
+
+namespace icome::world {
+
+/// About the bytes of memory that keeping an edit may take: its texts, numbers, shapes and pictures. What it
+/// shares with others counts in full.
+std::size_t memory_of(const Edit& edit);
+
+}  // namespace icome::world

@@ -1,0 +1,79 @@
+#include "world/shape/exact_surface.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "geometry/csg/csg_solid.h"
+#include "geometry/loop/loop_surface.h"
+#include "geometry/segment.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
+
+namespace icome::world {
+namespace {
+
+using geometry::SmoothSurface;
+using geometry::SurfaceEntry;
+
+bool is_round(const geometry::Primitive& it) {
+  return !std::holds_alternative<geometry::Plane>(it) && !std::holds_alternative<geometry::Box>(it);
+}
+
+/// Subdivision surfaces may be sheets, or inside out.
+bool has_front_only(const SmoothSurface& surface) {
+  return dynamic_cast<const geometry::LoopSurface*>(&surface) == nullptr;
+}
+
+}  // namespace
+
+bool has_exact_surface(const Geometry& shape) {
+  if (const auto* it = dynamic_cast<const PrimitiveGeometry*>(&shape)) return is_round(it->primitive);
+  return dynamic_cast<const CsgGeometry*>(&shape) || dynamic_cast<const LoopGeometry*>(&shape) ||
+         dynamic_cast<const ImplicitGeometry*>(&shape);
+}
+
+std::shared_ptr<const SmoothSurface> exact_surface(const Geometry& shape) {
+  if (!has_exact_surface(shape)) return nullptr;
+  if (const auto* it = dynamic_cast<const PrimitiveGeometry*>(&shape)) {
+    geometry::CsgTree tree;
+    tree.add_leaf(it->primitive, Affine3(it->shape_from_primitive()));
+    return std::make_shared<const geometry::CsgSolid>(tree);
+  }
+  if (const auto* it = dynamic_cast<const CsgGeometry*>(&shape)) {
+    if (it->tree.empty()) return nullptr;
+    return std::make_shared<const geometry::CsgSolid>(it->tree);
+  }
+  if (const auto* it = dynamic_cast<const ImplicitGeometry*>(&shape)) return it->surface();
+  const auto loop = geometry::LoopSurface::create(dynamic_cast<const LoopGeometry&>(shape).control);
+  return loop ? *loop : nullptr;
+}
+
+/// Each piece is asked about the part of the way in its box alone, which begins well before the piece: so the
+/// side on which it begins is in no doubt, and what is near is found with the most digits.
+std::optional<SurfaceEntry> way_into(const SmoothSurface& surface, const Vector3& a, const Vector3& b) {
+  constexpr double kSlackOfExtent = 1e-12;
+  constexpr double kClear = 8.0;  // slacks
+  const Vector3 step = b - a;
+  const Bounds box = surface.bounds();
+  const double slack =
+      kSlackOfExtent * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  std::optional<SurfaceEntry> first;
+  const auto look = [&](std::uint32_t piece, double begin, double end, bool from_behind) {
+    const auto entry = surface.entry(piece, a + begin * step, (end - begin) * step, from_behind, 0.0, slack);
+    if (!entry) return;
+    const double share = begin + entry->t * (end - begin);
+    if (first && share >= first->t) return;
+    first = SurfaceEntry{share, entry->place};
+    if (from_behind) first->place.normal = -first->place.normal;
+  };
+  surface.near(a, b, kClear * slack, 0.0, [&](std::uint32_t piece, const Bounds& part) {
+    const auto within = geometry::part_within(part, a, step, kClear * slack);
+    if (!within || (first && (*within)[0] > first->t)) return true;
+    look(piece, (*within)[0], (*within)[1], false);
+    if (!has_front_only(surface)) look(piece, (*within)[0], (*within)[1], true);
+    return true;
+  });
+  return first;
+}
+
+}  // namespace icome::world

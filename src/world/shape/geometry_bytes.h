@@ -1,0 +1,17 @@
+#pragma once
+#include <string_view>
+
+#include "base/result.h"
+#include "world/shape/geometry.h"
+
+namespace icome::world {
+
+// Shapes of the built-in kinds out of what their `write` gave (geometry.fbs), for GeometryFactory. All
+// fail with a sentence on bytes that are damaged, or that no such shape can have been written to.
+base::Result<GeometryPointer> read_mesh(std::string_view bytes);
+base::Result<GeometryPointer> read_loop(std::string_view bytes);
+base::Result<GeometryPointer> read_primitive(std::string_view bytes);
+base::Result<GeometryPointer> read_csg(std::string_view bytes);
+base::Result<GeometryPointer> read_implicit(std::string_view bytes);
+
+}  // namespace icome::world

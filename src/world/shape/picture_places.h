@@ -1,0 +1,16 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "geometry/mesh/triangle_mesh.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
+
+namespace icome::world {
+
+/// Where the corners of a primitive's triangles lie in a picture, as VRML 2.0 (6.6, 6.10, 6.11, 6.42) wraps
+/// it round boxes, cones, cylinders and spheres; `mesh` is in the shape's frame. Empty for other primitives.
+std::vector<std::array<Vector2, 3>> picture_places(const PrimitiveGeometry& shape,
+                                                   const geometry::TriangleMesh& mesh);
+
+}  // namespace icome::world

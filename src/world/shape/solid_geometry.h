@@ -1,0 +1,91 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "geometry/csg/csg_tree.h"
+#include "geometry/implicit/implicit_surface.h"
+#include "world/shape/geometry.h"
+
+namespace icome::world {
+
+/// The axis that a primitive stands along; its positive end is the top.
+enum class Axis : std::uint8_t { Z, Y };
+
+/// A box, sphere, cylinder, cone, torus, capsule or half-space by its sizes. Along z it is what
+/// geometry::Primitive says, along y that turned about x so that its z becomes y: how VRML 2.0 stands
+/// cylinders and cones.
+struct PrimitiveGeometry final : public Geometry {
+  explicit PrimitiveGeometry(const geometry::Primitive& shape, Axis stands_along = Axis::Z)
+      : primitive(shape), axis(stands_along) {}
+
+  geometry::Primitive primitive;
+  Axis axis;
+
+  /// The turn from the primitive's own frame to the shape's.
+  base::Matrix3 shape_from_primitive() const;
+
+  /// Is it the same solid, to the last bit?
+  bool same(const PrimitiveGeometry& other) const {
+    return primitive == other.primitive && axis == other.axis;
+  }
+
+  std::string_view kind() const override { return "primitive"; }
+  Bounds bounds() const override;
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override { return sizeof(*this); }
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
+  base::Result<std::string> write() const override;
+};
+
+/// A solid under union, intersection and difference.
+struct CsgGeometry final : public Geometry {
+  explicit CsgGeometry(geometry::CsgTree solid) : tree(std::move(solid)) {}
+
+  geometry::CsgTree tree;
+
+  std::string_view kind() const override { return "csg"; }
+  Bounds bounds() const override { return geometry::bounds(tree); }
+  /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override;
+  /// With what could be made of the solid, and a place that is missing there (m), if any.
+  struct Surface {
+    std::shared_ptr<const MeshGeometry> mesh;  // never null
+    std::optional<Vector3> lost;
+  };
+  base::Result<Surface> surface(double tolerance) const;
+  /// Fails, too, where a part of the solid would be lost.
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
+  base::Result<std::string> write() const override;
+};
+
+/// The solid where a formula in x, y, z and t is negative, within a box.
+class ImplicitGeometry final : public Geometry {
+ public:
+  /// Fails as geometry::ImplicitSurface::create does.
+  static base::Result<std::shared_ptr<const ImplicitGeometry>> create(const std::string& formula,
+                                                                      const Bounds& box);
+
+  const std::string& formula() const { return formula_; }
+  const std::shared_ptr<const geometry::ImplicitSurface>& surface() const { return surface_; }
+  /// As triangles() at a time (s), for a surface that changes; see Geometry::triangles.
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles_at(double time, double tolerance) const;
+
+  std::string_view kind() const override { return "implicit"; }
+  Bounds bounds() const override { return surface_->bounds(); }
+  std::uint64_t hash() const override;
+  std::size_t bytes() const override { return sizeof(*this) + formula_.capacity() + surface_->bytes(); }
+  base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
+  base::Result<std::string> write() const override;
+
+ private:
+  ImplicitGeometry(std::string formula, std::shared_ptr<const geometry::ImplicitSurface> surface)
+      : formula_(std::move(formula)), surface_(std::move(surface)) {}
+
+  std::string formula_;
+  std::shared_ptr<const geometry::ImplicitSurface> surface_;
+};
+
+}  // namespace icome::world

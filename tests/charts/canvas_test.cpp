@@ -1,0 +1,79 @@
+#include "charts/canvas.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace icome::charts {
+namespace {
+
+using base::Vector2;
+
+int dark_pixels(const Image& image) {
+  int found = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) found += image.rgba[i] < 128;
+  return found;
+}
+
+TEST(Printable, ReplacesWhatIsNotUtf8) {
+  EXPECT_EQ(printable("b\u00fcste \u4e2d"), "b\u00fcste \u4e2d");
+  EXPECT_EQ(printable("a\xff"
+                      "b"),
+            "a\ufffd"
+            "b");
+  EXPECT_EQ(printable("\xc3"), "\ufffd");                      // cut short
+  EXPECT_EQ(printable("\xc0\xaf"), "\ufffd\ufffd");            // an overlong slash
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\ufffd\ufffd\ufffd");  // a surrogate
+  EXPECT_EQ(printable("a\tb"), "a b");
+}
+
+TEST(Canvas, StillDrawsAfterABrokenText) {
+  Canvas canvas(200, 60, 1.0);
+  canvas.text({5, 30}, "\xff\xfe", {});
+  canvas.fill({100, 10, 20, 20}, {0, 0, 0});
+  EXPECT_GE(dark_pixels(canvas.snapshot()), 400);
+}
+
+TEST(Canvas, DrawsTheSamePictureAtTwiceTheScale) {
+  const auto ink = [](double scale) {
+    Canvas canvas(static_cast<int>(200 * scale), static_cast<int>(60 * scale), scale);
+    canvas.text({5, 40}, "Surface contact", {22.0, {}, true});
+    return dark_pixels(canvas.snapshot());
+  };
+  EXPECT_GT(ink(1.0), 300);
+  EXPECT_NEAR(ink(2.0), 4 * ink(1.0), 0.15 * 4 * ink(1.0));
+}
+
+TEST(Canvas, SurvivesLinesThatLeaveThePageByFar) {
+  Canvas canvas(100, 100, 1.0);
+  const Vector2 line[] = {{-1e300, 50}, {1e300, 50}};
+  canvas.line(line, {{0, 0, 0}, 4.0, {}});
+  EXPECT_EQ(canvas.snapshot().pixel(50, 50)[0], 0);
+}
+
+TEST(Canvas, WritesWhatWasDrawnAsSvg) {
+  Canvas canvas = Canvas::of_lines(200, 100);
+  EXPECT_EQ(canvas.width(), 200);
+  EXPECT_EQ(canvas.height(), 100);
+  canvas.fill({10, 20, 30, 40}, {1, 0, 0});
+  canvas.text({10, 90}, "time (s)", {});
+  const std::string svg = canvas.svg();
+  EXPECT_TRUE(svg.starts_with("<?xml")) << svg.substr(0, 60);
+  EXPECT_NE(svg.find("viewBox=\"0 0 200 100\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_NE(svg.find("width=\"200px\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_NE(svg.find("fill:rgb(100%,0%,0%)"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_EQ(svg.find("font-family"), std::string::npos);
+}
+
+TEST(Fitted, CutsLongTextWithAnEllipsis) {
+  const Canvas canvas(100, 100, 1.0);
+  const TextStyle style;
+  EXPECT_EQ(fitted(canvas, "short", style, 200.0), "short");
+  const std::string cut = fitted(canvas, "a very long name that goes on and on", style, 100.0);
+  EXPECT_TRUE(cut.ends_with("\u2026"));
+  EXPECT_LE(canvas.text_width(cut, style), 100.0);
+}
+
+}  // namespace
+}  // namespace icome::charts

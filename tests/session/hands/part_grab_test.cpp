@@ -1,0 +1,97 @@
+// Operands of solids that are taken hold of in the air by a device with a button.
+#include "session/hands/part_grab.h"
+
+#include "session/sessions.h"
+
+namespace icome::session {
+namespace {
+
+using base::Vector3;
+
+/// A block of 0.4 m with a hole of 0.1 m along z through its middle, selected, and a device in the air.
+class PartGrabTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SessionSettings settings = quiet_settings();
+    auto device = hand_at(Vector3(0.0, 1.0, 0.0));
+    hand_ = device.get();
+    settings.pointers.push_back(std::move(device));
+    session_ = start(std::move(settings));
+    geometry::CsgTree tree;
+    const auto block = tree.add_leaf(geometry::Box{{0.2, 0.2, 0.1}});
+    const auto hole = tree.add_leaf(geometry::Cylinder{0.1, 0.6});
+    tree.add(geometry::CsgOperator::Difference, block, hole);
+    solid_ = add_shape(*session_, std::make_shared<world::CsgGeometry>(std::move(tree)),
+                       world::at(0.0, 0.0, 0.0), "block");
+    session_->settle();
+    offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
+  }
+  Vector3 tip() const { return session_->pointer(0).tip; }
+  void put(const Vector3& place) {
+    hand_->put(place - offset_);
+    hand_->set_target(place - offset_);
+    run_until(*session_, [&] { return (tip() - place).norm() < 1e-3; });
+  }
+  Vector3 hole_at() const {
+    return interaction::world_from_part(session_->world(), {solid_, 1})->translation();
+  }
+
+  devices::SimulatedDevice* hand_ = nullptr;
+  std::unique_ptr<Session> session_;
+  Vector3 offset_ = Vector3::Zero();  // of the stage from the device
+  world::ObjectId solid_;
+};
+
+TEST_F(PartGrabTest, AHoleGoesAlongWithTheHandAsOneActionAndPullsBack) {
+  const std::uint64_t before = hash(session_->world());
+  session_->select({solid_});
+  put(Vector3(0.0, 0.1, 0.3));  // on the ghost's upper rim, before the block
+  hand_->hold_buttons(1);
+  run_until(*session_, [&] { return session_->holds(0); });
+  const Vector3 from = tip();
+  hand_->set_target(Vector3(0.15, 0.1, 0.3) - offset_);
+  run_until(*session_, [&] { return tip().x() > 0.1 && session_->pointer(0).force.x() < -0.1; });
+  EXPECT_LT((hole_at() - (tip() - from)).norm(), 5e-3) << "it is where the hand is";
+  EXPECT_EQ(session_->history().undo_name(), "Move operand 1 of block");
+  hand_->hold_buttons(0);
+  run_until(*session_, [&] { return !session_->holds(0); });
+  session_->settle();
+  EXPECT_TRUE(session_->pick({Vector3(-0.05, 0.0, 1.0), -Vector3::UnitZ()})) << "where the hole was";
+  const Vector3 left = hole_at();
+  put(Vector3(0.0, 0.5, 0.3));
+  EXPECT_EQ(hole_at(), left) << "it stays where it was left";
+  ASSERT_TRUE(session_->undo());
+  EXPECT_EQ(hash(session_->world()), before);
+}
+
+TEST_F(PartGrabTest, TakesNothingOfWhatIsNotSelectedOrNotNear) {
+  const std::uint64_t before = hash(session_->world());
+  const auto press_and_go = [&](const Vector3& place) {
+    put(place);
+    hand_->hold_buttons(1);
+    run_until(*session_, [&] { return (session_->pointer(0).buttons & 1U) != 0; });
+    put(place + Vector3(0.05, 0.0, 0.0));
+    hand_->hold_buttons(0);
+    run_until(*session_, [&] { return (session_->pointer(0).buttons & 1U) == 0; });
+  };
+  press_and_go(Vector3(0.0, 0.1, 0.3));
+  session_->select({solid_});
+  press_and_go(Vector3(0.0, 0.1, 0.33));
+  EXPECT_EQ(hash(session_->world()), before);
+}
+
+TEST_F(PartGrabTest, LetsGoWhenSomethingElseChangesTheWorld) {
+  session_->select({solid_});
+  put(Vector3(0.0, 0.1, 0.3));
+  hand_->hold_buttons(1);
+  run_until(*session_, [&] { return session_->holds(0); });
+  hand_->set_target(Vector3(0.05, 0.1, 0.3) - offset_);
+  run_until(*session_, [&] { return hole_at().x() > 0.01; });
+  ASSERT_TRUE(session_->undo());
+  run_until(*session_, [&] { return !session_->holds(0); });
+  for (int i = 0; i < 20; ++i) session_->update();
+  EXPECT_EQ(hole_at(), Vector3(Vector3::Zero()));
+}
+
+}  // namespace
+}  // namespace icome::session

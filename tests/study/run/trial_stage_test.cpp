@@ -1,0 +1,168 @@
+#include "study/run/trial_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "session/sessions.h"
+#include "study/trial_scenes.h"
+
+namespace icome::study {
+namespace {
+
+using State = TrialStage::State;
+using base::Vector3;
+
+/// Takes the stage on until it is there, or farther where the machine is slow; a test that waits for ever
+/// says by its name what for.
+template <typename Meanwhile>
+State wait_for(TrialStage& stage, State state, const Meanwhile& meanwhile) {
+  while (stage.state() < state) {
+    stage.update();
+    meanwhile();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return stage.state();
+}
+State wait_for(TrialStage& stage, State state) {
+  return wait_for(stage, state, [] {});
+}
+
+/// The hand of the mouse goes straight to a place, at some decimetres a second.
+auto leads_to(session::Session& session, const Vector3& goal) {
+  return [&session, goal] {
+    const Vector3 tip = session.pointer(0).tip;
+    const Vector3 way = goal - tip;
+    session.aim_hand(way.norm() < 0.01 ? goal : Vector3(tip + 0.01 * way.normalized()));
+  };
+}
+
+struct Blank {
+  Blank() {
+    study.trials.hold = 0.05;
+    stage = std::make_unique<TrialStage>(*session, study, folder.path(), Participant{});
+  }
+  TemplateFolder folder{"blank"};
+  Study study = folder.study();
+  std::unique_ptr<session::Session> session = session::start();
+  std::unique_ptr<TrialStage> stage;
+};
+
+TEST(TrialStage, MeasuresATrialWithTheMousesHand) {
+  Blank blank;
+  blank.stage->begin(measured_trial(blank.study, {}, 0, 0));
+  ASSERT_EQ(wait_for(*blank.stage, State::Running), State::Running) << blank.stage->why();
+  EXPECT_TRUE(blank.stage->take_beep());
+  EXPECT_FALSE(blank.stage->take_beep());
+  EXPECT_NEAR((blank.session->pointer(0).tip - blank.study.task->start).norm(), 0.0, 0.002);
+  // Over the block, to the target.
+  bool is_over_block = false;
+  const auto climbs = leads_to(*blank.session, {0.06, 0.03, 0.0});
+  const auto reaches = leads_to(*blank.session, {0.06, -0.03, -0.06});
+  ASSERT_EQ(wait_for(*blank.stage, State::Over,
+                     [&] {
+                       is_over_block = is_over_block || blank.session->pointer(0).tip.y() > 0.025;
+                       is_over_block ? reaches() : climbs();
+                     }),
+            State::Over)
+      << blank.stage->why();
+  const TrialMeasures& measures = blank.stage->measures();
+  EXPECT_TRUE(measures.completed);
+  EXPECT_GT(measures.distance, 0.15);
+  EXPECT_LT(measures.approach_time, measures.time);
+  const Trace& trace = blank.stage->trace();
+  EXPECT_EQ(trace.rate_hz, 1000.0);
+  ASSERT_GE(trace.samples.size(), 100U);
+  EXPECT_EQ(trace.things[std::size_t(trace.samples.back().touched)], "target");
+  EXPECT_NEAR(trace.samples.back().time, measures.time, 1e-6);
+  for (std::size_t i = 1; i < trace.samples.size(); ++i)
+    EXPECT_GT(trace.samples[i].time, trace.samples[i - 1].time);
+}
+
+TEST(TrialStage, AHeldPointerStaysAtTheStart) {
+  Blank blank;
+  blank.study.trials.hold = 2.0;
+  blank.stage->begin(measured_trial(blank.study, {}, 0, 0));
+  ASSERT_EQ(wait_for(*blank.stage, State::Holding), State::Holding) << blank.stage->why();
+  EXPECT_GT(blank.stage->hold_left(), 0.1);
+  double farthest = 0.0;
+  const auto pulls = leads_to(*blank.session, {0.1, 0.0, 0.1});
+  wait_for(*blank.stage, State::Running, [&] {
+    farthest = std::max(farthest, (blank.session->pointer(0).tip - blank.study.task->start).norm());
+    pulls();
+  });
+  EXPECT_LT(farthest, 0.03);
+}
+
+TEST(TrialStage, GivesNoForcesWhereTheConditionHasNone) {
+  Blank blank;
+  TrialPlan plan = measured_trial(blank.study, {}, 0, 0);
+  plan.condition = 0;  // "old": without forces
+  blank.stage->begin(plan);
+  ASSERT_EQ(wait_for(*blank.stage, State::Running), State::Running) << blank.stage->why();
+  wait_for(*blank.stage, State::Over, leads_to(*blank.session, {0.06, -0.03, -0.06}));
+  double strongest = 0.0;
+  // What held it is let go within some ticks.
+  for (const Sample& sample : blank.stage->trace().samples)
+    if (sample.time > 0.05) strongest = std::max(strongest, sample.force.norm());
+  EXPECT_EQ(strongest, 0.0);
+}
+
+TEST(TrialStage, ThingsThatAreNotInATrialAreBackAfterIt) {
+  TemplateFolder folder("menu");
+  Study study = folder.study();
+  study.trials.hold = 0.02;
+  const auto session = session::start();
+  TrialStage stage(*session, study, folder.path(), {});
+  stage.begin(measured_trial(study, {}, 0, 0));
+  ASSERT_EQ(wait_for(stage, State::Running), State::Running) << stage.why();
+  const std::size_t shown = session->world().objects().size();
+  stage.stop();
+  EXPECT_EQ(session->world().objects().size(), shown + 6);
+  EXPECT_FALSE(session->modified());
+  stage.begin(measured_trial(study, {}, 0, 1));
+  EXPECT_EQ(wait_for(stage, State::Running), State::Running) << stage.why();
+  EXPECT_EQ(session->world().objects().size(), shown);
+}
+
+TEST(TrialStage, ASceneThatIsNotThereFailsWithItsName) {
+  Blank blank;
+  blank.study.trials.scenes[0].file = "scenes/gone.wrl";
+  blank.stage->begin(measured_trial(blank.study, {}, 0, 0));
+  ASSERT_EQ(wait_for(*blank.stage, State::Running), State::Failed);
+  EXPECT_NE(blank.stage->why().find("gone.wrl"), std::string::npos);
+}
+
+TEST(TrialStage, ALostDeviceFailsTheTrialAndItCanBeDoneAgain) {
+  TemplateFolder folder("blank");
+  Study study = folder.study();
+  study.trials.hold = 0.02;
+  auto device = session::hand_at(Vector3::Zero());
+  devices::SimulatedDevice& hand = *device;
+  session::SessionSettings settings = session::quiet_settings();
+  settings.pointers.push_back(std::move(device));
+  const auto session = session::start(std::move(settings));
+  TrialStage stage(*session, study, folder.path(), {});
+  const auto seeks = [&] {
+    const session::PointerView& view = session->pointer(0);
+    base::Pose stage_from_stylus = base::Pose::Identity();
+    stage_from_stylus.linear() = view.orientation.toRotationMatrix();
+    stage_from_stylus.translation() = view.tip;
+    const base::Pose device_from_stage = view.device_from_stylus * stage_from_stylus.inverse();
+    hand.set_target(device_from_stage * study.task->start);
+  };
+  stage.begin(measured_trial(study, {}, 0, 0));
+  ASSERT_EQ(wait_for(stage, State::Seeking), State::Seeking) << stage.why();
+  EXPECT_EQ(stage.start(), study.task->start);
+  ASSERT_EQ(wait_for(stage, State::Running, seeks), State::Running) << stage.why();
+  hand.inject(devices::SimulatedFailure::Unplugged);
+  ASSERT_EQ(wait_for(stage, State::Over), State::Failed);
+  EXPECT_NE(stage.why().find("does not answer"), std::string::npos);
+  hand.inject(devices::SimulatedFailure::None);
+  stage.begin(measured_trial(study, {}, 0, 0));
+  EXPECT_EQ(wait_for(stage, State::Running, seeks), State::Running) << stage.why();
+}
+
+}  // namespace
+}  // namespace icome::study
