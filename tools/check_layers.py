@@ -6,6 +6,7 @@ usage: check_layers.py [ROOT]      ROOT is the project, by default the one this 
 Checked are the #include lines of every source and header, the folders that CMake is told to link
 (`icome_folder(... USES ...)`), and that headers bring in no third-party header but the few that every
 folder shares: a library that hides behind its folder can be replaced, and costs nobody else its parsing.
+A folder of src/ or tests/ that holds more than MOST_FILES sources and headers must get rooms.
 """
 import pathlib
 import re
@@ -17,6 +18,9 @@ CMAKE_FOLDER = re.compile(r"^\s*icome_folder\(\s*(\w+)([^)]*)\)", re.MULTILINE)
 # In headers: the standard library (no dot in the name), the clock of POSIX, the processor's vector
 # instructions, and what `base` is made of.
 SHARED_HEADERS = re.compile(r"[a-z0-9_]+|time\.h|[a-z]+intrin\.h|Eigen/.+|tl/expected\.hpp")
+
+# Sources and headers that lie side by side; more than these nobody finds their way in.
+MOST_FILES = 40
 
 # What the headers of a folder may bring in besides, as it is made of nothing else: windows derive from Qt's.
 OWN_HEADERS = {"ui": re.compile(r"Q[A-Za-z]+")}
@@ -76,6 +80,15 @@ def check_links(text, table):
                 yield text.count("\n", 0, match.start(1)) + 1, complaint
 
 
+def check_widths(root):
+    """Yields a complaint for each folder of src/ and tests/ that holds too many sources and headers."""
+    for area in ("src", "tests"):
+        for folder in sorted(path for path in (root / area).rglob("*") if path.is_dir()):
+            files = sum(path.suffix in (".h", ".cpp") for path in folder.iterdir())
+            if files > MOST_FILES:
+                yield f"{folder.relative_to(root)}: {files} sources and headers side by side, {MOST_FILES} are the most"
+
+
 def check_project(root):
     """Returns every complaint about the project at `root` as `file:line: sentence`, in file order."""
     source_root = root / "src"
@@ -95,7 +108,7 @@ def check_project(root):
         else:
             continue
         complaints += [f"{path.relative_to(root)}:{line}: {complaint}" for line, complaint in found]
-    return complaints
+    return complaints + list(check_widths(root))
 
 
 def main():

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "bench_session.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "session_figures.h"
 #include "watching_display.h"
 #include "world/world.h"

@@ -16,7 +16,7 @@
 
 #include "base/clock.h"
 #include "devices/simulated/simulated_device.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "haptics/servo/servo.h"
 #include "places.h"
 #include "realtime/message_pipe.h"

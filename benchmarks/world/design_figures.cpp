@@ -1,5 +1,5 @@
 #include "coin_peer.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "sample_worlds.h"
 #include "world/shape/mesh_geometry.h"
 #include "world_figures.h"

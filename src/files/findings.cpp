@@ -26,9 +26,9 @@ void Findings::tell(std::string text) {
 std::vector<Remark> Findings::remarks() const {
   std::vector<Remark> result;
   for (const Found& found : found_) {
-    std::string where = found.owners == 1 ? said(found.first)
+    std::string where = found.owners == 1 ? quoted_name(found.first)
                                           : fmt::format("{} {}, first {}", found.owners, found.kind->owners,
-                                                        said(found.first));
+                                                        quoted_name(found.first));
     if (found.count > 0) where = fmt::format("{} of {}", found.count, where);
     result.push_back({{}, 0, fmt::format("{}: {}.", found.kind->text, where)});
   }
@@ -38,7 +38,7 @@ std::vector<Remark> Findings::remarks() const {
   return result;
 }
 
-std::string said(const std::string& name) {
+std::string quoted_name(const std::string& name) {
   constexpr std::size_t kLongest = 60;
   if (name.empty()) return "one without a name";
   std::string text = "\"";

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 
 namespace icome::files {
 
@@ -36,7 +36,7 @@ class Findings {
   std::size_t untold_ = 0;
 };
 
-/// The name as it is said: in quotes, shortened, "one without a name" for none.
-std::string said(const std::string& name);
+/// A name as sentences have it: in quotes, shortened, "one without a name" for none.
+std::string quoted_name(const std::string& name);
 
 }  // namespace icome::files

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 #include "world/shape/mesh_geometry.h"
 
 namespace icome::files {

@@ -17,7 +17,7 @@ struct SurfacePlace {
 };
 
 /// Where a moving point goes through a surface.
-struct SurfaceEntry {
+struct SurfaceHit {
   double t;  // along the step, in [0, 1]
   SurfacePlace place;
 };
@@ -59,16 +59,16 @@ class SmoothSurface {
   /// (covers). Must not miss one, however grazing: who misses one falls through. `from_behind` asks for
   /// passages from behind to the front instead (sheets that are touched from both sides).
   /// A start within `slack` of the surface counts as being on the side that it comes from: moving in,
-  /// that is an entry at t = 0; moving out, it is none. Real-time safe.
-  virtual std::optional<SurfaceEntry> entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                            bool from_behind, double time, double slack) const = 0;
+  /// that is a hit at t = 0; moving out, it is none. Real-time safe.
+  virtual std::optional<SurfaceHit> first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                              bool from_behind, double time, double slack) const = 0;
 
   /// Slides from `from` along the smooth surface that it lies on, downhill in the distance to `goal`, to
   /// where that distance has a local minimum, or as far as is sure: the walk never jumps to another sheet
   /// of the surface; `reached` says which. It goes beyond the edges of faces that have a natural extension (a
   /// sphere cut by a CSG tree), and stops at those that have none. `from.normal` need not be set, and `from`
   /// may lie a little off the surface (which may have changed with time). Real-time safe.
-  virtual SurfacePlace foot(const SurfacePlace& from, const Vector3& goal, double time) const = 0;
+  virtual SurfacePlace nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const = 0;
 
   /// Does the surface really run through `place`, which lies on the (extended) piece, or within `slack`
   /// of it? `above` is where the tip is, to tell whether it is still over the piece (a sheet ends at its

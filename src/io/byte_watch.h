@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/result.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 
 namespace icome::io {
 
@@ -12,12 +12,12 @@ namespace icome::io {
 inline base::Error interruption() { return {"interrupted"}; }
 
 /// Goes along with who goes through bytes, tells how far that is and asks whether to go on. Refers to the
-/// bytes and the patience.
+/// bytes and the time budget.
 class ByteWatch {
  public:
-  /// Without patience (null) it lasts for ever.
-  ByteWatch(std::string_view bytes, Patience* patience)
-      : begin_(bytes.data()), end_(begin_ + bytes.size()), patience_(patience), next_(begin_) {
+  /// Without a time budget (null) it lasts for ever.
+  ByteWatch(std::string_view bytes, TimeBudget* time_budget)
+      : begin_(bytes.data()), end_(begin_ + bytes.size()), time_budget_(time_budget), next_(begin_) {
     plan_next(begin_);
   }
 
@@ -29,14 +29,14 @@ class ByteWatch {
 
   void plan_next(const char* at) { next_ = at + std::min(kPiece, end_ - at); }
   bool look(const char* at) {
-    if (patience_ == nullptr || at == end_) return true;
+    if (time_budget_ == nullptr || at == end_) return true;
     plan_next(at);
-    return patience_->lasts(double(at - begin_) / double(end_ - begin_));
+    return time_budget_->lasts(double(at - begin_) / double(end_ - begin_));
   }
 
   const char* begin_;
   const char* end_;
-  Patience* patience_;
+  TimeBudget* time_budget_;
   const char* next_;  // where the next look is due
 };
 

@@ -71,7 +71,7 @@ std::string unpack_error(lzma_ret code) {
 }  // namespace
 
 base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uint64_t limit,
-                                     Patience* patience) {
+                                     TimeBudget* time_budget) {
   const Descriptor file(path);
   if (file.number() < 0) return fail_with_errno(path);
   struct stat status {};
@@ -85,7 +85,8 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
   bytes.reserve(size);
   std::size_t filled = 0;
   while (filled < size) {
-    if (patience && !patience->lasts(double(filled) / double(size))) return tl::unexpected(interruption());
+    if (time_budget && !time_budget->lasts(double(filled) / double(size)))
+      return tl::unexpected(interruption());
     bytes.resize(std::min<std::uint64_t>(size, filled + kPiece));
     const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
     if (count < 0 && errno == EINTR) continue;
@@ -98,7 +99,7 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
 }
 
 base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name,
-                                    Patience* patience, MemoryBudget* memory) {
+                                    TimeBudget* time_budget, MemoryBudget* memory) {
   Decoder decoder;
   lzma_ret code = lzma_stream_decoder(&decoder.stream, kUnpackMemoryLimit, LZMA_CONCATENATED);
   decoder.stream.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
@@ -110,7 +111,7 @@ base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit
       return base::fail(fmt::format("{}: unpacks to more than the limit of {}", name, limit_text(limit)));
     if (memory && !memory->has_room(filled + kPiece))
       return base::fail(fmt::format("{}: {}", name, memory->problem().message));
-    if (patience && !patience->lasts(double(decoder.stream.total_in) / double(packed.size())))
+    if (time_budget && !time_budget->lasts(double(decoder.stream.total_in) / double(packed.size())))
       return tl::unexpected(interruption());
     bytes.resize(filled + kPiece);  // what it has room for grows by factors
     decoder.stream.next_out = reinterpret_cast<std::uint8_t*>(bytes.data() + filled);
@@ -126,14 +127,15 @@ base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit
 }
 
 base::Result<std::string> read_unpacked(const std::filesystem::path& path, std::uint64_t limit, bool packed,
-                                        const FileParts& parts, Patience& patience, MemoryBudget& memory) {
-  patience.step(0.0, parts.read);
-  auto bytes = read_bytes(path, limit, &patience);
+                                        const FileParts& parts, TimeBudget& time_budget,
+                                        MemoryBudget& memory) {
+  time_budget.step(0.0, parts.read);
+  auto bytes = read_bytes(path, limit, &time_budget);
   if (bytes && !memory.add_file(bytes->size()))
     return base::fail(fmt::format("{}: {}", path.string(), memory.problem().message));
   if (!bytes || !packed) return bytes;
-  patience.step(parts.read, parts.unpacked);
-  return unpack_xz(*bytes, limit, path.string(), &patience, &memory);
+  time_budget.step(parts.read, parts.unpacked);
+  return unpack_xz(*bytes, limit, path.string(), &time_budget, &memory);
 }
 
 }  // namespace icome::io

@@ -28,7 +28,7 @@ int flags_for(OpenFile::Use use) {
 
 /// Calls again what a signal interrupted.
 template <typename Call>
-auto insist(Call&& call) {
+auto retry_on_eintr(Call&& call) {
   auto result = call();
   while (result < 0 && errno == EINTR) result = call();
   return result;
@@ -38,7 +38,7 @@ auto insist(Call&& call) {
 
 base::Result<OpenFile> OpenFile::open(const std::filesystem::path& path, Use use) {
   constexpr mode_t kForAll = 0666;  // less what the person's umask takes away
-  OpenFile file(path, insist([&] { return ::open(path.c_str(), flags_for(use), kForAll); }));
+  OpenFile file(path, retry_on_eintr([&] { return ::open(path.c_str(), flags_for(use), kForAll); }));
   if (file.descriptor_ < 0 && errno == EISDIR)
     return base::fail(path.string() + ": is a folder, not a file.");
   if (file.descriptor_ < 0) return file.failed("cannot be opened");
@@ -77,14 +77,14 @@ bool OpenFile::is_at_its_path() const {
 }
 
 base::Result<bool> OpenFile::lock() const {
-  if (insist([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) return true;
+  if (retry_on_eintr([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) return true;
   if (errno == EWOULDBLOCK) return false;
   return failed("cannot be locked against other programs");
 }
 
 base::Result<void> OpenFile::read(std::uint64_t offset, char* bytes, std::size_t count) const {
   while (count > 0) {
-    const ssize_t done = insist([&] { return ::pread(descriptor_, bytes, count, off_t(offset)); });
+    const ssize_t done = retry_on_eintr([&] { return ::pread(descriptor_, bytes, count, off_t(offset)); });
     if (done < 0) return failed("cannot be read");
     if (done == 0) return base::fail(path_.string() + ": became shorter while it was read.");
     bytes += done;
@@ -97,7 +97,7 @@ base::Result<void> OpenFile::read(std::uint64_t offset, char* bytes, std::size_t
 base::Result<void> OpenFile::write(std::uint64_t offset, std::string_view bytes) const {
   while (!bytes.empty()) {
     const ssize_t done =
-        insist([&] { return ::pwrite(descriptor_, bytes.data(), bytes.size(), off_t(offset)); });
+        retry_on_eintr([&] { return ::pwrite(descriptor_, bytes.data(), bytes.size(), off_t(offset)); });
     if (done < 0) return failed("cannot be written");
     offset += std::uint64_t(done);
     bytes.remove_prefix(std::size_t(done));
@@ -106,12 +106,13 @@ base::Result<void> OpenFile::write(std::uint64_t offset, std::string_view bytes)
 }
 
 base::Result<void> OpenFile::cut_to(std::uint64_t size) const {
-  if (insist([&] { return ::ftruncate(descriptor_, off_t(size)); }) != 0) return failed("cannot be written");
+  if (retry_on_eintr([&] { return ::ftruncate(descriptor_, off_t(size)); }) != 0)
+    return failed("cannot be written");
   return {};
 }
 
 base::Result<void> OpenFile::sync() const {
-  if (insist([&] { return ::fdatasync(descriptor_); }) != 0) return failed("did not reach the disk");
+  if (retry_on_eintr([&] { return ::fdatasync(descriptor_); }) != 0) return failed("did not reach the disk");
   return {};
 }
 

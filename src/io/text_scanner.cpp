@@ -18,7 +18,7 @@ bool is_space(char c) { return is_blank(c) || is_line_end(c); }
 }  // namespace
 
 TextScanner::TextScanner(std::string_view text, std::string name, Lines lines, char comment,
-                         Patience* patience)
+                         TimeBudget* time_budget)
     : text_(text),
       name_(std::move(name)),
       lines_(lines),
@@ -26,7 +26,7 @@ TextScanner::TextScanner(std::string_view text, std::string name, Lines lines, c
       at_(text.data()),
       end_(text.data() + text.size()),
       word_begin_(at_),
-      watch_(text, patience) {}
+      watch_(text, time_budget) {}
 
 void TextScanner::ask_whether_to_go_on() {
   if (watch_.lasts(at_) || failed()) return;

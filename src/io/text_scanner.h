@@ -20,10 +20,10 @@ class TextScanner {
     Continue   ///< as Matter, but a line that ends in a backslash goes on in the next
   };
 
-  /// `comment` begins a comment that lasts to the end of the line; '\0' for none. When patience (may be
-  /// null) ends, the scanner fails.
+  /// `comment` begins a comment that lasts to the end of the line; '\0' for none. When the time budget (may
+  /// be null) ends, the scanner fails.
   TextScanner(std::string_view text, std::string name, Lines lines, char comment,
-              Patience* patience = nullptr);
+              TimeBudget* time_budget = nullptr);
 
   /// Skips space, line ends and comments; true when nothing is left.
   bool at_end();

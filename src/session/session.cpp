@@ -82,10 +82,11 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
 
 void Session::Parts::start_followers() {
   followers.push_back(std::make_unique<Follower>(
-      queue, std::make_unique<FeltWorld>(felt_settings(settings.servo), hands.servos(), felt), "felt world"));
+      queue, std::make_unique<HapticFollower>(felt_settings(settings.servo), hands.servos(), felt),
+      "felt world"));
   // A tip with a radius feels what changes as it is at t = 0, and so it is seen.
   const bool shapes_change = !(settings.servo.scp.tip_radius > 0.0);
-  auto eye = std::make_unique<SeenWorld>(display, seen, session_seconds, shapes_change);
+  auto eye = std::make_unique<RenderFollower>(display, seen, session_seconds, shapes_change);
   followers.push_back(std::make_unique<Follower>(queue, std::move(eye), "seen world"));
   if (!settings.autosave_folder.empty())
     journal =

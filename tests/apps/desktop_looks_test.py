@@ -23,8 +23,8 @@ class LooksTest:
         _, _, width, height = desktop.scene_place()
         self.assertGreater(width * height, 0.3 * whole.width * whole.height, "the scene has most of the room")
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
-        self.assertEqual(desktop.said(), "")
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+        self.assertEqual(desktop.printed(), "")
 
 
 class SmallScreenTest(LooksTest, DesktopTest):

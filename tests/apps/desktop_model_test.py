@@ -74,7 +74,7 @@ class DesktopModelTest(ModelTest):
         desktop.wait_title(r"^made\.wrl - ICOME")
         self.assertNotIn("DEF box", design.read_text())
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
     def test_what_would_be_done_is_seen_and_taken_back(self):
         desktop = self.open_empty("light")
@@ -94,7 +94,7 @@ class DesktopModelTest(ModelTest):
         form.cancel()
         desktop.wait_title(r"^Untitled - ICOME")
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
 
 class TechniqueTest(ModelTest):
@@ -123,7 +123,7 @@ class TechniqueTest(ModelTest):
         desktop.wait_scene("the copy of the scan", lambda it: low_clay(it) > before + 100)
         self.keep(desktop, "technique-miniature")
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
     def test_what_was_recorded_is_done_once_more(self):
         begun, recording, saved = (self.folder / it for it in ("begun.icome", "lamp.recording", "saved.icome"))
@@ -156,7 +156,7 @@ class TechniqueTest(ModelTest):
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
         self.save_as(desktop, saved)
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
         again = self.folder / "again.icome"
         done = run("edit", f"{recording}.icome", "--replay", recording, "--out", again, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -195,7 +195,7 @@ class ExampleInWindowTest(ModelTest):
             desktop.settled_scene()
             self.keep(desktop, f"example-{name}")
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
         self.assertEqual(run("edit", "new", "--apply", EXAMPLES / f"{name}.jsonl", "--out", meant).returncode, 0)
         reports = [json.loads(run("info", it, "--json").stdout) for it in (made, meant)]
         for key in ("objects", "clones", "triangles", "materials", "shapes", "depth"):

@@ -122,7 +122,7 @@ class Desktop:
 
     # Where things are.
 
-    def said(self):
+    def printed(self):
         return self.log.read_text(errors="replace")
 
     def is_running(self):
@@ -130,7 +130,7 @@ class Desktop:
 
     def check_running(self):
         if not self.is_running():
-            raise AssertionError(f"the program ended with {self.process.returncode}: {self.said()}")
+            raise AssertionError(f"the program ended with {self.process.returncode}: {self.printed()}")
 
     def find_window(self, title="ICOME"):
         """Waits for the window with that in its title."""

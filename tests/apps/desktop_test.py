@@ -89,7 +89,7 @@ class DesktopUseTest(DesktopTest):
         self.keep(desktop, "orbited")
         # Closing something that was only looked at asks nothing.
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
     def test_the_mouse_touches(self):
         desktop = self.open_desk()
@@ -135,7 +135,7 @@ class DesktopUseTest(DesktopTest):
         self.assertNotEqual(knot_place(copy), knot_place(self.design))
         saved = copy.read_text()
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
         again = self.start(copy, "--theme", "dark").open()
         again.wait_title(r"^copy\.wrl - ICOME")
         self.wait_desk(again)
@@ -145,7 +145,7 @@ class DesktopUseTest(DesktopTest):
         wait_for("the file, written again", lambda: copy.stat().st_ino != first)
         self.assertEqual(copy.read_text(), saved, "what was opened is what was saved")
         again.quit()
-        self.assertEqual(again.wait_end(), 0, again.said())
+        self.assertEqual(again.wait_end(), 0, again.printed())
 
     def test_a_drag_between_many_triangles_does_not_stop_the_window(self):
         """The plinth of the bunny, which has 69,666 triangles, sidewise and down into the desk."""
@@ -191,7 +191,7 @@ class DesktopUseTest(DesktopTest):
         again.wait_title(r"^desk\.wrl - ICOME")
         self.assertNotEqual(knot_place(self.design), (-0.075, 0.0245, 0.085))
         again.quit()
-        self.assertEqual(again.wait_end(), 0, again.said())
+        self.assertEqual(again.wait_end(), 0, again.printed())
 
     def test_closing_asks_only_when_something_would_be_lost(self):
         desktop = self.open_desk()
@@ -204,7 +204,7 @@ class DesktopUseTest(DesktopTest):
         desktop.key("ctrl+z")
         self.wait_knot(desktop, before, near=True)
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ class DesktopTroubleTest(DesktopTest):
         desktop = self.start(self.write("broken.obj", "v 1 2\n"), "--theme", "dark").open()
         wait_for("the reason", lambda: shows_banner(desktop, "error"))
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
     def test_a_full_disk_loses_nothing(self):
         disk = self.small_disk("disk", "256k")
@@ -111,7 +111,7 @@ class DesktopTroubleTest(DesktopTest):
         write_large_stl(large)
         desktop = self.start(large).open()
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
     def test_without_opengl_the_rest_works(self):
         desktop = self.open_ball(environment={"LIBGL_DRIVERS_PATH": "/nonexistent", "LIBGL_ALWAYS_SOFTWARE": "1"})
@@ -127,7 +127,7 @@ class DesktopTroubleTest(DesktopTest):
         desktop.wait_title(r"^ball\.wrl - ICOME")
         self.assertNotIn("Sphere", (self.folder / "ball.wrl").read_text())
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 
 
 class NoDisplayTest(unittest.TestCase):

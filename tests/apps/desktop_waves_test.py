@@ -33,8 +33,8 @@ class DesktopWavesTest(DesktopTest):
             wait_for("the sea to look different", lambda: changed_share(before, desktop.scene()) > 0.003)
         self.keep(desktop, "waves")
         desktop.quit()
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
-        self.assertEqual(desktop.said(), "")
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+        self.assertEqual(desktop.printed(), "")
 
 
 if __name__ == "__main__":

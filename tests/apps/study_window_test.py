@@ -161,8 +161,8 @@ class StudyWindowTest(DesktopTest):
         wait_for("the end", lambda: len(self.rows("events")) >= 9)
         self.keep(desktop, "study-thanks")
         desktop.key("Return")
-        self.assertEqual(desktop.wait_end(), 0, desktop.said())
-        self.assertIn("is through", desktop.said())
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+        self.assertIn("is through", desktop.printed())
         answers = "\n".join(self.rows("events"))
         self.assertRegex(answers, r"you\.age\t33\b")
         self.assertRegex(answers, r"you\.hand\tright\b")
@@ -182,13 +182,13 @@ class StudyWindowTest(DesktopTest):
         desktop.key("Escape")
         self.keep(desktop, "study-interrupt")
         desktop.key("shift+Tab", "Return")
-        self.assertEqual(desktop.wait_end(), 3, desktop.said())
-        self.assertIn("study resume", desktop.said())
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
+        self.assertIn("study resume", desktop.printed())
         self.assertEqual(len(self.rows("beh")), 1)
         desktop = self.run_study(task="resume")
         self.touch(desktop, 2)
         desktop.process.send_signal(signal.SIGTERM)
-        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
         self.assertEqual(len(self.rows("beh")), 2)
 
     def test_going_on_after_all_begins_the_trial_again(self):
@@ -203,16 +203,16 @@ class StudyWindowTest(DesktopTest):
         desktop.key("shift+Tab", "Return")
         self.keep(desktop, "study-declined")
         desktop.key("Return")
-        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
         self.assertEqual([row.split("\t")[2] for row in self.rows("events")], ["session", "declined"])
-        self.assertIn("did not agree", desktop.said())
+        self.assertIn("did not agree", desktop.printed())
 
     def test_a_scene_that_is_gone_is_told_and_tried_again(self):
         desktop = self.run_study()
         self.answer(desktop)
         away = (self.folder / "ball.wrl").rename(self.folder / "away.wrl")
         self.key_until(desktop, "events", 6, "Return")
-        wait_for("the reason", lambda: "ball.wrl" in desktop.said())
+        wait_for("the reason", lambda: "ball.wrl" in desktop.printed())
         self.keep(desktop, "study-trouble")
         away.rename(self.folder / "ball.wrl")
         desktop.key("Return")
@@ -224,7 +224,7 @@ class StudyWindowTest(DesktopTest):
         self.answer(desktop)
         self.key_until(desktop, "events", 6, "Return")
         filler = self.fill(disk)
-        self.reach_until(desktop, "the reason", lambda: "tiny-data" in desktop.said())
+        self.reach_until(desktop, "the reason", lambda: "tiny-data" in desktop.printed())
         self.keep(desktop, "study-full-disk")
         self.assertEqual(self.rows("beh"), [])
         filler.unlink()
@@ -241,7 +241,7 @@ class StudyWindowTest(DesktopTest):
         wait_for("the reason", lambda: self.screen.picture().part(*middle).share(is_ink) > 0.01)
         self.keep(desktop, "study-no-opengl")
         desktop.key("Escape", "shift+Tab", "Return")
-        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
 
     def test_closing_the_window_asks(self):
         desktop = self.run_study()
@@ -250,13 +250,13 @@ class StudyWindowTest(DesktopTest):
         self.key_until(desktop, "events", 2, "Return")
         desktop.quit()
         desktop.key("shift+Tab", "Return")
-        self.assertEqual(desktop.wait_end(), 3, desktop.said())
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
 
     def test_among_simulated_people_nobody_takes_part(self):
         subprocess.run([PROGRAM, "study", "run", self.study, "--simulate", "1"], check=True, capture_output=True)
         desktop = self.start("study", "run", self.study, "--data", self.folder / "tiny-simulated")
-        self.assertEqual(desktop.wait_end(), 1, desktop.said())
-        self.assertIn("holds simulated data", desktop.said())
+        self.assertEqual(desktop.wait_end(), 1, desktop.printed())
+        self.assertIn("holds simulated data", desktop.printed())
 
 
 class NoDisplayTest(ProgramTest):

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/packed_xz.h"
 #include "files/sample_files.h"
 #include "geometry/mesh/weld.h"
@@ -177,8 +177,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ByteWatch, AsksAsOftenAsThereAreBytes) {
   const std::string bytes(10 << 20, ' ');
   int asked = 0;
-  Patience patience([&](double part) { return ++asked, part < 0.5; });
-  ByteWatch watch(bytes, &patience);
+  TimeBudget time_budget([&](double part) { return ++asked, part < 0.5; });
+  ByteWatch watch(bytes, &time_budget);
   std::size_t at = 0;
   while (at < bytes.size() && watch.lasts(bytes.data() + at)) ++at;
   EXPECT_GE(at, bytes.size() / 2);
@@ -189,14 +189,14 @@ TEST(ByteWatch, AsksAsOftenAsThereAreBytes) {
   EXPECT_TRUE(for_ever.lasts(bytes.data() + bytes.size() - 1));
 }
 
-TEST(Patience, TellsThePartOfTheWholeThatAStepIs) {
+TEST(TimeBudget, TellsThePartOfTheWholeThatAStepIs) {
   std::vector<double> parts;
-  Patience patience([&](double part) { return parts.push_back(part), true; });
-  patience.lasts(0.25);
-  patience.step(0.5, 0.75);
-  patience.lasts_now();
-  patience.lasts(0.5);
-  patience.lasts(1.0);
+  TimeBudget time_budget([&](double part) { return parts.push_back(part), true; });
+  time_budget.lasts(0.25);
+  time_budget.step(0.5, 0.75);
+  time_budget.lasts_now();
+  time_budget.lasts(0.5);
+  time_budget.lasts(1.0);
   EXPECT_EQ(parts, (std::vector<double>{0.25, 0.5, 0.625, 0.75}));
 }
 

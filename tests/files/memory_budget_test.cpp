@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "base/clock.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/packed_xz.h"
 #include "files/sample_journals.h"
 

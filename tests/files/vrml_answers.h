@@ -12,8 +12,8 @@ namespace icome::files {
 
 // Answers of the process that parses VRML, made by hand. Fields are those of vrml_answer.fbs.
 
-struct AnswerPiece {
-  flat::PieceKind kind = flat::PieceKind::Box;
+struct AnswerGeometry {
+  flat::GeometryKind kind = flat::GeometryKind::Box;
   std::string name = {};
   std::vector<double> sizes = {};
   std::vector<float> positions = {};
@@ -46,7 +46,7 @@ struct AnswerPicture {
   bool repeat_s = true, repeat_t = true;
 };
 
-struct AnswerLook {
+struct AnswerAppearance {
   std::string name = {};
   bool lit = true;
   std::array<float, 3> diffuse = {0.8F, 0.8F, 0.8F};
@@ -58,14 +58,14 @@ struct AnswerLook {
   double static_friction = 0.0, dynamic_friction = 0.0;
 };
 
-struct AnswerLamp {
-  flat::LampKind kind = flat::LampKind::Directional;
+struct AnswerLight {
+  flat::LightKind kind = flat::LightKind::Directional;
   std::array<double, 3> location = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1};
   float intensity = 1.0F;
 };
 
-struct AnswerEye {
+struct AnswerViewpoint {
   std::array<double, 3> position = {0, 0, 10};
   std::array<double, 3> axis = {0, 0, 1};
   double angle = 0.0;
@@ -76,9 +76,9 @@ struct AnswerNode {
   int parent = -1;
   std::string name = {};
   std::vector<double> matrix = {};
-  int piece = -1, look = -1;
-  std::optional<AnswerLamp> lamp = {};
-  std::optional<AnswerEye> eye = {};
+  int geometry = -1, appearance = -1;
+  std::optional<AnswerLight> light = {};
+  std::optional<AnswerViewpoint> viewpoint = {};
   bool reused = false;
   std::optional<std::string> scene = {};
   std::vector<std::string> members = {};
@@ -102,8 +102,8 @@ struct AnswerNote {
 
 struct Answer {
   std::vector<AnswerNode> nodes = {};
-  std::vector<AnswerPiece> pieces = {};
-  std::vector<AnswerLook> looks = {};
+  std::vector<AnswerGeometry> geometries = {};
+  std::vector<AnswerAppearance> appearances = {};
   std::vector<AnswerPicture> pictures = {};
   std::vector<AnswerNote> notes = {};
   std::string error = {};

@@ -7,7 +7,7 @@
 
 #include "files/csg/csg_reader.h"
 #include "files/csg/csg_text.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/gltf/gltf_reader.h"
 #include "files/journal/journal_replay.h"
 #include "files/sample_files.h"
@@ -89,10 +89,10 @@ void run_vrml_answer(std::string_view bytes) {
   sources.fetch_picture = [](const std::string&, const std::string& url, std::uint64_t) {
     return url.size() % 2 == 0 ? base::Result<std::string>("GIF89a" + url) : base::fail("there is none");
   };
-  io::Patience patience(20.0, nullptr, 0.0);
+  io::TimeBudget time_budget(20.0, nullptr, 0.0);
   io::MemoryBudget memory;
   memory.add_file(bytes.size());
-  require_good(files::build_vrml(std::string(bytes), sources, patience, memory));
+  require_good(files::build_vrml(std::string(bytes), sources, time_budget, memory));
 }
 
 void run_csg(std::string_view bytes) {
@@ -171,27 +171,28 @@ std::vector<std::string> vrml_seeds() {
           "ROUTE C.fraction_changed TO P.set_fraction\nROUTE P.value_changed TO T.set_translation\n"};
 }
 std::vector<std::string> vrml_answer_seeds() {
-  using files::flat::PieceKind;
+  using files::flat::GeometryKind;
   const std::vector<float> points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5F, 0.5F, 1};
-  files::AnswerPiece faces = {.kind = PieceKind::Faces, .name = "faces", .positions = points};
+  files::AnswerGeometry faces = {.kind = GeometryKind::Faces, .name = "faces", .positions = points};
   faces.polygons = {3, 2, 1, 0, -1, 0, 1, 4, -1, 1, 2, 4, -1};
   faces.texture_coordinates = {0, 0, 1, 0, 1, 1, 0, 1, 0.5F, 0.5F};
   faces.colours = {1, 0, 0, 0, 1, 0};
   faces.colour_polygons = {0, 1, 0};
   faces.colour_per_vertex = false;
-  files::AnswerPiece loop = {.kind = PieceKind::Loop, .positions = points, .polygons = faces.polygons};
+  files::AnswerGeometry loop = {.kind = GeometryKind::Loop, .positions = points, .polygons = faces.polygons};
   loop.creases = {0, 1, 1, 2};
   const files::Answer answer = {
       .nodes = {{.name = "a"},
-                {.parent = 0, .piece = 0, .look = 0},
-                {.piece = 1, .look = 1},
-                {.piece = 2},
-                {.piece = 3}},
-      .pieces = {faces,
-                 loop,
-                 {.kind = PieceKind::Csg, .text = "box:1x1x1\nsphere:0.6\ndifference 0 1\n"},
-                 {.kind = PieceKind::Box, .sizes = {1, 2, 3}}},
-      .looks = {{.name = "red", .diffuse = {1, 0, 0}, .stiffness = 100.0}, {.lit = false, .picture = 0}},
+                {.parent = 0, .geometry = 0, .appearance = 0},
+                {.geometry = 1, .appearance = 1},
+                {.geometry = 2},
+                {.geometry = 3}},
+      .geometries = {faces,
+                     loop,
+                     {.kind = GeometryKind::Csg, .text = "box:1x1x1\nsphere:0.6\ndifference 0 1\n"},
+                     {.kind = GeometryKind::Box, .sizes = {1, 2, 3}}},
+      .appearances = {{.name = "red", .diffuse = {1, 0, 0}, .stiffness = 100.0},
+                      {.lit = false, .picture = 0}},
       .pictures = {{.width = 1, .height = 2, .channels = 3, .pixels = {1, 2, 3, 4, 5, 6}}},
       .notes = {{"f", 3, "text"}}};
   return {bytes_of(answer)};

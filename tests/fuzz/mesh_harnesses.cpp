@@ -13,7 +13,7 @@ namespace icome::fuzz {
 namespace {
 
 using files::ParsedMesh;
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::Patience*);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::TimeBudget*);
 
 void read_mesh_with(Parser parse, std::string_view bytes) {
   const auto parsed = parse(bytes, "f", nullptr);

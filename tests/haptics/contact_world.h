@@ -15,6 +15,7 @@
 #include "haptics/contact/scp_solver.h"
 #include "haptics/shapes/mesh_shape.h"
 #include "haptics/shapes/primitive_shape.h"
+#include "repeats.h"
 
 namespace icome::haptics {
 
@@ -22,15 +23,6 @@ using base::Random;
 using geometry::TriangleMesh;
 using MeshPointer = std::shared_ptr<const TriangleMesh>;
 using ScenePointer = std::shared_ptr<const HapticScene>;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSanitizerShare = 20;  // sanitizers slow the code by about this much
-#else
-constexpr int kSanitizerShare = 1;
-#endif
-
-/// A number of repetitions, fewer where a sanitizer makes each slow.
-constexpr int repeats(int count) { return std::max(1, count / kSanitizerShare); }
 
 inline geometry::Primitive primitive(std::string_view text) { return *geometry::parse_primitive(text); }
 

@@ -10,8 +10,8 @@
 #include <functional>
 #include <thread>
 
-#include "files/design.h"
 #include "files/journal/journal.h"
+#include "files/remark.h"
 #include "files/sample_files.h"
 #include "session/storage/autosave_journal.h"
 #include "session/storage/claimed_work.h"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "study/definition/study_reader.h"
 #include "study/definition/templates.h"
 

@@ -55,6 +55,13 @@ class CheckLayersTest(unittest.TestCase):
         (complaint,) = self.complaints({"src/session/a.h": "#include <QWidget>\n"})
         self.assertIn("<QWidget> belongs in a source file", complaint)
 
+    def test_a_wide_folder_is_refused(self):
+        headers = {f"src/geometry/a{i}.h": "#pragma once\n" for i in range(40)}
+        self.assertEqual([], self.complaints(headers))
+        self.assertEqual([], self.complaints({**headers, "src/geometry/mesh/b.h": "#pragma once\n"}))
+        self.assertEqual(["src/geometry: 41 sources and headers side by side, 40 are the most"],
+                         self.complaints({**headers, "src/geometry/b.cpp": ""}))
+
     def test_an_include_names_its_folder(self):
         (complaint,) = self.complaints({"src/files/a.cpp": '#include "mesh.h"\n'})
         self.assertIn("does not begin with a folder", complaint)

@@ -165,7 +165,7 @@ inline std::vector<Edit> every_edit() {
       EnterScene{room, leg, 0},
       EnterScene{room, table, 1},
       LeaveScene{room, leg},
-      SpendNumbers{3, 77},
+      ReserveIds{3, 77},
       EditGroup{},
       EditGroup{{RenameObject{leg, "one"}, EditGroup{{EditGroup{}, EditGroup{{PlaceObject{leg, turned}}}}}}},
       DeleteObject{leg}};

@@ -8,6 +8,7 @@
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/touch/touch_report.h"
+#include "files/design_files.h"
 
 namespace icome::apps {
 namespace {

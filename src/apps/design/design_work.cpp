@@ -8,6 +8,7 @@
 
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
+#include "files/design_files.h"
 #include "files/mesh/mesh_reader.h"
 #include "io/file_ending.h"
 

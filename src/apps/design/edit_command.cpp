@@ -16,6 +16,7 @@
 #include "apps/stopwatch.h"
 #include "apps/terminal.h"
 #include "apps/touch/touch_report.h"
+#include "files/design_files.h"
 #include "interaction/techniques/technique_recording.h"
 #include "io/file_bytes.h"
 #include "session/storage/picture_file.h"

@@ -13,7 +13,7 @@
 #include "apps/touch/design_eyes.h"
 #include "apps/touch/design_motions.h"
 #include "apps/touch/exact_models.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "haptics/judge/plain_solid.h"
 #include "session/felt/haptic_representation.h"
 #include "session/felt/stretched.h"

@@ -16,7 +16,7 @@
 #include "apps/touch/effect_options.h"
 #include "apps/touch/exact_models.h"
 #include "apps/touch/exploration.h"
-#include "apps/touch/touch_diary.h"
+#include "apps/touch/tick_log.h"
 #include "apps/touch/touch_figures.h"
 #include "apps/touch/touch_models.h"
 #include "apps/touch/touch_report.h"
@@ -152,15 +152,14 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
   return prepared;
 }
 
-base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, TouchDiary& diary,
+base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, TickLog& log,
                              StatusLine& status) {
-  if (prepared.player)
-    return replay(*prepared.player, prepared.scene, prepared.models, options, diary, status);
+  if (prepared.player) return replay(*prepared.player, prepared.scene, prepared.models, options, log, status);
   status.say("Planning where to touch");
   prepared.exploration =
       Exploration::plan(prepared.models, options.radius, options.seconds.value_or(kDefaultSeconds));
   status.clear();
-  return explore(*prepared.exploration, prepared.device, prepared.scene, prepared.models, options, diary,
+  return explore(*prepared.exploration, prepared.device, prepared.scene, prepared.models, options, log,
                  status);
 }
 
@@ -183,7 +182,7 @@ base::Vector3 up(const TouchOptions& options) {
   return upright ? base::Vector3::UnitZ() : base::Vector3::UnitY();
 }
 
-base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
+base::Result<void> draw(const Prepared& prepared, const TickLog& log, const TouchFigures& figures,
                         const TouchOptions& options) {
   render::TouchPicture picture;
   for (const TouchModel& model : prepared.models) {
@@ -195,7 +194,7 @@ base::Result<void> draw(const Prepared& prepared, const TouchDiary& diary, const
   if (figures.triangles > 0) picture.notes.push_back(grouped(figures.triangles) + " triangles");
   picture.notes.push_back(fmt::format("tick {:.2g} us median, {:.2g} us worst in 1,000",
                                       figures.tick_us.median, figures.tick_us.p999));
-  picture.samples = diary.samples();
+  picture.samples = log.samples();
   picture.rate_hz = options.rate_hz;
   picture.up = up(options);
   return render::write_touch_picture(picture, *options.picture);
@@ -238,7 +237,7 @@ void tell_little_touch(const Exploration& exploration, const TouchFigures& figur
 }
 
 /// Writes what was asked for beside the report; false when something failed, which it tells.
-bool write_files(Prepared& prepared, const TouchDiary& diary, const TouchFigures& figures,
+bool write_files(Prepared& prepared, const TickLog& log, const TouchFigures& figures,
                  const TouchOptions& options, StatusLine& status) {
   bool good = true;
   const auto note = [&](const base::Result<void>& written) {
@@ -250,7 +249,7 @@ bool write_files(Prepared& prepared, const TouchDiary& diary, const TouchFigures
   if (prepared.trace) note(prepared.trace->finish());
   if (options.picture) {
     status.say("Drawing " + options.picture->string());
-    note(draw(prepared, diary, figures, options));
+    note(draw(prepared, log, figures, options));
   }
   return good;
 }
@@ -274,16 +273,15 @@ int run_touch(const TouchOptions& options) {
   }
   for (const TouchModel& model : prepared->models) tell_odd_size(model);
   catch_interrupts();
-  TouchDiary diary(prepared->trace ? &*prepared->trace : nullptr,
-                   prepared->judge ? &*prepared->judge : nullptr, surfaces_alone(prepared->models, options),
-                   options.picture.has_value());
-  const auto outcome = run(*prepared, options, diary, status);
+  TickLog log(prepared->trace ? &*prepared->trace : nullptr, prepared->judge ? &*prepared->judge : nullptr,
+              surfaces_alone(prepared->models, options), options.picture.has_value());
+  const auto outcome = run(*prepared, options, log, status);
   if (!outcome) {
     tell(outcome.error().message);
     return kFailed;
   }
   tell_outcome(*outcome);
-  TouchFigures figures = figures_of(prepared->models, prepared->build_seconds, diary, *outcome, options);
+  TouchFigures figures = figures_of(prepared->models, prepared->build_seconds, log, *outcome, options);
   tell_capped(figures.capped);
   const bool effects_alone = prepared->scene->objects().empty();
   if (prepared->exploration && !effects_alone) tell_little_touch(*prepared->exploration, figures);
@@ -293,7 +291,7 @@ int run_touch(const TouchOptions& options) {
     print(text_report(figures, prepared->models, *outcome, options));
   }
   std::fflush(stdout);
-  const bool written = write_files(*prepared, diary, figures, options, status);
+  const bool written = write_files(*prepared, log, figures, options, status);
   if (!options.json && written) print(names_of_files(options));
   if (!written) return kFailed;
   return outcome->interrupted && options.path ? kInterrupted : 0;

@@ -36,7 +36,7 @@ realtime::Quantiles exact_quantiles(std::vector<std::uint32_t> samples, double u
   return {quantile(0.5), quantile(0.99), quantile(0.999), samples.back() / unit};
 }
 
-TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seconds, const TouchDiary& diary,
+TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seconds, const TickLog& log,
                         const RunOutcome& outcome, const TouchOptions& options) {
   TouchFigures figures;
   for (const TouchModel& model : models) {
@@ -44,24 +44,24 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
     figures.triangles += model.triangles;
   }
   figures.build_seconds = build_seconds;
-  figures.ticks = diary.ticks();
+  figures.ticks = log.ticks();
   figures.rate_hz = options.rate_hz;
-  figures.tick_us = exact_quantiles(diary.tick_ns(), kMicrosecond);
+  figures.tick_us = exact_quantiles(log.tick_ns(), kMicrosecond);
   const double period = kSecond / options.rate_hz;
-  figures.load = exact_quantiles(diary.tick_ns(), period);
-  for (const std::uint32_t nanoseconds : diary.tick_ns()) ++figures.load_bins[load_bin(nanoseconds / period)];
+  figures.load = exact_quantiles(log.tick_ns(), period);
+  for (const std::uint32_t nanoseconds : log.tick_ns()) ++figures.load_bins[load_bin(nanoseconds / period)];
   figures.overruns = outcome.overruns;
-  figures.max_force = diary.max_force();
-  if (diary.ticks() > 0) {
-    figures.touch_fraction = static_cast<double>(diary.touching_ticks()) / static_cast<double>(diary.ticks());
+  figures.max_force = log.max_force();
+  if (log.ticks() > 0) {
+    figures.touch_fraction = static_cast<double>(log.touching_ticks()) / static_cast<double>(log.ticks());
   }
-  if (diary.judge() != nullptr) {
-    figures.pops = diary.judge()->pops();
-    figures.sticks = diary.judge()->sticks();
-    figures.silent = diary.judge()->silent();
-    figures.pulls = diary.judge()->pulls();
-    figures.judge_unfinished = diary.judge()->unfinished();
-    figures.unjudged = diary.judge()->unjudged();
+  if (log.judge() != nullptr) {
+    figures.pops = log.judge()->pops();
+    figures.sticks = log.judge()->sticks();
+    figures.silent = log.judge()->silent();
+    figures.pulls = log.judge()->pulls();
+    figures.judge_unfinished = log.judge()->unfinished();
+    figures.unjudged = log.judge()->unjudged();
   }
   figures.texture = options.texture;
   for (const haptics::PlacedEffect& effect : effects_of(models, options))

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/touch/touch_diary.h"
+#include "apps/touch/tick_log.h"
 #include "apps/touch/touch_models.h"
 #include "apps/touch/touch_run.h"
 #include "realtime/recorder.h"
@@ -46,7 +46,7 @@ struct TouchFigures {
 /// copy to sort.
 realtime::Quantiles exact_quantiles(std::vector<std::uint32_t> samples, double unit);
 
-TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seconds, const TouchDiary& diary,
+TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seconds, const TickLog& log,
                         const RunOutcome& outcome, const TouchOptions& options);
 
 }  // namespace icome::apps

@@ -20,10 +20,10 @@
 namespace icome::apps {
 namespace {
 
-// Rows between two entries in the diary: its work then disturbs the caches of few ticks.
+// Rows between two entries in the log: its work then disturbs the caches of few ticks.
 constexpr std::size_t kBlockRows = 8192;
 
-// How long the diary may fall behind the servo, s.
+// How long the log may fall behind the servo, s.
 constexpr double kLongestDelay = 60.0;
 
 constexpr auto kDiaryPeriod = std::chrono::milliseconds(10);
@@ -50,7 +50,7 @@ TickRow row_of(const haptics::TickReport& report, double t) {
   return {t, report.tip, report.contact.scp, report.force, object, report.time, report.own_ns()};
 }
 
-/// The loop's side and the diary's side of a run on the clock.
+/// The loop's side and the log's side of a run on the clock.
 class ClockedRun {
  public:
   ClockedRun(haptics::Servo& servo, const TouchOptions& options, double seconds)
@@ -68,14 +68,14 @@ class ClockedRun {
 
   /// Puts down what has come so far, until the user ends the run or `most` (s) has gone by: rows may come
   /// faster than they are judged. `seconds`: of the whole run.
-  void drain(TouchDiary& diary, StatusLine& status, double seconds,
+  void drain(TickLog& log, StatusLine& status, double seconds,
              double most = std::numeric_limits<double>::infinity()) {
     const Stopwatch watch;
     while (!interrupted() && watch.seconds() < most) {
       status.progress("Touching", std::round(time_ * 10.0) / 10.0, seconds, "s");
       const auto row = rows_.try_pop();
       if (!row) return;
-      diary.add(*row);
+      log.add(*row);
       time_ = row->t;
     }
   }
@@ -125,14 +125,14 @@ devices::SimulatedSettings simulated_settings(const Exploration& exploration,
 }  // namespace
 
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
-                  const std::vector<TouchModel>& models, const TouchOptions& options, TouchDiary& diary,
+                  const std::vector<TouchModel>& models, const TouchOptions& options, TickLog& log,
                   StatusLine& status) {
   haptics::Servo servo(player, servo_settings(options));
   const MovingScene moving(models, options, scene);
   RunOutcome outcome;
   const std::vector<double>& times = player.times();
   const std::size_t rows = rows_within(times, options.seconds);
-  diary.reserve(rows);
+  log.reserve(rows);
   std::vector<TickRow> block;
   block.reserve(std::min(kBlockRows, rows));
   const double period = 1.0 / options.rate_hz;
@@ -147,12 +147,12 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
     }
     for (const TickRow& it : block) {
       if (interrupted()) break;
-      diary.add(it);
+      log.add(it);
       if (static_cast<double>(it.own_ns) * 1e-9 > period) ++outcome.overruns;
-      status.progress("Replaying", static_cast<double>(diary.ticks()), static_cast<double>(rows), "rows");
+      status.progress("Replaying", static_cast<double>(log.ticks()), static_cast<double>(rows), "rows");
     }
     block.clear();
-    outcome.interrupted = diary.ticks() < row || (interrupted() && row < rows);
+    outcome.interrupted = log.ticks() < row || (interrupted() && row < rows);
   }
   outcome.wall_seconds = watch.seconds();
   outcome.capped = capped_feel(models, options, servo);
@@ -163,7 +163,7 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
 base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
                                  const std::shared_ptr<const haptics::HapticScene>& scene,
                                  const std::vector<TouchModel>& models, const TouchOptions& options,
-                                 TouchDiary& diary, StatusLine& status) {
+                                 TickLog& log, StatusLine& status) {
   const double seconds = options.seconds.value_or(kDefaultSeconds);
   devices::SimulatedDevice hand(simulated_settings(exploration, device, options.rate_hz));
   haptics::ServoSettings settings = servo_settings(options);
@@ -183,10 +183,10 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
     std::this_thread::sleep_for(kDiaryPeriod);
     const double now = started.seconds();
     if (moving.moves()) moving.publish(servo, now, now + MovingScene::kPeriod);
-    run.drain(diary, status, seconds, MovingScene::kPeriod);
+    run.drain(log, status, seconds, MovingScene::kPeriod);
   }
   (*loop)->stop();
-  run.drain(diary, status, seconds);
+  run.drain(log, status, seconds);
   status.clear();
   RunOutcome outcome = outcome_of(**loop);
   outcome.interrupted = interrupted();

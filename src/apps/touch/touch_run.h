@@ -6,7 +6,7 @@
 
 #include "apps/status_line.h"
 #include "apps/touch/exploration.h"
-#include "apps/touch/touch_diary.h"
+#include "apps/touch/tick_log.h"
 #include "apps/touch/touch_models.h"
 #include "apps/touch/touch_options.h"
 #include "devices/path_player.h"
@@ -20,7 +20,7 @@ struct RunOutcome {
   bool interrupted = false;              // ended by the user before its time
   std::uint64_t overruns = 0;            // ticks that were not done when the next was due
   std::uint64_t skipped = 0;             // deadlines for which no tick ran
-  std::uint64_t lost_rows = 0;           // ticks that the diary could not take in time
+  std::uint64_t lost_rows = 0;           // ticks that the log could not take in time
   realtime::Quantiles lateness{};        // s, from deadline to start; zero when there was no clock
   std::string notice;                    // what the system refused the servo loop; or empty
   double wall_seconds = 0.0;             // s, the run itself
@@ -30,13 +30,13 @@ struct RunOutcome {
 /// Replays a path over `scene`, which is that of the models: one row a tick, no clock, as fast as the machine
 /// can; the same input gives the same forces, bit for bit.
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
-                  const std::vector<TouchModel>& models, const TouchOptions& options, TouchDiary& diary,
+                  const std::vector<TouchModel>& models, const TouchOptions& options, TickLog& log,
                   StatusLine& status);
 
 /// Lets the simulated hand explore in real time, with the limits of `device`.
 base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
                                  const std::shared_ptr<const haptics::HapticScene>& scene,
                                  const std::vector<TouchModel>& models, const TouchOptions& options,
-                                 TouchDiary& diary, StatusLine& status);
+                                 TickLog& log, StatusLine& status);
 
 }  // namespace icome::apps

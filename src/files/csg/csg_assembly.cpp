@@ -28,7 +28,7 @@ void add_operand(CsgTree& tree, Chain& chain, CsgTree::Index operand) {
 
 }  // namespace
 
-CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::Patience& patience) {
+CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::TimeBudget& time_budget) {
   CsgTree tree;
   std::vector<Chain> open{{parts.end, CsgOperator::Union, std::nullopt}};
   const auto close_until = [&](Index statement) {
@@ -40,7 +40,7 @@ CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::Patienc
   };
   auto leaf = parts.leaves.begin();
   for (Index i = parts.begin; i < parts.end;) {
-    if (i % 1024 == 0 && !patience.lasts(double(i) / double(parts.end))) break;
+    if (i % 1024 == 0 && !time_budget.lasts(double(i) / double(parts.end))) break;
     close_until(i);
     const auto& [keyword, volume] = parts.parts[i];
     if (volume != CsgVolume::Some) {

@@ -42,8 +42,8 @@ struct Tally {
 
 class PartGatherer {
  public:
-  PartGatherer(const CsgDocument& document, std::size_t max_primitives, io::Patience& patience)
-      : document_(document), max_primitives_(max_primitives), patience_(patience) {}
+  PartGatherer(const CsgDocument& document, std::size_t max_primitives, io::TimeBudget& time_budget)
+      : document_(document), max_primitives_(max_primitives), time_budget_(time_budget) {}
 
   base::Result<CsgParts> run(std::vector<std::string>& notes);
 
@@ -63,7 +63,7 @@ class PartGatherer {
   };
 
   bool lasts(Index index) {
-    return index % 1024 == 0 ? patience_.lasts(double(index) / double(result_.end)) : patience_.lasts();
+    return index % 1024 == 0 ? time_budget_.lasts(double(index) / double(result_.end)) : time_budget_.lasts();
   }
   void choose_root();
   bool statement(Index index);
@@ -87,7 +87,7 @@ class PartGatherer {
 
   const CsgDocument& document_;
   std::size_t max_primitives_;
-  io::Patience& patience_;
+  io::TimeBudget& time_budget_;
   CsgShapes shapes_;
   CsgParts result_;
   std::vector<Operation> open_;
@@ -234,7 +234,7 @@ base::Result<CsgPart> PartGatherer::make(Index index, CsgKeyword keyword) {
     case CsgKeyword::Cylinder:
       return shapes_.cylinder(document_, index);
     default:
-      return read_polyhedron(document_, index, patience_);
+      return read_polyhedron(document_, index, time_budget_);
   }
 }
 
@@ -308,8 +308,8 @@ void PartGatherer::tell(std::vector<std::string>& notes) const {
 }  // namespace
 
 base::Result<CsgParts> gather_parts(const CsgDocument& document, std::size_t max_primitives,
-                                    std::vector<std::string>& notes, io::Patience& patience) {
-  return PartGatherer(document, max_primitives, patience).run(notes);
+                                    std::vector<std::string>& notes, io::TimeBudget& time_budget) {
+  return PartGatherer(document, max_primitives, time_budget).run(notes);
 }
 
 }  // namespace icome::files

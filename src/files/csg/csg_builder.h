@@ -37,11 +37,11 @@ struct CsgParts {
 };
 
 /// Understands every statement that counts. Adds to `notes` what was left out or put right. Fails also when
-/// patience ends.
+/// the time budget ends.
 base::Result<CsgParts> gather_parts(const CsgDocument& document, std::size_t max_primitives,
-                                    std::vector<std::string>& notes, io::Patience& patience);
+                                    std::vector<std::string>& notes, io::TimeBudget& time_budget);
 
-/// The tree of the parts; empty when they have no volume. It is not whole when patience ends.
-geometry::CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::Patience& patience);
+/// The tree of the parts; empty when they have no volume. It is not whole when the time budget ends.
+geometry::CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::TimeBudget& time_budget);
 
 }  // namespace icome::files

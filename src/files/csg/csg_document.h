@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 
 namespace icome::files {
 
@@ -40,9 +40,9 @@ class CsgDocument {
   };
 
   /// Takes the text apart. The error names `name`, line and column, and what was expected there. Fails also
-  /// when patience ends.
+  /// when the time budget ends.
   static base::Result<CsgDocument> parse(std::string_view text, const std::string& name,
-                                         io::Patience& patience);
+                                         io::TimeBudget& time_budget);
 
   const std::vector<Statement>& statements() const { return statements_; }
   const std::vector<Argument>& arguments() const { return arguments_; }

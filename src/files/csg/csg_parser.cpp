@@ -23,12 +23,12 @@ bool in_name(char c) { return begins_name(c) || is_digit(c); }
 
 class CsgParser {
  public:
-  CsgParser(std::string_view text, const std::string& name, io::Patience& patience)
+  CsgParser(std::string_view text, const std::string& name, io::TimeBudget& time_budget)
       : document_(text, name),
         begin_(text.data()),
         at_(begin_),
         end_(begin_ + text.size()),
-        watch_(text, &patience) {
+        watch_(text, &time_budget) {
     if (text.starts_with(kCsgByteOrderMark)) at_ += kCsgByteOrderMark.size();
   }
 
@@ -59,7 +59,7 @@ class CsgParser {
   bool string();
   bool word_value();
 
-  /// Skips space and comments. False, with the error, when a comment does not end or patience does.
+  /// Skips space and comments. False, with the error, when a comment does not end or the time budget does.
   bool skip_space();
   bool skip_comment();
   /// Skips space, then takes the character if it comes next.
@@ -316,10 +316,10 @@ bool CsgParser::word_value() {
 }
 
 base::Result<CsgDocument> CsgDocument::parse(std::string_view text, const std::string& name,
-                                             io::Patience& patience) {
+                                             io::TimeBudget& time_budget) {
   if (text.size() >= std::numeric_limits<Offset>::max())
     return base::fail(name + ": is too large: a .csg file of up to 4 GiB can be read");
-  return CsgParser(text, name, patience).run();
+  return CsgParser(text, name, time_budget).run();
 }
 
 }  // namespace icome::files

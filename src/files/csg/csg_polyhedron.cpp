@@ -25,9 +25,9 @@ constexpr double kNoVolume = 1e-14;
 
 class PolyhedronReader {
  public:
-  PolyhedronReader(const CsgDocument& document, Index statement, io::Patience& patience)
+  PolyhedronReader(const CsgDocument& document, Index statement, io::TimeBudget& time_budget)
       : document_(document),
-        patience_(patience),
+        time_budget_(time_budget),
         statement_(document.statements()[statement]),
         arguments_(document, statement, {"points", "faces", "convexity", "triangles"}) {}
 
@@ -37,9 +37,9 @@ class PolyhedronReader {
     if (points) read_points(*points);
     if (points && faces) read_faces(*faces);
     if (arguments_.failed()) return tl::unexpected(arguments_.error());
-    TriangleMesh mesh = collector_.take(&patience_);
+    TriangleMesh mesh = collector_.take(&time_budget_);
     // Putting a mesh right takes long.
-    if (!patience_.lasts_now()) return tl::unexpected(io::interruption());
+    if (!time_budget_.lasts_now()) return tl::unexpected(io::interruption());
     return solid(std::move(mesh));
   }
 
@@ -60,7 +60,7 @@ class PolyhedronReader {
   }
 
   const CsgDocument& document_;
-  io::Patience& patience_;
+  io::TimeBudget& time_budget_;
   const CsgDocument::Statement& statement_;
   CsgArguments arguments_;
   FaceCollector collector_;
@@ -69,7 +69,7 @@ class PolyhedronReader {
 
 void PolyhedronReader::read_points(Index points) {
   const Index end = document_.value_end(points);
-  for (Index i = points + 1; i < end && !arguments_.failed() && patience_.lasts();
+  for (Index i = points + 1; i < end && !arguments_.failed() && time_budget_.lasts();
        i = document_.value_end(i)) {
     const auto [x, y, z] = arguments_.numbers<3>(i, "a point");
     const geometry::Vector3 point(x, y, z);
@@ -108,7 +108,8 @@ void PolyhedronReader::read_face(Index face) {
 
 void PolyhedronReader::read_faces(Index faces) {
   const Index end = document_.value_end(faces);
-  for (Index i = faces + 1; i < end && !arguments_.failed() && patience_.lasts(); i = document_.value_end(i))
+  for (Index i = faces + 1; i < end && !arguments_.failed() && time_budget_.lasts();
+       i = document_.value_end(i))
     read_face(i);
 }
 
@@ -142,8 +143,9 @@ base::Result<CsgPart> PolyhedronReader::solid(TriangleMesh mesh) const {
 
 }  // namespace
 
-base::Result<CsgPart> read_polyhedron(const CsgDocument& document, Index statement, io::Patience& patience) {
-  return PolyhedronReader(document, statement, patience).run();
+base::Result<CsgPart> read_polyhedron(const CsgDocument& document, Index statement,
+                                      io::TimeBudget& time_budget) {
+  return PolyhedronReader(document, statement, time_budget).run();
 }
 
 }  // namespace icome::files

@@ -21,18 +21,18 @@ namespace {
 constexpr double kCsgReadPart = 0.05, kCsgUnpackedPart = 0.2, kCsgParsedPart = 0.5, kCsgGatheredPart = 0.8;
 
 base::Result<LoadedCsg> make_csg(std::string_view text, const std::string& name,
-                                 const CsgReadOptions& options, double begin, io::Patience& patience) {
+                                 const CsgReadOptions& options, double begin, io::TimeBudget& time_budget) {
   const std::int64_t started = base::steady_nanoseconds();
-  patience.step(begin, kCsgParsedPart);
-  const auto document = CsgDocument::parse(text, name, patience);
+  time_budget.step(begin, kCsgParsedPart);
+  const auto document = CsgDocument::parse(text, name, time_budget);
   if (!document) return tl::unexpected(document.error());
   LoadedCsg loaded;
-  patience.step(kCsgParsedPart, kCsgGatheredPart);
-  const auto parts = gather_parts(*document, options.max_primitives, loaded.notes, patience);
+  time_budget.step(kCsgParsedPart, kCsgGatheredPart);
+  const auto parts = gather_parts(*document, options.max_primitives, loaded.notes, time_budget);
   if (!parts) return tl::unexpected(parts.error());
-  patience.step(kCsgGatheredPart, 1.0);
-  loaded.tree = assemble(*document, *parts, patience);
-  if (!patience.lasts_now()) return tl::unexpected(io::interruption());
+  time_budget.step(kCsgGatheredPart, 1.0);
+  loaded.tree = assemble(*document, *parts, time_budget);
+  if (!time_budget.lasts_now()) return tl::unexpected(io::interruption());
   if (loaded.tree.empty()) {
     return base::fail(fmt::format("{}: holds no solid{}{}", name, loaded.notes.empty() ? "" : ": ",
                                   fmt::join(loaded.notes, "; ")));
@@ -45,8 +45,8 @@ base::Result<LoadedCsg> make_csg(std::string_view text, const std::string& name,
 
 base::Result<LoadedCsg> parse_csg(std::string_view text, const std::string& name,
                                   const CsgReadOptions& options) try {
-  io::Patience patience(options.progress);
-  return make_csg(text, name, options, 0.0, patience);
+  io::TimeBudget time_budget(options.progress);
+  return make_csg(text, name, options, 0.0, time_budget);
 } catch (const std::bad_alloc&) {
   return base::fail(name + ": there is not enough memory to read it");
 }
@@ -57,10 +57,10 @@ base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgRea
   const std::int64_t started = base::steady_nanoseconds();
   const std::string name = path.string();
   const bool packed = io::same_word(path.extension().string(), ".xz");
-  io::Patience patience(options.progress);
+  io::TimeBudget time_budget(options.progress);
   io::MemoryBudget own;
   io::MemoryBudget& memory = options.memory ? *options.memory : own;
-  const auto bytes = io::read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
+  const auto bytes = io::read_unpacked(path, options.size_limit, packed, kParts, time_budget, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
   // Of a plain file the budget has more for each byte; a packed one may hold any amount.
@@ -69,7 +69,7 @@ base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgRea
   CsgReadOptions limited = options;
   limited.max_primitives = std::min<std::uint64_t>(options.max_primitives, memory.left() / kBytesOfPrimitive);
   base::Result<LoadedCsg> loaded =
-      make_csg(*bytes, name, limited, packed ? kCsgUnpackedPart : kCsgReadPart, patience);
+      make_csg(*bytes, name, limited, packed ? kCsgUnpackedPart : kCsgReadPart, time_budget);
   if (loaded) loaded->read_seconds = 1e-9 * static_cast<double>(base::steady_nanoseconds() - started);
   return loaded;
 } catch (const std::bad_alloc&) {

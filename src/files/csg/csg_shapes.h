@@ -33,9 +33,9 @@ class CsgShapes {
   std::map<std::array<double, 4>, Facets> faceted_;  // by bottom and top radius, height (0: ball) and sides
 };
 
-/// The solid of a polyhedron statement (csg_polyhedron.cpp). Fails also when patience ends.
+/// The solid of a polyhedron statement (csg_polyhedron.cpp). Fails also when the time budget ends.
 base::Result<CsgPart> read_polyhedron(const CsgDocument& document, CsgDocument::Index statement,
-                                      io::Patience& patience);
+                                      io::TimeBudget& time_budget);
 
 /// What the unit of a .csg file is.
 constexpr double kMillimetresPerMetre = 1000.0;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "files/design.h"
 #include "files/gltf/gltf_buffer.h"
+#include "files/remark.h"
 #include "world/motion.h"
 
 namespace tinygltf {

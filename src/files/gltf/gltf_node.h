@@ -12,7 +12,7 @@ struct Camera;
 
 namespace icome::files {
 
-/// The extension that lamps of glTF files are an object of.
+/// The extension that lights of glTF files are an object of.
 inline constexpr const char* kGltfLights = "KHR_lights_punctual";
 
 /// A node's matrix, or its scale, then rotation, then translation. Throws GltfError where their numbers are
@@ -22,7 +22,7 @@ base::Affine3 parent_from_node(const tinygltf::Node& node);
 /// The place of a node without a matrix, part by part. Throws likewise.
 world::PlaceParts parts_of_place(const tinygltf::Node& node);
 
-/// A lamp as VRML 2.0 has it: an intensity of one stands for one lux or candela.
+/// A light as VRML 2.0 has it: an intensity of one stands for one lux or candela.
 world::Light light_of(const tinygltf::Light& light);
 
 /// Of a camera in perspective, rad; none for others.

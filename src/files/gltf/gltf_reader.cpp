@@ -450,10 +450,10 @@ base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::fi
 
 base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options,
                                      io::MemoryBudget& memory) {
-  io::Patience patience(options.progress);
+  io::TimeBudget time_budget(options.progress);
   constexpr io::FileParts kSoonDone = {0.0, 0.0};  // next to the rest
   const bool packed = io::ending_of(path).packed;
-  const auto bytes = io::read_unpacked(path, options.size_limit, packed, kSoonDone, patience, memory);
+  const auto bytes = io::read_unpacked(path, options.size_limit, packed, kSoonDone, time_budget, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(path.string() + ": the file is empty");
   auto design = read_gltf_bytes(*bytes, path, options, memory);

@@ -1,5 +1,5 @@
 #pragma once
-#include "files/design.h"
+#include "files/remark.h"
 
 namespace icome::files {
 

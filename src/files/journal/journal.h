@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 #include "world/edit/edit_bytes.h"
 
 namespace icome::files {

@@ -43,11 +43,11 @@ Edit JournalMending::mended(world::CreateObject edit) {
   world::PhysicalObject& object = edit.object;
   drop_lost_parent(object.parent, object.name);
   if (object.geometry && world_.find(object.geometry) == nullptr) {
-    findings_.tell(fmt::format("The object {} has lost its shape.", said(object.name)));
+    findings_.tell(fmt::format("The object {} has lost its shape.", quoted_name(object.name)));
     object.geometry = {};
   }
   if (object.material && world_.find(object.material) == nullptr) {
-    findings_.tell(fmt::format("The object {} has lost its material.", said(object.name)));
+    findings_.tell(fmt::format("The object {} has lost its material.", quoted_name(object.name)));
     object.material = {};
   }
   edit.place = std::min(edit.place, siblings(object.parent));
@@ -71,7 +71,7 @@ Edit JournalMending::mended(world::EnterScene edit) const {
 
 void JournalMending::drop_lost_texture(world::Material& material) {
   if (!material.texture || world_.find(material.texture) != nullptr) return;
-  findings_.tell(fmt::format("The material {} has lost its texture.", said(material.name)));
+  findings_.tell(fmt::format("The material {} has lost its texture.", quoted_name(material.name)));
   material.texture = {};
 }
 
@@ -88,7 +88,7 @@ Edit JournalMending::mended(world::ChangeMaterial edit) {
 void JournalMending::compare(const JournalNames& names) {
   for (const auto& [id, name] : names) {
     if (world_.find(id) != nullptr || !missing_.try_emplace(id, name).second) continue;
-    findings_.tell(fmt::format("The object {} is lost.", said(name)));
+    findings_.tell(fmt::format("The object {} is lost.", quoted_name(name)));
   }
 }
 
@@ -97,7 +97,8 @@ std::vector<Remark> JournalMending::remarks() const {
   for (const auto& [child, parent] : lost_parents_) {
     const auto known = missing_.find(parent);
     all.tell(fmt::format("The object {} has lost {}, which it was a part of, and stands at the top now.",
-                         said(child), known == missing_.end() ? "its parent" : said(known->second)));
+                         quoted_name(child),
+                         known == missing_.end() ? "its parent" : quoted_name(known->second)));
   }
   return all.remarks();
 }

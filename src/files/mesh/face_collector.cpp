@@ -22,12 +22,12 @@ bool FaceCollector::add_face(const std::vector<std::uint32_t>& corners) {
   return true;
 }
 
-geometry::TriangleMesh FaceCollector::take(io::Patience* patience) {
+geometry::TriangleMesh FaceCollector::take(io::TimeBudget* time_budget) {
   std::vector<geometry::Vector3> corners;
   std::vector<std::array<std::uint32_t, 3>> cut;
   const std::uint32_t* polygon = polygon_corners_.data();
   for (const std::uint32_t size : polygon_sizes_) {
-    if (patience && !patience->lasts_for_polygon(size)) break;
+    if (time_budget && !time_budget->lasts_for_polygon(size)) break;
     corners.clear();
     cut.clear();
     for (std::uint32_t i = 0; i < size; ++i) corners.push_back(mesh_.positions[polygon[i]]);

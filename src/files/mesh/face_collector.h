@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/mesh/triangle_mesh.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 
 namespace icome::files {
 
@@ -22,8 +22,9 @@ class FaceCollector {
   bool add_face(const std::vector<std::uint32_t>& corners);
 
   /// The mesh: triangular faces in their order, then the polygons cut into triangles. Every index must
-  /// be below positions(). Leaves the collector empty. When patience (may be null) ends, so does the mesh.
-  geometry::TriangleMesh take(io::Patience* patience = nullptr);
+  /// be below positions(). Leaves the collector empty. When the time budget (may be null) ends, so does the
+  /// mesh.
+  geometry::TriangleMesh take(io::TimeBudget* time_budget = nullptr);
 
   /// One sentence on each thing left out.
   std::vector<std::string> notes() const;

@@ -4,11 +4,12 @@
 
 namespace icome::files {
 
-base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name, io::Patience* patience) {
+base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name,
+                                   io::TimeBudget* time_budget) {
   if (!bytes.starts_with("glTF"))
     return base::fail(name + ": does not begin with 'glTF', so it is not a GLB file");
   DesignReadOptions options;
-  if (patience) options.progress = [&](double part) { return patience->lasts(part); };
+  if (time_budget) options.progress = [&](double part) { return time_budget->lasts(part); };
   io::MemoryBudget memory;
   memory.add_file(bytes.size());
   const auto design = read_gltf_bytes(bytes, name, options, memory);

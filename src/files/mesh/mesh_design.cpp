@@ -18,9 +18,9 @@
 namespace icome::files {
 
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
-                                        std::uint64_t size_limit, io::Patience& patience,
+                                        std::uint64_t size_limit, io::TimeBudget& time_budget,
                                         io::MemoryBudget& memory) {
-  auto parsed = parse_mesh_file(path, size_limit, patience, memory);
+  auto parsed = parse_mesh_file(path, size_limit, time_budget, memory);
   if (!parsed) return tl::unexpected(parsed.error());
   const std::uint64_t colours = parsed->colours.empty() ? 0 : sizeof(std::array<world::Colour, 3>);
   if (!memory.has_room(parsed->mesh.positions.size() * sizeof(base::Vector3) +
@@ -32,7 +32,7 @@ base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, doubl
     result.remarks.push_back(fmt::format(
         "It has {}no triangles: nothing of it can be seen.",
         parsed->mesh.positions.empty() ? "" : fmt::format("{} points and ", parsed->mesh.positions.size())));
-  patience.step(kParsedPart, 1.0);
+  time_budget.step(kParsedPart, 1.0);
   world::MeshGeometry shape(std::move(parsed->mesh));
   if (!parsed->colours.empty()) {
     for (const auto& [a, b, c] : shape.mesh.triangles)
@@ -40,24 +40,24 @@ base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, doubl
   }
   if (const auto scaled = scale(shape.mesh.positions, unit, path.string()); !scaled)
     return tl::unexpected(scaled.error());
-  if (!patience.lasts(0.1)) return tl::unexpected(io::interruption());
+  if (!time_budget.lasts(0.1)) return tl::unexpected(io::interruption());
   if (std::string lost = drop_not_finite(shape); !lost.empty()) result.remarks.push_back(std::move(lost));
   // STL repeats every corner; what meets there is one vertex.
-  if (!patience.lasts(0.3)) return tl::unexpected(io::interruption());
+  if (!time_budget.lasts(0.3)) return tl::unexpected(io::interruption());
   if (io::ending_of(path).type == ".stl") {
-    geometry::weld_equal(shape.mesh, [&] { return patience.lasts_now(); });
-    if (!patience.lasts(0.6)) return tl::unexpected(io::interruption());
+    geometry::weld_equal(shape.mesh, [&] { return time_budget.lasts_now(); });
+    if (!time_budget.lasts(0.6)) return tl::unexpected(io::interruption());
     drop_unused(shape.mesh);
   }
-  if (!patience.lasts(0.8)) return tl::unexpected(io::interruption());
+  if (!time_budget.lasts(0.8)) return tl::unexpected(io::interruption());
   result.shape = std::make_shared<const world::MeshGeometry>(std::move(shape));
   return result;
 }
 
 base::Result<LoadedDesign> read_mesh_design(const std::filesystem::path& path,
                                             const DesignReadOptions& options, io::MemoryBudget& memory) {
-  io::Patience patience(options.progress);
-  auto read = read_mesh_shape(path, options.unit, options.size_limit, patience, memory);
+  io::TimeBudget time_budget(options.progress);
+  auto read = read_mesh_shape(path, options.unit, options.size_limit, time_budget, memory);
   if (!read) return tl::unexpected(read.error());
   DesignBuilder builder(memory);
   for (const std::string& remark : read->remarks) builder.remark(remark);

@@ -6,7 +6,7 @@
 
 #include "files/design.h"
 #include "io/memory_budget.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 #include "world/shape/mesh_geometry.h"
 
 namespace icome::files {
@@ -18,10 +18,10 @@ struct MeshShape {
   std::vector<std::string> remarks = {};  // sentences on what was left out or put right
 };
 
-/// Reads a file of any type that mesh_formats.h knows; `unit` is metres per unit of the file. Patience is
+/// Reads a file of any type that mesh_formats.h knows; `unit` is metres per unit of the file. TimeBudget is
 /// told how far that is; when it ends, so does the reading, soon: "interrupted".
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
-                                        std::uint64_t size_limit, io::Patience& patience,
+                                        std::uint64_t size_limit, io::TimeBudget& time_budget,
                                         io::MemoryBudget& memory);
 
 /// PLY, STL and OFF, also packed: a design of one object, named after the file.

@@ -10,7 +10,7 @@
 #include "base/result.h"
 #include "geometry/mesh/triangle_mesh.h"
 #include "io/memory_budget.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 
 namespace icome::files {
 
@@ -29,34 +29,34 @@ inline constexpr double kFarthest = 1e15;
 inline constexpr double kParsedPart = 0.8;
 
 /// Reads a file of any type below, also packed as `.xz`, by the ending of its name.
-/// When patience ends, so does the reading, soon: "interrupted". It takes the first kParsedPart
-/// of the work that patience is told of.
+/// When the time budget ends, so does the reading, soon: "interrupted". It takes the first kParsedPart
+/// of the work that the time budget is told of.
 base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
-                                         io::Patience& patience, io::MemoryBudget& memory);
+                                         io::TimeBudget& time_budget, io::MemoryBudget& memory);
 
 // Each takes the whole file and the name to use in errors. Memory taken is bounded by the bytes that
 // are there, never by a count that they declare. Errors: one sentence, with the line in text formats.
-// Patience (may be null) is told how far they are; when it ends they fail, or what they give is not whole.
+// TimeBudget (may be null) is told how far they are; when it ends they fail, or what they give is not whole.
 
 /// Wavefront OBJ: `v` and `f` lines, negative indices, continued lines; everything else is left out.
 base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name,
-                                   io::Patience* patience = nullptr);
+                                   io::TimeBudget* time_budget = nullptr);
 
 /// PLY 1.0, ascii or binary of either byte order: x, y, z of `vertex`, the index lists of `face` and
 /// `tristrips`.
 base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name,
-                                   io::Patience* patience = nullptr);
+                                   io::TimeBudget* time_budget = nullptr);
 
 /// STL. Binary when the size is what a binary file's count says, whatever word the file begins with.
 base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name,
-                                   io::Patience* patience = nullptr);
+                                   io::TimeBudget* time_budget = nullptr);
 
 /// OFF, ascii or binary, also with normals, colours or texture coordinates, which are left out.
 base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name,
-                                   io::Patience* patience = nullptr);
+                                   io::TimeBudget* time_budget = nullptr);
 
 /// Binary glTF 2.0 that holds its own buffers: the triangles of all nodes, in the scene's frame.
 base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& name,
-                                   io::Patience* patience = nullptr);
+                                   io::TimeBudget* time_budget = nullptr);
 
 }  // namespace icome::files

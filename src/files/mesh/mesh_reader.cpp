@@ -29,7 +29,7 @@ struct Unit {
 constexpr std::array<Unit, 6> kUnits{
     {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}}};
 
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::Patience*);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::TimeBudget*);
 struct FileType {
   std::string_view extension;
   Parser parse;
@@ -70,9 +70,9 @@ bool usable_length(double length) { return std::isfinite(length) && length > 0.0
 base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
   const std::int64_t started = base::steady_nanoseconds();
-  io::Patience patience;
+  io::TimeBudget time_budget;
   io::MemoryBudget memory(options.memory_limit);
-  base::Result<ParsedMesh> parsed = parse_mesh_file(path, options.size_limit, patience, memory);
+  base::Result<ParsedMesh> parsed = parse_mesh_file(path, options.size_limit, time_budget, memory);
   if (!parsed) return tl::unexpected(parsed.error());
   LoadedMesh loaded;
   loaded.mesh = std::move(parsed->mesh);
@@ -97,7 +97,7 @@ base::Result<LoadedMesh> read_checked(const std::filesystem::path& path, const R
 }  // namespace
 
 base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
-                                         io::Patience& patience, io::MemoryBudget& memory) {
+                                         io::TimeBudget& time_budget, io::MemoryBudget& memory) {
   constexpr io::FileParts kParts = {0.1, 0.4};
   const std::string name = path.string();
   const io::FileEnding ending = io::ending_of(path);
@@ -105,7 +105,7 @@ base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std:
   if (parse == nullptr)
     return base::fail(name +
                       ": is not of a known type; .obj, .ply, .stl, .off and .glb are, also with .xz after");
-  const auto bytes = io::read_unpacked(path, size_limit, ending.packed, kParts, patience, memory);
+  const auto bytes = io::read_unpacked(path, size_limit, ending.packed, kParts, time_budget, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty())
     return base::fail(name + (ending.packed ? ": the file is empty once unpacked" : ": the file is empty"));
@@ -113,9 +113,9 @@ base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std:
   if (constexpr std::uint64_t kBytesForAByte = 5;
       ending.packed && !memory.take(kBytesForAByte * bytes->size()))
     return base::fail(fmt::format("{}: {}", name, memory.problem().message));
-  patience.step(ending.packed ? kParts.unpacked : kParts.read, kParsedPart);
-  base::Result<ParsedMesh> parsed = parse(*bytes, name, &patience);
-  if (!patience.lasts_now()) return tl::unexpected(io::interruption());
+  time_budget.step(ending.packed ? kParts.unpacked : kParts.read, kParsedPart);
+  base::Result<ParsedMesh> parsed = parse(*bytes, name, &time_budget);
+  if (!time_budget.lasts_now()) return tl::unexpected(io::interruption());
   if (parsed && ending.packed) parsed->format += ", xz";
   return parsed;
 }

@@ -28,8 +28,8 @@ constexpr std::uint64_t kBytesOfPart = 500, kBytesOfVertex = 2 * sizeof(base::Ve
 class ObjReading {
  public:
   ObjReading(std::string_view text, const std::string& name, ObjContent content, std::int64_t vertex_limit,
-             io::Patience* patience, io::MemoryBudget* memory)
-      : scanner_(text, name, io::TextScanner::Lines::Continue, '#', patience),
+             io::TimeBudget* time_budget, io::MemoryBudget* memory)
+      : scanner_(text, name, io::TextScanner::Lines::Continue, '#', time_budget),
         parts_too_(content != ObjContent::Positions),
         all_(content == ObjContent::All),
         memory_(memory),
@@ -170,7 +170,7 @@ class ObjReading {
     count(kBytesOfPart);
   }
 
-  /// Whose memory is used up hears of it by the end of its patience.
+  /// Whose memory is used up hears of it by the end of its time budget.
   void count(std::uint64_t bytes) {
     if (memory_) memory_->take(bytes);
   }
@@ -191,17 +191,17 @@ class ObjReading {
 }  // namespace
 
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
-                                             ObjContent content, io::Patience* patience,
+                                             ObjContent content, io::TimeBudget* time_budget,
                                              io::MemoryBudget* memory) {
   if (bytes.find('\0') != std::string_view::npos)
     return base::fail(name + ": holds binary data, so it is not an OBJ file");
-  ObjReading reading(bytes, name, content, std::numeric_limits<std::uint32_t>::max(), patience, memory);
+  ObjReading reading(bytes, name, content, std::numeric_limits<std::uint32_t>::max(), time_budget, memory);
   reading.run();
   if (reading.scanner().failed()) return tl::unexpected(reading.scanner().error());
   const auto vertices = static_cast<std::int64_t>(reading.document().positions.size());
   if (vertices == 0) return base::fail(name + ": has no vertices ('v' lines), so it is not an OBJ model");
   if (reading.highest_index() > vertices) {
-    ObjReading search(bytes, name, content, vertices, patience, nullptr);
+    ObjReading search(bytes, name, content, vertices, time_budget, nullptr);
     search.run();
     return tl::unexpected(search.scanner().error());
   }

@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "base/vector.h"
 #include "io/memory_budget.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 #include "world/shape/fixture.h"
 
 namespace icome::files {
@@ -52,10 +52,10 @@ enum class ObjContent { Positions, Parts, All };
 
 /// `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`, `g`,
 /// `usemtl`, `mtllib`, `s`, which are then in order even where they are not kept. Errors name the line. Fails
-/// also when patience (may be null) ends; that of a reading whose memory (may be null) is used up does. All
-/// that is read is counted there, as few bytes may stand for much, packed ones for any amount.
+/// also when the time budget (may be null) ends; that of a reading whose memory (may be null) is used up
+/// does. All that is read is counted there, as few bytes may stand for much, packed ones for any amount.
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
-                                             ObjContent content, io::Patience* patience = nullptr,
+                                             ObjContent content, io::TimeBudget* time_budget = nullptr,
                                              io::MemoryBudget* memory = nullptr);
 
 }  // namespace icome::files

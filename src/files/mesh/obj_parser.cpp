@@ -4,8 +4,9 @@
 
 namespace icome::files {
 
-base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name, io::Patience* patience) {
-  const auto document = parse_obj_document(bytes, name, ObjContent::Positions, patience);
+base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name,
+                                   io::TimeBudget* time_budget) {
+  const auto document = parse_obj_document(bytes, name, ObjContent::Positions, time_budget);
   if (!document) return tl::unexpected(document.error());
   FaceCollector faces;
   faces.reserve_positions(document->positions.size());
@@ -18,7 +19,7 @@ base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& na
     for (std::uint32_t i = 0; i < face.corners; ++i) corners.push_back(document->corners[next++].position);
     faces.add_face(corners);  // none is too large: the document would have been refused
   }
-  return ParsedMesh{faces.take(patience), "OBJ", faces.notes()};
+  return ParsedMesh{faces.take(time_budget), "OBJ", faces.notes()};
 }
 
 }  // namespace icome::files

@@ -34,9 +34,9 @@ using world::ObjectId;
 /// Makes the faces of one part after the other a mesh.
 class ObjMeshes {
  public:
-  ObjMeshes(const ObjDocument& document, io::Patience& patience)
+  ObjMeshes(const ObjDocument& document, io::TimeBudget& time_budget)
       : document_(document),
-        patience_(patience),
+        time_budget_(time_budget),
         place_(document.positions.size()),
         part_of_place_(document.positions.size(), ObjDocument::kNone),
         first_corner_(document.faces.size()),
@@ -51,7 +51,7 @@ class ObjMeshes {
 
   bool has_faces(std::uint32_t part) const { return !faces_[part].empty(); }
 
-  /// Not the whole mesh when patience ends.
+  /// Not the whole mesh when the time budget ends.
   world::MeshGeometry mesh_of(std::uint32_t part) {
     world::MeshGeometry shape(geometry::TriangleMesh{});
     shape.mesh.triangles.reserve(faces_[part].size());
@@ -86,8 +86,8 @@ class ObjMeshes {
   using Corner = ObjDocument::Corner;
 
   bool lasts_for(std::uint32_t face) {
-    if (++done_ % 1024 == 0) return patience_.lasts(double(done_) / double(document_.faces.size()));
-    return patience_.lasts_for_polygon(document_.faces[face].corners);
+    if (++done_ % 1024 == 0) return time_budget_.lasts(double(done_) / double(document_.faces.size()));
+    return time_budget_.lasts_for_polygon(document_.faces[face].corners);
   }
   bool has_coordinate(const Corner& corner) const { return corner.coordinate < document_.coordinates.size(); }
   bool has_normal(const Corner& corner) const { return corner.normal < document_.normals.size(); }
@@ -172,7 +172,7 @@ class ObjMeshes {
   }
 
   const ObjDocument& document_;
-  io::Patience& patience_;
+  io::TimeBudget& time_budget_;
   std::size_t done_ = 0;                           // faces
   std::vector<std::uint32_t> place_;               // of positions in the mesh of the part
   std::vector<std::uint32_t> part_of_place_;       // for which that was found
@@ -315,25 +315,25 @@ base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
   constexpr io::FileParts kParts = {0.1, 0.3};
   const std::string name = path.string();
   const bool packed = io::ending_of(path).packed;
-  io::Patience patience(options.progress);
-  auto bytes = io::read_unpacked(path, options.size_limit, packed, kParts, patience, memory);
+  io::TimeBudget time_budget(options.progress);
+  auto bytes = io::read_unpacked(path, options.size_limit, packed, kParts, time_budget, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
-  patience.step(packed ? kParts.unpacked : kParts.read, kParsedPart);
+  time_budget.step(packed ? kParts.unpacked : kParts.read, kParsedPart);
   const ObjContent content = options.with_looks ? ObjContent::All : ObjContent::Parts;
-  auto document = parse_obj_document(*bytes, name, content, &patience, &memory);
+  auto document = parse_obj_document(*bytes, name, content, &time_budget, &memory);
   if (!document) return tl::unexpected(document.error());
   std::string().swap(*bytes);  // what it said is in the document
-  patience.step(kParsedPart, 1.0);
+  time_budget.step(kParsedPart, 1.0);
   if (const auto scaled = scale(document->positions, options.unit, name); !scaled)
     return tl::unexpected(scaled.error());
   DesignBuilder builder(memory);
   ObjLooks looks(path, options, memory, builder);
   for (const ObjDocument::Library& library : document->libraries) looks.read(library);
   looks.tell();
-  ObjMeshes meshes(*document, patience);
+  ObjMeshes meshes(*document, time_budget);
   add_parts(*document, meshes, looks, path, memory, builder);
-  if (!patience.lasts_now()) return tl::unexpected(io::interruption());
+  if (!time_budget.lasts_now()) return tl::unexpected(io::interruption());
   for (const std::string& note : meshes.notes()) builder.remark(note);
   if (document->others > 0) builder.remark("Points, lines and free-form curves and surfaces are left out.");
   return builder.take(packed ? "OBJ, xz" : "OBJ", name);

@@ -108,10 +108,10 @@ std::pair<std::int64_t, std::int64_t> read_header(io::TextScanner& scanner, OffL
 /// significant first. Geomview wrote such files.
 class BinaryOff {
  public:
-  BinaryOff(std::string_view bytes, std::size_t begin, std::string name, io::Patience* patience)
-      : bytes_(bytes), at_(begin), name_(std::move(name)), watch_(bytes, patience) {}
+  BinaryOff(std::string_view bytes, std::size_t begin, std::string name, io::TimeBudget* time_budget)
+      : bytes_(bytes), at_(begin), name_(std::move(name)), watch_(bytes, time_budget) {}
 
-  base::Result<ParsedMesh> read(std::vector<OffVariant> variants, io::Patience* patience) {
+  base::Result<ParsedMesh> read(std::vector<OffVariant> variants, io::TimeBudget* time_budget) {
     left_out_.variants = std::move(variants);
     std::size_t more = 0;  // numbers of a vertex beside its coordinates
     for (const OffVariant& variant : left_out_.variants) more += variant.numbers;
@@ -126,7 +126,7 @@ class BinaryOff {
     }
     for (std::uint32_t i = 0; i < count && good(); ++i) add_face(faces);
     if (!good()) return base::fail(fmt::format("{}: {}", name_, why_.empty() ? "is cut short" : why_));
-    return ParsedMesh{faces.take(patience), "binary OFF", left_out_.sentences(faces.notes())};
+    return ParsedMesh{faces.take(time_budget), "binary OFF", left_out_.sentences(faces.notes())};
   }
 
  private:
@@ -186,10 +186,11 @@ std::optional<std::pair<std::size_t, std::vector<OffVariant>>> binary_body(std::
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name, io::Patience* patience) {
+base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& name,
+                                   io::TimeBudget* time_budget) {
   if (const auto body = binary_body(bytes))
-    return BinaryOff(bytes, body->first, name, patience).read(body->second, patience);
-  io::TextScanner scanner(bytes, name, io::TextScanner::Lines::Matter, '#', patience);
+    return BinaryOff(bytes, body->first, name, time_budget).read(body->second, time_budget);
+  io::TextScanner scanner(bytes, name, io::TextScanner::Lines::Matter, '#', time_budget);
   OffLeftOut left_out;
   const auto [vertex_count, face_count] = read_header(scanner, left_out);
   FaceCollector faces;
@@ -200,7 +201,7 @@ base::Result<ParsedMesh> parse_off(std::string_view bytes, const std::string& na
   for (std::int64_t i = 0; i < face_count && !scanner.failed(); ++i)
     left_out.coloured_faces += read_face(scanner, faces, corners) ? 1 : 0;
   if (scanner.failed()) return tl::unexpected(scanner.error());
-  return ParsedMesh{faces.take(patience), "OFF", left_out.sentences(faces.notes())};
+  return ParsedMesh{faces.take(time_budget), "OFF", left_out.sentences(faces.notes())};
 }
 
 }  // namespace icome::files

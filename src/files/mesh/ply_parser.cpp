@@ -18,12 +18,12 @@ namespace {
 class BinaryRows {
  public:
   BinaryRows(std::string_view bytes, std::size_t begin, std::string name, io::ByteOrder order,
-             io::Patience* patience)
+             io::TimeBudget* time_budget)
       : at_(bytes.data() + begin),
         end_(bytes.data() + bytes.size()),
         name_(std::move(name)),
         order_(order),
-        watch_(bytes, patience) {}
+        watch_(bytes, time_budget) {}
 
   double number(PlyType type) {
     if (left() < size_of(type)) {
@@ -82,8 +82,8 @@ class BinaryRows {
 /// The numbers of an ascii file. Line ends are mere space here, as for most readers.
 class AsciiRows {
  public:
-  AsciiRows(std::string_view bytes, const std::string& name, io::Patience* patience)
-      : scanner_(bytes, name, io::TextScanner::Lines::AreSpace, '\0', patience), size_(bytes.size()) {}
+  AsciiRows(std::string_view bytes, const std::string& name, io::TimeBudget* time_budget)
+      : scanner_(bytes, name, io::TextScanner::Lines::AreSpace, '\0', time_budget), size_(bytes.size()) {}
 
   void skip_header(std::size_t lines_end) {
     while (scanner_.position() < lines_end) scanner_.skip_line();
@@ -341,7 +341,7 @@ class PlyBody {
 
 template <typename Rows>
 base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const char* format,
-                                    const std::string& name, io::Patience* patience) {
+                                    const std::string& name, io::TimeBudget* time_budget) {
   FaceCollector faces;
   PlyBody<Rows> body(header, rows);
   body.run(faces);
@@ -349,27 +349,28 @@ base::Result<ParsedMesh> parse_body(const PlyHeader& header, Rows rows, const ch
   if (faces.positions() == 0) return base::fail(name + ": has no vertices");
   auto colours = body.take_colours();
   if (colours.size() != faces.positions()) colours.clear();
-  ParsedMesh parsed{faces.take(patience), format, faces.notes(), std::move(colours)};
+  ParsedMesh parsed{faces.take(time_budget), format, faces.notes(), std::move(colours)};
   tell_what_is_left_out(header, parsed.notes);
   return parsed;
 }
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name, io::Patience* patience) {
+base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name,
+                                   io::TimeBudget* time_budget) {
   const base::Result<PlyHeader> header = parse_ply_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
   if (const std::string missing = missing_from(*header); !missing.empty())
     return base::fail(name + ": " + missing);
   if (header->encoding == PlyEncoding::Ascii) {
-    AsciiRows rows(bytes, name, patience);
+    AsciiRows rows(bytes, name, time_budget);
     rows.skip_header(header->size);
-    return parse_body(*header, std::move(rows), "ascii PLY", name, patience);
+    return parse_body(*header, std::move(rows), "ascii PLY", name, time_budget);
   }
   const bool little = header->encoding == PlyEncoding::LittleEndian;
   BinaryRows rows(bytes, header->size, name, little ? io::ByteOrder::LittleEndian : io::ByteOrder::BigEndian,
-                  patience);
-  return parse_body(*header, std::move(rows), "binary PLY", name, patience);
+                  time_budget);
+  return parse_body(*header, std::move(rows), "binary PLY", name, time_budget);
 }
 
 }  // namespace icome::files

@@ -31,7 +31,7 @@ bool is_binary(std::string_view bytes) {
 }
 
 base::Result<ParsedMesh> parse_binary(std::string_view bytes, const std::string& name,
-                                      io::Patience* patience) {
+                                      io::TimeBudget* time_budget) {
   if (bytes.size() < kBinaryBegin) return base::fail(name + ": is too short to be an STL file");
   const std::uint64_t count = declared_facets(bytes);
   const std::uint64_t present = (bytes.size() - kBinaryBegin) / kBinaryFacet;
@@ -45,7 +45,7 @@ base::Result<ParsedMesh> parse_binary(std::string_view bytes, const std::string&
     parsed.notes.push_back(
         fmt::format("the bytes of {} more triangle{} than the {} that it declares left out", present - count,
                     present - count == 1 ? "" : "s", count));
-  io::ByteWatch watch(bytes, patience);
+  io::ByteWatch watch(bytes, time_budget);
   for (std::uint32_t t = 0; t < count; ++t) {
     const char* corner = bytes.data() + kBinaryBegin + kBinaryFacet * t + kCornersInFacet;
     if (!watch.lasts(corner)) return tl::unexpected(io::interruption());
@@ -89,8 +89,8 @@ void read_facet(io::TextScanner& scanner, FaceCollector& faces, std::vector<std:
 }
 
 base::Result<ParsedMesh> parse_ascii(std::string_view bytes, const std::string& name,
-                                     io::Patience* patience) {
-  io::TextScanner scanner(bytes, name, io::TextScanner::Lines::AreSpace, '\0', patience);
+                                     io::TimeBudget* time_budget) {
+  io::TextScanner scanner(bytes, name, io::TextScanner::Lines::AreSpace, '\0', time_budget);
   FaceCollector faces;
   std::vector<std::uint32_t> corners;
   bool within_solid = false;
@@ -109,13 +109,14 @@ base::Result<ParsedMesh> parse_ascii(std::string_view bytes, const std::string& 
   }
   if (within_solid) scanner.fail("the file ends without 'endsolid': it may be cut short");
   if (scanner.failed()) return tl::unexpected(scanner.error());
-  return ParsedMesh{faces.take(patience), "ascii STL", faces.notes()};
+  return ParsedMesh{faces.take(time_budget), "ascii STL", faces.notes()};
 }
 
 }  // namespace
 
-base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name, io::Patience* patience) {
-  return is_binary(bytes) ? parse_binary(bytes, name, patience) : parse_ascii(bytes, name, patience);
+base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name,
+                                   io::TimeBudget* time_budget) {
+  return is_binary(bytes) ? parse_binary(bytes, name, time_budget) : parse_ascii(bytes, name, time_budget);
 }
 
 }  // namespace icome::files

@@ -39,45 +39,45 @@ base::Matrix3 facing(const Vector3& direction) {
   return base::rotation_between(-Vector3::UnitZ(), to).toRotationMatrix();
 }
 
-PlacedFixture fixture_of(const flat::Lamp& lamp) {
+PlacedFixture fixture_of(const flat::Light& from) {
   world::Light light;
   PlacedFixture result;
-  if (lamp.kind() == flat::LampKind::Point) light.kind = world::Light::Kind::Point;
-  if (lamp.kind() == flat::LampKind::Spot) light.kind = world::Light::Kind::Spot;
+  if (from.kind() == flat::LightKind::Point) light.kind = world::Light::Kind::Point;
+  if (from.kind() == flat::LightKind::Spot) light.kind = world::Light::Kind::Spot;
   light.scoped = light.kind == world::Light::Kind::Directional;
-  light.on = lamp.on();
-  if (const flat::Rgb* colour = lamp.colour())
+  light.on = from.on();
+  if (const flat::Rgb* colour = from.colour())
     light.colour = {part_of_one(colour->r(), 1.0F), part_of_one(colour->g(), 1.0F),
                     part_of_one(colour->b(), 1.0F)};
-  light.intensity = part_of_one(lamp.intensity(), 1.0F);
-  light.ambient = part_of_one(lamp.ambient(), 0.0F);
+  light.intensity = part_of_one(from.intensity(), 1.0F);
+  light.ambient = part_of_one(from.ambient(), 0.0F);
   if (light.kind != world::Light::Kind::Directional) {
-    const Vector3 attenuation = vector_of(lamp.attenuation(), Vector3::UnitX()).cwiseMax(0.0).cwiseMin(1e30);
+    const Vector3 attenuation = vector_of(from.attenuation(), Vector3::UnitX()).cwiseMax(0.0).cwiseMin(1e30);
     light.attenuation = {float(attenuation.x()), float(attenuation.y()), float(attenuation.z())};
-    light.radius = within(lamp.radius(), 0.0, 1e30, light.radius);
-    result.parent_from_fixture.translation() = vector_of(lamp.location(), Vector3::Zero());
+    light.radius = within(from.radius(), 0.0, 1e30, light.radius);
+    result.parent_from_fixture.translation() = vector_of(from.location(), Vector3::Zero());
   }
   if (light.kind == world::Light::Kind::Spot) {
     constexpr double kRightAngle = 0.5 * std::numbers::pi;
-    light.cut_off_angle = within(lamp.cut_off_angle(), 0.0, kRightAngle, light.cut_off_angle);
-    light.beam_width = within(lamp.beam_width(), 0.0, kRightAngle, light.beam_width);
+    light.cut_off_angle = within(from.cut_off_angle(), 0.0, kRightAngle, light.cut_off_angle);
+    light.beam_width = within(from.beam_width(), 0.0, kRightAngle, light.beam_width);
   }
   if (light.kind != world::Light::Kind::Point)
-    result.parent_from_fixture.linear() = facing(vector_of(lamp.direction(), -Vector3::UnitZ()));
+    result.parent_from_fixture.linear() = facing(vector_of(from.direction(), -Vector3::UnitZ()));
   result.fixture = std::make_shared<const world::Fixture>(light);
   return result;
 }
 
-PlacedFixture fixture_of(const flat::Eye& eye) {
+PlacedFixture fixture_of(const flat::Viewpoint& from) {
   PlacedFixture result;
   world::Viewpoint viewpoint;
-  const double field = eye.field_of_view();
+  const double field = from.field_of_view();
   if (field > 0.0 && field < std::numbers::pi) viewpoint.field_of_view = field;
-  const Vector3 axis = vector_of(eye.axis(), Vector3::UnitZ());
+  const Vector3 axis = vector_of(from.axis(), Vector3::UnitZ());
   const double length = axis.stableNorm();
-  if (std::isfinite(eye.angle()) && length > 0.0 && std::isfinite(length))
-    result.parent_from_fixture.linear() = Eigen::AngleAxisd(eye.angle(), axis / length).toRotationMatrix();
-  result.parent_from_fixture.translation() = vector_of(eye.position(), Vector3::Zero());
+  if (std::isfinite(from.angle()) && length > 0.0 && std::isfinite(length))
+    result.parent_from_fixture.linear() = Eigen::AngleAxisd(from.angle(), axis / length).toRotationMatrix();
+  result.parent_from_fixture.translation() = vector_of(from.position(), Vector3::Zero());
   result.fixture = std::make_shared<const world::Fixture>(viewpoint);
   return result;
 }

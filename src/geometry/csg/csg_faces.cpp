@@ -219,23 +219,23 @@ void CsgFaces::near(const Vector3& a, const Vector3& b, double reach,
   tree_.near(SegmentQuery(a, b, reach), [&](std::uint32_t face) { return visit(face, box(face)); });
 }
 
-std::optional<SurfaceEntry> CsgFaces::entry(std::uint32_t face, const Vector3& start, const Vector3& step,
-                                            bool from_behind, double slack) const {
+std::optional<SurfaceHit> CsgFaces::first_hit(std::uint32_t face, const Vector3& start, const Vector3& step,
+                                              bool from_behind, double slack) const {
   const CsgAtom& atom = this->atom(face);
-  SurfaceEntry entry{};
+  SurfaceHit hit{};
   const auto accept = [&](double t, const Vector3& point, const Vector3& atom_normal) {
-    entry = {t, place(face, point, atom_normal)};
-    return trimmed_in(face, point, entry.place.normal, slack);
+    hit = {t, place(face, point, atom_normal)};
+    return trimmed_in(face, point, hit.place.normal, slack);
   };
   const FacePassage passage(atom, atom.subtracted == from_behind, start, step, slack);
   const auto met = atom.kind == Kind::Mesh
                        ? passage.first(PlacedTriangle(atom, faces_[face].triangle, shift(face)), accept)
                        : passage.first(accept);
   if (!met) return std::nullopt;
-  return entry;
+  return hit;
 }
 
-SurfacePlace CsgFaces::foot(const SurfacePlace& from, const Vector3& goal) const {
+SurfacePlace CsgFaces::nearest_local(const SurfacePlace& from, const Vector3& goal) const {
   const CsgAtom& atom = this->atom(from.piece);
   if (atom.kind == Kind::Mesh || atom.kind == Kind::Plane) {
     Vector3 origin = atom.tree_from_atom.translation();
@@ -261,7 +261,7 @@ bool CsgFaces::covers(const SurfacePlace& place, double slack) const {
 }
 
 SurfacePlace CsgFaces::nearest(std::uint32_t face, const Vector3& point) const {
-  SurfacePlace place = foot({point, Vector3::UnitZ(), face, 0.0, 0.0}, point);
+  SurfacePlace place = nearest_local({point, Vector3::UnitZ(), face, 0.0, 0.0}, point);
   if (const CsgAtom& it = atom(face); it.kind == Kind::Mesh)
     place.point = nearest_point(PlacedTriangle(it, faces_[face].triangle, shift(face)).corners, point);
   return place;

@@ -38,9 +38,9 @@ class CsgFaces {
   Bounds box(std::uint32_t face) const;
 
   void near(const Vector3& a, const Vector3& b, double reach, SmoothSurface::PieceVisitor visit) const;
-  std::optional<SurfaceEntry> entry(std::uint32_t face, const Vector3& start, const Vector3& step,
-                                    bool from_behind, double slack) const;
-  SurfacePlace foot(const SurfacePlace& from, const Vector3& goal) const;
+  std::optional<SurfaceHit> first_hit(std::uint32_t face, const Vector3& start, const Vector3& step,
+                                      bool from_behind, double slack) const;
+  SurfacePlace nearest_local(const SurfacePlace& from, const Vector3& goal) const;
   bool covers(const SurfacePlace& place, double slack) const;
   /// The place of the face nearest to a point behind it; of a triangle, within its edges. Real-time safe.
   SurfacePlace nearest(std::uint32_t face, const Vector3& point) const;

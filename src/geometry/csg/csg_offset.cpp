@@ -91,19 +91,19 @@ SurfacePlace CsgOffset::on_tube(std::uint32_t piece, double s, const Vector3& no
   return {edge(piece).at(s) + radius() * normal, normal, piece, s, 0.0};
 }
 
-std::optional<SurfaceEntry> CsgOffset::entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                             bool from_behind, double /*time*/, double slack) const {
-  if (is_face(piece)) return faces_.entry(piece, start, step, from_behind, slack);
+std::optional<SurfaceHit> CsgOffset::first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                               bool from_behind, double /*time*/, double slack) const {
+  if (is_face(piece)) return faces_.first_hit(piece, start, step, from_behind, slack);
   if (from_behind) return std::nullopt;
   const auto touch = edge(piece).first_touch(radius(), start, step, slack);
   if (!touch) return std::nullopt;
   const Vector3 away = start + touch->t * step - edge(piece).at(touch->s);
   if (away.isZero(0.0)) return std::nullopt;
-  return SurfaceEntry{touch->t, on_tube(piece, touch->s, away.normalized())};
+  return SurfaceHit{touch->t, on_tube(piece, touch->s, away.normalized())};
 }
 
-SurfacePlace CsgOffset::foot(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
-  if (is_face(from.piece)) return faces_.foot(from, goal);
+SurfacePlace CsgOffset::nearest_local(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
+  if (is_face(from.piece)) return faces_.nearest_local(from, goal);
   const CurveArc& arc = edge(from.piece);
   const double s_from = arc.nearest(from.point, from.u);
   const Vector3 out = (from.point - arc.at(s_from)).normalized();

@@ -223,7 +223,7 @@ class CsgProgram::Compiler {
       std::uint32_t part;
       std::uint32_t on_true, on_false;
       std::size_t left;     // operands to do
-      std::uint32_t entry;  // of what is done
+      std::uint32_t start;  // of what is done
     };
     const auto frame = [&](std::uint32_t part, std::uint32_t on_true, std::uint32_t on_false) {
       const bool any = parts_[part].is_leaf || parts_[part].op == CsgOperator::Union;
@@ -236,30 +236,30 @@ class CsgProgram::Compiler {
       const Part& part = parts_[top.part];
       if (part.is_leaf || top.left == 0) {
         result = part.is_leaf ? emit_leaf(part, top.on_true, top.on_false)
-                              : emit_box(part, top.entry, top.on_false);
+                              : emit_box(part, top.start, top.on_false);
         open.pop_back();
-        if (!open.empty()) open.back().entry = result;
+        if (!open.empty()) open.back().start = result;
         continue;
       }
       const std::size_t operand = --top.left;
       const std::uint32_t child = part.operands[operand];
       const bool taken = part.op == CsgOperator::Difference && operand > 0;
-      // `entry` is where the rest of the operands begins.
+      // `start` is where the rest of the operands begins.
       if (part.op == CsgOperator::Union) {
-        open.push_back(frame(child, top.on_true, top.entry));
+        open.push_back(frame(child, top.on_true, top.start));
       } else if (taken) {
-        open.push_back(frame(child, top.on_false, top.entry));
+        open.push_back(frame(child, top.on_false, top.start));
       } else {
-        open.push_back(frame(child, top.entry, top.on_false));
+        open.push_back(frame(child, top.start, top.on_false));
       }
     }
     program_.start_ = result;
   }
 
   std::uint32_t emit_leaf(const Part& leaf, std::uint32_t on_true, std::uint32_t on_false) {
-    std::uint32_t entry = on_true;
-    for (std::uint32_t i = leaf.atom_count; i-- > 0;) entry = emit({leaf.first_atom + i, entry, on_false});
-    return emit_box(leaf, entry, on_false);
+    std::uint32_t start = on_true;
+    for (std::uint32_t i = leaf.atom_count; i-- > 0;) start = emit({leaf.first_atom + i, start, on_false});
+    return emit_box(leaf, start, on_false);
   }
 
   std::uint32_t emit_box(const Part& part, std::uint32_t on_true, std::uint32_t on_false) {

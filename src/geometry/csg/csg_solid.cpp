@@ -20,13 +20,13 @@ void CsgSolid::near(const Vector3& a, const Vector3& b, double reach, double /*t
 
 bool CsgSolid::inside(const Vector3& point, double /*time*/) const { return program().inside(point); }
 
-std::optional<SurfaceEntry> CsgSolid::entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                            bool from_behind, double /*time*/, double slack) const {
-  return faces_->entry(piece, start, step, from_behind, slack);
+std::optional<SurfaceHit> CsgSolid::first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                              bool from_behind, double /*time*/, double slack) const {
+  return faces_->first_hit(piece, start, step, from_behind, slack);
 }
 
-SurfacePlace CsgSolid::foot(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
-  return faces_->foot(from, goal);
+SurfacePlace CsgSolid::nearest_local(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
+  return faces_->nearest_local(from, goal);
 }
 
 bool CsgSolid::covers(const SurfacePlace& place, const Vector3& /*above*/, double /*time*/,
@@ -60,7 +60,7 @@ std::optional<SurfacePlace> CsgSolid::straight_out(const Vector3& point) const {
     if (direction.isZero(0.0)) continue;
     const Vector3 step = direction.normalized() * far;
     near(point, point + step, 0.0, 0.0, [&](std::uint32_t face, const Bounds&) {
-      const auto exit = entry(face, point, step, true, 0.0, 0.0);
+      const auto exit = first_hit(face, point, step, true, 0.0, 0.0);
       if (exit && (!best || (exit->place.point - point).norm() < (best->point - point).norm()))
         best = exit->place;
       return true;
@@ -70,12 +70,12 @@ std::optional<SurfacePlace> CsgSolid::straight_out(const Vector3& point) const {
 }
 
 std::optional<SurfacePoint> CsgSolid::crossing(const Vector3& a, const Vector3& b) const {
-  std::optional<SurfaceEntry> first;
+  std::optional<SurfaceHit> first;
   const Vector3 step = b - a;
   const double slack = 1e-12 * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
   near(a, b, slack, 0.0, [&](std::uint32_t face, const Bounds&) {
     for (const bool from_behind : {false, true}) {
-      const auto there = entry(face, a, step, from_behind, 0.0, slack);
+      const auto there = first_hit(face, a, step, from_behind, 0.0, slack);
       if (there && (!first || there->t < first->t)) first = there;
     }
     return true;

@@ -17,8 +17,8 @@ constexpr double kArcShare = 0.1;  // of the slack: what is left out of account
 
 /// The first t >= 0 at which start + t step is within `reach` of the segment from `a` to `b`: a convex body,
 /// the union of a cylinder and two balls, so the first of their own.
-std::optional<double> capsule_entry(const Vector3& a, const Vector3& b, double reach, const Vector3& start,
-                                    const Vector3& step) {
+std::optional<double> capsule_hit(const Vector3& a, const Vector3& b, double reach, const Vector3& start,
+                                  const Vector3& step) {
   double first = std::numeric_limits<double>::infinity();
   const auto enter = [&](double squared, double half, double constant) {
     if (constant <= 0.0) return std::optional(0.0);
@@ -182,7 +182,7 @@ std::optional<CurveArc::Touch> CurveArc::first_touch(double radius, const Vector
     const double stray = sagitta(part.from, part.to);
     const double nearest_ahead = std::max(part.begin.dot(step), part.end.dot(step)) + stray * length;
     if (nearest_ahead <= start.dot(step)) continue;
-    const auto meets = capsule_entry(part.begin, part.end, radius + stray, start, step);
+    const auto meets = capsule_hit(part.begin, part.end, radius + stray, start, step);
     const double latest = best ? best->t : std::nextafter(1.0, 2.0);
     if (!meets || *meets >= latest) continue;
     double t = *meets;

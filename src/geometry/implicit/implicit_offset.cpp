@@ -110,9 +110,9 @@ SurfacePlace ImplicitOffset::rest_on(std::uint32_t piece, const Vector3& place, 
   return {place + radius_ * normal, normal, piece};
 }
 
-std::optional<SurfaceEntry> ImplicitOffset::entry(std::uint32_t piece, const Vector3& start,
-                                                  const Vector3& step, bool from_behind, double time,
-                                                  double slack) const {
+std::optional<SurfaceHit> ImplicitOffset::first_hit(std::uint32_t piece, const Vector3& start,
+                                                    const Vector3& step, bool from_behind, double time,
+                                                    double slack) const {
   const double length = step.norm();
   if (from_behind || !(length > 0.0)) return std::nullopt;
   const ImplicitPart part = this->part(piece, time);
@@ -123,11 +123,10 @@ std::optional<SurfaceEntry> ImplicitOffset::entry(std::uint32_t piece, const Vec
     const auto nearest = part.nearest(centre, radius_, radius_ + (1.0 - t) * length + slack);
     if (!nearest) return std::nullopt;
     const std::uint32_t met = piece_of_part(part_of(piece), nearest->active);
-    if (nearest->distance <= 0.0) return SurfaceEntry{t, rest_on(met, centre, -step / length)};
+    if (nearest->distance <= 0.0) return SurfaceHit{t, rest_on(met, centre, -step / length)};
     const Vector3 out = (centre - nearest->place) / nearest->distance;
     const bool arrived = nearest->distance - radius_ <= kTouchShare * slack;
-    if (arrived && (t > 0.0 || out.dot(step) < 0.0))
-      return SurfaceEntry{t, rest_on(met, nearest->place, out)};
+    if (arrived && (t > 0.0 || out.dot(step) < 0.0)) return SurfaceHit{t, rest_on(met, nearest->place, out)};
     const double least = kTouchShare * slack / length;  // on the way out
     t += std::max(clear_share(*nearest, centre, step, radius_), least);
   }
@@ -136,8 +135,8 @@ std::optional<SurfaceEntry> ImplicitOffset::entry(std::uint32_t piece, const Vec
   const Vector3 centre = start + t * step;
   const auto nearest = part.nearest(centre, radius_, 2.0 * radius_ + length);
   if (!nearest || nearest->distance <= 0.0) return std::nullopt;
-  return SurfaceEntry{t, rest_on(piece_of_part(part_of(piece), nearest->active), nearest->place,
-                                 (centre - nearest->place) / nearest->distance)};
+  return SurfaceHit{t, rest_on(piece_of_part(part_of(piece), nearest->active), nearest->place,
+                               (centre - nearest->place) / nearest->distance)};
 }
 
 /// The part in which the same conditions are active at a place that a walk has come to; `piece` itself where
@@ -166,8 +165,8 @@ std::uint32_t ImplicitOffset::moved_to(std::uint32_t piece, const Vector3& place
 }
 
 /// The same place below as that of a point tip.
-SurfacePlace ImplicitOffset::face_foot(const SurfacePlace& from, const Vector3& place, const Vector3& goal,
-                                       double time) const {
+SurfacePlace ImplicitOffset::face_projection(const SurfacePlace& from, const Vector3& place,
+                                             const Vector3& goal, double time) const {
   const auto condition = unsigned(std::countr_zero(active_of(from.piece)));
   if (condition >= ImplicitParts::kMostConditions) {
     const ImplicitPart::Slope at = part(from.piece, time).slope(condition, goal);
@@ -183,10 +182,10 @@ SurfacePlace ImplicitOffset::face_foot(const SurfacePlace& from, const Vector3& 
 }
 
 /// Round an edge or a corner no farther than to where a face, or an edge, goes on.
-SurfacePlace ImplicitOffset::foot(const SurfacePlace& from, const Vector3& goal, double time) const {
+SurfacePlace ImplicitOffset::nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const {
   const Vector3 before = from.point - radius_ * from.normal;
   const ActiveSet active = active_of(from.piece);
-  if (std::has_single_bit(active)) return face_foot(from, before, goal, time);
+  if (std::has_single_bit(active)) return face_projection(from, before, goal, time);
   const ImplicitPart part = this->part(from.piece, time);
   const double reach = parts_.part(part_of(from.piece)).cell.diagonal().norm();
   const Vector3 place = active == 0 ? before : part.along(active, before, goal, reach);
@@ -195,7 +194,7 @@ SurfacePlace ImplicitOffset::foot(const SurfacePlace& from, const Vector3& goal,
   const ActiveSet holding = part.holding(active, place, wanted);
   if (holding != 0 && holding != active) {
     const SurfacePlace onwards =
-        foot(rest_on(piece_of_part(part_of(from.piece), holding), place, from.normal), goal, time);
+        nearest_local(rest_on(piece_of_part(part_of(from.piece), holding), place, from.normal), goal, time);
     if (onwards.normal.dot(from.normal) >= std::cos(kMostRoundTurn)) return onwards;
     wanted = onwards.normal;
   }

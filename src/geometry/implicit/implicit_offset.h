@@ -32,9 +32,9 @@ class ImplicitOffset final : public SmoothSurface {
   void near(const Vector3& a, const Vector3& b, double reach, double time, PieceVisitor visit) const override;
   bool inside(const Vector3& point, double time = 0.0) const override;
   std::optional<SurfacePlace> way_out(const Vector3& point, double time) const override;
-  std::optional<SurfaceEntry> entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                    bool from_behind, double time, double slack) const override;
-  SurfacePlace foot(const SurfacePlace& from, const Vector3& goal, double time) const override;
+  std::optional<SurfaceHit> first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                      bool from_behind, double time, double slack) const override;
+  SurfacePlace nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const override;
   bool covers(const SurfacePlace& place, const Vector3& above, double time, double slack) const override;
   bool same(std::uint32_t one, std::uint32_t other) const override;
   bool changes() const override { return walls_->changes(); }
@@ -46,8 +46,8 @@ class ImplicitOffset final : public SmoothSurface {
 
   ImplicitPart part(std::uint32_t piece, double time) const;
   SurfacePlace rest_on(std::uint32_t piece, const Vector3& place, const Vector3& normal) const;
-  SurfacePlace face_foot(const SurfacePlace& from, const Vector3& place, const Vector3& goal,
-                         double time) const;
+  SurfacePlace face_projection(const SurfacePlace& from, const Vector3& place, const Vector3& goal,
+                               double time) const;
   std::uint32_t moved_to(std::uint32_t piece, const Vector3& place) const;
   template <typename Visit>
   void overlapped(const Vector3& point, double time, Visit&& visit) const;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/implicit/implicit_entry.h"
+#include "geometry/implicit/implicit_crossing.h"
 #include "geometry/implicit/implicit_pieces.h"
 #include "geometry/implicit/implicit_walk.h"
 #include "geometry/implicit/implicit_way_out.h"
@@ -163,7 +163,7 @@ std::optional<SurfacePlace> ImplicitSurface::way_out(const Vector3& point, doubl
     distance = (out->place.point - point).norm();
   }
   for (std::uint32_t piece = 1; piece <= kSides; ++piece) {
-    const SurfacePlace place = foot({point, side_normal(piece), piece}, point, time);
+    const SurfacePlace place = nearest_local({point, side_normal(piece), piece}, point, time);
     const double height = std::fabs(point[axis_of(piece)] - side_level(box_, piece));
     if (height < distance && parts_->formula().value(place.point, time) < 0.0) {
       nearest = place;
@@ -173,16 +173,16 @@ std::optional<SurfacePlace> ImplicitSurface::way_out(const Vector3& point, doubl
   return nearest;
 }
 
-std::optional<SurfaceEntry> ImplicitSurface::entry(std::uint32_t piece, const Vector3& start,
-                                                   const Vector3& step, bool from_behind, double time,
-                                                   double slack) const {
-  return is_side(piece) ? entry_of_side(piece, start, step, from_behind, time, slack)
-                        : entry_of_formula(piece, start, step, from_behind, time, slack);
+std::optional<SurfaceHit> ImplicitSurface::first_hit(std::uint32_t piece, const Vector3& start,
+                                                     const Vector3& step, bool from_behind, double time,
+                                                     double slack) const {
+  return is_side(piece) ? hit_of_side(piece, start, step, from_behind, time, slack)
+                        : hit_of_formula(piece, start, step, from_behind, time, slack);
 }
 
-std::optional<SurfaceEntry> ImplicitSurface::entry_of_formula(std::uint32_t piece, const Vector3& start,
-                                                              const Vector3& step, bool from_behind,
-                                                              double time, double slack) const {
+std::optional<SurfaceHit> ImplicitSurface::hit_of_formula(std::uint32_t piece, const Vector3& start,
+                                                          const Vector3& step, bool from_behind, double time,
+                                                          double slack) const {
   const auto stay = part_within(box_, start, step, slack);
   if (!stay) return std::nullopt;
   const auto [first, last] = *stay;
@@ -204,22 +204,22 @@ std::optional<SurfaceEntry> ImplicitSurface::entry_of_formula(std::uint32_t piec
   const auto t = first_crossing(pieces.formula(index),
                                 {start, step, first, last, time, slack, from_behind, first == 0.0}, counts);
   if (!t) return std::nullopt;
-  return SurfaceEntry{*t, place_at(*t)};
+  return SurfaceHit{*t, place_at(*t)};
 }
 
-std::optional<SurfaceEntry> ImplicitSurface::entry_of_side(std::uint32_t piece, const Vector3& start,
-                                                           const Vector3& step, bool from_behind, double time,
-                                                           double slack) const {
+std::optional<SurfaceHit> ImplicitSurface::hit_of_side(std::uint32_t piece, const Vector3& start,
+                                                       const Vector3& step, bool from_behind, double time,
+                                                       double slack) const {
   const Eigen::Index axis = axis_of(piece);
   const double outwards = direction_of(piece) * (from_behind ? -1.0 : 1.0);
   const double height = outwards * (start[axis] - side_level(box_, piece));
   const double change = outwards * step[axis];
   if (!(change < 0.0) || !(height >= -slack)) return std::nullopt;
-  const auto at = [&](double t) -> std::optional<SurfaceEntry> {
+  const auto at = [&](double t) -> std::optional<SurfaceHit> {
     SurfacePlace place{start + t * step, side_normal(piece), piece};
     if (t > 0.0) place.point[axis] = side_level(box_, piece);
     if (!covers(place, start, time, slack)) return std::nullopt;
-    return SurfaceEntry{t, place};
+    return SurfaceHit{t, place};
   };
   // From within slack, a way that stays within it does not get through.
   if (height + change >= (height <= slack ? -slack : 0.0)) return std::nullopt;
@@ -229,7 +229,8 @@ std::optional<SurfaceEntry> ImplicitSurface::entry_of_side(std::uint32_t piece, 
   return height > 0.0 ? at(height / -change) : std::nullopt;
 }
 
-SurfacePlace ImplicitSurface::foot(const SurfacePlace& from, const Vector3& goal, double time) const {
+SurfacePlace ImplicitSurface::nearest_local(const SurfacePlace& from, const Vector3& goal,
+                                            double time) const {
   if (is_side(from.piece)) {
     SurfacePlace place{goal, side_normal(from.piece), from.piece};
     place.point[axis_of(from.piece)] = side_level(box_, from.piece);

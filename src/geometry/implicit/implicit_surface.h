@@ -44,9 +44,9 @@ class ImplicitSurface final : public SmoothSurface {
   bool inside(const Vector3& point, double time = 0.0) const override;
   bool knows_inside_quickly() const override { return true; }
   std::optional<SurfacePlace> way_out(const Vector3& point, double time) const override;
-  std::optional<SurfaceEntry> entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                    bool from_behind, double time, double slack) const override;
-  SurfacePlace foot(const SurfacePlace& from, const Vector3& goal, double time) const override;
+  std::optional<SurfaceHit> first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                      bool from_behind, double time, double slack) const override;
+  SurfacePlace nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const override;
   bool covers(const SurfacePlace& place, const Vector3& above, double time, double slack) const override;
   bool changes() const override;
   double normal_speed(const SurfacePlace& place, double time) const override;
@@ -55,10 +55,10 @@ class ImplicitSurface final : public SmoothSurface {
  private:
   struct Parts;
   ImplicitSurface(std::unique_ptr<const Parts> parts, const Bounds& box);
-  std::optional<SurfaceEntry> entry_of_formula(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                               bool from_behind, double time, double slack) const;
-  std::optional<SurfaceEntry> entry_of_side(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                            bool from_behind, double time, double slack) const;
+  std::optional<SurfaceHit> hit_of_formula(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                           bool from_behind, double time, double slack) const;
+  std::optional<SurfaceHit> hit_of_side(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                        bool from_behind, double time, double slack) const;
 
   std::unique_ptr<const Parts> parts_;
   Bounds box_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/implicit/implicit_entry.h"
+#include "geometry/implicit/implicit_crossing.h"
 #include "geometry/implicit/implicit_walk.h"
 
 namespace icome::geometry {
@@ -35,7 +35,7 @@ class NearestWayOut {
     const ImplicitWalk walk = this->walk(*piece);
     const Vector3 out = (hit - point_).stableNormalized();
     offer({hit, walk.normal(hit).value_or(out)}, *piece);
-    offer_foot(walk.descend(hit, point_), *piece);
+    offer_projection(walk.descend(hit, point_), *piece);
   }
 
   /// The nearest place of the piece that the formula is where the point lies.
@@ -44,7 +44,7 @@ class NearestWayOut {
     if (!piece) return;
     const ImplicitWalk walk = this->walk(*piece);
     if (const auto settled = walk.settle(point_, size_)) {
-      offer_foot(walk.descend(settled->point, point_), *piece);
+      offer_projection(walk.descend(settled->point, point_), *piece);
     }
   }
 
@@ -56,7 +56,7 @@ class NearestWayOut {
  private:
   ImplicitWalk walk(std::size_t piece) const { return {pieces_.formula(piece), time_, size_}; }
 
-  void offer_foot(const ImplicitWalk::Place& place, std::size_t piece) {
+  void offer_projection(const ImplicitWalk::Place& place, std::size_t piece) {
     if (pieces_.covers(piece, place.point, place.normal, time_, kSlack * size_)) offer(place, piece);
   }
 

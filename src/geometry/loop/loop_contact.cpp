@@ -75,8 +75,8 @@ SurfacePlace loop_place(LoopCursor& cursor, const LoopPatches& patches, const Lo
   return {at.point, at.normal, spot.piece, spot.u, spot.v};
 }
 
-std::optional<SurfaceEntry> loop_entry(const LoopPatches& patches, std::uint32_t piece, const Vector3& start,
-                                       const Vector3& step, bool from_behind, double slack_in) {
+std::optional<SurfaceHit> loop_hit(const LoopPatches& patches, std::uint32_t piece, const Vector3& start,
+                                   const Vector3& step, bool from_behind, double slack_in) {
   const double slack = slack_of(patches, slack_in);
   const Near near = near_piece(patches, piece, start, step, slack);
   const double length = step.norm();
@@ -86,7 +86,7 @@ std::optional<SurfaceEntry> loop_entry(const LoopPatches& patches, std::uint32_t
   if (near.start) {
     if (const auto spot = spot_under(patches, piece, start, slack)) {
       const SurfacePlace place = loop_place(cursor, patches, *spot);
-      if (side * place.normal.dot(step) <= kMovingIn * length) return SurfaceEntry{0.0, place};
+      if (side * place.normal.dot(step) <= kMovingIn * length) return SurfaceHit{0.0, place};
     }
   }
   const LoopRay ray(start, step, slack, slab_axis_of(patches, piece));
@@ -97,7 +97,7 @@ std::optional<SurfaceEntry> loop_entry(const LoopPatches& patches, std::uint32_t
     return first ? first->at : ray.length;
   }).find(piece);
   if (!first) return {};
-  return SurfaceEntry{std::clamp(first->at / length, 0.0, 1.0), loop_place(cursor, patches, first->spot)};
+  return SurfaceHit{std::clamp(first->at / length, 0.0, 1.0), loop_place(cursor, patches, first->spot)};
 }
 
 namespace {

@@ -9,8 +9,8 @@ namespace icome::geometry {
 
 /// SmoothSurface's questions about single pieces; see there. Real-time safe.
 SurfacePlace loop_place(LoopCursor& cursor, const LoopPatches& patches, const LoopSpot& spot);
-std::optional<SurfaceEntry> loop_entry(const LoopPatches& patches, std::uint32_t piece, const Vector3& start,
-                                       const Vector3& step, bool from_behind, double slack);
+std::optional<SurfaceHit> loop_hit(const LoopPatches& patches, std::uint32_t piece, const Vector3& start,
+                                   const Vector3& step, bool from_behind, double slack);
 bool loop_covers(const LoopPatches& patches, const SurfacePlace& place, const Vector3& above, double slack);
 
 /// The box of a piece.

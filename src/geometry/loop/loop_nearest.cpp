@@ -5,7 +5,7 @@
 
 #include "geometry/loop/loop_contact.h"
 #include "geometry/loop/loop_crossing.h"
-#include "geometry/loop/loop_foot.h"
+#include "geometry/loop/loop_projection.h"
 
 namespace icome::geometry {
 namespace {
@@ -112,7 +112,7 @@ SurfacePlace loop_nearest(const LoopPatches& patches, const Vector3& point) {
         start = {piece, u, v};
       }
     }
-    const LoopSpot foot = loop_foot(patches, walker, start, point);
+    const LoopSpot foot = loop_projection(patches, walker, start, point);
     const double here = distance(walker, foot);
     if (here < limit) {
       limit = here;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "geometry/loop/loop_contact.h"
-#include "geometry/loop/loop_foot.h"
+#include "geometry/loop/loop_projection.h"
 #include "geometry/loop/loop_sample.h"
 #include "geometry/loop/loop_surface.h"
 #include "geometry/straight_way_out.h"
@@ -81,17 +81,18 @@ void LoopOffset::near(const Vector3& a, const Vector3& b, double reach, double /
   });
 }
 
-std::optional<SurfaceEntry> LoopOffset::entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                              bool from_behind, double /*time*/, double slack) const {
+std::optional<SurfaceHit> LoopOffset::first_hit(std::uint32_t piece, const Vector3& start,
+                                                const Vector3& step, bool from_behind, double /*time*/,
+                                                double slack) const {
   const LoopSide side = from_behind ? LoopSide::Back : LoopSide::Front;
   const LoopPatches& patches = surface_->patches();
   const auto touch = first_touch(patches, tiles_[tile_of(piece)], side, {radius_, slack}, start, step);
   if (!touch) return std::nullopt;
-  const TileFoot& foot = touch->foot;
+  const TileProjection& foot = touch->foot;
   const Contact contact{foot.spot, foot.place, foot.away.stableNormalized()};
   SurfacePlace place = centre_of(contact, side);
   place.piece = tile_of(piece) + (from_behind ? tiles_.count() : 0);
-  return SurfaceEntry{touch->t, place};
+  return SurfaceHit{touch->t, place};
 }
 
 SurfacePlace LoopOffset::centre_of(const Contact& contact, LoopSide side) const {
@@ -130,7 +131,7 @@ std::optional<LoopOffset::Contact> LoopOffset::contact_towards(const LoopSpot& f
                                                                LoopSide side) const {
   const LoopPatches& patches = surface_->patches();
   LoopCursor cursor(patches);
-  const LoopSpot spot = loop_foot(patches, cursor, from, goal);
+  const LoopSpot spot = loop_projection(patches, cursor, from, goal);
   const LoopPoint at = loop_point(cursor, patches, spot.piece, spot.u, spot.v);
   const Vector3 away = goal - at.point, up = side == LoopSide::Front ? at.normal : Vector3(-at.normal);
   const double beside = (away - up.dot(away) * up).norm();
@@ -146,7 +147,7 @@ std::optional<LoopOffset::Contact> LoopOffset::contact_towards(const LoopSpot& f
 
 // At once where the surface is smooth between here and there; else round the ball a part of the way, to what
 // is nearest there.
-SurfacePlace LoopOffset::foot(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
+SurfacePlace LoopOffset::nearest_local(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
   const LoopSide side = side_of(from.piece);
   const Contact here = contact_of(from);
   const auto there = contact_towards(here.spot, goal, side);

@@ -37,9 +37,9 @@ class LoopOffset final : public SmoothSurface {
   /// front.
   bool inside(const Vector3& point, double time = 0.0) const override;
   std::optional<SurfacePlace> way_out(const Vector3& point, double time) const override;
-  std::optional<SurfaceEntry> entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                    bool from_behind, double time, double slack) const override;
-  SurfacePlace foot(const SurfacePlace& from, const Vector3& goal, double time) const override;
+  std::optional<SurfaceHit> first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
+                                      bool from_behind, double time, double slack) const override;
+  SurfacePlace nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const override;
   bool covers(const SurfacePlace& place, const Vector3& above, double time, double slack) const override;
   bool same(std::uint32_t one, std::uint32_t other) const override;
   std::size_t bytes() const override;

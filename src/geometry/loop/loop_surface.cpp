@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "geometry/loop/loop_contact.h"
-#include "geometry/loop/loop_foot.h"
+#include "geometry/loop/loop_projection.h"
 
 namespace icome::geometry {
 
@@ -48,14 +48,16 @@ std::optional<SurfacePlace> LoopSurface::way_out(const Vector3& point, double /*
   return loop_nearest(*patches_, point);
 }
 
-std::optional<SurfaceEntry> LoopSurface::entry(std::uint32_t piece, const Vector3& start, const Vector3& step,
-                                               bool from_behind, double /*time*/, double slack) const {
-  return loop_entry(*patches_, piece, start, step, from_behind, slack);
+std::optional<SurfaceHit> LoopSurface::first_hit(std::uint32_t piece, const Vector3& start,
+                                                 const Vector3& step, bool from_behind, double /*time*/,
+                                                 double slack) const {
+  return loop_hit(*patches_, piece, start, step, from_behind, slack);
 }
 
-SurfacePlace LoopSurface::foot(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
+SurfacePlace LoopSurface::nearest_local(const SurfacePlace& from, const Vector3& goal,
+                                        double /*time*/) const {
   LoopCursor cursor(*patches_);
-  const LoopSpot spot = loop_foot(*patches_, cursor, {from.piece, from.u, from.v}, goal);
+  const LoopSpot spot = loop_projection(*patches_, cursor, {from.piece, from.u, from.v}, goal);
   return loop_place(cursor, *patches_, spot);
 }
 

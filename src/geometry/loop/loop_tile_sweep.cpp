@@ -30,9 +30,9 @@ struct DistanceModel {
   Eigen::Matrix2d bend;
 };
 
-class FootSearch {
+class ProjectionSearch {
  public:
-  FootSearch(LoopCursor& cursor, const LoopTile& tile, const Vector3& point)
+  ProjectionSearch(LoopCursor& cursor, const LoopTile& tile, const Vector3& point)
       : cursor_(cursor), tile_(tile), point_(point) {
     change_ << tile.corners[1] - tile.corners[0], tile.corners[2] - tile.corners[0];
   }
@@ -92,7 +92,7 @@ class FootSearch {
     return best;
   }
 
-  TileFoot run(TileSpot at, double done) {
+  TileProjection run(TileSpot at, double done) {
     DistanceModel here = look(at);
     for (int i = 0; i < kMostFootSteps; ++i) {
       const TileSpot to = least(here, at);
@@ -125,9 +125,9 @@ constexpr std::array<TileSpot, 4> kFootStarts = {{{1.0 / 3.0, 1.0 / 3.0}, {0, 0}
 
 }  // namespace
 
-TileFoot foot_on_tile(LoopCursor& cursor, const LoopPatches& patches, const LoopTile& tile,
-                      const Vector3& point) {
-  FootSearch search(cursor, tile, point);
+TileProjection projection_on_tile(LoopCursor& cursor, const LoopPatches& patches, const LoopTile& tile,
+                                  const Vector3& point) {
+  ProjectionSearch search(cursor, tile, point);
   TileSpot start = kFootStarts[0];
   if (!tile.tame) {
     double least = std::numeric_limits<double>::infinity();
@@ -219,7 +219,7 @@ double sure_way(const LoopTile& tile, LoopSide side, double distance, double fal
   return below > 0.0 ? std::max(plain, 2.0 * half_room / below) : std::numeric_limits<double>::infinity();
 }
 
-bool touches_from(LoopCursor& cursor, const LoopPatches& patches, LoopSide side, const TileFoot& foot) {
+bool touches_from(LoopCursor& cursor, const LoopPatches& patches, LoopSide side, const TileProjection& foot) {
   const Vector3 normal = loop_point(cursor, patches, foot.spot.piece, foot.spot.u, foot.spot.v).normal;
   const double in_front = normal.dot(foot.away);
   const double barely = kBarelyOnSide * foot.distance;
@@ -242,7 +242,7 @@ std::optional<TileTouch> first_touch(const LoopPatches& patches, const LoopTile&
   double way = (*part)[0] * length;
   bool at_start = way <= 0.0, overlaps = false;
   for (int i = 0; i < kMostTileAdvances; ++i) {
-    const TileFoot foot = foot_on_tile(cursor, patches, tile, start + way * along);
+    const TileProjection foot = projection_on_tile(cursor, patches, tile, start + way * along);
     const double gap = foot.distance - ball.radius;
     const double fall = foot.distance > 0.0 ? -along.dot(foot.away) / foot.distance : 1.0;
     const bool goes_in = fall >= -kGoingIn;
@@ -262,7 +262,7 @@ std::optional<TileTouch> first_touch(const LoopPatches& patches, const LoopTile&
     if (way > end) return {};
   }
   // Grazing for so long: what is left of the way counts as touching.
-  const TileFoot foot = foot_on_tile(cursor, patches, tile, start + way * along);
+  const TileProjection foot = projection_on_tile(cursor, patches, tile, start + way * along);
   if (overlaps || !touches_from(cursor, patches, side, foot)) return {};
   return TileTouch{std::clamp(way / length, 0.0, 1.0), foot};
 }

@@ -14,7 +14,7 @@ struct LoopBall {
 };
 
 /// The place of a tile that is nearest to a point.
-struct TileFoot {
+struct TileProjection {
   LoopSpot spot;
   Vector3 place;    // m
   Vector3 away;     // m, from the place to the point
@@ -23,8 +23,8 @@ struct TileFoot {
 
 /// Newton's method on the squared distance, kept within the tile. Exact on tame tiles for points no farther
 /// away than the ball's radius; on others it may be a local minimum. Real-time safe.
-TileFoot foot_on_tile(LoopCursor& cursor, const LoopPatches& patches, const LoopTile& tile,
-                      const Vector3& point);
+TileProjection projection_on_tile(LoopCursor& cursor, const LoopPatches& patches, const LoopTile& tile,
+                                  const Vector3& point);
 
 /// The part [first, last] of the way start + t * step, t in [0, 1], on which the centre of a ball may be that
 /// touches the tile from that side, or comes within `reach` (m) of doing so. Real-time safe.
@@ -37,7 +37,7 @@ Bounds centres_on_tile(const LoopTile& tile, LoopSide side, double radius);
 /// Where the centre of a ball first comes as near to the tile as its radius, from that side.
 struct TileTouch {
   double t;  // along the step, in [0, 1]
-  TileFoot foot;
+  TileProjection foot;
 };
 
 /// By conservative advancement: how fast the distance can fall follows from its slope and from the tile's

@@ -159,7 +159,7 @@ ContactSet::Footings ContactSet::footings(const Vector3& position) const {
 
 void ContactSet::follow(const Vector3& position) {
   for (Element& contact : all()) {
-    if (contact.smooth()) follow_foot(contact, position);
+    if (contact.smooth()) follow_projection(contact, position);
   }
 }
 

@@ -66,7 +66,7 @@ void HapticScene::measure() {
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Bounds box = object_bounds(i);
     if (box.min().allFinite() && box.max().allFinite()) bounds_.extend(box);
-    moves_ = moves_ || restless(i);
+    moves_ = moves_ || is_dynamic(i);
     sizes_[i] = own_size(objects_[i].shape->bounds());
   }
   extent_ = bounds_.isEmpty()

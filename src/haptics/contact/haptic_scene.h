@@ -61,7 +61,7 @@ class HapticScene {
   }
 
   /// Does the object move from then on, or its shape change? Real-time safe.
-  bool restless(std::uint32_t object, double elapsed = 0.0) const {
+  bool is_dynamic(std::uint32_t object, double elapsed = 0.0) const {
     return objects_[object].motion.moves(elapsed) || objects_[object].shape->changes();
   }
 
@@ -92,7 +92,7 @@ class HapticScene {
   Tolerance tolerance() const { return Tolerance::for_size(extent_); }
   /// The moment of the poses, s, on the clock of shapes that change.
   double moment() const { return moment_; }
-  /// Is any object restless?
+  /// Is any object dynamic?
   bool moves() const { return moves_; }
   /// The box around all limited objects; empty when there are none.
   const Bounds& bounds() const { return bounds_; }

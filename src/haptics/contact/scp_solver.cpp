@@ -104,7 +104,7 @@ void ScpSolver::adopt(const HapticScene& scene, std::span<const SceneChange> cha
     if (!now) continue;
     const std::optional<std::uint32_t> before = old->find(change.id);
     if (before && old->objects()[*before].shape == scene.objects()[*now].shape) {
-      ride(*now, old->pose_in(origin_, *before, old_elapsed), pose(*now, 0.0));
+      sweep_relative(*now, old->pose_in(origin_, *before, old_elapsed), pose(*now, 0.0));
     } else {
       appeared = true;
     }
@@ -142,7 +142,7 @@ void ScpSolver::carry_contacts(const HapticScene& old, double old_elapsed) {
     }
     return false;
   });
-  if (carried) shove(to, pusher);
+  if (carried) push_scp(to, pusher);
 }
 
 const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
@@ -246,7 +246,7 @@ void ScpSolver::carry(double from, double to) {
   Vector3 target = position_;
   std::uint32_t pusher = kNoObject;
   for (Element& contact : contacts_.all()) {
-    if (!scene_->restless(contact.object, from)) continue;
+    if (!scene_->is_dynamic(contact.object, from)) continue;
     const Pose now_from_before = pose(contact.object, to) * pose(contact.object, from).inverse();
     contact = transformed(now_from_before, contact);
     contact.time = scene_->time(contact.object, to);
@@ -261,16 +261,17 @@ void ScpSolver::carry(double from, double to) {
   bool near_moving = false;
   const Vector3 at = origin_ + position_;
   scene_->near(at, at, std::max(0.0, region_.reach()) + settings_.tip_radius, [&](std::uint32_t object) {
-    near_moving = scene_->restless(object, from);
+    near_moving = scene_->is_dynamic(object, from);
     return !near_moving;
   });
   if (near_moving) region_.invalidate();
-  if (pusher != kNoObject) shove(target, pusher);
+  if (pusher != kNoObject) push_scp(target, pusher);
   if (!near_moving) return;
   // What a moving object runs into is taken along.
   const Vector3 there = origin_ + position_;
   scene_->near(there, there, settings_.tip_radius, [&](std::uint32_t object) {
-    if (!scene_->objects()[object].motion.still()) ride(object, pose(object, from), pose(object, to));
+    if (!scene_->objects()[object].motion.still())
+      sweep_relative(object, pose(object, from), pose(object, to));
     if (scene_->objects()[object].shape->changes()) surface_through(object);
     return true;
   });
@@ -284,11 +285,11 @@ void ScpSolver::surface_through(std::uint32_t object) {
   if (!place) return;
   const Vector3 out = from_object.linear() * place->normal;
   const double above = settings_.tip_radius + gap_on(object, place->point);
-  shove(from_object * place->point + out * above, object);
+  push_scp(from_object * place->point + out * above, object);
 }
 
 // Seen from the object, the SCP moved from where it would be had it gone along to where it is.
-void ScpSolver::ride(std::uint32_t object, const Pose& before, const Pose& now) {
+void ScpSolver::sweep_relative(std::uint32_t object, const Pose& before, const Pose& now) {
   const auto held_by = [&](const Element& contact) { return contact.object == object; };
   if (std::any_of(contacts_.all().begin(), contacts_.all().end(), held_by)) return;
   const Vector3 along = now * (before.inverse() * position_);
@@ -298,12 +299,12 @@ void ScpSolver::ride(std::uint32_t object, const Pose& before, const Pose& now) 
   scene_->gather_object(ride_region_, object);
   const SweepHit hit = ride_region_.sweep(along, position_ - along, {});
   if (!hit.met) return;
-  shove(along + hit.t * (position_ - along), object);
+  push_scp(along + hit.t * (position_ - along), object);
   contacts_.add(hit.contact);
 }
 
 // Moves the SCP because an object pushes it; others may stop it on the way.
-void ScpSolver::shove(const Vector3& to, std::uint32_t pusher) {
+void ScpSolver::push_scp(const Vector3& to, std::uint32_t pusher) {
   const Vector3 way = to - position_;
   ride_region_.start(*scene_, frame(), position_, to, tolerance().behind());
   scene_->gather(ride_region_);
@@ -949,11 +950,11 @@ void ScpSolver::report_contact(const Vector3& pull) {
     if (press.squaredNorm() > 0.0) state_.normal = -press.normalized();
   }
   state_.surface_velocity = scene_->velocity(state_.object, elapsed_, origin_ + position_);
-  if (scene_->objects()[state_.object].shape->changes()) state_.surface_velocity += swell();
+  if (scene_->objects()[state_.object].shape->changes()) state_.surface_velocity += deformation_velocity();
 }
 
 /// How fast a changing surface itself moves under the SCP.
-Vector3 ScpSolver::swell() const {
+Vector3 ScpSolver::deformation_velocity() const {
   for (const Element& contact : contacts_.all()) {
     if (contact.smooth() && contact.object == state_.object) return smooth_velocity(contact, position_);
   }

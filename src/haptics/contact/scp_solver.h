@@ -52,11 +52,11 @@ class ScpSolver final : public ContactSolver {
   double gap_on(std::uint32_t object, const Vector3& place) const;
   void leave_solids();
   void carry(double from, double to);
-  void ride(std::uint32_t object, const Pose& before, const Pose& now);
+  void sweep_relative(std::uint32_t object, const Pose& before, const Pose& now);
   void follow_reported_object(const HapticScene& old);
   void carry_contacts(const HapticScene& old, double old_elapsed);
   void surface_through(std::uint32_t object);
-  void shove(const Vector3& to, std::uint32_t pusher);
+  void push_scp(const Vector3& to, std::uint32_t pusher);
   void converge(const Vector3& tip);
   bool swallowed(const Vector3& position) const;
   void stay_out(const Vector3& before);
@@ -96,7 +96,7 @@ class ScpSolver final : public ContactSolver {
   double largest_reach() const;
   void report(const Vector3& tip);
   void report_contact(const Vector3& pull);
-  Vector3 swell() const;
+  Vector3 deformation_velocity() const;
   const Surface& surface() const;
 
   ScpSettings settings_;

@@ -35,15 +35,15 @@ class MembershipWitness final : public Witness {
   }
 
   std::optional<Block> blocked(const Vector3& a, const Vector3& b) const override {
-    const std::optional<Stretch> entry = first_entry(a, b);
-    if (!entry) return std::nullopt;
+    const std::optional<Stretch> hit = first_hit_of(a, b);
+    if (!hit) return std::nullopt;
     const Vector3 step = b - a;
-    const double t = change(a, step, entry->free, entry->solid);
+    const double t = change(a, step, hit->free, hit->solid);
     const Vector3 normal = normal_at(a + t * step, step);
     return Block{t, normal.dot(step) < 0.0 ? normal : Vector3(-step.normalized())};
   }
 
-  bool passes(const Vector3& a, const Vector3& b) const override { return !first_entry(a, b); }
+  bool passes(const Vector3& a, const Vector3& b) const override { return !first_hit_of(a, b); }
 
   double distance(const Vector3& point, double limit) const override {
     const bool here = inside(point);
@@ -119,7 +119,7 @@ class MembershipWitness final : public Witness {
 
   /// Where a way first goes from free space into the solid. A start that is behind the surface by noise
   /// counts as free. Near the start the samples are dense, since there an edge may be all that is in the way.
-  std::optional<Stretch> first_entry(const Vector3& a, const Vector3& b) const {
+  std::optional<Stretch> first_hit_of(const Vector3& a, const Vector3& b) const {
     const Vector3 step = b - a;
     if (!way_meets_bounds(a, b)) return std::nullopt;
     bool free = !inside(a) || distance(a, 2.0 * resolution_.noise) < 2.0 * resolution_.noise;

@@ -182,8 +182,8 @@ bool comes_over(const Element& e, const Vector3& position, const Tolerance& tole
 }
 
 /// The t at which the path, outside a flat piece at its start, comes over it.
-std::optional<double> entry(const Element& e, const Vector3& start, const Vector3& step,
-                            const Tolerance& tolerance) {
+std::optional<double> first_hit(const Element& e, const Vector3& start, const Vector3& step,
+                                const Tolerance& tolerance) {
   const Vector3 offset = start - e.origin;
   if (e.kind == Kind::Disc) {
     const auto t = quadric_crossing(radial(offset, e.axis), radial(step, e.axis), e.a, false);
@@ -215,7 +215,7 @@ std::optional<double> sweep_flat(const Element& e, const Vector3& start, const V
   if (h1 >= 0.5 * tolerance.gap || h0 + e.tip < -tolerance.behind()) return std::nullopt;
   // A sphere tip comes round a convex edge, below the face's plane until it is over the face.
   if (e.tip > 0.0 && h0 < 0.5 * tolerance.gap && !covers(e, start, tolerance))
-    return entry(e, start, step, tolerance);
+    return first_hit(e, start, step, tolerance);
   if (fall >= 0.0) return std::nullopt;
   const double rest = std::clamp((tolerance.gap - h0) / fall, 0.0, 1.0);
   if (covers(e, start + rest * step, tolerance)) return rest;
@@ -226,8 +226,8 @@ std::optional<double> sweep_flat(const Element& e, const Vector3& start, const V
 }
 
 /// The same for a curved piece that lies under the end of the path, by bisection.
-std::optional<double> curved_entry(const Element& e, const Vector3& start, const Vector3& step,
-                                   const Tolerance& tolerance) {
+std::optional<double> curved_hit(const Element& e, const Vector3& start, const Vector3& step,
+                                 const Tolerance& tolerance) {
   const Vector3 end = start + step;
   if (height(e, end) >= 0.5 * tolerance.gap || covers(e, start, tolerance) || !covers(e, end, tolerance)) {
     return std::nullopt;
@@ -254,18 +254,18 @@ class Confines {
     if (begin + change < -rim_)
       missed_ = true;
     else
-      entry_ = std::max(entry_, std::min(1.0, -begin / change));
+      begin_ = std::max(begin_, std::min(1.0, -begin / change));
   }
 
   bool begins_within() const { return begins_within_; }
   bool missed() const { return missed_; }
-  double entry() const { return entry_; }
+  double begin() const { return begin_; }
 
  private:
   double rim_;
   bool begins_within_ = true;
   bool missed_ = false;
-  double entry_ = 0.0;
+  double begin_ = 0.0;
 };
 
 /// For the rods and balls of meshes, of which a sweep asks many and meets few: what they are confined to and
@@ -299,7 +299,7 @@ std::optional<double> sweep_guarded(const Element& e, const Vector3& start, cons
   const Vector3 end = start + step;
   if (confines.begins_within() || height(e, end) >= 0.5 * tolerance.gap || !covers(e, end, tolerance))
     return std::nullopt;
-  t = confines.entry();
+  t = confines.begin();
   return comes_over(e, start + *t * step, tolerance) ? t : std::nullopt;
 }
 
@@ -415,7 +415,7 @@ std::optional<double> sweep(const Element& e, const Vector3& start, const Vector
   if (h0 > tolerance.gap || normal(e, start).dot(step) >= 0.0)
     t = curved_crossing(e, start, step, tolerance.gap);
   if (t && covers(e, start + *t * step, tolerance)) return t;
-  return e.tip > 0.0 ? curved_entry(e, start, step, tolerance) : std::nullopt;
+  return e.tip > 0.0 ? curved_hit(e, start, step, tolerance) : std::nullopt;
 }
 
 bool same_surface(const Element& one, const Element& other) {

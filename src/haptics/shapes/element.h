@@ -39,7 +39,7 @@ struct Tolerance {
 constexpr double edge_dip(double tip) { return 0.0025 * tip; }
 
 /// The foot on a smooth surface of a position of the tip, both in the surface's frame.
-struct SmoothFoot {
+struct SmoothProjection {
   Vector3 of = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   geometry::SurfacePlace place = {Vector3::Zero(), Vector3::Zero()};
   double time = 0.0;  // s, the surface's
@@ -80,7 +80,7 @@ struct Element {
   double tip = 0.0;     // m, the tip's radius
   const geometry::SmoothSurface* surface = nullptr;  // of Smooth; its shape keeps it alive
   double time = 0.0;                                 // s, of Smooth: the surface's own time
-  SmoothFoot here, ahead;                            // of Smooth: those found last, from which others are
+  SmoothProjection here, ahead;                      // of Smooth: those found last, from which others are
 
   bool flat() const { return kind <= Kind::Disc; }
   /// Is every tangent plane free of the piece?

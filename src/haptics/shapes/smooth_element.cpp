@@ -22,18 +22,18 @@ Vector3 from_surface(const Element& e, const Vector3& vector) {
 }
 
 /// Is it the foot asked for? The position may have moved by rounding.
-bool answers(const SmoothFoot& known, const Element& e, const Vector3& in_surface) {
+bool answers(const SmoothProjection& known, const Element& e, const Vector3& in_surface) {
   return known.place.reached && known.time == e.time &&
          (known.of - in_surface).squaredNorm() <= kSamePlace * kSamePlace * in_surface.squaredNorm();
 }
 
 /// Found from the nearer one of the feet that are known.
-SurfacePlace foot(const Element& e, const Vector3& in_surface) {
+SurfacePlace projection(const Element& e, const Vector3& in_surface) {
   if (answers(e.here, e, in_surface)) return e.here.place;
   if (answers(e.ahead, e, in_surface)) return e.ahead.place;
   const double from_here = (e.here.place.point - in_surface).squaredNorm();
   const bool nearer_ahead = (e.ahead.of - in_surface).squaredNorm() < from_here;  // not where it is unknown
-  return e.surface->foot(nearer_ahead ? e.ahead.place : e.here.place, in_surface, e.time);
+  return e.surface->nearest_local(nearer_ahead ? e.ahead.place : e.here.place, in_surface, e.time);
 }
 
 /// The normal towards the side that is felt.
@@ -48,14 +48,14 @@ Footing footing_at(const Element& e, const SurfacePlace& place, const Vector3& i
 }
 
 /// What else of the surface a way meets first.
-std::optional<geometry::SurfaceEntry> met_beside(const Element& e, const SurfacePlace& foot,
-                                                 const Vector3& start, const Vector3& way,
-                                                 const Tolerance& tolerance) {
-  std::optional<geometry::SurfaceEntry> first;
+std::optional<geometry::SurfaceHit> met_beside(const Element& e, const SurfacePlace& foot,
+                                               const Vector3& start, const Vector3& way,
+                                               const Tolerance& tolerance) {
+  std::optional<geometry::SurfaceHit> first;
   e.surface->near(start, start + way, tolerance.gap, e.time, [&](std::uint32_t piece, const base::Bounds&) {
     if (e.surface->same(foot.piece, piece)) return true;
-    const auto entry = e.surface->entry(piece, start, way, e.inverted, e.time, tolerance.rim());
-    if (entry && (!first || entry->t < first->t)) first = entry;
+    const auto hit = e.surface->first_hit(piece, start, way, e.inverted, e.time, tolerance.rim());
+    if (hit && (!first || hit->t < first->t)) first = hit;
     return true;
   });
   return first;
@@ -88,22 +88,22 @@ Vector3 above(const Element& e, const SurfacePlace& foot, const Vector3& in_surf
 
 Footing smooth_footing(const Element& e, const Vector3& position) {
   const Vector3 local = into_surface(e, position - e.origin);
-  return footing_at(e, foot(e, local), local);
+  return footing_at(e, projection(e, local), local);
 }
 
 bool smooth_covers(const Element& e, const Vector3& position, const Tolerance& tolerance) {
   const Vector3 local = into_surface(e, position - e.origin);
-  return e.surface->covers(foot(e, local), local, e.time, tolerance.rim());
+  return e.surface->covers(projection(e, local), local, e.time, tolerance.rim());
 }
 
 Vector3 smooth_settle(const Element& e, const Vector3& position, const Tolerance& tolerance) {
   const Vector3 local = into_surface(e, position - e.origin);
-  return above(e, foot(e, local), local, tolerance);
+  return above(e, projection(e, local), local, tolerance);
 }
 
 SettledAhead settle_ahead(Element& e, const Vector3& position, const Tolerance& tolerance) {
   const Vector3 local = into_surface(e, position - e.origin);
-  SurfacePlace place = foot(e, local);
+  SurfacePlace place = projection(e, local);
   const Vector3 settled = above(e, place, local, tolerance);
   const bool sure = place.reached;
   place.reached = true;  // straight below, wherever the walk ended
@@ -122,27 +122,27 @@ std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vecto
   std::optional<double> first;
   for (const bool from_behind : {false, true}) {
     if (from_behind && !e.two_sided) break;
-    const auto entry = e.surface->entry(e.feature, from, way, from_behind, e.time, tolerance.rim());
-    if (!entry) continue;
-    const double fall = std::abs(entry->place.normal.dot(way));
-    const double back = fall > 0.0 ? tolerance.gap / fall : entry->t;
+    const auto hit = e.surface->first_hit(e.feature, from, way, from_behind, e.time, tolerance.rim());
+    if (!hit) continue;
+    const double fall = std::abs(hit->place.normal.dot(way));
+    const double back = fall > 0.0 ? tolerance.gap / fall : hit->t;
     // Who ran out of time says only how far the way is surely free, however it grazes the surface there.
-    const double least = geometry::FormulaAllowance::spent() ? 0.5 * entry->t : 0.0;
-    const double rest = stretch * std::max(least, entry->t - back);
+    const double least = geometry::FormulaAllowance::spent() ? 0.5 * hit->t : 0.0;
+    const double rest = stretch * std::max(least, hit->t - back);
     if (rest > 1.0 || (first && rest >= *first)) continue;
     first = rest;
     e.inverted = from_behind;
-    e.feature = entry->place.piece;
+    e.feature = hit->place.piece;
     e.here = {};
-    e.here.place = entry->place;
+    e.here.place = hit->place;
     e.ahead = {};
   }
   return first;
 }
 
-void follow_foot(Element& e, const Vector3& position) {
+void follow_projection(Element& e, const Vector3& position) {
   const Vector3 local = into_surface(e, position - e.origin);
-  e.here = {local, foot(e, local), e.time};
+  e.here = {local, projection(e, local), e.time};
   e.feature = e.here.place.piece;
 }
 
@@ -151,7 +151,7 @@ bool has_swallowed(const Element& e, const Vector3& position) {
 }
 
 Vector3 smooth_velocity(const Element& e, const Vector3& position) {
-  const SurfacePlace place = foot(e, into_surface(e, position - e.origin));
+  const SurfacePlace place = projection(e, into_surface(e, position - e.origin));
   return from_surface(e, place.normal) * e.surface->normal_speed(place, e.time);
 }
 

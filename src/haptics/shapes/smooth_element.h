@@ -19,7 +19,7 @@ struct SettledAhead {
 SettledAhead settle_ahead(Element& element, const Vector3& position, const Tolerance& tolerance);
 
 /// Makes the foot of `position` the one from which the next feet are found. Real-time safe.
-void follow_foot(Element& element, const Vector3& position);
+void follow_projection(Element& element, const Vector3& position);
 
 /// Is the position of a point tip within the surface's solid? False where that takes long to tell. Real-time
 /// safe.

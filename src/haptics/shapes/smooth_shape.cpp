@@ -79,10 +79,10 @@ std::optional<ShapeHit> SmoothShape::cast(const Vector3& start, const Vector3& s
     const Vector3 from = start + way.first * step;
     const Vector3 part = (way.last - way.first) * step;
     for (const bool from_behind : {false, true}) {
-      const auto entry = surface_->entry(way.piece, from, part, from_behind, time, slack);
-      if (!entry) continue;
-      const double t = way.first + entry->t * (way.last - way.first);
-      if (!best || t < best->t) best = ShapeHit{t, entry->place.point, entry->place.normal};
+      const auto hit = surface_->first_hit(way.piece, from, part, from_behind, time, slack);
+      if (!hit) continue;
+      const double t = way.first + hit->t * (way.last - way.first);
+      if (!best || t < best->t) best = ShapeHit{t, hit->place.point, hit->place.normal};
     }
   }
   return best;

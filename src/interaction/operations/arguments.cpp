@@ -281,14 +281,14 @@ Result<Arguments> Arguments::check(const std::vector<Parameter>& parameters, con
   }
   Arguments arguments;
   arguments.parameters_ = &parameters;
-  arguments.said_ = &fields;
+  arguments.given_ = &fields;
   arguments.world_ = &world;
   arguments.pictures_ = std::move(pictures);
   return arguments;
 }
 
 const Value* Arguments::find(std::string_view name) const {
-  if (const Value* value = field(*said_, name)) return value;
+  if (const Value* value = field(*given_, name)) return value;
   const Parameter* parameter = parameter_named(*parameters_, name);
   return parameter && !parameter->fallback.is_null() ? &parameter->fallback : nullptr;
 }
@@ -364,7 +364,7 @@ std::vector<Arguments> Arguments::records(std::string_view name) const {
   for (const Value& item : *at(name).list()) {
     Arguments record;
     record.parameters_ = &parameter->fields;
-    record.said_ = item.fields();
+    record.given_ = item.fields();
     record.world_ = world_;
     record.pictures_ = pictures_;
     records.push_back(record);

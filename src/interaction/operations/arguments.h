@@ -49,7 +49,7 @@ class Arguments {
   base::Result<world::Texture> picture(std::string_view name) const;
 
   /// All values that have been said, for recipes (MeshGeometry::recipe) and reports.
-  const Value::Fields& said() const { return *said_; }
+  const Value::Fields& given() const { return *given_; }
 
  private:
   Arguments() = default;
@@ -57,7 +57,7 @@ class Arguments {
   const Value& at(std::string_view name) const;
 
   const std::vector<Parameter>* parameters_ = nullptr;
-  const Value::Fields* said_ = nullptr;
+  const Value::Fields* given_ = nullptr;
   const world::World* world_ = nullptr;
   PictureReader pictures_ = {};
 };

@@ -132,11 +132,11 @@ GapLines::GapLines(const Passing& passing, const Vector3& place, const Vector3& 
 
 std::optional<GapLines::Hit> GapLines::hit(const Side& side, const Vector3& middle,
                                            const Vector3& way) const {
-  const auto entry = side.shape->entry(side.shape_from_world * Vector3(middle - way),
-                                       side.shape_from_world * Vector3(middle + way));
-  if (!entry) return std::nullopt;
-  const Vector3 normal = (side.shape_from_world.linear().transpose() * entry->normal).normalized();
-  return Hit{(2.0 * entry->share - 1.0) * direction_.dot(way), normal};
+  const auto met = side.shape->first_hit(side.shape_from_world * Vector3(middle - way),
+                                         side.shape_from_world * Vector3(middle + way));
+  if (!met) return std::nullopt;
+  const Vector3 normal = (side.shape_from_world.linear().transpose() * met->normal).normalized();
+  return Hit{(2.0 * met->share - 1.0) * direction_.dot(way), normal};
 }
 
 std::optional<GapLines::Gap> GapLines::within(const Vector3& middle, double window) const {

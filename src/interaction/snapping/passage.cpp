@@ -59,7 +59,7 @@ bool overlap_at(const Passing& passing, double share) {
                         passing.effort) == Meeting::Overlapping;
 }
 
-std::optional<double> entry(const Passing& passing, double from, double until, double tolerance) {
+std::optional<double> first_contact(const Passing& passing, double from, double until, double tolerance) {
   const double apart = share_of(passing, tolerance);
   double free = from;   // where it is known to be so
   double begin = from;  // of the piece of the way that is looked at: between touches nothing changes
@@ -109,7 +109,7 @@ std::optional<double> way_out(const Passing& passing, double until, double toler
 }
 
 std::optional<double> stop(const Passing& passing, double until, double tolerance) {
-  if (!overlap_at(passing, 0.0)) return entry(passing, 0.0, until, tolerance);
+  if (!overlap_at(passing, 0.0)) return first_contact(passing, 0.0, until, tolerance);
   if (passing.moved->unlimited() || passing.other->unlimited())
     return leads_out_of_half_space(passing) ? std::nullopt : std::optional(0.0);
   const double beyond = share_beyond(passing);
@@ -117,7 +117,7 @@ std::optional<double> stop(const Passing& passing, double until, double toleranc
   const auto back = way_out(turned_around(passing), beyond, tolerance);
   if (!ahead || (back && *back < *ahead)) return 0.0;
   if (*ahead >= until) return std::nullopt;
-  return entry(passing, *ahead, until, tolerance);
+  return first_contact(passing, *ahead, until, tolerance);
 }
 
 }  // namespace icome::interaction

@@ -14,7 +14,7 @@ bool overlap_at(const Passing& passing, double share);
 /// Where the moved shape, which does not overlap the other at `from`, begins to, up to `until`: it may stand
 /// there, and from there on it goes in. Within `tolerance` (m, see fit_tolerance) before the true place,
 /// never behind it. Nothing where it never does; what only slides along or touches goes on.
-std::optional<double> entry(const Passing& passing, double from, double until, double tolerance);
+std::optional<double> first_contact(const Passing& passing, double from, double until, double tolerance);
 
 /// Where the moved shape, which overlaps the other at share 0, is first free of it, up to `until`, going
 /// forwards, or, with a passing turned around, backwards; gaps much narrower than the way to them may be

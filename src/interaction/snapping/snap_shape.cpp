@@ -211,7 +211,7 @@ Place on_surface(const Affine3& world_from_shape, const Vector3& point, const Pl
     return (world_from_shape * it.point - point).norm();
   };
   const Vector3 own = shape_from_world * point;
-  const geometry::SurfacePlace foot = surface.foot(best, own, 0.0);
+  const geometry::SurfacePlace foot = surface.nearest_local(best, own, 0.0);
   const double slack = 1e-11 * surface.bounds().diagonal().norm();
   if (foot.point.allFinite() && off(foot) < off(best) && surface.covers(foot, own, 0.0, slack)) best = foot;
   return {world_from_shape * best.point, out_of(world_from_shape, best.normal)};

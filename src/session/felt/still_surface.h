@@ -24,14 +24,14 @@ class StillSurface final : public geometry::SmoothSurface {
                                                 double /*time*/) const override {
     return moving_->way_out(point, 0.0);
   }
-  std::optional<geometry::SurfaceEntry> entry(std::uint32_t piece, const geometry::Vector3& start,
-                                              const geometry::Vector3& step, bool from_behind,
-                                              double /*time*/, double slack) const override {
-    return moving_->entry(piece, start, step, from_behind, 0.0, slack);
+  std::optional<geometry::SurfaceHit> first_hit(std::uint32_t piece, const geometry::Vector3& start,
+                                                const geometry::Vector3& step, bool from_behind,
+                                                double /*time*/, double slack) const override {
+    return moving_->first_hit(piece, start, step, from_behind, 0.0, slack);
   }
-  geometry::SurfacePlace foot(const geometry::SurfacePlace& from, const geometry::Vector3& goal,
-                              double /*time*/) const override {
-    return moving_->foot(from, goal, 0.0);
+  geometry::SurfacePlace nearest_local(const geometry::SurfacePlace& from, const geometry::Vector3& goal,
+                                       double /*time*/) const override {
+    return moving_->nearest_local(from, goal, 0.0);
   }
   bool covers(const geometry::SurfacePlace& place, const geometry::Vector3& above, double /*time*/,
               double slack) const override {

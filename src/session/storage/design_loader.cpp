@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/design_files.h"
+
 namespace icome::session {
 
 struct DesignLoader::Reading {

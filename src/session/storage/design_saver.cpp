@@ -3,6 +3,8 @@
 #include <cassert>
 #include <utility>
 
+#include "files/design_files.h"
+
 namespace icome::session {
 namespace {
 

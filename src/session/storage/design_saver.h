@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 #include "session/background_task.h"
 
 namespace icome::session {

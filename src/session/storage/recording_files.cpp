@@ -1,6 +1,6 @@
 #include "session/storage/recording_files.h"
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "io/new_file.h"
 
 namespace icome::session {

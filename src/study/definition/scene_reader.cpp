@@ -1,6 +1,6 @@
 #include "study/definition/scene_reader.h"
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "interaction/object_edits.h"
 #include "study/definition/trial_goal.h"
 #include "world/edit/edit.h"

@@ -22,7 +22,7 @@ constexpr mode_t kForAll = 0666;                   // less what the person's uma
 
 /// Calls again what a signal interrupted.
 template <typename Call>
-auto insist(Call&& call) {
+auto retry_on_eintr(Call&& call) {
   auto result = call();
   while (result < 0 && errno == EINTR) result = call();
   return result;
@@ -41,13 +41,15 @@ tl::unexpected<base::Error> not_written(const fs::path& path, int why) {
 
 Descriptor opened(const fs::path& path, int flags) {
   // Opening must not wait for whoever is at the other end of a pipe.
-  return Descriptor(insist([&] { return ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, kForAll); }));
+  return Descriptor(
+      retry_on_eintr([&] { return ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, kForAll); }));
 }
 
 /// False, with errno, when not all could be written.
 bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t done = insist([&] { return ::pwrite(file, bytes.data(), bytes.size(), off_t(offset)); });
+    const ssize_t done =
+        retry_on_eintr([&] { return ::pwrite(file, bytes.data(), bytes.size(), off_t(offset)); });
     if (done < 0) return false;
     offset += std::uint64_t(done);
     bytes.remove_prefix(std::size_t(done));
@@ -56,7 +58,7 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
 }
 
 bool sync_file(int file) {
-  return insist([&] { return ::fsync(file); }) == 0;
+  return retry_on_eintr([&] { return ::fsync(file); }) == 0;
 }
 
 }  // namespace
@@ -83,8 +85,8 @@ base::Result<std::optional<std::string>> read_whole(const fs::path& path) {
   std::string bytes(std::size_t(status.st_size), '\0');
   std::size_t have = 0;
   while (have < bytes.size()) {
-    const ssize_t done =
-        insist([&] { return ::pread(file.number(), &bytes[have], bytes.size() - have, off_t(have)); });
+    const ssize_t done = retry_on_eintr(
+        [&] { return ::pread(file.number(), &bytes[have], bytes.size() - have, off_t(have)); });
     if (done < 0) return failed(path, "cannot be read", errno);
     if (done == 0) break;  // it became shorter meanwhile
     have += std::size_t(done);
@@ -142,7 +144,7 @@ base::Result<void> make_folder(const fs::path& folder) {
 
 base::Result<FileLock> FileLock::take(const fs::path& path) {
   Descriptor file = opened(path, O_RDWR | O_CREAT);
-  if (file.number() < 0 || insist([&] { return ::flock(file.number(), LOCK_EX); }) != 0)
+  if (file.number() < 0 || retry_on_eintr([&] { return ::flock(file.number(), LOCK_EX); }) != 0)
     return failed(path, "cannot be locked against other programs", errno);
   return FileLock(std::move(file));
 }
@@ -150,7 +152,7 @@ base::Result<FileLock> FileLock::take(const fs::path& path) {
 base::Result<std::optional<FileLock>> FileLock::try_take(const fs::path& path) {
   Descriptor file = opened(path, O_RDWR | O_CREAT);
   const bool held =
-      file.number() >= 0 && insist([&] { return ::flock(file.number(), LOCK_EX | LOCK_NB); }) == 0;
+      file.number() >= 0 && retry_on_eintr([&] { return ::flock(file.number(), LOCK_EX | LOCK_NB); }) == 0;
   if (held) return FileLock(std::move(file));
   if (file.number() >= 0 && errno == EWOULDBLOCK) return std::nullopt;
   return failed(path, "cannot be locked against other programs", errno);
@@ -172,7 +174,7 @@ base::Result<AppendFile> AppendFile::open(const fs::path& path, std::uint64_t si
 
 bool AppendFile::cut_to_size() {
   if (!longer_) return true;
-  if (insist([&] { return ::ftruncate(file_.number(), off_t(size_)); }) != 0) return false;
+  if (retry_on_eintr([&] { return ::ftruncate(file_.number(), off_t(size_)); }) != 0) return false;
   longer_ = false;
   return sync_file(file_.number());
 }

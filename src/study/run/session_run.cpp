@@ -14,7 +14,7 @@ namespace {
 /// Times on record are in microseconds.
 double in_ticks(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
-std::string said(const Text& text, const Participant& participant) {
+std::string text_for(const Text& text, const Participant& participant) {
   return text.empty() ? std::string() : text[participant.language];
 }
 
@@ -70,12 +70,12 @@ std::string why_no_answer(const Item& item, const std::string& answer) {
 }
 
 PageText page_text(const Study& study, const Participant& participant, const Step& step) {
-  const std::string title = said(study.title, participant);
-  if (step.page == PageKind::Consent) return {title, said(study.consent, participant)};
+  const std::string title = text_for(study.title, participant);
+  if (step.page == PageKind::Consent) return {title, text_for(study.consent, participant)};
   // What the conditions are called would tell what is being compared.
   if (step.page != PageKind::Instructions) return {title, {}};
-  const std::string goal = said(study.goal, participant);
-  const std::string instructions = said(study.instructions, participant);
+  const std::string goal = text_for(study.goal, participant);
+  const std::string instructions = text_for(study.instructions, participant);
   const bool both = !goal.empty() && !instructions.empty();
   return {title, fmt::format("{}{}{}", goal, both ? "\n\n" : "", instructions)};
 }
@@ -154,7 +154,7 @@ base::Result<void> SessionRun::answered(const std::vector<std::string>& answers)
   for (std::size_t i = 0; i < questionnaire.items.size(); ++i) {
     const Item& item = questionnaire.items[i];
     const std::string why = i < answers.size() ? why_no_answer(item, answers[i]) : "answer this question";
-    if (!why.empty()) return base::fail(fmt::format("{}: {}.", said(item.text, participant()), why));
+    if (!why.empty()) return base::fail(fmt::format("{}: {}.", text_for(item.text, participant()), why));
   }
   for (std::size_t i = 0; i < questionnaire.items.size(); ++i) {
     EventRecord event;

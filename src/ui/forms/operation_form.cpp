@@ -85,7 +85,7 @@ base::Result<Value> OperationForm::value_of_row(const Row& row) const {
   return value;
 }
 
-base::Result<Value::Fields> OperationForm::said() const {
+base::Result<Value::Fields> OperationForm::given() const {
   Value::Fields said;
   for (const auto& row : rows_) {
     if (!row->asked) continue;
@@ -103,7 +103,7 @@ base::Result<Value::Fields> OperationForm::fields() {
     const auto value = value_of_row(*row);
     explain_at(*row, value ? std::string() : value.error().message);
   }
-  return said();
+  return given();
 }
 
 bool OperationForm::is_incomplete() const {

@@ -23,7 +23,7 @@ class OperationForm final : public QWidget {
   void plan_on(std::function<const world::World&()> world) { world_ = std::move(world); }
   /// What has been said, as plan_operation() takes it; what is said by itself is left out. Fails for what is
   /// no value of its parameter; what is missing is for the operation to tell.
-  base::Result<interaction::Value::Fields> said() const;
+  base::Result<interaction::Value::Fields> given() const;
   /// The same; fields that are wrong are marked, and why stands beneath them.
   base::Result<interaction::Value::Fields> fields();
   /// Is there nothing yet where something must be said?

@@ -197,7 +197,7 @@ bool OperationPanel::Parts::is_hand_busy() const {
 void OperationPanel::Parts::refresh() {
   if (!form || !awake) return;
   if (is_hand_busy()) return due.start(kUpdate);
-  const auto fields = form->said();
+  const auto fields = form->given();
   if (fields && form->is_incomplete()) {
     preview.take_back();
     return show_state();

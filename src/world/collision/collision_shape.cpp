@@ -48,7 +48,7 @@ TriangleMesh box_mesh(const Bounds& box) {
   return mesh;
 }
 
-using Entry = CollisionShape::Entry;
+using Hit = CollisionShape::Hit;
 
 /// The unit normal of the triangle hit on a way of this step. The place is rounded as the way is long, also
 /// where it is near the origin.
@@ -65,8 +65,8 @@ Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& h
 }
 
 /// Who goes out of the shape first goes in later.
-std::optional<Entry> entry_of_mesh(const geometry::TriangleTree& tree, bool closed, const Vector3& a,
-                                   const Vector3& b) {
+std::optional<Hit> hit_of_mesh(const geometry::TriangleTree& tree, bool closed, const Vector3& a,
+                               const Vector3& b) {
   constexpr int kMostPassages = 8;
   constexpr double kOn = 1e-9;  // of the way: to be past the last one
   const Vector3 step = b - a;
@@ -77,7 +77,7 @@ std::optional<Entry> entry_of_mesh(const geometry::TriangleTree& tree, bool clos
     const double share = from + hit->parameter * (1.0 - from);
     const Vector3 normal = normal_at(tree, *hit, step);
     const bool against = normal.dot(step) < 0.0;
-    if (against || !closed) return Entry{share, against ? normal : Vector3(-normal)};
+    if (against || !closed) return Hit{share, against ? normal : Vector3(-normal)};
     from = share + kOn;
   }
   return std::nullopt;
@@ -125,40 +125,39 @@ double CollisionShape::deviation(const Affine3& world_from_shape) const {
   return stretch.value_or(world_from_shape.linear().norm()) * usual_deviation(*shape_);
 }
 
-std::optional<CollisionShape::Entry> CollisionShape::entry(const Vector3& a, const Vector3& b) {
+std::optional<CollisionShape::Hit> CollisionShape::first_hit(const Vector3& a, const Vector3& b) {
   switch (kind_) {
     case Kind::Nothing:
       return std::nullopt;
     case Kind::HalfSpace:
-      return entry_of_half_space(a, b);
+      return hit_of_half_space(a, b);
     case Kind::Sphere:
-      return entry_of_sphere(a, b);
+      return hit_of_sphere(a, b);
     case Kind::Triangles:
       break;
   }
   const Solid& it = solid();
-  if (!it.exact) return entry_of_mesh(*it.tree, it.closed, a, b);
+  if (!it.exact) return hit_of_mesh(*it.tree, it.closed, a, b);
   const auto place = way_into(*it.exact, a, b);
-  return place ? std::optional(Entry{place->t, place->place.normal}) : std::nullopt;
+  return place ? std::optional(Hit{place->t, place->place.normal}) : std::nullopt;
 }
 
-std::optional<CollisionShape::Entry> CollisionShape::entry_of_half_space(const Vector3& a,
-                                                                         const Vector3& b) const {
+std::optional<CollisionShape::Hit> CollisionShape::hit_of_half_space(const Vector3& a,
+                                                                     const Vector3& b) const {
   const Vector3 normal = shape_from_primitive_ * Vector3::UnitZ();
   const double share = normal.dot(a) / normal.dot(a - b);
   if (!(normal.dot(b - a) < 0.0 && share >= 0.0 && share <= 1.0)) return std::nullopt;
-  return Entry{share, normal};
+  return Hit{share, normal};
 }
 
-std::optional<CollisionShape::Entry> CollisionShape::entry_of_sphere(const Vector3& a,
-                                                                     const Vector3& b) const {
+std::optional<CollisionShape::Hit> CollisionShape::hit_of_sphere(const Vector3& a, const Vector3& b) const {
   const Vector3 step = b - a;
   const double square = step.squaredNorm(), half = a.dot(step);
   const double discriminant = half * half - square * (a.norm() - radius_) * (a.norm() + radius_);
   if (!(discriminant > 0.0)) return std::nullopt;
   const double share = (-half - std::sqrt(discriminant)) / square;
   if (!(share >= 0.0 && share <= 1.0)) return std::nullopt;
-  return Entry{share, (a + share * step).normalized()};
+  return Hit{share, (a + share * step).normalized()};
 }
 
 std::uint64_t effort_to_look_into(const Geometry& shape) {

@@ -23,8 +23,8 @@ std::uint64_t effort_to_look_into(const Geometry& shape);
 /// A shape made ready for the question whether it meets others. Spheres (that are not stretched) and
 /// half-spaces are asked as what they are, meshes and boxes by their triangles, all other shapes by triangles
 /// of theirs, which are off them by deviation() at most (or sampled at 100 places along their longest side);
-/// entry() alone asks these as what they are. A shape of which there are no triangles counts as its box, or,
-/// without an end, as nothing.
+/// first_hit() alone asks these as what they are. A shape of which there are no triangles counts as its box,
+/// or, without an end, as nothing.
 class CollisionShape {
  public:
   /// The shape is shared. Triangles are made when they are first asked for.
@@ -58,12 +58,12 @@ class CollisionShape {
   double deviation(const Affine3& world_from_shape) const;
 
   /// Where a straight way leads into the shape from outside, or through a sheet.
-  struct Entry {
+  struct Hit {
     double share;    // of the way, 0 to 1
     Vector3 normal;  // of the surface there, against the way; own frame, unit
   };
   /// The first such place on the way from `a` to `b` (m, own frame), by what the shape is itself.
-  std::optional<Entry> entry(const Vector3& a, const Vector3& b);
+  std::optional<Hit> first_hit(const Vector3& a, const Vector3& b);
 
   /// The surface as what it is, where triangles are only near it; else null.
   const geometry::SmoothSurface* surface() {
@@ -99,8 +99,8 @@ class CollisionShape {
   };
 
   const Solid& solid();
-  std::optional<Entry> entry_of_half_space(const Vector3& a, const Vector3& b) const;
-  std::optional<Entry> entry_of_sphere(const Vector3& a, const Vector3& b) const;
+  std::optional<Hit> hit_of_half_space(const Vector3& a, const Vector3& b) const;
+  std::optional<Hit> hit_of_sphere(const Vector3& a, const Vector3& b) const;
 
   GeometryPointer shape_;
   Kind kind_ = Kind::Triangles;

@@ -273,7 +273,7 @@ class EditApplier {
     return Edit(EnterScene{it.scene, it.object, place});
   }
 
-  Result<Edit> operator()(const SpendNumbers& it) {
+  Result<Edit> operator()(const ReserveIds& it) {
     if ((it.author >> (64 - IdSource::kNumberBits)) != 0 || it.last > IdSource::kLastNumber)
       return fail("There are no such numbers to spend: the edit is damaged.");
     if (it.last > 0) remember((std::uint64_t{it.author} << IdSource::kNumberBits) | it.last);

@@ -21,7 +21,7 @@ struct NoteChanges {
   }
   void operator()(const EnterScene& it) const { note(it.scene); }
   void operator()(const LeaveScene& it) const { note(it.scene); }
-  void operator()(const SpendNumbers&) const {}
+  void operator()(const ReserveIds&) const {}
   void operator()(const EditGroup& it) const {
     for (const Edit& edit : it.edits) std::visit(*this, edit.what);
   }

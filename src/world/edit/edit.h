@@ -128,7 +128,7 @@ struct LeaveScene {
 
 /// Keeps an author's numbers up to `last` from being given again, as what had them is gone. Nothing takes
 /// that back.
-struct SpendNumbers {
+struct ReserveIds {
   std::uint32_t author = 0;
   std::uint64_t last = 0;
 };
@@ -145,7 +145,7 @@ struct Edit {
                             ChooseMaterial, ChangeFixture, ChangeMotion, CreateGeometry, CopyGeometry,
                             DeleteGeometry, ReplaceGeometry, MoveVertices, CreateMaterial, DeleteMaterial,
                             ChangeMaterial, CreateTexture, DeleteTexture, CreateScene, DeleteScene,
-                            RenameScene, EnterScene, LeaveScene, SpendNumbers, EditGroup>;
+                            RenameScene, EnterScene, LeaveScene, ReserveIds, EditGroup>;
 
   template <typename Kind,
             typename = std::enable_if_t<std::conjunction_v<

@@ -105,7 +105,7 @@ class EditReader {
         return make(*from.what_as_LeaveScene());
       case flat::What::EditGroup:
         return make(*from.what_as_EditGroup());
-      case flat::What::SpendNumbers:
+      case flat::What::ReserveIds:
         return make(*from.what_as_SpendNumbers());
       case flat::What::CopyGeometry:
         return make(*from.what_as_CopyGeometry());
@@ -171,7 +171,7 @@ class EditReader {
   }
   Edit make(const flat::LeaveScene& from) { return LeaveScene{{from.scene()}, {from.object()}}; }
 
-  Edit make(const flat::SpendNumbers& from) { return SpendNumbers{from.author(), from.last()}; }
+  Edit make(const flat::ReserveIds& from) { return ReserveIds{from.author(), from.last()}; }
 
   Edit make(const flat::EditGroup& from) {
     EditGroup group;

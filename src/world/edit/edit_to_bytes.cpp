@@ -150,7 +150,7 @@ class EditWriter {
     return as_edit(flat::CreateLeaveScene(builder_, it.scene.value, it.object.value));
   }
 
-  WrittenEdit operator()(const SpendNumbers& it) {
+  WrittenEdit operator()(const ReserveIds& it) {
     return as_edit(flat::CreateSpendNumbers(builder_, it.author, it.last));
   }
 

@@ -48,7 +48,7 @@ void add_objects(std::vector<Edit>& edits, const World& world) {
 std::vector<Edit> edits_of(const World& world) {
   std::vector<Edit> edits;
   each(world.last_numbers(), [&](std::uint32_t author, std::uint64_t last) {
-    edits.emplace_back(SpendNumbers{author, last});
+    edits.emplace_back(ReserveIds{author, last});
   });
   each(world.textures(), [&](TextureId id, const Texture& texture) {
     edits.emplace_back(CreateTexture{id, texture});

@@ -13,7 +13,7 @@ namespace icome::world {
 namespace {
 
 using geometry::SmoothSurface;
-using geometry::SurfaceEntry;
+using geometry::SurfaceHit;
 
 bool is_round(const geometry::Primitive& it) {
   return !std::holds_alternative<geometry::Plane>(it) && !std::holds_alternative<geometry::Box>(it);
@@ -50,20 +50,21 @@ std::shared_ptr<const SmoothSurface> exact_surface(const Geometry& shape) {
 
 /// Each piece is asked about the part of the way in its box alone, which begins well before the piece: so the
 /// side on which it begins is in no doubt, and what is near is found with the most digits.
-std::optional<SurfaceEntry> way_into(const SmoothSurface& surface, const Vector3& a, const Vector3& b) {
+std::optional<SurfaceHit> way_into(const SmoothSurface& surface, const Vector3& a, const Vector3& b) {
   constexpr double kSlackOfExtent = 1e-12;
   constexpr double kClear = 8.0;  // slacks
   const Vector3 step = b - a;
   const Bounds box = surface.bounds();
   const double slack =
       kSlackOfExtent * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  std::optional<SurfaceEntry> first;
+  std::optional<SurfaceHit> first;
   const auto look = [&](std::uint32_t piece, double begin, double end, bool from_behind) {
-    const auto entry = surface.entry(piece, a + begin * step, (end - begin) * step, from_behind, 0.0, slack);
-    if (!entry) return;
-    const double share = begin + entry->t * (end - begin);
+    const auto hit =
+        surface.first_hit(piece, a + begin * step, (end - begin) * step, from_behind, 0.0, slack);
+    if (!hit) return;
+    const double share = begin + hit->t * (end - begin);
     if (first && share >= first->t) return;
-    first = SurfaceEntry{share, entry->place};
+    first = SurfaceHit{share, hit->place};
     if (from_behind) first->place.normal = -first->place.normal;
   };
   surface.near(a, b, kClear * slack, 0.0, [&](std::uint32_t piece, const Bounds& part) {

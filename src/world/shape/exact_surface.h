@@ -16,7 +16,7 @@ std::shared_ptr<const geometry::SmoothSurface> exact_surface(const Geometry& sha
 
 /// Where the way from `a` to `b` (m, the surface's frame) first leads in through the surface, or through a
 /// sheet, whose normal is then turned against the way.
-std::optional<geometry::SurfaceEntry> way_into(const geometry::SmoothSurface& surface,
-                                               const geometry::Vector3& a, const geometry::Vector3& b);
+std::optional<geometry::SurfaceHit> way_into(const geometry::SmoothSurface& surface,
+                                             const geometry::Vector3& a, const geometry::Vector3& b);
 
 }  // namespace icome::world

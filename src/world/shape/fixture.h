@@ -11,7 +11,7 @@ namespace icome::world {
 /// Light is computed with what base::linear_from_srgb makes of them.
 using Colour = std::array<float, 3>;
 
-/// A lamp where its object is, shining along the object's -z. The model of VRML 2.0, 4.14.
+/// A light where its object is, shining along the object's -z. The model of VRML 2.0, 4.14.
 struct Light {
   enum class Kind : std::uint8_t { Directional, Point, Spot };
 

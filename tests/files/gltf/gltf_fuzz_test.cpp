@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "files/damage.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/gltf/gltf_reader.h"
 #include "files/sample_files.h"
 #include "geometry/csg/csg_tree.h"

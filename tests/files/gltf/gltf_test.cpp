@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/gltf/gltf_reader.h"
 #include "files/pictures/picture_bytes.h"
 #include "files/same_design.h"

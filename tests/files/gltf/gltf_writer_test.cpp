@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/pictures/picture_bytes.h"
 #include "files/same_design.h"
 #include "files/sample_files.h"

@@ -1,4 +1,5 @@
 // What is left of a journal when a part of its bytes is damaged: all but what the damaged record held.
+#include "files/design_files.h"
 #include "files/journal/file_stamp.h"
 #include "files/journal/journal_format.h"
 #include "files/sample_journals.h"

@@ -1,5 +1,6 @@
 #include "files/journal/journal_design.h"
 
+#include "files/design_files.h"
 #include "files/sample_journals.h"
 
 namespace icome::files {

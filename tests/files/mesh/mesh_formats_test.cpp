@@ -12,7 +12,7 @@
 namespace icome::files {
 namespace {
 
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::Patience*);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::TimeBudget*);
 
 std::string error_of(Parser parse, std::string_view bytes) {
   const auto parsed = parse(bytes, "f", nullptr);

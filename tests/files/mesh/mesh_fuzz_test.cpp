@@ -31,7 +31,7 @@ void check_parsed(geometry::TriangleMesh mesh) {
     for (const std::uint32_t v : triangle) ASSERT_TRUE(mesh.positions[v].allFinite());
 }
 
-using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::Patience*);
+using Parser = base::Result<ParsedMesh> (*)(std::string_view, const std::string&, io::TimeBudget*);
 struct Sample {
   const char* name;
   Parser parse;

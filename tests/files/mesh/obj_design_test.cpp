@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "files/damage.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/mesh/mtl_library.h"
 #include "files/pictures/picture_bytes.h"
 #include "files/same_design.h"

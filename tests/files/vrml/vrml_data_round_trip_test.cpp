@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "files/design_files.h"
 #include "files/same_design.h"
 #include "files/sample_files.h"
 #include "files/vrml/read/vrml_reader.h"

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "files/design_files.h"
 #include "files/design_maker.h"
 #include "files/pictures/picture_bytes.h"
 #include "files/same_design.h"

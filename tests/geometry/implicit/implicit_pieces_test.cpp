@@ -22,12 +22,12 @@ Vector3 place_in_box(base::Random& random) {
 }
 
 /// Through whichever piece comes first.
-std::optional<SurfaceEntry> first_of_pieces(const ImplicitSurface& surface, const Vector3& start,
-                                            const Vector3& step, bool from_behind) {
-  std::optional<SurfaceEntry> first;
+std::optional<SurfaceHit> first_of_pieces(const ImplicitSurface& surface, const Vector3& start,
+                                          const Vector3& step, bool from_behind) {
+  std::optional<SurfaceHit> first;
   surface.near(start, start + step, kPieceSlack, 0.0, [&](std::uint32_t piece, const Bounds&) {
-    const auto entry = surface.entry(piece, start, step, from_behind, 0.0, kPieceSlack);
-    if (entry && (!first || entry->t < first->t)) first = entry;
+    const auto hit = surface.first_hit(piece, start, step, from_behind, 0.0, kPieceSlack);
+    if (hit && (!first || hit->t < first->t)) first = hit;
     return true;
   });
   return first;
@@ -35,7 +35,7 @@ std::optional<SurfaceEntry> first_of_pieces(const ImplicitSurface& surface, cons
 
 /// Where a way first changes from one side to the other: by samples, then by halving.
 template <typename Behind>
-std::optional<double> sampled_entry(const Vector3& start, const Vector3& step, Behind&& behind) {
+std::optional<double> sampled_hit(const Vector3& start, const Vector3& step, Behind&& behind) {
   constexpr int kSamples = 1500;
   for (int i = 1; i <= kSamples; ++i) {
     double a = double(i - 1) / kSamples, b = double(i) / kSamples;
@@ -63,19 +63,19 @@ void expect_entries_as_sampled(const std::string& text, Inside&& inside, base::R
     const Vector3 start = place_in_box(random), step = 0.999 * (place_in_box(random) - start);
     const bool from_behind = i % 2 == 1;
     const auto behind = [&](const Vector3& p) { return inside(p) != from_behind; };
-    const auto expected = sampled_entry(start, step, behind);
-    const auto entry = first_of_pieces(**made, start, step, from_behind);
+    const auto expected = sampled_hit(start, step, behind);
+    const auto hit = first_of_pieces(**made, start, step, from_behind);
     if (!expected) continue;
-    ASSERT_TRUE(entry) << text << " way " << i;
-    if (entry->t < *expected - 1e-9) {
+    ASSERT_TRUE(hit) << text << " way " << i;
+    if (hit->t < *expected - 1e-9) {
       ++counts.earlier;
       continue;
     }
     ++counts.met;
-    ASSERT_NEAR(entry->t, *expected, 1e-9) << text << " way " << i;
-    const Vector3& normal = entry->place.normal;
-    const Vector3& point = entry->place.point;
-    ASSERT_TRUE((*made)->covers(entry->place, {}, 0.0, kPieceSlack)) << text << " way " << i;
+    ASSERT_NEAR(hit->t, *expected, 1e-9) << text << " way " << i;
+    const Vector3& normal = hit->place.normal;
+    const Vector3& point = hit->place.point;
+    ASSERT_TRUE((*made)->covers(hit->place, {}, 0.0, kPieceSlack)) << text << " way " << i;
     ASSERT_NE(inside(point - 1e-9 * normal), inside(point + 1e-9 * normal)) << text << " way " << i;
   }
 }
@@ -105,9 +105,9 @@ TEST(ImplicitPieces, MeetInEdgesAimedAt) {
       const Vector3 edge = Vector3(0.0, random.uniform(-0.05, 0.05), 0.0) + off;
       const Vector3 way = 0.04 * random.direction();
       if (whole.value(edge - way, 0.0) < 1e-4 || whole.value(edge + way, 0.0) > -1e-4) continue;
-      const auto entry = first_of_pieces(*surface, edge - way, 2.0 * way, false);
-      ASSERT_TRUE(entry) << text << " " << i;
-      ASSERT_NEAR(entry->t, 0.5, 1e-9) << text << " " << i;
+      const auto hit = first_of_pieces(*surface, edge - way, 2.0 * way, false);
+      ASSERT_TRUE(hit) << text << " " << i;
+      ASSERT_NEAR(hit->t, 0.5, 1e-9) << text << " " << i;
       ++aimed;
     }
     EXPECT_GT(aimed, 100) << text;
@@ -151,9 +151,9 @@ TEST(ImplicitPieces, EndInWallsWhereTheFormulaJumpsOrBegins) {
 TEST(ImplicitPieces, ReachJustBeyondTheirEdges) {
   const auto surface = *ImplicitSurface::create("max(x, 100*z)", piece_box());
   for (const double z : {-0.9, 0.9}) {
-    const auto entry = first_of_pieces(*surface, {0.05, 0, z * kPieceSlack}, {-0.1, 0, 0}, false);
-    ASSERT_TRUE(entry) << z;
-    EXPECT_NEAR(entry->t, 0.5, 1e-9);
+    const auto hit = first_of_pieces(*surface, {0.05, 0, z * kPieceSlack}, {-0.1, 0, 0}, false);
+    ASSERT_TRUE(hit) << z;
+    EXPECT_NEAR(hit->t, 0.5, 1e-9);
   }
   EXPECT_FALSE(first_of_pieces(*surface, {0.05, 0, 3.0 * kPieceSlack}, {-0.1, 0, 0}, false));
 }
@@ -192,11 +192,11 @@ TEST(ImplicitPieces, HaveNoEdgeWhereAnAngleJumpsUnfelt) {
   int met = 0;
   for (int i = 0; i < 200; ++i) {
     const double z = 1e-3 * (i % 100 - 50), off = i < 100 ? 0.0 : 1e-13;
-    const auto entry = first_of_pieces(*star, {-0.06, off, z}, {0.05, 0.0, 0.0}, false);
-    ASSERT_TRUE(entry) << i;
-    ASSERT_NEAR(entry->place.point.x(), -0.03, 1e-11) << i;
+    const auto hit = first_of_pieces(*star, {-0.06, off, z}, {0.05, 0.0, 0.0}, false);
+    ASSERT_TRUE(hit) << i;
+    ASSERT_NEAR(hit->place.point.x(), -0.03, 1e-11) << i;
     // Radius and angle: x falls as y grows by the star's slope.
-    ASSERT_LT((entry->place.normal - Vector3(-1.0, -25.0 / 30.0, 0.0).normalized()).norm(), 1e-8) << i;
+    ASSERT_LT((hit->place.normal - Vector3(-1.0, -25.0 / 30.0, 0.0).normalized()).norm(), 1e-8) << i;
     ++met;
     ASSERT_FALSE(first_of_pieces(*star, {-0.0305, -0.001, z}, {-0.001, 0.002, 0.0}, true));
   }
@@ -207,8 +207,8 @@ TEST(ImplicitPieces, HaveNoSheetsWithoutThickness) {
   for (const char* text : {"abs(z)", "max(z, -z)", "z^2", "max(min(x, z), -z)"}) {
     const auto surface = ImplicitSurface::create(text, piece_box());
     if (!surface) continue;
-    const auto entry = first_of_pieces(**surface, {0.03, 0, 0.05}, {0, 0, -0.1}, false);
-    EXPECT_FALSE(entry && entry->place.normal.z() != 0.0) << text;
+    const auto hit = first_of_pieces(**surface, {0.03, 0, 0.05}, {0, 0, -0.1}, false);
+    EXPECT_FALSE(hit && hit->place.normal.z() != 0.0) << text;
   }
 }
 

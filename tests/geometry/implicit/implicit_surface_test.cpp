@@ -52,12 +52,12 @@ const std::string kEllipsoid = "(x/0.08)^2 + (y/0.05)^2 + (z/0.03)^2 - 1";
 constexpr double kFieldSlack = 2e-12;  // 1e-11 of the cube's edge
 
 /// Through whichever piece comes first.
-std::optional<SurfaceEntry> first_entry(const ImplicitSurface& surface, const Vector3& start,
-                                        const Vector3& step, bool from_behind = false) {
-  std::optional<SurfaceEntry> first;
+std::optional<SurfaceHit> first_hit_of(const ImplicitSurface& surface, const Vector3& start,
+                                       const Vector3& step, bool from_behind = false) {
+  std::optional<SurfaceHit> first;
   surface.near(start, start + step, kFieldSlack, 0.0, [&](std::uint32_t piece, const Bounds&) {
-    const auto entry = surface.entry(piece, start, step, from_behind, 0.0, kFieldSlack);
-    if (entry && (!first || entry->t < first->t)) first = entry;
+    const auto hit = surface.first_hit(piece, start, step, from_behind, 0.0, kFieldSlack);
+    if (hit && (!first || hit->t < first->t)) first = hit;
     return true;
   });
   return first;
@@ -134,25 +134,25 @@ void compare_with_samples(const std::string& formula, int segments, double time)
   int found = 0;
   for (int i = 0; i < segments; ++i) {
     const auto [start, step] = random_segment(surface->box(), random);
-    const auto entry = surface->entry(0, start, step, false, time, kFieldSlack);
+    const auto hit = surface->first_hit(0, start, step, false, time, kFieldSlack);
     constexpr int kSamples = 40;
     double before = surface->value(start, time).value;
     for (int k = 1; k <= kSamples; ++k) {
       const double t = static_cast<double>(k) / kSamples;
       const double value = surface->value(start + t * step, time).value;
       if (before >= 0.0 && value < 0.0) {
-        ASSERT_TRUE(entry.has_value()) << formula << " segment " << i;
-        ASSERT_LE(entry->t, t) << formula << " segment " << i;
+        ASSERT_TRUE(hit.has_value()) << formula << " segment " << i;
+        ASSERT_LE(hit->t, t) << formula << " segment " << i;
         break;
       }
       before = value;
     }
-    if (!entry) continue;
+    if (!hit) continue;
     ++found;
-    ASSERT_LE(distance_to(*surface, entry->place.point, time), kFieldSlack);
-    ASSERT_NEAR((entry->place.point - start - entry->t * step).norm(), 0.0, 1e-15);
-    const double falls = surface->value(entry->place.point, time).gradient.dot(step);
-    ASSERT_LE(falls, 1e-4 * surface->value(entry->place.point, time).gradient.norm() * step.norm());
+    ASSERT_LE(distance_to(*surface, hit->place.point, time), kFieldSlack);
+    ASSERT_NEAR((hit->place.point - start - hit->t * step).norm(), 0.0, 1e-15);
+    const double falls = surface->value(hit->place.point, time).gradient.dot(step);
+    ASSERT_LE(falls, 1e-4 * surface->value(hit->place.point, time).gradient.norm() * step.norm());
   }
   EXPECT_GT(found, segments / 50) << formula;
 }
@@ -175,16 +175,16 @@ TEST(ImplicitSurface, EntersASphereWhereTheQuadraticEquationSays) {
     const Vector3 start = nearest - random.uniform(0.03, 0.1) * ahead;
     if (!sphere->box().contains(start)) continue;
     const Vector3 step = random.uniform(0.11, 0.2) * ahead;
-    const auto entry = sphere->entry(0, start, step, false, 0.0, kFieldSlack);
+    const auto hit = sphere->first_hit(0, start, step, false, 0.0, kFieldSlack);
     const double half_chord_square = 0.05 * 0.05 - nearest.squaredNorm();
     if (depth > kFieldSlack) {
-      ASSERT_TRUE(entry.has_value()) << depth;
+      ASSERT_TRUE(hit.has_value()) << depth;
       const double t = ((nearest - start).dot(ahead) - std::sqrt(half_chord_square)) / step.norm();
       // Across the surface it is exact; along a grazing way that is a longer length.
       const double angle = std::sqrt(half_chord_square) / 0.05;
-      ASSERT_NEAR(entry->t, t, (0.1 * kFieldSlack / angle + 1e-13) / step.norm()) << depth;
+      ASSERT_NEAR(hit->t, t, (0.1 * kFieldSlack / angle + 1e-13) / step.norm()) << depth;
     } else if (depth < -kFieldSlack) {
-      ASSERT_FALSE(entry.has_value()) << depth;
+      ASSERT_FALSE(hit.has_value()) << depth;
     }
   }
 }
@@ -205,10 +205,10 @@ TEST(ImplicitSurface, MissesNoThinSheet) {
       const double before = side(way.start), after = side(way.start + way.step);
       if ((before > 0.0) == (after > 0.0) || std::abs(before) < 6e-7 || std::abs(after) < 6e-7) continue;
       ++crossings;
-      const auto entry = first_entry(*sheet, way.start, way.step);
-      ASSERT_TRUE(entry.has_value());
-      ASSERT_NEAR(std::abs(side(entry->place.point)), 5e-7, 1e-9);
-      ASSERT_GT(side(entry->place.point) * before, 0.0);
+      const auto hit = first_hit_of(*sheet, way.start, way.step);
+      ASSERT_TRUE(hit.has_value());
+      ASSERT_NEAR(std::abs(side(hit->place.point)), 5e-7, 1e-9);
+      ASSERT_GT(side(hit->place.point) * before, 0.0);
     }
     EXPECT_GT(crossings, 500);
   }
@@ -218,13 +218,14 @@ TEST(ImplicitSurface, SlidesAtTheGapWithoutEntering) {
   const double gap = 10 * kFieldSlack;
   const Surface plane = surface_of("3*z - x");
   const Vector3 normal = Vector3(-1, 0, 3).normalized();
-  EXPECT_FALSE(plane->entry(0, gap * normal, 0.05 * Vector3(3, 0, 1).normalized(), false, 0.0, kFieldSlack));
+  EXPECT_FALSE(
+      plane->first_hit(0, gap * normal, 0.05 * Vector3(3, 0, 1).normalized(), false, 0.0, kFieldSlack));
   base::Random random(14);
   const Surface sphere = surface_of(kSphere);
   for (int i = 0; i < 2000; ++i) {
     const Vector3 up = random.direction();
     const Vector3 along = up.unitOrthogonal();
-    EXPECT_FALSE(sphere->entry(0, (0.05 + gap) * up, 0.04 * along, false, 0.0, kFieldSlack));
+    EXPECT_FALSE(sphere->first_hit(0, (0.05 + gap) * up, 0.04 * along, false, 0.0, kFieldSlack));
   }
 }
 
@@ -233,23 +234,23 @@ TEST(ImplicitSurface, CountsAStartWithinSlackAsInFront) {
   const Vector3 up = Vector3(1, 2, 3).normalized();
   for (const double height : {-0.9, 0.0, 0.9}) {
     const Vector3 start = (0.05 + height * kFieldSlack) * up;
-    const auto moving_in = sphere->entry(0, start, -0.01 * up, false, 0.0, kFieldSlack);
+    const auto moving_in = sphere->first_hit(0, start, -0.01 * up, false, 0.0, kFieldSlack);
     ASSERT_TRUE(moving_in.has_value()) << height;
     EXPECT_EQ(moving_in->t, 0.0);
     EXPECT_GT(moving_in->place.normal.dot(up), 0.999999);
     const auto slanted =
-        sphere->entry(0, start, 0.01 * up.unitOrthogonal() - 0.001 * up, false, 0.0, kFieldSlack);
+        sphere->first_hit(0, start, 0.01 * up.unitOrthogonal() - 0.001 * up, false, 0.0, kFieldSlack);
     ASSERT_TRUE(slanted.has_value()) << height;
     EXPECT_EQ(slanted->t, 0.0);
-    EXPECT_FALSE(sphere->entry(0, start, 0.01 * up, false, 0.0, kFieldSlack)) << height;
-    const auto from_behind = sphere->entry(0, start, 0.01 * up, true, 0.0, kFieldSlack);
+    EXPECT_FALSE(sphere->first_hit(0, start, 0.01 * up, false, 0.0, kFieldSlack)) << height;
+    const auto from_behind = sphere->first_hit(0, start, 0.01 * up, true, 0.0, kFieldSlack);
     ASSERT_TRUE(from_behind.has_value()) << height;
     EXPECT_EQ(from_behind->t, 0.0);
-    EXPECT_FALSE(sphere->entry(0, start, -0.01 * up, true, 0.0, kFieldSlack)) << height;
+    EXPECT_FALSE(sphere->first_hit(0, start, -0.01 * up, true, 0.0, kFieldSlack)) << height;
   }
   // Deeper, it is behind: through to the other side it only leaves.
-  EXPECT_FALSE(sphere->entry(0, (0.05 - 3 * kFieldSlack) * up, -0.12 * up, false, 0.0, kFieldSlack));
-  const auto leaves = sphere->entry(0, 0.04 * up, 0.04 * up, true, 0.0, kFieldSlack);
+  EXPECT_FALSE(sphere->first_hit(0, (0.05 - 3 * kFieldSlack) * up, -0.12 * up, false, 0.0, kFieldSlack));
+  const auto leaves = sphere->first_hit(0, 0.04 * up, 0.04 * up, true, 0.0, kFieldSlack);
   ASSERT_TRUE(leaves.has_value());
   EXPECT_NEAR(leaves->t, 0.25, 1e-10);
 }
@@ -257,51 +258,51 @@ TEST(ImplicitSurface, CountsAStartWithinSlackAsInFront) {
 TEST(ImplicitSurface, EntersAgainAfterMovingOut) {
   const Surface slabs = surface_of("cos(300*z)");
   const double slab = std::numbers::pi / 600;  // solid below -slab ... and between slab and 3 slab
-  const auto entry = slabs->entry(0, {0, 0, -slab}, {0, 0, 4 * slab}, false, 0.0, kFieldSlack);
-  ASSERT_TRUE(entry.has_value());
-  EXPECT_NEAR(entry->t, 0.5, 1e-9);
+  const auto hit = slabs->first_hit(0, {0, 0, -slab}, {0, 0, 4 * slab}, false, 0.0, kFieldSlack);
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_NEAR(hit->t, 0.5, 1e-9);
 }
 
 TEST(ImplicitSurface, EntersTheSolidWhereTheFormulaBeginsToHaveValues) {
   const Surface half = surface_of("sqrt(x) - 1");  // solid for x >= 0, nothing for x < 0
-  const auto entry = first_entry(*half, {-0.05, 0, 0}, {0.1, 0, 0});
-  ASSERT_TRUE(entry.has_value());
-  EXPECT_NEAR(entry->t, 0.5, 1e-9);
-  EXPECT_EQ(entry->place.normal, Vector3(-1, 0, 0));
+  const auto hit = first_hit_of(*half, {-0.05, 0, 0}, {0.1, 0, 0});
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_NEAR(hit->t, 0.5, 1e-9);
+  EXPECT_EQ(hit->place.normal, Vector3(-1, 0, 0));
   const Surface pole = surface_of("-1/x");  // solid for x > 0, its surface a pole
-  const auto through = first_entry(*pole, {-0.05, 0.01, 0}, {0.1, 0, 0});
+  const auto through = first_hit_of(*pole, {-0.05, 0.01, 0}, {0.1, 0, 0});
   ASSERT_TRUE(through.has_value());
   EXPECT_NEAR(through->t, 0.5, 1e-9);
   EXPECT_EQ(through->place.normal, Vector3(-1, 0, 0));
-  const auto back = first_entry(*pole, {0.05, 0.01, 0}, {-0.1, 0, 0}, true);
+  const auto back = first_hit_of(*pole, {0.05, 0.01, 0}, {-0.1, 0, 0}, true);
   ASSERT_TRUE(back.has_value());
   EXPECT_NEAR(back->t, 0.5, 1e-9);
 }
 
 TEST(ImplicitSurface, AnswersEarlyWhenThereIsTooMuchToLookAt) {
   const Surface wild = surface_of("z - 0.001*sin(1e7*x)*sin(1e7*y + 1e9*x)");
-  const auto entry = wild->entry(0, {-0.09, -0.08, 0.0015}, {0.18, 0.16, -0.002}, false, 0.0, kFieldSlack);
-  ASSERT_TRUE(entry.has_value());
-  EXPECT_LT(entry->t, 0.76);
-  EXPECT_TRUE(entry->place.normal.allFinite());
+  const auto hit = wild->first_hit(0, {-0.09, -0.08, 0.0015}, {0.18, 0.16, -0.002}, false, 0.0, kFieldSlack);
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_LT(hit->t, 0.76);
+  EXPECT_TRUE(hit->place.normal.allFinite());
 }
 
 TEST(ImplicitSurface, EntersThroughTheSidesOfTheBox) {
   const Surface waves = surface_of(kWaves);
-  const auto floor = waves->entry(5, {0.01, 0.02, -0.2}, {0, 0, 0.2}, false, 0.0, kFieldSlack);
+  const auto floor = waves->first_hit(5, {0.01, 0.02, -0.2}, {0, 0, 0.2}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(floor.has_value());
   EXPECT_NEAR(floor->t, 0.5, 1e-12);
   EXPECT_EQ(floor->place.piece, 5U);
   EXPECT_EQ(floor->place.point.z(), -0.1);
   EXPECT_EQ(floor->place.normal, Vector3(0, 0, -1));
-  EXPECT_FALSE(waves->entry(6, {0.01, 0.02, 0.2}, {0, 0, -0.2}, false, 0.0, kFieldSlack));  // air above
-  EXPECT_TRUE(waves->entry(2, {0.2, 0.0, -0.05}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));
-  EXPECT_FALSE(waves->entry(2, {0.2, 0.0, 0.05}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));
-  EXPECT_FALSE(waves->entry(2, {0.2, 0.0, -0.15}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));  // beside it
-  EXPECT_FALSE(waves->entry(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, false, 0.0, kFieldSlack));
-  EXPECT_TRUE(waves->entry(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, true, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->first_hit(6, {0.01, 0.02, 0.2}, {0, 0, -0.2}, false, 0.0, kFieldSlack));  // air above
+  EXPECT_TRUE(waves->first_hit(2, {0.2, 0.0, -0.05}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->first_hit(2, {0.2, 0.0, 0.05}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(waves->first_hit(2, {0.2, 0.0, -0.15}, {-0.2, 0, 0}, false, 0.0, kFieldSlack));  // beside it
+  EXPECT_FALSE(waves->first_hit(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, false, 0.0, kFieldSlack));
+  EXPECT_TRUE(waves->first_hit(2, {0.05, 0.0, -0.05}, {0.2, 0, 0}, true, 0.0, kFieldSlack));
   const auto resting =
-      waves->entry(5, {0.01, 0.02, -0.1 + 0.5 * kFieldSlack}, {0, 0, 0.2}, false, 0.0, kFieldSlack);
+      waves->first_hit(5, {0.01, 0.02, -0.1 + 0.5 * kFieldSlack}, {0, 0, 0.2}, false, 0.0, kFieldSlack);
   ASSERT_TRUE(resting.has_value());
   EXPECT_EQ(resting->t, 0.0);
 }
@@ -317,7 +318,8 @@ TEST(ImplicitSurface, LeavesNoCrackBetweenFormulaAndSides) {
       Vector3 start = random_in(around, random), end = random_in(surface->box(), random);
       if (i % 2 == 0) {  // aimed at an edge between a side and the formula's surface
         end.x() = 0.1 * (1 - 1e-9 * random.uniform());
-        const auto down = surface->entry(0, {end.x(), end.y(), 0.1}, {0, 0, -0.2}, false, 0.0, kFieldSlack);
+        const auto down =
+            surface->first_hit(0, {end.x(), end.y(), 0.1}, {0, 0, -0.2}, false, 0.0, kFieldSlack);
         if (!down) continue;
         end = down->place.point - 1e-11 * random.uniform() * down->place.normal;
       }
@@ -325,7 +327,7 @@ TEST(ImplicitSurface, LeavesNoCrackBetweenFormulaAndSides) {
       ++tried;
       bool met = false;
       for (std::uint32_t piece = 0; piece <= 6 && !met; ++piece) {
-        met = surface->entry(piece, start, end - start, false, 0.0, kFieldSlack).has_value();
+        met = surface->first_hit(piece, start, end - start, false, 0.0, kFieldSlack).has_value();
       }
       ASSERT_TRUE(met || distance_to(*surface, end) < 2 * kFieldSlack) << formula << " segment " << i;
     }
@@ -341,12 +343,12 @@ TEST(ImplicitSurface, WalksToTheNearestPlaceOfASphere) {
   for (int i = 0; i < 2000; ++i) {
     const Vector3 from = 0.05 * random.direction();
     const Vector3 goal = from + random.uniform(0.0, 0.04) * random.direction();
-    const SurfacePlace foot = sphere->foot({from, {}}, goal, 0.0);
+    const SurfacePlace foot = sphere->nearest_local({from, {}}, goal, 0.0);
     ASSERT_LT((foot.point - 0.05 * goal.normalized()).norm(), 1e-13) << i;
     ASSERT_LT((foot.normal - goal.normalized()).norm(), 1e-11) << i;
   }
   // Also all the way round.
-  const SurfacePlace across = sphere->foot({{0, 0, 0.05}, {}}, {0.001, 0.0, -0.03}, 0.0);
+  const SurfacePlace across = sphere->nearest_local({{0, 0, 0.05}, {}}, {0.001, 0.0, -0.03}, 0.0);
   EXPECT_LT((across.point - 0.05 * Vector3(0.001, 0, -0.03).normalized()).norm(), 1e-12);
 }
 
@@ -361,7 +363,7 @@ TEST(ImplicitSurface, WalksToTheNearestPlaceOfATorus) {
     const Vector3 goal = from + random.uniform(0.0, 0.015) * random.direction();
     const Vector3 core = 0.05 * Vector3(goal.x(), goal.y(), 0).normalized();
     const Vector3 expected = core + 0.02 * (goal - core).normalized();
-    const SurfacePlace foot = torus->foot({from, {}}, goal, 0.0);
+    const SurfacePlace foot = torus->nearest_local({from, {}}, goal, 0.0);
     ASSERT_LT((foot.point - expected).norm(), 1e-12) << i;
   }
 }
@@ -373,13 +375,13 @@ TEST(ImplicitSurface, StandsUprightUnderItsGoalOnEllipsoidGyroidAndWaves) {
     int tried = 0;
     for (int i = 0; i < 3000; ++i) {
       const auto [start, step] = random_segment(surface->box(), random);
-      const auto entry = surface->entry(0, start, step, false, 0.5, kFieldSlack);
-      if (!entry) continue;
+      const auto hit = surface->first_hit(0, start, step, false, 0.5, kFieldSlack);
+      if (!hit) continue;
       ++tried;
-      const Vector3 goal = entry->place.point + random.uniform(0.0, 0.008) * random.direction();
-      const SurfacePlace foot = surface->foot(entry->place, goal, 0.5);
+      const Vector3 goal = hit->place.point + random.uniform(0.0, 0.008) * random.direction();
+      const SurfacePlace foot = surface->nearest_local(hit->place, goal, 0.5);
       ASSERT_LT(distance_to(*surface, foot.point, 0.5), 0.1 * kFieldSlack) << formula << i;
-      ASSERT_LE((foot.point - goal).norm(), (entry->place.point - goal).norm() * (1 + 1e-12)) << formula;
+      ASSERT_LE((foot.point - goal).norm(), (hit->place.point - goal).norm() * (1 + 1e-12)) << formula;
       const Vector3 pull = goal - foot.point;
       const Vector3 sideways = pull - pull.dot(foot.normal) * foot.normal;
       ASSERT_LT(sideways.norm(), 1e-10) << formula << i;
@@ -398,7 +400,7 @@ TEST(ImplicitSurface, NeverWalksOntoAnotherSheet) {
       const double x = random.uniform(-0.08, 0.08);
       const Vector3 from(x, 0.0, 0.005 * std::sin(60 * x) + top);
       const Vector3 goal = from + Vector3(random.uniform(-0.01, 0.01), 0.01, -random.uniform(0.001, 0.01));
-      const SurfacePlace foot = shell->foot({from, {}}, goal, 0.0);
+      const SurfacePlace foot = shell->nearest_local({from, {}}, goal, 0.0);
       const double height = foot.point.z() - 0.005 * std::sin(60 * foot.point.x());
       ASSERT_NEAR(height, top, 1e-3 * top) << i;
     }
@@ -408,10 +410,10 @@ TEST(ImplicitSurface, NeverWalksOntoAnotherSheet) {
 TEST(ImplicitSurface, FollowsAWaveThatHasMoved) {
   const Surface waves = surface_of(kWaves);
   SurfacePlace place{{0.01, 0.02, 0.0}, {}};
-  place = waves->foot(place, {0.01, 0.02, -0.02}, 0.0);
+  place = waves->nearest_local(place, {0.01, 0.02, -0.02}, 0.0);
   for (int tick = 1; tick <= 500; ++tick) {
     const double time = 0.001 * tick;
-    place = waves->foot(place, {0.01, 0.02, -0.02}, time);
+    place = waves->nearest_local(place, {0.01, 0.02, -0.02}, time);
     ASSERT_LT(distance_to(*waves, place.point, time), 0.1 * kFieldSlack);
   }
   EXPECT_NEAR(place.point.x(), 0.01, 0.012);
@@ -419,7 +421,7 @@ TEST(ImplicitSurface, FollowsAWaveThatHasMoved) {
 
 TEST(ImplicitSurface, WalksOverTheSidesAsPlanes) {
   const Surface waves = surface_of(kWaves);
-  const SurfacePlace foot = waves->foot({{0.1, 0.0, -0.05}, {}, 2}, {0.09, 0.03, -0.2}, 0.0);
+  const SurfacePlace foot = waves->nearest_local({{0.1, 0.0, -0.05}, {}, 2}, {0.09, 0.03, -0.2}, 0.0);
   EXPECT_EQ(foot.point, Vector3(0.1, 0.03, -0.2));
   EXPECT_EQ(foot.normal, Vector3(1, 0, 0));
   EXPECT_EQ(foot.piece, 2U);
@@ -495,11 +497,11 @@ TEST(ImplicitSurface, NamesEveryPieceThatIsNear) {
     for (int i = 0; i < 2000; ++i) {
       const auto [start, step] = random_segment(surface->box(), random);
       const double time = random.uniform(-5.0, 5.0);
-      const auto entry = surface->entry(0, start, step, false, time, kFieldSlack);
-      if (!entry) continue;
+      const auto hit = surface->first_hit(0, start, step, false, time, kFieldSlack);
+      if (!hit) continue;
       bool named = false;
       surface->near(start, start + step, kFieldSlack, time, [&](std::uint32_t piece, const Bounds& box) {
-        named |= piece == 0 && box.exteriorDistance(entry->place.point) <= kFieldSlack;
+        named |= piece == 0 && box.exteriorDistance(hit->place.point) <= kFieldSlack;
         return !named;
       });
       ASSERT_TRUE(named) << formula;
@@ -526,14 +528,14 @@ TEST(ImplicitSurface, AnswersAlikeInMetresAndMillimetres) {
   base::Random random(22);
   for (int i = 0; i < 2000; ++i) {
     const auto [start, step] = random_segment(cube(0.125), random);
-    const auto one = metres->entry(0, start, step, false, 0.0, kFieldSlack);
-    const auto other = millimetres->entry(0, 1000 * start, 1000 * step, false, 0.0, 1000 * kFieldSlack);
+    const auto one = metres->first_hit(0, start, step, false, 0.0, kFieldSlack);
+    const auto other = millimetres->first_hit(0, 1000 * start, 1000 * step, false, 0.0, 1000 * kFieldSlack);
     ASSERT_EQ(one.has_value(), other.has_value());
     if (!one) continue;
     ASSERT_NEAR(one->t * step.norm(), other->t * step.norm(), 1e-11);
     const Vector3 goal = 0.9 * one->place.point + Vector3(0.001, 0.002, 0.003);
-    const SurfacePlace foot = metres->foot(one->place, goal, 0.0);
-    const SurfacePlace other_foot = millimetres->foot(other->place, 1000 * goal, 0.0);
+    const SurfacePlace foot = metres->nearest_local(one->place, goal, 0.0);
+    const SurfacePlace other_foot = millimetres->nearest_local(other->place, 1000 * goal, 0.0);
     ASSERT_LT((foot.point - other_foot.point / 1000).norm(), 1e-12);
   }
 }
@@ -547,9 +549,9 @@ TEST(ImplicitSurface, SurvivesPlacesWhereTheFormulaHasNoGradient) {
     for (int i = 0; i < 200; ++i) {
       auto [start, step] = random_segment(surface->box(), random);
       if (i % 4 == 0) step = -start;
-      const auto entry = surface->entry(0, start, step, i % 2 == 0, 0.0, kFieldSlack);
-      const SurfacePlace from = entry ? entry->place : SurfacePlace{Vector3::Zero(), Vector3::UnitZ()};
-      const SurfacePlace foot = surface->foot(from, random_in(surface->box(), random), 0.0);
+      const auto hit = surface->first_hit(0, start, step, i % 2 == 0, 0.0, kFieldSlack);
+      const SurfacePlace from = hit ? hit->place : SurfacePlace{Vector3::Zero(), Vector3::UnitZ()};
+      const SurfacePlace foot = surface->nearest_local(from, random_in(surface->box(), random), 0.0);
       ASSERT_TRUE(foot.point.allFinite() && foot.normal.allFinite()) << formula;
       ASSERT_NEAR(foot.normal.norm(), 1.0, 1e-9) << formula;
       (void)surface->way_out(start, 0.0);
@@ -560,14 +562,14 @@ TEST(ImplicitSurface, SurvivesPlacesWhereTheFormulaHasNoGradient) {
 TEST(ImplicitSurface, SurvivesArgumentsThatAreNoNumbers) {
   const Surface sphere = surface_of(kSphere);
   const Vector3 nothing = Vector3::Constant(std::nan("")), good(0, 0, 0.06);
-  EXPECT_FALSE(sphere->entry(0, nothing, good, false, 0.0, kFieldSlack));
-  EXPECT_FALSE(sphere->entry(0, good, nothing, false, 0.0, kFieldSlack));
-  EXPECT_FALSE(sphere->entry(0, good, Vector3::Zero(), false, 0.0, kFieldSlack));
-  EXPECT_FALSE(sphere->entry(3, nothing, good, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->first_hit(0, nothing, good, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->first_hit(0, good, nothing, false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->first_hit(0, good, Vector3::Zero(), false, 0.0, kFieldSlack));
+  EXPECT_FALSE(sphere->first_hit(3, nothing, good, false, 0.0, kFieldSlack));
   EXPECT_FALSE(sphere->inside(nothing));
   EXPECT_FALSE(sphere->way_out(nothing, 0.0));
-  (void)sphere->foot({good, {}}, nothing, 0.0);
-  (void)surface_of(kWaves)->entry(0, good, -good, false, std::nan(""), kFieldSlack);
+  (void)sphere->nearest_local({good, {}}, nothing, 0.0);
+  (void)surface_of(kWaves)->first_hit(0, good, -good, false, std::nan(""), kFieldSlack);
 }
 
 TEST(ImplicitSurface, CanBeSampledForMeshing) {

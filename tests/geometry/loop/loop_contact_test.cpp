@@ -25,13 +25,13 @@ std::shared_ptr<const LoopSurface> touchable(const ControlMesh& control) {
   return surface ? *surface : nullptr;
 }
 
-/// The first entry into any piece.
-std::optional<SurfaceEntry> first_entry(const LoopSurface& surface, const Vector3& start, const Vector3& step,
-                                        bool from_behind) {
-  std::optional<SurfaceEntry> first;
+/// The first hit on any piece.
+std::optional<SurfaceHit> first_hit_of(const LoopSurface& surface, const Vector3& start, const Vector3& step,
+                                       bool from_behind) {
+  std::optional<SurfaceHit> first;
   surface.near(start, start + step, kSlack, 0.0, [&](std::uint32_t piece, const Bounds&) {
-    const auto entry = surface.entry(piece, start, step, from_behind, 0.0, kSlack);
-    if (entry && (!first || entry->t < first->t)) first = entry;
+    const auto hit = surface.first_hit(piece, start, step, from_behind, 0.0, kSlack);
+    if (hit && (!first || hit->t < first->t)) first = hit;
     return true;
   });
   return first;
@@ -104,9 +104,9 @@ TEST(LoopContact, FootIsPerpendicularOrAtTheRim) {
                              std::uint32_t(random.index(4 * control.mesh.triangles.size())),
                              random.uniform(0.0, 0.5),
                              random.uniform(0.0, 0.5)};
-      const SurfacePlace start = surface->foot(any, Vector3::Zero(), 0.0);
+      const SurfacePlace start = surface->nearest_local(any, Vector3::Zero(), 0.0);
       const Vector3 goal = start.point + 0.05 * random.uniform() * random.direction();
-      const SurfacePlace foot = surface->foot(start, goal, 0.0);
+      const SurfacePlace foot = surface->nearest_local(start, goal, 0.0);
       const Vector3 rest = goal - foot.point;
       const double left = (rest - foot.normal * foot.normal.dot(rest)).norm();
       EXPECT_NEAR(foot.normal.norm(), 1.0, 1e-12);
@@ -123,7 +123,7 @@ TEST(LoopContact, FootIsPerpendicularOrAtTheRim) {
         SurfacePlace other = foot;
         other.u = std::min(1.0, foot.u + 1e-4 * random.uniform());
         other.v = std::min(1.0 - other.u, foot.v + 1e-4 * random.uniform());
-        const SurfacePlace again = surface->foot(other, goal, 0.0);
+        const SurfacePlace again = surface->nearest_local(other, goal, 0.0);
         EXPECT_LT((again.point - foot.point).norm(), 1e-6);
       }
     }
@@ -141,7 +141,7 @@ TEST(LoopContact, FootGoesOverEdgesToAPlaceFarAway) {
     const auto target = surface->sample(face, random.uniform(0.0, 0.5), random.uniform(0.0, 0.5));
     const Vector3 goal = target.point + 1e-3 * target.normal;
     SurfacePlace place{{}, {}, std::uint32_t(random.index(4 * control.mesh.triangles.size())), 0.3, 0.3};
-    for (int i = 0; i < 4; ++i) place = surface->foot(place, goal, 0.0);
+    for (int i = 0; i < 4; ++i) place = surface->nearest_local(place, goal, 0.0);
     EXPECT_LT((place.point - target.point).norm(), 1e-12);
   }
 }
@@ -152,11 +152,11 @@ TEST(LoopContact, FootAtExtraordinaryVerticesEndsThere) {
     const auto surface = touchable(control);
     const auto pole = surface->sample(0, 0.0, 0.0);
     const auto next = surface->sample(0, 0.25, 0.2);
-    const auto entry = first_entry(*surface, next.point + 0.1 * next.normal, -0.2 * next.normal, false);
-    ASSERT_TRUE(entry.has_value());
-    const SurfacePlace foot = surface->foot(entry->place, pole.point + 0.05 * pole.normal, 0.0);
+    const auto hit = first_hit_of(*surface, next.point + 0.1 * next.normal, -0.2 * next.normal, false);
+    ASSERT_TRUE(hit.has_value());
+    const SurfacePlace foot = surface->nearest_local(hit->place, pole.point + 0.05 * pole.normal, 0.0);
     EXPECT_LT((foot.point - pole.point).norm(), 1e-12) << valence;
-    const SurfacePlace away = surface->foot(foot, next.point + 0.01 * next.normal, 0.0);
+    const SurfacePlace away = surface->nearest_local(foot, next.point + 0.01 * next.normal, 0.0);
     EXPECT_LT((away.point - next.point).norm(), 1e-12) << valence;
   }
 }
@@ -175,8 +175,8 @@ void compare_with_mesh(const ControlMesh& control, int level, int trials, std::u
         surface->bounds().center() + 0.6 * size * random.uniform(0.2, 1.0) * random.direction();
     const Vector3 end = surface->bounds().center() + 0.6 * size * random.uniform() * random.direction();
     const auto hit = tree.first_hit(start, end);
-    const auto front = first_entry(*surface, start, end - start, false);
-    const auto back = first_entry(*surface, start, end - start, true);
+    const auto front = first_hit_of(*surface, start, end - start, false);
+    const auto back = first_hit_of(*surface, start, end - start, true);
     const bool goes_in = front && (!back || front->t < back->t);
     const auto first = goes_in ? front : back;
     if (hit) ++hits;
@@ -213,10 +213,9 @@ TEST(LoopContact, NothingSlipsThroughVerticesAndEdges) {
       if (direction.dot(at.normal) > 0.0) direction = -direction;
       if (direction.dot(at.normal) > -1e-3) continue;
       const double length = std::pow(10.0, random.uniform(-8.0, -1.0));
-      const auto entry =
-          first_entry(*surface, at.point - length * direction, 2.0 * length * direction, false);
-      ASSERT_TRUE(entry.has_value()) << trial;
-      EXPECT_LT((entry->place.point - at.point).norm(), length + 1e-9);
+      const auto hit = first_hit_of(*surface, at.point - length * direction, 2.0 * length * direction, false);
+      ASSERT_TRUE(hit.has_value()) << trial;
+      EXPECT_LT((hit->place.point - at.point).norm(), length + 1e-9);
     }
   }
 }
@@ -235,8 +234,8 @@ TEST(LoopContact, GrazingSegmentsAreCaught) {
     const Vector3 middle = at.point - depth * at.normal;
     const Vector3 step = 3.0 * tangent;
     if (surface->inside(middle - step) || surface->inside(middle + step)) continue;
-    const auto entry = first_entry(*surface, middle - step, 2.0 * step, false);
-    ASSERT_TRUE(entry.has_value()) << depth;
+    const auto hit = first_hit_of(*surface, middle - step, 2.0 * step, false);
+    ASSERT_TRUE(hit.has_value()) << depth;
     ++caught;
   }
   EXPECT_GT(caught, 2000);
@@ -253,13 +252,13 @@ TEST(LoopContact, StartsOnTheSurfaceEnterOnlyWhenTheyMoveIn) {
     Vector3 step = random.direction();
     if (std::abs(step.dot(at.normal)) < 0.1) continue;
     step *= 1e-3;
-    const auto entry = first_entry(*surface, start, step, false);
-    const auto exit = first_entry(*surface, start, step, true);
+    const auto hit = first_hit_of(*surface, start, step, false);
+    const auto exit = first_hit_of(*surface, start, step, true);
     const bool in = step.dot(at.normal) < 0.0;
-    EXPECT_EQ(entry.has_value(), in);
+    EXPECT_EQ(hit.has_value(), in);
     EXPECT_EQ(exit.has_value(), !in);
-    if (entry) {
-      EXPECT_LT(entry->t, 1e-7);
+    if (hit) {
+      EXPECT_LT(hit->t, 1e-7);
     }
   }
 }

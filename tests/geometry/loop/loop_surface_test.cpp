@@ -101,10 +101,10 @@ TEST(LoopSurface, PointsAndNormalsAreFiniteOnDegenerateShapes) {
       EXPECT_NEAR(sample.normal.norm(), 1.0, 1e-6);
       const Vector3 start = sample.point + 0.1 * random.direction();
       const auto piece = std::uint32_t(random.index(48));
-      EXPECT_TRUE(surface->foot({{}, {}, piece, 0.3, 0.3}, start, 0.0).point.allFinite());
-      const auto entry = surface->entry(piece, start, 2.0 * (sample.point - start), false, 0.0, 1e-11);
-      if (entry) {
-        EXPECT_TRUE(entry->place.point.allFinite());
+      EXPECT_TRUE(surface->nearest_local({{}, {}, piece, 0.3, 0.3}, start, 0.0).point.allFinite());
+      const auto hit = surface->first_hit(piece, start, 2.0 * (sample.point - start), false, 0.0, 1e-11);
+      if (hit) {
+        EXPECT_TRUE(hit->place.point.allFinite());
       }
     }
   }
@@ -119,13 +119,13 @@ TEST(LoopSurface, MetresAndMillimetresBehaveAlike) {
   for (int trial = 0; trial < 2000; ++trial) {
     const auto piece = std::uint32_t(random.index(4 * metres.mesh.triangles.size()));
     const SurfacePlace from{{}, {}, piece, random.uniform(0.0, 0.5), random.uniform(0.0, 0.5)};
-    const Vector3 goal = one->foot(from, Vector3::Zero(), 0.0).point + 0.05 * random.direction();
-    const SurfacePlace a = one->foot(from, goal, 0.0);
-    const SurfacePlace b = other->foot({{}, {}, a.piece, a.u, a.v}, 1e-3 * goal, 0.0);
+    const Vector3 goal = one->nearest_local(from, Vector3::Zero(), 0.0).point + 0.05 * random.direction();
+    const SurfacePlace a = one->nearest_local(from, goal, 0.0);
+    const SurfacePlace b = other->nearest_local({{}, {}, a.piece, a.u, a.v}, 1e-3 * goal, 0.0);
     EXPECT_LT((1e-3 * a.point - b.point).norm(), 1e-14);
     const Vector3 start = a.point + 0.1 * random.direction(), step = 0.2 * random.direction();
-    const auto c = one->entry(a.piece, start, step, false, 0.0, 1e-11);
-    const auto d = other->entry(a.piece, 1e-3 * start, 1e-3 * step, false, 0.0, 1e-14);
+    const auto c = one->first_hit(a.piece, start, step, false, 0.0, 1e-11);
+    const auto d = other->first_hit(a.piece, 1e-3 * start, 1e-3 * step, false, 0.0, 1e-14);
     ASSERT_EQ(c.has_value(), d.has_value());
     if (c) {
       EXPECT_NEAR(c->t, d->t, 1e-9);

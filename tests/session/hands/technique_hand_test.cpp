@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/clock.h"
-#include "files/design.h"
+#include "files/design_files.h"
 #include "session/sessions.h"
 #include "session/storage/recording_files.h"
 #include "world/shape/solid_geometry.h"

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 
+#include "files/design_files.h"
 #include "session/autosave_samples.h"
 
 namespace icome::session {

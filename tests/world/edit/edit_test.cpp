@@ -146,8 +146,8 @@ TEST(Edits, AreRefusedWithAReason) {
   constexpr std::uint64_t kAuthor = std::uint64_t{5} << IdSource::kNumberBits;
   expect_refused(it.world, CreateObject{ObjectId{kAuthor}, 0, {}}, "numbers run from 1");
   expect_refused(it.world, CreateScene{SceneId{kAuthor | IdSource::kNumberMask}, ""}, "numbers run from 1");
-  expect_refused(it.world, SpendNumbers{1U << 24U, 1}, "no such numbers");
-  expect_refused(it.world, SpendNumbers{1, IdSource::kNumberMask}, "no such numbers");
+  expect_refused(it.world, ReserveIds{1U << 24U, 1}, "no such numbers");
+  expect_refused(it.world, ReserveIds{1, IdSource::kNumberMask}, "no such numbers");
   expect_refused(it.world, MoveVertices{roof, {3}, {{0.0, 0.0, 0.0}}}, "no vertex 3");
   expect_refused(it.world, MoveVertices{roof, {1, 1}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}}, "moved twice");
   expect_refused(it.world, MoveVertices{roof, {1}, {}}, "one position");
@@ -193,9 +193,9 @@ TEST(Edits, NeverMakeAnIdAnew) {
 
 TEST(Edits, SpendNumbersForGood) {
   World world;
-  const Edit back = applied(world, SpendNumbers{3, 70});
+  const Edit back = applied(world, ReserveIds{3, 70});
   EXPECT_EQ(world.next_number(3), 71u);
-  applied(world, SpendNumbers{3, 20});
+  applied(world, ReserveIds{3, 20});
   applied(world, back);
   EXPECT_EQ(world.next_number(3), 71u);
   EXPECT_EQ(world.next_number(4), 1u);
@@ -203,7 +203,7 @@ TEST(Edits, SpendNumbersForGood) {
 
 TEST(Edits, OfAnAuthorWithoutNumbersAreRefused) {
   World world;
-  applied(world, SpendNumbers{3, IdSource::kLastNumber - 1});
+  applied(world, ReserveIds{3, IdSource::kLastNumber - 1});
   IdSource ids(3, world.next_number(3));
   add_object(world, ids, "last", nullptr);
   for (int i = 0; i < 3; ++i)

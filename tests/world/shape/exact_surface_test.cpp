@@ -53,7 +53,7 @@ TEST(ExactSurface, WaysLeadIntoPrimitivesWhereTheyAre) {
     for (int i = 0; i < 60; ++i) {
       const Vector3 a = 0.4 * random.direction(), b = 0.15 * random.direction() - a;
       const double share = share_by_halving(it, a, b);
-      const auto found = shape.entry(a, b);
+      const auto found = shape.first_hit(a, b);
       if (share < 0.0) {
         const bool stays_out = passes_by(it, a, b);
         EXPECT_FALSE(stays_out && found) << geometry::name(it) << " " << i;
@@ -79,7 +79,7 @@ TEST(ExactSurface, FlatMeshesHaveANormalWhereTheirOriginIs) {
   base::Random random(9);
   for (int i = 0; i < 100; ++i) {
     const Vector3 a = random.direction(), b = -0.7 * a;  // through the origin, up to rounding
-    const auto found = shape.entry(a, b);
+    const auto found = shape.first_hit(a, b);
     ASSERT_TRUE(found) << i;
     EXPECT_NEAR(std::abs(found->normal.z()), 1.0, 1e-12) << i;
     EXPECT_LT(found->normal.dot(b - a), 0.0) << i;
@@ -91,7 +91,7 @@ TEST(ExactSurface, WhoGoesOutOfASolidGoesInLater) {
        {primitive_shape(geometry::Torus{0.1, 0.04}),
         GeometryPointer(*primitive_shape(geometry::Torus{0.1, 0.04})->triangles(1e-5))}) {
     CollisionShape shape(it);
-    const auto found = shape.entry({0.1, 0.0, 0.0}, {-0.3, 0.0, 0.0});
+    const auto found = shape.first_hit({0.1, 0.0, 0.0}, {-0.3, 0.0, 0.0});
     ASSERT_TRUE(found);
     EXPECT_NEAR(0.1 - 0.4 * found->share, -0.06, 2e-5);
   }
@@ -99,12 +99,12 @@ TEST(ExactSurface, WhoGoesOutOfASolidGoesInLater) {
 
 TEST(ExactSurface, StandsAsTheShapeDoes) {
   CollisionShape lying(primitive_shape(geometry::Cylinder{0.1, 0.6}, Axis::Y));
-  const auto found = lying.entry({0.0, 1.0, 0.0}, {0.0, 0.0, 0.0});
+  const auto found = lying.first_hit({0.0, 1.0, 0.0}, {0.0, 0.0, 0.0});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->share, 0.7, 1e-12);
   CollisionShape floor(primitive_shape(geometry::Plane{}, Axis::Y));
-  EXPECT_NEAR(floor.entry({0.0, 1.0, 0.0}, {0.0, -1.0, 0.0})->share, 0.5, 1e-12);
-  EXPECT_FALSE(floor.entry({0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}));
+  EXPECT_NEAR(floor.first_hit({0.0, 1.0, 0.0}, {0.0, -1.0, 0.0})->share, 0.5, 1e-12);
+  EXPECT_FALSE(floor.first_hit({0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}));
 }
 
 TEST(ExactSurface, OfAFormulaIsNotItsTriangles) {
@@ -114,7 +114,7 @@ TEST(ExactSurface, OfAFormulaIsNotItsTriangles) {
   base::Random random(8);
   for (int i = 0; i < 20; ++i) {
     const Vector3 way = random.direction();
-    const auto found = shape.entry(0.18 * way, 0.02 * way);
+    const auto found = shape.first_hit(0.18 * way, 0.02 * way);
     ASSERT_TRUE(found);
     EXPECT_NEAR(0.18 - 0.16 * found->share, 0.1, 1e-10);
     EXPECT_GT(found->normal.dot(way), 1.0 - 1e-9);

@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "files/design_builder.h"
+#include "files/vrml/read/vrml_geometries.h"
 #include "files/vrml/read/vrml_materials.h"
 #include "files/vrml/read/vrml_motions.h"
 #include "files/vrml/read/vrml_nodes.h"
-#include "files/vrml/read/vrml_pieces.h"
 #include "files/vrml/vrml_protos.h"
 #include "world/motion.h"
 
@@ -45,14 +45,14 @@ const flat::Scene* verified(const world::FlatReader& reader) {
   return flat::VerifySceneBuffer(verifier) ? flat::GetScene(reader.data()) : nullptr;
 }
 
-/// Of memory, that the shape of a piece takes with all that its triangles may have.
-std::uint64_t most_bytes_of(const flat::Piece& piece) {
+/// The memory that the shape of a geometry takes at most, with all that its triangles may have.
+std::uint64_t most_bytes_of(const flat::Geometry& geometry) {
   constexpr std::uint64_t kBytesOfTriangle =
       sizeof(geometry::TriangleMesh::Triangle) +
       3 * (sizeof(base::Vector3) + sizeof(base::Vector2) + sizeof(world::Colour));
-  if (!piece.polygons()) return 0;
-  const auto ends = std::uint64_t(std::count(piece.polygons()->begin(), piece.polygons()->end(), -1));
-  const std::uint64_t corners = piece.polygons()->size() - ends;
+  if (!geometry.polygons()) return 0;
+  const auto ends = std::uint64_t(std::count(geometry.polygons()->begin(), geometry.polygons()->end(), -1));
+  const std::uint64_t corners = geometry.polygons()->size() - ends;
   return (corners > 2 * ends ? corners - 2 * ends : 0) * kBytesOfTriangle + corners * sizeof(base::Vector3);
 }
 
@@ -60,14 +60,14 @@ std::uint64_t most_bytes_of(const flat::Piece& piece) {
 class VrmlBuilder {
  public:
   VrmlBuilder(const VrmlSources& sources, const flat::Scene& scene, world::FlatReader& reader,
-              io::Patience& patience, io::MemoryBudget& memory)
+              io::TimeBudget& time_budget, io::MemoryBudget& memory)
       : sources_(sources),
         scene_(scene),
         reader_(reader),
-        patience_(patience),
+        time_budget_(time_budget),
         memory_(memory),
         pictures_(sources.fetch_picture, sources.picture_limit, findings_),
-        meshes_(sources.find_mesh, sources.picture_limit, findings_, patience_, memory),
+        meshes_(sources.find_mesh, sources.picture_limit, findings_, time_budget_, memory),
         design_(memory) {}
 
   Result<LoadedDesign> build() {
@@ -88,12 +88,12 @@ class VrmlBuilder {
   }
 
  private:
-  /// What is known of a look before it is used.
-  struct LookPlan {
+  /// What is known of an appearance before it is used.
+  struct AppearancePlan {
     bool has_picture = false;
     std::optional<MaterialId> material = {};  // once it is used
   };
-  struct PiecePlan {
+  struct GeometryPlan {
     bool shows_picture = false;
     std::optional<GeometryId> shape = {};  // once it is used
   };
@@ -105,7 +105,7 @@ class VrmlBuilder {
   tl::unexpected<base::Error> give_up() const {
     if (memory_.is_exceeded())
       return base::fail(fmt::format("{}: {}", sources_.name, memory_.problem().message));
-    if (patience_.stopped()) return base::fail("interrupted");
+    if (time_budget_.stopped()) return base::fail("interrupted");
     if (reader_.fault().empty())
       return base::fail(fmt::format("{}: making a design of it takes too long", sources_.name));
     return base::fail(fmt::format("{}: the process that reads VRML gave an answer that makes no sense: {}",
@@ -126,25 +126,26 @@ class VrmlBuilder {
   }
 
   void read_looks() {
-    if (!scene_.looks()) return;
+    if (!scene_.appearances()) return;
     const std::int64_t pictures = scene_.pictures() ? scene_.pictures()->size() : 0;
-    for (const flat::Look* look : *scene_.looks()) {
-      if (look->picture() < -1 || look->picture() >= pictures)
-        reader_.refuse("a look names what is not there");
-      looks_.push_back({.has_picture = look->picture() >= 0});
+    for (const flat::Appearance* appearance : *scene_.appearances()) {
+      if (appearance->picture() < -1 || appearance->picture() >= pictures)
+        reader_.refuse("an appearance names what is not there");
+      appearances_.push_back({.has_picture = appearance->picture() >= 0});
     }
   }
 
-  /// Which pieces are seen with a picture has to be known before they are made.
+  /// Whether a geometry is seen with a picture has to be known before its shape is made.
   void find_pictured() {
-    if (scene_.pieces()) pieces_.resize(scene_.pieces()->size());
+    if (scene_.geometries()) geometries_.resize(scene_.geometries()->size());
     for (const VrmlNode& node : nodes_) {
-      if (node.piece >= 0 && node.look >= 0 && looks_[std::size_t(node.look)].has_picture)
-        pieces_[std::size_t(node.piece)].shows_picture = true;
+      if (node.geometry >= 0 && node.appearance >= 0 &&
+          appearances_[std::size_t(node.appearance)].has_picture)
+        geometries_[std::size_t(node.geometry)].shows_picture = true;
     }
   }
 
-  /// False when patience ends or the answer is damaged.
+  /// False when the time budget ends or the answer is damaged.
   bool add_objects() {
     with_children_.assign(nodes_.size(), false);
     for (const VrmlNode& node : nodes_) {
@@ -154,10 +155,10 @@ class VrmlBuilder {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       objects_.push_back(add_object(nodes_[i]));
       const bool lasts =
-          i % 1024 == 0 ? patience_.lasts(double(i) / double(nodes_.size())) : patience_.lasts();
+          i % 1024 == 0 ? time_budget_.lasts(double(i) / double(nodes_.size())) : time_budget_.lasts();
       if (!lasts || memory_.is_exceeded() || !reader_.fault().empty()) return false;
     }
-    return patience_.lasts(1.0) && reader_.fault().empty();
+    return time_budget_.lasts(1.0) && reader_.fault().empty();
   }
 
   /// The object of a node, or that of the parent for one that is merged into it; none for one left out.
@@ -176,8 +177,8 @@ class VrmlBuilder {
     if (node.motion >= 0) set_going(std::size_t(node.motion), object);
     if (node.shape_from >= 0) {
       add_shape(nodes_[std::size_t(node.shape_from)], node.name, object);
-    } else if (node.look_from >= 0) {
-      object.material = material(std::size_t(nodes_[std::size_t(node.look_from)].look));
+    } else if (node.appearance_from >= 0) {
+      object.material = material(std::size_t(nodes_[std::size_t(node.appearance_from)].appearance));
     }
     if (node.fixture_from >= 0) {
       const PlacedFixture& placed = *nodes_[std::size_t(node.fixture_from)].fixture;
@@ -199,7 +200,7 @@ class VrmlBuilder {
 
   /// Is it at the top and nothing but its fixture? The group of such a light is everything.
   bool stands_alone(const VrmlNode& node) const {
-    return node.parent < 0 && node.shape_from < 0 && node.look_from < 0 &&
+    return node.parent < 0 && node.shape_from < 0 && node.appearance_from < 0 &&
            !with_children_[std::size_t(&node - nodes_.data())];
   }
   static world::FixturePointer shining_on_all(const world::FixturePointer& fixture) {
@@ -211,46 +212,47 @@ class VrmlBuilder {
   }
 
   void add_shape(const VrmlNode& node, const std::string& name, world::PhysicalObject& object) {
-    PiecePlan& plan = pieces_[std::size_t(node.piece)];
+    GeometryPlan& plan = geometries_[std::size_t(node.geometry)];
     if (!plan.shape) {
       const world::GeometryPointer made =
-          make_shape(*scene_.pieces()->Get(std::uint32_t(node.piece)), plan.shows_picture);
+          make_shape(*scene_.geometries()->Get(std::uint32_t(node.geometry)), plan.shows_picture);
       plan.shape = made ? design_.add(made) : GeometryId{};
     }
-    if (node.look < 0 || !scene_.looks()->Get(std::uint32_t(node.look))->lit()) findings_.add(kUnlit, name);
-    if (node.look >= 0) object.material = material(std::size_t(node.look));
+    if (node.appearance < 0 || !scene_.appearances()->Get(std::uint32_t(node.appearance))->lit())
+      findings_.add(kUnlit, name);
+    if (node.appearance >= 0) object.material = material(std::size_t(node.appearance));
     object.geometry = *plan.shape;
   }
 
-  world::GeometryPointer make_shape(const flat::Piece& piece, bool shows_picture) {
-    if (piece.kind() == flat::PieceKind::Mesh) return mesh_of_file(piece);
-    if (!memory_.has_room(most_bytes_of(piece))) return nullptr;
-    return shape_of(piece, reader_, shows_picture, findings_, patience_);
+  world::GeometryPointer make_shape(const flat::Geometry& geometry, bool shows_picture) {
+    if (geometry.kind() == flat::GeometryKind::Mesh) return mesh_of_file(geometry);
+    if (!memory_.has_room(most_bytes_of(geometry))) return nullptr;
+    return shape_of(geometry, reader_, shows_picture, findings_, time_budget_);
   }
 
-  world::GeometryPointer mesh_of_file(const flat::Piece& piece) {
+  world::GeometryPointer mesh_of_file(const flat::Geometry& geometry) {
     VrmlMeshNode node;
-    node.name = reader_.text(piece.name());
-    node.base = reader_.text(piece.base());
-    node.unit = piece.unit();
-    node.package = reader_.text(piece.text());
-    if (piece.urls()) {
-      for (const flat::Word* url : *piece.urls()) node.urls.push_back(reader_.text(url->text()));
+    node.name = reader_.text(geometry.name());
+    node.base = reader_.text(geometry.base());
+    node.unit = geometry.unit();
+    node.package = reader_.text(geometry.text());
+    if (geometry.urls()) {
+      for (const flat::String* url : *geometry.urls()) node.urls.push_back(reader_.text(url->text()));
     }
     return reader_.fault().empty() ? meshes_.shape_of(node) : nullptr;
   }
 
-  /// None for a look that is nothing but the default.
+  /// None for an appearance that is nothing but the default.
   MaterialId material(std::size_t index) {
-    LookPlan& plan = looks_[index];
+    AppearancePlan& plan = appearances_[index];
     if (plan.material) return *plan.material;
-    const flat::Look& look = *scene_.looks()->Get(std::uint32_t(index));
+    const flat::Appearance& appearance = *scene_.appearances()->Get(std::uint32_t(index));
     plan.material = MaterialId{};
-    if (!look.lit() && look.picture() < 0) return *plan.material;
-    world::Material made = material_of(look, reader_, findings_);
+    if (!appearance.lit() && appearance.picture() < 0) return *plan.material;
+    world::Material made = material_of(appearance, reader_, findings_);
     if (made.name == kNoMaterial) return *plan.material;
-    if (look.picture() >= 0) made.texture = texture(std::uint32_t(look.picture()));
-    if (made.texture) made.picture_frame = picture_frame_of(look, reader_, findings_);
+    if (appearance.picture() >= 0) made.texture = texture(std::uint32_t(appearance.picture()));
+    if (made.texture) made.picture_frame = picture_frame_of(appearance, reader_, findings_);
     plan.material = design_.add(std::move(made));
     return *plan.material;
   }
@@ -271,7 +273,7 @@ class VrmlBuilder {
 
   std::optional<world::Texture> texture_of_file(const flat::Picture& from) {
     std::vector<std::string> urls;
-    for (const flat::Word* url : *from.urls()) urls.push_back(reader_.text(url->text()));
+    for (const flat::String* url : *from.urls()) urls.push_back(reader_.text(url->text()));
     const std::string base = reader_.text(from.base());
     return reader_.fault().empty() ? pictures_.from_file(base, urls) : std::nullopt;
   }
@@ -293,8 +295,8 @@ class VrmlBuilder {
       std::unordered_set<ObjectId> known;
       std::size_t missing = 0;
       if (from.members()) {
-        for (const flat::Word* word : *from.members()) {
-          const auto found = by_name.find(reader_.text(word->text()));
+        for (const flat::String* name : *from.members()) {
+          const auto found = by_name.find(reader_.text(name->text()));
           if (found == by_name.end())
             ++missing;
           else if (known.insert(found->second).second)
@@ -330,7 +332,7 @@ class VrmlBuilder {
   const VrmlSources& sources_;
   const flat::Scene& scene_;
   world::FlatReader& reader_;
-  io::Patience& patience_;
+  io::TimeBudget& time_budget_;
   io::MemoryBudget& memory_;
   Findings findings_;
   std::vector<Remark> notes_;
@@ -339,8 +341,8 @@ class VrmlBuilder {
   DesignBuilder design_;
   std::vector<VrmlNode> nodes_;
   std::vector<bool> with_children_;  // nodes that have objects below them
-  std::vector<LookPlan> looks_;
-  std::vector<PiecePlan> pieces_;
+  std::vector<AppearancePlan> appearances_;
+  std::vector<GeometryPlan> geometries_;
   std::vector<world::MotionPointer> motions_;                     // null: not made yet
   std::vector<ObjectId> objects_;                                 // of the nodes
   std::unordered_map<std::uint32_t, world::TextureId> textures_;  // of the pictures that are used
@@ -349,8 +351,8 @@ class VrmlBuilder {
 
 }  // namespace
 
-Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources, io::Patience& patience,
-                                io::MemoryBudget& memory, VrmlMoving* moving) {
+Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources,
+                                io::TimeBudget& time_budget, io::MemoryBudget& memory, VrmlMoving* moving) {
   world::FlatReader reader(answer);
   const flat::Scene* const scene = verified(reader);
   if (!scene)
@@ -360,7 +362,7 @@ Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sour
     return base::fail(
         fmt::format("{}: {}", sources.name, scene->error()->string_view().substr(0, kLongestNote)));
   if (moving) *moving = what_moves(*scene, reader);
-  return VrmlBuilder(sources, *scene, reader, patience, memory).build();
+  return VrmlBuilder(sources, *scene, reader, time_budget, memory).build();
 }
 
 }  // namespace icome::files

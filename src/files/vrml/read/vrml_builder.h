@@ -10,7 +10,7 @@
 #include "files/vrml/read/vrml_pictures.h"
 #include "files/vrml/read/vrml_scanner.h"
 #include "io/memory_budget.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 
 namespace icome::files {
 
@@ -24,20 +24,20 @@ struct VrmlSources {
 };
 
 /// Makes a world of an answer (vrml_answer.fbs), nothing of which is trusted: whatever the bytes are, memory
-/// stays in proportion to their size, and time too or until `patience` ends. How VRML becomes objects:
+/// stays in proportion to their size, and time too or until `time_budget` ends. How VRML becomes objects:
 ///
 /// - Every node is an object, but a Shape that is the only one of its parent, has no name and no place of
-///   its own gives its shape and material to the parent; so does a nameless lamp or eye that stands at the
-///   parent's origin and looks along -z, if the parent has none. Other lamps and eyes are objects that
-///   stand and look as they do.
+///   its own gives its shape and material to the parent; so does a nameless light or viewpoint that stands at
+///   the parent's origin and looks along -z, if the parent has none. Other lights and viewpoints are objects
+///   that stand and look as they do.
 /// - A shape that several nodes use is one, shared by their objects, unless it is seen with several texture
 ///   transforms: these are part of the texture coordinates here.
 /// - Objects whose transforms flatten them, which VRML uses to hide things, are left out with all below.
 ///
-/// Fails when the answer tells of an error, or is damaged, or patience or memory ends. Remarks are those of
-/// the answer and of what was put right here. `moving` hears what motions were made of; may be null.
+/// Fails when the answer tells of an error, or is damaged, or the time or memory budget ends. Remarks are
+/// those of the answer and of what was put right here. `moving` hears what motions were made of; may be null.
 base::Result<LoadedDesign> build_vrml(std::string_view answer, const VrmlSources& sources,
-                                      io::Patience& patience, io::MemoryBudget& memory,
+                                      io::TimeBudget& time_budget, io::MemoryBudget& memory,
                                       VrmlMoving* moving = nullptr);
 
 }  // namespace icome::files

@@ -102,11 +102,11 @@ constexpr long kHarmlessCalls[] = {
 class CallFilter {
  public:
   CallFilter() {
-    io::load(offsetof(seccomp_data, arch));
+    load(offsetof(seccomp_data, arch));
     skip_unless_equal(kProcessor, 1);
     skip(1);
     refuse();
-    io::load(offsetof(seccomp_data, nr));
+    load(offsetof(seccomp_data, nr));
     for (const long call : kHarmlessCalls) {
       skip_unless_equal(std::uint32_t(call), 1);
       allow();
@@ -139,7 +139,7 @@ class CallFilter {
   /// By one of the call's arguments, of which the low half tells.
   void allow_if(long call, int argument, std::uint16_t test, std::uint32_t value, bool wanted) {
     skip_unless_equal(std::uint32_t(call), 4);
-    io::load(offsetof(seccomp_data, args) + std::size_t(argument) * sizeof(std::uint64_t));
+    load(offsetof(seccomp_data, args) + std::size_t(argument) * sizeof(std::uint64_t));
     code_.push_back(BPF_JUMP(std::uint16_t(BPF_JMP | BPF_K | test), value, std::uint8_t(wanted ? 0 : 1),
                              std::uint8_t(wanted ? 1 : 0)));
     allow();

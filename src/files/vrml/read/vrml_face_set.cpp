@@ -33,8 +33,8 @@ class FaceMesh {
         findings_(findings),
         taken_(take_faces(from.positions, from.polygons, from.ccw, from.name, findings)) {}
 
-  std::shared_ptr<MeshGeometry> make(bool shows_picture, io::Patience& patience) {
-    if (!cut_into_triangles(patience) || triangles_.empty()) return nullptr;
+  std::shared_ptr<MeshGeometry> make(bool shows_picture, io::TimeBudget& time_budget) {
+    if (!cut_into_triangles(time_budget) || triangles_.empty()) return nullptr;
     geometry::TriangleMesh mesh;
     for (const Triple& corners : triangles_)
       mesh.triangles.push_back(of_corners<std::uint32_t>(corners, taken_.mesh.corners));
@@ -52,8 +52,8 @@ class FaceMesh {
     return {values[corners[0]], values[corners[1]], values[corners[2]]};
   }
 
-  /// False when patience ends.
-  bool cut_into_triangles(io::Patience& patience) {
+  /// False when the time budget ends.
+  bool cut_into_triangles(io::TimeBudget& time_budget) {
     const PolygonMesh& mesh = taken_.mesh;
     std::vector<Vector3> corners;
     std::vector<Triple> cut;
@@ -64,7 +64,7 @@ class FaceMesh {
       if (end - first == 3) {
         cut.push_back({0, 1, 2});
       } else {
-        if (!patience.lasts()) return false;
+        if (!time_budget.lasts()) return false;
         corners.clear();
         for (std::uint32_t k = first; k < end; ++k) corners.push_back(mesh.positions[mesh.corners[k]]);
         geometry::triangulate_polygon(corners, cut);
@@ -207,8 +207,8 @@ class FaceMesh {
 }  // namespace
 
 std::shared_ptr<MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces, bool shows_picture, Findings& findings,
-                                            io::Patience& patience) {
-  return FaceMesh(faces, findings).make(shows_picture, patience);
+                                            io::TimeBudget& time_budget) {
+  return FaceMesh(faces, findings).make(shows_picture, time_budget);
 }
 
 }  // namespace icome::files

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/findings.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 #include "world/shape/mesh_geometry.h"
 
 namespace icome::files {
@@ -32,8 +32,8 @@ struct VrmlFaceSet {
 /// The triangles of the faces. Faces that name vertices which are not there, or have fewer than three
 /// corners, are left out, as are normals, colours and texture coordinates that do not fit; all that is
 /// found wrong goes to `findings`. Where a picture is shown, texture coordinates are made where there are
-/// none. Null when no triangle is left, or when patience ends.
+/// none. Null when no triangle is left, or when the time budget ends.
 std::shared_ptr<world::MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces, bool shows_picture,
-                                                   Findings& findings, io::Patience& patience);
+                                                   Findings& findings, io::TimeBudget& time_budget);
 
 }  // namespace icome::files

@@ -47,37 +47,39 @@ class MaterialNumbers {
 
 }  // namespace
 
-world::Material material_of(const flat::Look& look, world::FlatReader& reader, Findings& findings) {
+world::Material material_of(const flat::Appearance& appearance, world::FlatReader& reader,
+                            Findings& findings) {
   world::Material material;
   MaterialNumbers numbers;
-  material.name = said_by(reader.text(look.name()));
-  if (look.lit()) {
-    material.ambient = numbers.part(look.ambient());
-    material.diffuse = numbers.colour(look.diffuse(), material.diffuse);
-    material.specular = numbers.colour(look.specular(), material.specular);
-    material.emission = numbers.colour(look.emission(), material.emission);
-    material.shininess = numbers.part(look.shininess());
-    material.transparency = numbers.part(look.transparency());
+  material.name = said_by(reader.text(appearance.name()));
+  if (appearance.lit()) {
+    material.ambient = numbers.part(appearance.ambient());
+    material.diffuse = numbers.colour(appearance.diffuse(), material.diffuse);
+    material.specular = numbers.colour(appearance.specular(), material.specular);
+    material.emission = numbers.colour(appearance.emission(), material.emission);
+    material.shininess = numbers.part(appearance.shininess());
+    material.transparency = numbers.part(appearance.transparency());
   } else {
     material.diffuse = {1.0F, 1.0F, 1.0F};
   }
   world::TouchProperties& touch = material.touch;
-  if (look.stiffness().has_value()) touch.stiffness = numbers.touch(*look.stiffness());
-  if (look.damping().has_value()) touch.damping = numbers.touch(*look.damping());
-  touch.dynamic_friction = numbers.touch(look.dynamic_friction()).value_or(0.0);
-  touch.static_friction = numbers.touch(look.static_friction()).value_or(0.0);
+  if (appearance.stiffness().has_value()) touch.stiffness = numbers.touch(*appearance.stiffness());
+  if (appearance.damping().has_value()) touch.damping = numbers.touch(*appearance.damping());
+  touch.dynamic_friction = numbers.touch(appearance.dynamic_friction()).value_or(0.0);
+  touch.static_friction = numbers.touch(appearance.static_friction()).value_or(0.0);
   if (touch.static_friction < touch.dynamic_friction) {
     findings.add(kLowFriction, material.name);
     touch.static_friction = touch.dynamic_friction;
   }
-  touch.texture = reader.text(look.haptic_texture());
+  touch.texture = reader.text(appearance.haptic_texture());
   numbers.tell(material.name, findings);
   return material;
 }
 
-world::PictureFrame picture_frame_of(const flat::Look& look, world::FlatReader& reader, Findings& findings) {
+world::PictureFrame picture_frame_of(const flat::Appearance& appearance, world::FlatReader& reader,
+                                     Findings& findings) {
   world::PictureFrame frame = world::kPictureAsItLies;
-  const auto numbers = reader.items<double>(look.texture_transform());
+  const auto numbers = reader.items<double>(appearance.texture_transform());
   if (numbers.empty()) return frame;
   constexpr std::size_t kNumbers = 9;  // three rows of three
   const auto finite = [](double it) { return std::isfinite(it); };

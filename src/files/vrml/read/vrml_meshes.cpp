@@ -43,7 +43,7 @@ world::GeometryPointer VrmlMeshes::shape_of(const VrmlMeshNode& node) {
   }
   if (is_package_name(node.package))
     why += fmt::format("; it comes with the Debian package {}, as the design says", node.package);
-  findings_.tell(fmt::format("The mesh {} is left out: {}.", said(node.name), why));
+  findings_.tell(fmt::format("The mesh {} is left out: {}.", quoted_name(node.name), why));
   return nullptr;
 }
 
@@ -61,8 +61,8 @@ base::Result<VrmlMeshes::Shape> VrmlMeshes::fetch(const VrmlMeshNode& node, cons
 base::Result<VrmlMeshes::Shape> VrmlMeshes::read(const FoundMesh& file, double unit) {
   const std::string name = file.path.string();
   // How far a mesh is says nothing of how far the design is.
-  io::Patience patience([this](double) { return patience_.lasts_now(); });
-  auto mesh = read_mesh_shape(file.path, unit, left_, patience, memory_);
+  io::TimeBudget time_budget([this](double) { return time_budget_.lasts_now(); });
+  auto mesh = read_mesh_shape(file.path, unit, left_, time_budget, memory_);
   // An error repeats what stands in the file, which may be someone else's.
   if (!mesh && !file.is_public) return base::fail(name + ": is not a mesh that can be read");
   if (!mesh) return tl::unexpected(mesh.error());

@@ -33,11 +33,11 @@ struct VrmlMeshNode {
 /// Reads the mesh files that a design names, each once. Refers to what it is made of.
 class VrmlMeshes {
  public:
-  /// All files together may have `limit` bytes, and so may what they take in memory. When patience ends, no
-  /// more is read.
-  VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings, io::Patience& patience,
+  /// All files together may have `limit` bytes, and so may what they take in memory. When the time budget
+  /// ends, no more is read.
+  VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings, io::TimeBudget& time_budget,
              io::MemoryBudget& memory)
-      : find_(find), left_(limit), findings_(findings), patience_(patience), memory_(memory) {}
+      : find_(find), left_(limit), findings_(findings), time_budget_(time_budget), memory_(memory) {}
 
   /// The first of the urls that leads to a mesh; null, with a finding, when none does.
   world::GeometryPointer shape_of(const VrmlMeshNode& node);
@@ -51,7 +51,7 @@ class VrmlMeshes {
   const FindMesh& find_;
   std::uint64_t left_;  // bytes that may still be taken
   Findings& findings_;
-  io::Patience& patience_;
+  io::TimeBudget& time_budget_;
   io::MemoryBudget& memory_;
   std::map<std::pair<std::filesystem::path, double>, base::Result<Shape>> known_;
 };

@@ -64,7 +64,7 @@ VrmlMoving what_moves(const flat::Scene& scene, world::FlatReader& reader) {
     VrmlTaken& taken = result[reader.text(moving->file())];
     for (const int line : reader.items<int>(moving->routes())) taken.routes.insert(line);
     if (!moving->nodes()) continue;
-    for (const flat::Word* word : *moving->nodes()) taken.nodes.insert(reader.text(word->text()));
+    for (const flat::String* name : *moving->nodes()) taken.nodes.insert(reader.text(name->text()));
   }
   return result;
 }

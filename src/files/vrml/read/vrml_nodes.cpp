@@ -56,17 +56,18 @@ class NodeReader {
     if (node.parent < VrmlNode::kNone || node.parent >= std::int64_t(nodes_.size()))
       return reader_.refuse("a node comes before its parent");
     node.is_object = !from.scene();
-    node.piece = index(from.piece(), scene_.pieces());
-    node.look = index(from.look(), scene_.looks());
+    node.geometry = index(from.geometry(), scene_.geometries());
+    node.appearance = index(from.appearance(), scene_.appearances());
     node.motion = index(from.motion(), scene_.motions());
     node.name = reader_.text(from.name());
     node.def = reader_.text(from.def());
     if (node.name == node.def) node.name = said_by(node.def);
     node.reused = from.reused();
     read_place(from, node);
-    if (from.lamp() && node.piece == VrmlNode::kNone) node.fixture = kept(fixture_of(*from.lamp()));
-    if (from.eye() && node.piece == VrmlNode::kNone) node.fixture = kept(fixture_of(*from.eye()));
-    if (from.force() && node.piece == VrmlNode::kNone) {
+    if (from.light() && node.geometry == VrmlNode::kNone) node.fixture = kept(fixture_of(*from.light()));
+    if (from.viewpoint() && node.geometry == VrmlNode::kNone)
+      node.fixture = kept(fixture_of(*from.viewpoint()));
+    if (from.force() && node.geometry == VrmlNode::kNone) {
       PlacedFixture effect;
       effect.fixture = std::make_shared<const world::Fixture>(
           world::ForceEffect{reader_.text(from.force()->text()), from.force()->on()});
@@ -105,25 +106,26 @@ class NodeReader {
   void merge() {
     std::vector<std::uint32_t> shapes(nodes_.size(), 0);  // below each node
     for (const VrmlNode& node : nodes_) {
-      if (node.piece != VrmlNode::kNone && node.parent != VrmlNode::kNone) ++shapes[std::size_t(node.parent)];
+      if (node.geometry != VrmlNode::kNone && node.parent != VrmlNode::kNone)
+        ++shapes[std::size_t(node.parent)];
     }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       VrmlNode& node = nodes_[i];
       const auto self = std::int32_t(i);
-      if (node.piece != VrmlNode::kNone) node.shape_from = self;
+      if (node.geometry != VrmlNode::kNone) node.shape_from = self;
       if (node.fixture) node.fixture_from = self;
       if (!is_bare(node)) continue;
       VrmlNode& parent = nodes_[std::size_t(node.parent)];
-      if (node.piece != VrmlNode::kNone) {
+      if (node.geometry != VrmlNode::kNone) {
         node.is_merged = shapes[std::size_t(node.parent)] == 1 && parent.shape_from == VrmlNode::kNone;
         if (node.is_merged) parent.shape_from = self;
       } else if (node.fixture) {
         node.is_merged = node.fixture->parent_from_fixture.matrix().isIdentity(0.0) &&
                          parent.fixture_from == VrmlNode::kNone;
         if (node.is_merged) parent.fixture_from = self;
-      } else if (node.look != VrmlNode::kNone) {
+      } else if (node.appearance != VrmlNode::kNone) {
         node.is_merged = true;  // a Shape of nothing
-        if (parent.look_from == VrmlNode::kNone) parent.look_from = self;
+        if (parent.appearance_from == VrmlNode::kNone) parent.appearance_from = self;
       }
     }
   }

@@ -19,22 +19,22 @@ struct Scene;
 struct VrmlNode {
   static constexpr std::int32_t kNone = -1;
 
-  std::int32_t parent = kNone;  // before this one
-  std::int32_t piece = kNone;   // of the scene, and there
-  std::int32_t look = kNone;    // the same
-  std::int32_t motion = kNone;  // the same
+  std::int32_t parent = kNone;      // before this one
+  std::int32_t geometry = kNone;    // of the scene, and there
+  std::int32_t appearance = kNone;  // the same
+  std::int32_t motion = kNone;      // the same
   std::string name = {};
   std::string def = {};
   base::Affine3 parent_from_node = base::Affine3::Identity();
   std::unique_ptr<const PlacedFixture> fixture = {};  // null on nearly all
   std::size_t children = 0;
   bool reused = false;
-  bool is_object = true;              // not a scene
-  bool is_flat = false;               // its transform flattens it or makes no sense, or one above it
-  bool is_merged = false;             // into its parent
-  std::int32_t shape_from = kNone;    // the node whose shape and look it has
-  std::int32_t look_from = kNone;     // the node whose look it has, where that shows no shape
-  std::int32_t fixture_from = kNone;  // the node whose fixture it has
+  bool is_object = true;                 // not a scene
+  bool is_flat = false;                  // its transform flattens it or makes no sense, or one above it
+  bool is_merged = false;                // into its parent
+  std::int32_t shape_from = kNone;       // the node whose shape and appearance it has
+  std::int32_t appearance_from = kNone;  // the node whose appearance it has, where that shows no shape
+  std::int32_t fixture_from = kNone;     // the node whose fixture it has
 };
 
 /// The nodes in their order. What makes no sense is refused with the reader, which is asked at the end.

@@ -20,7 +20,7 @@ std::optional<world::Texture> VrmlPictures::from_file(const std::string& base,
     why = bytes.error().message;
   }
   findings_.tell(fmt::format("The picture {} is left out: {}.",
-                             urls.empty() ? "of an ImageTexture" : said(urls.front()), why));
+                             urls.empty() ? "of an ImageTexture" : quoted_name(urls.front()), why));
   return std::nullopt;
 }
 

@@ -126,9 +126,9 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   const VrmlSources sources = {path.string(), beside(path, answer->files, reach),
                                mesh_finder(path, answer->files, reach), options.size_limit,
                                std::move(left_out->scripts)};
-  io::Patience patience(options.seconds_limit, options.progress, kVrmlParsedPart);
+  io::TimeBudget time_budget(options.seconds_limit, options.progress, kVrmlParsedPart);
   VrmlMoving moving;
-  auto design = build_vrml(answer->bytes, sources, patience, memory, &moving);
+  auto design = build_vrml(answer->bytes, sources, time_budget, memory, &moving);
   if (!design) return design;
   std::vector<Remark> remarks = remarks_on(*text, path, taken_of(moving, {}), std::move(left_out->remarks));
   add_remarks_of_others(answer->files, options, moving, remarks);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "files/design.h"
+#include "files/remark.h"
 
 namespace icome::files {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 
 namespace icome::files {
 

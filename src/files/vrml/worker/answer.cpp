@@ -41,12 +41,12 @@ struct Answer::Parts {
     claim(value.size() + 64);
     return builder.CreateString(value);
   }
-  Offset<flatbuffers::Vector<Offset<flat::Word>>> words(const std::vector<std::string>& values) {
+  Offset<flatbuffers::Vector<Offset<flat::String>>> strings(const std::vector<std::string>& values) {
     if (values.empty()) return 0;
-    std::vector<Offset<flat::Word>> offsets;
+    std::vector<Offset<flat::String>> offsets;
     for (const std::string& value : values) {
       claim(value.size() + 64);
-      offsets.push_back(flat::CreateWord(builder, builder.CreateString(value)));
+      offsets.push_back(flat::CreateString(builder, builder.CreateString(value)));
     }
     return builder.CreateVector(offsets);
   }
@@ -60,8 +60,8 @@ struct Answer::Parts {
 
   flatbuffers::FlatBufferBuilder builder;
   std::vector<Offset<flat::Node>> nodes;
-  std::vector<Offset<flat::Piece>> pieces;
-  std::vector<Offset<flat::Look>> looks;
+  std::vector<Offset<flat::Geometry>> geometries;
+  std::vector<Offset<flat::Appearance>> appearances;
   std::vector<Offset<flat::Picture>> pictures;
   std::vector<Offset<flat::Note>> notes;
   std::vector<Offset<flat::Motion>> motions;
@@ -71,28 +71,28 @@ struct Answer::Parts {
 Answer::Answer(std::size_t expected) : parts_(std::make_unique<Parts>(expected)) {}
 Answer::~Answer() = default;
 
-int Answer::add(const PieceParts& piece) {
-  static_assert(static_cast<int>(PartKind::Mesh) == static_cast<int>(flat::PieceKind::MAX));
+int Answer::add(const GeometryParts& geometry) {
+  static_assert(static_cast<int>(PartKind::Mesh) == static_cast<int>(flat::GeometryKind::MAX));
   Parts& to = *parts_;
-  const auto name = to.text(piece.name);
-  const auto sizes = to.numbers(piece.sizes);
-  const auto positions = to.numbers(piece.positions);
-  const auto polygons = to.numbers(piece.polygons);
-  const auto texture_coordinates = to.numbers(piece.texture_coordinates);
-  const auto texture_polygons = to.numbers(piece.texture_polygons);
-  const auto normals = to.numbers(piece.normals);
-  const auto normal_polygons = to.numbers(piece.normal_polygons);
-  const auto colours = to.numbers(piece.colours);
-  const auto colour_polygons = to.numbers(piece.colour_polygons);
-  const auto creases = to.numbers(piece.creases);
-  const auto corners = to.numbers(piece.corners);
-  const auto text = to.text(piece.text);
-  const auto box = to.numbers(piece.box);
-  const auto urls = to.words(piece.urls);
-  const auto base = to.text(piece.base);
-  flat::PieceBuilder table(to.builder);
+  const auto name = to.text(geometry.name);
+  const auto sizes = to.numbers(geometry.sizes);
+  const auto positions = to.numbers(geometry.positions);
+  const auto polygons = to.numbers(geometry.polygons);
+  const auto texture_coordinates = to.numbers(geometry.texture_coordinates);
+  const auto texture_polygons = to.numbers(geometry.texture_polygons);
+  const auto normals = to.numbers(geometry.normals);
+  const auto normal_polygons = to.numbers(geometry.normal_polygons);
+  const auto colours = to.numbers(geometry.colours);
+  const auto colour_polygons = to.numbers(geometry.colour_polygons);
+  const auto creases = to.numbers(geometry.creases);
+  const auto corners = to.numbers(geometry.corners);
+  const auto text = to.text(geometry.text);
+  const auto box = to.numbers(geometry.box);
+  const auto urls = to.strings(geometry.urls);
+  const auto base = to.text(geometry.base);
+  flat::GeometryBuilder table(to.builder);
   table.add_name(name);
-  table.add_kind(static_cast<flat::PieceKind>(piece.kind));
+  table.add_kind(static_cast<flat::GeometryKind>(geometry.kind));
   table.add_sizes(sizes);
   table.add_positions(positions);
   table.add_polygons(polygons);
@@ -100,28 +100,28 @@ int Answer::add(const PieceParts& piece) {
   table.add_texture_polygons(texture_polygons);
   table.add_normals(normals);
   table.add_normal_polygons(normal_polygons);
-  table.add_normal_per_vertex(piece.normal_per_vertex);
+  table.add_normal_per_vertex(geometry.normal_per_vertex);
   table.add_colours(colours);
   table.add_colour_polygons(colour_polygons);
-  table.add_colour_per_vertex(piece.colour_per_vertex);
-  table.add_ccw(piece.ccw);
-  table.add_solid(piece.solid);
-  table.add_crease_angle(piece.crease_angle);
+  table.add_colour_per_vertex(geometry.colour_per_vertex);
+  table.add_ccw(geometry.ccw);
+  table.add_solid(geometry.solid);
+  table.add_crease_angle(geometry.crease_angle);
   table.add_creases(creases);
   table.add_corners(corners);
   table.add_text(text);
   table.add_box(box);
-  table.add_along_y(piece.along_y);
+  table.add_along_y(geometry.along_y);
   table.add_urls(urls);
   table.add_base(base);
-  table.add_unit(piece.unit);
-  to.pieces.push_back(table.Finish());
-  return static_cast<int>(to.pieces.size()) - 1;
+  table.add_unit(geometry.unit);
+  to.geometries.push_back(table.Finish());
+  return static_cast<int>(to.geometries.size()) - 1;
 }
 
 int Answer::add(const PictureParts& picture) {
   Parts& to = *parts_;
-  const auto urls = to.words(picture.urls);
+  const auto urls = to.strings(picture.urls);
   const auto base = to.text(picture.base);
   const auto pixels = to.numbers(picture.pixels);
   to.pictures.push_back(flat::CreatePicture(to.builder, urls, base, picture.width, picture.height,
@@ -129,32 +129,32 @@ int Answer::add(const PictureParts& picture) {
   return static_cast<int>(to.pictures.size()) - 1;
 }
 
-int Answer::add(const LookParts& look) {
+int Answer::add(const AppearanceParts& appearance) {
   Parts& to = *parts_;
-  const auto name = to.text(look.name);
-  const auto transform = to.numbers(look.texture_transform);
-  const auto haptic_texture = to.text(look.haptic_texture);
-  const flat::Rgb diffuse = flat_rgb(look.diffuse);
-  const flat::Rgb specular = flat_rgb(look.specular);
-  const flat::Rgb emission = flat_rgb(look.emission);
-  flat::LookBuilder table(to.builder);
+  const auto name = to.text(appearance.name);
+  const auto transform = to.numbers(appearance.texture_transform);
+  const auto haptic_texture = to.text(appearance.haptic_texture);
+  const flat::Rgb diffuse = flat_rgb(appearance.diffuse);
+  const flat::Rgb specular = flat_rgb(appearance.specular);
+  const flat::Rgb emission = flat_rgb(appearance.emission);
+  flat::AppearanceBuilder table(to.builder);
   table.add_name(name);
-  table.add_lit(look.lit);
-  table.add_ambient(look.ambient);
+  table.add_lit(appearance.lit);
+  table.add_ambient(appearance.ambient);
   table.add_diffuse(&diffuse);
   table.add_specular(&specular);
   table.add_emission(&emission);
-  table.add_shininess(look.shininess);
-  table.add_transparency(look.transparency);
-  table.add_picture(look.picture);
+  table.add_shininess(appearance.shininess);
+  table.add_transparency(appearance.transparency);
+  table.add_picture(appearance.picture);
   table.add_texture_transform(transform);
-  if (look.stiffness) table.add_stiffness(*look.stiffness);
-  if (look.damping) table.add_damping(*look.damping);
-  table.add_static_friction(look.static_friction);
-  table.add_dynamic_friction(look.dynamic_friction);
+  if (appearance.stiffness) table.add_stiffness(*appearance.stiffness);
+  if (appearance.damping) table.add_damping(*appearance.damping);
+  table.add_static_friction(appearance.static_friction);
+  table.add_dynamic_friction(appearance.dynamic_friction);
   table.add_haptic_texture(haptic_texture);
-  to.looks.push_back(table.Finish());
-  return static_cast<int>(to.looks.size()) - 1;
+  to.appearances.push_back(table.Finish());
+  return static_cast<int>(to.appearances.size()) - 1;
 }
 
 int Answer::add(const MotionParts& motion) {
@@ -171,7 +171,7 @@ void Answer::add(const MovingParts& moving) {
   Parts& to = *parts_;
   const auto file = to.text(moving.file);
   const auto routes = to.numbers(std::span<const int>(moving.routes));
-  const auto nodes = to.words(moving.nodes);
+  const auto nodes = to.strings(moving.nodes);
   to.moving.push_back(flat::CreateMoving(to.builder, file, routes, nodes));
 }
 
@@ -183,28 +183,30 @@ int Answer::add(const NodeParts& node) {
   const auto matrix =
       node.matrix ? to.numbers(std::span<const double>(*node.matrix)) : Offset<flatbuffers::Vector<double>>();
   const auto scene = to.text(node.scene);
-  const auto members = to.words(node.members);
-  Offset<flat::Lamp> lamp;
-  if (node.lamp) {
-    const LampParts& from = *node.lamp;
+  const auto members = to.strings(node.members);
+  Offset<flat::Light> light;
+  if (node.light) {
+    const LightParts& from = *node.light;
     const flat::Rgb colour = flat_rgb(from.colour);
     const flat::Vec3 location = flat_vector(from.location);
     const flat::Vec3 direction = flat_vector(from.direction);
     const flat::Vec3 attenuation = flat_vector(from.attenuation);
-    lamp = flat::CreateLamp(to.builder, static_cast<flat::LampKind>(from.kind), from.on, &colour,
-                            from.intensity, from.ambient, &location, &direction, &attenuation, from.radius,
-                            from.cut_off_angle, from.beam_width);
+    light = flat::CreateLight(to.builder, static_cast<flat::LightKind>(from.kind), from.on, &colour,
+                              from.intensity, from.ambient, &location, &direction, &attenuation, from.radius,
+                              from.cut_off_angle, from.beam_width);
   }
-  Offset<flat::Eye> eye;
-  if (node.eye) {
-    const flat::Vec3 position = flat_vector(node.eye->position);
-    const flat::Vec3 axis = flat_vector(node.eye->axis);
-    eye = flat::CreateEye(to.builder, node.eye->field_of_view, &position, &axis, node.eye->angle);
+  Offset<flat::Viewpoint> viewpoint;
+  if (node.viewpoint) {
+    const flat::Vec3 position = flat_vector(node.viewpoint->position);
+    const flat::Vec3 axis = flat_vector(node.viewpoint->axis);
+    viewpoint = flat::CreateViewpoint(to.builder, node.viewpoint->field_of_view, &position, &axis,
+                                      node.viewpoint->angle);
   }
   Offset<flat::Force> force;
   if (node.force) force = flat::CreateForce(to.builder, to.text(node.force->text), node.force->on);
-  to.nodes.push_back(flat::CreateNode(to.builder, node.parent, name, def, matrix, node.piece, node.look, lamp,
-                                      eye, node.reused, scene, members, force, node.motion));
+  to.nodes.push_back(flat::CreateNode(to.builder, node.parent, name, def, matrix, node.geometry,
+                                      node.appearance, light, viewpoint, node.reused, scene, members, force,
+                                      node.motion));
   return static_cast<int>(to.nodes.size()) - 1;
 }
 
@@ -219,18 +221,18 @@ void Answer::note(const std::string& file, int line, const std::string& text) {
 std::string_view Answer::finish(const std::string& error) {
   Parts& to = *parts_;
   const auto why = to.text(error);
-  to.claim((to.nodes.size() + to.pieces.size() + to.looks.size() + to.pictures.size() + to.motions.size() +
-            to.moving.size()) *
+  to.claim((to.nodes.size() + to.geometries.size() + to.appearances.size() + to.pictures.size() +
+            to.motions.size() + to.moving.size()) *
            sizeof(Offset<void>));
   const auto nodes = to.builder.CreateVector(to.nodes);
-  const auto pieces = to.builder.CreateVector(to.pieces);
-  const auto looks = to.builder.CreateVector(to.looks);
+  const auto geometries = to.builder.CreateVector(to.geometries);
+  const auto appearances = to.builder.CreateVector(to.appearances);
   const auto pictures = to.builder.CreateVector(to.pictures);
   const auto notes = to.builder.CreateVector(to.notes);
   const auto motions = to.builder.CreateVector(to.motions);
   const auto moving = to.builder.CreateVector(to.moving);
-  flat::FinishSceneBuffer(
-      to.builder, flat::CreateScene(to.builder, nodes, pieces, looks, pictures, notes, why, motions, moving));
+  flat::FinishSceneBuffer(to.builder, flat::CreateScene(to.builder, nodes, geometries, appearances, pictures,
+                                                        notes, why, motions, moving));
   return {reinterpret_cast<const char*>(to.builder.GetBufferPointer()), to.builder.GetSize()};
 }
 

@@ -12,7 +12,7 @@
 
 namespace icome::files {
 
-/// The kinds of piece in vrml_answer.fbs, in its order.
+/// The kinds of geometry in vrml_answer.fbs, in its order.
 enum class PartKind : std::uint8_t {
   Box,
   Sphere,
@@ -27,7 +27,7 @@ enum class PartKind : std::uint8_t {
 };
 
 /// A Piece of vrml_answer.fbs, which tells what each means; the numbers are copied from where they lie.
-struct PieceParts {
+struct GeometryParts {
   std::string name = {};
   PartKind kind = PartKind::Faces;
   std::vector<double> sizes = {};
@@ -65,7 +65,7 @@ struct PictureParts {
   bool repeat_t = true;
 };
 
-struct LookParts {
+struct AppearanceParts {
   std::string name = {};
   bool lit = true;
   float ambient = 0.2F;
@@ -83,7 +83,7 @@ struct LookParts {
   std::string haptic_texture = {};
 };
 
-struct LampParts {
+struct LightParts {
   enum class Kind : std::uint8_t { Directional, Point, Spot };
   Kind kind = Kind::Directional;
   bool on = true;
@@ -98,7 +98,7 @@ struct LampParts {
   double beam_width = 1.570796;
 };
 
-struct EyeParts {
+struct ViewpointParts {
   double field_of_view = 0.785398;
   std::array<double, 3> position = {0.0, 0.0, 10.0};
   std::array<double, 3> axis = {0.0, 0.0, 1.0};
@@ -137,10 +137,10 @@ struct NodeParts {
   std::string name = {};
   std::string def = {};
   std::optional<std::array<double, 12>> matrix = {};
-  int piece = -1;
-  int look = -1;
-  std::optional<LampParts> lamp = {};
-  std::optional<EyeParts> eye = {};
+  int geometry = -1;
+  int appearance = -1;
+  std::optional<LightParts> light = {};
+  std::optional<ViewpointParts> viewpoint = {};
   bool reused = false;
   std::string scene = {};
   std::vector<std::string> members = {};
@@ -159,9 +159,9 @@ class Answer {
   ~Answer();
 
   /// Each gives the number by which others name what was added.
-  int add(const PieceParts& piece);
+  int add(const GeometryParts& geometry);
   int add(const PictureParts& picture);
-  int add(const LookParts& look);
+  int add(const AppearanceParts& appearance);
   int add(const MotionParts& motion);
   int add(const NodeParts& node);
   void add(const MovingParts& moving);

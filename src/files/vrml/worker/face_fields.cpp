@@ -114,7 +114,7 @@ class FaceChecker {
     } else {
       if (list.empty() ? count < face_count_ : list.size() < face_count_) why = "there are not enough";
       list = list.first(std::min(list.size(), face_count_));
-      if (std::any_of(list.begin(), list.end(), [&](int index) { return !io::is_below(index, count); }))
+      if (std::any_of(list.begin(), list.end(), [&](int index) { return !is_below(index, count); }))
         why = "an index is wrong";
     }
     if (why && !values.empty())
@@ -137,7 +137,7 @@ class FaceChecker {
     if (list.size() < needed) return "its list of indices is too short";
     for (std::size_t i = 0; i < needed; ++i) {
       if ((list[i] == -1) != (polygons[i] == -1)) return "its list of indices has other faces";
-      if (list[i] != -1 && !io::is_below(list[i], count)) return "an index is wrong";
+      if (list[i] != -1 && !is_below(list[i], count)) return "an index is wrong";
     }
     return nullptr;
   }

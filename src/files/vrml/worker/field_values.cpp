@@ -7,8 +7,8 @@
 
 namespace icome::files {
 
-std::array<double, 3> io::as_written(const SbVec3f& vector) {
-  return {io::as_written(vector[0]), io::as_written(vector[1]), io::as_written(vector[2])};
+std::array<double, 3> as_written(const SbVec3f& vector) {
+  return {as_written(vector[0]), as_written(vector[1]), as_written(vector[2])};
 }
 
 std::array<float, 3> as_array(const SbColor& colour) { return {colour[0], colour[1], colour[2]}; }

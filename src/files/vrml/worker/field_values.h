@@ -10,8 +10,9 @@ class SoNode;
 
 namespace icome::files {
 
-/// What the file says: 0.1, where the float is 0.100000001.
-std::array<double, 3> io::as_written(const SbVec3f& vector);
+using io::as_written;
+/// The numbers that the file has: 0.1, where the float is 0.100000001.
+std::array<double, 3> as_written(const SbVec3f& vector);
 
 std::array<float, 3> as_array(const SbColor& colour);
 

@@ -45,7 +45,7 @@ void append(std::vector<double>& values, const auto& numbers) {
 std::vector<double> ways(const SoMFVec3f& field) {
   std::vector<double> values;
   values.reserve(3 * static_cast<std::size_t>(field.getNum()));
-  for (int i = 0; i < field.getNum(); ++i) append(values, io::as_written(field[i]));
+  for (int i = 0; i < field.getNum(); ++i) append(values, as_written(field[i]));
   return values;
 }
 
@@ -67,7 +67,7 @@ std::vector<double> turns(const SoMFRotation& field) {
 std::vector<double> sizes(const SoMFFloat& field) {
   std::vector<double> values;
   values.reserve(3 * static_cast<std::size_t>(field.getNum()));
-  for (int i = 0; i < field.getNum(); ++i) values.insert(values.end(), 3, io::as_written(field[i]));
+  for (int i = 0; i < field.getNum(); ++i) values.insert(values.end(), 3, as_written(field[i]));
   return values;
 }
 
@@ -151,7 +151,7 @@ bool Motions::fill_keys(const SoVRMLInterpolator& from, const SoVRMLTimeSensor& 
   if (!(frames.cycle > 0.0) || !std::isfinite(frames.cycle))
     return refuse(route, clock, "its cycleInterval is not above 0.");
   frames.times.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) frames.times.push_back(io::as_written(from.key[i]) * frames.cycle);
+  for (int i = 0; i < count; ++i) frames.times.push_back(as_written(from.key[i]) * frames.cycle);
   if (!are_finite(frames.times)) return refuse(route, from, "it has numbers that are not finite.");
   if (frames.times.front() < 0.0) return refuse(route, from, "its keys begin before 0.");
   if (!std::is_sorted(frames.times.begin(), frames.times.end()))

@@ -56,7 +56,7 @@ AxisAngle axis_angle(const SbRotation& rotation) {
   return {{axis[0], axis[1], axis[2]}, angle};
 }
 
-base::Vector3 vector(const SbVec3f& v) { return base::Vector3(io::as_written(v).data()); }
+base::Vector3 vector(const SbVec3f& v) { return base::Vector3(as_written(v).data()); }
 
 base::Quaternion quaternion(const AxisAngle& turn) {
   const base::Vector3 axis(turn.axis.data());
@@ -71,11 +71,11 @@ base::Matrix3 rotation(const SoSFRotation& field) {
   return Eigen::AngleAxisd(turn.angle, axis.stableNormalized()).toRotationMatrix();
 }
 
-void fill_lamp(const SoVRMLLight& light, LampParts& lamp) {
-  lamp.on = light.on.getValue();
-  lamp.colour = as_array(light.color.getValue());
-  lamp.intensity = light.intensity.getValue();
-  lamp.ambient = light.ambientIntensity.getValue();
+void fill_light(const SoVRMLLight& node, LightParts& light) {
+  light.on = node.on.getValue();
+  light.colour = as_array(node.color.getValue());
+  light.intensity = node.intensity.getValue();
+  light.ambient = node.ambientIntensity.getValue();
 }
 
 }  // namespace
@@ -105,10 +105,10 @@ std::array<double, 17> rest_of(const SoVRMLTransform& transform) {
   std::array<double, 17> rest{};
   auto* end = rest.begin();
   const auto put = [&end](const auto& numbers) { end = std::copy(numbers.begin(), numbers.end(), end); };
-  put(io::as_written(transform.translation.getValue()));
+  put(as_written(transform.translation.getValue()));
   put(turn_as_written(transform.rotation.getValue()));
-  put(io::as_written(transform.scale.getValue()));
-  put(io::as_written(transform.center.getValue()));
+  put(as_written(transform.scale.getValue()));
+  put(as_written(transform.center.getValue()));
   put(turn_as_written(transform.scaleOrientation.getValue()));
   return rest;
 }
@@ -118,38 +118,38 @@ std::array<double, 4> turn_as_written(const SbRotation& turn) {
   return {written.x(), written.y(), written.z(), written.w()};
 }
 
-bool fill_lamp_or_eye(const SoNode& node, NodeParts& parts) {
+bool fill_light_or_viewpoint(const SoNode& node, NodeParts& parts) {
   if (node.isOfType(SoVRMLViewpoint::getClassTypeId())) {
     const auto& view = static_cast<const SoVRMLViewpoint&>(node);
     const AxisAngle turn = axis_angle(view.orientation.getValue());
-    parts.eye =
-        EyeParts{io::as_written(view.fieldOfView.getValue()), EyeParts().position, turn.axis, turn.angle};
+    parts.viewpoint = ViewpointParts{as_written(view.fieldOfView.getValue()), ViewpointParts().position,
+                                     turn.axis, turn.angle};
     // Coin's own default is the origin, against the standard.
-    if (!view.position.isDefault()) parts.eye->position = io::as_written(view.position.getValue());
+    if (!view.position.isDefault()) parts.viewpoint->position = as_written(view.position.getValue());
     // What viewers show in their menus.
     if (view.description.getValue().getLength() > 0) parts.name = view.description.getValue().getString();
     return true;
   }
   if (!node.isOfType(SoVRMLLight::getClassTypeId())) return false;
-  LampParts& lamp = parts.lamp.emplace();
-  fill_lamp(static_cast<const SoVRMLLight&>(node), lamp);
+  LightParts& light = parts.light.emplace();
+  fill_light(static_cast<const SoVRMLLight&>(node), light);
   if (node.isOfType(SoVRMLDirectionalLight::getClassTypeId())) {
-    lamp.direction = io::as_written(static_cast<const SoVRMLDirectionalLight&>(node).direction.getValue());
+    light.direction = as_written(static_cast<const SoVRMLDirectionalLight&>(node).direction.getValue());
   } else if (node.isOfType(SoVRMLPointLight::getClassTypeId())) {
-    const auto& light = static_cast<const SoVRMLPointLight&>(node);
-    lamp.kind = LampParts::Kind::Point;
-    lamp.location = io::as_written(light.location.getValue());
-    lamp.attenuation = io::as_written(light.attenuation.getValue());
-    lamp.radius = io::as_written(light.radius.getValue());
+    const auto& from = static_cast<const SoVRMLPointLight&>(node);
+    light.kind = LightParts::Kind::Point;
+    light.location = as_written(from.location.getValue());
+    light.attenuation = as_written(from.attenuation.getValue());
+    light.radius = as_written(from.radius.getValue());
   } else {
-    const auto& light = static_cast<const SoVRMLSpotLight&>(node);
-    lamp.kind = LampParts::Kind::Spot;
-    lamp.location = io::as_written(light.location.getValue());
-    lamp.direction = io::as_written(light.direction.getValue());
-    lamp.attenuation = io::as_written(light.attenuation.getValue());
-    lamp.radius = io::as_written(light.radius.getValue());
-    lamp.cut_off_angle = io::as_written(light.cutOffAngle.getValue());
-    lamp.beam_width = io::as_written(light.beamWidth.getValue());
+    const auto& from = static_cast<const SoVRMLSpotLight&>(node);
+    light.kind = LightParts::Kind::Spot;
+    light.location = as_written(from.location.getValue());
+    light.direction = as_written(from.direction.getValue());
+    light.attenuation = as_written(from.attenuation.getValue());
+    light.radius = as_written(from.radius.getValue());
+    light.cut_off_angle = as_written(from.cutOffAngle.getValue());
+    light.beam_width = as_written(from.beamWidth.getValue());
   }
   return true;
 }

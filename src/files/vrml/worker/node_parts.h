@@ -20,6 +20,6 @@ std::array<double, 17> rest_of(const SoVRMLTransform& transform);
 std::array<double, 4> turn_as_written(const SbRotation& turn);
 
 /// False: the node is neither a light nor a Viewpoint.
-bool fill_lamp_or_eye(const SoNode& node, NodeParts& parts);
+bool fill_light_or_viewpoint(const SoNode& node, NodeParts& parts);
 
 }  // namespace icome::files

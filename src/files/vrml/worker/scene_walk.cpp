@@ -45,8 +45,8 @@ SceneWalk::SceneWalk(SceneFiles& files, Answer& answer)
     : files_(files),
       answer_(answer),
       wrapping_(files),
-      looks_(files, answer, wrapping_),
-      pieces_(files, answer, wrapping_),
+      appearances_(files, answer, wrapping_),
+      geometries_(files, answer, wrapping_),
       motions_(files, answer) {}
 
 void SceneWalk::walk(SceneFile& design) {
@@ -82,7 +82,7 @@ void SceneWalk::visit(SoNode* node, Place place) {
   } else if (const auto* part = as<SoVRMLInline>(it.node)) {
     visit_inline(*part, parts, within);
   } else if (!visit_scene(it, parts) && !visit_effect(it, parts) && !visit_group(it, parts, within) &&
-             fill_lamp_or_eye(*it.node, parts)) {
+             fill_light_or_viewpoint(*it.node, parts)) {
     answer_.add(parts);
   }
   above_.erase(node);
@@ -146,12 +146,12 @@ void SceneWalk::visit_inline(const SoVRMLInline& it, NodeParts& parts, const Pla
 void SceneWalk::visit_shape(const SoVRMLShape& it, NodeParts& parts, const Place& place) {
   const Unwrapped geometry = wrapping_.unwrap(it.geometry, *place.file);
   if (geometry.node) {
-    const auto piece = pieces_.number_of(geometry);
-    if (!piece) return;
-    parts.piece = *piece;
+    const auto number = geometries_.number_of(geometry);
+    if (!number) return;
+    parts.geometry = *number;
   }
-  parts.look = looks_.number_of(wrapping_.unwrap(it.appearance, *place.file));
-  if (parts.piece >= 0 || parts.look >= 0) answer_.add(parts);
+  parts.appearance = appearances_.number_of(wrapping_.unwrap(it.appearance, *place.file));
+  if (parts.geometry >= 0 || parts.appearance >= 0) answer_.add(parts);
 }
 
 /// IcomeScene is not an object but a list of objects.

@@ -4,9 +4,9 @@
 #include <unordered_set>
 
 #include "files/vrml/worker/answer.h"
-#include "files/vrml/worker/looks.h"
+#include "files/vrml/worker/appearances.h"
+#include "files/vrml/worker/geometries.h"
 #include "files/vrml/worker/motions.h"
-#include "files/vrml/worker/pieces.h"
 #include "files/vrml/worker/scene_files.h"
 #include "files/vrml/worker/wrapping.h"
 
@@ -44,8 +44,8 @@ class SceneWalk {
   SceneFiles& files_;
   Answer& answer_;
   Wrapping wrapping_;
-  Looks looks_;
-  Pieces pieces_;
+  Appearances appearances_;
+  Geometries geometries_;
   Motions motions_;
   std::unordered_set<const SoNode*> met_ = {};    // in the innermost Inline
   std::unordered_set<const SoNode*> above_ = {};  // that the walk is in

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 #include "files/vrml/vrml_names.h"
 #include "files/vrml/write/vrml_text.h"
 #include "world/motion.h"

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "files/design.h"
+#include "files/remark.h"
 #include "files/vrml/vrml_protos.h"
 #include "files/vrml/write/vrml_text.h"
 #include "world/shape/geometry.h"

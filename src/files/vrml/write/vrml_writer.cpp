@@ -12,7 +12,7 @@
 #include "files/vrml/vrml_fixtures.h"
 #include "files/vrml/vrml_names.h"
 #include "files/vrml/vrml_protos.h"
-#include "files/vrml/write/vrml_looks.h"
+#include "files/vrml/write/vrml_appearances.h"
 #include "files/vrml/write/vrml_moves.h"
 #include "files/vrml/write/vrml_place.h"
 #include "files/vrml/write/vrml_shapes.h"
@@ -124,7 +124,7 @@ class VrmlWriter {
   VrmlWriter(const std::filesystem::path& path, const World& world, io::NewFile& file)
       : world_(world),
         text_(file),
-        looks_(path, world, names_, text_, remarks_),
+        appearances_(path, world, names_, text_, remarks_),
         shapes_(text_, remarks_),
         moves_(text_, names_),
         objects_(all_objects(world)) {}
@@ -180,7 +180,7 @@ class VrmlWriter {
   std::vector<Remark> remarks_;
   VrmlNames names_;
   VrmlText text_;
-  VrmlLooks looks_;
+  VrmlAppearances appearances_;
   VrmlShapes shapes_;
   VrmlMoves moves_;
   std::vector<ObjectId> objects_;
@@ -231,7 +231,7 @@ void VrmlWriter::give_names() {
     const MaterialId material = world_.find(id)->material;
     if (material && seen.insert(material).second) materials.push_back(material);
   }
-  looks_.name(materials);
+  appearances_.name(materials);
   name_shapes();
 }
 
@@ -254,7 +254,7 @@ void VrmlWriter::write_protos() {
   for (const auto& [id, geometry] : world_.geometries()) {
     if (geometry.users > 0) used.insert(VrmlShapes::proto_of(*geometry.shape));
   }
-  if (looks_.need_proto()) used.insert(&kMaterialProto);
+  if (appearances_.need_proto()) used.insert(&kMaterialProto);
   if (std::ranges::any_of(world_.objects(), [](const auto& it) { return effect_of(it.second) != nullptr; }))
     used.insert(&kEffectProto);
   if (!world_.scenes().empty()) used.insert(&kSceneProto);
@@ -344,7 +344,7 @@ void VrmlWriter::write_frame(const base::Affine3& frame) {
 
 Result<void> VrmlWriter::write_shape(const PhysicalObject& object) {
   text_.open("Shape");
-  if (const auto written = looks_.write(object.material); !written) return written;
+  if (const auto written = appearances_.write(object.material); !written) return written;
   if (object.geometry) {
     const auto name = geometry_names_.find(object.geometry);
     const bool again = name != geometry_names_.end() && !written_.insert(object.geometry).second;
@@ -438,7 +438,7 @@ void VrmlWriter::tell_what_is_left() {
                                     "they are in now.",
                                     inert_moved_)});
   for (Remark& it : lost_recipes(world_, "VRML 2.0")) remarks_.push_back(std::move(it));
-  for (Remark& it : looks_.losses()) remarks_.push_back(std::move(it));
+  for (Remark& it : appearances_.losses()) remarks_.push_back(std::move(it));
   for (Remark& it : moves_.remarks()) remarks_.push_back(std::move(it));
   unused(world_.geometries(), "shapes that no object has are");
   unused(world_.materials(), "materials that no object has are");

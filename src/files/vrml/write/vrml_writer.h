@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "files/design.h"
+#include "files/remark.h"
 #include "world/world.h"
 
 namespace icome::files {

@@ -65,10 +65,10 @@ Result<world::TouchProperties> felt_then(const Arguments& arguments, world::Touc
 }
 
 Result<Plan> plan_feel(const World& world, const Arguments& arguments, world::IdSource& ids) {
-  const auto said = [&](const char* name) { return arguments.has(name); };
-  if (!said("texture") && (said("depth") || said("spacing")))
+  const auto is_given = [&](const char* name) { return arguments.has(name); };
+  if (!is_given("texture") && (is_given("depth") || is_given("spacing")))
     return fail("'depth' and 'spacing' belong to a 'texture': say which");
-  if (!said("stiffness") && !said("damping") && !said("friction") && !said("texture"))
+  if (!is_given("stiffness") && !is_given("damping") && !is_given("friction") && !is_given("texture"))
     return fail("say how it feels: 'stiffness', 'damping', 'friction', 'texture' or several");
   if (const auto good = felt_then(arguments, {}); !good) return tl::unexpected(good.error());
   const auto change = [&](Material& material) { material.touch = *felt_then(arguments, material.touch); };

@@ -185,8 +185,8 @@ Result<Plan> plan_projection(ShapeChange& change, const Arguments& arguments, wo
 }
 
 Result<void> check_own(const Arguments& arguments) {
-  const auto said = [&](const char* name) { return field(arguments.said(), name) != nullptr; };
-  if (said("at") || said("turn") || said("size"))
+  const auto is_given = [&](const char* name) { return field(arguments.given(), name) != nullptr; };
+  if (is_given("at") || is_given("turn") || is_given("size"))
     return fail("'at', 'turn' and 'size' place a projector, and 'own' has none: name another 'projection'");
   if (!arguments.has("file") && !arguments.has("picture"))
     return fail("say which picture is to be shown: the 'file' of one, or a 'picture' that the design has");

@@ -66,9 +66,9 @@ Result<SnapSettings> snaps_of(const Arguments& arguments) {
     snaps.spacing = arguments.number("grid");
     snaps.radius = snaps.spacing;  // some grid point is always nearer
   }
-  const auto said = [&](const char* kind) { return field(arguments.said(), kind) != nullptr; };
+  const auto is_given = [&](const char* kind) { return field(arguments.given(), kind) != nullptr; };
   if (!arguments.has("snap")) {
-    if (std::ranges::any_of(kSnapKinds, said))
+    if (std::ranges::any_of(kSnapKinds, is_given))
       return fail("'corners', 'edges' and 'faces' choose what 'snap' leads to: say within how far it does");
     return snaps;
   }

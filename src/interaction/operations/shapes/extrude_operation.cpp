@@ -36,7 +36,7 @@ Result<FlatOutline> outline_of(const world::World& world, world::ObjectId id) {
 bool says_place(const Arguments& arguments) {
   constexpr std::array kWords = {"at", "turn", "scale", "factor", "parent"};
   return std::ranges::any_of(kWords,
-                             [&](const char* word) { return field(arguments.said(), word) != nullptr; });
+                             [&](const char* word) { return field(arguments.given(), word) != nullptr; });
 }
 
 /// Where no place is said, the sweep begins where its profile is; and it is of the same material.

@@ -14,7 +14,7 @@ using base::fail;
 
 /// What is said beside the object: the shape's own parameters.
 Value::Fields changes_of(const Arguments& arguments) {
-  Value::Fields changes = arguments.said();
+  Value::Fields changes = arguments.given();
   std::erase_if(changes, [](const auto& it) { return it.first == "object" || it.first == "alone"; });
   return changes;
 }

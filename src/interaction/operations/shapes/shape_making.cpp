@@ -354,9 +354,9 @@ Value::Fields said_of(const std::vector<Parameter>& parameters, const Arguments&
   for (const Parameter& parameter : parameters) {
     const bool is_for =
         choice.empty() || parameter.only_for.empty() || std::ranges::count(parameter.only_for, choice) > 0;
-    const Value* said = field(arguments.said(), parameter.name);
-    if (is_for && (said || !parameter.fallback.is_null()))
-      fields.emplace_back(parameter.name, said ? *said : parameter.fallback);
+    const Value* given = field(arguments.given(), parameter.name);
+    if (is_for && (given || !parameter.fallback.is_null()))
+      fields.emplace_back(parameter.name, given ? *given : parameter.fallback);
   }
   return fields;
 }

@@ -37,9 +37,9 @@ base::Result<LoadedDesign> try_build(const std::string& bytes, std::vector<VrmlS
     if (url.ends_with(".png") && kPngHead.size() <= limit) return kPngHead;
     return base::fail("there is no " + url);
   };
-  io::Patience patience;
+  io::TimeBudget time_budget;
   io::MemoryBudget memory;
-  return build_vrml(bytes, sources, patience, memory);
+  return build_vrml(bytes, sources, time_budget, memory);
 }
 
 LoadedDesign built_from(const Answer& answer) {
@@ -74,27 +74,27 @@ const Kind& primitive_of(const World& world, const PhysicalObject& object) {
   return std::get<Kind>(dynamic_cast<const world::PrimitiveGeometry&>(geometry_of(world, object)).primitive);
 }
 
-AnswerPiece box_piece(double x, double y, double z) {
-  return {.kind = flat::PieceKind::Box, .sizes = {x, y, z}};
+AnswerGeometry box_piece(double x, double y, double z) {
+  return {.kind = flat::GeometryKind::Box, .sizes = {x, y, z}};
 }
-AnswerPiece triangle_piece() {
-  return {.kind = flat::PieceKind::Faces,
+AnswerGeometry triangle_piece() {
+  return {.kind = flat::GeometryKind::Faces,
           .name = "triangle",
           .positions = {0, 0, 0, 1, 0, 0, 0, 1, 0},
           .polygons = {0, 1, 2, -1}};
 }
-const AnswerLook kRedLook = {.name = "red", .diffuse = {1, 0, 0}};
+const AnswerAppearance kRedLook = {.name = "red", .diffuse = {1, 0, 0}};
 
 // ---- Hierarchy ----------------------------------------------------------------------------------------
 
 TEST(VrmlBuilder, MergesTheOnlyShapeIntoItsParent) {
   // DEF leg Transform { translation 1 2 3 children [ Shape {} DEF foot Transform { children Shape {} } ] }
   const LoadedDesign design = built_from({.nodes = {{.name = "leg", .matrix = moved(1, 2, 3)},
-                                                    {.parent = 0, .piece = 0, .look = 0},
+                                                    {.parent = 0, .geometry = 0, .appearance = 0},
                                                     {.parent = 0, .name = "foot"},
-                                                    {.parent = 2, .piece = 1, .look = 0}},
-                                          .pieces = {box_piece(1, 2, 3), box_piece(4, 5, 6)},
-                                          .looks = {kRedLook}});
+                                                    {.parent = 2, .geometry = 1, .appearance = 0}},
+                                          .geometries = {box_piece(1, 2, 3), box_piece(4, 5, 6)},
+                                          .appearances = {kRedLook}});
   const World& world = design.world;
   EXPECT_EQ(world.objects().size(), 2U);
   ASSERT_EQ(world.roots().size(), 1U);
@@ -114,10 +114,11 @@ TEST(VrmlBuilder, MergesTheOnlyShapeIntoItsParent) {
 }
 
 TEST(VrmlBuilder, KeepsShapesApartThatAreNotAlone) {
-  const LoadedDesign design =
-      built_from({.nodes = {{}, {.parent = 0, .piece = 0, .look = 0}, {.parent = 0, .piece = 0, .look = 0}},
-                  .pieces = {box_piece(1, 1, 1)},
-                  .looks = {kRedLook}});
+  const LoadedDesign design = built_from({.nodes = {{},
+                                                    {.parent = 0, .geometry = 0, .appearance = 0},
+                                                    {.parent = 0, .geometry = 0, .appearance = 0}},
+                                          .geometries = {box_piece(1, 1, 1)},
+                                          .appearances = {kRedLook}});
   EXPECT_EQ(design.world.objects().size(), 3U);
   EXPECT_FALSE(root_of(design.world).geometry);
   EXPECT_EQ(root_of(design.world).children.size(), 2U);
@@ -125,14 +126,14 @@ TEST(VrmlBuilder, KeepsShapesApartThatAreNotAlone) {
 
 TEST(VrmlBuilder, KeepsShapesApartThatHaveANameAPlaceOrChildren) {
   const std::vector<std::vector<AnswerNode>> cases = {
-      {{}, {.parent = 0, .name = "own", .piece = 0, .look = 0}},
-      {{}, {.parent = 0, .piece = 0, .look = 0, .def = "own"}},
-      {{}, {.parent = 0, .matrix = moved(1, 0, 0), .piece = 0, .look = 0}},
-      {{.piece = 0, .look = 0}, {.parent = 0, .piece = 0, .look = 0}},
+      {{}, {.parent = 0, .name = "own", .geometry = 0, .appearance = 0}},
+      {{}, {.parent = 0, .geometry = 0, .appearance = 0, .def = "own"}},
+      {{}, {.parent = 0, .matrix = moved(1, 0, 0), .geometry = 0, .appearance = 0}},
+      {{.geometry = 0, .appearance = 0}, {.parent = 0, .geometry = 0, .appearance = 0}},
   };
   for (const auto& nodes : cases) {
     const LoadedDesign design =
-        built_from({.nodes = nodes, .pieces = {box_piece(1, 1, 1)}, .looks = {kRedLook}});
+        built_from({.nodes = nodes, .geometries = {box_piece(1, 1, 1)}, .appearances = {kRedLook}});
     EXPECT_EQ(design.world.objects().size(), 2U);
     EXPECT_TRUE(child_of(design.world, root_of(design.world)).geometry);
   }
@@ -140,20 +141,21 @@ TEST(VrmlBuilder, KeepsShapesApartThatHaveANameAPlaceOrChildren) {
 
 TEST(VrmlBuilder, MakesShapesWithoutParentObjects) {
   const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0, .look = 0}, {.name = "b", .piece = 0, .look = 0}},
-                  .pieces = {box_piece(1, 1, 1)},
-                  .looks = {kRedLook}});
+      built_from({.nodes = {{.geometry = 0, .appearance = 0}, {.name = "b", .geometry = 0, .appearance = 0}},
+                  .geometries = {box_piece(1, 1, 1)},
+                  .appearances = {kRedLook}});
   EXPECT_EQ(design.world.roots().size(), 2U);
   EXPECT_EQ(root_of(design.world, 1).name, "b");
 }
 
 TEST(VrmlBuilder, SharesWhatIsUsedAgain) {
-  const LoadedDesign design = built_from({.nodes = {{.name = "a"},
-                                                    {.parent = 0, .piece = 0, .look = 0},
-                                                    {.name = "b", .reused = true},
-                                                    {.parent = 2, .piece = 0, .look = 0, .reused = true}},
-                                          .pieces = {triangle_piece()},
-                                          .looks = {kRedLook}});
+  const LoadedDesign design =
+      built_from({.nodes = {{.name = "a"},
+                            {.parent = 0, .geometry = 0, .appearance = 0},
+                            {.name = "b", .reused = true},
+                            {.parent = 2, .geometry = 0, .appearance = 0, .reused = true}},
+                  .geometries = {triangle_piece()},
+                  .appearances = {kRedLook}});
   const World& world = design.world;
   EXPECT_EQ(world.geometries().size(), 1U);
   EXPECT_EQ(world.materials().size(), 1U);
@@ -163,8 +165,8 @@ TEST(VrmlBuilder, SharesWhatIsUsedAgain) {
 
 TEST(VrmlBuilder, LeavesOutWhatNobodyUses) {
   const LoadedDesign design = built_from({.nodes = {{.name = "a"}},
-                                          .pieces = {triangle_piece()},
-                                          .looks = {kRedLook},
+                                          .geometries = {triangle_piece()},
+                                          .appearances = {kRedLook},
                                           .pictures = {{.urls = {"a.png"}}}});
   EXPECT_TRUE(design.world.geometries().empty());
   EXPECT_TRUE(design.world.materials().empty());
@@ -175,11 +177,11 @@ TEST(VrmlBuilder, LeavesFlattenedObjectsOutWithAllBelow) {
   for (const double bad : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     const LoadedDesign design =
         built_from({.nodes = {{.name = "hidden", .matrix = {bad, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}},
-                              {.parent = 0, .piece = 0, .look = 0},
+                              {.parent = 0, .geometry = 0, .appearance = 0},
                               {.parent = 0, .name = "below"},
                               {.name = "seen"}},
-                    .pieces = {box_piece(1, 1, 1)},
-                    .looks = {kRedLook}});
+                    .geometries = {box_piece(1, 1, 1)},
+                    .appearances = {kRedLook}});
     EXPECT_EQ(design.world.objects().size(), 1U);
     EXPECT_EQ(root_of(design.world).name, "seen");
     EXPECT_EQ(
@@ -190,7 +192,7 @@ TEST(VrmlBuilder, LeavesFlattenedObjectsOutWithAllBelow) {
 
 TEST(VrmlBuilder, LeavesOutShapesOfNothing) {
   const LoadedDesign design =
-      built_from({.nodes = {{.name = "empty"}, {.parent = 0, .look = 0}}, .looks = {kRedLook}});
+      built_from({.nodes = {{.name = "empty"}, {.parent = 0, .appearance = 0}}, .appearances = {kRedLook}});
   EXPECT_EQ(design.world.objects().size(), 1U);
 }
 
@@ -201,10 +203,10 @@ Vector3 faced(const PhysicalObject& object) { return object.parent_from_object.l
 TEST(VrmlBuilder, MergesFixturesThatStandAsTheirParent) {
   const LoadedDesign design = built_from(
       {.nodes = {{.name = "lamp", .matrix = moved(1, 0, 0)},
-                 {.parent = 0, .lamp = AnswerLamp{.kind = flat::LampKind::Spot, .intensity = 0.5F}},
+                 {.parent = 0, .light = AnswerLight{.kind = flat::LightKind::Spot, .intensity = 0.5F}},
                  {.name = "eye"},
-                 {.parent = 2, .eye = AnswerEye{.position = {0, 0, 0}, .field_of_view = 1.0}},
-                 {.parent = 2, .eye = AnswerEye{.position = {0, 0, 0}}}}});
+                 {.parent = 2, .viewpoint = AnswerViewpoint{.position = {0, 0, 0}, .field_of_view = 1.0}},
+                 {.parent = 2, .viewpoint = AnswerViewpoint{.position = {0, 0, 0}}}}});
   const World& world = design.world;
   EXPECT_EQ(world.objects().size(), 3U);
   const auto& light = std::get<world::Light>(*root_of(world).fixture);
@@ -220,13 +222,16 @@ TEST(VrmlBuilder, PlacesOtherFixtures) {
       {.nodes = {
            {.name = "group"},
            {.parent = 0,
-            .lamp = AnswerLamp{.kind = flat::LampKind::Spot, .location = {1, 2, 3}, .direction = {0, -2, 0}}},
-           {.parent = 0, .lamp = AnswerLamp{.direction = {0, 0, 5}}},
+            .light =
+                AnswerLight{.kind = flat::LightKind::Spot, .location = {1, 2, 3}, .direction = {0, -2, 0}}},
+           {.parent = 0, .light = AnswerLight{.direction = {0, 0, 5}}},
            {.parent = 0,
-            .lamp = AnswerLamp{.kind = flat::LampKind::Point, .location = {4, 5, 6}, .direction = {1, 0, 0}}},
-           {.parent = 0, .name = "front", .eye = AnswerEye{}},
+            .light =
+                AnswerLight{.kind = flat::LightKind::Point, .location = {4, 5, 6}, .direction = {1, 0, 0}}},
+           {.parent = 0, .name = "front", .viewpoint = AnswerViewpoint{}},
            {.parent = 0,
-            .eye = AnswerEye{.position = {0, 7, 0}, .axis = {2, 0, 0}, .angle = -std::numbers::pi / 2}}}});
+            .viewpoint =
+                AnswerViewpoint{.position = {0, 7, 0}, .axis = {2, 0, 0}, .angle = -std::numbers::pi / 2}}}});
   const World& world = design.world;
   const PhysicalObject& group = root_of(world);
   ASSERT_EQ(group.children.size(), 5U);
@@ -246,11 +251,11 @@ TEST(VrmlBuilder, PlacesOtherFixtures) {
 TEST(VrmlBuilder, PutsFixtureNumbersRight) {
   const double nan = std::nan("");
   const LoadedDesign design = built_from(
-      {.nodes = {{.lamp = AnswerLamp{.kind = flat::LampKind::Spot,
-                                     .location = {nan, 0, 0},
-                                     .direction = {0, 0, 0},
-                                     .intensity = 7.0F}},
-                 {.eye = AnswerEye{
+      {.nodes = {{.light = AnswerLight{.kind = flat::LightKind::Spot,
+                                       .location = {nan, 0, 0},
+                                       .direction = {0, 0, 0},
+                                       .intensity = 7.0F}},
+                 {.viewpoint = AnswerViewpoint{
                       .position = {0, 0, 1}, .axis = {0, 0, 0}, .angle = nan, .field_of_view = -1.0}}}});
   EXPECT_EQ(std::get<world::Light>(*root_of(design.world).fixture).intensity, 1.0F);
   EXPECT_TRUE(root_of(design.world).parent_from_object.matrix().isIdentity(0.0));
@@ -260,17 +265,17 @@ TEST(VrmlBuilder, PutsFixtureNumbersRight) {
 // ---- Shapes -------------------------------------------------------------------------------------------
 
 TEST(VrmlBuilder, MakesExactPrimitives) {
-  using flat::PieceKind;
+  using flat::GeometryKind;
   const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0, .look = 0},
-                            {.piece = 1, .look = 0},
-                            {.piece = 2, .look = 0},
-                            {.piece = 3, .look = 0}},
-                  .pieces = {{.kind = PieceKind::Sphere, .sizes = {0.3}},
-                             {.kind = PieceKind::Cylinder, .sizes = {1, 4}},
-                             {.kind = PieceKind::Cone, .sizes = {2, 3}},
-                             {.kind = PieceKind::Primitive, .text = "torus:0.3x0.1", .along_y = true}},
-                  .looks = {kRedLook}});
+      built_from({.nodes = {{.geometry = 0, .appearance = 0},
+                            {.geometry = 1, .appearance = 0},
+                            {.geometry = 2, .appearance = 0},
+                            {.geometry = 3, .appearance = 0}},
+                  .geometries = {{.kind = GeometryKind::Sphere, .sizes = {0.3}},
+                                 {.kind = GeometryKind::Cylinder, .sizes = {1, 4}},
+                                 {.kind = GeometryKind::Cone, .sizes = {2, 3}},
+                                 {.kind = GeometryKind::Primitive, .text = "torus:0.3x0.1", .along_y = true}},
+                  .appearances = {kRedLook}});
   const World& world = design.world;
   EXPECT_EQ(primitive_of<geometry::Sphere>(world, root_of(world, 0)).radius, 0.3);
   EXPECT_EQ(primitive_of<geometry::Cylinder>(world, root_of(world, 1)).height, 4.0);
@@ -284,9 +289,10 @@ TEST(VrmlBuilder, MakesExactPrimitives) {
 
 TEST(VrmlBuilder, LeavesPrimitivesOutWithoutASize) {
   const LoadedDesign design = built_from(
-      {.nodes = {{.name = "a", .piece = 0, .look = 0}, {.name = "b", .piece = 1, .look = 0}},
-       .pieces = {box_piece(0, 1, 1), {.kind = flat::PieceKind::Cone, .name = "cone", .sizes = {1}}},
-       .looks = {kRedLook}});
+      {.nodes = {{.name = "a", .geometry = 0, .appearance = 0},
+                 {.name = "b", .geometry = 1, .appearance = 0}},
+       .geometries = {box_piece(0, 1, 1), {.kind = flat::GeometryKind::Cone, .name = "cone", .sizes = {1}}},
+       .appearances = {kRedLook}});
   EXPECT_EQ(design.world.objects().size(), 2U);
   EXPECT_TRUE(design.world.geometries().empty());
   EXPECT_EQ(
@@ -295,7 +301,7 @@ TEST(VrmlBuilder, LeavesPrimitivesOutWithoutASize) {
                   "out: 2 shapes, first one without a name."});
 }
 
-AnswerPiece tetrahedron_piece(flat::PieceKind kind) {
+AnswerGeometry tetrahedron_piece(flat::GeometryKind kind) {
   return {.kind = kind,
           .name = "own",
           .positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1},
@@ -303,11 +309,11 @@ AnswerPiece tetrahedron_piece(flat::PieceKind kind) {
 }
 
 TEST(VrmlBuilder, MakesLoopSurfaces) {
-  AnswerPiece piece = tetrahedron_piece(flat::PieceKind::Loop);
-  piece.creases = {0, 1, 3, 9};
-  piece.corners = {2, -5};
-  const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0, .look = 0}}, .pieces = {piece}, .looks = {kRedLook}});
+  AnswerGeometry geometry = tetrahedron_piece(flat::GeometryKind::Loop);
+  geometry.creases = {0, 1, 3, 9};
+  geometry.corners = {2, -5};
+  const LoadedDesign design = built_from(
+      {.nodes = {{.geometry = 0, .appearance = 0}}, .geometries = {geometry}, .appearances = {kRedLook}});
   const auto& loop =
       dynamic_cast<const world::LoopGeometry&>(geometry_of(design.world, root_of(design.world)));
   EXPECT_EQ(loop.control.mesh.triangles.size(), 4U);
@@ -319,45 +325,49 @@ TEST(VrmlBuilder, MakesLoopSurfaces) {
 
 TEST(VrmlBuilder, MakesImplicitSurfacesAndCsgTrees) {
   const LoadedDesign design = built_from(
-      {.nodes = {{.piece = 0, .look = 0}, {.piece = 1, .look = 0}},
-       .pieces = {{.kind = flat::PieceKind::Implicit, .text = "x^2+y^2+z^2-1", .box = {-2, -2, -2, 2, 2, 2}},
-                  {.kind = flat::PieceKind::Csg, .text = "box:1x1x1\nsphere:0.6\ndifference 0 1\n"}},
-       .looks = {kRedLook}});
+      {.nodes = {{.geometry = 0, .appearance = 0}, {.geometry = 1, .appearance = 0}},
+       .geometries = {{.kind = flat::GeometryKind::Implicit,
+                       .text = "x^2+y^2+z^2-1",
+                       .box = {-2, -2, -2, 2, 2, 2}},
+                      {.kind = flat::GeometryKind::Csg, .text = "box:1x1x1\nsphere:0.6\ndifference 0 1\n"}},
+       .appearances = {kRedLook}});
   EXPECT_EQ(geometry_of(design.world, root_of(design.world)).kind(), "implicit");
   EXPECT_EQ(geometry_of(design.world, root_of(design.world, 1)).kind(), "csg");
   EXPECT_EQ(texts_of(design), RemarkTexts{});
 }
 
 TEST(VrmlBuilder, TakesTrianglesOfOwnShapesThatCannotBeMade) {
-  for (const auto kind : {flat::PieceKind::Implicit, flat::PieceKind::Csg, flat::PieceKind::Primitive}) {
-    AnswerPiece piece = tetrahedron_piece(kind);
-    piece.text = "nonsense (";
-    piece.box = {-1, -1, -1, 1, 1, 1};
-    const LoadedDesign design =
-        built_from({.nodes = {{.piece = 0, .look = 0}}, .pieces = {piece}, .looks = {kRedLook}});
+  for (const auto kind :
+       {flat::GeometryKind::Implicit, flat::GeometryKind::Csg, flat::GeometryKind::Primitive}) {
+    AnswerGeometry geometry = tetrahedron_piece(kind);
+    geometry.text = "nonsense (";
+    geometry.box = {-1, -1, -1, 1, 1, 1};
+    const LoadedDesign design = built_from(
+        {.nodes = {{.geometry = 0, .appearance = 0}}, .geometries = {geometry}, .appearances = {kRedLook}});
     EXPECT_EQ(geometry_of(design.world, root_of(design.world)).kind(), "mesh");
     ASSERT_EQ(design.remarks.size(), 1U);
     EXPECT_TRUE(design.remarks[0].text.starts_with("The shape \"own\" becomes a mesh of triangles: "));
   }
-  AnswerPiece piece = tetrahedron_piece(flat::PieceKind::Loop);
-  piece.polygons = {0, 1, 2, -1, 0, 1, 3, -1, 1, 0, 2, -1};  // three triangles at an edge
-  const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0, .look = 0}}, .pieces = {piece}, .looks = {kRedLook}});
+  AnswerGeometry geometry = tetrahedron_piece(flat::GeometryKind::Loop);
+  geometry.polygons = {0, 1, 2, -1, 0, 1, 3, -1, 1, 0, 2, -1};  // three triangles at an edge
+  const LoadedDesign design = built_from(
+      {.nodes = {{.geometry = 0, .appearance = 0}}, .geometries = {geometry}, .appearances = {kRedLook}});
   EXPECT_EQ(geometry_of(design.world, root_of(design.world)).kind(), "mesh");
 }
 
 // ---- Looks --------------------------------------------------------------------------------------------
 
 TEST(VrmlBuilder, MakesMaterials) {
-  const AnswerLook look = {.name = "rubber",
-                           .diffuse = {0.1F, 0.2F, 0.3F},
-                           .emission = {0, 0.5F, 0},
-                           .transparency = 0.25F,
-                           .stiffness = 300.0,
-                           .static_friction = 0.5,
-                           .dynamic_friction = 0.25};
-  const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0, .look = 0}}, .pieces = {triangle_piece()}, .looks = {look}});
+  const AnswerAppearance appearance = {.name = "rubber",
+                                       .diffuse = {0.1F, 0.2F, 0.3F},
+                                       .emission = {0, 0.5F, 0},
+                                       .transparency = 0.25F,
+                                       .stiffness = 300.0,
+                                       .static_friction = 0.5,
+                                       .dynamic_friction = 0.25};
+  const LoadedDesign design = built_from({.nodes = {{.geometry = 0, .appearance = 0}},
+                                          .geometries = {triangle_piece()},
+                                          .appearances = {appearance}});
   const Material& material = *design.world.find(root_of(design.world).material);
   EXPECT_EQ(material.name, "rubber");
   EXPECT_EQ(material.diffuse, (world::Colour{0.1F, 0.2F, 0.3F}));
@@ -371,13 +381,14 @@ TEST(VrmlBuilder, MakesMaterials) {
 }
 
 TEST(VrmlBuilder, PutsMaterialsRight) {
-  const AnswerLook look = {.name = "odd",
-                           .diffuse = {2, -1, std::nanf("")},
-                           .stiffness = -1.0,
-                           .static_friction = 0.1,
-                           .dynamic_friction = 0.2};
-  const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0, .look = 0}}, .pieces = {triangle_piece()}, .looks = {look}});
+  const AnswerAppearance appearance = {.name = "odd",
+                                       .diffuse = {2, -1, std::nanf("")},
+                                       .stiffness = -1.0,
+                                       .static_friction = 0.1,
+                                       .dynamic_friction = 0.2};
+  const LoadedDesign design = built_from({.nodes = {{.geometry = 0, .appearance = 0}},
+                                          .geometries = {triangle_piece()},
+                                          .appearances = {appearance}});
   const Material& material = *design.world.find(root_of(design.world).material);
   EXPECT_EQ(material.diffuse, (world::Colour{1, 0, 0}));
   EXPECT_FALSE(material.touch.stiffness.has_value());
@@ -386,11 +397,11 @@ TEST(VrmlBuilder, PutsMaterialsRight) {
 }
 
 TEST(VrmlBuilder, LightsWhatIsUnlit) {
-  const LoadedDesign design =
-      built_from({.nodes = {{.piece = 0}, {.piece = 0, .look = 0}, {.piece = 0, .look = 1}},
-                  .pieces = {triangle_piece()},
-                  .looks = {{.lit = false}, {.lit = false, .picture = 0}},
-                  .pictures = {{.urls = {"a.png"}}}});
+  const LoadedDesign design = built_from(
+      {.nodes = {{.geometry = 0}, {.geometry = 0, .appearance = 0}, {.geometry = 0, .appearance = 1}},
+       .geometries = {triangle_piece()},
+       .appearances = {{.lit = false}, {.lit = false, .picture = 0}},
+       .pictures = {{.urls = {"a.png"}}}});
   const World& world = design.world;
   EXPECT_FALSE(root_of(world, 0).material);
   EXPECT_FALSE(root_of(world, 1).material);
@@ -405,11 +416,11 @@ TEST(VrmlBuilder, LightsWhatIsUnlit) {
 
 Answer textured(std::vector<AnswerPicture> pictures) {
   Answer answer;
-  answer.pieces = {triangle_piece()};
+  answer.geometries = {triangle_piece()};
   answer.pictures = std::move(pictures);
   for (int i = 0; i < int(answer.pictures.size()); ++i) {
-    answer.looks.push_back({.name = "look", .picture = i});
-    answer.nodes.push_back({.piece = 0, .look = i});
+    answer.appearances.push_back({.name = "look", .picture = i});
+    answer.nodes.push_back({.geometry = 0, .appearance = i});
   }
   return answer;
 }
@@ -457,10 +468,10 @@ TEST(VrmlBuilder, KeepsPicturesWithinTheLimit) {
     return kPngHead.size() > limit ? base::Result<std::string>(base::fail("it is too large"))
                                    : base::Result<std::string>(kPngHead + url);
   };
-  io::Patience patience;
+  io::TimeBudget time_budget;
   io::MemoryBudget memory;
   const auto design =
-      build_vrml(bytes_of(textured({{.urls = {"a"}}, {.urls = {"b"}}})), sources, patience, memory);
+      build_vrml(bytes_of(textured({{.urls = {"a"}}, {.urls = {"b"}}})), sources, time_budget, memory);
   ASSERT_TRUE(design.has_value());
   EXPECT_EQ(design->world.textures().size(), 1U);
   EXPECT_EQ(texts_of(*design), RemarkTexts{"The picture \"b\" is left out: it is too large."});
@@ -478,8 +489,8 @@ TEST(VrmlBuilder, MakesPngFilesOfPixels) {
 
 TEST(VrmlBuilder, LaysPicturesByTheMaterial) {
   Answer answer = textured({{.urls = {"a.png"}}, {.urls = {"a.png"}}, {.urls = {"a.png"}}});
-  answer.looks[1].texture_transform = {2, 0, 0.25, 0, 3, 0.5, 0, 0, 1};
-  answer.looks[2].texture_transform = {1, 0, 0, 0, 1, 0, 0, 0, 0};
+  answer.appearances[1].texture_transform = {2, 0, 0.25, 0, 3, 0.5, 0, 0, 1};
+  answer.appearances[2].texture_transform = {1, 0, 0, 0, 1, 0, 0, 0, 0};
   const LoadedDesign design = built_from(answer);
   const World& world = design.world;
   EXPECT_EQ(world.geometries().size(), 1U);
@@ -572,11 +583,11 @@ TEST(VrmlBuilder, RefusesNonsense) {
   const std::string head = "test.wrl: the process that reads VRML gave an answer that makes no sense: ";
   EXPECT_EQ(build_failure({.nodes = {{.parent = 0}}}), head + "a node comes before its parent");
   EXPECT_EQ(build_failure({.nodes = {{.parent = -2}}}), head + "a node comes before its parent");
-  EXPECT_EQ(build_failure({.nodes = {{.piece = 0}}}), head + "a node names what is not there");
-  EXPECT_EQ(build_failure({.nodes = {{.look = 3}}}), head + "a node names what is not there");
+  EXPECT_EQ(build_failure({.nodes = {{.geometry = 0}}}), head + "a node names what is not there");
+  EXPECT_EQ(build_failure({.nodes = {{.appearance = 3}}}), head + "a node names what is not there");
   EXPECT_EQ(build_failure({.nodes = {{.matrix = {1, 2, 3}}}}), head + "a node has half a matrix");
   EXPECT_EQ(build_failure({.nodes = {{.scene = "a"}, {.parent = 0}}}), head + "a node lies below a scene");
-  EXPECT_EQ(build_failure({.looks = {{.picture = 0}}}), head + "a look names what is not there");
+  EXPECT_EQ(build_failure({.appearances = {{.picture = 0}}}), head + "a look names what is not there");
   Answer deep;
   deep.nodes.resize(20'000);
   for (int i = 1; i < 20'000; ++i) deep.nodes[std::size_t(i)].parent = i - 1;
@@ -595,11 +606,11 @@ TEST(VrmlBuilder, StopsWhenTold) {
   const std::string bytes = bytes_of({.nodes = {{}, {}}});
   VrmlSources sources;
   sources.name = "test.wrl";
-  io::Patience stopped(
+  io::TimeBudget stopped(
       1e9, [](double) { return false; }, 0.5);
   io::MemoryBudget memory;
   EXPECT_EQ(build_vrml(bytes, sources, stopped, memory).error().message, "interrupted");
-  io::Patience over(-1.0, nullptr, 0.5);
+  io::TimeBudget over(-1.0, nullptr, 0.5);
   EXPECT_EQ(build_vrml(bytes, sources, over, memory).error().message,
             "test.wrl: making a design of it takes too long");
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "files/design_files.h"
 #include "files/vrml/read/vrml_reader.h"
 #include "places.h"
 #include "world/shape/mesh_geometry.h"

@@ -19,8 +19,8 @@ struct MadeMesh {
 
 MadeMesh made_of(const VrmlFaceSet& faces, bool shows_picture = false) {
   Findings findings;
-  io::Patience patience;
-  MadeMesh result{mesh_of_faces(faces, shows_picture, findings, patience), {}};
+  io::TimeBudget time_budget;
+  MadeMesh result{mesh_of_faces(faces, shows_picture, findings, time_budget), {}};
   for (const Remark& remark : findings.remarks()) result.found.push_back(remark.text);
   return result;
 }
@@ -239,8 +239,8 @@ TEST(VrmlFaceSet, StopWhenPatienceEnds) {
     faces.polygons.push_back(-1);
   }
   Findings findings;
-  io::Patience patience(-1.0, nullptr, 0.0);
-  EXPECT_FALSE(mesh_of_faces(faces, {}, findings, patience));
+  io::TimeBudget time_budget(-1.0, nullptr, 0.0);
+  EXPECT_FALSE(mesh_of_faces(faces, {}, findings, time_budget));
 }
 
 }  // namespace

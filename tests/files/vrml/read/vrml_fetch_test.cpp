@@ -62,7 +62,7 @@ TEST_F(VrmlFetch, SharesTheShapesOfAFileThatIsInlinedTwice) {
   write("design/wheel.wrl", std::string(kHeader) + "DEF W Shape { geometry Sphere {} } USE W");
   const SeenAnswer answer = ask("Inline { url \"wheel.wrl\" } Inline { url \"./wheel.wrl\" }");
   ASSERT_EQ(answer->nodes()->size(), 6U);
-  EXPECT_EQ(answer->pieces()->size(), 1U);
+  EXPECT_EQ(answer->geometries()->size(), 1U);
   EXPECT_EQ(files_.size(), 2U);
   for (const flatbuffers::uoffset_t i : {1U, 2U, 4U, 5U})
     EXPECT_EQ(answer->nodes()->Get(i)->reused(), i == 2 || i == 5) << i;
@@ -80,7 +80,7 @@ TEST_F(VrmlFetch, TakesExternprotosByName) {
   ASSERT_EQ(answer.refusal(), "");
   EXPECT_EQ(answer.notes(), "");
   EXPECT_EQ(answer->nodes()->Get(0)->def()->str(), "B");
-  EXPECT_EQ(answer->pieces()->Get(0)->sizes()->Get(0), 2.5);
+  EXPECT_EQ(answer->geometries()->Get(0)->sizes()->Get(0), 2.5);
   // What the instance says stands in the design.
   EXPECT_EQ(answer->pictures()->Get(0)->base()->str(), fs::canonical(folder_ / "design") / "main.wrl");
 }
@@ -92,21 +92,21 @@ TEST_F(VrmlFetch, ReadsOnWhereAnExternprotoIsNotToBeHad) {
           "Far { size 2 children [ Group {} ] } Shape { geometry Box {} }");
   ASSERT_EQ(answer.refusal(), "");
   EXPECT_NE(answer.notes().find("EXTERNPROTO: 'urn:inet:far' is not fetched"), std::string::npos);
-  EXPECT_EQ(answer->pieces()->size(), 1U);
+  EXPECT_EQ(answer->geometries()->size(), 1U);
 }
 
 TEST_F(VrmlFetch, FollowsNoCircle) {
   write("design/a.wrl", std::string(kHeader) + "Inline { url \"b.wrl\" } Shape { geometry Box {} }");
   write("design/b.wrl", std::string(kHeader) + "Inline { url \"a.wrl\" } Shape { geometry Sphere {} }");
   SeenAnswer answer = ask("Inline { url \"a.wrl\" }");
-  EXPECT_EQ(answer->pieces()->size(), 2U);
+  EXPECT_EQ(answer->geometries()->size(), 2U);
   EXPECT_NE(answer.notes().find("b.wrl:0: An Inline of the file that it is in"), std::string::npos)
       << answer.notes();
   write("design/main.wrl", "");  // the circle is seen by the name
   EXPECT_NE(notes_on("\"main.wrl\"").find("An Inline of the file that it is in"), std::string::npos);
   write("design/c.wrl", std::string(kHeader) + "EXTERNPROTO X [] \"c.wrl\" X {} Shape { geometry Box {} }");
   answer = ask("Inline { url \"c.wrl\" }");
-  EXPECT_EQ(answer->pieces()->size(), 1U);
+  EXPECT_EQ(answer->geometries()->size(), 1U);
   EXPECT_NE(answer.notes().find("leads back to a file that asks for it"), std::string::npos)
       << answer.notes();
 }

@@ -39,9 +39,9 @@ base::Result<LoadedDesign> build_anything(const std::string& bytes) {
   sources.fetch_picture = [](const std::string&, const std::string& url, std::uint64_t) {
     return url.size() % 2 == 0 ? base::Result<std::string>("GIF89a" + url) : base::fail("not there");
   };
-  io::Patience patience(20.0, nullptr, 0.0);
+  io::TimeBudget time_budget(20.0, nullptr, 0.0);
   io::MemoryBudget memory;
-  return build_vrml(bytes, sources, patience, memory);
+  return build_vrml(bytes, sources, time_budget, memory);
 }
 
 /// What was made must be a world like any other: it can be written and made again.
@@ -61,48 +61,49 @@ void check_world(const LoadedDesign& design) {
 
 /// Something of everything.
 Answer rich_answer() {
-  using flat::PieceKind;
+  using flat::GeometryKind;
   const std::vector<float> points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5F, 0.5F, 1};
-  const AnswerPiece faces = {.kind = PieceKind::Faces,
-                             .name = "faces",
-                             .positions = points,
-                             .polygons = {3, 2, 1, 0, -1, 0, 1, 4, -1, 1, 2, 4, -1, 2, 3, 4, -1, 3, 0, 4, -1},
-                             .texture_coordinates = {0, 0, 1, 0, 1, 1, 0, 1, 0.5F, 0.5F},
-                             .normals = {0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, -1, 0, 0, 1},
-                             .normal_per_vertex = false,
-                             .colours = {1, 0, 0, 0, 1, 0},
-                             .colour_polygons = {0, 1, 0, 1, 0},
-                             .colour_per_vertex = false};
-  AnswerPiece creased = faces;
+  const AnswerGeometry faces = {
+      .kind = GeometryKind::Faces,
+      .name = "faces",
+      .positions = points,
+      .polygons = {3, 2, 1, 0, -1, 0, 1, 4, -1, 1, 2, 4, -1, 2, 3, 4, -1, 3, 0, 4, -1},
+      .texture_coordinates = {0, 0, 1, 0, 1, 1, 0, 1, 0.5F, 0.5F},
+      .normals = {0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, -1, 0, 0, 1},
+      .normal_per_vertex = false,
+      .colours = {1, 0, 0, 0, 1, 0},
+      .colour_polygons = {0, 1, 0, 1, 0},
+      .colour_per_vertex = false};
+  AnswerGeometry creased = faces;
   creased.normals.clear();
   creased.crease_angle = 0.5F;
   creased.texture_polygons = creased.polygons;
-  AnswerPiece loop = {.kind = PieceKind::Loop, .positions = points, .polygons = faces.polygons};
+  AnswerGeometry loop = {.kind = GeometryKind::Loop, .positions = points, .polygons = faces.polygons};
   loop.creases = {0, 1, 1, 2};
   loop.corners = {4};
   return {.nodes = {{.name = "a", .matrix = moved(1, 2, 3)},
-                    {.parent = 0, .piece = 0, .look = 0},
+                    {.parent = 0, .geometry = 0, .appearance = 0},
                     {.parent = 0, .name = "b"},
-                    {.parent = 2, .piece = 1, .look = 1},
-                    {.parent = 2, .piece = 0, .look = 2, .reused = true},
-                    {.parent = 0, .lamp = AnswerLamp{.kind = flat::LampKind::Spot, .location = {1, 2, 3}}},
-                    {.eye = AnswerEye{.angle = 1.0}},
-                    {.parent = 2, .piece = 2},
-                    {.piece = 3, .look = 1},
-                    {.piece = 4, .look = 0},
-                    {.piece = 5, .look = 0},
-                    {.piece = 6, .look = 2},
+                    {.parent = 2, .geometry = 1, .appearance = 1},
+                    {.parent = 2, .geometry = 0, .appearance = 2, .reused = true},
+                    {.parent = 0, .light = AnswerLight{.kind = flat::LightKind::Spot, .location = {1, 2, 3}}},
+                    {.viewpoint = AnswerViewpoint{.angle = 1.0}},
+                    {.parent = 2, .geometry = 2},
+                    {.geometry = 3, .appearance = 1},
+                    {.geometry = 4, .appearance = 0},
+                    {.geometry = 5, .appearance = 0},
+                    {.geometry = 6, .appearance = 2},
                     {.scene = "s", .members = {"a", "b", "c"}}},
-          .pieces = {faces,
-                     creased,
-                     {.kind = PieceKind::Box, .sizes = {1, 2, 3}},
-                     {.kind = PieceKind::Cone, .sizes = {1, 2}},
-                     {.kind = PieceKind::Csg, .text = "box:1x1x1\nsphere:0.6\ndifference 0 1\n"},
-                     {.kind = PieceKind::Primitive, .text = "torus:0.3x0.1", .along_y = true},
-                     loop},
-          .looks = {{.name = "red", .diffuse = {1, 0, 0}, .stiffness = 100.0},
-                    {.name = "photo", .picture = 0, .texture_transform = {2, 0, 0, 0, 2, 0, 0, 0, 1}},
-                    {.lit = false, .picture = 1}},
+          .geometries = {faces,
+                         creased,
+                         {.kind = GeometryKind::Box, .sizes = {1, 2, 3}},
+                         {.kind = GeometryKind::Cone, .sizes = {1, 2}},
+                         {.kind = GeometryKind::Csg, .text = "box:1x1x1\nsphere:0.6\ndifference 0 1\n"},
+                         {.kind = GeometryKind::Primitive, .text = "torus:0.3x0.1", .along_y = true},
+                         loop},
+          .appearances = {{.name = "red", .diffuse = {1, 0, 0}, .stiffness = 100.0},
+                          {.name = "photo", .picture = 0, .texture_transform = {2, 0, 0, 0, 2, 0, 0, 0, 1}},
+                          {.lit = false, .picture = 1}},
           .pictures = {{.urls = {"a", "bb"}, .base = "x"},
                        {.width = 1, .height = 2, .channels = 3, .pixels = {1, 2, 3, 4, 5, 6}}},
           .notes = {{"f", 3, "text"}}};
@@ -156,10 +157,10 @@ class NonsenseMaker {
 
   Answer make() {
     Answer answer;
-    for (std::uint64_t i = random_.index(5); i > 0; --i) answer.pieces.push_back(piece());
+    for (std::uint64_t i = random_.index(5); i > 0; --i) answer.geometries.push_back(geometry());
     for (std::uint64_t i = random_.index(4); i > 0; --i) answer.pictures.push_back(picture());
     for (std::uint64_t i = random_.index(4); i > 0; --i)
-      answer.looks.push_back(look(int(answer.pictures.size())));
+      answer.appearances.push_back(appearance(int(answer.pictures.size())));
     for (std::uint64_t i = random_.index(12); i > 0; --i) answer.nodes.push_back(node(answer));
     return answer;
   }
@@ -192,33 +193,33 @@ class NonsenseMaker {
     return result;
   }
 
-  AnswerPiece piece() {
-    AnswerPiece piece;
-    piece.kind = flat::PieceKind(random_.index(seldom() ? 256 : 10));
-    piece.sizes = numbers<double>(random_.index(4));
-    for (std::uint64_t i = random_.index(4); i > 0; --i) piece.urls.emplace_back(random_.index(40), 'u');
-    if (random_.index(2) == 0) piece.unit = number();
+  AnswerGeometry geometry() {
+    AnswerGeometry geometry;
+    geometry.kind = flat::GeometryKind(random_.index(seldom() ? 256 : 10));
+    geometry.sizes = numbers<double>(random_.index(4));
+    for (std::uint64_t i = random_.index(4); i > 0; --i) geometry.urls.emplace_back(random_.index(40), 'u');
+    if (random_.index(2) == 0) geometry.unit = number();
     const std::size_t vertices = random_.index(9);
-    piece.positions = numbers<float>(3 * vertices);
-    piece.polygons = polygons(vertices);
-    if (random_.index(2) == 0) piece.texture_coordinates = numbers<float>(2 * vertices);
+    geometry.positions = numbers<float>(3 * vertices);
+    geometry.polygons = polygons(vertices);
+    if (random_.index(2) == 0) geometry.texture_coordinates = numbers<float>(2 * vertices);
     if (random_.index(3) == 0)
-      piece.texture_polygons = random_.index(2) ? piece.polygons : polygons(vertices);
-    if (random_.index(2) == 0) piece.normals = numbers<float>(3 * vertices);
-    if (random_.index(3) == 0) piece.normal_polygons = polygons(vertices);
-    piece.normal_per_vertex = random_.index(2) == 0;
-    if (random_.index(2) == 0) piece.colours = numbers<float>(3 * vertices);
-    if (random_.index(3) == 0) piece.colour_polygons = polygons(vertices);
-    piece.colour_per_vertex = random_.index(2) == 0;
-    piece.ccw = random_.index(2) == 0;
-    piece.crease_angle = float(number());
-    piece.creases = polygons(vertices);
-    piece.corners = polygons(vertices);
+      geometry.texture_polygons = random_.index(2) ? geometry.polygons : polygons(vertices);
+    if (random_.index(2) == 0) geometry.normals = numbers<float>(3 * vertices);
+    if (random_.index(3) == 0) geometry.normal_polygons = polygons(vertices);
+    geometry.normal_per_vertex = random_.index(2) == 0;
+    if (random_.index(2) == 0) geometry.colours = numbers<float>(3 * vertices);
+    if (random_.index(3) == 0) geometry.colour_polygons = polygons(vertices);
+    geometry.colour_per_vertex = random_.index(2) == 0;
+    geometry.ccw = random_.index(2) == 0;
+    geometry.crease_angle = float(number());
+    geometry.creases = polygons(vertices);
+    geometry.corners = polygons(vertices);
     constexpr const char* kTexts[] = {"",          "box:1x1x1", "x^2-1", "sphere:1\nsphere:2\nunion 0 1",
                                       "union 0 0", "((("};
-    piece.text = kTexts[random_.index(std::size(kTexts))];
-    piece.box = numbers<double>(6);
-    return piece;
+    geometry.text = kTexts[random_.index(std::size(kTexts))];
+    geometry.box = numbers<double>(6);
+    return geometry;
   }
 
   AnswerPicture picture() {
@@ -232,17 +233,17 @@ class NonsenseMaker {
     return picture;
   }
 
-  AnswerLook look(int pictures) {
-    AnswerLook look;
-    look.lit = random_.index(3) != 0;
-    for (float& it : look.diffuse) it = float(number());
-    look.transparency = float(number());
-    look.picture = index(std::size_t(pictures));
-    if (random_.index(2) == 0) look.texture_transform = numbers<double>(9);
-    if (random_.index(2) == 0) look.stiffness = number();
-    look.static_friction = number();
-    look.dynamic_friction = number();
-    return look;
+  AnswerAppearance appearance(int pictures) {
+    AnswerAppearance appearance;
+    appearance.lit = random_.index(3) != 0;
+    for (float& it : appearance.diffuse) it = float(number());
+    appearance.transparency = float(number());
+    appearance.picture = index(std::size_t(pictures));
+    if (random_.index(2) == 0) appearance.texture_transform = numbers<double>(9);
+    if (random_.index(2) == 0) appearance.stiffness = number();
+    appearance.static_friction = number();
+    appearance.dynamic_friction = number();
+    return appearance;
   }
 
   AnswerNode node(const Answer& answer) {
@@ -254,12 +255,13 @@ class NonsenseMaker {
       node.parent = -1;
     if (random_.index(2) == 0) node.name = std::string(random_.index(2), 'n');
     if (random_.index(3) == 0) node.matrix = random_.index(2) ? moved(1, 2, 3) : numbers<double>(12);
-    node.piece = index(answer.pieces.size());
-    node.look = index(answer.looks.size());
+    node.geometry = index(answer.geometries.size());
+    node.appearance = index(answer.appearances.size());
     if (random_.index(6) == 0)
-      node.lamp = AnswerLamp{
-          flat::LampKind(random_.index(4)), {number(), 0, 0}, {0, number(), number()}, float(number())};
-    if (random_.index(6) == 0) node.eye = AnswerEye{{0, number(), 0}, {number(), 0, 0}, number(), number()};
+      node.light = AnswerLight{
+          flat::LightKind(random_.index(4)), {number(), 0, 0}, {0, number(), number()}, float(number())};
+    if (random_.index(6) == 0)
+      node.viewpoint = AnswerViewpoint{{0, number(), 0}, {number(), 0, 0}, number(), number()};
     node.reused = random_.index(2) == 0;
     if (random_.index(10) == 0) node.scene = "s";
     if (random_.index(4) == 0) node.members = {"n", "", "x"};
@@ -290,21 +292,21 @@ TEST(VrmlFuzz, SharedPartsDoNotStandForMore) {
   flatbuffers::FlatBufferBuilder flat;
   const auto positions = flat.CreateVector(std::vector<float>(300'000, 1.0F));
   const auto polygons = flat.CreateVector(std::vector<std::int32_t>(300'000, 0));
-  std::vector<flatbuffers::Offset<flat::Piece>> pieces;
+  std::vector<flatbuffers::Offset<flat::Geometry>> geometries;
   std::vector<flatbuffers::Offset<flat::Node>> nodes;
   for (int i = 0; i < 20'000; ++i) {
-    flat::PieceBuilder piece(flat);
-    piece.add_kind(flat::PieceKind::Faces);
-    piece.add_positions(positions);
-    piece.add_polygons(polygons);
-    pieces.push_back(piece.Finish());
+    flat::GeometryBuilder geometry(flat);
+    geometry.add_kind(flat::GeometryKind::Faces);
+    geometry.add_positions(positions);
+    geometry.add_polygons(polygons);
+    geometries.push_back(geometry.Finish());
     flat::NodeBuilder node(flat);
-    node.add_piece(i);
+    node.add_geometry(i);
     nodes.push_back(node.Finish());
   }
   const auto all_nodes = flat.CreateVector(nodes);
-  const auto all_pieces = flat.CreateVector(pieces);
-  flat.Finish(flat::CreateScene(flat, all_nodes, all_pieces), flat::SceneIdentifier());
+  const auto all_geometries = flat.CreateVector(geometries);
+  flat.Finish(flat::CreateScene(flat, all_nodes, all_geometries), flat::SceneIdentifier());
   const auto design =
       build_anything({reinterpret_cast<const char*>(flat.GetBufferPointer()), flat.GetSize()});
   ASSERT_FALSE(design.has_value());
@@ -313,8 +315,8 @@ TEST(VrmlFuzz, SharedPartsDoNotStandForMore) {
 
 TEST(VrmlFuzz, SharedTablesAreRefused) {
   flatbuffers::FlatBufferBuilder flat;
-  const auto word = flat::CreateWordDirect(flat, "x");
-  const auto words = flat.CreateVector(std::vector<flatbuffers::Offset<flat::Word>>(10'000, word));
+  const auto word = flat::CreateStringDirect(flat, "x");
+  const auto words = flat.CreateVector(std::vector<flatbuffers::Offset<flat::String>>(10'000, word));
   std::vector<flatbuffers::Offset<flat::Node>> nodes;
   for (int i = 0; i < 10'000; ++i) {
     flat::NodeBuilder node(flat);

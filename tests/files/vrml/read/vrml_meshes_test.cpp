@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "files/design_files.h"
 #include "files/sample_files.h"
 #include "files/vrml/read/vrml_reader.h"
 #include "files/vrml/vrml_protos.h"
@@ -200,9 +201,9 @@ TEST(VrmlMeshes, TryOnlySoManyUrlsAndFiles) {
     return base::fail("there is no " + url);
   };
   Findings findings;
-  io::Patience patience;
+  io::TimeBudget time_budget;
   io::MemoryBudget memory;
-  VrmlMeshes meshes(nowhere, 1000, findings, patience, memory);
+  VrmlMeshes meshes(nowhere, 1000, findings, time_budget, memory);
   VrmlMeshNode node;
   node.urls.assign(100'000, "u");
   EXPECT_EQ(meshes.shape_of(node), nullptr);

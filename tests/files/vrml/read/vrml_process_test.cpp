@@ -61,16 +61,16 @@ TEST(VrmlProcess, TellsTheSceneOfAFile) {
   ASSERT_EQ(answer.refusal(), "");
   EXPECT_EQ(answer.notes(), "");
   ASSERT_EQ(answer->nodes()->size(), 3U);
-  EXPECT_EQ(answer->pieces()->size(), 1U);
-  EXPECT_EQ(answer->looks()->size(), 1U);
+  EXPECT_EQ(answer->geometries()->size(), 1U);
+  EXPECT_EQ(answer->appearances()->size(), 1U);
   const flat::Node* ball = answer->nodes()->Get(1);
   EXPECT_EQ(ball->def()->str(), "Ball");
   EXPECT_EQ(ball->parent(), 0);
   EXPECT_FALSE(ball->reused());
   EXPECT_TRUE(answer->nodes()->Get(2)->reused());
   EXPECT_EQ(answer->nodes()->Get(0)->matrix()->Get(3), 0.1);
-  EXPECT_EQ(answer->pieces()->Get(0)->sizes()->Get(0), 0.3);
-  EXPECT_EQ(answer->looks()->Get(0)->name()->str(), "Red");
+  EXPECT_EQ(answer->geometries()->Get(0)->sizes()->Get(0), 0.3);
+  EXPECT_EQ(answer->appearances()->Get(0)->name()->str(), "Red");
 }
 
 TEST(VrmlProcess, AnswersEverySharedFileOrSaysWhyNot) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "files/design_files.h"
 #include "files/gzip_sample.h"
 #include "files/sample_files.h"
 #include "world/shape/mesh_geometry.h"

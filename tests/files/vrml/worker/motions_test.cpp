@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "files/design.h"
+#include "files/design_files.h"
 #include "files/design_maker.h"
 #include "files/sample_files.h"
 #include "io/file_bytes.h"

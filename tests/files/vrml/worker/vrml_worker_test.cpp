@@ -35,15 +35,15 @@ base::Affine3 matrix_of(const flat::Node* node) {
 }
 
 /// The volume within faces whose corners go round as seen from outside; each is cut from its first corner.
-double volume(const flat::Piece* piece) {
+double volume(const flat::Geometry* geometry) {
   const auto point = [&](int v) {
     const auto at = static_cast<flatbuffers::uoffset_t>(3 * v);
-    return base::Vector3(piece->positions()->Get(at), piece->positions()->Get(at + 1),
-                         piece->positions()->Get(at + 2));
+    return base::Vector3(geometry->positions()->Get(at), geometry->positions()->Get(at + 1),
+                         geometry->positions()->Get(at + 2));
   };
   double sum = 0.0;
   std::vector<int> face;
-  for (const int v : *piece->polygons()) {
+  for (const int v : *geometry->polygons()) {
     if (v >= 0) {
       face.push_back(v);
       continue;
@@ -56,10 +56,10 @@ double volume(const flat::Piece* piece) {
 }
 
 /// Each edge of a closed surface is passed once in each direction.
-bool is_closed(const flat::Piece* piece) {
+bool is_closed(const flat::Geometry* geometry) {
   std::map<std::pair<int, int>, int> edges;
   std::vector<int> face;
-  for (const int v : *piece->polygons()) {
+  for (const int v : *geometry->polygons()) {
     if (v >= 0) {
       face.push_back(v);
       continue;
@@ -102,10 +102,10 @@ TEST(VrmlWorker, NumbersAreAsTheyWereWritten) {
   EXPECT_EQ(matrix_of(answer->nodes()->Get(1)).linear(), base::Matrix3(3.0 * base::Matrix3::Identity()));
   const flat::Node* view = answer->nodes()->Get(2);
   EXPECT_EQ(view->name()->str(), "front");
-  EXPECT_EQ(view->eye()->position()->y(), 1.6);
-  EXPECT_EQ(view->eye()->field_of_view(), 0.9);
-  EXPECT_EQ(std::abs(view->eye()->angle()), 0.3);
-  EXPECT_EQ(view->eye()->axis()->x() * view->eye()->angle(), -0.3);
+  EXPECT_EQ(view->viewpoint()->position()->y(), 1.6);
+  EXPECT_EQ(view->viewpoint()->field_of_view(), 0.9);
+  EXPECT_EQ(std::abs(view->viewpoint()->angle()), 0.3);
+  EXPECT_EQ(view->viewpoint()->axis()->x() * view->viewpoint()->angle(), -0.3);
 }
 
 TEST(VrmlWorker, NodesKeepTheirNames) {
@@ -138,13 +138,13 @@ TEST(VrmlWorker, UsesStandAnewAndShareShapes) {
       "Shape { appearance Appearance { material DEF M Material {} } geometry DEF B Box {} }\n"
       "Shape { appearance Appearance { material USE M } geometry USE B }");
   ASSERT_EQ(answer->nodes()->size(), 9U);
-  EXPECT_EQ(answer->pieces()->size(), 2U);
-  EXPECT_EQ(answer->looks()->size(), 1U);
+  EXPECT_EQ(answer->geometries()->size(), 2U);
+  EXPECT_EQ(answer->appearances()->size(), 1U);
   const std::vector<bool> reused = {false, false, false, true, true, true, true, false, false};
   for (std::size_t i = 0; i < reused.size(); ++i)
     EXPECT_EQ(answer->nodes()->Get(static_cast<flatbuffers::uoffset_t>(i))->reused(), reused[i]) << i;
   EXPECT_EQ(answer->nodes()->Get(4)->parent(), 3);
-  EXPECT_EQ(answer->nodes()->Get(4)->piece(), 0);
+  EXPECT_EQ(answer->nodes()->Get(4)->geometry(), 0);
 }
 
 TEST(VrmlWorker, GroupsShowWhatAViewerShows) {
@@ -172,21 +172,21 @@ TEST(VrmlWorker, ProtosArePutIntoPlace) {
       "  Group { children [ Ball { size IS r } Group { children IS more } ] } }\n"
       "Two { r 0.7 more [ Ball { } Group {} ] }");
   ASSERT_EQ(answer->nodes()->size(), 5U);
-  EXPECT_EQ(answer->pieces()->Get(0)->sizes()->Get(0), 0.7);
-  EXPECT_EQ(answer->pieces()->Get(1)->sizes()->Get(0), 1.0);
-  EXPECT_EQ(answer->looks()->Get(0)->diffuse()->r(), 0.25F);
+  EXPECT_EQ(answer->geometries()->Get(0)->sizes()->Get(0), 0.7);
+  EXPECT_EQ(answer->geometries()->Get(1)->sizes()->Get(0), 1.0);
+  EXPECT_EQ(answer->appearances()->Get(0)->diffuse()->r(), 0.25F);
 }
 
 TEST(VrmlWorker, LightsAreTold) {
   const SeenAnswer answer = clean(
       "DirectionalLight { direction 1 0 0 color 1 0.5 0 } PointLight { location 1 2 3 on FALSE }\n"
       "SpotLight { cutOffAngle 0.4 beamWidth 0.2 attenuation 0 1 0.1 }");
-  EXPECT_EQ(answer->nodes()->Get(0)->lamp()->direction()->x(), 1.0);
-  EXPECT_EQ(answer->nodes()->Get(0)->lamp()->colour()->g(), 0.5F);
-  EXPECT_EQ(answer->nodes()->Get(1)->lamp()->kind(), flat::LampKind::Point);
-  EXPECT_FALSE(answer->nodes()->Get(1)->lamp()->on());
-  EXPECT_EQ(answer->nodes()->Get(2)->lamp()->cut_off_angle(), 0.4);
-  EXPECT_EQ(answer->nodes()->Get(2)->lamp()->attenuation()->z(), 0.1);
+  EXPECT_EQ(answer->nodes()->Get(0)->light()->direction()->x(), 1.0);
+  EXPECT_EQ(answer->nodes()->Get(0)->light()->colour()->g(), 0.5F);
+  EXPECT_EQ(answer->nodes()->Get(1)->light()->kind(), flat::LightKind::Point);
+  EXPECT_FALSE(answer->nodes()->Get(1)->light()->on());
+  EXPECT_EQ(answer->nodes()->Get(2)->light()->cut_off_angle(), 0.4);
+  EXPECT_EQ(answer->nodes()->Get(2)->light()->attenuation()->z(), 0.1);
 }
 
 TEST(VrmlWorker, PicturesAndTheirTransformsAreTold) {
@@ -203,15 +203,15 @@ TEST(VrmlWorker, PicturesAndTheirTransformsAreTold) {
   EXPECT_FALSE(pixels->repeat_s());
   EXPECT_EQ(vector_of(pixels->pixels()), (std::vector<std::uint8_t>{255, 0, 128, 0, 0, 1}));
   EXPECT_EQ(answer->pictures()->Get(1)->urls()->Get(1)->text()->str(), "b.png");
-  const flat::Look* look = answer->looks()->Get(0);
-  EXPECT_EQ(look->name()->str(), "App");
-  EXPECT_FALSE(look->lit());
+  const flat::Appearance* appearance = answer->appearances()->Get(0);
+  EXPECT_EQ(appearance->name()->str(), "App");
+  EXPECT_FALSE(appearance->lit());
   // -C S R C T of the point (0.25, 0).
   const base::Vector2 centre(0.5, 0.5);
   const base::Vector2 turned =
       Eigen::Rotation2Dd(0.5) * (base::Vector2(0.25, 0) + base::Vector2(1, 0) + centre);
   const base::Vector2 expected = base::Vector2(2, 3).cwiseProduct(turned) - centre;
-  const auto m = vector_of(look->texture_transform());
+  const auto m = vector_of(appearance->texture_transform());
   EXPECT_NEAR(m[0] * 0.25 + m[2], expected.x(), 1e-12);
   EXPECT_NEAR(m[3] * 0.25 + m[5], expected.y(), 1e-12);
 }
@@ -221,10 +221,10 @@ TEST(VrmlWorker, FacesAreCheckedBeforeTheyAreTold) {
                                       "colorPerVertex FALSE color Color { color [ 1 0 0, 0 1 0, 0 0 1 ] }\n"
                                       "texCoord TextureCoordinate { point [ 0 0, 1 1 ] }\n"
                                       "texCoordIndex [ 0 1 0 1 -1 0 1 0 -1 0 0 1 -1 ] } }");
-  const flat::Piece* piece = answer->pieces()->Get(0);
-  EXPECT_EQ(vector_of(piece->polygons()), (std::vector<int>{0, 1, 2, 3, -1, 0, 1, 4, -1}));
-  EXPECT_EQ(vector_of(piece->texture_polygons()), (std::vector<int>{0, 1, 0, 1, -1, 0, 0, 1, -1}));
-  EXPECT_EQ(vector_of(piece->colour_polygons()), (std::vector<int>{0, 2}));
+  const flat::Geometry* geometry = answer->geometries()->Get(0);
+  EXPECT_EQ(vector_of(geometry->polygons()), (std::vector<int>{0, 1, 2, 3, -1, 0, 1, 4, -1}));
+  EXPECT_EQ(vector_of(geometry->texture_polygons()), (std::vector<int>{0, 1, 0, 1, -1, 0, 0, 1, -1}));
+  EXPECT_EQ(vector_of(geometry->colour_polygons()), (std::vector<int>{0, 2}));
   EXPECT_NE(answer.notes().find("1 of 3 faces are left out"), std::string::npos) << answer.notes();
 }
 
@@ -234,7 +234,7 @@ TEST(VrmlWorker, ListsThatDoNotFitAreLeftOut) {
         "Shape { geometry IndexedFaceSet { coord Coordinate { point [\n"
         "0 0 0, 1 0 0, 1 1 0 ] } coordIndex [ 0 1 2 -1 ] " +
         fields + " } }");
-    EXPECT_EQ(answer->pieces()->size(), 1U);
+    EXPECT_EQ(answer->geometries()->size(), 1U);
     return answer.notes();
   };
   EXPECT_EQ(notes(""), "");
@@ -256,14 +256,14 @@ TEST(VrmlWorker, RoundSolidsWithoutAPartAreFaces) {
       "Shape { geometry Cone { bottomRadius 2 height 3 bottom FALSE } } Shape { geometry Cylinder { side "
       "FALSE } }\n"
       "Shape { geometry Cone { bottomRadius 2 height 3 } }");
-  EXPECT_EQ(answer->pieces()->Get(0)->kind(), flat::PieceKind::Faces);
-  EXPECT_EQ(answer->pieces()->Get(0)->positions()->size(), 3U * 49U);
+  EXPECT_EQ(answer->geometries()->Get(0)->kind(), flat::GeometryKind::Faces);
+  EXPECT_EQ(answer->geometries()->Get(0)->positions()->size(), 3U * 49U);
   // Open towards the bottom, whose plane lies at y = -1.5: its cone of the origin is missing.
   const double disc = 0.5 * 48 * 4.0 * std::sin(2 * M_PI / 48);
-  EXPECT_NEAR(volume(answer->pieces()->Get(0)), disc * 3.0 / 3.0 - disc * 1.5 / 3.0, 1e-5);
-  EXPECT_EQ(answer->pieces()->Get(1)->polygons()->size(), 2U * 49U);
-  EXPECT_GT(volume(answer->pieces()->Get(1)), 0.0);
-  EXPECT_EQ(answer->pieces()->Get(2)->kind(), flat::PieceKind::Cone);
+  EXPECT_NEAR(volume(answer->geometries()->Get(0)), disc * 3.0 / 3.0 - disc * 1.5 / 3.0, 1e-5);
+  EXPECT_EQ(answer->geometries()->Get(1)->polygons()->size(), 2U * 49U);
+  EXPECT_GT(volume(answer->geometries()->Get(1)), 0.0);
+  EXPECT_EQ(answer->geometries()->Get(2)->kind(), flat::GeometryKind::Cone);
 }
 
 TEST(VrmlWorker, ExtrusionsAreClosedAndLookOutward) {
@@ -277,15 +277,15 @@ TEST(VrmlWorker, ExtrusionsAreClosedAndLookOutward) {
       // A ring of square section: the middle of the section goes round at radius 3.
       "Shape { geometry Extrusion { crossSection [ 1 1, 1 -1, -1 -1, -1 1, 1 1 ]\n"
       "  spine [ 3 0 0, 0 0 -3, -3 0 0, 0 0 3, 3 0 0 ] } }");
-  for (const flat::Piece* piece : *answer->pieces()) {
-    EXPECT_TRUE(is_closed(piece));
-    EXPECT_GT(volume(piece), 0.0);
-    EXPECT_EQ(piece->texture_polygons()->size(), piece->polygons()->size());
+  for (const flat::Geometry* geometry : *answer->geometries()) {
+    EXPECT_TRUE(is_closed(geometry));
+    EXPECT_GT(volume(geometry), 0.0);
+    EXPECT_EQ(geometry->texture_polygons()->size(), geometry->polygons()->size());
   }
-  EXPECT_NEAR(volume(answer->pieces()->Get(0)), 4.0, 1e-6);
-  EXPECT_EQ(answer->pieces()->Get(0)->positions()->size(), 3U * 8U);
-  EXPECT_NEAR(volume(answer->pieces()->Get(2)), 3.0 * 5.0, 1e-5);
-  EXPECT_EQ(answer->pieces()->Get(3)->positions()->size(), 3U * 16U);
+  EXPECT_NEAR(volume(answer->geometries()->Get(0)), 4.0, 1e-6);
+  EXPECT_EQ(answer->geometries()->Get(0)->positions()->size(), 3U * 8U);
+  EXPECT_NEAR(volume(answer->geometries()->Get(2)), 3.0 * 5.0, 1e-5);
+  EXPECT_EQ(answer->geometries()->Get(3)->positions()->size(), 3U * 16U);
 }
 
 TEST(VrmlWorker, ElevationGridsRiseAlongY) {
@@ -294,20 +294,20 @@ TEST(VrmlWorker, ElevationGridsRiseAlongY) {
       "5 6 ]\n"
       "  colorPerVertex FALSE color Color { color [ 1 0 0, 0 1 0 ] } } }");
   EXPECT_NE(answer.notes().find("fewer heights than it says"), std::string::npos);
-  const flat::Piece* piece = answer->pieces()->Get(0);
-  EXPECT_EQ(vector_of(piece->polygons()), (std::vector<int>{0, 3, 4, 1, -1, 1, 4, 5, 2, -1}));
-  EXPECT_EQ(vector_of(piece->positions()),
+  const flat::Geometry* geometry = answer->geometries()->Get(0);
+  EXPECT_EQ(vector_of(geometry->polygons()), (std::vector<int>{0, 3, 4, 1, -1, 1, 4, 5, 2, -1}));
+  EXPECT_EQ(vector_of(geometry->positions()),
             (std::vector<float>{0, 0, 0, 2, 1, 0, 4, 2, 0, 0, 3, 0.1F, 2, 4, 0.1F, 4, 5, 0.1F}));
-  EXPECT_EQ(piece->colours()->size(), 6U);
+  EXPECT_EQ(geometry->colours()->size(), 6U);
 }
 
 TEST(VrmlWorker, TextBecomesFlatTriangles) {
   const SeenAnswer answer = ask_about("Shape { geometry Text { string [ \"Ab\" \"\xc3\xa9\" ] } }");
   EXPECT_NE(answer.notes().find("only the letters of ASCII"), std::string::npos);
-  const flat::Piece* piece = answer->pieces()->Get(0);
-  EXPECT_GT(piece->polygons()->size(), 40U);
-  for (flatbuffers::uoffset_t i = 2; i < piece->positions()->size(); i += 3)
-    EXPECT_EQ(piece->positions()->Get(i), 0.0F);
+  const flat::Geometry* geometry = answer->geometries()->Get(0);
+  EXPECT_GT(geometry->polygons()->size(), 40U);
+  for (flatbuffers::uoffset_t i = 2; i < geometry->positions()->size(); i += 3)
+    EXPECT_EQ(geometry->positions()->Get(i), 0.0F);
 }
 
 TEST(VrmlWorker, OwnShapesAreKnownByTheirProtos) {
@@ -335,16 +335,16 @@ TEST(VrmlWorker, OwnShapesAreKnownByTheirProtos) {
       "Box {} }\n"
       "PROTO IcomeScene [ field SFString name \"\" field MFString objects [] ] { Group {} }\n"
       "IcomeScene { name \"Second\" objects [ \"A\" \"B\" ] }");
-  const auto& pieces = *answer->pieces();
-  EXPECT_EQ(pieces.Get(0)->kind(), flat::PieceKind::Csg);
-  EXPECT_EQ(pieces.Get(0)->text()->str(), long_tree);
-  EXPECT_EQ(pieces.Get(0)->name()->str(), "Part");
-  EXPECT_EQ(pieces.Get(1)->kind(), flat::PieceKind::Faces);
-  EXPECT_EQ(pieces.Get(2)->kind(), flat::PieceKind::Loop);
-  EXPECT_EQ(vector_of(pieces.Get(2)->creases()), (std::vector<int>{0, 1}));
-  EXPECT_EQ(pieces.Get(3)->box()->Get(5), 0.1);
-  EXPECT_TRUE(pieces.Get(4)->along_y());
-  const flat::Look* rubber = answer->looks()->Get(0);
+  const auto& geometries = *answer->geometries();
+  EXPECT_EQ(geometries.Get(0)->kind(), flat::GeometryKind::Csg);
+  EXPECT_EQ(geometries.Get(0)->text()->str(), long_tree);
+  EXPECT_EQ(geometries.Get(0)->name()->str(), "Part");
+  EXPECT_EQ(geometries.Get(1)->kind(), flat::GeometryKind::Faces);
+  EXPECT_EQ(geometries.Get(2)->kind(), flat::GeometryKind::Loop);
+  EXPECT_EQ(vector_of(geometries.Get(2)->creases()), (std::vector<int>{0, 1}));
+  EXPECT_EQ(geometries.Get(3)->box()->Get(5), 0.1);
+  EXPECT_TRUE(geometries.Get(4)->along_y());
+  const flat::Appearance* rubber = answer->appearances()->Get(0);
   EXPECT_EQ(rubber->name()->str(), "Rubber");
   EXPECT_EQ(rubber->stiffness(), flatbuffers::Optional<double>(0.2));
   EXPECT_FALSE(rubber->damping().has_value());
@@ -358,7 +358,7 @@ TEST(VrmlWorker, WhatItDoesNotKnowIsLeftOutWithItsLine) {
       "Group { children [\n  Strange { children [ Group {} ] }\n  Shape { shading \"x\" geometry Box {} }\n"
       "  USE Nothing ] }\nROUTE A.b TO C.d\nShape { appearance Strange {} geometry Box {} }");
   ASSERT_EQ(answer.refusal(), "");
-  EXPECT_EQ(answer->pieces()->size(), 2U);
+  EXPECT_EQ(answer->geometries()->size(), 2U);
   EXPECT_EQ(answer.notes(),
             ":4: The field 'shading' is left out: Shape has none of this name.\n"
             ":5: USE 'Nothing' is left out: no node before it has this name.\n");

@@ -25,11 +25,11 @@ struct FeltVersion {
 
 /// Keeps the world under the hand: brings each version of what can be touched to the servos of all pointers,
 /// and to main.
-class FeltWorld final : public Representation {
+class HapticFollower final : public Representation {
  public:
   /// The servos and the box outlive this; it alone publishes to them.
-  FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
-            realtime::LatestValue<FeltVersion>& newest);
+  HapticFollower(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
+                 realtime::LatestValue<FeltVersion>& newest);
 
   void open(const world::World& world, world::SceneId shown) override;
   void show(const world::World& world, world::SceneId shown) override;

@@ -17,26 +17,27 @@ struct FaceFields;
 struct MadeFaces;
 
 /// Puts geometry nodes into the answer, each once.
-class Pieces {
+class Geometries {
  public:
-  Pieces(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
+  Geometries(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
       : files_(files), answer_(answer), wrapping_(wrapping) {}
 
-  /// The number of the piece that a geometry node makes. None, with a note where one helps: it makes none.
+  /// The number in the answer of what a geometry node makes. None, with a note where one helps: it makes
+  /// none.
   std::optional<int> number_of(const Unwrapped& geometry);
 
  private:
-  /// Each gives the number of the piece; none: there is none, and that is told.
-  std::optional<int> add(const Unwrapped& it, PieceParts& parts);
-  std::optional<int> add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, PieceParts& parts);
-  std::optional<int> add(const Unwrapped& it, const SoVRMLElevationGrid& node, PieceParts& parts);
-  std::optional<int> add(const Unwrapped& it, const SoVRMLExtrusion& node, PieceParts& parts);
-  std::optional<int> add(const Unwrapped& it, const SoVRMLText& node, PieceParts& parts);
-  std::optional<int> add_solid(const Unwrapped& it, PieceParts& parts);
-  std::optional<int> add_faces(const Unwrapped& it, const FaceFields& fields, PieceParts& parts);
-  std::optional<int> add_made(const Unwrapped& it, const MadeFaces& made, PieceParts& parts);
+  /// Each gives the number in the answer; none: there is none, and that is told.
+  std::optional<int> add(const Unwrapped& it, GeometryParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, GeometryParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLElevationGrid& node, GeometryParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLExtrusion& node, GeometryParts& parts);
+  std::optional<int> add(const Unwrapped& it, const SoVRMLText& node, GeometryParts& parts);
+  std::optional<int> add_solid(const Unwrapped& it, GeometryParts& parts);
+  std::optional<int> add_faces(const Unwrapped& it, const FaceFields& fields, GeometryParts& parts);
+  std::optional<int> add_made(const Unwrapped& it, const MadeFaces& made, GeometryParts& parts);
   /// A shape of ICOME's own, which PROTOs stand for; none: this is no such, and to be read as what it shows.
-  std::optional<int> add_own(const Unwrapped& it, PieceParts& parts);
+  std::optional<int> add_own(const Unwrapped& it, GeometryParts& parts);
   std::optional<int> leave_out(const Unwrapped& it, const std::string& why);
   void fill_attributes(const Unwrapped& it, const SoSFNode& texture, const SoSFNode& normal,
                        const SoSFNode& colour, FaceFields& fields);

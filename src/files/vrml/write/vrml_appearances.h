@@ -5,9 +5,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "files/design.h"
 #include "files/findings.h"
 #include "files/pictures/picture_folder.h"
+#include "files/remark.h"
 #include "files/vrml/vrml_names.h"
 #include "files/vrml/vrml_protos.h"
 #include "files/vrml/write/vrml_text.h"
@@ -16,10 +16,10 @@
 namespace icome::files {
 
 /// Writes materials with their textures as Appearance nodes, each once. Refers to what it was made of.
-class VrmlLooks {
+class VrmlAppearances {
  public:
-  VrmlLooks(const std::filesystem::path& design, const world::World& world, VrmlNames& names, VrmlText& text,
-            std::vector<Remark>& remarks)
+  VrmlAppearances(const std::filesystem::path& design, const world::World& world, VrmlNames& names,
+                  VrmlText& text, std::vector<Remark>& remarks)
       : world_(world), names_(names), text_(text), remarks_(remarks), pictures_(design) {
     names_.take(kNoMaterial);
   }

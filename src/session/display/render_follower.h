@@ -11,12 +11,12 @@
 namespace icome::session {
 
 /// Keeps the world before the eye: brings each version of what is drawn to the display, and to main.
-class SeenWorld final : public Representation {
+class RenderFollower final : public Representation {
  public:
   /// The feed and the box outlive this; it alone publishes scenes to them. `clock` tells the time (s) of what
   /// moves and, where `shapes_change`, of shapes; else these are drawn as at t = 0.
-  SeenWorld(DisplayFeed& display, realtime::LatestValue<render::RenderScenePointer>& newest,
-            std::function<double()> clock, bool shapes_change)
+  RenderFollower(DisplayFeed& display, realtime::LatestValue<render::RenderScenePointer>& newest,
+                 std::function<double()> clock, bool shapes_change)
       : display_(display), newest_(newest), clock_(std::move(clock)), shapes_change_(shapes_change) {}
 
   void open(const world::World& world, world::SceneId shown) override;

@@ -1,4 +1,4 @@
-#include "files/vrml/write/vrml_looks.h"
+#include "files/vrml/write/vrml_appearances.h"
 
 #include <fmt/format.h>
 
@@ -78,7 +78,7 @@ std::optional<VrmlTextureTransform> vrml_texture_transform(const world::PictureF
 
 }  // namespace
 
-void VrmlLooks::name(const std::vector<MaterialId>& materials) {
+void VrmlAppearances::name(const std::vector<MaterialId>& materials) {
   // Those that can be called what they are called come first.
   for (const MaterialId id : materials) {
     const std::string& own = world_.find(id)->name;
@@ -95,18 +95,18 @@ void VrmlLooks::name(const std::vector<MaterialId>& materials) {
   }
 }
 
-bool VrmlLooks::needs_proto(MaterialId id, const Material& material) const {
+bool VrmlAppearances::needs_proto(MaterialId id, const Material& material) const {
   const bool named = material.name.empty() || material.name == found(material_names_, id);
   return !named || !(material.touch == world::TouchProperties());
 }
 
-bool VrmlLooks::need_proto() const {
+bool VrmlAppearances::need_proto() const {
   const auto& materials = world_.materials();
   return std::any_of(materials.begin(), materials.end(),
                      [&](const auto& it) { return it.second.users > 0 && needs_proto(it.first, it.second); });
 }
 
-base::Result<void> VrmlLooks::write(MaterialId id) {
+base::Result<void> VrmlAppearances::write(MaterialId id) {
   const std::string name = id ? found(material_names_, id) : kNoMaterial;
   if (!name.empty() && !written_materials_.insert(id).second) {
     text_.add("appearance USE " + name);
@@ -130,7 +130,7 @@ base::Result<void> VrmlLooks::write(MaterialId id) {
   return result;
 }
 
-void VrmlLooks::write_material(MaterialId id, const Material& material) {
+void VrmlAppearances::write_material(MaterialId id, const Material& material) {
   const Material usual;
   const bool with_proto = needs_proto(id, material);
   text_.open(with_proto ? fmt::format("material {}", kMaterialProto.name) : "material Material");
@@ -150,7 +150,7 @@ void VrmlLooks::write_material(MaterialId id, const Material& material) {
   text_.close();
 }
 
-base::Result<void> VrmlLooks::write_texture(TextureId id) {
+base::Result<void> VrmlAppearances::write_texture(TextureId id) {
   const world::Texture& texture = *world_.find(id);
   const std::string name = found(texture_names_, id);
   if (!name.empty() && !written_textures_.insert(id).second) {
@@ -173,7 +173,7 @@ base::Result<void> VrmlLooks::write_texture(TextureId id) {
   return {};
 }
 
-void VrmlLooks::write_picture_frame(const world::Material& material) {
+void VrmlAppearances::write_picture_frame(const world::Material& material) {
   if (material.picture_frame == world::kPictureAsItLies) return;
   const auto transform = vrml_texture_transform(material.picture_frame);
   if (!transform) return losses_.add(kAskew, material.name);
@@ -184,7 +184,7 @@ void VrmlLooks::write_picture_frame(const world::Material& material) {
   text_.close();
 }
 
-void VrmlLooks::tell_what_is_lost(const world::Material& material) {
+void VrmlAppearances::tell_what_is_lost(const world::Material& material) {
   const auto add = [&](bool is_lost, const FindingKind& kind) {
     if (is_lost) losses_.add(kind, material.name);
   };

@@ -1,4 +1,4 @@
-#include "session/display/seen_world.h"
+#include "session/display/render_follower.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,35 +13,35 @@ constexpr double kPauseOfWork = 3.0;
 
 }  // namespace
 
-void SeenWorld::open(const world::World& world, world::SceneId shown) {
+void RenderFollower::open(const world::World& world, world::SceneId shown) {
   playback_ = {};
   publisher_ = render::ScenePublisher(shown);
   publish(publisher_.publish(world));
 }
 
-void SeenWorld::show(const world::World& world, world::SceneId shown) {
+void RenderFollower::show(const world::World& world, world::SceneId shown) {
   publish(publisher_.show_scene(playback_.shown(world), shown));
 }
 
-void SeenWorld::follow(const world::World& world, const world::Changes& changes) {
+void RenderFollower::follow(const world::World& world, const world::Changes& changes) {
   const world::Changes all = playback_.follow(world, changes, clock_() - played_since_);
   publish(publisher_.update(playback_.shown(world), all));
 }
 
-void SeenWorld::play(const world::World& world, std::optional<double> since) {
+void RenderFollower::play(const world::World& world, std::optional<double> since) {
   played_since_ = since.value_or(0.0);
   const auto time = since ? std::optional<double>(clock_() - *since) : std::nullopt;
   const world::Changes changes = playback_.play(world, time);
   publish(publisher_.update(playback_.shown(world), changes));
 }
 
-std::optional<std::chrono::nanoseconds> SeenWorld::pause(const world::World& world) const {
+std::optional<std::chrono::nanoseconds> RenderFollower::pause(const world::World& world) const {
   const bool changes = shapes_change_ && publisher_.changes(playback_.shown(world));
   if (!changes && !playback_.moves()) return std::nullopt;
   return std::chrono::nanoseconds(std::int64_t(1e9 * std::max(0.0, due_ - clock_())));
 }
 
-void SeenWorld::go_on(const world::World& world) {
+void RenderFollower::go_on(const world::World& world) {
   const double now = clock_();
   if (now < due_) return;
   render::RenderScenePointer scene = nullptr;
@@ -56,7 +56,7 @@ void SeenWorld::go_on(const world::World& world) {
   due_ = done + std::max(shortest, kPauseOfWork * (done - now));
 }
 
-void SeenWorld::publish(const render::RenderScenePointer& scene) {
+void RenderFollower::publish(const render::RenderScenePointer& scene) {
   display_.publish(scene);
   newest_.publish(scene);
 }

@@ -13,8 +13,8 @@
 #include "files/vrml/worker/extrusion.h"
 #include "files/vrml/worker/face_fields.h"
 #include "files/vrml/worker/field_values.h"
+#include "files/vrml/worker/geometries.h"
 #include "files/vrml/worker/geometry_fields.h"
-#include "files/vrml/worker/pieces.h"
 
 namespace icome::files {
 namespace {
@@ -31,15 +31,14 @@ base::Matrix3 turn(const SbRotation& rotation) {
 std::vector<base::Vector2> points(const SoMFVec2f& field) {
   std::vector<base::Vector2> values;
   for (int i = 0; i < field.getNum(); ++i)
-    values.emplace_back(io::as_written(field[i][0]), io::as_written(field[i][1]));
+    values.emplace_back(as_written(field[i][0]), as_written(field[i][1]));
   return values;
 }
 
 ExtrusionFields fields_of(const SoVRMLExtrusion& node) {
   ExtrusionFields fields;
   fields.cross_section = points(node.crossSection);
-  for (int i = 0; i < node.spine.getNum(); ++i)
-    fields.spine.emplace_back(io::as_written(node.spine[i]).data());
+  for (int i = 0; i < node.spine.getNum(); ++i) fields.spine.emplace_back(as_written(node.spine[i]).data());
   fields.scales = points(node.scale);
   if (fields.scales.empty()) fields.scales.emplace_back(1.0, 1.0);
   for (int i = 0; i < node.orientation.getNum(); ++i)
@@ -84,7 +83,7 @@ bool is_ascii(const std::string& text) {
 
 }  // namespace
 
-std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLExtrusion& node, PieceParts& parts) {
+std::optional<int> Geometries::add(const Unwrapped& it, const SoVRMLExtrusion& node, GeometryParts& parts) {
   if (node.crossSection.getNum() < 2 || node.spine.getNum() < 2)
     return leave_out(it, "its crossSection and its spine need two points each");
   if (std::int64_t{node.crossSection.getNum()} * node.spine.getNum() > kMadeVertexLimit)
@@ -95,7 +94,8 @@ std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLExtrusion& node,
   return add_made(it, make_extrusion(fields_of(node)), parts);
 }
 
-std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLElevationGrid& node, PieceParts& parts) {
+std::optional<int> Geometries::add(const Unwrapped& it, const SoVRMLElevationGrid& node,
+                                   GeometryParts& parts) {
   const std::int64_t columns = node.xDimension.getValue();
   std::int64_t rows = node.zDimension.getValue();
   const std::int64_t heights = node.height.getNum();
@@ -108,8 +108,8 @@ std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLElevationGrid& n
   std::vector<float> positions;
   std::vector<float> texture;
   std::vector<int> polygons;
-  const double x_spacing = io::as_written(node.xSpacing.getValue());
-  const double z_spacing = io::as_written(node.zSpacing.getValue());
+  const double x_spacing = as_written(node.xSpacing.getValue());
+  const double z_spacing = as_written(node.zSpacing.getValue());
   const std::span<const float> height = floats(node.height);
   for (std::int64_t j = 0; j < rows; ++j)
     for (std::int64_t i = 0; i < columns; ++i) {
@@ -136,7 +136,7 @@ std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLElevationGrid& n
   return add_faces(it, fields, parts);
 }
 
-std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLText& node, PieceParts& parts) {
+std::optional<int> Geometries::add(const Unwrapped& it, const SoVRMLText& node, GeometryParts& parts) {
   std::size_t letters = 0;
   bool has_others = false;
   for (const std::string& line : files_.strings(node.string)) {

@@ -9,23 +9,23 @@
 namespace icome::files {
 
 /// Puts Appearances into the answer, each combination of Material and texture once.
-class Looks {
+class Appearances {
  public:
-  Looks(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
+  Appearances(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
       : files_(files), answer_(answer), wrapping_(wrapping) {}
 
   /// The number of what an Appearance says; -1: there is none.
   int number_of(const Unwrapped& appearance);
 
  private:
-  void fill_material(const Unwrapped& material, LookParts& look) const;
+  void fill_material(const Unwrapped& material, AppearanceParts& appearance) const;
   int picture_number(const Unwrapped& texture);
 
   const SceneFiles& files_;
   Answer& answer_;
   Wrapping& wrapping_;
-  std::map<std::array<const void*, 3>, int> looks_ = {};  // by Material, texture and texture transform
-  std::map<const void*, int> pictures_ = {};              // by texture
+  std::map<std::array<const void*, 3>, int> appearances_ = {};  // by Material, texture and texture transform
+  std::map<const void*, int> pictures_ = {};                    // by texture
 };
 
 }  // namespace icome::files

@@ -1,4 +1,4 @@
-#include "files/design.h"
+#include "files/design_files.h"
 
 #include <fmt/format.h>
 
@@ -173,12 +173,6 @@ void tell_of_moving_shapes(LoadedDesign& design) {
 }
 
 }  // namespace
-
-std::string sentence(const Remark& remark, const std::string& file) {
-  const std::string& name = remark.file.empty() ? file : remark.file;
-  return remark.line > 0 ? fmt::format("{}:{}: {}", name, remark.line, remark.text)
-                         : fmt::format("{}: {}", name, remark.text);
-}
 
 base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
                                        const DesignReadOptions& options) try {

@@ -9,15 +9,15 @@
 namespace icome::io {
 
 /// Knows how long reading a file may still go on: until its time is over or whoever waits for it says stop.
-class Patience {
+class TimeBudget {
  public:
   using Progress = std::function<bool(double part)>;
 
-  Patience() = default;
+  TimeBudget() = default;
   /// As long as it takes.
-  explicit Patience(Progress progress) : progress_(std::move(progress)) {}
+  explicit TimeBudget(Progress progress) : progress_(std::move(progress)) {}
   /// For `seconds` from now; `progress` hears parts from `begin` to 1.
-  Patience(double seconds, Progress progress, double begin)
+  TimeBudget(double seconds, Progress progress, double begin)
       : end_(base::steady_nanoseconds() + std::int64_t(1e9 * seconds)),
         progress_(std::move(progress)),
         begin_(begin) {}

@@ -26,7 +26,7 @@ double picked_height(const Session& session) {
   return picked ? picked->place.point.y() : -1.0;
 }
 
-TEST(SeenWorld, WhatChangesIsDrawnAsItIsFelt) {
+TEST(RenderFollower, WhatChangesIsDrawnAsItIsFelt) {
   const auto session = start();
   add_shape(*session, rising_floor(), base::Affine3::Identity(), "floor");
   session->settle();
@@ -48,7 +48,7 @@ TEST(SeenWorld, WhatChangesIsDrawnAsItIsFelt) {
   EXPECT_NE(drawn, 0.0);
 }
 
-TEST(SeenWorld, WhatDoesNotChangeIsMadeOnce) {
+TEST(RenderFollower, WhatDoesNotChangeIsMadeOnce) {
   const auto session = start();
   add_box(*session, world::at(0.0, 0.0, 0.0));
   session->settle();

@@ -1,4 +1,4 @@
-#include "files/vrml/read/vrml_pieces.h"
+#include "files/vrml/read/vrml_geometries.h"
 
 #include <flatbuffers/flatbuffers.h>
 #include <fmt/format.h>
@@ -34,21 +34,22 @@ constexpr FindingKind kWrongEdges = {"Creases and corners at vertices that are n
 
 constexpr std::size_t kLongestPrimitive = 200;  // letters: three numbers, and no novel in the error
 
-VrmlFaceSet faces_of(const flat::Piece& piece, world::FlatReader& reader) {
+VrmlFaceSet faces_of(const flat::Geometry& geometry, world::FlatReader& reader) {
   VrmlFaceSet faces;
-  faces.name = reader.text(piece.name());
-  faces.positions = reader.items<float>(piece.positions());
-  faces.polygons = reader.items<std::int32_t>(piece.polygons());
-  faces.texture_coordinates = reader.items<float>(piece.texture_coordinates());
-  faces.texture_polygons = reader.items<std::int32_t>(piece.texture_polygons());
-  faces.normals = reader.items<float>(piece.normals());
-  faces.normal_polygons = reader.items<std::int32_t>(piece.normal_polygons());
-  faces.normal_per_vertex = piece.normal_per_vertex();
-  faces.colours = reader.items<float>(piece.colours());
-  faces.colour_polygons = reader.items<std::int32_t>(piece.colour_polygons());
-  faces.colour_per_vertex = piece.colour_per_vertex();
-  faces.ccw = piece.ccw();
-  faces.crease_angle = std::isfinite(piece.crease_angle()) ? io::from_single(piece.crease_angle()) : 0.0;
+  faces.name = reader.text(geometry.name());
+  faces.positions = reader.items<float>(geometry.positions());
+  faces.polygons = reader.items<std::int32_t>(geometry.polygons());
+  faces.texture_coordinates = reader.items<float>(geometry.texture_coordinates());
+  faces.texture_polygons = reader.items<std::int32_t>(geometry.texture_polygons());
+  faces.normals = reader.items<float>(geometry.normals());
+  faces.normal_polygons = reader.items<std::int32_t>(geometry.normal_polygons());
+  faces.normal_per_vertex = geometry.normal_per_vertex();
+  faces.colours = reader.items<float>(geometry.colours());
+  faces.colour_polygons = reader.items<std::int32_t>(geometry.colour_polygons());
+  faces.colour_per_vertex = geometry.colour_per_vertex();
+  faces.ccw = geometry.ccw();
+  faces.crease_angle =
+      std::isfinite(geometry.crease_angle()) ? io::from_single(geometry.crease_angle()) : 0.0;
   return faces;
 }
 
@@ -58,13 +59,13 @@ Result<GeometryPointer> checked(const geometry::Primitive& primitive, world::Axi
 }
 
 /// One of the primitives of VRML; sizes as they are.
-Result<GeometryPointer> vrml_primitive(flat::PieceKind kind, const std::vector<double>& sizes) {
-  const std::size_t count = kind == flat::PieceKind::Box ? 3 : kind == flat::PieceKind::Sphere ? 1 : 2;
+Result<GeometryPointer> vrml_primitive(flat::GeometryKind kind, const std::vector<double>& sizes) {
+  const std::size_t count = kind == flat::GeometryKind::Box ? 3 : kind == flat::GeometryKind::Sphere ? 1 : 2;
   if (sizes.size() != count) return base::fail("has too few sizes");
-  if (kind == flat::PieceKind::Box)
+  if (kind == flat::GeometryKind::Box)
     return checked(geometry::Box{0.5 * Vector3(sizes[0], sizes[1], sizes[2])}, world::Axis::Z);
-  if (kind == flat::PieceKind::Sphere) return checked(geometry::Sphere{sizes[0]}, world::Axis::Z);
-  if (kind == flat::PieceKind::Cylinder)
+  if (kind == flat::GeometryKind::Sphere) return checked(geometry::Sphere{sizes[0]}, world::Axis::Z);
+  if (kind == flat::GeometryKind::Cylinder)
     return checked(geometry::Cylinder{sizes[0], sizes[1]}, world::Axis::Y);
   return checked(geometry::Cone{sizes[0], 0.0, sizes[1]}, world::Axis::Y);
 }
@@ -100,24 +101,24 @@ class LoopMaker {
   }
 
   Result<GeometryPointer> make(const std::vector<std::int32_t>& creases,
-                               const std::vector<std::int32_t>& corners, io::Patience& patience) {
+                               const std::vector<std::int32_t>& corners, io::TimeBudget& time_budget) {
     const TakenFaces taken =
         take_faces(faces_.positions, faces_.polygons, faces_.ccw, faces_.name, findings_);
     control_.mesh.positions = taken.mesh.positions;
     for (std::size_t i = 0; i < taken.vertices.size(); ++i)
       numbers_[taken.vertices[i]] = std::uint32_t(taken.mesh.corners[i]) + 1;
-    if (!cut(taken.mesh, patience)) return base::fail("it takes too long");
+    if (!cut(taken.mesh, time_budget)) return base::fail("it takes too long");
     add_sharp(creases, corners);
     if (const auto good = geometry::loop_topology(control_); !good) return tl::unexpected(good.error());
     return GeometryPointer(std::make_shared<world::LoopGeometry>(std::move(control_)));
   }
 
  private:
-  bool cut(const PolygonMesh& mesh, io::Patience& patience) {
+  bool cut(const PolygonMesh& mesh, io::TimeBudget& time_budget) {
     std::vector<Vector3> corners;
     std::vector<std::array<std::uint32_t, 3>> cut;
     for (std::size_t i = 0; i < mesh.polygons(); ++i) {
-      if (!patience.lasts()) return false;
+      if (!time_budget.lasts()) return false;
       const std::uint32_t* const polygon = mesh.corners.data() + mesh.begins[i];
       corners.clear();
       cut.clear();
@@ -159,26 +160,27 @@ class LoopMaker {
   geometry::ControlMesh control_;
 };
 
-/// Reads one piece.
-class PieceReader {
+/// Reads one geometry.
+class GeometryReader {
  public:
-  PieceReader(const flat::Piece& piece, world::FlatReader& reader, Findings& findings, io::Patience& patience)
-      : piece_(piece),
+  GeometryReader(const flat::Geometry& geometry, world::FlatReader& reader, Findings& findings,
+                 io::TimeBudget& time_budget)
+      : geometry_(geometry),
         reader_(reader),
         findings_(findings),
-        patience_(patience),
-        faces_(faces_of(piece, reader)) {}
+        time_budget_(time_budget),
+        faces_(faces_of(geometry, reader)) {}
 
   GeometryPointer shape(bool shows_picture) {
-    if (piece_.kind() > flat::PieceKind::MAX) {
+    if (geometry_.kind() > flat::GeometryKind::MAX) {
       findings_.add(kUnknownKind, faces_.name);
       return nullptr;
     }
-    if (piece_.kind() != flat::PieceKind::Faces) {
+    if (geometry_.kind() != flat::GeometryKind::Faces) {
       if (GeometryPointer shape = exact()) return shape;
       if (faces_.polygons.empty()) return nullptr;
     }
-    GeometryPointer mesh = mesh_of_faces(faces_, shows_picture, findings_, patience_);
+    GeometryPointer mesh = mesh_of_faces(faces_, shows_picture, findings_, time_budget_);
     if (!mesh) findings_.add(kEmpty, faces_.name);
     return mesh;
   }
@@ -189,10 +191,10 @@ class PieceReader {
     auto shape = make();
     if (!reader_.fault().empty()) return nullptr;
     if (shape) return *shape;
-    if (piece_.kind() < flat::PieceKind::Faces) {
+    if (geometry_.kind() < flat::GeometryKind::Faces) {
       findings_.add(kWrongSizes, faces_.name);
     } else {
-      findings_.tell(fmt::format("The shape {} {}: {}", said(faces_.name),
+      findings_.tell(fmt::format("The shape {} {}: {}", quoted_name(faces_.name),
                                  faces_.polygons.empty() ? "is left out" : "becomes a mesh of triangles",
                                  shape.error().message));
     }
@@ -200,35 +202,35 @@ class PieceReader {
   }
 
   Result<GeometryPointer> make() {
-    switch (piece_.kind()) {
-      case flat::PieceKind::Loop: {
-        const auto creases = reader_.items<std::int32_t>(piece_.creases());
-        const auto corners = reader_.items<std::int32_t>(piece_.corners());
-        return LoopMaker(faces_, findings_).make(creases, corners, patience_);
+    switch (geometry_.kind()) {
+      case flat::GeometryKind::Loop: {
+        const auto creases = reader_.items<std::int32_t>(geometry_.creases());
+        const auto corners = reader_.items<std::int32_t>(geometry_.corners());
+        return LoopMaker(faces_, findings_).make(creases, corners, time_budget_);
       }
-      case flat::PieceKind::Csg:
-        return csg_of(reader_.text(piece_.text()));
-      case flat::PieceKind::Implicit:
-        return implicit_of(reader_.text(piece_.text()), reader_.items<double>(piece_.box()));
-      case flat::PieceKind::Primitive:
-        return primitive_of_text(reader_.text(piece_.text()), piece_.along_y());
+      case flat::GeometryKind::Csg:
+        return csg_of(reader_.text(geometry_.text()));
+      case flat::GeometryKind::Implicit:
+        return implicit_of(reader_.text(geometry_.text()), reader_.items<double>(geometry_.box()));
+      case flat::GeometryKind::Primitive:
+        return primitive_of_text(reader_.text(geometry_.text()), geometry_.along_y());
       default:
-        return vrml_primitive(piece_.kind(), reader_.items<double>(piece_.sizes()));
+        return vrml_primitive(geometry_.kind(), reader_.items<double>(geometry_.sizes()));
     }
   }
 
-  const flat::Piece& piece_;
+  const flat::Geometry& geometry_;
   world::FlatReader& reader_;
   Findings& findings_;
-  io::Patience& patience_;
+  io::TimeBudget& time_budget_;
   VrmlFaceSet faces_;
 };
 
 }  // namespace
 
-GeometryPointer shape_of(const flat::Piece& piece, world::FlatReader& reader, bool shows_picture,
-                         Findings& findings, io::Patience& patience) {
-  return PieceReader(piece, reader, findings, patience).shape(shows_picture);
+GeometryPointer shape_of(const flat::Geometry& geometry, world::FlatReader& reader, bool shows_picture,
+                         Findings& findings, io::TimeBudget& time_budget) {
+  return GeometryReader(geometry, reader, findings, time_budget).shape(shows_picture);
 }
 
 }  // namespace icome::files

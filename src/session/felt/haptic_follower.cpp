@@ -1,4 +1,4 @@
-#include "session/felt/felt_world.h"
+#include "session/felt/haptic_follower.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,28 +13,29 @@ constexpr double kWorkShare = 3.0;
 
 }  // namespace
 
-FeltWorld::FeltWorld(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
-                     realtime::LatestValue<FeltVersion>& newest)
+HapticFollower::HapticFollower(const HapticRepresentationSettings& settings,
+                               std::vector<haptics::Servo*> servos,
+                               realtime::LatestValue<FeltVersion>& newest)
     : felt_(settings),
       clock_(settings.clock),
       ahead_(settings.glide_seconds),
       servos_(std::move(servos)),
       newest_(newest) {}
 
-void FeltWorld::open(const world::World& world, world::SceneId shown) {
+void HapticFollower::open(const world::World& world, world::SceneId shown) {
   playback_ = {};
   felt_.open(world, shown);
   look_for_remarks(world);
   publish();
 }
 
-void FeltWorld::show(const world::World& world, world::SceneId shown) {
+void HapticFollower::show(const world::World& world, world::SceneId shown) {
   felt_.show(playback_.shown(world), shown);
   look_for_remarks(world);
   publish();
 }
 
-void FeltWorld::follow(const world::World& world, const world::Changes& changes) {
+void HapticFollower::follow(const world::World& world, const world::Changes& changes) {
   const world::Changes all = playback_.follow(world, changes, played());
   felt_.follow(playback_.shown(world), all);
   // Looking goes through all objects, which what is dragged must not wait for.
@@ -42,7 +43,7 @@ void FeltWorld::follow(const world::World& world, const world::Changes& changes)
   publish();
 }
 
-void FeltWorld::play(const world::World& world, std::optional<double> since) {
+void HapticFollower::play(const world::World& world, std::optional<double> since) {
   played_since_ = since.value_or(0.0);
   const world::Changes changes =
       playback_.play(world, since ? std::optional<double>(played()) : std::nullopt);
@@ -51,14 +52,14 @@ void FeltWorld::play(const world::World& world, std::optional<double> since) {
 }
 
 /// How long motions will have been played when things are where they are put now.
-double FeltWorld::played() const { return clock_() + ahead_ - played_since_; }
+double HapticFollower::played() const { return clock_() + ahead_ - played_since_; }
 
-std::optional<std::chrono::nanoseconds> FeltWorld::pause(const world::World& /*world*/) const {
+std::optional<std::chrono::nanoseconds> HapticFollower::pause(const world::World& /*world*/) const {
   if (!playback_.moves()) return std::nullopt;
   return std::chrono::nanoseconds(std::int64_t(1e9 * std::max(0.0, due_ - clock_())));
 }
 
-void FeltWorld::go_on(const world::World& world) {
+void HapticFollower::go_on(const world::World& world) {
   const double now = clock_();
   if (!playback_.moves() || now < due_) return;
   const world::Changes moved = playback_.go_to(played());
@@ -70,13 +71,13 @@ void FeltWorld::go_on(const world::World& world) {
   due_ = done + std::max(kShortestMoveTime, kWorkShare * (done - now));
 }
 
-void FeltWorld::look_for_remarks(const world::World& world) {
+void HapticFollower::look_for_remarks(const world::World& world) {
   std::vector<std::string> remarks = felt_.remarks(world);
   if (remarks_ ? *remarks_ == remarks : remarks.empty()) return;
   remarks_ = std::make_shared<const std::vector<std::string>>(std::move(remarks));
 }
 
-void FeltWorld::publish() {
+void HapticFollower::publish() {
   if (felt_.effects() != published_effects_) {
     published_effects_ = felt_.effects();
     for (haptics::Servo* servo : servos_) servo->publish_effects(published_effects_);

@@ -1,4 +1,4 @@
-#include "geometry/implicit/implicit_entry.h"
+#include "geometry/implicit/implicit_crossing.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "files/vrml/worker/pieces.h"
+#include "files/vrml/worker/geometries.h"
 
 #include <Inventor/VRMLnodes/SoVRMLBox.h>
 #include <Inventor/VRMLnodes/SoVRMLColor.h>
@@ -39,28 +39,28 @@ bool are_sizes(const std::vector<double>& sizes) {
 
 }  // namespace
 
-std::optional<int> Pieces::number_of(const Unwrapped& it) {
+std::optional<int> Geometries::number_of(const Unwrapped& it) {
   const auto [known, is_new] = known_.try_emplace(it.node);
   if (!is_new) return known->second;
-  PieceParts parts;
+  GeometryParts parts;
   parts.name = files_.original_name((it.instance ? it.instance : it.node)->getName());
   const std::optional<int> number = add(it, parts);
   known_[it.node] = number;
   return number;
 }
 
-void Pieces::note(const Unwrapped& it, const std::string& text) {
+void Geometries::note(const Unwrapped& it, const std::string& text) {
   const std::string name = files_.original_name(it.node->getName());
   answer_.note(it.file->told, 0,
                type_name(*it.node) + (name.empty() ? "" : " '" + name + "'") + ": " + text + ".");
 }
 
-std::optional<int> Pieces::leave_out(const Unwrapped& it, const std::string& why) {
+std::optional<int> Geometries::leave_out(const Unwrapped& it, const std::string& why) {
   note(it, "it is left out: " + why);
   return std::nullopt;
 }
 
-std::optional<int> Pieces::add(const Unwrapped& it, PieceParts& parts) {
+std::optional<int> Geometries::add(const Unwrapped& it, GeometryParts& parts) {
   if (it.instance)
     if (const auto own = add_own(it, parts)) return own;
   if (const auto* faces = geometry_as<SoVRMLIndexedFaceSet>(it)) return add(it, *faces, parts);
@@ -71,24 +71,24 @@ std::optional<int> Pieces::add(const Unwrapped& it, PieceParts& parts) {
 }
 
 /// Round shapes without some of their parts are faces.
-std::optional<int> Pieces::add_solid(const Unwrapped& it, PieceParts& parts) {
+std::optional<int> Geometries::add_solid(const Unwrapped& it, GeometryParts& parts) {
   RoundParts round;
   if (const auto* box = geometry_as<SoVRMLBox>(it)) {
-    const auto size = io::as_written(box->size.getValue());
+    const auto size = as_written(box->size.getValue());
     parts.kind = PartKind::Box;
     parts.sizes.assign(size.begin(), size.end());
   } else if (const auto* sphere = geometry_as<SoVRMLSphere>(it)) {
     parts.kind = PartKind::Sphere;
-    parts.sizes = {io::as_written(sphere->radius.getValue())};
+    parts.sizes = {as_written(sphere->radius.getValue())};
   } else if (const auto* cone = geometry_as<SoVRMLCone>(it)) {
     parts.kind = PartKind::Cone;
-    parts.sizes = {io::as_written(cone->bottomRadius.getValue()), io::as_written(cone->height.getValue())};
+    parts.sizes = {as_written(cone->bottomRadius.getValue()), as_written(cone->height.getValue())};
     round = {parts.sizes[0], 0.0,
              parts.sizes[1], bool(cone->side.getValue()),
              true,           bool(cone->bottom.getValue())};
   } else if (const auto* cylinder = geometry_as<SoVRMLCylinder>(it)) {
     parts.kind = PartKind::Cylinder;
-    parts.sizes = {io::as_written(cylinder->radius.getValue()), io::as_written(cylinder->height.getValue())};
+    parts.sizes = {as_written(cylinder->radius.getValue()), as_written(cylinder->height.getValue())};
     round = {parts.sizes[0],
              parts.sizes[0],
              parts.sizes[1],
@@ -108,7 +108,7 @@ std::optional<int> Pieces::add_solid(const Unwrapped& it, PieceParts& parts) {
   return add_made(it, make_round(round), parts);
 }
 
-std::optional<int> Pieces::add_made(const Unwrapped& it, const MadeFaces& made, PieceParts& parts) {
+std::optional<int> Geometries::add_made(const Unwrapped& it, const MadeFaces& made, GeometryParts& parts) {
   FaceFields fields;
   fields.positions = made.positions;
   fields.polygons = made.polygons;
@@ -117,8 +117,8 @@ std::optional<int> Pieces::add_made(const Unwrapped& it, const MadeFaces& made, 
   return add_faces(it, fields, parts);
 }
 
-void Pieces::fill_attributes(const Unwrapped& it, const SoSFNode& texture, const SoSFNode& normal,
-                             const SoSFNode& colour, FaceFields& fields) {
+void Geometries::fill_attributes(const Unwrapped& it, const SoSFNode& texture, const SoSFNode& normal,
+                                 const SoSFNode& colour, FaceFields& fields) {
   if (const auto* node = geometry_as<SoVRMLTextureCoordinate>(wrapping_.unwrap(texture, *it.file)))
     fields.texture_coordinates = floats(node->point);
   if (const auto* node = geometry_as<SoVRMLNormal>(wrapping_.unwrap(normal, *it.file)))
@@ -127,7 +127,8 @@ void Pieces::fill_attributes(const Unwrapped& it, const SoSFNode& texture, const
     fields.colours = floats(node->color);
 }
 
-std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, PieceParts& parts) {
+std::optional<int> Geometries::add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node,
+                                   GeometryParts& parts) {
   FaceFields fields;
   if (const auto* points = geometry_as<SoVRMLCoordinate>(wrapping_.unwrap(node.coord, *it.file)))
     fields.positions = floats(points->point);
@@ -144,7 +145,8 @@ std::optional<int> Pieces::add(const Unwrapped& it, const SoVRMLIndexedFaceSet& 
   return add_faces(it, fields, parts);
 }
 
-std::optional<int> Pieces::add_faces(const Unwrapped& it, const FaceFields& fields, PieceParts& parts) {
+std::optional<int> Geometries::add_faces(const Unwrapped& it, const FaceFields& fields,
+                                         GeometryParts& parts) {
   CheckedFaces checked;
   check_faces(fields, checked);
   for (const std::string& remark : checked.remarks) note(it, remark);

@@ -13,11 +13,11 @@ namespace icome::apps {
 
 /// Keeps what a run leaves behind: trace, verdicts, tick times, and samples for the picture. It is fed
 /// outside the timed part of the ticks and belongs to one thread. Owns neither trace nor judge.
-class TouchDiary {
+class TickLog {
  public:
   /// Trace and judge may be null: then there is none. The judge is told forces only where they are those of
   /// surfaces: effects and textures push as they like.
-  TouchDiary(TraceFile* trace, haptics::ContactJudge* judge, bool forces_of_surfaces, bool keep_samples)
+  TickLog(TraceFile* trace, haptics::ContactJudge* judge, bool forces_of_surfaces, bool keep_samples)
       : trace_(trace), judge_(judge), forces_of_surfaces_(forces_of_surfaces), keep_samples_(keep_samples) {}
 
   /// Takes memory for this many rows, so that adding them is quick.

@@ -1,20 +1,20 @@
 #pragma once
 #include "files/findings.h"
 #include "files/vrml/read/vrml_face_set.h"
-#include "io/patience.h"
+#include "io/time_budget.h"
 #include "world/edit/flat_bytes.h"
 #include "world/shape/geometry.h"
 
 namespace icome::files {
 
 namespace flat {
-struct Piece;
+struct Geometry;
 }
 
-/// The shape of a piece; null where it cannot be made, which `findings` tells. `shows_picture`: is it seen
+/// The shape of a geometry; null where it cannot be made, which `findings` tells. `shows_picture`: is it seen
 /// with one? Takes what it reads out of `reader`. Pieces of ICOME's own kinds that cannot be made become
 /// their triangles.
-world::GeometryPointer shape_of(const flat::Piece& piece, world::FlatReader& reader, bool shows_picture,
-                                Findings& findings, io::Patience& patience);
+world::GeometryPointer shape_of(const flat::Geometry& geometry, world::FlatReader& reader, bool shows_picture,
+                                Findings& findings, io::TimeBudget& time_budget);
 
 }  // namespace icome::files

@@ -11,8 +11,8 @@
 #include "files/vrml/vrml_protos.h"
 #include "files/vrml/worker/face_fields.h"
 #include "files/vrml/worker/field_values.h"
+#include "files/vrml/worker/geometries.h"
 #include "files/vrml/worker/geometry_fields.h"
-#include "files/vrml/worker/pieces.h"
 
 namespace icome::files {
 namespace {
@@ -29,13 +29,13 @@ std::span<const int> indices_in(const SoNode& instance, const char* name) {
 
 /// Urls count from where the instance stands, and not from where its PROTO does.
 void fill_mesh(const SceneFiles& files, const Wrapping& wrapping, const SoProtoInstance& instance,
-               PieceParts& parts) {
+               GeometryParts& parts) {
   const SoField* urls = find_field(instance, "url", "MFString");
   if (!urls) return;
   parts.urls = files.strings(*static_cast<const SoMFString*>(urls));
   if (const SceneFile* place = wrapping.place(instance)) parts.base = wrapping.home(*urls, *place).path;
   if (const SoField* unit = find_field(instance, "unit", "SFFloat"))
-    parts.unit = io::as_written(static_cast<const SoSFFloat*>(unit)->getValue());
+    parts.unit = as_written(static_cast<const SoSFFloat*>(unit)->getValue());
 }
 
 /// Six numbers with spaces between them; else nothing.
@@ -57,7 +57,7 @@ std::vector<double> six_numbers(const std::string& text) {
 
 }  // namespace
 
-std::optional<int> Pieces::add_own(const Unwrapped& it, PieceParts& parts) {
+std::optional<int> Geometries::add_own(const Unwrapped& it, GeometryParts& parts) {
   const SoNode& instance = *it.instance;
   const std::string_view proto = it.instance->getProtoName().getString();
   if (proto == kCsgProto.name) {
@@ -93,7 +93,7 @@ std::optional<int> Pieces::add_own(const Unwrapped& it, PieceParts& parts) {
     return std::nullopt;
   }
   if (!parts.text.empty()) return answer_.add(parts);
-  parts = PieceParts{.name = parts.name};
+  parts = GeometryParts{.name = parts.name};
   return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-#include "files/design.h"
+#include "files/design_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "geometry/loop/loop_foot.h"
+#include "geometry/loop/loop_projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -325,8 +325,8 @@ class Descent {
 
 }  // namespace
 
-LoopSpot loop_foot(const LoopPatches& patches, LoopCursor& cursor, const LoopSpot& from,
-                   const Vector3& goal) {
+LoopSpot loop_projection(const LoopPatches& patches, LoopCursor& cursor, const LoopSpot& from,
+                         const Vector3& goal) {
   return Descent(patches, cursor, from, goal).run();
 }
 

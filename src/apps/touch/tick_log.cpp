@@ -1,4 +1,4 @@
-#include "apps/touch/touch_diary.h"
+#include "apps/touch/tick_log.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +16,7 @@ std::uint32_t saturated(std::int64_t nanoseconds) {
 
 }  // namespace
 
-void TouchDiary::add(const TickRow& row) {
+void TickLog::add(const TickRow& row) {
   if (trace_ != nullptr) trace_->add(row);
   if (judge_ != nullptr) {
     haptics::JudgedTick tick{row.tip, row.scp, row.touching(), row.moment};
@@ -29,7 +29,7 @@ void TouchDiary::add(const TickRow& row) {
   max_force_ = std::max(max_force_, row.force.norm());
 }
 
-void TouchDiary::keep_sample(const TickRow& row) {
+void TickLog::keep_sample(const TickRow& row) {
   if (tick_ns_.size() % stride_ != 0) return;
   samples_.push_back({row.t, row.tip, row.scp, row.force, row.touching()});
   if (samples_.size() < kMostSamples) return;

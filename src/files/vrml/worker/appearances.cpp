@@ -1,4 +1,4 @@
-#include "files/vrml/worker/looks.h"
+#include "files/vrml/worker/appearances.h"
 
 #include <Inventor/VRMLnodes/SoVRMLAppearance.h>
 #include <Inventor/VRMLnodes/SoVRMLImageTexture.h>
@@ -23,7 +23,7 @@ const Node* node_as(const Unwrapped& it) {
 
 double number_in(const SoNode& node, const char* name, double missing) {
   const SoField* field = find_field(node, name, "SFFloat");
-  return field ? io::as_written(static_cast<const SoSFFloat*>(field)->getValue()) : missing;
+  return field ? as_written(static_cast<const SoSFFloat*>(field)->getValue()) : missing;
 }
 
 std::string string_in(const SoNode& node, const char* name) {
@@ -32,26 +32,24 @@ std::string string_in(const SoNode& node, const char* name) {
 }
 
 /// What IcomeMaterial says besides what a Material says.
-void fill_touch(const SoNode& instance, LookParts& look) {
-  if (std::string name = string_in(instance, "name"); !name.empty()) look.name = std::move(name);
+void fill_touch(const SoNode& instance, AppearanceParts& parts) {
+  if (std::string name = string_in(instance, "name"); !name.empty()) parts.name = std::move(name);
   if (const double stiffness = number_in(instance, "stiffness", -1.0); stiffness >= 0.0)
-    look.stiffness = stiffness;
-  if (const double damping = number_in(instance, "damping", -1.0); damping >= 0.0) look.damping = damping;
-  look.static_friction = number_in(instance, "staticFriction", 0.0);
-  look.dynamic_friction = number_in(instance, "dynamicFriction", 0.0);
-  look.haptic_texture = string_in(instance, "hapticTexture");
+    parts.stiffness = stiffness;
+  if (const double damping = number_in(instance, "damping", -1.0); damping >= 0.0) parts.damping = damping;
+  parts.static_friction = number_in(instance, "staticFriction", 0.0);
+  parts.dynamic_friction = number_in(instance, "dynamicFriction", 0.0);
+  parts.haptic_texture = string_in(instance, "hapticTexture");
 }
 
 /// Tc' = -C S R C T Tc (ISO/IEC 14772-1, 6.49), as 3 x 3 numbers; none: as it is.
 std::vector<double> transform_of(const SoVRMLTextureTransform& node) {
-  const auto vector = [](const SbVec2f& v) {
-    return base::Vector2(io::as_written(v[0]), io::as_written(v[1]));
-  };
+  const auto vector = [](const SbVec2f& v) { return base::Vector2(as_written(v[0]), as_written(v[1])); };
   const base::Vector2 centre = vector(node.center.getValue());
   Eigen::Affine2d all = Eigen::Affine2d::Identity();
   all.translate(-centre);
   all.scale(vector(node.scale.getValue()));
-  all.rotate(io::as_written(node.rotation.getValue()));
+  all.rotate(as_written(node.rotation.getValue()));
   all.translate(centre);
   all.translate(vector(node.translation.getValue()));
   if (!all.matrix().allFinite() || all.matrix().isIdentity(0.0)) return {};
@@ -61,40 +59,40 @@ std::vector<double> transform_of(const SoVRMLTextureTransform& node) {
 
 }  // namespace
 
-int Looks::number_of(const Unwrapped& it) {
+int Appearances::number_of(const Unwrapped& it) {
   const auto* appearance = node_as<SoVRMLAppearance>(it);
   if (!appearance) return -1;
   const Unwrapped material = wrapping_.unwrap(appearance->material, *it.file);
   const Unwrapped texture = wrapping_.unwrap(appearance->texture, *it.file);
   const Unwrapped transform = wrapping_.unwrap(appearance->textureTransform, *it.file);
-  const auto [known, is_new] = looks_.try_emplace({material.node, texture.node, transform.node}, -1);
+  const auto [known, is_new] = appearances_.try_emplace({material.node, texture.node, transform.node}, -1);
   if (!is_new) return known->second;
-  LookParts look;
-  look.name = files_.original_name((it.instance ? it.instance : it.node)->getName());
-  fill_material(material, look);
-  look.picture = picture_number(texture);
+  AppearanceParts parts;
+  parts.name = files_.original_name((it.instance ? it.instance : it.node)->getName());
+  fill_material(material, parts);
+  parts.picture = picture_number(texture);
   if (const auto* node = node_as<SoVRMLTextureTransform>(transform))
-    look.texture_transform = transform_of(*node);
-  known->second = answer_.add(look);
+    parts.texture_transform = transform_of(*node);
+  known->second = answer_.add(parts);
   return known->second;
 }
 
-void Looks::fill_material(const Unwrapped& it, LookParts& look) const {
+void Appearances::fill_material(const Unwrapped& it, AppearanceParts& parts) const {
   const auto* material = node_as<SoVRMLMaterial>(it);
-  look.lit = material != nullptr;
+  parts.lit = material != nullptr;
   if (!material) return;
   std::string name = files_.original_name((it.instance ? it.instance : it.node)->getName());
-  if (!name.empty()) look.name = std::move(name);
-  look.ambient = material->ambientIntensity.getValue();
-  look.diffuse = as_array(material->diffuseColor.getValue());
-  look.specular = as_array(material->specularColor.getValue());
-  look.emission = as_array(material->emissiveColor.getValue());
-  look.shininess = material->shininess.getValue();
-  look.transparency = material->transparency.getValue();
-  if (it.instance && it.instance->getProtoName() == "IcomeMaterial") fill_touch(*it.instance, look);
+  if (!name.empty()) parts.name = std::move(name);
+  parts.ambient = material->ambientIntensity.getValue();
+  parts.diffuse = as_array(material->diffuseColor.getValue());
+  parts.specular = as_array(material->specularColor.getValue());
+  parts.emission = as_array(material->emissiveColor.getValue());
+  parts.shininess = material->shininess.getValue();
+  parts.transparency = material->transparency.getValue();
+  if (it.instance && it.instance->getProtoName() == "IcomeMaterial") fill_touch(*it.instance, parts);
 }
 
-int Looks::picture_number(const Unwrapped& it) {
+int Appearances::picture_number(const Unwrapped& it) {
   const auto* texture = node_as<SoVRMLTexture>(it);
   if (!texture) return -1;
   const auto [known, is_new] = pictures_.try_emplace(texture, -1);
