@@ -12,7 +12,7 @@
 #include "files/sample_files.h"
 #include "geometry/mesh/weld.h"
 
-namespace icome::io {
+namespace icome::files {
 namespace {
 
 constexpr int kSide = 110;  // cells of the plate that is written
@@ -177,21 +177,21 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ByteWatch, AsksAsOftenAsThereAreBytes) {
   const std::string bytes(10 << 20, ' ');
   int asked = 0;
-  TimeBudget time_budget([&](double part) { return ++asked, part < 0.5; });
-  ByteWatch watch(bytes, &time_budget);
+  io::TimeBudget time_budget([&](double part) { return ++asked, part < 0.5; });
+  io::ByteWatch watch(bytes, &time_budget);
   std::size_t at = 0;
   while (at < bytes.size() && watch.lasts(bytes.data() + at)) ++at;
   EXPECT_GE(at, bytes.size() / 2);
   EXPECT_LT(at, bytes.size() / 2 + (1 << 17));
   EXPECT_GE(asked, 50);
   EXPECT_LE(asked, 100);
-  ByteWatch for_ever(bytes, nullptr);
+  io::ByteWatch for_ever(bytes, nullptr);
   EXPECT_TRUE(for_ever.lasts(bytes.data() + bytes.size() - 1));
 }
 
 TEST(TimeBudget, TellsThePartOfTheWholeThatAStepIs) {
   std::vector<double> parts;
-  TimeBudget time_budget([&](double part) { return parts.push_back(part), true; });
+  io::TimeBudget time_budget([&](double part) { return parts.push_back(part), true; });
   time_budget.lasts(0.25);
   time_budget.step(0.5, 0.75);
   time_budget.lasts_now();
@@ -211,4 +211,4 @@ TEST(WeldEqual, LeavesAMeshThatItIsNotToFinish) {
 }
 
 }  // namespace
-}  // namespace icome::io
+}  // namespace icome::files

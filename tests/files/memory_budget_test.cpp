@@ -11,11 +11,11 @@
 #include "files/packed_xz.h"
 #include "files/sample_journals.h"
 
-namespace icome::io {
+namespace icome::files {
 namespace {
 
 TEST(MemoryBudget, IsTwentyTimesTheFilesAnd256MegabytesUnlessSomebodySays) {
-  MemoryBudget memory;
+  io::MemoryBudget memory;
   EXPECT_EQ(memory.allowed(), 256'000'000u);
   EXPECT_TRUE(memory.add_file(1'000'000));
   EXPECT_EQ(memory.allowed(), 276'000'000u);
@@ -26,7 +26,7 @@ TEST(MemoryBudget, IsTwentyTimesTheFilesAnd256MegabytesUnlessSomebodySays) {
   EXPECT_FALSE(memory.take(2));
   EXPECT_TRUE(memory.is_exceeded());
   EXPECT_FALSE(memory.take(0)) << "who was refused once gets nothing more";
-  EXPECT_EQ(MemoryBudget(7).allowed(), 7u);
+  EXPECT_EQ(io::MemoryBudget(7).allowed(), 7u);
 }
 
 #ifndef __SANITIZE_ADDRESS__
@@ -186,4 +186,4 @@ TEST(MemoryBudget, StopsAJournalWithinOneLongEdit) {
 }
 
 }  // namespace
-}  // namespace icome::io
+}  // namespace icome::files

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "files/gzip_sample.h"
+#include "io/gzip_sample.h"
 
 namespace icome::io {
 namespace {

@@ -24,7 +24,7 @@ void write_at(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 TEST(NewFile, IsThereWholeOrNotAtAll) {
-  const ScratchFolder folder;
+  const files::ScratchFolder folder;
   const auto path = folder.write("a.txt", "before");
   {
     auto file = NewFile::create(path);
@@ -39,7 +39,7 @@ TEST(NewFile, IsThereWholeOrNotAtAll) {
 }
 
 TEST(NewFile, SeveralMayWriteTheSameFileAtOnce) {
-  const ScratchFolder folder;
+  const files::ScratchFolder folder;
   const auto path = folder.path() / "a.txt";
   auto one = NewFile::create(path), two = NewFile::create(path);
   ASSERT_TRUE(one && two);
@@ -52,7 +52,7 @@ TEST(NewFile, SeveralMayWriteTheSameFileAtOnce) {
 }
 
 TEST(NewFile, GoesWhereALinkLeadsAndKeepsPermissions) {
-  const ScratchFolder folder;
+  const files::ScratchFolder folder;
   const auto target = folder.write("target.txt", "before");
   ASSERT_EQ(::chmod(target.c_str(), 0640), 0);
   std::filesystem::create_symlink("target.txt", folder.path() / "link.txt");
@@ -65,7 +65,7 @@ TEST(NewFile, GoesWhereALinkLeadsAndKeepsPermissions) {
 }
 
 TEST(NewFile, TakesAwayWhatProcessesThatAreGoneLeft) {
-  const ScratchFolder folder;
+  const files::ScratchFolder folder;
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
   int status = 0;
@@ -88,7 +88,7 @@ TEST(NewFile, TakesAwayWhatProcessesThatAreGoneLeft) {
 }
 
 TEST(NewFile, SaysWhyItCannotBeWritten) {
-  const ScratchFolder folder;
+  const files::ScratchFolder folder;
   EXPECT_FALSE(NewFile::create(folder.path() / "nowhere" / "a.txt"));
   EXPECT_FALSE(NewFile::create(folder.path()));
   EXPECT_FALSE(NewFile::create("/dev/null"));

@@ -106,7 +106,7 @@ class EditReader {
       case flat::What::EditGroup:
         return make(*from.what_as_EditGroup());
       case flat::What::ReserveIds:
-        return make(*from.what_as_SpendNumbers());
+        return make(*from.what_as_ReserveIds());
       case flat::What::CopyGeometry:
         return make(*from.what_as_CopyGeometry());
       case flat::What::NONE:

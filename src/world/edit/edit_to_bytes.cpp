@@ -151,7 +151,7 @@ class EditWriter {
   }
 
   WrittenEdit operator()(const ReserveIds& it) {
-    return as_edit(flat::CreateSpendNumbers(builder_, it.author, it.last));
+    return as_edit(flat::CreateReserveIds(builder_, it.author, it.last));
   }
 
   WrittenEdit operator()(const EditGroup& it) {

@@ -18,7 +18,7 @@ using world::ObjectId;
 inline world::GeometryPointer solid(const geometry::Primitive& it) {
   return std::make_shared<world::PrimitiveGeometry>(it);
 }
-inline world::GeometryPointer mesh_of(const geometry::Primitive& it, double tolerance = 0.01) {
+inline world::GeometryPointer tessellated(const geometry::Primitive& it, double tolerance = 0.01) {
   return std::make_shared<world::MeshGeometry>(geometry::tessellate(it, tolerance));
 }
 inline Affine3 turned(double angle, const Vector3& axis) {
@@ -82,9 +82,9 @@ struct Clutter {
       case 1:
         return solid(geometry::Sphere{size});
       case 2:
-        return mesh_of(geometry::Torus{size, 0.4 * size}, 0.2 * size);
+        return tessellated(geometry::Torus{size, 0.4 * size}, 0.2 * size);
       case 3:
-        return mesh_of(geometry::Cone{size, 0.0, size}, 0.2 * size);
+        return tessellated(geometry::Cone{size, 0.0, size}, 0.2 * size);
       case 4:
         return solid(geometry::Box{{3.0 * size, 3.0 * size, 1e-5}});  // a plate thinner than any step
       default: {

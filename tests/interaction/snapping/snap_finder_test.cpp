@@ -274,14 +274,15 @@ TEST(SnapFinder, SnapsToRimsAndTips) {
 
 TEST(SnapFinder, TellsTheEdgesOfMeshesFromSmoothPlaces) {
   const Vector3 middle_of_face(0.0, 0.0, 0.5);
-  Asked crate(mesh_of(geometry::Box{{0.5, 0.5, 0.5}}));
+  Asked crate(tessellated(geometry::Box{{0.5, 0.5, 0.5}}));
   EXPECT_LT((crate.point(SnapKind::Vertex, {0.1, 0.1, 0.5}) - Vector3(0.5, 0.5, 0.5)).norm(), 1e-12);
   // The diagonals of its faces are none of its edges.
   EXPECT_NEAR((crate.point(SnapKind::Edge, middle_of_face) - middle_of_face).norm(), 0.5, 1e-12);
   EXPECT_NEAR((crate.point(SnapKind::Middle, middle_of_face) - middle_of_face).norm(), 0.5, 1e-12);
-  Asked all(mesh_of(geometry::Box{{0.5, 0.5, 0.5}}), Affine3::Identity(), 0.0);
+  Asked all(tessellated(geometry::Box{{0.5, 0.5, 0.5}}), Affine3::Identity(), 0.0);
   EXPECT_LT((all.point(SnapKind::Edge, middle_of_face) - middle_of_face).norm(), 1e-12);
-  const auto fine = mesh_of(geometry::Sphere{1.0}, 1e-3), coarse = mesh_of(geometry::Sphere{1.0}, 0.1);
+  const auto fine = tessellated(geometry::Sphere{1.0}, 1e-3),
+             coarse = tessellated(geometry::Sphere{1.0}, 0.1);
   EXPECT_FALSE(Asked(fine).nearest(SnapKind::Vertex, Vector3::Zero()));
   EXPECT_TRUE(Asked(coarse).nearest(SnapKind::Vertex, Vector3::Zero()));
   EXPECT_TRUE(Asked(fine, Affine3::Identity(), 0.5 * kRadians).nearest(SnapKind::Vertex, Vector3::Zero()));
@@ -335,7 +336,7 @@ TEST(SnapFinder, SnapsHandlesOfObjects) {
   EXPECT_EQ(found({0.51, 0.5, -4.5}, {.origins = true, .box = false, .vertices = false}).size(), 1U);
   EXPECT_EQ(asked.finder.handles_of(asked.clutter.world, asked.index, std::vector{cube}).size(),
             1U + 9U + 8U);
-  const ObjectId rough = asked.clutter.add(mesh_of(geometry::Torus{1.0, 0.3}, 1e-3), at(0.0, 0.0, 50.0));
+  const ObjectId rough = asked.clutter.add(tessellated(geometry::Torus{1.0, 0.3}, 1e-3), at(0.0, 0.0, 50.0));
   asked.index = CollisionIndex(asked.clutter.world);
   SnapFinder every(0.0);
   const std::size_t most =

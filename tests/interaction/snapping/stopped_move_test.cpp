@@ -84,7 +84,7 @@ TEST(StoppedMove, SlidesAlongAnInclinedPlane) {
     const Vector3 normal = frame * Vector3::UnitZ();
     clutter.add(endless ? solid(geometry::Plane{}) : solid(geometry::Box{{5.0, 5.0, 0.5}}),
                 endless ? frame : Affine3(frame * at(0.0, 0.0, -0.5)));
-    for (const auto& shape : {solid(geometry::Sphere{0.1}), mesh_of(geometry::Box{{0.1, 0.2, 0.3}})}) {
+    for (const auto& shape : {solid(geometry::Sphere{0.1}), tessellated(geometry::Box{{0.1, 0.2, 0.3}})}) {
       const ObjectId thing = clutter.add(shape, at(0.1, 0.9, 0.9) * turned(0.3, {1.0, 2.0, 3.0}));
       CollisionIndex index(clutter.world);
       const Vector3 wanted(0.3, -0.2, -1.7);
@@ -125,7 +125,7 @@ TEST(StoppedMove, LetsWhatIsStuckComeOutButNotGoDeeper) {
   const ObjectId wall = clutter.add(solid(geometry::Box{{0.1, 5.0, 5.0}}), at(3.0, 0.0, 0.0));
   (void)wall;
   for (const auto& shape : {solid(geometry::Box{{0.2, 0.2, 0.2}}), solid(geometry::Sphere{0.2}),
-                            mesh_of(geometry::Sphere{0.2})}) {
+                            tessellated(geometry::Sphere{0.2})}) {
     const ObjectId stuck = clutter.add(shape, at(0.9, 0.05, 0.02));
     CollisionIndex index(clutter.world);
     EXPECT_EQ(moved(index, {stuck}, {0.1, 0.0, 0.0}).offset, Vector3(0.1, 0.0, 0.0));  // still in it
@@ -220,7 +220,8 @@ TEST(StoppedMove, MissesNothingThatFineStepsFind) {
 TEST(StoppedMove, DoesNotPassSheetsOfNoThickness) {
   Clutter clutter;
   clutter.add(world::one_triangle(), at(-0.3, -0.3, 0.0) * turned(0.2, Vector3::UnitX()));
-  for (const auto& shape : {solid(geometry::Sphere{1e-4}), mesh_of(geometry::Box{Vector3::Constant(1e-4)})}) {
+  for (const auto& shape :
+       {solid(geometry::Sphere{1e-4}), tessellated(geometry::Box{Vector3::Constant(1e-4)})}) {
     const ObjectId thing = clutter.add(shape, at(0.0, 0.0, 50.0));
     CollisionIndex index(clutter.world);
     const StoppedMove move = moved(index, {thing}, {0.0, 0.0, -90.0}, {.slide = false});
@@ -326,7 +327,7 @@ TEST(StoppedMove, TakesOutWhatIsSunkInByALittleAndThenSlides) {
   Clutter clutter;
   clutter.add(solid(geometry::Box{{1.0, 0.1, 1.0}}), at(0.0, -0.1, 0.0));
   for (const double sunk : {1e-6, 1e-4, 0.007}) {
-    const ObjectId thing = clutter.add(mesh_of(geometry::Box{{0.1, 0.1, 0.1}}), at(0.0, 0.1 - sunk, 0.0));
+    const ObjectId thing = clutter.add(tessellated(geometry::Box{{0.1, 0.1, 0.1}}), at(0.0, 0.1 - sunk, 0.0));
     CollisionIndex index(clutter.world);
     for (const Vector3& way : {Vector3(0.4, 0.0, 0.1), Vector3(-0.4, 0.0, 0.1), Vector3(0.3, -0.2, 0.0)}) {
       const StoppedMove move = moved(index, {thing}, way);

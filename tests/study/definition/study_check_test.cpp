@@ -13,7 +13,9 @@
 namespace icome::study {
 namespace {
 
-Study study_of(const char* name) { return read_study(study_template(name, "test").value(), name).value(); }
+Study study_of_template(const char* name) {
+  return read_study(study_template(name, "test").value(), name).value();
+}
 
 bool says(const std::vector<Finding>& findings, const std::string& words) {
   return std::ranges::any_of(
@@ -21,7 +23,7 @@ bool says(const std::vector<Finding>& findings, const std::string& words) {
 }
 
 TEST(StudyCheck, HeadTrackingLacksItsDevice) {
-  const StudyCheck check = check_study(study_of("head-tracking"));
+  const StudyCheck check = check_study(study_of_template("head-tracking"));
   EXPECT_EQ(check.conditions, 2U);
   EXPECT_EQ(check.groups, 1U);
   EXPECT_EQ(check.balanced_by, 2U);
@@ -37,7 +39,7 @@ TEST(StudyCheck, HeadTrackingLacksItsDevice) {
 }
 
 TEST(StudyCheck, TrialsNeedATaskAndScenesWithFiles) {
-  Study study = study_of("blank");
+  Study study = study_of_template("blank");
   EXPECT_TRUE(check_study(study).reasons.empty());
   study.trials.scenes[0].file.clear();
   EXPECT_TRUE(says(check_study(study).reasons, "no file shows what these scenes are: 'room'"));
@@ -48,7 +50,7 @@ TEST(StudyCheck, TrialsNeedATaskAndScenesWithFiles) {
 }
 
 TEST(Needs, AreLeftOutWithTheLevelsThatHaveThem) {
-  const Study whole = study_of("head-tracking");
+  const Study whole = study_of_template("head-tracking");
   const auto rest = without_needs(whole, {"head-tracking"});
   ASSERT_TRUE(rest);
   ASSERT_EQ(rest->independent[0].levels.size(), 1U);
@@ -56,13 +58,13 @@ TEST(Needs, AreLeftOutWithTheLevelsThatHaveThem) {
   EXPECT_TRUE(check_study(*rest).reasons.empty());
   EXPECT_NE(rest->hash, whole.hash);
   EXPECT_EQ(without_needs(whole, {})->hash, whole.hash);
-  const auto menus = without_needs(study_of("menu"), {"haptic-menu"});
+  const auto menus = without_needs(study_of_template("menu"), {"haptic-menu"});
   EXPECT_EQ(menus->independent[1].levels.size(), 2U);  // the items are things of the scene
   EXPECT_TRUE(check_study(*menus).reasons.empty());
 }
 
 TEST(Needs, SomethingMustBeLeft) {
-  Study study = study_of("head-tracking");
+  Study study = study_of_template("head-tracking");
   study.independent[0].levels[1].needs = {"head-tracking"};
   const auto none = without_needs(study, {"head-tracking"});
   ASSERT_FALSE(none);
@@ -70,7 +72,7 @@ TEST(Needs, SomethingMustBeLeft) {
 }
 
 TEST(StudyCheck, MenusAreNotThereYet) {
-  const StudyCheck check = check_study(study_of("menu"));
+  const StudyCheck check = check_study(study_of_template("menu"));
   EXPECT_EQ(check.groups, 2U);
   EXPECT_EQ(check.conditions, 2U);
   EXPECT_EQ(check.balanced_by, 4U);
@@ -80,7 +82,7 @@ TEST(StudyCheck, MenusAreNotThereYet) {
 }
 
 TEST(StudyCheck, BlankCanBeRun) {
-  const StudyCheck check = check_study(study_of("blank"));
+  const StudyCheck check = check_study(study_of_template("blank"));
   EXPECT_TRUE(check.reasons.empty());
   // 2 conditions of 13 trials of 9 s, a minute between them, and questions.
   EXPECT_GT(check.session, 294.0);
@@ -88,7 +90,7 @@ TEST(StudyCheck, BlankCanBeRun) {
 }
 
 TEST(StudyCheck, WeakDesignsAreTold) {
-  Study study = study_of("blank");
+  Study study = study_of_template("blank");
   study.participants = 15;
   study.order = OrderMethod::LatinSquare;
   study.consent.clear();
@@ -107,7 +109,7 @@ TEST(StudyCheck, WeakDesignsAreTold) {
 }
 
 TEST(StudyCheck, TestsMustSuitTheirVariables) {
-  Study study = study_of("blank");
+  Study study = study_of_template("blank");
   study.dependent[0].scale = Scale::Ordinal;
   study.hypotheses[1].test = study::Test::Anova;
   EXPECT_TRUE(says(check_study(study).warnings, "compares means of an ordinal variable"));
@@ -122,7 +124,7 @@ TEST(StudyCheck, TestsMustSuitTheirVariables) {
 }
 
 TEST(StudyCheck, TestsOfPairsMustSayWhichOfThreeLevels) {
-  Study study = study_of("blank");  // expects new < old
+  Study study = study_of_template("blank");  // expects new < old
   study.independent[0].levels.push_back({"third", {"Third"}, {}, {}});
   EXPECT_FALSE(says(check_study(study).warnings, "compares two levels"));
   study.hypotheses[0].direction = Direction::Differ;
@@ -150,7 +152,7 @@ Item& preferred(Study& study, AskWhen when) {
 
 /// With a between factor "room" besides the within factor "technique".
 Study study_of_groups() {
-  Study study = study_of("blank");
+  Study study = study_of_template("blank");
   study.independent.push_back(study.independent[0]);
   study.independent[1].id = "room";
   study.independent[1].between = true;
@@ -160,7 +162,7 @@ Study study_of_groups() {
 
 TEST(StudyCheck, TemplatesCanBeTested) {
   for (const char* const name : {"blank", "head-tracking", "menu"})
-    EXPECT_FALSE(says(check_study(study_of(name)).warnings, "cannot be tested")) << name;
+    EXPECT_FALSE(says(check_study(study_of_template(name)).warnings, "cannot be tested")) << name;
 }
 
 TEST(StudyCheck, CountsAreOfAnswersThatAreGivenOnce) {
@@ -218,7 +220,7 @@ TEST(StudyCheck, LevelsAreComparedByNumbersThatAreAskedForInEach) {
 }
 
 TEST(StudyCheck, ConditionsAreCrossedTheLastFactorFastest) {
-  Study study = study_of("blank");
+  Study study = study_of_template("blank");
   study.independent.push_back(study.independent[0]);
   study.independent[1].levels.push_back({"third", {"Third"}, {}, {}});
   const auto all = crossings(study, false);
@@ -241,7 +243,7 @@ TEST(Templates, AreFoundByName) {
 }
 
 TEST(StudyCheck, BinomialTestsHoldTwoAnswersAgainstEachOther) {
-  Study study = study_of("head-tracking");
+  Study study = study_of_template("head-tracking");
   EXPECT_FALSE(says(check_study(study).warnings, "cannot be tested"));
   const auto depth = std::ranges::find(study.hypotheses, "felt-depth", &Hypothesis::id);
   depth->answers.clear();
@@ -252,7 +254,7 @@ TEST(StudyCheck, BinomialTestsHoldTwoAnswersAgainstEachOther) {
 }
 
 TEST(StudyCheck, SharesOfThreeAnswersAreAdvisedOn) {
-  Study study = study_of("head-tracking");
+  Study study = study_of_template("head-tracking");
   EXPECT_FALSE(says(check_study(study).warnings, "write test = \"binomial\""));
   const auto depth = std::ranges::find(study.hypotheses, "felt-depth", &Hypothesis::id);
   depth->test = study::Test::ChiSquared;
@@ -261,7 +263,7 @@ TEST(StudyCheck, SharesOfThreeAnswersAreAdvisedOn) {
 }
 
 TEST(StudyCheck, PowerIsToldToBeOfPlainP) {
-  Study study = study_of("blank");
+  Study study = study_of_template("blank");
   EXPECT_TRUE(says(check_study(study).warnings, "Holm's adjustment for several hypotheses asks for more"));
   study.hypotheses.resize(1);
   EXPECT_FALSE(says(check_study(study).warnings, "Holm"));

@@ -191,7 +191,7 @@ TEST(Edits, NeverMakeAnIdAnew) {
   EXPECT_GT(it.world.next_number(0), it.tree.value);
 }
 
-TEST(Edits, SpendNumbersForGood) {
+TEST(Edits, ReserveIdsForGood) {
   World world;
   const Edit back = applied(world, ReserveIds{3, 70});
   EXPECT_EQ(world.next_number(3), 71u);

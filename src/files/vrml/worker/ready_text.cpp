@@ -145,7 +145,7 @@ class TextReader {
     if (!in_script_ && notes_.size() < kTextNoteLimit)
       notes_.push_back({tokens_.line(place), std::move(text)});
   }
-  std::string io::quoted(const Token& token) const {
+  std::string quoted(const Token& token) const {
     std::string text = "'";
     text.append(word(token).substr(0, 60)) += '\'';
     return text;
@@ -309,7 +309,7 @@ TextReader::Outcome TextReader::node(Token first) {
   if (word(first) == "USE") {
     const Token name = expect_name();
     if (!scopes_.back().nodes.contains(std::string(word(name)))) {
-      note(first.begin, "USE " + io::quoted(name) + " is left out: no node before it has this name.");
+      note(first.begin, "USE " + quoted(name) + " is left out: no node before it has this name.");
       return Outcome::Dropped;
     }
     change_name(name);
@@ -326,7 +326,7 @@ TextReader::Outcome TextReader::node(Token first) {
   expect(Kind::Open);
   if (!known) {
     if (tells_strange_nodes_)
-      note(first.begin, io::quoted(first) + " is left out: neither VRML 2.0 nor this file has such a node.");
+      note(first.begin, quoted(first) + " is left out: neither VRML 2.0 nor this file has such a node.");
     if (!tokens_.skip_to_partner()) throw Unclear{};
     return Outcome::Dropped;
   }
@@ -357,8 +357,7 @@ void TextReader::body(const std::string& type, const SharedFields& proto_fields)
     }
     // An event that a PROTO passes on has no value to be lost.
     if (word(tokens_.peek()) != "IS")
-      note(first.begin,
-           "The field " + io::quoted(first) + " is left out: " + type + " has none of this name.");
+      note(first.begin, "The field " + quoted(first) + " is left out: " + type + " has none of this name.");
     skip_value();
     drop(first.begin);
   }

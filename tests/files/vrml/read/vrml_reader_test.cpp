@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "files/design_files.h"
-#include "files/gzip_sample.h"
 #include "files/sample_files.h"
+#include "io/gzip_sample.h"
 #include "world/shape/mesh_geometry.h"
 
 namespace icome::files {
@@ -59,7 +59,7 @@ TEST(VrmlReader, ReadsAFile) {
 TEST(VrmlReader, ReadsPackedFilesWhateverTheyAreCalled) {
   const ScratchFolder folder;
   for (const char* name : {"a.wrz", "a.wrl"}) {
-    const LoadedDesign design = read_good(folder.write(name, gzipped(kVrmlHead + kRedBall)));
+    const LoadedDesign design = read_good(folder.write(name, io::gzipped(kVrmlHead + kRedBall)));
     EXPECT_EQ(design.format, "VRML 2.0, gzip");
     EXPECT_EQ(design.world.objects().size(), 1U);
   }
@@ -71,7 +71,7 @@ TEST(VrmlReader, RefusesFilesThatAreTooLarge) {
   options.size_limit = 1 << 20;
   const auto large = folder.write("a.wrl", kVrmlHead + std::string(2 << 20, ' '));
   EXPECT_NE(reading_failure(large, options).find("larger than the limit"), std::string::npos);
-  const auto bomb = folder.write("b.wrz", gzipped(kVrmlHead + std::string(2 << 20, ' ')));
+  const auto bomb = folder.write("b.wrz", io::gzipped(kVrmlHead + std::string(2 << 20, ' ')));
   EXPECT_NE(reading_failure(bomb, options).find("unpacks to more than the limit"), std::string::npos);
 }
 

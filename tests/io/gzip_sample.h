@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace icome::files {
+namespace icome::io {
 
 /// The text as gzip packs it.
 inline std::string gzipped(const std::string& text) {
@@ -20,4 +20,4 @@ inline std::string gzipped(const std::string& text) {
   return packed;
 }
 
-}  // namespace icome::files
+}  // namespace icome::io
