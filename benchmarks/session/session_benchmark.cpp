@@ -15,9 +15,10 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", is_quick, "A little of everything: does it work at all?");
   app.add_option("--demo", extent.demo, "The design that start-up is measured with (default: the demo)");
   CLI11_PARSE(app, argc, argv);
-  if (is_quick) extent = {.edits = 4, .grid = 30, .seconds = 0.5, .starts = 1, .demo = extent.demo};
+  if (is_quick)
+    extent = {.edits = 4, .grid = 30, .seconds = 0.5, .starts = 1, .most_objects = 100, .demo = extent.demo};
   std::vector<SessionSection> sections;
-  for (const auto& figures : {felt_figures, seen_figures, servo_figures, start_figures})
+  for (const auto& figures : {scale_figures, felt_figures, seen_figures, servo_figures, start_figures})
     sections.push_back(figures(extent));
   print_sections(sections);
 }

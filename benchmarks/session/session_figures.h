@@ -12,6 +12,7 @@ struct SessionExtent {
   int grid = 708;         // squares along each side of the large mesh: two triangles each
   double seconds = 10.0;  // of servo for each row
   int starts = 5;
+  int most_objects = 100'000;       // beside the one that is moved
   std::filesystem::path demo = {};  // the design that start-up is measured with
 };
 
@@ -31,6 +32,7 @@ struct SessionSection {
   std::vector<SessionRow> rows;
 };
 
+SessionSection scale_figures(const SessionExtent& extent);
 SessionSection felt_figures(const SessionExtent& extent);
 SessionSection seen_figures(const SessionExtent& extent);
 SessionSection servo_figures(const SessionExtent& extent);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -30,44 +31,97 @@ double own_size(const Bounds& box) {
 
 std::shared_ptr<const HapticScene> HapticScene::compile(std::vector<HapticObject> objects, double moment) {
   std::shared_ptr<HapticScene> scene(new HapticScene());
-  scene->objects_ = std::move(objects);
+  scene->objects_ = base::SharedBlocks<HapticObject>(std::move(objects));
   scene->moment_ = moment;
   const auto count = std::uint32_t(scene->objects_.size());
   std::vector<Eigen::Vector3f> places(count);
   for (std::uint32_t i = 0; i < count; ++i) places[i] = sorting_point(scene->object_bounds(i));
-  scene->order_ = geometry::hilbert_order(places);
-  scene->tree_ = geometry::BoxTree(scene->slot_boxes());
-  scene->by_id_.resize(count);
-  std::iota(scene->by_id_.begin(), scene->by_id_.end(), 0u);
-  std::sort(scene->by_id_.begin(), scene->by_id_.end(),
+  scene->order_ = std::make_shared<const std::vector<std::uint32_t>>(geometry::hilbert_order(places));
+  scene->tree_ = std::make_shared<const geometry::BoxTree>(scene->slot_boxes());
+  std::vector<std::uint32_t> by_id(count);
+  std::iota(by_id.begin(), by_id.end(), 0u);
+  std::sort(by_id.begin(), by_id.end(),
             [&](std::uint32_t a, std::uint32_t b) { return scene->objects_[a].id < scene->objects_[b].id; });
-  scene->measure();
+  scene->by_id_ = std::make_shared<const std::vector<std::uint32_t>>(std::move(by_id));
+  scene->measure_sizes();
+  scene->extents_.resize(scene->objects_.block_count());
+  for (std::size_t block = 0; block < scene->extents_.size(); ++block) scene->measure_block(block);
+  scene->measure_all();
   return scene;
 }
 
 std::shared_ptr<const HapticScene> HapticScene::moved(std::span<const Move> moves, double moment) const {
+  std::vector<std::pair<std::uint32_t, const Move*>> placed;
+  placed.reserve(moves.size());
+  for (const Move& move : moves) {
+    if (const std::optional<std::uint32_t> object = find(move.id)) placed.emplace_back(*object, &move);
+  }
+  std::ranges::stable_sort(placed, {}, [](const auto& it) { return it.first; });
+  std::vector<std::uint32_t> indices;
+  indices.reserve(placed.size());
+  for (const auto& [object, move] : placed) indices.push_back(object);
+
   std::shared_ptr<HapticScene> scene(new HapticScene(*this));
   scene->moment_ = moment;
-  for (const Move& move : moves) {
-    const std::optional<std::uint32_t> object = find(move.id);
-    if (!object) continue;
-    scene->objects_[*object].world_from_object = move.world_from_object;
-    scene->objects_[*object].motion = move.motion;
+  scene->objects_ = objects_.changed(indices, [&](std::size_t k, HapticObject& object) {
+    object.world_from_object = placed[k].second->world_from_object;
+    object.motion = placed[k].second->motion;
+  });
+  indices.erase(std::ranges::unique(indices).begin(), indices.end());
+  constexpr std::size_t kItems = base::SharedBlocks<HapticObject>::kBlockItems;
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    if (k == 0 || indices[k] / kItems != indices[k - 1] / kItems) scene->measure_block(indices[k] / kItems);
   }
-  scene->tree_.refit(scene->slot_boxes());
-  scene->measure();
+  scene->measure_all();
+  scene->let_stray(indices);
   return scene;
 }
 
-void HapticScene::measure() {
+/// Takes the objects, ascending, out of the tree; refits that where they have become too many to be looked at
+/// one by one.
+void HapticScene::let_stray(std::span<const std::uint32_t> moved) {
+  constexpr std::size_t kMostStrays = 64;
+  std::vector<std::uint32_t> strays;
+  std::ranges::set_union(strays_, moved, std::back_inserter(strays));
+  stray_boxes_.clear();
+  if (strays.size() > std::min(kMostStrays, objects_.size() / 2)) {
+    auto tree = std::make_shared<geometry::BoxTree>(*tree_);
+    tree->refit(slot_boxes());
+    tree_ = std::move(tree);
+    strays_.clear();
+    return;
+  }
+  strays_ = std::move(strays);
+  constexpr std::size_t kFour = geometry::FourBoxes::kCount;
+  stray_boxes_.resize((strays_.size() + kFour - 1) / kFour);
+  for (std::size_t i = 0; i < strays_.size(); ++i)
+    stray_boxes_[i / kFour].set(unsigned(i % kFour), geometry::float_box(object_bounds(strays_[i])));
+}
+
+void HapticScene::measure_sizes() {
+  std::vector<double> sizes;
+  sizes.reserve(objects_.size());
+  for (const HapticObject& object : objects_) sizes.push_back(own_size(object.shape->bounds()));
+  sizes_ = std::make_shared<const std::vector<double>>(std::move(sizes));
+}
+
+void HapticScene::measure_block(std::size_t block) {
+  Extent extent;
+  const auto first = std::uint32_t(block * base::SharedBlocks<HapticObject>::kBlockItems);
+  for (std::uint32_t i = 0; i < objects_.block(block).size(); ++i) {
+    const Bounds box = object_bounds(first + i);
+    if (box.min().allFinite() && box.max().allFinite()) extent.bounds.extend(box);
+    extent.moves = extent.moves || is_dynamic(first + i);
+  }
+  extents_[block] = extent;
+}
+
+void HapticScene::measure_all() {
   bounds_.setEmpty();
   moves_ = false;
-  sizes_.resize(objects_.size());
-  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    const Bounds box = object_bounds(i);
-    if (box.min().allFinite() && box.max().allFinite()) bounds_.extend(box);
-    moves_ = moves_ || is_dynamic(i);
-    sizes_[i] = own_size(objects_[i].shape->bounds());
+  for (const Extent& extent : extents_) {
+    bounds_.extend(extent.bounds);
+    moves_ = moves_ || extent.moves;
   }
   extent_ = bounds_.isEmpty()
                 ? 1.0
@@ -98,7 +152,7 @@ Bounds HapticScene::object_bounds(std::uint32_t object) const {
 std::vector<geometry::FloatBox> HapticScene::slot_boxes() const {
   std::vector<geometry::FloatBox> boxes(objects_.size());
   for (std::size_t slot = 0; slot < boxes.size(); ++slot) {
-    boxes[slot] = geometry::float_box(object_bounds(order_[slot]));
+    boxes[slot] = geometry::float_box(object_bounds((*order_)[slot]));
   }
   return boxes;
 }
@@ -141,7 +195,8 @@ void HapticScene::expand(std::uint32_t object, std::uint32_t piece, const Contac
 
 // What has no end is as large as the place on it is far out.
 double HapticScene::size_near(std::uint32_t object, const Vector3& place) const {
-  return std::isfinite(sizes_[object]) ? sizes_[object] : std::max(1.0, place.cwiseAbs().maxCoeff());
+  const double size = (*sizes_)[object];
+  return std::isfinite(size) ? size : std::max(1.0, place.cwiseAbs().maxCoeff());
 }
 
 Tolerance HapticScene::tolerance_near(std::uint32_t object, const Vector3& place) const {
@@ -161,15 +216,16 @@ Pose HapticScene::pose(std::uint32_t object, double elapsed) const {
 
 std::optional<std::uint32_t> HapticScene::find(ObjectId id) const {
   const auto place =
-      std::lower_bound(by_id_.begin(), by_id_.end(), id,
+      std::lower_bound(by_id_->begin(), by_id_->end(), id,
                        [&](std::uint32_t object, ObjectId key) { return objects_[object].id < key; });
-  if (place == by_id_.end() || objects_[*place].id != id) return std::nullopt;
+  if (place == by_id_->end() || objects_[*place].id != id) return std::nullopt;
   return *place;
 }
 
 std::size_t HapticScene::bytes() const {
-  return sizeof(*this) + objects_.capacity() * sizeof(HapticObject) + tree_.bytes() +
-         (order_.capacity() + by_id_.capacity()) * sizeof(std::uint32_t);
+  return sizeof(*this) + objects_.bytes() + tree_->bytes() + extents_.capacity() * sizeof(Extent) +
+         (order_->capacity() + by_id_->capacity() + strays_.capacity()) * sizeof(std::uint32_t) +
+         sizes_->capacity() * sizeof(double) + stray_boxes_.capacity() * sizeof(geometry::FourBoxes);
 }
 
 }  // namespace icome::haptics

@@ -1,10 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/object_id.h"
+#include "base/shared_blocks.h"
 #include "geometry/tree/box_tree.h"
 #include "haptics/contact/motion.h"
 #include "haptics/effects/surface_force.h"
@@ -24,15 +26,17 @@ struct HapticObject {
   double time = 0.0;  // s, the own time of a shape that changes, at the moment 0
 };
 
-/// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the
-/// shapes. The servo may read it while any other thread does too.
+/// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the shapes,
+/// and with the scenes that are made of it by moving objects all that these did not touch. The servo may read
+/// it while any other thread does too.
 class HapticScene {
  public:
   /// Compiles a scene for the moment `moment` (s) of the shapes' own times. Ids must differ.
   static std::shared_ptr<const HapticScene> compile(std::vector<HapticObject> objects, double moment = 0.0);
 
-  /// The scene at a moment (s), with other poses for some objects: the broad phase is refitted, not built
-  /// anew. Ids that the scene does not hold are passed over.
+  /// The scene at a moment (s), with other poses for some objects; of several for one object the last holds.
+  /// Ids that the scene does not hold are passed over. Costs by what is moved: few objects are looked at
+  /// beside the tree of all, which is refitted when they have become many.
   struct Move {
     ObjectId id;
     Pose world_from_object;
@@ -52,7 +56,16 @@ class HapticScene {
   /// when `visit` is.
   template <typename Visit>
   void near(const Vector3& a, const Vector3& b, double reach, Visit&& visit) const {
-    tree_.near(geometry::SegmentQuery(a, b, reach), [&](std::uint32_t slot) { return visit(order_[slot]); });
+    const geometry::SegmentQuery query(a, b, reach);
+    bool goes_on = true;
+    tree_->near(query, [&](std::uint32_t slot) {
+      const std::uint32_t object = (*order_)[slot];
+      return is_stray(object) || (goes_on = visit(object));
+    });
+    for (std::size_t four = 0; goes_on && four < stray_boxes_.size(); ++four) {
+      for (unsigned mask = stray_boxes_[four].near_mask(query); goes_on && mask != 0; mask &= mask - 1)
+        goes_on = visit(strays_[four * geometry::FourBoxes::kCount + unsigned(__builtin_ctz(mask))]);
+    }
   }
 
   /// The own time of an object's shape then, s. Real-time safe.
@@ -85,7 +98,12 @@ class HapticScene {
   /// The object's index in this scene. Real-time safe.
   std::optional<std::uint32_t> find(ObjectId id) const;
 
-  const std::vector<HapticObject>& objects() const { return objects_; }
+  const base::SharedBlocks<HapticObject>& objects() const { return objects_; }
+  /// Does one of the two come of the other, or both of a third, by moving objects? Then they hold the same
+  /// ones, at the same indices and with the same surfaces.
+  bool holds_the_same(const HapticScene& other) const { return by_id_ == other.by_id_; }
+  /// May an object of this block of objects() be dynamic?
+  bool is_dynamic_block(std::size_t block) const { return extents_[block].moves; }
   /// The largest coordinate of what is limited, m; 1 where nothing is.
   double extent() const { return extent_; }
   /// What arithmetic with any coordinate of the scene does not tell apart.
@@ -99,19 +117,36 @@ class HapticScene {
   std::size_t bytes() const;
 
  private:
+  /// What the objects of a block reach.
+  struct Extent {
+    Bounds bounds;  // of those that are limited; empty: there are none
+    bool moves = false;
+  };
+
   HapticScene() = default;
 
+  bool is_stray(std::uint32_t object) const {
+    return !strays_.empty() && std::binary_search(strays_.begin(), strays_.end(), object);
+  }
   std::vector<geometry::FloatBox> slot_boxes() const;
   double size_near(std::uint32_t object, const Vector3& place) const;
-  void measure();
+  void measure_sizes();
+  void measure_block(std::size_t block);
+  void measure_all();
+  void let_stray(std::span<const std::uint32_t> moved);
 
-  std::vector<HapticObject> objects_;
-  std::vector<std::uint32_t> order_;  // slot in the tree to object
-  std::vector<std::uint32_t> by_id_;  // objects in the order of their ids
-  std::vector<double> sizes_;         // how far each object reaches from its middle, m
-  geometry::BoxTree tree_;
-  double moment_ = 0.0;  // s
-  double extent_ = 1.0;  // m
+  base::SharedBlocks<HapticObject> objects_;
+  std::vector<Extent> extents_;  // by block of objects_
+  std::shared_ptr<const geometry::BoxTree> tree_;
+  // Objects that have left their boxes in the tree, ascending, and their boxes, four at a time.
+  std::vector<std::uint32_t> strays_;
+  std::vector<geometry::FourBoxes> stray_boxes_;
+  // By nothing that moves.
+  std::shared_ptr<const std::vector<std::uint32_t>> order_;  // slot in the tree to object
+  std::shared_ptr<const std::vector<std::uint32_t>> by_id_;  // objects in the order of their ids
+  std::shared_ptr<const std::vector<double>> sizes_;         // how far each object reaches from its middle, m
+  double moment_ = 0.0;                                      // s
+  double extent_ = 1.0;                                      // m
   Bounds bounds_;
   bool moves_ = false;
 };

@@ -17,8 +17,8 @@ struct PublishedScene {
   std::uint64_t version = 0;
   std::shared_ptr<const HapticScene> scene;  // never null
   std::vector<SceneChange> changes;          // since the last version that the servo had taken, or before
-  std::vector<Surface> surfaces;             // by object, made stable for device and rate
-  double mass_needed = 0.0;                  // kg, of the device's, by the surface that needs most
+  std::shared_ptr<const std::vector<Surface>> surfaces;  // by object, made stable for device and rate
+  double mass_needed = 0.0;  // kg, of the device's, by the surface that needs most
 };
 
 /// What surfaces and effects are fitted to: the device that renders them.
@@ -49,6 +49,8 @@ class SceneFeed {
   void done_before(const PublishedScene& scene) { taken_.store(scene.version, std::memory_order_release); }
 
  private:
+  void make_surfaces(PublishedScene& next) const;
+
   DeviceLimits limits_;
   std::uint64_t next_version_ = 1;
   std::deque<std::unique_ptr<PublishedScene>> kept_;  // newest last

@@ -176,7 +176,7 @@ void Servo::find_contact() {
 /// How hard and how damped the touched surface is beside the effects. Holds no texture: the servo never owns
 /// one.
 Surface Servo::felt_surface() const {
-  const Surface& made = scene_->surfaces[report_.contact.object];
+  const Surface& made = (*scene_->surfaces)[report_.contact.object];
   Surface felt{.stiffness = made.stiffness, .damping = made.damping};
   const double effects = effect_feed_.mass_needed();
   if (effects <= 0.0) return felt;
@@ -201,7 +201,7 @@ Vector3 Servo::surface_force() {
   Vector3 force = spring_damper_force(
       {report_.tip, contact.scp, tip_velocity_, contact.surface_velocity, contact.normal}, surface);
   if (settings_.force_shading) force = shaded(force);
-  const HapticTexture* const texture = scene_->surfaces[contact.object].texture.get();
+  const HapticTexture* const texture = (*scene_->surfaces)[contact.object].texture.get();
   if (texture == nullptr) return force;
   const Pose world_from_object = scene_->scene->pose(contact.object, elapsed_);
   const Pose object_from_world = world_from_object.inverse();

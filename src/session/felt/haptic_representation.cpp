@@ -250,8 +250,10 @@ void HapticRepresentation::survey(const World& world) {
   std::vector<Due> due;
   const world::Scene* scene = world.find(shown_);
   const std::vector<world::ObjectId> nothing;
-  for (const world::ObjectId root : scene ? scene->roots : shown_ ? nothing : world.roots())
-    collect(world, root, due);
+  const std::vector<world::ObjectId>& roots = scene ? scene->roots : shown_ ? nothing : world.roots();
+  shown_roots_.clear();
+  if (scene) shown_roots_.insert(roots.begin(), roots.end());
+  for (const world::ObjectId root : roots) collect(world, root, due);
   // A root of a scene may lie below another.
   std::sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id < b.id; });
   due.erase(std::unique(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.id == b.id; }),
@@ -287,10 +289,8 @@ void HapticRepresentation::collect(const World& world, world::ObjectId root, std
 
 bool HapticRepresentation::in_scene(const World& world, world::ObjectId id) const {
   if (!shown_) return world.find(id) != nullptr;
-  const world::Scene* scene = world.find(shown_);
-  if (!scene) return false;
   for (const PhysicalObject* object = world.find(id); object; id = object->parent, object = world.find(id)) {
-    if (std::find(scene->roots.begin(), scene->roots.end(), id) != scene->roots.end()) return true;
+    if (shown_roots_.contains(id)) return true;
   }
   return false;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "haptics/contact/haptic_scene.h"
@@ -133,7 +134,8 @@ class HapticRepresentation {
   void list_effects();
 
   HapticRepresentationSettings settings_;
-  world::SceneId shown_ = {};  // none: the whole world
+  world::SceneId shown_ = {};                        // none: the whole world
+  std::unordered_set<world::ObjectId> shown_roots_;  // of the scene that is shown
   std::unordered_map<world::ObjectId, Member> members_;
   std::map<ShapeKey, FeltShapePointer> shapes_;
   std::map<ShapeKey, FeltShapePointer> outdated_;  // by the edits that are being followed

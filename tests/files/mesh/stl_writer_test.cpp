@@ -76,7 +76,7 @@ TEST(StlWriter, WhatCannotBeHeldIsRefusedAndNothingIsLeft) {
   EXPECT_EQ(files_in(folder), 1U);
 }
 
-TEST(io::NewFile, ImpossiblePathsAreToldAtOnce) {
+TEST(NewFile, ImpossiblePathsAreToldAtOnce) {
   const ScratchFolder folder;
   EXPECT_EQ(io::NewFile::create(folder.path() / "no" / "a.stl").error().message,
             (folder.path() / "no" / "a.stl").string() + ": cannot be written (No such file or directory).");
