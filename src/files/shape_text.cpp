@@ -12,6 +12,7 @@
 #include "io/number_text.h"
 #include "io/text_scanner.h"
 #include "world/shape/geometry_check.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::files {
 namespace {
@@ -133,30 +134,34 @@ base::Result<GeometryPointer> loop_of(const ShapeText& text) {
 }  // namespace
 
 base::Result<std::optional<ShapeText>> shape_text(const world::Geometry& shape) {
+  using Text = base::Result<std::optional<ShapeText>>;
   const std::string kind(shape.kind());
-  if (kind == "mesh") return std::optional<ShapeText>();
-  if (const auto* it = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
-    return ShapeText{{"kind", kind},
-                     {"shape", geometry::name(it->primitive)},
-                     {"axis", it->axis == world::Axis::Y ? "y" : "z"}};
-  }
-  if (const auto* it = dynamic_cast<const world::CsgGeometry*>(&shape)) {
-    auto tree = csg_text(it->tree);
-    if (!tree) return tl::unexpected(tree.error());
-    return ShapeText{{"kind", kind}, {"tree", std::move(*tree)}};
-  }
-  if (const auto* it = dynamic_cast<const world::ImplicitGeometry*>(&shape)) {
-    const base::Bounds& box = it->surface()->box();
-    return ShapeText{{"kind", kind}, {"formula", it->formula()}, {"box", text_of({box.min(), box.max()})}};
-  }
-  if (const auto* it = dynamic_cast<const world::LoopGeometry*>(&shape)) {
-    return ShapeText{{"kind", kind},
-                     {"points", text_of(it->control.mesh.positions)},
-                     {"triangles", text_of(it->control.mesh.triangles)},
-                     {"creases", text_of(it->control.creases)},
-                     {"corners", text_of(it->control.corners)}};
-  }
-  return base::fail(fmt::format("Shapes of the kind \"{}\" have no text.", kind));
+  return world::visit_geometry(
+      shape, [](const world::MeshGeometry&) -> Text { return std::optional<ShapeText>(); },
+      [&](const world::PrimitiveGeometry& it) -> Text {
+        return ShapeText{{"kind", kind},
+                         {"shape", geometry::name(it.primitive)},
+                         {"axis", it.axis == world::Axis::Y ? "y" : "z"}};
+      },
+      [&](const world::CsgGeometry& it) -> Text {
+        auto tree = csg_text(it.tree);
+        if (!tree) return tl::unexpected(tree.error());
+        return ShapeText{{"kind", kind}, {"tree", std::move(*tree)}};
+      },
+      [&](const world::ImplicitGeometry& it) -> Text {
+        const base::Bounds& box = it.surface()->box();
+        return ShapeText{{"kind", kind}, {"formula", it.formula()}, {"box", text_of({box.min(), box.max()})}};
+      },
+      [&](const world::LoopGeometry& it) -> Text {
+        return ShapeText{{"kind", kind},
+                         {"points", text_of(it.control.mesh.positions)},
+                         {"triangles", text_of(it.control.mesh.triangles)},
+                         {"creases", text_of(it.control.creases)},
+                         {"corners", text_of(it.control.corners)}};
+      },
+      [&](const world::Geometry&) -> Text {
+        return base::fail(fmt::format("Shapes of the kind \"{}\" have no text.", kind));
+      });
 }
 
 base::Result<GeometryPointer> shape_from_text(const ShapeText& text) {

@@ -7,6 +7,7 @@
 
 #include "files/remark.h"
 #include "world/shape/mesh_geometry.h"
+#include "world/world.h"
 
 namespace icome::files {
 

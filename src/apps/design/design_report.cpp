@@ -6,6 +6,7 @@
 #include "apps/touch/touch_report.h"
 #include "world/motion.h"
 #include "world/shape/solid_geometry.h"
+#include "world/shape/visit_geometry.h"
 #include "world/sharing.h"
 
 namespace icome::apps {
@@ -45,11 +46,10 @@ std::string printable(std::string text) {
 }
 
 std::string shape_text(const world::Geometry& shape) {
-  if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape))
-    return geometry::name(primitive->primitive);
-  if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&shape))
-    return "implicit " + printable(implicit->formula().substr(0, 40));
-  return std::string(shape.kind());
+  return world::visit_geometry(
+      shape, [](const world::PrimitiveGeometry& it) { return geometry::name(it.primitive); },
+      [](const world::ImplicitGeometry& it) { return "implicit " + printable(it.formula().substr(0, 40)); },
+      [](const world::Geometry& it) { return std::string(it.kind()); });
 }
 
 std::string fixture_text(const world::Fixture& fixture) {

@@ -1,5 +1,7 @@
 #pragma once
+#include "base/result.h"
 #include "files/remark.h"
+#include "world/world.h"
 
 namespace icome::files {
 

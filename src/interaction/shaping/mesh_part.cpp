@@ -10,6 +10,7 @@
 #include "geometry/mesh/mesh_check.h"
 #include "interaction/operations/shapes/shape_change.h"
 #include "world/shape/mesh_geometry.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -175,9 +176,11 @@ std::optional<PartMeeting> meet(const PartProbe& probe, const Vector3& point) {
 }
 
 const TriangleMesh* draggable_mesh(const world::Geometry& shape) {
-  if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape)) return &mesh->mesh;
-  if (const auto* loop = dynamic_cast<const world::LoopGeometry*>(&shape)) return &loop->control.mesh;
-  return nullptr;
+  using Mesh = const TriangleMesh*;
+  return world::visit_geometry(
+      shape, [](const world::MeshGeometry& it) -> Mesh { return &it.mesh; },
+      [](const world::LoopGeometry& it) -> Mesh { return &it.control.mesh; },
+      [](const world::Geometry&) -> Mesh { return nullptr; });
 }
 
 Result<world::GeometryPointer> draggable_shape(const world::World& world, world::ObjectId id) {

@@ -11,6 +11,7 @@
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
 #include "world/shape/usual_tolerance.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -83,9 +84,9 @@ bool MeshTarget::meets(const base::Affine3& world_from_target, const SelectionCo
 
 bool takes_long(const world::Geometry& shape) {
   constexpr std::size_t kManyTriangles = 20'000;
-  if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape))
-    return mesh->mesh.triangles.size() > kManyTriangles;
-  return dynamic_cast<const world::PrimitiveGeometry*>(&shape) == nullptr;
+  return world::visit_geometry(
+      shape, [](const world::MeshGeometry& it) { return it.mesh.triangles.size() > kManyTriangles; },
+      [](const world::PrimitiveGeometry&) { return false; }, [](const world::Geometry&) { return true; });
 }
 
 }  // namespace

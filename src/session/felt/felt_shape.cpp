@@ -20,6 +20,7 @@
 #include "world/shape/geometry_check.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::session {
 namespace {
@@ -40,20 +41,15 @@ class FeltShapeMaker {
 
   Felt make(const world::Geometry& shape) const {
     if (map_.determinant() == 0.0) return untouchable("is too flat or too far away to be touched");
-    Felt felt;
-    if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape)) {
-      felt = of_mesh(*mesh);
-    } else if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {
-      felt = of_primitive(*primitive);
-    } else if (const auto* loop = dynamic_cast<const world::LoopGeometry*>(&shape)) {
-      felt = of_loop(*loop);
-    } else if (const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape)) {
-      felt = of_csg(*csg);
-    } else if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&shape)) {
-      felt = of_implicit(*implicit);
-    } else {
-      felt = of_triangles(shape, fmt::format("of the kind \"{}\"", shape.kind()));
-    }
+    Felt felt = world::visit_geometry(
+        shape, [&](const world::MeshGeometry& it) { return of_mesh(it); },
+        [&](const world::PrimitiveGeometry& it) { return of_primitive(it); },
+        [&](const world::LoopGeometry& it) { return of_loop(it); },
+        [&](const world::CsgGeometry& it) { return of_csg(it); },
+        [&](const world::ImplicitGeometry& it) { return of_implicit(it); },
+        [&](const world::Geometry& it) {
+          return of_triangles(it, fmt::format("of the kind \"{}\"", it.kind()));
+        });
     felt->felt_from_geometry = map_;
     return felt;
   }

@@ -9,6 +9,7 @@
 
 #include "files/remark.h"
 #include "session/background_task.h"
+#include "world/world.h"
 
 namespace icome::session {
 

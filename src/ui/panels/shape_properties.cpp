@@ -3,6 +3,7 @@
 #include "charts/length_text.h"
 #include "world/shape/geometry_check.h"
 #include "world/shape/solid_geometry.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::ui {
 
@@ -102,20 +103,22 @@ Property<std::string> formula_property() {
 }
 
 QString figures_of(const world::Geometry& shape) {
-  if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape)) {
-    return counted(mesh->mesh.triangles.size(), "triangle", "triangles") + ", " +
-           counted(mesh->mesh.positions.size(), "vertex", "vertices");
-  }
-  if (const auto* loop = dynamic_cast<const world::LoopGeometry*>(&shape)) {
-    return counted(loop->control.mesh.triangles.size(), "control triangle", "control triangles") + ", " +
-           counted(loop->control.creases.size(), "crease", "creases");
-  }
-  if (const auto* csg = dynamic_cast<const world::CsgGeometry*>(&shape)) {
-    const geometry::CsgCount count = geometry::count(csg->tree);
-    return counted(count.primitives, "operand", "operands") + ", " +
-           counted(count.nodes - count.primitives, "operation", "operations");
-  }
-  return {};
+  return world::visit_geometry(
+      shape,
+      [](const world::MeshGeometry& it) {
+        return counted(it.mesh.triangles.size(), "triangle", "triangles") + ", " +
+               counted(it.mesh.positions.size(), "vertex", "vertices");
+      },
+      [](const world::LoopGeometry& it) {
+        return counted(it.control.mesh.triangles.size(), "control triangle", "control triangles") + ", " +
+               counted(it.control.creases.size(), "crease", "creases");
+      },
+      [](const world::CsgGeometry& it) {
+        const geometry::CsgCount count = geometry::count(it.tree);
+        return counted(count.primitives, "operand", "operands") + ", " +
+               counted(count.nodes - count.primitives, "operation", "operations");
+      },
+      [](const world::Geometry&) { return QString(); });
 }
 
 }  // namespace icome::ui

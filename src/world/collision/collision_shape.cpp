@@ -12,6 +12,7 @@
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
 #include "world/shape/usual_tolerance.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::world {
 namespace {
@@ -164,9 +165,10 @@ std::uint64_t effort_to_look_into(const Geometry& shape) {
   constexpr std::uint64_t kPrimitive = 2'000;   // some hundred triangles
   constexpr std::uint64_t kATriangle = 20;      // repaired, sorted, and looked through for parts
   constexpr std::uint64_t kSolid = 20'000'000;  // meshed first: nobody waits for that
-  if (dynamic_cast<const PrimitiveGeometry*>(&shape)) return kPrimitive;
-  const auto* mesh = dynamic_cast<const MeshGeometry*>(&shape);
-  return mesh ? kATriangle * mesh->mesh.triangles.size() : kSolid;
+  return visit_geometry(
+      shape, [](const PrimitiveGeometry&) { return kPrimitive; },
+      [](const MeshGeometry& it) { return kATriangle * it.mesh.triangles.size(); },
+      [](const Geometry&) { return kSolid; });
 }
 
 std::uint64_t CollisionShape::effort_to_make() const {

@@ -8,6 +8,7 @@
 #include "geometry/segment.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::world {
 namespace {
@@ -27,25 +28,30 @@ bool has_front_only(const SmoothSurface& surface) {
 }  // namespace
 
 bool has_exact_surface(const Geometry& shape) {
-  if (const auto* it = dynamic_cast<const PrimitiveGeometry*>(&shape)) return is_round(it->primitive);
-  return dynamic_cast<const CsgGeometry*>(&shape) || dynamic_cast<const LoopGeometry*>(&shape) ||
-         dynamic_cast<const ImplicitGeometry*>(&shape);
+  return visit_geometry(
+      shape, [](const PrimitiveGeometry& it) { return is_round(it.primitive); },
+      [](const CsgGeometry&) { return true; }, [](const LoopGeometry&) { return true; },
+      [](const ImplicitGeometry&) { return true; }, [](const Geometry&) { return false; });
 }
 
 std::shared_ptr<const SmoothSurface> exact_surface(const Geometry& shape) {
   if (!has_exact_surface(shape)) return nullptr;
-  if (const auto* it = dynamic_cast<const PrimitiveGeometry*>(&shape)) {
-    geometry::CsgTree tree;
-    tree.add_leaf(it->primitive, Affine3(it->shape_from_primitive()));
-    return std::make_shared<const geometry::CsgSolid>(tree);
-  }
-  if (const auto* it = dynamic_cast<const CsgGeometry*>(&shape)) {
-    if (it->tree.empty()) return nullptr;
-    return std::make_shared<const geometry::CsgSolid>(it->tree);
-  }
-  if (const auto* it = dynamic_cast<const ImplicitGeometry*>(&shape)) return it->surface();
-  const auto loop = geometry::LoopSurface::create(dynamic_cast<const LoopGeometry&>(shape).control);
-  return loop ? *loop : nullptr;
+  using Surface = std::shared_ptr<const SmoothSurface>;
+  return visit_geometry(
+      shape,
+      [](const PrimitiveGeometry& it) -> Surface {
+        geometry::CsgTree tree;
+        tree.add_leaf(it.primitive, Affine3(it.shape_from_primitive()));
+        return std::make_shared<const geometry::CsgSolid>(tree);
+      },
+      [](const CsgGeometry& it) -> Surface {
+        return it.tree.empty() ? nullptr : std::make_shared<const geometry::CsgSolid>(it.tree);
+      },
+      [](const LoopGeometry& it) -> Surface {
+        return geometry::LoopSurface::create(it.control).value_or(nullptr);
+      },
+      [](const ImplicitGeometry& it) -> Surface { return it.surface(); },
+      [](const Geometry&) -> Surface { return nullptr; });
 }
 
 /// Each piece is asked about the part of the way in its box alone, which begins well before the piece: so the

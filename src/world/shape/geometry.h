@@ -24,6 +24,10 @@ class Geometry {
   /// The kind's name in files and reports: "mesh", "primitive", "loop", "csg", "implicit" or one's own.
   virtual std::string_view kind() const = 0;
 
+  /// The kinds that everybody knows, which visit_geometry() tells apart.
+  enum class Kind : std::uint8_t { Mesh, Primitive, Loop, Csg, Implicit, OnesOwn };
+  virtual Kind which() const { return Kind::OnesOwn; }
+
   /// Around the shape; empty for one that holds nothing.
   virtual Bounds bounds() const = 0;
 

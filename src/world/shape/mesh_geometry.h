@@ -31,6 +31,7 @@ struct MeshGeometry final : public Geometry, public std::enable_shared_from_this
   std::string recipe;  // how it was made, as JSON text of named parameters; empty: by hand
 
   std::string_view kind() const override { return "mesh"; }
+  Kind which() const override { return Kind::Mesh; }
   Bounds bounds() const override { return bounds_.of(mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
@@ -50,6 +51,7 @@ struct LoopGeometry final : public Geometry {
   geometry::ControlMesh control;
 
   std::string_view kind() const override { return "loop"; }
+  Kind which() const override { return Kind::Loop; }
   /// Of the control mesh, within whose convex hull the surface lies.
   Bounds bounds() const override { return bounds_.of(control.mesh); }
   std::uint64_t hash() const override;

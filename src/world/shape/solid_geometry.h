@@ -32,6 +32,7 @@ struct PrimitiveGeometry final : public Geometry {
   }
 
   std::string_view kind() const override { return "primitive"; }
+  Kind which() const override { return Kind::Primitive; }
   Bounds bounds() const override;
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this); }
@@ -46,6 +47,7 @@ struct CsgGeometry final : public Geometry {
   geometry::CsgTree tree;
 
   std::string_view kind() const override { return "csg"; }
+  Kind which() const override { return Kind::Csg; }
   Bounds bounds() const override { return geometry::bounds(tree); }
   /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
   std::uint64_t hash() const override;
@@ -74,6 +76,7 @@ class ImplicitGeometry final : public Geometry {
   base::Result<std::shared_ptr<const MeshGeometry>> triangles_at(double time, double tolerance) const;
 
   std::string_view kind() const override { return "implicit"; }
+  Kind which() const override { return Kind::Implicit; }
   Bounds bounds() const override { return surface_->bounds(); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this) + formula_.capacity() + surface_->bytes(); }

@@ -12,6 +12,7 @@
 #include "world/shape/geometry_check.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::files {
 namespace {
@@ -175,24 +176,26 @@ class VrmlShapes::ByKind {
 };
 
 const VrmlProto* VrmlShapes::proto_of(const Geometry& shape) {
-  if (const auto* it = dynamic_cast<const PrimitiveGeometry*>(&shape))
-    return is_native(*it) ? nullptr : &kPrimitiveProto;
-  if (const auto* it = dynamic_cast<const CsgGeometry*>(&shape))
-    return has_own_primitive(it->tree) ? nullptr : &kCsgProto;
-  if (dynamic_cast<const LoopGeometry*>(&shape)) return &kLoopProto;
-  if (dynamic_cast<const ImplicitGeometry*>(&shape)) return &kImplicitProto;
-  return nullptr;
+  using Proto = const VrmlProto*;
+  return world::visit_geometry(
+      shape, [](const PrimitiveGeometry& it) -> Proto { return is_native(it) ? nullptr : &kPrimitiveProto; },
+      [](const CsgGeometry& it) -> Proto { return has_own_primitive(it.tree) ? nullptr : &kCsgProto; },
+      [](const LoopGeometry&) -> Proto { return &kLoopProto; },
+      [](const ImplicitGeometry&) -> Proto { return &kImplicitProto; },
+      [](const Geometry&) -> Proto { return nullptr; });
 }
 
 void VrmlShapes::write(const Geometry& shape, const std::string& def, const std::string& owner) {
   ByKind by_kind(*this, def.empty() ? "geometry " : fmt::format("geometry DEF {} ", def), owner);
-  if (const auto* it = dynamic_cast<const MeshGeometry*>(&shape)) return by_kind.write(*it);
-  if (const auto* it = dynamic_cast<const PrimitiveGeometry*>(&shape)) return by_kind.write(*it);
-  if (const auto* it = dynamic_cast<const LoopGeometry*>(&shape)) return by_kind.write(*it);
-  if (const auto* it = dynamic_cast<const CsgGeometry*>(&shape)) return by_kind.write(*it);
-  if (const auto* it = dynamic_cast<const ImplicitGeometry*>(&shape)) return by_kind.write(*it);
-  by_kind.write_triangles(shape,
-                          fmt::format("VRML 2.0 has nothing for shapes of the kind \"{}\".", shape.kind()));
+  world::visit_geometry(
+      shape, [&](const MeshGeometry& it) { by_kind.write(it); },
+      [&](const PrimitiveGeometry& it) { by_kind.write(it); },
+      [&](const LoopGeometry& it) { by_kind.write(it); }, [&](const CsgGeometry& it) { by_kind.write(it); },
+      [&](const ImplicitGeometry& it) { by_kind.write(it); },
+      [&](const Geometry& it) {
+        by_kind.write_triangles(
+            it, fmt::format("VRML 2.0 has nothing for shapes of the kind \"{}\".", it.kind()));
+      });
 }
 
 }  // namespace icome::files

@@ -10,6 +10,7 @@
 #include "geometry/mesh/mesh_repair.h"
 #include "interaction/operations/object_frames.h"
 #include "world/shape/geometry_check.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -74,14 +75,18 @@ class SolidBuilder {
     if (!place.matrix().allFinite() || !geometry::unplacing(place).matrix().allFinite())
       return fail(fmt::format("{} is shrunk to nothing: make it larger first", name));
     const world::Geometry& shape = *world_.find(object.geometry)->shape;
-    if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape))
-      return tree_.add_leaf(primitive->primitive, place * Affine3(primitive->shape_from_primitive()));
-    if (const auto* solid = dynamic_cast<const world::CsgGeometry*>(&shape))
-      return add(solid->tree, place, name);
-    if (const auto* mesh = dynamic_cast<const world::MeshGeometry*>(&shape))
-      return add(object.geometry, mesh->mesh, place, name);
-    return fail(fmt::format("{} is a {} shape, which cannot be combined: make a mesh of it first", name,
-                            shape.kind()));
+    using Added = Result<CsgTree::Index>;
+    return world::visit_geometry(
+        shape,
+        [&](const world::PrimitiveGeometry& it) -> Added {
+          return tree_.add_leaf(it.primitive, place * Affine3(it.shape_from_primitive()));
+        },
+        [&](const world::CsgGeometry& it) -> Added { return add(it.tree, place, name); },
+        [&](const world::MeshGeometry& it) -> Added { return add(object.geometry, it.mesh, place, name); },
+        [&](const world::Geometry& it) -> Added {
+          return fail(fmt::format("{} is a {} shape, which cannot be combined: make a mesh of it first", name,
+                                  it.kind()));
+        });
   }
 
   void join(geometry::CsgOperator how, CsgTree::Index left, CsgTree::Index right) {

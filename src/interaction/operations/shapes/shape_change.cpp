@@ -7,6 +7,7 @@
 #include "geometry/mesh/bent_normals.h"
 #include "world/shape/geometry_check.h"
 #include "world/shape/usual_tolerance.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -18,9 +19,10 @@ using world::LoopGeometry;
 using world::MeshGeometry;
 
 Result<void> check_shape(const world::Geometry& shape) {
-  std::string wrong;
-  if (const auto* mesh = dynamic_cast<const MeshGeometry*>(&shape)) wrong = world::complaint(*mesh);
-  if (const auto* loop = dynamic_cast<const LoopGeometry*>(&shape)) wrong = world::complaint(*loop);
+  std::string wrong = world::visit_geometry(
+      shape, [](const MeshGeometry& it) { return world::complaint(it); },
+      [](const LoopGeometry& it) { return world::complaint(it); },
+      [](const world::Geometry&) { return std::string(); });
   if (!wrong.empty()) return fail(std::move(wrong));
   return {};
 }

@@ -17,6 +17,7 @@
 #include "world/shape/geometry_check.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
+#include "world/shape/visit_geometry.h"
 
 namespace icome::interaction {
 namespace {
@@ -316,16 +317,20 @@ Shape make_shape(const Arguments& arguments) {
 }
 
 Result<Value::Fields> making_of(const world::Geometry& shape) {
-  if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape))
-    return std::visit(WordsOfPrimitive(), laid(*primitive));
-  if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&shape)) {
-    const base::Bounds& box = implicit->surface()->box();
-    return Value::Fields{{"shape", "implicit"},
-                         {"formula", implicit->formula()},
-                         {"bounds", Value::List{listed(box.min()), listed(box.max())}}};
-  }
-  if (shape.kind() == "csg") return fail("it is combined of several shapes; take it apart and reshape those");
-  return making_of_recipe(world::recipe_of(shape));
+  using Making = Result<Value::Fields>;
+  return world::visit_geometry(
+      shape,
+      [](const world::PrimitiveGeometry& it) -> Making { return std::visit(WordsOfPrimitive(), laid(it)); },
+      [](const world::ImplicitGeometry& it) -> Making {
+        const base::Bounds& box = it.surface()->box();
+        return Value::Fields{{"shape", "implicit"},
+                             {"formula", it.formula()},
+                             {"bounds", Value::List{listed(box.min()), listed(box.max())}}};
+      },
+      [](const world::CsgGeometry&) -> Making {
+        return fail("it is combined of several shapes; take it apart and reshape those");
+      },
+      [](const world::Geometry& it) -> Making { return making_of_recipe(world::recipe_of(it)); });
 }
 
 Shape remade(const world::World& world, const world::Geometry& shape, const Value::Fields& changes) {
