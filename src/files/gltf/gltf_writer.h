@@ -1,4 +1,7 @@
 #pragma once
+#include <filesystem>
+#include <vector>
+
 #include "base/result.h"
 #include "files/remark.h"
 #include "world/world.h"

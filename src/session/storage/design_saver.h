@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "files/journal/file_stamp.h"
 #include "files/remark.h"
 #include "session/background_task.h"
 #include "world/world.h"
