@@ -16,10 +16,10 @@ Added add_shape(session::Session& session, world::GeometryPointer shape, const b
   object.geometry = added.geometry;
   object.material = added.material;
   object.parent_from_object = place;
-  must(session.perform(world::EditGroup{{world::CreateMaterial{added.material, {}},
-                                         world::CreateGeometry{added.geometry, std::move(shape)},
-                                         world::CreateObject{added.object, 0, object}}},
-                       "Add"));
+  must(session.history().perform(world::EditGroup{{world::CreateMaterial{added.material, {}},
+                                                   world::CreateGeometry{added.geometry, std::move(shape)},
+                                                   world::CreateObject{added.object, 0, object}}},
+                                 "Add"));
   session.settle();
   return added;
 }

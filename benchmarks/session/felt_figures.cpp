@@ -18,18 +18,18 @@ constexpr double kFar = 0.1;  // m, that a plate is lowered to be gone
 std::vector<double> ticks_to_feel(session::Session& session, int edits,
                                   const std::function<void()>& take_away) {
   std::vector<double> ticks;
-  const auto touching = [&] { return session.pointer(0).touching; };
+  const auto touching = [&] { return session.hands().pointer(0).touching; };
   for (int i = 0; i < edits; ++i) {
-    session.aim_hand(kAbove);
-    if (!turn_until(session, [&] { return session.pointer(0).tip.y() > 0.02; })) break;
-    session.aim_hand(kWithin);
+    session.hands().aim(kAbove);
+    if (!turn_until(session, [&] { return session.hands().pointer(0).tip.y() > 0.02; })) break;
+    session.hands().aim(kWithin);
     if (!turn_until(session, touching)) break;
     const std::int64_t begin = base::steady_nanoseconds();
     take_away();
     if (!turn_until(session, [&] { return !touching(); })) break;
-    const double seconds = 1e-9 * double(session.pointer(0).time - begin);
-    ticks.push_back(std::ceil(std::max(0.0, seconds * session.servo().rate_hz)));
-    must(session.undo());
+    const double seconds = 1e-9 * double(session.hands().pointer(0).time - begin);
+    ticks.push_back(std::ceil(std::max(0.0, seconds * session.hands().servo().rate_hz)));
+    must(session.history().undo());
     session.settle();
   }
   return ticks;
@@ -55,22 +55,25 @@ std::vector<double> ticks_to_sink(session::Session& session, const Added& plate,
   constexpr std::int64_t kRest = 300'000'000;  // ns, in which a hand comes to rest
   std::vector<double> ticks;
   bool dragged = false;
-  session.put_hand(kAbove);  // from wherever it is: it may be below
+  session.hands().put(kAbove);  // from wherever it is: it may be below
   for (int i = 0; i < steps; ++i) {
-    session.aim_hand(kWithin - base::Vector3(0.0, kStep * i, 0.0));
+    session.hands().aim(kWithin - base::Vector3(0.0, kStep * i, 0.0));
     const std::int64_t rested = base::steady_nanoseconds() + kRest;
-    const auto rests = [&] { return base::steady_nanoseconds() > rested && session.pointer(0).touching; };
+    const auto rests = [&] {
+      return base::steady_nanoseconds() > rested && session.hands().pointer(0).touching;
+    };
     if (!turn_until(session, rests)) break;
-    const double ground = session.pointer(0).scp.y();
+    const double ground = session.hands().pointer(0).scp.y();
     const world::MoveVertices edit = dent(session, plate.geometry, kStep);
     const std::int64_t begin = base::steady_nanoseconds();
-    must(i == 0 ? session.perform(edit, "Drag") : session.extend(edit));
+    must(i == 0 ? session.history().perform(edit, "Drag") : session.history().extend(edit));
     dragged = true;
-    if (!turn_until(session, [&] { return session.pointer(0).scp.y() < ground - 0.5 * kStep; })) break;
-    const double seconds = 1e-9 * double(session.pointer(0).time - begin);
-    ticks.push_back(std::ceil(std::max(0.0, seconds * session.servo().rate_hz)));
+    if (!turn_until(session, [&] { return session.hands().pointer(0).scp.y() < ground - 0.5 * kStep; }))
+      break;
+    const double seconds = 1e-9 * double(session.hands().pointer(0).time - begin);
+    ticks.push_back(std::ceil(std::max(0.0, seconds * session.hands().servo().rate_hz)));
   }
-  if (dragged) must(session.undo());
+  if (dragged) must(session.history().undo());
   session.settle();
   return ticks;
 }
@@ -84,10 +87,11 @@ SessionSection felt_figures(const SessionExtent& extent) {
     const Added plate = add_shape(*session, thick_plate(), lowered(0.01));
     section.rows.push_back(row_of(
         "a plate is moved",
-        ticks_to_feel(*session, extent.edits,
-                      [&] {
-                        must(session->perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
-                      }),
+        ticks_to_feel(
+            *session, extent.edits,
+            [&] {
+              must(session->history().perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
+            }),
         "ticks"));
   }
   const auto session = start_session();
@@ -95,10 +99,11 @@ SessionSection felt_figures(const SessionExtent& extent) {
   const std::string name = std::to_string(2 * extent.grid * extent.grid) + " triangles";
   section.rows.push_back(
       row_of("a mesh of " + name + " is moved",
-             ticks_to_feel(*session, extent.edits,
-                           [&] {
-                             must(session->perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
-                           }),
+             ticks_to_feel(
+                 *session, extent.edits,
+                 [&] {
+                   must(session->history().perform(world::PlaceObject{plate.object, lowered(kFar)}, "Move"));
+                 }),
              "ticks"));
   section.rows.push_back(row_of("the middle of that mesh is dragged down, each step of 1 mm",
                                 ticks_to_sink(*session, plate, std::min(extent.edits, 30)), "ticks"));

@@ -68,14 +68,14 @@ SessionRow work_row(int count, int edits) {
 SessionRow session_row(int count, int edits) {
   const auto session = start_session();
   std::vector<world::ObjectId> boxes;
-  must(session->perform(many_boxes(count, session->ids(), boxes), "Fill"));
+  must(session->history().perform(many_boxes(count, session->ids(), boxes), "Fill"));
   session->settle();
   std::vector<double> ms;
   for (int i = 0; i < edits; ++i) {
     const world::ObjectId box = boxes[std::size_t(count / 2)];
     const world::PlaceObject edit{box, beside(session->world(), box, i % 2 == 0 ? 0.001 : -0.001)};
     const std::int64_t begin = base::steady_nanoseconds();
-    must(session->perform(edit, "Move"));
+    must(session->history().perform(edit, "Move"));
     session->settle();
     ms.push_back(1e-6 * double(base::steady_nanoseconds() - begin));
   }

@@ -16,10 +16,10 @@ void look_down(session::Session& session) {
   view.world_from_eye = base::Pose(Eigen::AngleAxisd(-1.5, base::Vector3::UnitX()));
   view.world_from_eye.pretranslate(base::Vector3(0.0, 0.3, 0.02));
   view.distance = 0.3;
-  session.set_view(view);
+  session.view().set(view);
   session::DisplayWish wish;
   wish.pointers = false;
-  session.set_look(wish);
+  session.view().set_look(wish);
 }
 
 world::Material painted(bool red) {
@@ -33,13 +33,13 @@ struct Seen {
 };
 
 Seen time_to_see(session::Session& session, const Added& plate, int edits) {
-  WatchingDisplay display(session.display(), kWidth, kHeight, WatchingDisplay::Pace::Always);
+  WatchingDisplay display(session.view().display(), kWidth, kHeight, WatchingDisplay::Pace::Always);
   Seen seen;
   for (int i = 0; i <= edits; ++i) {
     const bool red = i % 2 == 0;
     const std::int64_t begin = base::steady_nanoseconds();
     const std::uint64_t before = display.frames();  // the one after this may have been begun already
-    must(session.perform(world::ChangeMaterial{plate.material, painted(red)}, "Paint"));
+    must(session.history().perform(world::ChangeMaterial{plate.material, painted(red)}, "Paint"));
     if (!turn_until(session, [&] { return display.is_red() == red; })) break;
     const WatchingDisplay::Change change = display.last_change();
     if (i == 0) continue;  // shapes go to the graphics card

@@ -19,7 +19,7 @@ void wander(session::Session& session, double seconds, const std::function<void(
   double time = 0.0;
   while (time < seconds) {
     time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    session.aim_hand({0.08 * std::cos(2.0 * time), -0.002, 0.08 * std::sin(3.0 * time)});
+    session.hands().aim({0.08 * std::cos(2.0 * time), -0.002, 0.08 * std::sin(3.0 * time)});
     session.update();
     at_each_turn();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -62,25 +62,25 @@ std::unique_ptr<session::Session> session_with_plate() {
 realtime::LoopSummary alone(double seconds) {
   const auto session = session_with_plate();
   wander(*session, seconds, [] {});
-  return session->servo().summary;
+  return session->hands().servo().summary;
 }
 
 realtime::LoopSummary beside_display(double seconds) {
   const auto session = session_with_plate();
-  WatchingDisplay display(session->display(), 1280, 800, WatchingDisplay::Pace::Always);
+  WatchingDisplay display(session->view().display(), 1280, 800, WatchingDisplay::Pace::Always);
   wander(*session, seconds, [] {});
-  return session->servo().summary;
+  return session->hands().servo().summary;
 }
 
 realtime::LoopSummary beside_import(double seconds, const std::filesystem::path& large, int& imports) {
   const auto session = session_with_plate();
   wander(*session, seconds, [&] {
-    if (session->opening()) return;
+    if (session->files().opening()) return;
     ++imports;
-    session->open(large);
+    session->files().open(large);
   });
-  session->cancel_open();
-  return session->servo().summary;
+  session->files().cancel_open();
+  return session->hands().servo().summary;
 }
 
 void add_servo_rows(const std::string& what, const realtime::LoopSummary& it,

@@ -13,15 +13,15 @@ SessionSection start_figures(const SessionExtent& extent) {
     const std::int64_t begin = base::steady_nanoseconds();
     const auto since = [&](std::int64_t time) { return 1e-6 * double(time - begin); };
     const auto session = start_session();
-    WatchingDisplay display(session->display(), 1280, 800, WatchingDisplay::Pace::WhenDue);
-    session->open(extent.demo);
+    WatchingDisplay display(session->view().display(), 1280, 800, WatchingDisplay::Pace::WhenDue);
+    session->files().open(extent.demo);
     if (!turn_until(*session, [&] { return display.frames() > 0; })) break;
     first.push_back(since(display.last_done()));
-    if (!turn_until(*session, [&] { return session->drawn()->object_count() > 0; })) break;
+    if (!turn_until(*session, [&] { return session->view().drawn()->object_count() > 0; })) break;
     opened.push_back(since(base::steady_nanoseconds()));
     const std::uint64_t before = display.frames();
-    session->set_aspect(1.6);
-    session->home();
+    session->view().set_aspect(1.6);
+    session->view().home();
     if (!turn_until(*session, [&] { return display.frames() > before + 1; })) break;
     seen.push_back(since(display.last_done()));
   }

@@ -238,9 +238,9 @@ void disk_costs(const Extent& extent) {
 /// A session's servo while its ticks are kept, or not, and while trials go to the disk.
 void live_row(const char* what, double seconds, bool kept, bool written) {
   auto session = must(session::Session::create({}));
-  session->open(study_scene());
+  session->files().open(study_scene());
   session->settle();
-  session->trace(kept);
+  session->hands().trace(kept);
   const study::Trace trace = trace_of(10.0);
   Trials trials;
   const std::int64_t began = base::steady_nanoseconds();
@@ -248,9 +248,9 @@ void live_row(const char* what, double seconds, bool kept, bool written) {
   std::uint64_t ticks = 0, lost = 0;
   while (time < seconds) {
     time = double(base::steady_nanoseconds() - began) * 1e-9;
-    session->aim_hand({0.05 + 0.05 * std::cos(2.0 * time), 0.07 * std::sin(3.0 * time), -0.037});
+    session->hands().aim({0.05 + 0.05 * std::cos(2.0 * time), 0.07 * std::sin(3.0 * time), -0.037});
     session->update();
-    const auto taken = session->take_trace();
+    const auto taken = session->hands().take_trace();
     ticks += taken.ticks.size();
     lost = taken.lost;
     if (written && time > write_due) {
@@ -259,7 +259,7 @@ void live_row(const char* what, double seconds, bool kept, bool written) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(16));
   }
-  const session::ServoHealth health = session->servo();
+  const session::ServoHealth health = session->hands().servo();
   fmt::print("{:<38}{:>11.1f}{:>10.1f}{:>10.0f}{:>10}{:>8}{:>7}\n", what, health.summary.busy.median * 1e6,
              health.summary.busy.p999 * 1e6, health.summary.busy.max * 1e6, health.summary.overruns, ticks,
              lost);

@@ -30,7 +30,7 @@ class MovingTest : public ::testing::Test {
     offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
     hand_->put(to_device(Vector3(0.0, 0.2, 0.0)));
     aim(Vector3(0.0, 0.099, 0.0));
-    run_until(*session_, [&] { return session_->touched(0) == box_; });
+    run_until(*session_, [&] { return session_->hands().touched(0) == box_; });
   }
 
   Vector3 to_device(const Vector3& place) const { return place - offset_; }
@@ -42,7 +42,7 @@ class MovingTest : public ::testing::Test {
       session_->update();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       constexpr std::int64_t kApart = 5'000'000;  // ns, whatever the machine does beside
-      const PointerView& now = session_->pointer(0);
+      const PointerView& now = session_->hands().pointer(0);
       if (now.time < seen + kApart) continue;
       still = (now.tip - before).norm() < 2e-5 ? still + 1 : 0;
       before = now.tip;
@@ -52,19 +52,19 @@ class MovingTest : public ::testing::Test {
   /// With nothing that pulls but what the settings say.
   void grab(GrabSettings settings = {}) {
     settings.pull_back = false;
-    session_->set_grab(settings);
+    session_->hands().set_grab(settings);
     come_to_rest();
     hand_->hold_buttons(1);
-    run_until(*session_, [&] { return session_->holds(0); });
-    start_ = session_->pointer(0).tip;
+    run_until(*session_, [&] { return session_->hands().holds(0); });
+    start_ = session_->hands().pointer(0).tip;
   }
   /// Leads the hand so far off where it took hold; with no more force than the device can hold for long.
   void lead(const Vector3& way) {
     aim(start_ + way);
     come_to_rest();
   }
-  Vector3 force() const { return session_->pointer(0).force; }
-  Vector3 way() const { return session_->pointer(0).tip - start_; }
+  Vector3 force() const { return session_->hands().pointer(0).force; }
+  Vector3 way() const { return session_->hands().pointer(0).tip - start_; }
   Vector3 box_at() const { return session_->world().find(box_)->parent_from_object.translation(); }
   void expect_no_overlap() const {
     world::CollisionIndex index(session_->world());
@@ -110,11 +110,11 @@ TEST_F(MovingTest, AHeldBoxSlidesAlongAWallAndOneUndoBringsItHome) {
   EXPECT_NEAR(force().y(), 0.0, 0.1) << "no friction";
   expect_no_overlap();
   hand_->hold_buttons(0);
-  run_until(*session_, [&] { return !session_->holds(0); });
-  EXPECT_EQ(session_->history().undo_name(), "Move box");
-  ASSERT_TRUE(session_->undo());
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
+  EXPECT_EQ(session_->history().actions().undo_name(), "Move box");
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(box_at(), Vector3::Zero());
-  EXPECT_EQ(session_->history().undo_name(), "Add wall");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Add wall");
 }
 
 TEST_F(MovingTest, GoesThroughWallsIfThatIsWanted) {
@@ -128,13 +128,13 @@ TEST_F(MovingTest, StopsAtWhatHasComeSinceItsSurroundingsWereLookedAt) {
   grab();
   lead({0.0, 0.01, 0.0});
   hand_->hold_buttons(0);
-  run_until(*session_, [&] { return !session_->holds(0); });
-  ASSERT_TRUE(session_->undo());
-  ASSERT_TRUE(session_->perform(world::PlaceObject{wall_, world::at(9.0, 0.0, 0.0)}, "Move wall"));
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
+  ASSERT_TRUE(session_->history().undo());
+  ASSERT_TRUE(session_->history().perform(world::PlaceObject{wall_, world::at(9.0, 0.0, 0.0)}, "Move wall"));
   add_shape(*session_, world::box(0.2), world::at(0.0, 0.24, 0.0), "lid");
   session_->settle();
   aim(Vector3(0.0, 0.099, 0.0));
-  run_until(*session_, [&] { return session_->touched(0) == box_; });
+  run_until(*session_, [&] { return session_->hands().touched(0) == box_; });
   grab();
   lead({0.15, 0.0, 0.0});
   EXPECT_NEAR(box_at().x(), 0.15, 0.005) << "the wall is gone";
@@ -163,7 +163,7 @@ TEST_F(MovingTest, ASnapPullsNearItAndNowhereElse) {
   EXPECT_LE(weak, 0.27) << "no more than its strength";
   settings.snap_strength = 1.0;
   settings.pull_back = false;
-  session_->set_grab(settings);
+  session_->hands().set_grab(settings);
   lead({0.0174, 0.0, 0.0});
   EXPECT_GT(force().x(), 1.3 * weak) << "set stronger";
 }
@@ -199,13 +199,13 @@ TEST(ObjectDrag, KeepsToALineAndTellsWhatStopsIt) {
   EXPECT_NEAR(place().x(), 0.1, 1e-5);
   EXPECT_EQ(place().y(), 0.0) << "it does not slide off the line";
   EXPECT_EQ(drag.words(*session), "Stopped at wall");
-  const auto revision = session->history().undo_name();
+  const auto revision = session->history().actions().undo_name();
   ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.0, 0.3, 0.0)}));
   EXPECT_EQ(drag.words(*session), "");
-  EXPECT_EQ(session->history().undo_name(), "Move box");
+  EXPECT_EQ(session->history().actions().undo_name(), "Move box");
   EXPECT_FALSE(drag.to(*session, {.offset = Vector3(NAN, 0.0, 0.0)}));
   EXPECT_LT((place() - Vector3(0.0, 0.3, 0.0)).norm(), 1e-12);
-  ASSERT_TRUE(session->undo());
+  ASSERT_TRUE(session->history().undo());
   EXPECT_EQ(place(), Vector3::Zero()) << "one action";
   (void)wall;
 }
@@ -233,7 +233,7 @@ TEST(ObjectDrag, ByThingsOfManyTrianglesIsWorkedOutBesideMain) {
   world::CollisionIndex index(session->world());
   EXPECT_FALSE(index.overlaps(ball));
   EXPECT_EQ(drag.words(*session), "Stopped at other");
-  ASSERT_TRUE(session->undo());
+  ASSERT_TRUE(session->history().undo());
   EXPECT_EQ(place(), Vector3::Zero()) << "one action";
 }
 
@@ -268,7 +268,7 @@ TEST(ObjectDrag, WhatWasWorkedOutForAnotherWorldIsNotTaken) {
   ObjectDrag drag(*session, objects, "Move ball");
   ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.6, 0.0, 0.0)}));
   ASSERT_TRUE(drag.pending());
-  ASSERT_TRUE(session->perform(world::PlaceObject{other, world::at(0.5, 0.0, 0.0)}, "Move other"));
+  ASSERT_TRUE(session->history().perform(world::PlaceObject{other, world::at(0.5, 0.0, 0.0)}, "Move other"));
   run_until(*session, [&] { return drag.go_on(*session).has_value() && !drag.pending(); });
   world::CollisionIndex index(session->world());
   EXPECT_FALSE(index.overlaps(ball));
@@ -300,7 +300,7 @@ TEST(ObjectDrag, SnapsUnlessThatIsNotWanted) {
   add_shape(*session, world::box(0.2), world::at(1.0, 0.0, 0.0), "other");
   GrabSettings settings;
   settings.snaps = {.radius = 0.02};
-  session->set_grab(settings);
+  session->hands().set_grab(settings);
   const std::vector<world::ObjectId> objects{box};
   ObjectDrag drag(*session, objects, "Move box");
   const auto place = [&] { return session->world().find(box)->parent_from_object.translation(); };

@@ -33,20 +33,20 @@ struct Gliding {
   world::ObjectId other = add_box(*session, world::at(0.0, 5.0, 0.0), "other");
 
   Gliding() {
-    expect_done(session->perform(world::ChangeMotion{box, gliding()}, "Set going"));
+    expect_done(session->history().perform(world::ChangeMotion{box, gliding()}, "Set going"));
     session->settle();
   }
 
   double drawn(world::ObjectId id) const {
     double x = -1.0;
-    session->drawn()->for_each([&](const render::RenderItem& item) {
+    session->view().drawn()->for_each([&](const render::RenderItem& item) {
       if (item.object == id) x = item.world_from_object.translation().x();
     });
     return x;
   }
   /// Of its right side, as a ray from there meets what is felt.
   double felt() const {
-    const auto picked = session->pick({Vector3(900.0, 0.1, 0.1), -Vector3::UnitX()});
+    const auto picked = session->stage().pick({Vector3(900.0, 0.1, 0.1), -Vector3::UnitX()});
     return picked ? picked->place.point.x() - 0.5 : -1.0;
   }
 };
@@ -54,11 +54,11 @@ struct Gliding {
 TEST(PlaybackInSession, IsSeenAndFeltAndEndsAtRest) {
   Gliding it;
   const std::uint64_t before = world::hash(it.session->world());
-  EXPECT_TRUE(it.session->has_motions());
-  EXPECT_FALSE(it.session->playing());
+  EXPECT_TRUE(it.session->stage().has_motions());
+  EXPECT_FALSE(it.session->stage().playing());
   EXPECT_EQ(it.drawn(it.box), 0.0);
-  it.session->play(true);
-  EXPECT_TRUE(it.session->playing());
+  it.session->stage().play(true);
+  EXPECT_TRUE(it.session->stage().playing());
   run_until(*it.session, [&] { return it.drawn(it.box) > 0.01 && it.felt() > 0.01; });
   const double first = it.drawn(it.box);
   run_until(*it.session, [&] { return it.drawn(it.box) > first + 0.01; });
@@ -66,7 +66,7 @@ TEST(PlaybackInSession, IsSeenAndFeltAndEndsAtRest) {
   run_until(*it.session, [&] { return std::abs(it.felt() - it.drawn(it.box)) < kGlideSpeed * 0.1; });
   EXPECT_EQ(it.drawn(it.other), 0.0);
   EXPECT_EQ(world::hash(it.session->world()), before);
-  it.session->play(false);
+  it.session->stage().play(false);
   it.session->settle();
   EXPECT_EQ(it.drawn(it.box), 0.0);
   run_until(*it.session, [&] { return std::abs(it.felt()) < kDrawnExactly; });
@@ -74,31 +74,32 @@ TEST(PlaybackInSession, IsSeenAndFeltAndEndsAtRest) {
 
 TEST(PlaybackInSession, GoesOnWhileTheDesignIsEdited) {
   Gliding it;
-  it.session->play(true);
+  it.session->stage().play(true);
   run_until(*it.session, [&] { return it.drawn(it.box) > 0.01; });
   // Who puts it elsewhere moves all of its way.
-  expect_done(it.session->perform(world::PlaceObject{it.box, world::at(100.0, 0.0, 0.0)}, "Move"));
-  expect_done(it.session->perform(world::PlaceObject{it.other, world::at(7.0, 5.0, 0.0)}, "Move other"));
+  expect_done(it.session->history().perform(world::PlaceObject{it.box, world::at(100.0, 0.0, 0.0)}, "Move"));
+  expect_done(
+      it.session->history().perform(world::PlaceObject{it.other, world::at(7.0, 5.0, 0.0)}, "Move other"));
   it.session->settle();
   EXPECT_GT(it.drawn(it.box), 100.01);
   EXPECT_EQ(it.drawn(it.other), 7.0);
   // Without its motion it stands where it is at rest.
-  expect_done(it.session->perform(world::ChangeMotion{it.box, nullptr}, "Stop"));
+  expect_done(it.session->history().perform(world::ChangeMotion{it.box, nullptr}, "Stop"));
   it.session->settle();
   EXPECT_EQ(it.drawn(it.box), 100.0);
-  expect_done(it.session->undo());
+  expect_done(it.session->history().undo());
   it.session->settle();
   EXPECT_GT(it.drawn(it.box), 100.01);
 }
 
 TEST(PlaybackInSession, EndsWithTheDesign) {
   Gliding it;
-  it.session->play(true);
-  it.session->make_new();
-  EXPECT_FALSE(it.session->playing());
-  EXPECT_FALSE(it.session->has_motions());
+  it.session->stage().play(true);
+  it.session->files().make_new();
+  EXPECT_FALSE(it.session->stage().playing());
+  EXPECT_FALSE(it.session->stage().has_motions());
   const auto box = add_box(*it.session, world::at(3.0, 0.0, 0.0));
-  expect_done(it.session->perform(world::ChangeMotion{box, gliding()}, "Set going"));
+  expect_done(it.session->history().perform(world::ChangeMotion{box, gliding()}, "Set going"));
   it.session->settle();
   EXPECT_EQ(it.drawn(box), 3.0);
 }

@@ -21,47 +21,47 @@ using world::at;
 using Kind = SessionEvent::Kind;
 
 /// Looks at the origin from a metre away: workspaces lie as in the world.
-void look_at_origin(Session& session) { session.set_view({}); }
+void look_at_origin(Session& session) { session.view().set({}); }
 
 TEST(Session, ShowsAndFeelsWhatIsEdited) {
   const auto session = start();
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), 0U);
+  EXPECT_EQ(session->view().drawn()->object_count(), 0U);
   const auto id = add_box(*session, at(0.0, 0.0, -3.0));
   session->settle();
-  ASSERT_EQ(session->drawn()->object_count(), 1U);
-  EXPECT_EQ(session->drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
-  EXPECT_EQ(session->selection_bounds().center(), Vector3(0.0, 0.0, -3.0));
-  const auto picked = session->pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()});
+  ASSERT_EQ(session->view().drawn()->object_count(), 1U);
+  EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
+  EXPECT_EQ(session->stage().selection_bounds().center(), Vector3(0.0, 0.0, -3.0));
+  const auto picked = session->stage().pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()});
   ASSERT_TRUE(picked);
   EXPECT_EQ(picked->object, id);
   EXPECT_NEAR((picked->place.point - Vector3(0.1, 0.2, -2.5)).norm(), 0.0, 1e-9);
-  ASSERT_TRUE(session->perform(world::PlaceObject{id, at(2.0, 0.0, 0.0)}, "Move box"));
+  ASSERT_TRUE(session->history().perform(world::PlaceObject{id, at(2.0, 0.0, 0.0)}, "Move box"));
   session->settle();
-  EXPECT_EQ(session->drawn()->bounds().center(), Vector3(2.0, 0.0, 0.0));
-  EXPECT_FALSE(session->pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()}));
-  ASSERT_TRUE(session->undo());
+  EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(2.0, 0.0, 0.0));
+  EXPECT_FALSE(session->stage().pick({Vector3(0.1, 0.2, 0.0), -Vector3::UnitZ()}));
+  ASSERT_TRUE(session->history().undo());
   session->settle();
-  EXPECT_EQ(session->drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
-  ASSERT_TRUE(session->undo());
+  EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
+  ASSERT_TRUE(session->history().undo());
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), 0U);
-  EXPECT_FALSE(session->undo());
-  EXPECT_EQ(session->history().redo_name(), "Add box");
+  EXPECT_EQ(session->view().drawn()->object_count(), 0U);
+  EXPECT_FALSE(session->history().undo());
+  EXPECT_EQ(session->history().actions().redo_name(), "Add box");
 }
 
 TEST(Session, KnowsWhetherClosingLosesSomething) {
   const auto session = start();
-  EXPECT_FALSE(session->modified());
+  EXPECT_FALSE(session->files().modified());
   const auto id = add_box(*session, at(0.0, 0.0, -3.0));
-  EXPECT_TRUE(session->modified());
-  ASSERT_TRUE(session->undo());
-  EXPECT_FALSE(session->modified());
-  ASSERT_TRUE(session->redo());
-  ASSERT_TRUE(session->extend(world::PlaceObject{id, at(2.0, 0.0, 0.0)}));
-  EXPECT_TRUE(session->modified());
-  ASSERT_TRUE(session->undo());
-  EXPECT_FALSE(session->modified());
+  EXPECT_TRUE(session->files().modified());
+  ASSERT_TRUE(session->history().undo());
+  EXPECT_FALSE(session->files().modified());
+  ASSERT_TRUE(session->history().redo());
+  ASSERT_TRUE(session->history().extend(world::PlaceObject{id, at(2.0, 0.0, 0.0)}));
+  EXPECT_TRUE(session->files().modified());
+  ASSERT_TRUE(session->history().undo());
+  EXPECT_FALSE(session->files().modified());
 }
 
 TEST(Session, RefusesWhatMakesNoSense) {
@@ -69,16 +69,16 @@ TEST(Session, RefusesWhatMakesNoSense) {
   const auto id = add_box(*session, at(0.0, 0.0, -3.0));
   const std::uint64_t before = world::hash(session->world());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(session->perform(world::PlaceObject{id, at(nan, 0.0, 0.0)}, "Move box"));
-  EXPECT_FALSE(session->extend(world::PlaceObject{id, at(nan, 0.0, 0.0)}));
-  ASSERT_TRUE(session->undo());
-  EXPECT_FALSE(session->extend(world::PlaceObject{id, at(1.0, 0.0, 0.0)}));
-  ASSERT_TRUE(session->redo());
+  EXPECT_FALSE(session->history().perform(world::PlaceObject{id, at(nan, 0.0, 0.0)}, "Move box"));
+  EXPECT_FALSE(session->history().extend(world::PlaceObject{id, at(nan, 0.0, 0.0)}));
+  ASSERT_TRUE(session->history().undo());
+  EXPECT_FALSE(session->history().extend(world::PlaceObject{id, at(1.0, 0.0, 0.0)}));
+  ASSERT_TRUE(session->history().redo());
   EXPECT_EQ(world::hash(session->world()), before);
-  EXPECT_EQ(session->history().undo_name(), "Add box");
-  session->aim_hand({nan, 0.0, 0.0});
+  EXPECT_EQ(session->history().actions().undo_name(), "Add box");
+  session->hands().aim({nan, 0.0, 0.0});
   session->settle();
-  EXPECT_TRUE(session->pointer(0).tip.allFinite());
+  EXPECT_TRUE(session->hands().pointer(0).tip.allFinite());
 }
 
 TEST(Session, TellsOnceWhatIsNotSeenOrFeltAsItIs) {
@@ -89,7 +89,7 @@ TEST(Session, TellsOnceWhatIsNotSeenOrFeltAsItIs) {
   const auto material = session->ids().next<world::MaterialId>();
   const world::Texture broken{"photo.png", "image/png", std::make_shared<const std::string>("no picture")};
   const auto box = add_box(*session, at(3.0, 0.0, 0.0));
-  ASSERT_TRUE(session->perform(
+  ASSERT_TRUE(session->history().perform(
       world::EditGroup{{world::CreateTexture{texture, broken},
                         world::CreateMaterial{material, {.name = "paper", .texture = texture}},
                         world::ChooseMaterial{box, material}}},
@@ -105,7 +105,7 @@ TEST(Session, TellsOnceWhatIsNotSeenOrFeltAsItIs) {
   };
   while (!listen()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const std::string before = told;
-  ASSERT_TRUE(session->perform(world::PlaceObject{object, at(0.0, 1.0, 0.0)}, "Move"));
+  ASSERT_TRUE(session->history().perform(world::PlaceObject{object, at(0.0, 1.0, 0.0)}, "Move"));
   session->settle();
   listen();
   EXPECT_EQ(told, before);
@@ -122,12 +122,12 @@ TEST(Session, SelectsOnlyWhatIsThere) {
   EXPECT_EQ(heard, 1);
   session->select({other, one});
   EXPECT_EQ(heard, 1);
-  ASSERT_TRUE(session->perform(delete_subtree(session->world(), other), "Delete"));
+  ASSERT_TRUE(session->history().perform(delete_subtree(session->world(), other), "Delete"));
   EXPECT_EQ(session->selection(), (std::vector<world::ObjectId>{one}));
   EXPECT_EQ(heard, 2);
-  ASSERT_TRUE(session->undo());  // it is back, but nobody has selected it
+  ASSERT_TRUE(session->history().undo());  // it is back, but nobody has selected it
   EXPECT_EQ(session->selection(), (std::vector<world::ObjectId>{one}));
-  session->make_new();
+  session->files().make_new();
   EXPECT_TRUE(session->selection().empty());
   EXPECT_EQ(heard, 3);
 }
@@ -137,20 +137,20 @@ TEST(Session, ShowsOneSceneAndAllAgainWhenItGoes) {
   const auto one = add_box(*session, at(0.0, 0.0, -3.0));
   add_box(*session, at(5.0, 0.0, -3.0));
   const auto scene = session->ids().next<world::SceneId>();
-  ASSERT_TRUE(session->perform(
+  ASSERT_TRUE(session->history().perform(
       world::EditGroup{{world::CreateScene{scene, "one"}, world::EnterScene{scene, one, 0}}}, "Make scene"));
-  session->show_scene(scene);
+  session->stage().show_scene(scene);
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), 1U);
-  EXPECT_FALSE(session->pick({Vector3(5.0, 0.0, 0.0), -Vector3::UnitZ()}));
-  EXPECT_TRUE(session->pick({Vector3(0.0, 0.0, 0.0), -Vector3::UnitZ()}));
-  EXPECT_NEAR(session->selection_bounds().max().x(), 0.5, 1e-12);
-  ASSERT_TRUE(session->undo());
-  EXPECT_EQ(session->shown_scene(), world::SceneId{});
+  EXPECT_EQ(session->view().drawn()->object_count(), 1U);
+  EXPECT_FALSE(session->stage().pick({Vector3(5.0, 0.0, 0.0), -Vector3::UnitZ()}));
+  EXPECT_TRUE(session->stage().pick({Vector3(0.0, 0.0, 0.0), -Vector3::UnitZ()}));
+  EXPECT_NEAR(session->stage().selection_bounds().max().x(), 0.5, 1e-12);
+  ASSERT_TRUE(session->history().undo());
+  EXPECT_EQ(session->stage().shown_scene(), world::SceneId{});
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), 2U);
-  session->show_scene({12345});  // there is none
-  EXPECT_EQ(session->shown_scene(), world::SceneId{});
+  EXPECT_EQ(session->view().drawn()->object_count(), 2U);
+  session->stage().show_scene({12345});  // there is none
+  EXPECT_EQ(session->stage().shown_scene(), world::SceneId{});
 }
 
 TEST(Session, OpensAndSavesInTheBackground) {
@@ -158,26 +158,26 @@ TEST(Session, OpensAndSavesInTheBackground) {
   const auto session = start();
   add_box(*session, at(0.0, 0.0, -3.0), "kept");
   const std::uint64_t hash = world::hash(session->world());
-  session->save(folder.path() / "a.icome");
-  ASSERT_TRUE(session->undo());  // what was saved is what was there
-  auto events = run_until(*session, [&] { return !session->saving(); });
+  session->files().save(folder.path() / "a.icome");
+  ASSERT_TRUE(session->history().undo());  // what was saved is what was there
+  auto events = run_until(*session, [&] { return !session->files().saving(); });
   EXPECT_EQ(count(events, Kind::Saved) + count(session->update(), Kind::Saved), 1U);
-  EXPECT_EQ(session->path(), folder.path() / "a.icome");
-  EXPECT_TRUE(session->modified());
-  ASSERT_TRUE(session->redo());
-  EXPECT_FALSE(session->modified());
+  EXPECT_EQ(session->files().path(), folder.path() / "a.icome");
+  EXPECT_TRUE(session->files().modified());
+  ASSERT_TRUE(session->history().redo());
+  EXPECT_FALSE(session->files().modified());
 
-  session->make_new();
+  session->files().make_new();
   EXPECT_TRUE(session->world().objects().empty());
-  session->open(folder.path() / "a.icome");
+  session->files().open(folder.path() / "a.icome");
   events = run_until(*session, [&] { return !session->world().objects().empty(); });
   EXPECT_EQ(count(events, Kind::Opened), 1U);
   EXPECT_EQ(world::hash(session->world()), hash);
-  EXPECT_FALSE(session->undo());  // histories end where a design is opened
-  EXPECT_FALSE(session->modified());
+  EXPECT_FALSE(session->history().undo());  // histories end where a design is opened
+  EXPECT_FALSE(session->files().modified());
   add_box(*session, at(0.0, 0.0, 3.0));  // its id is a new one
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), 2U);
+  EXPECT_EQ(session->view().drawn()->object_count(), 2U);
 }
 
 TEST(Session, ASaveThatLeavesThingsOutCountsAsChanged) {
@@ -186,23 +186,23 @@ TEST(Session, ASaveThatLeavesThingsOutCountsAsChanged) {
   settings.autosave_folder = autosave.path();
   const auto session = start(std::move(settings));
   add_box(*session, at(0.0, 0.0, -3.0), "kept");
-  ASSERT_TRUE(session->perform(
+  ASSERT_TRUE(session->history().perform(
       world::CreateMaterial{session->ids().next<world::MaterialId>(), {.name = "oak"}}, "Make material"));
-  session->save(folder.path() / "a.stl");
-  auto events = run_until(*session, [&] { return !session->saving(); });
+  session->files().save(folder.path() / "a.stl");
+  auto events = run_until(*session, [&] { return !session->files().saving(); });
   const auto more = session->update();
   EXPECT_EQ(count(events, Kind::SavedInPart) + count(more, Kind::SavedInPart), 1U);
-  EXPECT_TRUE(session->modified());
-  EXPECT_FALSE(session->left_out().empty());
+  EXPECT_TRUE(session->files().modified());
+  EXPECT_FALSE(session->files().left_out().empty());
   session->settle();
   EXPECT_FALSE(std::filesystem::is_empty(autosave.path())) << "the work is still kept against a crash";
-  session->save(folder.path() / "a.wrl");
-  events = run_until(*session, [&] { return !session->saving(); });
+  session->files().save(folder.path() / "a.wrl");
+  events = run_until(*session, [&] { return !session->files().saving(); });
   EXPECT_EQ(count(events, Kind::Saved) + count(session->update(), Kind::Saved), 1U)
       << "nothing is made of oak";
   session->settle();
-  EXPECT_FALSE(session->modified());
-  EXPECT_TRUE(session->left_out().empty());
+  EXPECT_FALSE(session->files().modified());
+  EXPECT_TRUE(session->files().left_out().empty());
   EXPECT_TRUE(std::filesystem::is_empty(autosave.path()));
 }
 
@@ -214,15 +214,15 @@ TEST(Session, AsksBeforeItReplacesADamagedDesign) {
   ASSERT_TRUE(files::write_journal(path, session->world()));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 30);
   const auto bytes = std::filesystem::file_size(path);
-  session->save(path);
-  const auto events = run_until(*session, [&] { return !session->saving(); });
+  session->files().save(path);
+  const auto events = run_until(*session, [&] { return !session->files().saving(); });
   EXPECT_EQ(count(events, Kind::SaveAsks) + count(session->update(), Kind::SaveAsks), 1U);
-  EXPECT_TRUE(session->modified());
+  EXPECT_TRUE(session->files().modified());
   EXPECT_EQ(std::filesystem::file_size(path), bytes);
-  session->save(path, true);
-  run_until(*session, [&] { return !session->saving(); });
+  session->files().save(path, true);
+  run_until(*session, [&] { return !session->files().saving(); });
   session->update();
-  EXPECT_FALSE(session->modified());
+  EXPECT_FALSE(session->files().modified());
   EXPECT_GT(std::filesystem::file_size(path), bytes);
 }
 
@@ -233,17 +233,17 @@ TEST(Session, KeepsTheWorldWhenADesignCannotBeOpenedOrSaved) {
   const std::uint64_t hash = world::hash(session->world());
   std::ofstream(folder.path() / "broken.glb") << "glTF, or so it says";
   for (const auto& design : {folder.path() / "missing.glb", folder.path() / "broken.glb"}) {
-    session->open(design);
+    session->files().open(design);
     session->settle();
     const auto events = session->update();
     EXPECT_EQ(count(events, Kind::OpenFailed), 1U) << design;
     EXPECT_EQ(world::hash(session->world()), hash);
   }
-  session->save(folder.path() / "no/such/folder/a.icome");
-  auto events = run_until(*session, [&] { return !session->saving(); });
+  session->files().save(folder.path() / "no/such/folder/a.icome");
+  auto events = run_until(*session, [&] { return !session->files().saving(); });
   EXPECT_EQ(count(events, Kind::SaveFailed) + count(session->update(), Kind::SaveFailed), 1U);
-  EXPECT_TRUE(session->modified());
-  EXPECT_TRUE(session->path().empty());
+  EXPECT_TRUE(session->files().modified());
+  EXPECT_TRUE(session->files().path().empty());
 }
 
 TEST(Session, TurnsDesignsWithZUpAndBack) {
@@ -253,17 +253,18 @@ TEST(Session, TurnsDesignsWithZUpAndBack) {
       << "solid s\nfacet normal 0 1 0\nouter loop\nvertex 0 0 1\nvertex 0 0 2\n"
          "vertex 1 0 1\nendloop\nendfacet\nendsolid s\n";
   const auto session = start();
-  session->open(folder.path() / "up.stl");
+  session->files().open(folder.path() / "up.stl");
   run_until(*session, [&] { return !session->world().objects().empty(); });
-  EXPECT_EQ(session->selection_bounds().max(), Vector3(1.0, 2.0, 0.0));
-  session->save(folder.path() / "again.stl");
-  session->save(folder.path() / "other.glb");
-  run_until(*session, [&] { return !session->saving(); });
+  EXPECT_EQ(session->stage().selection_bounds().max(), Vector3(1.0, 2.0, 0.0));
+  session->files().save(folder.path() / "again.stl");
+  session->files().save(folder.path() / "other.glb");
+  run_until(*session, [&] { return !session->files().saving(); });
   for (const char* name : {"again.stl", "other.glb"}) {
-    session->make_new();
-    session->open(folder.path() / name);
+    session->files().make_new();
+    session->files().open(folder.path() / name);
     run_until(*session, [&] { return !session->world().objects().empty(); });
-    EXPECT_NEAR((session->selection_bounds().max() - Vector3(1.0, 2.0, 0.0)).norm(), 0.0, 1e-6) << name;
+    EXPECT_NEAR((session->stage().selection_bounds().max() - Vector3(1.0, 2.0, 0.0)).norm(), 0.0, 1e-6)
+        << name;
   }
 }
 
@@ -276,7 +277,7 @@ TEST(Session, TellsOfDevicesThatGoAndComeBack) {
   settings.pointers.push_back(std::move(first));
   settings.pointers.push_back(std::move(second));
   const auto session = start(std::move(settings));
-  ASSERT_EQ(session->pointers(), 2U);
+  ASSERT_EQ(session->hands().pointers(), 2U);
   std::size_t lost = 0, back = 0;
   const auto run = [&](std::size_t lost_in_all, std::size_t back_in_all) {
     while (lost < lost_in_all || back < back_in_all) {
@@ -294,8 +295,8 @@ TEST(Session, TellsOfDevicesThatGoAndComeBack) {
   run(1, 1);
   fine->inject(devices::SimulatedFailure::Unplugged);
   run(2, 1);
-  EXPECT_EQ(session->pointer(1).force, Vector3::Zero());
-  EXPECT_EQ(session->pointer(0).status, devices::DeviceStatus::Ok);
+  EXPECT_EQ(session->hands().pointer(1).force, Vector3::Zero());
+  EXPECT_EQ(session->hands().pointer(0).status, devices::DeviceStatus::Ok);
   fine->inject(devices::SimulatedFailure::None);
   run(2, 2);
 }
@@ -315,10 +316,10 @@ TEST(Session, SeveralPointersTouchAtOnce) {
   session->settle();
   hands[0]->set_target({-0.7, 0.0, 0.49});
   hands[1]->set_target({0.7, 0.0, 0.49});
-  run_until(*session, [&] { return session->touched(0) && session->touched(1); });
-  EXPECT_EQ(session->touched(0), left);
-  EXPECT_EQ(session->touched(1), right);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(session->pointer(i).scp.z(), 0.5, 1e-6);
+  run_until(*session, [&] { return session->hands().touched(0) && session->hands().touched(1); });
+  EXPECT_EQ(session->hands().touched(0), left);
+  EXPECT_EQ(session->hands().touched(1), right);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(session->hands().pointer(i).scp.z(), 0.5, 1e-6);
 }
 
 TEST(Session, TheMouseDrivesAHandThatIsHeldBackBySurfaces) {
@@ -326,19 +327,20 @@ TEST(Session, TheMouseDrivesAHandThatIsHeldBackBySurfaces) {
   look_at_origin(*session);
   const auto id = add_box(*session, at(0.0, 0.0, 0.0));
   session->settle();
-  session->aim_hand({0.1, 0.1, 0.49});
+  session->hands().aim({0.1, 0.1, 0.49});
   // The hand comes to rest above where the mouse is; on a busy machine it may swing through at first.
   run_until(*session, [&] {
-    const auto hand = session->pointer(0);
-    return session->touched(0) && hand.force.z() > 0.5 && hand.tip.z() > 0.49;
+    const auto hand = session->hands().pointer(0);
+    return session->hands().touched(0) && hand.force.z() > 0.5 && hand.tip.z() > 0.49;
   });
-  EXPECT_EQ(session->touched(0), id);
-  EXPECT_NEAR(session->pointer(0).scp.z(), 0.5, 1e-6);
-  EXPECT_TRUE(session->servo().running);
-  EXPECT_FALSE(session->take_forces().empty());
+  EXPECT_EQ(session->hands().touched(0), id);
+  EXPECT_NEAR(session->hands().pointer(0).scp.z(), 0.5, 1e-6);
+  EXPECT_TRUE(session->hands().servo().running);
+  EXPECT_FALSE(session->hands().take_forces().empty());
   // What is touched goes: nothing is touched any more, by no name.
-  ASSERT_TRUE(session->perform(delete_subtree(session->world(), id), "Delete"));
-  run_until(*session, [&] { return !session->touched(0) && session->pointer(0).force.norm() == 0.0; });
+  ASSERT_TRUE(session->history().perform(delete_subtree(session->world(), id), "Delete"));
+  run_until(*session,
+            [&] { return !session->hands().touched(0) && session->hands().pointer(0).force.norm() == 0.0; });
 }
 
 TEST(Session, ParksTheHandAtTheEyeWhateverStandsInTheWay) {
@@ -346,27 +348,27 @@ TEST(Session, ParksTheHandAtTheEyeWhateverStandsInTheWay) {
   look_at_origin(*session);
   add_box(*session, at(0.0, 0.0, 0.0));
   session->settle();
-  session->aim_hand({0.0, 0.0, 0.49});
-  run_until(*session, [&] { return session->touched(0).has_value(); });
+  session->hands().aim({0.0, 0.0, 0.49});
+  run_until(*session, [&] { return session->hands().touched(0).has_value(); });
   // From behind: the box lies between the hand and the eye.
-  interaction::View behind = session->view();
+  interaction::View behind = session->view().now();
   const base::Vector3 eye(0.0, 0.0, -4.0);
   behind.world_from_eye.linear() =
       Eigen::AngleAxisd(3.141592653589793, base::Vector3::UnitY()).toRotationMatrix();
   behind.world_from_eye.translation() = eye;
-  session->set_view(behind);
-  session->park_hand();
-  run_until(*session, [&] { return (session->pointer(0).tip - eye).norm() < 1e-6; });
-  EXPECT_EQ(session->pointer(0).scp, session->pointer(0).tip);
-  EXPECT_FALSE(session->touched(0));
+  session->view().set(behind);
+  session->hands().park();
+  run_until(*session, [&] { return (session->hands().pointer(0).tip - eye).norm() < 1e-6; });
+  EXPECT_EQ(session->hands().pointer(0).scp, session->hands().pointer(0).tip);
+  EXPECT_FALSE(session->hands().touched(0));
   // It is also put elsewhere without a way, and from there it meets the side that it comes to.
-  session->put_hand({0.0, 0.0, 0.6});
-  run_until(*session, [&] { return session->pointer(0).scp.z() > 0.55; });
-  EXPECT_FALSE(session->touched(0));
-  session->put_hand({0.0, 0.0, -0.6});
-  session->aim_hand({0.0, 0.0, 0.49});
-  run_until(*session, [&] { return session->touched(0).has_value(); });
-  EXPECT_NEAR(session->pointer(0).scp.z(), -0.5, 1e-6);
+  session->hands().put({0.0, 0.0, 0.6});
+  run_until(*session, [&] { return session->hands().pointer(0).scp.z() > 0.55; });
+  EXPECT_FALSE(session->hands().touched(0));
+  session->hands().put({0.0, 0.0, -0.6});
+  session->hands().aim({0.0, 0.0, 0.49});
+  run_until(*session, [&] { return session->hands().touched(0).has_value(); });
+  EXPECT_NEAR(session->hands().pointer(0).scp.z(), -0.5, 1e-6);
 }
 
 TEST(Session, AHandThatIsParkedWithinASolidFeelsNothing) {
@@ -374,23 +376,23 @@ TEST(Session, AHandThatIsParkedWithinASolidFeelsNothing) {
   look_at_origin(*session);
   add_box(*session, at(0.0, 0.0, 0.0));
   session->settle();
-  interaction::View inside = session->view();
-  session->park_hand();
+  interaction::View inside = session->view().now();
+  session->hands().park();
   for (int i = 0; i < 20; ++i) {
     const base::Vector3 eye(0.02 * i, 0.0, 0.4);
     inside.world_from_eye.translation() = eye;
-    session->set_view(inside);
+    session->view().set(inside);
     run_until(*session, [&] {
-      EXPECT_EQ(session->pointer(0).force, base::Vector3::Zero());
-      EXPECT_FALSE(session->touched(0));
-      return (session->pointer(0).tip - eye).norm() < 1e-6;
+      EXPECT_EQ(session->hands().pointer(0).force, base::Vector3::Zero());
+      EXPECT_FALSE(session->hands().touched(0));
+      return (session->hands().pointer(0).tip - eye).norm() < 1e-6;
     });
-    EXPECT_EQ(session->pointer(0).scp, session->pointer(0).tip);
+    EXPECT_EQ(session->hands().pointer(0).scp, session->hands().pointer(0).tip);
   }
-  for (const ForceSample& sample : session->take_forces()) EXPECT_EQ(sample.force, 0.0F);
+  for (const ForceSample& sample : session->hands().take_forces()) EXPECT_EQ(sample.force, 0.0F);
   // Aimed again, it is a hand within a solid, which puts it at its surface.
-  session->aim_hand({0.38, 0.0, 0.4});
-  run_until(*session, [&] { return session->touched(0).has_value(); });
+  session->hands().aim({0.38, 0.0, 0.4});
+  run_until(*session, [&] { return session->hands().touched(0).has_value(); });
 }
 
 TEST(Session, HomeFitsThePictureAsItIsNow) {
@@ -403,7 +405,8 @@ TEST(Session, HomeFitsThePictureAsItIsNow) {
   add_box(*session, at(9.0, 0.0, 9.0));
   const render::ViewDirection iso = *render::view_direction("iso");
   const auto distance_for = [&](double aspect) {
-    return interaction::fitted(session->view(), session->selection_bounds(), iso.toward_eye, iso.up, aspect)
+    return interaction::fitted(session->view().now(), session->stage().selection_bounds(), iso.toward_eye,
+                               iso.up, aspect)
         .distance;
   };
   EXPECT_GT(std::abs(distance_for(0.5) - distance_for(3.0)), 0.1 * distance_for(3.0));
@@ -411,11 +414,11 @@ TEST(Session, HomeFitsThePictureAsItIsNow) {
   home.buttons = 2;
   session->update();
   for (const double aspect : {3.0, 0.5, 1.0}) {
-    session->set_aspect(aspect);
-    for (const double no_shape : {0.0, -1.0, std::nan(""), HUGE_VAL}) session->set_aspect(no_shape);
+    session->view().set_aspect(aspect);
+    for (const double no_shape : {0.0, -1.0, std::nan(""), HUGE_VAL}) session->view().set_aspect(no_shape);
     const double there = distance_for(aspect);
     navigation->hold(home);
-    run_until(*session, [&] { return std::abs(session->view().distance - there) < 1e-9 * there; });
+    run_until(*session, [&] { return std::abs(session->view().now().distance - there) < 1e-9 * there; });
     navigation->hold({});
     session->update();
   }
@@ -442,7 +445,7 @@ TEST(Session, TellsWhenARepresentationFallsBehindAndGoesOn) {
   EXPECT_NE(events[0].text.find("has fallen behind"), std::string::npos);
   add_box(*session, at(2.0, 0.0, 0.0));
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), 2U);
+  EXPECT_EQ(session->view().drawn()->object_count(), 2U);
 }
 
 TEST(Session, CarriesTheHandWithTheView) {
@@ -450,12 +453,13 @@ TEST(Session, CarriesTheHandWithTheView) {
   settings.pointers.push_back(hand_at({0.0, 0.0, 0.0}));
   const auto session = start(std::move(settings));
   look_at_origin(*session);
-  run_until(*session, [&] { return session->pointer(0).tip.norm() < 1e-9; });
+  run_until(*session, [&] { return session->hands().pointer(0).tip.norm() < 1e-9; });
   interaction::View view;
   view.world_from_eye.translation() = Vector3(1.0, 2.0, 1.0);
-  session->fly_to(view);
-  run_until(*session, [&] { return (session->pointer(0).tip - Vector3(1.0, 2.0, 0.0)).norm() < 1e-9; });
-  EXPECT_EQ(session->pointer(0).force, Vector3::Zero());
+  session->view().fly_to(view);
+  run_until(*session,
+            [&] { return (session->hands().pointer(0).tip - Vector3(1.0, 2.0, 0.0)).norm() < 1e-9; });
+  EXPECT_EQ(session->hands().pointer(0).force, Vector3::Zero());
 }
 
 TEST(Session, RecoversWorkOfASessionThatWasNotClosed) {
@@ -472,15 +476,15 @@ TEST(Session, RecoversWorkOfASessionThatWasNotClosed) {
     SessionSettings again = quiet_settings();
     again.autosave_folder = folder.path();
     const auto session = start(std::move(again));
-    const auto work = session->recoverable();
+    const auto work = session->files().recoverable();
     ASSERT_EQ(work.size(), 1U);
-    session->recover(work.front());
+    session->files().recover(work.front());
     const auto events = run_until(*session, [&] { return !session->world().objects().empty(); });
     EXPECT_EQ(count(events, Kind::Recovered), 1U);
     EXPECT_EQ(world::hash(session->world()), hash);
-    EXPECT_TRUE(session->modified());
+    EXPECT_TRUE(session->files().modified());
     session->settle();
-    if (!keep) session->close();
+    if (!keep) session->files().close();
   }
   SessionSettings last = quiet_settings();
   last.autosave_folder = folder.path();
@@ -494,7 +498,7 @@ TEST(Session, WhatWasSavedInTheEndIsNotRecovered) {
   {
     const auto session = start(std::move(settings));
     add_box(*session, at(0.0, 0.0, -3.0));
-    session->save(folder.path() / "a.icome");
+    session->files().save(folder.path() / "a.icome");
   }
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.icome"));
   EXPECT_TRUE(find_recoverable_work(folder.path() / "autosave").empty());

@@ -59,17 +59,19 @@ bool can_draw() { return render::Offscreen::create().has_value(); }
 /// Presses a tip onto the box there.
 std::unique_ptr<Session> pressing_session(world::ObjectId* box) {
   auto session = start();
-  session->set_view({});
+  session->view().set({});
   *box = add_box(*session, at(0.0, 0.0, 0.0));
   session->settle();
-  session->aim_hand({0.0, 0.0, 0.49});
-  run_until(*session, [&] { return session->touched(0) && session->pointer(0).force.z() > 0.5; });
+  session->hands().aim({0.0, 0.0, 0.49});
+  run_until(*session,
+            [&] { return session->hands().touched(0) && session->hands().pointer(0).force.z() > 0.5; });
   return session;
 }
 
 void wait_for_ticks(const Session& session, std::uint64_t more) {
-  const std::uint64_t until = session.servo().summary.ticks + more;
-  while (session.servo().summary.ticks < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const std::uint64_t until = session.hands().servo().summary.ticks + more;
+  while (session.hands().servo().summary.ticks < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
 TEST(SessionThreads, AnEditInFlightHoldsUpNeitherHandNorEyeNorOtherEdits) {
@@ -77,35 +79,35 @@ TEST(SessionThreads, AnEditInFlightHoldsUpNeitherHandNorEyeNorOtherEdits) {
   world::ObjectId box;
   const auto session = pressing_session(&box);
   session->settle();
-  const Eye eye(session->display());
+  const Eye eye(session->view().display());
   eye.wait_for_frames(2);
   const auto big = std::make_shared<HeldShape>(geometry::bumpy_geodesic_sphere(kFrequency, 0.3, 0.1, 9));
   add_shape(*session, big, at(5.0, 0.0, 0.0), "big");
   // Both representations are in the middle of it.
   while (big->at_work() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   // That the rest goes on at all shows that nobody waits for them.
-  const auto before = session->drawn();
+  const auto before = session->view().drawn();
   for (int i = 1; i <= 100; ++i)
-    ASSERT_TRUE(session->perform(world::PlaceObject{box, at(0.0, 0.0, -1e-5 * i)}, "Move box"));
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(session->undo());
+    ASSERT_TRUE(session->history().perform(world::PlaceObject{box, at(0.0, 0.0, -1e-5 * i)}, "Move box"));
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(session->history().undo());
   add_box(*session, at(-5.0, 0.0, 0.0));
   wait_for_ticks(*session, 200);
   eye.wait_for_frames(5);
   session->update();
-  EXPECT_EQ(session->drawn(), before);
+  EXPECT_EQ(session->view().drawn(), before);
   EXPECT_EQ(eye.objects(), 1U);  // the last version that was published
-  EXPECT_EQ(session->touched(0), box);
-  EXPECT_NEAR(session->pointer(0).scp.z(), 0.5, 1e-6);
-  EXPECT_GT(session->pointer(0).force.z(), 0.5);
+  EXPECT_EQ(session->hands().touched(0), box);
+  EXPECT_NEAR(session->hands().pointer(0).scp.z(), 0.5, 1e-6);
+  EXPECT_GT(session->hands().pointer(0).force.z(), 0.5);
   big->let_go();
   // Now it takes as long as it takes, while hand and eye go on.
-  run_until(*session, [&] { return session->drawn() != before; });
+  run_until(*session, [&] { return session->view().drawn() != before; });
   session->settle();
   eye.wait_for_frames(2);
-  EXPECT_EQ(session->drawn()->object_count(), 3U);
+  EXPECT_EQ(session->view().drawn()->object_count(), 3U);
   EXPECT_EQ(eye.objects(), 3U);
-  EXPECT_TRUE(session->pick({Vector3(5.0, 0.0, 2.0), -Vector3::UnitZ()}));
-  EXPECT_EQ(session->touched(0), box);
+  EXPECT_TRUE(session->stage().pick({Vector3(5.0, 0.0, 2.0), -Vector3::UnitZ()}));
+  EXPECT_EQ(session->hands().touched(0), box);
 }
 
 /// Work that a test holds up.
@@ -137,8 +139,8 @@ TEST(SessionThreads, ARepresentationOfOnesOwnMayLagBehindForAsLongAsItLikes) {
   const auto box = add_box(*session, at(0.0, 0.0, -3.0));
   gate.entered.wait(0);
   for (int i = 1; i <= 3000; ++i)  // more than its pipe holds
-    ASSERT_TRUE(session->perform(world::PlaceObject{box, at(0.001 * i, 0.0, -3.0)}, "Move box"));
-  run_until(*session, [&] { return session->drawn()->bounds().center().x() > 2.9999; });
+    ASSERT_TRUE(session->history().perform(world::PlaceObject{box, at(0.001 * i, 0.0, -3.0)}, "Move box"));
+  run_until(*session, [&] { return session->view().drawn()->bounds().center().x() > 2.9999; });
   EXPECT_EQ(gate.entered.load(), 1);
   gate.shut.store(false);
   gate.shut.notify_all();
@@ -164,7 +166,7 @@ std::filesystem::path write_large_obj(const std::filesystem::path& file) {
 }
 
 void wait_until_reading(const Session& session) {
-  wait_until([&] { return session.opening().value() > 0.0; });
+  wait_until([&] { return session.files().opening().value() > 0.0; });
 }
 
 TEST(SessionThreads, EndWhileALargeDesignIsReadAndLoseNothing) {
@@ -177,9 +179,9 @@ TEST(SessionThreads, EndWhileALargeDesignIsReadAndLoseNothing) {
     auto session = start(std::move(settings));
     for (int i = 0; i < 20; ++i) add_box(*session, at(2.0 * i, 0.0, -3.0));
     const auto work = hash(session->world());
-    session->open(large);
+    session->files().open(large);
     wait_until_reading(*session);
-    if (saves) session->save(saved);
+    if (saves) session->files().save(saved);
     session.reset();
     // One of them at least has the work, and what there is is whole.
     const auto journals = journals_in(folder.path() / "autosave");
@@ -208,12 +210,12 @@ TEST(SessionThreads, EndWhateverIsUnderWay) {
     if (moment >= 1) add_box(*session, at(0.0, 0.0, -3.0));
     if (moment >= 2) add_shape(*session, big, at(5.0, 0.0, 0.0));
     if (moment >= 3) {
-      session->open(large);
+      session->files().open(large);
       wait_until_reading(*session);
     }
     if (moment >= 4) {
       while (big->at_work() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      session->save(folder.path() / "end.icome");  // of a shape that cannot be written
+      session->files().save(folder.path() / "end.icome");  // of a shape that cannot be written
     }
     std::thread helper;
     if (moment >= 5) {
@@ -238,13 +240,13 @@ TEST(SessionThreads, AreAllBusyAtOnce) {
   }
   const auto session = start(std::move(settings));
   std::optional<Eye> eye;
-  if (can_draw()) eye.emplace(session->display());
+  if (can_draw()) eye.emplace(session->view().display());
   base::Random random(99);
   std::vector<world::ObjectId> boxes;
   for (int i = 0; i < 20; ++i)
     boxes.push_back(add_box(*session, at(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), 0.0)));
   const auto scene = session->ids().next<world::SceneId>();
-  ASSERT_TRUE(session->perform(
+  ASSERT_TRUE(session->history().perform(
       world::EditGroup{{world::CreateScene{scene, "some"}, world::EnterScene{scene, boxes[0], 0},
                         world::EnterScene{scene, boxes[1], 1}}},
       "Make scene"));
@@ -253,34 +255,34 @@ TEST(SessionThreads, AreAllBusyAtOnce) {
       at(0.0, 0.0, -2.0), "mesh");
   const auto shape = session->world().find(mesh)->geometry;
   for (int round = 0; round < 150; ++round) {
-    ASSERT_TRUE(session->perform(
+    ASSERT_TRUE(session->history().perform(
         world::PlaceObject{boxes[random.index(boxes.size())], at(random.uniform(-3.0, 3.0), 0.0, 0.0)},
         "Move"));
     if (round % 3 == 0) {
       const world::MoveVertices pull{shape, {std::uint32_t(random.index(9000))}, {random.direction()}};
-      ASSERT_TRUE(session->perform(pull, "Pull"));
+      ASSERT_TRUE(session->history().perform(pull, "Pull"));
     }
     if (round % 4 == 0) {
-      ASSERT_TRUE(session->undo());
+      ASSERT_TRUE(session->history().undo());
     }
-    if (round % 10 == 0) session->show_scene(round % 20 == 0 ? scene : world::SceneId{});
-    if (round % 30 == 7) session->save(folder.path() / "busy.icome");
-    if (round == 100) session->open(folder.path() / "busy.icome");
-    if (round == 101) session->cancel_open();
+    if (round % 10 == 0) session->stage().show_scene(round % 20 == 0 ? scene : world::SceneId{});
+    if (round % 30 == 7) session->files().save(folder.path() / "busy.icome");
+    if (round == 100) session->files().open(folder.path() / "busy.icome");
+    if (round == 101) session->files().cancel_open();
     if (round % 25 == 5) hands[0]->inject(devices::SimulatedFailure::Unplugged);
     if (round % 25 == 8) hands[0]->inject(devices::SimulatedFailure::None);
     for (devices::SimulatedDevice* hand : hands) hand->set_target(0.5 * random.direction());
     session->select({boxes[random.index(boxes.size())]});
-    if (round % 20 == 0) session->fly_to(interaction::orbited(session->view(), 0.3, 0.1));
+    if (round % 20 == 0) session->view().fly_to(interaction::orbited(session->view().now(), 0.3, 0.1));
     session->update();
-    (void)session->pick({Vector3(0.0, 0.0, 5.0), -Vector3::UnitZ()});
-    (void)session->servo();
+    (void)session->stage().pick({Vector3(0.0, 0.0, 5.0), -Vector3::UnitZ()});
+    (void)session->hands().servo();
   }
   session->settle();
-  EXPECT_EQ(session->drawn()->object_count(), session->shown_scene() ? 2U : 21U);
+  EXPECT_EQ(session->view().drawn()->object_count(), session->stage().shown_scene() ? 2U : 21U);
   if (eye) eye->wait_for_frames(1);
   eye.reset();
-  session->close();
+  session->files().close();
 }
 
 }  // namespace

@@ -37,10 +37,10 @@ inline world::ObjectId add_shape(Session& session, world::GeometryPointer shape,
   const auto geometry = session.ids().next<world::GeometryId>();
   const auto id = session.ids().next<world::ObjectId>();
   world::PhysicalObject object{.name = name, .parent_from_object = place, .geometry = geometry};
-  const auto done =
-      session.perform(world::EditGroup{{world::CreateGeometry{geometry, std::move(shape)},
-                                        world::CreateObject{id, session.world().roots().size(), object}}},
-                      "Add " + name);
+  const auto done = session.history().perform(
+      world::EditGroup{{world::CreateGeometry{geometry, std::move(shape)},
+                        world::CreateObject{id, session.world().roots().size(), object}}},
+      "Add " + name);
   if (!done) throw std::runtime_error(done.error().message);
   return id;
 }
@@ -66,9 +66,9 @@ std::vector<SessionEvent> run_until(Session& session, const IsSo& is_so) {
 inline base::Vector3 tip_at_rest(Session& session) {
   constexpr std::int64_t kApart = 30'000'000;  // ns
   constexpr double kStill = 1e-6;              // m
-  PointerView before = session.pointer(0);
+  PointerView before = session.hands().pointer(0);
   run_until(session, [&] {
-    const PointerView& now = session.pointer(0);
+    const PointerView& now = session.hands().pointer(0);
     if (now.time < before.time + kApart) return false;
     const bool rests = before.time > 0 && (now.tip - before.tip).norm() < kStill;
     before = now;

@@ -35,7 +35,7 @@ class DesktopTest : public ::testing::Test {
   const world::World& world() { return session_->world(); }
 
   void perform(const world::Edit& edit, const std::string& name = "Edit") {
-    const auto done = session_->perform(edit, name);
+    const auto done = session_->history().perform(edit, name);
     EXPECT_TRUE(done) << done.error().message;
   }
   /// Makes the session's empty world equal to another.

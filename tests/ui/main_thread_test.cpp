@@ -58,7 +58,7 @@ class MainThreadTest : public WindowTest {
     if (!std::filesystem::exists("/usr/share/glmark2/models/bunny.obj"))
       GTEST_SKIP() << "the bunny of the demo is not there: install glmark2-data";
     window_->begin(demo);
-    ASSERT_TRUE(until([&] { return named("Scan") && !session().opening(); }));
+    ASSERT_TRUE(until([&] { return named("Scan") && !session().files().opening(); }));
     session().settle();
     mouse_.emplace();
     for (int i = 0; i < 60; ++i) live();  // the view gets to where it flies
@@ -76,7 +76,7 @@ class MainThreadTest : public WindowTest {
     QCoreApplication::processEvents();
   }
   QPointF pixel(const Vector3& point) {
-    const interaction::View& view = session().view();
+    const interaction::View& view = session().view().now();
     const Vector3 seen = view.world_from_eye.inverse() * point;
     const QSizeF size = mouse_->size();
     const double scale =
@@ -92,7 +92,7 @@ class MainThreadTest : public WindowTest {
         const double angle = 0.5 * i;
         const QPointF at = middle + 5.0 * ring * QPointF(std::cos(angle), std::sin(angle));
         const SceneInput input{.at = at, .size = mouse_->size()};
-        const auto picked = session().pick(input.ray(session().view()));
+        const auto picked = session().stage().pick(input.ray(session().view().now()));
         if (picked && id && world::is_within(world(), picked->object, *id)) return at;
       }
     }
@@ -131,8 +131,9 @@ TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileThingsAreDragged) {
   for (const char* name : {"Plinth", "Scan", "Brass-solid", "Rubber-knot"}) {
     drag(place_of(name));
     expect_few_long_calls(name);
-    ASSERT_TRUE(until([&] { return session().history().can_undo(); })) << name;  // it may be worked out still
-    ASSERT_TRUE(session().undo()) << name;
+    ASSERT_TRUE(until([&] { return session().history().actions().can_undo(); }))
+        << name;  // it may be worked out still
+    ASSERT_TRUE(session().history().undo()) << name;
     session().select({});
     live();
   }
@@ -149,7 +150,7 @@ TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileThingsAreTouched) {
 TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileTheViewIsTurnedAndPartsAreDragged) {
   drag({400.0, 300.0}, {}, Qt::RightButton);
   expect_few_long_calls("the view is turned");
-  session().home();
+  session().view().home();
   for (int i = 0; i < 60; ++i) live();
   const auto solid = named("Brass-solid");
   ASSERT_TRUE(solid);
@@ -160,13 +161,13 @@ TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileTheViewIsTurnedAndPartsAreDrag
   for (double x = 0.0; x < mouse_->size().width() && !ghost; x += 3.0)
     for (double y = 0.0; y < mouse_->size().height() && !ghost; y += 3.0) {
       const SceneInput input{.at = {x, y}, .size = mouse_->size()};
-      if (session().pick_part(input.ray(session().view()))) ghost = input.at;
+      if (session().stage().pick_part(input.ray(session().view().now()))) ghost = input.at;
     }
   ASSERT_TRUE(ghost);
   application().watch(kLongest);
   drag(*ghost);
   expect_few_long_calls("an operand is dragged");
-  EXPECT_EQ(session().history().undo_name().substr(0, 12), "Move operand");
+  EXPECT_EQ(session().history().actions().undo_name().substr(0, 12), "Move operand");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class RandomKeysTest : public WindowTest, public ::testing::WithParamInterface<i
     load(some_world());
     session().settle();
     session().update();
-    session().home();
+    session().view().home();
     live();
     QApplication::setActiveWindow(window_.get());
     retry->setFocus();  // where the scene would be
@@ -216,9 +216,10 @@ class RandomKeysTest : public WindowTest, public ::testing::WithParamInterface<i
   void expect_history_makes_design() {
     const std::uint64_t now = hash(world());
     int undone = 0;
-    for (; session().history().can_undo(); ++undone) ASSERT_TRUE(session().undo()) << told();
+    for (; session().history().actions().can_undo(); ++undone)
+      ASSERT_TRUE(session().history().undo()) << told();
     ASSERT_EQ(hash(world()), empty_) << told();
-    for (; undone > 0; --undone) ASSERT_TRUE(session().redo()) << told();
+    for (; undone > 0; --undone) ASSERT_TRUE(session().history().redo()) << told();
     ASSERT_EQ(hash(world()), now) << told();
   }
 
@@ -239,7 +240,8 @@ TEST_P(RandomKeysTest, LeaveTheDesignWhatItsHistoryMakesOfItAndTheKeyboardSomewh
     close_what_opened();
     ASSERT_NO_FATAL_FAILURE(expect_focus()) << "step " << i;
     is_due = is_due || i % 25 == 0;
-    if (!is_due || session().history().trying()) continue;  // what is only tried out is undone otherwise
+    if (!is_due || session().history().actions().trying())
+      continue;  // what is only tried out is undone otherwise
     ASSERT_NO_FATAL_FAILURE(expect_history_makes_design()) << "step " << i;
     ++compared;
     is_due = false;

@@ -25,7 +25,7 @@ std::string move_name(const world::World& world, const std::vector<world::Object
 
 std::optional<haptics::GripFeel> HandGrab::update(Session& session, std::size_t pointer,
                                                   const Revisions& revisions, std::string& refused) {
-  const PointerView& hand = session.pointer(pointer);
+  const PointerView& hand = session.hands().pointer(pointer);
   const bool down =
       hand.status != devices::DeviceStatus::Lost && (hand.buttons & kGrabButton) != 0 && hand.tip.allFinite();
   const bool was_down = std::exchange(was_down_, down);
@@ -36,7 +36,7 @@ std::optional<haptics::GripFeel> HandGrab::update(Session& session, std::size_t 
   }
   const bool goes_on = down && held_->revision == revisions.now();
   if (goes_on && follow(session, hand.tip, revisions, refused))
-    return feel_of(held_->drag, held_->start, session.grab());
+    return feel_of(held_->drag, held_->start, session.hands().grab());
   if (!down && held_->revision == revisions.now() && held_->drag.pending()) let_go_ = std::move(held_);
   held_.reset();
   return haptics::GripFeel{};
@@ -44,7 +44,7 @@ std::optional<haptics::GripFeel> HandGrab::update(Session& session, std::size_t 
 
 void HandGrab::begin(Session& session, std::size_t pointer, std::uint64_t revision) {
   let_go_.reset();
-  const auto touched = session.touched(pointer);
+  const auto touched = session.hands().touched(pointer);
   if (!touched || !session.world().find(*touched)) return;
   const bool is_selected = std::ranges::any_of(
       session.selection(), [&](world::ObjectId id) { return is_within(session.world(), *touched, id); });
@@ -52,7 +52,7 @@ void HandGrab::begin(Session& session, std::size_t pointer, std::uint64_t revisi
   const auto objects = interaction::topmost(session.world(), session.selection());
   ObjectDrag drag(session, objects, move_name(session.world(), objects));
   if (drag.empty()) return;
-  held_.emplace(Held{std::move(drag), session.pointer(pointer).tip, revision});
+  held_.emplace(Held{std::move(drag), session.hands().pointer(pointer).tip, revision});
 }
 
 /// What was let go still gets to where the hand had it, as soon as it is known how far it comes.

@@ -48,10 +48,10 @@ base::Result<void> ObjectDrag::to(Session& session, const Wish& wish) {
 base::Result<void> ObjectDrag::ask(Session& session) {
   constexpr std::uint64_t kByThread =
       30'000'000;  // then they go as far as is known, and it goes on from there
-  Surroundings& around = session.surroundings();
+  Surroundings& around = session.hands().surroundings();
   waits_ = around.are_lent();
   if (waits_) return {};
-  const GrabSettings& settings = session.grab();
+  const GrabSettings& settings = session.hands().grab();
   interaction::DragRules rules;
   rules.stops.stop = settings.stop;
   rules.snaps = wish_.snap ? settings.snaps : interaction::SnapSettings::none();
@@ -73,7 +73,8 @@ base::Result<void> ObjectDrag::take(Session& session, const interaction::Stopped
   const Vector3 before = drag_.offset();
   const world::Edit edit = drag_.take(found);
   if (drag_.offset() == before) return {};
-  const auto done = moved_ || goes_on_ ? session.extend(edit) : session.perform(edit, name_);
+  const auto done =
+      moved_ || goes_on_ ? session.history().extend(edit) : session.history().perform(edit, name_);
   moved_ = moved_ || done.has_value();
   return done;
 }

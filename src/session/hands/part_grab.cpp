@@ -14,7 +14,7 @@ constexpr double kPartSlack = 0.0005;     // m: a press without so much of a way
 
 std::optional<haptics::GripFeel> PartGrab::update(Session& session, std::size_t pointer,
                                                   const Revisions& revisions, std::string& refused) {
-  const PointerView& hand = session.pointer(pointer);
+  const PointerView& hand = session.hands().pointer(pointer);
   const bool there = hand.status != devices::DeviceStatus::Lost && hand.tip.allFinite();
   const bool down = there && (hand.buttons & kPartButton) != 0;
   const bool pressed = down && !std::exchange(was_down_, down);
@@ -26,16 +26,16 @@ std::optional<haptics::GripFeel> PartGrab::update(Session& session, std::size_t 
     if (down && done) return std::nullopt;
     if (!done) refused = done.error().message;
   }
-  session.mark_part(std::nullopt);
+  session.stage().mark_part(std::nullopt);
   held_.reset();
   return haptics::GripFeel{};
 }
 
 std::optional<haptics::GripFeel> PartGrab::begin(Session& session, std::size_t pointer,
                                                  const Revisions& revisions, std::string& refused) {
-  if (session.touched(pointer)) return std::nullopt;
-  const PointerView& hand = session.pointer(pointer);
-  const auto part = session.part_near(hand.tip, kReach);
+  if (session.hands().touched(pointer)) return std::nullopt;
+  const PointerView& hand = session.hands().pointer(pointer);
+  const auto part = session.stage().part_near(hand.tip, kReach);
   if (!part) return std::nullopt;
   auto pull = PartPull::take(session, *part);
   if (!pull) {
@@ -46,7 +46,7 @@ std::optional<haptics::GripFeel> PartGrab::begin(Session& session, std::size_t p
   haptics::GripFeel feel;
   feel.holds = true;
   feel.start = hand.tip;
-  if (!session.grab().pull_back) feel.least_pull = feel.most_pull = 0.0;
+  if (!session.hands().grab().pull_back) feel.least_pull = feel.most_pull = 0.0;
   return feel;
 }
 

@@ -9,7 +9,7 @@ namespace icome::session {
 base::Result<PartPull> PartPull::take(Session& session, const interaction::PlacedPart& part) {
   auto drag = interaction::PartDrag::take(session.world(), part);
   if (!drag) return tl::unexpected(drag.error());
-  session.mark_part(MarkedPart{.part = part, .motion = base::Affine3::Identity()});
+  session.stage().mark_part(MarkedPart{.part = part, .motion = base::Affine3::Identity()});
   return PartPull(std::move(*drag));
 }
 
@@ -18,7 +18,7 @@ base::Result<void> PartPull::to(Session& session, const base::Affine3& motion) {
   motion_ = motion;
   is_due_ = true;
   if (drag_.is_live()) return put(session);
-  session.mark_part(MarkedPart{.part = drag_.part(), .motion = motion_});
+  session.stage().mark_part(MarkedPart{.part = drag_.part(), .motion = motion_});
   return {};
 }
 
@@ -26,20 +26,20 @@ base::Result<void> PartPull::put(Session& session) {
   if (!std::exchange(is_due_, false)) return {};
   const auto edit = drag_.by(motion_);
   if (!edit) return tl::unexpected(edit.error());
-  auto done = performed_ ? session.extend(*edit) : session.perform(*edit, drag_.name());
+  auto done = performed_ ? session.history().extend(*edit) : session.history().perform(*edit, drag_.name());
   performed_ = performed_ || done.has_value();
   return done;
 }
 
 base::Result<void> PartPull::finish(Session& session) {
-  session.mark_part(std::nullopt);
+  session.stage().mark_part(std::nullopt);
   return put(session);
 }
 
 base::Result<void> PartPull::cancel(Session& session) {
-  session.mark_part(std::nullopt);
+  session.stage().mark_part(std::nullopt);
   is_due_ = false;
-  return std::exchange(performed_, false) ? session.undo() : base::Result<void>();
+  return std::exchange(performed_, false) ? session.history().undo() : base::Result<void>();
 }
 
 }  // namespace icome::session

@@ -24,7 +24,7 @@ haptics::GripFeel point_feel(const base::Vector3& start, const GrabSettings& set
 std::optional<haptics::GripFeel> PointGrab::update(Session& session, std::size_t pointer,
                                                    const Revisions& revisions, const GrabSettings& settings,
                                                    std::string& refused) {
-  const PointerView& hand = session.pointer(pointer);
+  const PointerView& hand = session.hands().pointer(pointer);
   const bool there = hand.status != devices::DeviceStatus::Lost && hand.tip.allFinite();
   const bool down = there && (hand.buttons & kPointButton) != 0;
   const bool pressed = down && !std::exchange(was_down_, down);
@@ -50,9 +50,9 @@ std::optional<haptics::GripFeel> PointGrab::update(Session& session, std::size_t
 void PointGrab::look(Session& session, std::size_t pointer) {
   const world::World& world = session.world();
   auto objects = interaction::draggable_objects(world, session.selection(), kMostPointObjects);
-  if (const auto touched = session.touched(pointer)) objects.push_back(*touched);
-  const auto probe = interaction::probe_round(session.pointer(pointer).tip, kReach);
-  auto found = session.shaping()->find(world, objects, probe);
+  if (const auto touched = session.hands().touched(pointer)) objects.push_back(*touched);
+  const auto probe = interaction::probe_round(session.hands().pointer(pointer).tip, kReach);
+  auto found = session.hands().shaping()->find(world, objects, probe);
   if (found) marked_ = interaction::MarkedHandle{.handle = std::move(*found)};
 }
 

@@ -7,8 +7,8 @@
 namespace icome::session {
 
 base::Result<PointPull> PointPull::take(Session& session, const interaction::ShapingHandle& handle) {
-  if (!session.shaping()) return base::fail("Points of shapes are not what is dragged now.");
-  auto drag = session.shaping()->take(session.world(), handle);
+  if (!session.hands().shaping()) return base::fail("Points of shapes are not what is dragged now.");
+  auto drag = session.hands().shaping()->take(session.world(), handle);
   if (!drag) return tl::unexpected(drag.error());
   return PointPull({handle, std::make_shared<const interaction::PointDrag>(std::move(*drag))});
 }
@@ -16,11 +16,12 @@ base::Result<PointPull> PointPull::take(Session& session, const interaction::Sha
 base::Result<void> PointPull::to(Session& session, const base::Vector3& offset) {
   if (offset == moved_) return {};
   const world::Edit edit = marked_.drag->by(offset);
-  auto done = performed_ ? session.extend(edit) : session.perform(edit, marked_.drag->name());
+  auto done =
+      performed_ ? session.history().extend(edit) : session.history().perform(edit, marked_.drag->name());
   if (!done) return done;
   performed_ = true;
   moved_ = offset;
-  if (session.shaping()) session.shaping()->moved(session.world(), marked_.handle, offset);
+  if (session.hands().shaping()) session.hands().shaping()->moved(session.world(), marked_.handle, offset);
   return {};
 }
 
@@ -28,16 +29,17 @@ base::Result<void> PointPull::finish(Session& session) {
   if (!performed_) return {};
   const auto last = marked_.drag->last(moved_);
   if (!last) return {};
-  auto done = session.extend(*last);
-  if (done && session.shaping()) session.shaping()->moved(session.world(), marked_.handle, moved_);
+  auto done = session.history().extend(*last);
+  if (done && session.hands().shaping())
+    session.hands().shaping()->moved(session.world(), marked_.handle, moved_);
   return done;
 }
 
 base::Result<void> PointPull::cancel(Session& session) {
   if (!std::exchange(performed_, false)) return {};
-  auto undone = session.undo();
-  if (undone && session.shaping())
-    session.shaping()->moved(session.world(), marked_.handle, base::Vector3::Zero());
+  auto undone = session.history().undo();
+  if (undone && session.hands().shaping())
+    session.hands().shaping()->moved(session.world(), marked_.handle, base::Vector3::Zero());
   return undone;
 }
 

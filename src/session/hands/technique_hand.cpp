@@ -129,9 +129,9 @@ std::optional<Pose> TechniqueHand::update(Session& session, const TechniqueMomen
 
 void TechniqueHand::perform(Session& session, const interaction::WorldTechnique::Step& step,
                             std::string& refused) {
-  const auto done = step.is_first
-                        ? session.perform(*step.edit, held_name(session.world(), outcome_.moved->id))
-                        : session.extend(*step.edit);
+  const auto done =
+      step.is_first ? session.history().perform(*step.edit, held_name(session.world(), outcome_.moved->id))
+                    : session.history().extend(*step.edit);
   if (done) return;
   refused = done.error().message;
   technique_.let_go();

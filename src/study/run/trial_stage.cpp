@@ -68,9 +68,9 @@ struct TrialStage::Parts {
 TrialStage::TrialStage(session::Session& session, const Study& study, std::filesystem::path folder,
                        const Participant& participant)
     : parts_(std::make_unique<Parts>(session, study, std::move(folder), participant)) {
-  session::GrabSettings settings = session.grab();
+  session::GrabSettings settings = session.hands().grab();
   settings.takes_hold = false;
-  session.set_grab(settings);
+  session.hands().set_grab(settings);
 }
 
 TrialStage::~TrialStage() { stop(); }
@@ -94,9 +94,9 @@ void TrialStage::stop() {
 
 /// What a trial has changed of the session is as before.
 void TrialStage::Parts::leave() {
-  session.trace(false);
-  session.hold_pointer({});
-  session.give_forces(true);
+  session.hands().trace(false);
+  session.hands().hold_pointer({});
+  session.hands().give_forces(true);
   light(-1);
   watch.reset();
   show_start();
@@ -118,7 +118,7 @@ void TrialStage::Parts::load() {
   state = State::Loading;
   if (loading == loaded) return begin_seeking();
   loaded.clear();
-  session.open(loading);
+  session.files().open(loading);
 }
 
 void TrialStage::Parts::hear(const SessionEvent& event) {
@@ -142,17 +142,17 @@ void TrialStage::Parts::begin_seeking() {
     thing_numbers[thing.object] = int(trace.things.size());
     trace.things.push_back(thing.name);
   }
-  trace.rate_hz = session.servo().rate_hz;
-  trace.device = session.pointer_info(0).name;
+  trace.rate_hz = session.hands().servo().rate_hz;
+  trace.device = session.hands().pointer_info(0).name;
   base::Bounds all;
   for (const Thing& thing : goal->things) all.extend(thing.bounds);
   all.extend(goal->start);
-  session.set_view(
-      interaction::fitted(session.view(), all, kTowardEye, base::Vector3::UnitY(), session.aspect()));
+  session.view().set(interaction::fitted(session.view().now(), all, kTowardEye, base::Vector3::UnitY(),
+                                         session.view().aspect()));
   watch.emplace(std::move(*goal));
-  session.take_trace();  // what is left of another trial
-  lost_before = session.take_trace().lost;
-  session.trace(true);
+  session.hands().take_trace();  // what is left of another trial
+  lost_before = session.hands().take_trace().lost;
+  session.hands().trace(true);
   began = 0;
   state = State::Seeking;
   show_start();
@@ -161,13 +161,13 @@ void TrialStage::Parts::begin_seeking() {
 void TrialStage::Parts::hide_things() {
   const auto hidden = hidden_things(study, plan, session.world());
   if (hidden.empty()) return;
-  const auto done = session.try_out(interaction::delete_objects(session.world(), hidden), "Trial");
+  const auto done = session.history().try_out(interaction::delete_objects(session.world(), hidden), "Trial");
   hides = done.has_value();
   if (!done) fail(done.error().message);
 }
 
 void TrialStage::Parts::bring_back() {
-  if (std::exchange(hides, false)) (void)session.take_back();
+  if (std::exchange(hides, false)) (void)session.history().take_back();
 }
 
 /// A ball at the start while it is sought.
@@ -175,7 +175,7 @@ void TrialStage::Parts::show_start() {
   session::DisplayWish wish = look;
   if (state == State::Seeking && watch)
     wish.look.overlay.balls.push_back({watch->goal().start, kStartRadius, kStartColour});
-  session.set_look(wish);
+  session.view().set_look(wish);
 }
 
 void TrialStage::Parts::light(int thing) {
@@ -194,7 +194,7 @@ TrialStage::State TrialStage::update() {
 }
 
 void TrialStage::Parts::take_ticks() {
-  const session::Session::Ticks taken = session.take_trace();
+  const session::SessionHands::Ticks taken = session.hands().take_trace();
   // What is lost before the pointer is caught is not kept anyway.
   if (watch->state() == TrialWatch::State::Seeking) lost_before = taken.lost;
   if (taken.lost > lost_before)
@@ -226,10 +226,10 @@ void TrialStage::Parts::take_tick(const session::PointerView& tick, const sessio
   if (watch->step(sample) == before) return;
   if (watch->state() == TrialWatch::State::Holding) {
     state = State::Holding;
-    session.hold_pointer(watch->goal().start);
+    session.hands().hold_pointer(watch->goal().start);
   } else if (watch->state() == TrialWatch::State::Seeking) {
     state = State::Seeking;
-    session.hold_pointer({});
+    session.hands().hold_pointer({});
   }
   show_start();
 }
@@ -238,15 +238,15 @@ void TrialStage::Parts::take_tick(const session::PointerView& tick, const sessio
 /// is put there, and back, also where a new view has carried it away.
 void TrialStage::Parts::hold() {
   const base::Vector3& start = watch->goal().start;
-  if (session.is_mouse_driven() && (session.pointer(0).tip - start).norm() > kHeldApart)
-    session.put_hand(start);
+  if (session.hands().is_mouse_driven() && (session.hands().pointer(0).tip - start).norm() > kHeldApart)
+    session.hands().put(start);
 }
 
 void TrialStage::Parts::release() {
   if (state == State::Running) return;  // the tick that starts it is still to come
   // Springs hold the pointer in all conditions alike; what the condition has of forces begins now.
-  session.hold_pointer({});
-  session.give_forces(watch->goal().forces);
+  session.hands().hold_pointer({});
+  session.hands().give_forces(watch->goal().forces);
   watch->release();
   state = State::Running;
   beep = study.trials.beep;

@@ -56,7 +56,7 @@ class UndoKeys final : public QObject {
 void select_all(session::Session& session) {
   std::vector<ObjectId> all;
   const world::World& world = session.world();
-  const world::Scene* scene = world.find(session.shown_scene());
+  const world::Scene* scene = world.find(session.stage().shown_scene());
   for (const ObjectId root : scene ? scene->roots : world.roots()) collect_shapes(world, root, all);
   session.select(std::move(all));
 }
@@ -71,10 +71,11 @@ void EditActions::perform(const std::function<base::Result<void>()>& act) {
 
 void EditActions::fill(QMenu& menu) {
   undo_ = add_action(menu, "edit.undo", "&Undo", QKeySequence("Ctrl+Z"),
-                     [this] { perform([this] { return session_.undo(); }); });
+                     [this] { perform([this] { return session_.history().undo(); }); });
   undo_->setIcon(icon(Icon::Undo));
   qApp->installEventFilter(new UndoKeys(&menu));
-  redo_ = add_action(menu, "edit.redo", "&Redo", {}, [this] { perform([this] { return session_.redo(); }); });
+  redo_ = add_action(menu, "edit.redo", "&Redo", {},
+                     [this] { perform([this] { return session_.history().redo(); }); });
   redo_->setShortcuts({QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y")});
   redo_->setIcon(icon(Icon::Redo));
   menu.addSeparator();
@@ -122,7 +123,7 @@ void EditActions::refresh() {
     action.setText('&' + QString(line).replace('&', "&&"));
     action.setToolTip(tip_of(line));
   };
-  const world::History& history = session_.history();
+  const world::History& history = session_.history().actions();
   undo_->setEnabled(history.can_undo());
   name(*undo_, "Undo", history.undo_name());
   redo_->setEnabled(history.can_redo());

@@ -30,8 +30,8 @@ FileActions::FileActions(session::Session& session, QSettings& settings, QWidget
     : session_(session), window_(window), recent_(settings) {
   // Who goes on with this design does not want it replaced when another has been read.
   session_.on_change([this](const world::Changes* changes) {
-    if (!changes || !session_.opening()) return;
-    session_.cancel_open();
+    if (!changes || !session_.files().opening()) return;
+    session_.files().cancel_open();
     given_up_ = true;
   });
 }
@@ -69,15 +69,15 @@ void FileActions::fill_recent() {
 }
 
 QString FileActions::design_name() const {
-  return session_.path().empty() ? QString("Untitled") : text_of(session_.path().filename());
+  return session_.files().path().empty() ? QString("Untitled") : text_of(session_.files().path().filename());
 }
 
 QString FileActions::doing() const {
-  if (session_.opening()) {
+  if (session_.files().opening()) {
     return opened_.empty() ? QString("Reading\u2026")
                            : QString("Reading %1\u2026").arg(text_of(opened_.filename()));
   }
-  if (session_.saving()) return QString("Saving %1\u2026").arg(text_of(saved_.filename()));
+  if (session_.files().saving()) return QString("Saving %1\u2026").arg(text_of(saved_.filename()));
   return {};
 }
 
@@ -89,7 +89,7 @@ void FileActions::make_new() {
   given_up_ = false;
   recovered_.reset();
   opened_.clear();
-  session_.make_new();
+  session_.files().make_new();
 }
 
 void FileActions::open(const std::filesystem::path& design) {
@@ -99,28 +99,28 @@ void FileActions::open(const std::filesystem::path& design) {
     opened_ = whole.empty() ? design : whole;
     recovered_.reset();
     given_up_ = false;
-    session_.open(opened_);
+    session_.files().open(opened_);
   });
 }
 
 void FileActions::recover(const std::filesystem::path& journal) {
-  for (const session::RecoverableWork& work : session_.recoverable()) {
+  for (const session::RecoverableWork& work : session_.files().recoverable()) {
     if (work.journal != journal) continue;
     when_safe([this, work] {
       opened_ = work.design;
       recovered_ = work;
       given_up_ = false;
-      session_.recover(work);
+      session_.files().recover(work);
     });
     return;
   }
 }
 
 void FileActions::revert() {
-  if (session_.path().empty()) {
+  if (session_.files().path().empty()) {
     start();
   } else {
-    open(session_.path());
+    open(session_.files().path());
   }
 }
 
@@ -131,8 +131,8 @@ void FileActions::choose_and_open() {
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   dialog->setNameFilters(open_filters());
-  if (!session_.path().empty()) {
-    dialog->setDirectory(text_of(session_.path().parent_path()));
+  if (!session_.files().path().empty()) {
+    dialog->setDirectory(text_of(session_.files().path().parent_path()));
   } else if (!recent_.paths().isEmpty()) {
     dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
   }
@@ -143,10 +143,10 @@ void FileActions::choose_and_open() {
 
 void FileActions::save() {
   if (!begin_()) return;
-  if (session_.path().empty()) {
+  if (session_.files().path().empty()) {
     save_as();
   } else {
-    begin_save(session_.path());
+    begin_save(session_.files().path());
   }
 }
 
@@ -168,8 +168,8 @@ void FileActions::save_as() {
   const QStringList filters = save_filters();
   dialog->setNameFilters(filters);
   QString chosen = filters.front();
-  if (!session_.path().empty()) {
-    const QFileInfo file(text_of(session_.path()));
+  if (!session_.files().path().empty()) {
+    const QFileInfo file(text_of(session_.files().path()));
     for (const QString& it : filters) {
       if (it.contains("*." + file.suffix().toLower())) chosen = it;
     }
@@ -192,15 +192,15 @@ void FileActions::save_as() {
 void FileActions::begin_save(const std::filesystem::path& design) {
   saved_ = design;
   saving_();
-  session_.save(design);
+  session_.files().save(design);
 }
 
 void FileActions::when_safe(const std::function<void()>& then) {
   if (!begin_()) return;
   leaving_();
-  if (session_.modified()) {
+  if (session_.files().modified()) {
     ask(then);
-  } else if (session_.saving()) {
+  } else if (session_.files().saving()) {
     then_ = then;
   } else {
     then();
@@ -215,7 +215,7 @@ void FileActions::ask(const std::function<void()>& then) {
                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box->setObjectName("save_changes");
   box->setTextFormat(Qt::PlainText);
-  const auto& left_out = session_.left_out();
+  const auto& left_out = session_.files().left_out();
   box->setInformativeText(
       left_out.empty() ? QString("Without saving, what you did since the last time is lost.")
                        : QString("%1 cannot hold all of your design: %2\nSave it as .icome, or what is left "
@@ -231,7 +231,7 @@ void FileActions::ask(const std::function<void()>& then) {
     } else if (answer == QMessageBox::Save) {
       then_ = then;
       // The same format would leave out the same again.
-      session_.left_out().empty() ? save() : save_as();
+      session_.files().left_out().empty() ? save() : save_as();
     }
   });
   box->open();
@@ -250,7 +250,7 @@ void FileActions::ask_to_replace(const SessionEvent& event) {
   box->setAttribute(Qt::WA_DeleteOnClose);
   QObject::connect(box, &QMessageBox::finished, &window_, [=, this, design = saved_] {
     if (box->clickedButton() == replace) {
-      session_.save(design, true);
+      session_.files().save(design, true);
     } else if (box->clickedButton() == elsewhere) {
       save_as();
     } else {
@@ -284,7 +284,7 @@ Note FileActions::hear(const SessionEvent& event) {
     case SessionEvent::Kind::Opened:
     case SessionEvent::Kind::Saved:
     case SessionEvent::Kind::SavedInPart:
-      if (!session_.path().empty()) recent_.add(session_.path());
+      if (!session_.files().path().empty()) recent_.add(session_.files().path());
       if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
       if (event.kind == SessionEvent::Kind::Opened) opened_.clear();
       break;
@@ -309,7 +309,7 @@ Note FileActions::hear(const SessionEvent& event) {
   // Asks again if the work has gone on meanwhile. What waits to be written comes first.
   const bool written =
       event.kind == SessionEvent::Kind::Saved || event.kind == SessionEvent::Kind::SavedInPart;
-  if (written && then_ && !session_.saving()) when_safe(std::exchange(then_, nullptr));
+  if (written && then_ && !session_.files().saving()) when_safe(std::exchange(then_, nullptr));
   if (event.kind == SessionEvent::Kind::Recovered && recovered_)
     return note_of_recovered(*std::exchange(recovered_, std::nullopt), event.details);
   return note_of(event);

@@ -85,7 +85,7 @@ void MoveActions::load() {
 
 void MoveActions::apply() {
   grab_.snaps.middles = grab_.snaps.edges;
-  session_.set_grab(grab_);
+  session_.hands().set_grab(grab_);
 }
 
 void MoveActions::fill(QMenu& menu, QWidget& window) {

@@ -48,7 +48,7 @@ base::Result<void> delete_selected(session::Session& session) {
   const std::vector<ObjectId> objects = interaction::topmost(session.world(), session.selection());
   if (objects.empty()) return {};
   const std::string name = action_name("Delete", session.world(), objects);
-  return session.perform(interaction::delete_objects(session.world(), objects), name);
+  return session.history().perform(interaction::delete_objects(session.world(), objects), name);
 }
 
 base::Result<void> group_selected(session::Session& session) {
@@ -56,7 +56,7 @@ base::Result<void> group_selected(session::Session& session) {
   if (objects.empty()) return {};
   const auto grouping = interaction::group_objects(session.world(), objects, session.ids());
   if (!grouping) return tl::unexpected(grouping.error());
-  const auto done = session.perform(grouping->edit, action_name("Group", session.world(), objects));
+  const auto done = session.history().perform(grouping->edit, action_name("Group", session.world(), objects));
   if (done) session.select({grouping->group});
   return done;
 }
@@ -75,8 +75,8 @@ base::Result<void> duplicate_selected(session::Session& session, Duplicate how) 
     made.push_back(duplication->object);
   }
   std::ranges::reverse(made);
-  const auto done =
-      session.perform(world::Edit(std::move(group)), action_name("Duplicate", session.world(), models));
+  const auto done = session.history().perform(world::Edit(std::move(group)),
+                                              action_name("Duplicate", session.world(), models));
   if (done) session.select(made);
   return done;
 }

@@ -46,8 +46,8 @@ void PictureActions::choose() {
   dialog->setNameFilters(picture_filters());
   if (!folder_.isEmpty()) {
     dialog->setDirectory(folder_);
-  } else if (!session_.path().empty()) {
-    dialog->setDirectory(text_of(session_.path().parent_path()));
+  } else if (!session_.files().path().empty()) {
+    dialog->setDirectory(text_of(session_.files().path().parent_path()));
   }
   QObject::connect(dialog, &QFileDialog::fileSelected, &window_, [this](const QString& path) {
     folder_ = QFileInfo(path).path();
@@ -83,7 +83,8 @@ base::Result<void> PictureActions::lay(const base::Result<world::Texture>& pictu
   const auto plan = interaction::plan_for_each(**operation, fields, *shaped, session_.world(), session_.ids(),
                                                [&](const std::string&) { return picture; });
   if (!plan) return tl::unexpected(plan.error());
-  const auto done = session_.perform(plan->edit, action_name("Put Picture on", session_.world(), there));
+  const auto done =
+      session_.history().perform(plan->edit, action_name("Put Picture on", session_.world(), there));
   if (done) session_.select(there);
   return done;
 }

@@ -99,18 +99,19 @@ void TechniqueActions::apply() {
   const auto* selecting =
       chosen_entry(kSelectingEntries, &SelectingEntry::selecting, settings_, kSelectingKey);
   if (!selecting) {
-    (void)session_.set_technique(std::nullopt);
+    (void)session_.techniques().set(std::nullopt);
     show_recording();
     return;
   }
   const auto* holding = chosen_entry(kHoldingEntries, &HoldingEntry::holding, settings_, kHoldingKey);
   const auto* travelling =
       chosen_entry(kTravellingEntries, &TravellingEntry::travelling, settings_, kTravellingKey);
-  const double reach = session_.pointers() > 0 ? session_.pointer_info(0).workspace_radius : 0.1;
+  const double reach =
+      session_.hands().pointers() > 0 ? session_.hands().pointer_info(0).workspace_radius : 0.1;
   // Sizes for a desk are sizes that can be.
-  (void)session_.set_technique(session::desk_technique(
+  (void)session_.techniques().set(session::desk_technique(
       selecting->selecting, holding ? holding->holding : selecting->suits,
-      travelling ? travelling->travelling : Travelling::None, reach, session_.view().distance));
+      travelling ? travelling->travelling : Travelling::None, reach, session_.view().now().distance));
   show_recording();
 }
 
@@ -122,7 +123,7 @@ QString TechniqueActions::name() const {
 QString TechniqueActions::hint() const {
   const QString by = name();
   if (by.isEmpty()) return {};
-  if (session_.technique() && session_.technique()->is_getting_ready())
+  if (session_.techniques().current() && session_.techniques().current()->is_getting_ready())
     return by + ": getting ready to meet what is in the scene; solids and scans take their time";
   return by +
          ": press to take what is meant and drag it, Ctrl and press to travel, turn the wheel while pressing "
@@ -132,7 +133,7 @@ QString TechniqueActions::hint() const {
 void TechniqueActions::show_recording() {
   const bool is_recording = !recorded_to_.empty();
   record_->setText(is_recording ? "Stop &Recording" : "&Record\u2026");
-  record_->setEnabled(is_recording || session_.technique());
+  record_->setEnabled(is_recording || session_.techniques().current());
 }
 
 void TechniqueActions::choose_recording() {
@@ -143,15 +144,16 @@ void TechniqueActions::choose_recording() {
   dialog->setAcceptMode(QFileDialog::AcceptSave);
   dialog->setNameFilter("Recordings (*.recording)");
   dialog->setDefaultSuffix("recording");
-  if (!session_.path().empty()) dialog->setDirectory(text_of(session_.path().parent_path()));
-  dialog->selectFile(session_.path().empty() ? QString("Untitled") : text_of(session_.path().stem()));
+  if (!session_.files().path().empty()) dialog->setDirectory(text_of(session_.files().path().parent_path()));
+  dialog->selectFile(session_.files().path().empty() ? QString("Untitled")
+                                                     : text_of(session_.files().path().stem()));
   QObject::connect(dialog, &QFileDialog::fileSelected, &window_,
                    [this](const QString& path) { begin_recording(path_of(path)); });
   dialog->open();
 }
 
 void TechniqueActions::begin_recording(const std::filesystem::path& path) {
-  const auto begun = session_.record_technique();
+  const auto begun = session_.techniques().record();
   if (!begun) return tell_({.weight = Note::Weight::Error, .text = begun.error().message, .topic = kTopic});
   recorded_to_ = path;
   show_recording();
@@ -162,7 +164,7 @@ void TechniqueActions::begin_recording(const std::filesystem::path& path) {
 void TechniqueActions::end_recording() {
   const std::filesystem::path path = std::exchange(recorded_to_, {});
   if (path.empty()) return;
-  const auto recorded = session_.stop_recording();
+  const auto recorded = session_.techniques().stop_recording();
   show_recording();
   if (!recorded) return;
   if (const auto written = session::write_recording(path, *recorded); !written)

@@ -38,7 +38,7 @@ ViewActions::ViewActions(session::Session& session, SceneTools& tools, QSettings
     : session_(session), tools_(tools), settings_(settings) {}
 
 void ViewActions::fill(QMenu& menu) {
-  home_ = add_action(menu, "view.home", "&Home", {}, [this] { session_.home(); });
+  home_ = add_action(menu, "view.home", "&Home", {}, [this] { session_.view().home(); });
   home_->setShortcuts({QKeySequence("H"), QKeySequence("Home")});
   home_->setIcon(icon(Icon::Home));
   zoom_ = add_action(menu, "view.zoom", "&Zoom to Selection", QKeySequence("F"),
@@ -94,7 +94,7 @@ void ViewActions::fill_viewpoints(QMenu& menu) {
   viewpoints->setObjectName("view.viewpoints");
   QObject::connect(viewpoints, &QMenu::aboutToShow, viewpoints, [this, viewpoints] {
     viewpoints->clear();
-    const auto& there = session_.drawn()->viewpoints();
+    const auto& there = session_.view().drawn()->viewpoints();
     for (std::size_t i = 0; i < there.size(); ++i) {
       add_action(*viewpoints, "view.viewpoint", entry_of(there[i].name, "Viewpoint without a name"), {},
                  [this, viewpoint = there[i]] { look_from(session_, viewpoint); });
@@ -111,10 +111,10 @@ void ViewActions::fill_scenes(QMenu& menu) {
     const auto add = [this, scenes](const QString& text, world::SceneId id) {
       QAction* action = add_action(*scenes, "view.scene", text, {}, [this, id] {
         tools_.finish();
-        session_.show_scene(id);
+        session_.stage().show_scene(id);
       });
       action->setCheckable(true);
-      action->setChecked(session_.shown_scene() == id);
+      action->setChecked(session_.stage().shown_scene() == id);
     };
     add("The &Whole World", {});
     scenes->addSeparator();
@@ -128,12 +128,12 @@ void ViewActions::fill_scenes(QMenu& menu) {
 
 void ViewActions::fill_motions(QMenu& menu) {
   play_ = add_action(menu, "view.play", "&Play Motions", QKeySequence("F5"), [this] {
-    session_.play(!session_.playing() && session_.has_motions());
+    session_.stage().play(!session_.stage().playing() && session_.stage().has_motions());
     refresh();
   });
   play_->setCheckable(true);
   QObject::connect(&menu, &QMenu::aboutToShow, play_, [this] {
-    play_->setText(session_.has_motions() ? "&Play Motions" : "&Play Motions (This Design Has None)");
+    play_->setText(session_.stage().has_motions() ? "&Play Motions" : "&Play Motions (This Design Has None)");
   });
   play_->setToolTip("Objects move as their files say, seen and felt; again puts them back");
 }
@@ -141,7 +141,8 @@ void ViewActions::fill_motions(QMenu& menu) {
 void ViewActions::fill_modes(QMenu& menu) {
   auto* modes = new QActionGroup(&menu);
   const auto add = [&](const char* name, const QString& text, NavigationMode mode) {
-    QAction* action = add_action(menu, name, text, {}, [this, mode] { session_.set_navigation_mode(mode); });
+    QAction* action =
+        add_action(menu, name, text, {}, [this, mode] { session_.view().set_navigation_mode(mode); });
     action->setCheckable(true);
     modes->addAction(action);
     return action;
@@ -171,9 +172,9 @@ void ViewActions::show_theme(Theme theme) {
 }
 
 void ViewActions::refresh() {
-  const bool camera = session_.navigation_mode() == NavigationMode::Camera;
+  const bool camera = session_.view().navigation_mode() == NavigationMode::Camera;
   if (camera_->isChecked() != camera) (camera ? camera_ : hand_)->setChecked(true);
-  if (play_->isChecked() != session_.playing()) play_->setChecked(session_.playing());
+  if (play_->isChecked() != session_.stage().playing()) play_->setChecked(session_.stage().playing());
 }
 
 }  // namespace icome::ui

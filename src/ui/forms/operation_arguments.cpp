@@ -76,7 +76,7 @@ base::Result<void> check_value(const Parameter& parameter, const Value& value, c
 }
 
 interaction::PictureReader picture_reader(const session::Session& session) {
-  return [folder = session.path().parent_path()](const std::string& file) {
+  return [folder = session.files().path().parent_path()](const std::string& file) {
     return session::read_picture(folder / file);
   };
 }
@@ -86,7 +86,7 @@ base::Result<std::string> perform_operation(session::Session& session, const Ope
   auto plan =
       interaction::plan_operation(operation, fields, session.world(), session.ids(), picture_reader(session));
   if (!plan) return tl::unexpected(plan.error());
-  if (const auto done = session.perform(plan->edit, operation.title); !done)
+  if (const auto done = session.history().perform(plan->edit, operation.title); !done)
     return tl::unexpected(done.error());
   session.select(std::move(plan->objects));
   return std::move(plan->note);

@@ -189,7 +189,7 @@ void OperationPanel::Parts::schedule() {
 /// Is something being dragged, or held? It would be changed under the hand.
 bool OperationPanel::Parts::is_hand_busy() const {
   bool holds = QGuiApplication::mouseButtons() != Qt::NoButton;
-  for (std::size_t i = 0; i < session.pointers(); ++i) holds = holds || session.holds(i);
+  for (std::size_t i = 0; i < session.hands().pointers(); ++i) holds = holds || session.hands().holds(i);
   return holds;
 }
 

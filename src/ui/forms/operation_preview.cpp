@@ -34,7 +34,7 @@ OperationPreview::OperationPreview(session::Session& session, std::function<void
     if (!state || state->busy || !state->shown) return;
     const Shown shown = *std::exchange(state->shown, std::nullopt);
     // Nothing can be redone after anything else.
-    const bool undone = changes && session.history().can_redo();
+    const bool undone = changes && session.history().actions().can_redo();
     if (undone) restore_selection(session, shown);
     ended(!changes ? End::Gone : undone ? End::Undone : End::Kept);
   });
@@ -57,7 +57,7 @@ base::Result<std::string> OperationPreview::show(const Operation& operation, con
   if (!shown) shown.emplace(Shown{session_.world(), session_.selection()});
   if (shown->operation && session_.selection() != shown->selected_then)
     shown->selected_before = session_.selection();
-  if (const auto tried = session_.try_out(plan->edit, operation.title); !tried) {
+  if (const auto tried = session_.history().try_out(plan->edit, operation.title); !tried) {
     restore_selection(session_, *std::exchange(shown, std::nullopt));
     return tl::unexpected(tried.error());
   }
@@ -79,7 +79,7 @@ void OperationPreview::take_back() {
   if (!shown()) return;
   const Busy busy(state->busy);
   const Shown shown = *std::exchange(state->shown, std::nullopt);
-  if (session_.take_back()) restore_selection(session_, shown);
+  if (session_.history().take_back()) restore_selection(session_, shown);
 }
 
 void OperationPreview::keep() {
@@ -87,7 +87,7 @@ void OperationPreview::keep() {
   if (!shown()) return;
   const Busy busy(state->busy);
   const Shown shown = *std::exchange(state->shown, std::nullopt);
-  session_.keep_tried();
+  session_.history().keep_tried();
   session_.select(shown.objects);
 }
 

@@ -9,8 +9,8 @@
 namespace icome::ui {
 
 /// What an operation would do, seen and felt at once: it is performed, as an action that is only tried out
-/// (Session::try_out), and then kept or taken back. When anything else changes the world meanwhile, it has
-/// been built on and stays, unless it is just this that was undone. The session outlives it.
+/// (SessionHistory::try_out), and then kept or taken back. When anything else changes the world meanwhile, it
+/// has been built on and stays, unless it is just this that was undone. The session outlives it.
 class OperationPreview {
  public:
   enum class End : std::uint8_t {

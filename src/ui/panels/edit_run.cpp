@@ -12,10 +12,10 @@ EditRun::EditRun(session::Session& session) : session_(session) {
 
 base::Result<void> EditRun::perform(const void* control, const world::Edit& edit, const std::string& name,
                                     bool more) {
-  const bool goes_on = more && state_->control == control && session_.history().can_undo() &&
-                       session_.history().undo_name() == name;
+  const bool goes_on = more && state_->control == control && session_.history().actions().can_undo() &&
+                       session_.history().actions().undo_name() == name;
   state_->busy = true;
-  const auto done = goes_on ? session_.extend(edit) : session_.perform(edit, name);
+  const auto done = goes_on ? session_.history().extend(edit) : session_.history().perform(edit, name);
   state_->busy = false;
   state_->control = done ? control : nullptr;
   return done;

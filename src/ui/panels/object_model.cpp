@@ -54,7 +54,7 @@ bool ObjectModel::setData(const QModelIndex& index, const QVariant& value, int r
   const std::string name = value.toString().simplified().toStdString();
   if (name == it->name) return true;
   const std::string action = action_name("Rename", shown_name(world(), object(index)));
-  const auto done = session_.perform(world::RenameObject{object(index), name}, action);
+  const auto done = session_.history().perform(world::RenameObject{object(index), name}, action);
   if (!done) refuse(done.error().message);
   return done.has_value();
 }

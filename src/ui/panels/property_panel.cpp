@@ -391,7 +391,7 @@ QString PropertyPanel::Parts::effect_trouble() const {
   if (!effect) return {};
   const std::string wrong = interaction::trouble_with_effect(effect->text);
   if (!wrong.empty()) return "It is not felt: " + one_line(wrong);
-  for (const haptics::CappedEffect& capped : binder.session().capped_effects())
+  for (const haptics::CappedEffect& capped : binder.session().hands().capped_effects())
     if (capped.id == effects.front().value)
       return "Beside all else that acts, its " + one_line(capped.what) +
              ", the most that is stable on this device.";

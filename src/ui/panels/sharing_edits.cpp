@@ -40,8 +40,8 @@ base::Result<void> make_own_shapes(session::Session& session) {
     for (const ObjectId id : users) group.edits.emplace_back(world::ChooseGeometry{id, own});
   }
   if (group.edits.empty()) return {};
-  return session.perform(world::Edit(std::move(group)),
-                         action_name("Make own shape for", session.world(), session.selection()));
+  return session.history().perform(world::Edit(std::move(group)),
+                                   action_name("Make own shape for", session.world(), session.selection()));
 }
 
 bool needs_own_materials(const session::Session& session) {
@@ -61,8 +61,9 @@ base::Result<void> make_own_materials(session::Session& session) {
     for (const ObjectId id : users) group.edits.emplace_back(world::ChooseMaterial{id, own});
   }
   if (group.edits.empty()) return {};
-  return session.perform(world::Edit(std::move(group)),
-                         action_name("Make own material for", session.world(), session.selection()));
+  return session.history().perform(
+      world::Edit(std::move(group)),
+      action_name("Make own material for", session.world(), session.selection()));
 }
 
 base::Result<void> choose_material(session::Session& session, world::MaterialId material) {
@@ -72,8 +73,8 @@ base::Result<void> choose_material(session::Session& session, world::MaterialId 
     if (object && object->material != material) group.edits.emplace_back(world::ChooseMaterial{id, material});
   }
   if (group.edits.empty()) return {};
-  return session.perform(world::Edit(std::move(group)),
-                         action_name("Choose material of", session.world(), session.selection()));
+  return session.history().perform(world::Edit(std::move(group)),
+                                   action_name("Choose material of", session.world(), session.selection()));
 }
 
 }  // namespace icome::ui

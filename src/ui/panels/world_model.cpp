@@ -128,7 +128,8 @@ bool WorldModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int 
   }
   const QString where =
       target ? QString(" under %1").arg(shortened(shown_name(world(), target))) : QString(" to the top");
-  const auto done = session().perform(*edit, action_name("Move", world(), objects) + where.toStdString());
+  const auto done =
+      session().history().perform(*edit, action_name("Move", world(), objects) + where.toStdString());
   if (!done) refuse(done.error().message);
   return done.has_value();
 }

@@ -76,7 +76,7 @@ WorldTree::Parts::Parts(session::Session& of, WorldTree& panel)
   connect_view(*list);
   QObject::connect(field, &QLineEdit::textChanged, &panel, [this](const QString& text) { search(text); });
   QObject::connect(scene, &QComboBox::activated, &panel, [this](int row) {
-    session.show_scene(row > 0 ? scenes[std::size_t(row) - 1] : world::SceneId{});
+    session.stage().show_scene(row > 0 ? scenes[std::size_t(row) - 1] : world::SceneId{});
   });
   for (ObjectModel* objects : {static_cast<ObjectModel*>(model), static_cast<ObjectModel*>(matches)})
     objects->on_refusal([this](const QString& why) {
@@ -190,7 +190,7 @@ void WorldTree::Parts::show_scenes() {
   for (const world::SceneId id : scenes) {
     const QString name = one_line(session.world().find(id)->name);
     scene->addItem(icon(Icon::Scene), name.isEmpty() ? QString("Scene without a name") : name);
-    if (id == session.shown_scene()) scene->setCurrentIndex(scene->count() - 1);
+    if (id == session.stage().shown_scene()) scene->setCurrentIndex(scene->count() - 1);
   }
   // One scene of all there is would be no choice.
   const bool all =

@@ -28,7 +28,8 @@ StudyScene::StudyScene(session::Session& session, const StudyWords& words, QWidg
       line_(new QLabel(bar_)),
       trial_(new QLabel(bar_)),
       view_(new SceneView(session, tools_, this)) {
-  auto* mouse = new QLabel(session.is_mouse_driven() ? words_(StudyWord::MouseKeys) : QString(), bar_);
+  auto* mouse =
+      new QLabel(session.hands().is_mouse_driven() ? words_(StudyWord::MouseKeys) : QString(), bar_);
   mouse->setTextFormat(Qt::PlainText);
   mouse->setForegroundRole(QPalette::PlaceholderText);
   line_->setObjectName("study.line");
@@ -82,7 +83,7 @@ void StudyScene::say_what_to_do(double hold_left) {
 void StudyScene::show_stage(const study::TrialStage& stage) {
   const bool is_new = stage.state() != std::exchange(state_, stage.state());
   if (is_new && state_ == State::Running) started_.start();
-  if (is_new && session_.is_mouse_driven()) {
+  if (is_new && session_.hands().is_mouse_driven()) {
     // There is room for the mouse on all sides then, and its way begins with the hand's.
     if (state_ == State::Seeking || state_ == State::Holding) put_mouse(stage.start());
     tools_.touch_tool().go_freely(state_ == State::Running ? std::optional(stage.start()) : std::nullopt);
@@ -94,8 +95,8 @@ void StudyScene::show_stage(const study::TrialStage& stage) {
 void StudyScene::put_mouse(const base::Vector3& place) {
   SceneWindow& window = view_->window_of_scene();
   const QSizeF size(std::max(1, window.width()), std::max(1, window.height()));
-  const base::Vector3 seen = session_.view().world_from_eye.inverse() * place;
-  const Eigen::Vector2d half = interaction::half_picture(session_.view(), tools_.aspect());
+  const base::Vector3 seen = session_.view().now().world_from_eye.inverse() * place;
+  const Eigen::Vector2d half = interaction::half_picture(session_.view().now(), tools_.aspect());
   if (seen.z() >= 0.0) return;  // behind the eye
   const Eigen::Vector2d at = (seen.head<2>() / -seen.z()).cwiseQuotient(half);
   const QPointF pixel(0.5 * (1.0 + at.x()) * size.width(), 0.5 * (1.0 - at.y()) * size.height());
@@ -104,10 +105,10 @@ void StudyScene::put_mouse(const base::Vector3& place) {
 }
 
 void StudyScene::move_hand() {
-  session_.set_aspect(tools_.aspect());
+  session_.view().set_aspect(tools_.aspect());
   if (state_ == State::Running) return tools_.tick();
   tools_.touch_tool().take_press();  // a click from before the start does not count
-  session_.hold_hand_buttons(0);
+  session_.hands().hold_buttons(0);
 }
 
 }  // namespace icome::ui

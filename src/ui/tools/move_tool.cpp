@@ -14,7 +14,7 @@ using world::ObjectId;
 
 void MoveTool::press(const SceneInput& input) {
   finish();
-  press_ = Press{input, session_.pick_seen(input.ray(session_.view()))};
+  press_ = Press{input, session_.stage().pick_seen(input.ray(session_.view().now()))};
 }
 
 void MoveTool::follow(const SceneInput& input) {
@@ -61,7 +61,7 @@ void MoveTool::begin_drag() {
     return is_within(session_.world(), press_->picked->object, id);
   });
   if (!grasped) select(*press_);
-  const Vector3 toward_eye = session_.view().world_from_eye.linear().col(2);
+  const Vector3 toward_eye = session_.view().now().world_from_eye.linear().col(2);
   const auto objects = interaction::topmost(session_.world(), session_.selection());
   drag_.emplace(Drag{.objects = {session_, objects, action_name("Move", session_.world(), objects)},
                      .plane = {press_->picked->place.point, toward_eye}});
@@ -92,7 +92,7 @@ void MoveTool::go_on() {
 
 void MoveTool::step() {
   if (!due_) return;
-  const auto offset = drag_->plane.moved(due_->ray(session_.view()));
+  const auto offset = drag_->plane.moved(due_->ray(session_.view().now()));
   const bool snaps = !(due_->modifiers & (Qt::ShiftModifier | Qt::AltModifier));
   due_.reset();
   if (!offset || !offset->allFinite() || drag_->objects.empty()) return;
@@ -115,7 +115,7 @@ void MoveTool::cancel() {
   const bool moved = drag_ && drag_->objects.moved();
   drop();
   if (!moved) return;
-  const auto undone = session_.undo();
+  const auto undone = session_.history().undo();
   if (!undone) refused_(undone.error().message);
 }
 
@@ -135,7 +135,7 @@ void MoveTool::drop() {
 void MoveTool::nudge(const Vector3& in_view, bool more) {
   if (session_.selection().empty() || press_) return;
   let_go_.reset();
-  const Vector3 wanted = session_.view().world_from_eye.linear() * in_view;
+  const Vector3 wanted = session_.view().now().world_from_eye.linear() * in_view;
   Eigen::Index axis = 0;
   if (axis_) {
     axis = *axis_;

@@ -44,7 +44,7 @@ class MoveTool {
  private:
   struct Press {
     SceneInput input;
-    std::optional<session::Session::Picked> picked;
+    std::optional<session::SessionStage::Picked> picked;
   };
   struct Drag {
     session::ObjectDrag objects;

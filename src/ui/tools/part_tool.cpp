@@ -12,7 +12,7 @@ using base::Vector3;
 
 bool PartTool::press(const SceneInput& input) {
   finish();
-  const auto picked = session_.pick_part(input.ray(session_.view()));
+  const auto picked = session_.stage().pick_part(input.ray(session_.view().now()));
   if (picked) press_ = Press{input, *picked};
   return picked.has_value();
 }
@@ -30,7 +30,7 @@ void PartTool::begin_drag() {
     refused_(pull.error().message);
     return drop();
   }
-  const Vector3 toward_eye = session_.view().world_from_eye.linear().col(2);
+  const Vector3 toward_eye = session_.view().now().world_from_eye.linear().col(2);
   drag_.emplace(Drag{
       .pull = std::move(*pull), .plane = {press_->picked.place.point, toward_eye}, .toward_eye = toward_eye});
   aim_drag();
@@ -43,7 +43,8 @@ void PartTool::aim_drag() {
   drag_->plane.keep_to(along);
   if (!(press_->input.modifiers & Qt::ControlModifier)) return;
   drag_->turn_axis = along.value_or(drag_->toward_eye);
-  drag_->turn.emplace(drag_->pull.drag().centre(), drag_->turn_axis, press_->input.ray(session_.view()));
+  drag_->turn.emplace(drag_->pull.drag().centre(), drag_->turn_axis,
+                      press_->input.ray(session_.view().now()));
 }
 
 void PartTool::keep_to(std::optional<int> axis) {
@@ -65,7 +66,7 @@ void PartTool::tick() {
 
 /// Of the world, from where the part was; nothing where the mouse says nothing.
 std::optional<Affine3> PartTool::motion(const SceneInput& input) const {
-  const interaction::Ray ray = input.ray(session_.view());
+  const interaction::Ray ray = input.ray(session_.view().now());
   Affine3 motion = Affine3::Identity();
   if (drag_->turn) {
     const auto angle = drag_->turn->turned(ray);
@@ -96,10 +97,10 @@ bool PartTool::hover(const std::optional<SceneInput>& input) {
   if (busy()) return false;
   hovered_.reset();
   // What a hand drags is its to point out until it lets go.
-  if (const auto& marked = session_.marked_part(); marked && marked->motion) return false;
-  const auto picked = input ? session_.pick_part(input->ray(session_.view())) : std::nullopt;
+  if (const auto& marked = session_.stage().marked_part(); marked && marked->motion) return false;
+  const auto picked = input ? session_.stage().pick_part(input->ray(session_.view().now())) : std::nullopt;
   if (picked) hovered_ = picked->part;
-  session_.mark_part(hovered_ ? std::optional(session::MarkedPart{.part = *hovered_}) : std::nullopt);
+  session_.stage().mark_part(hovered_ ? std::optional(session::MarkedPart{.part = *hovered_}) : std::nullopt);
   return hovered_.has_value();
 }
 
@@ -125,7 +126,7 @@ void PartTool::finish() {
 void PartTool::drop() {
   press_.reset();
   due_.reset();
-  if (drag_) session_.mark_part(std::nullopt);
+  if (drag_) session_.stage().mark_part(std::nullopt);
   drag_.reset();
   hover(std::nullopt);
 }

@@ -95,7 +95,7 @@ void SceneTools::double_click(const SceneInput& input) {
     return;
   }
   finish();
-  if (const auto picked = session_.pick_seen(input.ray(session_.view())))
+  if (const auto picked = session_.stage().pick_seen(input.ray(session_.view().now())))
     zoom_to(session_, picked->object, input.aspect());
 }
 
@@ -237,8 +237,8 @@ void SceneTools::look_for_hovered() {
   const bool sees_parts = looks && tool_ == Tool::Select;
   if (part_tool_.hover(sees_parts ? mouse_ : std::nullopt) || !looks) return;
   if (tool_ == Tool::Touch) {
-    if (session_.pointers() > 0) hovered_ = session_.touched(0);
-  } else if (const auto picked = session_.pick_seen(mouse_->ray(session_.view()))) {
+    if (session_.hands().pointers() > 0) hovered_ = session_.hands().touched(0);
+  } else if (const auto picked = session_.stage().pick_seen(mouse_->ray(session_.view().now()))) {
     hovered_ = picked->object;
   }
 }

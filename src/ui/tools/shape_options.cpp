@@ -87,8 +87,9 @@ void ShapeOptions::show_target() {
 }
 
 void ShapeOptions::tick() {
-  const QString why =
-      session_.shaping() ? QString::fromStdString(session_.shaping()->complaint()) : QString();
+  const QString why = session_.hands().shaping()
+                          ? QString::fromStdString(session_.hands().shaping()->complaint())
+                          : QString();
   if (complaint_->text() != why) complaint_->setText(why);
 }
 

@@ -26,31 +26,31 @@ void ShapeTool::set(const interaction::ShapingSettings& settings) {
 
 void ShapeTool::enter() {
   active_ = true;
-  hear(session_.set_shaping(settings_));
+  hear(session_.hands().set_shaping(settings_));
 }
 
 void ShapeTool::leave() {
   if (!std::exchange(active_, false)) return;
   finish();
-  hear(session_.set_shaping(std::nullopt));
+  hear(session_.hands().set_shaping(std::nullopt));
 }
 
 /// Of the selection and of what is under the mouse; points of a lattice also through what is before them.
 std::optional<interaction::ShapingHandle> ShapeTool::find(const SceneInput& input) const {
-  if (!session_.shaping()) return std::nullopt;
-  const interaction::View& view = session_.view();
+  if (!session_.hands().shaping()) return std::nullopt;
+  const interaction::View& view = session_.view().now();
   const double spread = kPointAtPixels * 2.0 * std::tan(0.5 * view.field) / input.shorter_side();
   const interaction::Ray ray = input.ray(view);
   auto probe = interaction::probe_along(ray, spread);
   std::vector<world::ObjectId> objects;
   if (settings_.target != interaction::ShapingTarget::Lattice) {
     objects = interaction::draggable_objects(session_.world(), session_.selection(), kMostShapedObjects);
-    if (const auto picked = session_.pick(ray)) {
+    if (const auto picked = session_.stage().pick(ray)) {
       objects.push_back(picked->object);
       probe.surface = picked->place.distance;
     }
   }
-  return session_.shaping()->find(session_.world(), objects, probe);
+  return session_.hands().shaping()->find(session_.world(), objects, probe);
 }
 
 void ShapeTool::press(const SceneInput& input) {
@@ -73,9 +73,9 @@ void ShapeTool::begin_drag() {
     refused_(pull.error().message);
     return drop();
   }
-  const Vector3 toward_eye = session_.view().world_from_eye.linear().col(2);
+  const Vector3 toward_eye = session_.view().now().world_from_eye.linear().col(2);
   drag_ = Drag{std::move(*pull), {pressed_->place, toward_eye}};
-  session_.mark_handle(drag_->pull.marked());
+  session_.stage().mark_handle(drag_->pull.marked());
   keep_to(axis_);
 }
 
@@ -91,7 +91,7 @@ void ShapeTool::select() const {
   const bool toggles = press_->modifiers & Qt::ControlModifier, adds = press_->modifiers & Qt::ShiftModifier;
   std::vector<world::ObjectId> chosen;
   if (toggles || adds) chosen = session_.selection();
-  if (const auto picked = session_.pick(press_->ray(session_.view()))) {
+  if (const auto picked = session_.stage().pick(press_->ray(session_.view().now()))) {
     const auto found = std::find(chosen.begin(), chosen.end(), picked->object);
     if (found == chosen.end()) {
       chosen.push_back(picked->object);
@@ -112,13 +112,13 @@ void ShapeTool::tick() {
   if (drag_) return step();
   if (press_) return;
   auto found = mouse_ ? find(*mouse_) : std::nullopt;
-  session_.mark_handle(found ? std::optional(interaction::MarkedHandle{.handle = std::move(*found)})
-                             : std::nullopt);
+  session_.stage().mark_handle(found ? std::optional(interaction::MarkedHandle{.handle = std::move(*found)})
+                                     : std::nullopt);
 }
 
 void ShapeTool::step() {
   if (!mouse_) return;
-  const auto offset = drag_->plane.moved(mouse_->ray(session_.view()));
+  const auto offset = drag_->plane.moved(mouse_->ray(session_.view().now()));
   if (!offset || !offset->allFinite()) return;
   const auto done = drag_->pull.to(session_, *offset);
   if (done) return;
@@ -140,13 +140,13 @@ void ShapeTool::finish() {
 void ShapeTool::drop() {
   press_.reset();
   pressed_.reset();
-  if (drag_) session_.mark_handle(std::nullopt);
+  if (drag_) session_.stage().mark_handle(std::nullopt);
   drag_.reset();
 }
 
 void ShapeTool::forget_mouse() {
   mouse_.reset();
-  if (active_ && !drag_) session_.mark_handle(std::nullopt);
+  if (active_ && !drag_) session_.stage().mark_handle(std::nullopt);
 }
 
 void ShapeTool::hear(const base::Result<void>& done) {

@@ -21,8 +21,8 @@ void TouchTool::leave() {
   if (!active_) return;
   active_ = false;
   pressure_ = wheel_ = 0.0;
-  session_.hold_hand_buttons(0);
-  session_.park_hand();
+  session_.hands().hold_buttons(0);
+  session_.hands().park();
 }
 
 bool TouchTool::step(int key, bool fine) {
@@ -44,20 +44,20 @@ std::optional<double> TouchTool::depth_under(const session::TechniqueHand& hand,
                                              const interaction::Ray& ray) const {
   const interaction::Technique& technique = hand.technique();
   if (technique.selecting == interaction::Selecting::Miniature) {
-    const auto copy = session_.miniature();
+    const auto copy = session_.techniques().miniature();
     if (!copy) return std::nullopt;
     const base::Affine3 world_from_copy = copy->inverse();
     const base::Vector3 direction = world_from_copy.linear() * ray.direction;
-    const auto picked = session_.pick({world_from_copy * ray.origin, direction.normalized()});
+    const auto picked = session_.stage().pick({world_from_copy * ray.origin, direction.normalized()});
     if (!picked) return std::nullopt;
     return (*copy * picked->place.point - ray.origin).norm();
   }
   const bool grows = technique.selecting == interaction::Selecting::GoGo;
   if (!grows && technique.selecting != interaction::Selecting::VirtualHand) return std::nullopt;
-  const auto picked = session_.pick(ray);
+  const auto picked = session_.stage().pick(ray);
   if (!picked) return std::nullopt;
   if (!grows) return picked->place.distance;
-  const double scale = session_.view().distance / session::UserInteraction::kScreenDistance;
+  const double scale = session_.view().now().distance / session::UserInteraction::kScreenDistance;
   return scale *
          interaction::go_go_distance(technique.selecting_settings.go_go, picked->place.distance / scale);
 }
@@ -66,7 +66,7 @@ std::optional<double> TouchTool::depth_under(const session::TechniqueHand& hand,
 void TouchTool::tick_technique(const session::TechniqueHand& hand) {
   constexpr double kReach = 0.6;  // of the view's distance, where any will do
   constexpr double kNotch = 0.05;
-  const interaction::View& view = session_.view();
+  const interaction::View& view = session_.view().now();
   const interaction::Ray ray = input_.ray(view);
   reach_ = std::clamp(reach_ * std::exp(kNotch * wheel_), 0.05, 20.0);
   wheel_ = 0.0;
@@ -74,9 +74,9 @@ void TouchTool::tick_technique(const session::TechniqueHand& hand) {
     const auto depth = depth_under(hand, ray);
     reach_ = depth ? *depth / view.distance : kReach;
   }
-  session_.put_hand(ray.origin + reach_ * view.distance * ray.direction);
+  session_.hands().put(ray.origin + reach_ * view.distance * ray.direction);
   const bool travels = input_.modifiers & Qt::ControlModifier;
-  session_.hold_hand_buttons(pressing() ? (travels ? 2U : 1U) : 0U);
+  session_.hands().hold_buttons(pressing() ? (travels ? 2U : 1U) : 0U);
 }
 
 void TouchTool::go_freely(const std::optional<base::Vector3>& from) {
@@ -88,11 +88,11 @@ void TouchTool::go_freely(const std::optional<base::Vector3>& from) {
 /// The mouse counts from where it was at first, so that the hand does not leap to it.
 void TouchTool::tick_freely() {
   constexpr double kNotch = 0.005;  // m
-  session_.hold_hand_buttons(take_press() ? 1U : 0U);
+  session_.hands().hold_buttons(take_press() ? 1U : 0U);
   free_->away += kNotch * std::exchange(wheel_, 0.0);
-  const base::Pose& world_from_eye = session_.view().world_from_eye;
+  const base::Pose& world_from_eye = session_.view().now().world_from_eye;
   const base::Pose eye_from_world = world_from_eye.inverse();
-  const base::Vector3 ray = eye_from_world.linear() * input_.ray(session_.view()).direction;
+  const base::Vector3 ray = eye_from_world.linear() * input_.ray(session_.view().now()).direction;
   if (!(ray.z() < 0.0)) return;
   const base::Vector2 mouse = ray.head<2>() / -ray.z();
   if (!free_->mouse_from) free_->mouse_from = mouse;
@@ -101,22 +101,23 @@ void TouchTool::tick_freely() {
   place.head<2>() += depth * (mouse - *free_->mouse_from);
   place.z() -= free_->away;
   const base::Vector3 target = world_from_eye * place;
-  if (target.allFinite()) session_.aim_hand(target);
+  if (target.allFinite()) session_.hands().aim(target);
 }
 
 void TouchTool::tick() {
   if (!active_) return;
-  if (const session::TechniqueHand* hand = session_.technique(); hand && !session_.shaping())
+  if (const session::TechniqueHand* hand = session_.techniques().current();
+      hand && !session_.hands().shaping())
     return tick_technique(*hand);
   if (free_) return tick_freely();
-  session_.hold_hand_buttons(0);
-  const interaction::View& view = session_.view();
+  session_.hands().hold_buttons(0);
+  const interaction::View& view = session_.view().now();
   interaction::MouseHand::Input input;
   input.ray = input_.ray(view);
   input.distance = view.distance;
-  if (session_.pointers() > 0) input.hand = session_.pointer(0).scp;
+  if (session_.hands().pointers() > 0) input.hand = session_.hands().pointer(0).scp;
   input.view_width = 2.0 * std::tan(0.5 * view.field) * std::max(1.0, input_.aspect());
-  if (const auto picked = session_.pick(input.ray)) input.picked = picked->place;
+  if (const auto picked = session_.stage().pick(input.ray)) input.picked = picked->place;
   input.pressure = pressure_;
   input.wheel = wheel_;
   wheel_ = 0.0;
@@ -124,9 +125,9 @@ void TouchTool::tick() {
   if (!target.allFinite()) return;
   // Without the button the hand is a pen in the air: nothing that it passes behind holds it back.
   if (pressing()) {
-    session_.aim_hand(target);
+    session_.hands().aim(target);
   } else {
-    session_.put_hand(target);
+    session_.hands().put(target);
   }
 }
 

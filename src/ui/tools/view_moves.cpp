@@ -11,9 +11,9 @@ using base::Vector3;
 using interaction::View;
 
 void zoom_to_bounds(session::Session& session, const base::Bounds& bounds, double aspect) {
-  const View& view = session.view();
-  session.fly_to(interaction::fitted(view, bounds, view.world_from_eye.linear().col(2),
-                                     view.world_from_eye.linear().col(1), aspect));
+  const View& view = session.view().now();
+  session.view().fly_to(interaction::fitted(view, bounds, view.world_from_eye.linear().col(2),
+                                            view.world_from_eye.linear().col(1), aspect));
 }
 
 }  // namespace
@@ -31,27 +31,27 @@ void ViewDrag::follow(const SceneInput& input) {
   if (!moved_) return;
   const QPointF step = (input.at - last_) / input.shorter_side();
   last_ = input.at;
-  const View& view = session_.view();
+  const View& view = session_.view().now();
   switch (*how_) {
     case ViewMove::Orbit:  // half a turn for the picture's side: what is seen follows the mouse
-      session_.set_view(interaction::orbited(view, -M_PI * step.x(), M_PI * step.y()));
+      session_.view().set(interaction::orbited(view, -M_PI * step.x(), M_PI * step.y()));
       break;
     case ViewMove::Pan:
-      session_.set_view(interaction::panned(view, step.x(), -step.y()));
+      session_.view().set(interaction::panned(view, step.x(), -step.y()));
       break;
     case ViewMove::Look:
-      session_.set_view(interaction::looked_around(view, -view.field * step.x(), view.field * step.y()));
+      session_.view().set(interaction::looked_around(view, -view.field * step.x(), view.field * step.y()));
       break;
   }
 }
 
 void zoom_at(session::Session& session, const SceneInput& input, double notches) {
   constexpr double kNotch = 0.85;
-  const View& view = session.view();
+  const View& view = session.view().now();
   const interaction::Ray ray = input.ray(view);
-  const auto picked = session.pick(ray);
+  const auto picked = session.stage().pick(ray);
   const Vector3 towards = picked ? picked->place.point : Vector3(ray.origin + view.distance * ray.direction);
-  session.set_view(interaction::zoomed(view, std::pow(kNotch, std::clamp(notches, -20.0, 20.0)), towards));
+  session.view().set(interaction::zoomed(view, std::pow(kNotch, std::clamp(notches, -20.0, 20.0)), towards));
 }
 
 void zoom_in_middle(session::Session& session, double notches) {
@@ -64,16 +64,16 @@ bool step_view(session::Session& session, int key, ViewMove how) {
   if (right == 0.0 && up == 0.0) return false;
   constexpr double kTurn = M_PI / 36.0;  // rad
   constexpr double kShare = 0.05;        // of the picture
-  const View& view = session.view();
+  const View& view = session.view().now();
   switch (how) {
     case ViewMove::Orbit:
-      session.set_view(interaction::orbited(view, kTurn * right, kTurn * up));
+      session.view().set(interaction::orbited(view, kTurn * right, kTurn * up));
       break;
     case ViewMove::Pan:
-      session.set_view(interaction::panned(view, kShare * right, kShare * up));
+      session.view().set(interaction::panned(view, kShare * right, kShare * up));
       break;
     case ViewMove::Look:
-      session.set_view(interaction::looked_around(view, kTurn * right, kTurn * up));
+      session.view().set(interaction::looked_around(view, kTurn * right, kTurn * up));
       break;
   }
   return true;
@@ -86,15 +86,16 @@ void zoom_to(session::Session& session, world::ObjectId object, double aspect) {
 }
 
 void zoom_to_selection(session::Session& session, double aspect) {
-  zoom_to_bounds(session, session.selection_bounds(), aspect);
+  zoom_to_bounds(session, session.stage().selection_bounds(), aspect);
 }
 
 void look_from(session::Session& session, const Vector3& toward_eye, const Vector3& up, double aspect) {
-  session.fly_to(interaction::fitted(session.view(), session.drawn()->bounds(), toward_eye, up, aspect));
+  session.view().fly_to(
+      interaction::fitted(session.view().now(), session.view().drawn()->bounds(), toward_eye, up, aspect));
 }
 
 void look_from(session::Session& session, const render::RenderViewpoint& viewpoint) {
-  View view = session.view();
+  View view = session.view().now();
   const base::Affine3& place = viewpoint.world_from_viewpoint;
   Vector3 back = place.linear().col(2), up = place.linear().col(1);
   back.normalize();
@@ -104,12 +105,12 @@ void look_from(session::Session& session, const render::RenderViewpoint& viewpoi
   view.world_from_eye.translation() = place.translation();
   view.field = std::clamp(viewpoint.field_of_view, 0.05, 2.5);
   // What orbiting turns about: as far away as the middle of the design is, if that lies ahead.
-  const base::Bounds& bounds = session.drawn()->bounds();
+  const base::Bounds& bounds = session.view().drawn()->bounds();
   if (!bounds.isEmpty()) {
     const double ahead = -back.dot(bounds.center() - place.translation());
     if (ahead > 0.0) view.distance = ahead;
   }
-  session.fly_to(view);
+  session.view().fly_to(view);
 }
 
 }  // namespace icome::ui

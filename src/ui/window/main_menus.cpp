@@ -199,7 +199,7 @@ void MainWindow::show_hint() {
   technique_->setVisible(!by.isEmpty());
   technique_->setText("Technique: " + by);
   if (tools_.tool() == Tool::Select && !selected.empty()) {
-    const base::Bounds bounds = session_.selection_bounds();
+    const base::Bounds bounds = session_.stage().selection_bounds();
     text = selected.size() > 1 ? QString("%1 objects").arg(selected.size())
                                : shortened(shown_name(session_.world(), selected.front()));
     if (!bounds.isEmpty()) {
@@ -219,7 +219,7 @@ void MainWindow::show_count() {
   const auto counted = [](std::size_t count, const char* one, const char* many) {
     return QString("%L1 %2").arg(count).arg(count == 1 ? one : many);
   };
-  const auto& drawn = session_.drawn();
+  const auto& drawn = session_.view().drawn();
   const QString count = counted(drawn->object_count(), "object", "objects") + ", " +
                         counted(drawn->triangle_count(), "triangle", "triangles");
   if (count_->text() != count) count_->setText(count);
@@ -227,7 +227,7 @@ void MainWindow::show_count() {
 
 void MainWindow::show_scene_menu(QPointF at) {
   const SceneInput input{.at = at, .size = scene_->size()};
-  if (const auto picked = session_.pick_seen(input.ray(session_.view()))) {
+  if (const auto picked = session_.stage().pick_seen(input.ray(session_.view().now()))) {
     const auto& selected = session_.selection();
     if (std::find(selected.begin(), selected.end(), picked->object) == selected.end())
       session_.select({picked->object});

@@ -156,7 +156,7 @@ void MainWindow::restore_layout() {
 }
 
 void MainWindow::begin(const std::filesystem::path& design) {
-  auto works = session_.recoverable();
+  auto works = session_.files().recoverable();
   // The work on what is asked for, or else the newest.
   std::stable_sort(works.begin(), works.end(),
                    [](const auto& a, const auto& b) { return a.changed > b.changed; });
@@ -175,7 +175,7 @@ void MainWindow::begin(const std::filesystem::path& design) {
 
 void MainWindow::tick() {
   tools_.tick();
-  session_.set_aspect(tools_.aspect());
+  session_.view().set_aspect(tools_.aspect());
   for (const session::SessionEvent& event : session_.update()) {
     hear(event);
   }
@@ -204,7 +204,7 @@ void MainWindow::hear(const session::SessionEvent& event) {
   // What came last is seen, and nothing that was said of the one before is of use.
   if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
     banner_->forget("edit");
-    session_.home();
+    session_.view().home();
   }
 }
 
@@ -213,9 +213,9 @@ void MainWindow::tell_error(const std::string& why) {
 }
 
 void MainWindow::discard(const std::filesystem::path& journal) {
-  for (const session::RecoverableWork& work : session_.recoverable()) {
+  for (const session::RecoverableWork& work : session_.files().recoverable()) {
     if (work.journal != journal) continue;
-    session_.discard(work);
+    session_.files().discard(work);
     return;
   }
 }
@@ -259,14 +259,15 @@ void MainWindow::show_progress() {
   if (!busy_since_.isValid()) busy_since_.start();
   constexpr int kPatience = 300;  // ms, that nobody needs to be told about
   if (busy_since_.elapsed() < kPatience) return;
-  const auto part = session_.opening();
-  banner_->show_progress(doing, part, part ? [this] { session_.cancel_open(); } : std::function<void()>());
+  const auto part = session_.files().opening();
+  banner_->show_progress(doing, part,
+                         part ? [this] { session_.files().cancel_open(); } : std::function<void()>());
 }
 
 void MainWindow::show_title() {
   const QString title = QString("%1[*] - ICOME").arg(files_.design_name().replace("[*]", "[*][*]"));
   if (windowTitle() != title) setWindowTitle(title);
-  setWindowModified(session_.modified());
+  setWindowModified(session_.files().modified());
 }
 
 /// What has its name written above it.
@@ -294,7 +295,7 @@ void MainWindow::show_look() {
     if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
       wish.look.overlay.panels.push_back(std::move(*panel));
   }
-  session_.set_look(wish);
+  session_.view().set_look(wish);
 }
 
 /// Ends what the mouse is doing, and commits what is being typed: it counts as done. False: that was refused.
@@ -328,8 +329,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   timer_.stop();
   settings_.setValue("window/geometry", saveGeometry());
   settings_.setValue("window/state", saveState(kLayout));
-  session_.cancel_open();
-  session_.close();
+  session_.files().cancel_open();
+  session_.files().close();
 }
 
 bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
@@ -355,7 +356,7 @@ bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
 }
 
 void MainWindow::drop_picture(const std::filesystem::path& file, const SceneInput& input) {
-  const auto picked = session_.pick_seen(input.ray(session_.view()));
+  const auto picked = session_.stage().pick_seen(input.ray(session_.view().now()));
   if (!picked)
     return tell_error("There is no object under the picture: drop it on the one that it is to lie on");
   pictures_.put(file, {picked->object});

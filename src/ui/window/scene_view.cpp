@@ -19,7 +19,7 @@ constexpr int kReasonWidth = 90 * kGrid;
 SceneView::SceneView(session::Session& session, SceneTools& tools, QWidget* parent)
     : QWidget(parent),
       tools_(tools),
-      scene_(new SceneWindow(tools, session.display())),
+      scene_(new SceneWindow(tools, session.view().display())),
       container_(createWindowContainer(scene_, this)),
       stack_(new QStackedLayout(this)) {
   setObjectName("scene");

@@ -233,22 +233,23 @@ void StatusStrip::Parts::look() {
   const std::int64_t now = base::steady_nanoseconds();
   look_at_device();
   look_at_servo(now);
-  const double reach = session.pointers() > 0 ? session.pointer_info(0).max_force : 0.0;
-  force->add(session.take_forces(), now, reach);
+  const double reach = session.hands().pointers() > 0 ? session.hands().pointer_info(0).max_force : 0.0;
+  force->add(session.hands().take_forces(), now, reach);
 }
 
 void StatusStrip::Parts::look_at_device() {
-  if (session.pointers() == 0) return set(*device, "No pointer device");
-  const session::PointerView& view = session.pointer(0);
-  const QString name = one_line(session.pointer_info(0).name);
-  const QString more = session.pointers() > 1 ? QString(" + %1").arg(session.pointers() - 1) : QString();
+  if (session.hands().pointers() == 0) return set(*device, "No pointer device");
+  const session::PointerView& view = session.hands().pointer(0);
+  const QString name = one_line(session.hands().pointer_info(0).name);
+  const QString more =
+      session.hands().pointers() > 1 ? QString(" + %1").arg(session.hands().pointers() - 1) : QString();
   set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
   dot->show(view.status);
   const bool spared = view.spared && view.status == DeviceStatus::Ok;
   set(*state, spared ? QString("ready, force held down") : words_of(view.status));
-  state->setToolTip(spared ? sparing_words(session.pointer_info(0)) : explanation_of(view.status));
+  state->setToolTip(spared ? sparing_words(session.hands().pointer_info(0)) : explanation_of(view.status));
   dot->setToolTip(explanation_of(view.status));
-  const auto object = view.touching ? session.touched(0) : std::nullopt;
+  const auto object = view.touching ? session.hands().touched(0) : std::nullopt;
   const bool softer = object && view.stiffness < view.asked_stiffness;
   const QString what =
       object ? (softer ? "softly touches " : "touches ") + shown_name(session.world(), *object) : QString();
@@ -258,7 +259,7 @@ void StatusStrip::Parts::look_at_device() {
 }
 
 void StatusStrip::Parts::look_at_effects() {
-  const std::vector<haptics::CappedEffect>& softer = session.capped_effects();
+  const std::vector<haptics::CappedEffect>& softer = session.hands().capped_effects();
   capped->setVisible(!softer.empty());
   if (softer.empty()) return;
   set(*capped, softer.size() == 1 ? QString("1 effect felt softly")
@@ -267,7 +268,7 @@ void StatusStrip::Parts::look_at_effects() {
 }
 
 void StatusStrip::Parts::look_at_servo(std::int64_t now) {
-  const session::ServoHealth health = session.servo();
+  const session::ServoHealth health = session.hands().servo();
   const double period = health.summary.period.median;
   if (!health.running) {
     set(*rate, "stopped");

@@ -17,12 +17,12 @@ world::GeometryPointer rising_floor() {
 
 double drawn_height(const Session& session) {
   double height = -1.0;
-  session.drawn()->for_each([&](const render::RenderItem& item) { height = item.bounds.max().y(); });
+  session.view().drawn()->for_each([&](const render::RenderItem& item) { height = item.bounds.max().y(); });
   return height;
 }
 
 double picked_height(const Session& session) {
-  const auto picked = session.pick({Vector3(0.01, 0.5, 0.01), -Vector3::UnitY()});
+  const auto picked = session.stage().pick({Vector3(0.01, 0.5, 0.01), -Vector3::UnitY()});
   return picked ? picked->place.point.y() : -1.0;
 }
 
@@ -31,8 +31,10 @@ TEST(RenderFollower, WhatChangesIsDrawnAsItIsFelt) {
   add_shape(*session, rising_floor(), base::Affine3::Identity(), "floor");
   session->settle();
   const auto wait_for_another = [&] {
-    const render::RenderScenePointer before = session->drawn();
-    run_until(*session, [&] { return session->drawn() != before && session->drawn()->object_count() == 1; });
+    const render::RenderScenePointer before = session->view().drawn();
+    run_until(*session, [&] {
+      return session->view().drawn() != before && session->view().drawn()->object_count() == 1;
+    });
   };
   wait_for_another();
   const double first = picked_height(*session);
@@ -52,12 +54,12 @@ TEST(RenderFollower, WhatDoesNotChangeIsMadeOnce) {
   const auto session = start();
   add_box(*session, world::at(0.0, 0.0, 0.0));
   session->settle();
-  const render::RenderScenePointer drawn = session->drawn();
+  const render::RenderScenePointer drawn = session->view().drawn();
   for (int i = 0; i < 100; ++i) {
     session->update();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  EXPECT_EQ(session->drawn(), drawn);
+  EXPECT_EQ(session->view().drawn(), drawn);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ world::ObjectId add_effect(Session& session, const std::string& text) {
   const auto id = session.ids().next<world::ObjectId>();
   world::PhysicalObject object{.name = text};
   object.fixture = std::make_shared<const world::Fixture>(world::ForceEffect{text, true});
-  EXPECT_TRUE(session.perform(world::CreateObject{id, session.world().roots().size(), object}, "Add"));
+  EXPECT_TRUE(
+      session.history().perform(world::CreateObject{id, session.world().roots().size(), object}, "Add"));
   return id;
 }
 
@@ -19,11 +20,12 @@ TEST(CappedEffects, AreToldAndNoLongerWhenTheyAreNot) {
   const auto session = start(std::move(settings));
   add_effect(*session, "constant:0,0,0.1");
   const world::ObjectId strong = add_effect(*session, "viscous:500");
-  const auto told = [&] { return session->capped_effects().size(); };
+  const auto told = [&] { return session->hands().capped_effects().size(); };
   run_until(*session, [&] { return told() == 1; });
-  EXPECT_EQ(session->capped_effects().front().id, strong.value);
-  EXPECT_NE(session->capped_effects().front().what.find("damping 500 N s/m is felt as"), std::string::npos);
-  ASSERT_TRUE(session->undo());
+  EXPECT_EQ(session->hands().capped_effects().front().id, strong.value);
+  EXPECT_NE(session->hands().capped_effects().front().what.find("damping 500 N s/m is felt as"),
+            std::string::npos);
+  ASSERT_TRUE(session->history().undo());
   run_until(*session, [&] { return told() == 0; });
 }
 

@@ -22,7 +22,7 @@ class HandGrabTest : public ::testing::Test {
     offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
     hand_->put(world_to_device(Vector3(0.0, 0.6, 0.0)));
     aim(Vector3(0.0, 0.498, 0.0));
-    run_until(*session_, [&] { return session_->touched(0) == box_; });
+    run_until(*session_, [&] { return session_->hands().touched(0) == box_; });
   }
 
   /// In the device's frame, which is the stage's where the view has put the workspace.
@@ -31,11 +31,11 @@ class HandGrabTest : public ::testing::Test {
   Vector3 box_place() const { return session_->world().find(box_)->parent_from_object.translation(); }
   void grab() {
     hand_->hold_buttons(1);
-    run_until(*session_, [&] { return session_->holds(0); });
+    run_until(*session_, [&] { return session_->hands().holds(0); });
   }
   void let_go() {
     hand_->hold_buttons(0);
-    run_until(*session_, [&] { return !session_->holds(0); });
+    run_until(*session_, [&] { return !session_->hands().holds(0); });
   }
 
   devices::SimulatedDevice* hand_ = nullptr;
@@ -47,45 +47,46 @@ class HandGrabTest : public ::testing::Test {
 TEST_F(HandGrabTest, WhatIsHeldGoesAlongAsOneAction) {
   grab();
   EXPECT_EQ(session_->selection(), std::vector{box_});
-  EXPECT_EQ(session_->history().undo_name(), "Add box") << "to press is to select";
-  const Vector3 from = session_->pointer(0).tip;
+  EXPECT_EQ(session_->history().actions().undo_name(), "Add box") << "to press is to select";
+  const Vector3 from = session_->hands().pointer(0).tip;
   aim(Vector3(0.3, 0.7, 0.1));
   tip_at_rest(*session_);  // a hand under way would be elsewhere by the time it is asked
   session_->update();
-  EXPECT_EQ(session_->history().undo_name(), "Move box");
-  EXPECT_FALSE(session_->pointer(0).touching) << "what is held is not touched";
+  EXPECT_EQ(session_->history().actions().undo_name(), "Move box");
+  EXPECT_FALSE(session_->hands().pointer(0).touching) << "what is held is not touched";
   let_go();
   const Vector3 place = box_place();
   EXPECT_GT(place.x(), 0.19);
-  EXPECT_NEAR((place - (session_->pointer(0).tip - from)).norm(), 0.0, 0.01);
+  EXPECT_NEAR((place - (session_->hands().pointer(0).tip - from)).norm(), 0.0, 0.01);
   aim(Vector3(0.0, 2.0, 0.0));
-  run_until(*session_, [&] { return session_->pointer(0).tip.y() > 1.5; });
+  run_until(*session_, [&] { return session_->hands().pointer(0).tip.y() > 1.5; });
   EXPECT_EQ(box_place(), place) << "it stays where it was left";
-  ASSERT_TRUE(session_->undo());
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(box_place(), Vector3::Zero());
-  EXPECT_EQ(session_->history().undo_name(), "Add box");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Add box");
 }
 
 TEST_F(HandGrabTest, IsFeltToPullBackAndToWeigh) {
-  session_->set_grab({.pull_back = true, .weight = 0.8});
+  session_->hands().set_grab({.pull_back = true, .weight = 0.8});
   grab();
-  const Vector3 from = session_->pointer(0).tip;
+  const Vector3 from = session_->hands().pointer(0).tip;
   aim(from + Vector3(0.1, 0.0, 0.0));
-  run_until(*session_, [&] { return session_->pointer(0).tip.x() > from.x() + 0.09; });
-  run_until(*session_, [&] { return std::abs(session_->pointer(0).force.y() + 0.8) < 0.15; });
-  const Vector3 force = session_->pointer(0).force;
+  run_until(*session_, [&] { return session_->hands().pointer(0).tip.x() > from.x() + 0.09; });
+  run_until(*session_, [&] { return std::abs(session_->hands().pointer(0).force.y() + 0.8) < 0.15; });
+  const Vector3 force = session_->hands().pointer(0).force;
   EXPECT_LT(force.x(), -0.7) << "0.2 + 0.8 (1 - exp(-2)) N";
   EXPECT_GT(force.x(), -1.1);
   let_go();
-  run_until(*session_, [&] { return session_->touched(0) || session_->pointer(0).force.norm() < 0.05; });
+  run_until(*session_,
+            [&] { return session_->hands().touched(0) || session_->hands().pointer(0).force.norm() < 0.05; });
 }
 
 TEST_F(HandGrabTest, LetsGoWhenTheWorldIsChangedByOthers) {
   grab();
   aim(Vector3(0.2, 0.6, 0.0));
   run_until(*session_, [&] { return box_place().x() > 0.1; });
-  ASSERT_TRUE(session_->undo());
-  run_until(*session_, [&] { return !session_->holds(0); });
+  ASSERT_TRUE(session_->history().undo());
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
   EXPECT_EQ(box_place(), Vector3::Zero());
   for (int i = 0; i < 20; ++i) session_->update();
   EXPECT_EQ(box_place(), Vector3::Zero()) << "the button is still down, but nothing is held";
@@ -94,7 +95,7 @@ TEST_F(HandGrabTest, LetsGoWhenTheWorldIsChangedByOthers) {
 TEST_F(HandGrabTest, LetsGoWhenTheDeviceIsLost) {
   grab();
   hand_->inject(devices::SimulatedFailure::Unplugged);
-  run_until(*session_, [&] { return !session_->holds(0); });
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
   hand_->inject(devices::SimulatedFailure::None);
 }
 
@@ -106,7 +107,7 @@ TEST_F(HandGrabTest, TakesTheRestOfTheSelectionAlong) {
   aim(Vector3(0.3, 0.7, 0.0));
   run_until(*session_, [&] { return box_place().x() > 0.1; });
   const Vector3 offset = box_place();
-  EXPECT_EQ(session_->history().undo_name(), "Move 2 objects");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Move 2 objects");
   const Vector3 moved = session_->world().find(other)->parent_from_object.translation() - Vector3(5, 0, 0);
   EXPECT_NEAR((moved - offset).norm(), 0.0, 1e-12);
 }

@@ -26,7 +26,7 @@ class PartGrabTest : public ::testing::Test {
     session_->settle();
     offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
   }
-  Vector3 tip() const { return session_->pointer(0).tip; }
+  Vector3 tip() const { return session_->hands().pointer(0).tip; }
   void put(const Vector3& place) {
     hand_->put(place - offset_);
     hand_->set_target(place - offset_);
@@ -47,20 +47,20 @@ TEST_F(PartGrabTest, AHoleGoesAlongWithTheHandAsOneActionAndPullsBack) {
   session_->select({solid_});
   put(Vector3(0.0, 0.1, 0.3));  // on the ghost's upper rim, before the block
   hand_->hold_buttons(1);
-  run_until(*session_, [&] { return session_->holds(0); });
+  run_until(*session_, [&] { return session_->hands().holds(0); });
   const Vector3 from = tip();
   hand_->set_target(Vector3(0.15, 0.1, 0.3) - offset_);
-  run_until(*session_, [&] { return tip().x() > 0.1 && session_->pointer(0).force.x() < -0.1; });
+  run_until(*session_, [&] { return tip().x() > 0.1 && session_->hands().pointer(0).force.x() < -0.1; });
   EXPECT_LT((hole_at() - (tip() - from)).norm(), 5e-3) << "it is where the hand is";
-  EXPECT_EQ(session_->history().undo_name(), "Move operand 1 of block");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Move operand 1 of block");
   hand_->hold_buttons(0);
-  run_until(*session_, [&] { return !session_->holds(0); });
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
   session_->settle();
-  EXPECT_TRUE(session_->pick({Vector3(-0.05, 0.0, 1.0), -Vector3::UnitZ()})) << "where the hole was";
+  EXPECT_TRUE(session_->stage().pick({Vector3(-0.05, 0.0, 1.0), -Vector3::UnitZ()})) << "where the hole was";
   const Vector3 left = hole_at();
   put(Vector3(0.0, 0.5, 0.3));
   EXPECT_EQ(hole_at(), left) << "it stays where it was left";
-  ASSERT_TRUE(session_->undo());
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(hash(session_->world()), before);
 }
 
@@ -69,10 +69,10 @@ TEST_F(PartGrabTest, TakesNothingOfWhatIsNotSelectedOrNotNear) {
   const auto press_and_go = [&](const Vector3& place) {
     put(place);
     hand_->hold_buttons(1);
-    run_until(*session_, [&] { return (session_->pointer(0).buttons & 1U) != 0; });
+    run_until(*session_, [&] { return (session_->hands().pointer(0).buttons & 1U) != 0; });
     put(place + Vector3(0.05, 0.0, 0.0));
     hand_->hold_buttons(0);
-    run_until(*session_, [&] { return (session_->pointer(0).buttons & 1U) == 0; });
+    run_until(*session_, [&] { return (session_->hands().pointer(0).buttons & 1U) == 0; });
   };
   press_and_go(Vector3(0.0, 0.1, 0.3));
   session_->select({solid_});
@@ -84,11 +84,11 @@ TEST_F(PartGrabTest, LetsGoWhenSomethingElseChangesTheWorld) {
   session_->select({solid_});
   put(Vector3(0.0, 0.1, 0.3));
   hand_->hold_buttons(1);
-  run_until(*session_, [&] { return session_->holds(0); });
+  run_until(*session_, [&] { return session_->hands().holds(0); });
   hand_->set_target(Vector3(0.05, 0.1, 0.3) - offset_);
   run_until(*session_, [&] { return hole_at().x() > 0.01; });
-  ASSERT_TRUE(session_->undo());
-  run_until(*session_, [&] { return !session_->holds(0); });
+  ASSERT_TRUE(session_->history().undo());
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
   for (int i = 0; i < 20; ++i) session_->update();
   EXPECT_EQ(hole_at(), Vector3(Vector3::Zero()));
 }

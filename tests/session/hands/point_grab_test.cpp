@@ -42,7 +42,7 @@ class PointGrabTest : public ::testing::Test {
     put(Vector3(0.0, 0.003, 0.0));
   }
 
-  Vector3 tip() const { return session_->pointer(0).tip; }
+  Vector3 tip() const { return session_->hands().pointer(0).tip; }
   Vector3 in_device(const Vector3& place) const { return place - offset_; }
   void put(const Vector3& place) {
     const Vector3 there = in_device(place);
@@ -52,17 +52,17 @@ class PointGrabTest : public ::testing::Test {
   }
   void aim(const Vector3& place) { hand_->set_target(in_device(place)); }
   void shape(const interaction::ShapingSettings& settings) {
-    const auto done = session_->set_shaping(settings);
+    const auto done = session_->hands().set_shaping(settings);
     ASSERT_TRUE(done) << done.error().message;
     for (int i = 0; i < 3; ++i) session_->update();
   }
   void grab() {
     hand_->hold_buttons(1);
-    run_until(*session_, [&] { return session_->holds(0); });
+    run_until(*session_, [&] { return session_->hands().holds(0); });
   }
   void let_go() {
     hand_->hold_buttons(0);
-    run_until(*session_, [&] { return !session_->holds(0); });
+    run_until(*session_, [&] { return !session_->hands().holds(0); });
   }
   const std::vector<Vector3>& vertices() const {
     const world::World& world = session_->world();
@@ -83,18 +83,18 @@ TEST_F(PointGrabTest, AVertexGoesAlongWithTheHandAsOneAction) {
   const Vector3 from = tip();
   aim(Vector3(0.05, 0.15, -0.02));
   run_until(*session_, [&] { return tip().y() > 0.1; });
-  ASSERT_TRUE(session_->holds(0));
+  ASSERT_TRUE(session_->hands().holds(0));
   EXPECT_LT((vertices()[12] - rest[12] - (tip() - from)).norm(), 2e-3) << "it is where the hand is";
   EXPECT_EQ(vertices()[13], rest[13]);
-  EXPECT_EQ(session_->history().undo_name(), "Drag vertex of sheet");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Drag vertex of sheet");
   let_go();
   const std::vector<Vector3> left = vertices();
   aim(Vector3(0.0, 0.5, 0.0));
   run_until(*session_, [&] { return tip().y() > 0.4; });
   EXPECT_EQ(vertices(), left) << "it stays where it was left";
-  ASSERT_TRUE(session_->undo());
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(hash(session_->world()), before);
-  EXPECT_EQ(session_->history().undo_name(), "Add sheet");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Add sheet");
 }
 
 TEST_F(PointGrabTest, PullsBackTheMoreTheFartherItWasTaken) {
@@ -107,22 +107,22 @@ TEST_F(PointGrabTest, PullsBackTheMoreTheFartherItWasTaken) {
     run_until(*session_, [&] {
       const double taken = (tip() - from).norm();
       const double wanted = haptics::pull_back(haptics::GripFeel{}, taken);
-      return taken > 0.6 * way && std::abs(-session_->pointer(0).force.y() - wanted) < 0.02;
+      return taken > 0.6 * way && std::abs(-session_->hands().pointer(0).force.y() - wanted) < 0.02;
     });
-    EXPECT_GT(-session_->pointer(0).force.y(), last + 0.05) << way;
-    last = -session_->pointer(0).force.y();
+    EXPECT_GT(-session_->hands().pointer(0).force.y(), last + 0.05) << way;
+    last = -session_->hands().pointer(0).force.y();
   }
   let_go();
-  run_until(*session_, [&] { return session_->pointer(0).force.norm() < 0.02; });
+  run_until(*session_, [&] { return session_->hands().pointer(0).force.norm() < 0.02; });
 }
 
 TEST_F(PointGrabTest, PullsNothingBackWhereThatIsNotWanted) {
-  session_->set_grab({.pull_back = false});
+  session_->hands().set_grab({.pull_back = false});
   shape({});
   grab();
   aim(Vector3(0.0, 0.1, 0.0));
   run_until(*session_, [&] { return tip().y() > 0.08; });
-  EXPECT_LT(session_->pointer(0).force.norm(), 0.02);
+  EXPECT_LT(session_->hands().pointer(0).force.norm(), 0.02);
 }
 
 TEST_F(PointGrabTest, AFaceMovesAsItIsWithOthersRoundIt) {
@@ -144,24 +144,24 @@ TEST_F(PointGrabTest, AFaceMovesAsItIsWithOthersRoundIt) {
 TEST_F(PointGrabTest, APointOfTheLatticeDeformsTheSelection) {
   shape({.target = ShapingTarget::Lattice, .cells = {1, 1, 1}});
   const std::uint64_t before = hash(session_->world());
-  ASSERT_TRUE(session_->shaping()->cage());
-  const Vector3 corner = session_->shaping()->cage()->lattice().points[7];
+  ASSERT_TRUE(session_->hands().shaping()->cage());
+  const Vector3 corner = session_->hands().shaping()->cage()->lattice().points[7];
   put(corner + Vector3(0.002, 0.0, 0.0));
   grab();
   const Vector3 from = tip();
   aim(corner + Vector3(0.0, 0.2, 0.0));
   run_until(*session_, [&] { return tip().y() > corner.y() + 0.15; });
-  EXPECT_EQ(session_->history().undo_name(), "Deform sheet");
-  const Vector3 moved = session_->shaping()->cage()->lattice().points[7];
+  EXPECT_EQ(session_->history().actions().undo_name(), "Deform sheet");
+  const Vector3 moved = session_->hands().shaping()->cage()->lattice().points[7];
   EXPECT_LT((moved - corner - (tip() - from)).norm(), 2e-3);
   // The sheet is in the middle of a box that was made thick.
   EXPECT_NEAR(vertices()[4].y(), 0.5 * (moved - corner).y(), 1e-9);
   EXPECT_NEAR(vertices()[0].y(), 0.0, 1e-12);
   let_go();
-  ASSERT_TRUE(session_->undo());
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(hash(session_->world()), before);
   session_->update();
-  EXPECT_LT((session_->shaping()->cage()->lattice().points[7] - corner).norm(), 1e-12);
+  EXPECT_LT((session_->hands().shaping()->cage()->lattice().points[7] - corner).norm(), 1e-12);
 }
 
 TEST_F(PointGrabTest, LetsGoWhenTheWorldIsChangedByOthersAndWhenShapingEnds) {
@@ -170,25 +170,25 @@ TEST_F(PointGrabTest, LetsGoWhenTheWorldIsChangedByOthersAndWhenShapingEnds) {
   grab();
   aim(Vector3(0.0, 0.1, 0.0));
   run_until(*session_, [&] { return vertices()[12].y() > 0.05; });
-  ASSERT_TRUE(session_->undo());
-  run_until(*session_, [&] { return !session_->holds(0); });
+  ASSERT_TRUE(session_->history().undo());
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
   for (int i = 0; i < 20; ++i) session_->update();
   EXPECT_EQ(vertices(), rest) << "the button is still down, but nothing is held";
   hand_->hold_buttons(0);
   put(Vector3(0.0, 0.003, 0.0));
   grab();
-  ASSERT_TRUE(session_->set_shaping(std::nullopt));
-  EXPECT_FALSE(session_->holds(0));
-  EXPECT_FALSE(session_->shaping());
+  ASSERT_TRUE(session_->hands().set_shaping(std::nullopt));
+  EXPECT_FALSE(session_->hands().holds(0));
+  EXPECT_FALSE(session_->hands().shaping());
 }
 
 TEST_F(PointGrabTest, SettingsThatMeanNothingChangeNothing) {
-  EXPECT_FALSE(session_->set_shaping(interaction::ShapingSettings{.soft = {.radius = -1.0}}));
-  EXPECT_FALSE(session_->shaping());
+  EXPECT_FALSE(session_->hands().set_shaping(interaction::ShapingSettings{.soft = {.radius = -1.0}}));
+  EXPECT_FALSE(session_->hands().shaping());
   shape({.target = ShapingTarget::Edge});
-  EXPECT_FALSE(session_->set_shaping(interaction::ShapingSettings{.cells = {0, 1, 1}}));
-  ASSERT_TRUE(session_->shaping());
-  EXPECT_EQ(session_->shaping()->settings().target, ShapingTarget::Edge);
+  EXPECT_FALSE(session_->hands().set_shaping(interaction::ShapingSettings{.cells = {0, 1, 1}}));
+  ASSERT_TRUE(session_->hands().shaping());
+  EXPECT_EQ(session_->hands().shaping()->settings().target, ShapingTarget::Edge);
 }
 
 TEST_F(PointGrabTest, HandlesAreSeen) {
@@ -198,15 +198,15 @@ TEST_F(PointGrabTest, HandlesAreSeen) {
   view.world_from_eye.translation() = view.world_from_eye.linear() * Vector3(0.0, 0.0, 2.5);
   view.distance = 2.5;
   const auto pixels_of_marks = [&] {
-    session_->set_view(view);
+    session_->view().set(view);
     DisplayWish look;
     look.look = render::plain_look();
     look.pointers = false;
-    session_->set_look(look);
+    session_->view().set_look(look);
     session_->settle();
     session_->update();
     render::LiveRenderer live;
-    EXPECT_TRUE(session_->display().draw(live.renderer(), live.target()));
+    EXPECT_TRUE(session_->view().display().draw(live.renderer(), live.target()));
     std::vector<std::uint8_t> rgba(4U * std::size_t(live.target().width) * std::size_t(live.target().height));
     glBindFramebuffer(GL_FRAMEBUFFER, live.target().frame);
     glReadPixels(0, 0, live.target().width, live.target().height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
@@ -221,12 +221,12 @@ TEST_F(PointGrabTest, HandlesAreSeen) {
   const auto none = pixels_of_marks();
   shape({});
   const auto dots = pixels_of_marks();
-  session_->mark_handle(interaction::MarkedHandle{
+  session_->stage().mark_handle(interaction::MarkedHandle{
       .handle = {.object = sheet_, .part = {.kind = interaction::PartKind::Vertex, .vertices = {12}}}});
   const auto marked = pixels_of_marks();
   EXPECT_GT(dots.first, none.first + 25 * 10) << "a dot for each vertex";
   EXPECT_GT(marked.second, dots.second + 20) << "what the mouse is over";
-  session_->mark_handle(std::nullopt);
+  session_->stage().mark_handle(std::nullopt);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class TechniqueHandTest : public ::testing::Test {
     interaction::View view;
     view.world_from_eye = Pose(Eigen::Translation3d(eye));
     view.distance = 0.6;
-    session_->set_view(view);
+    session_->view().set(view);
   }
   world::ObjectId add(const Vector3& place, double size, const std::string& name = "box") {
     const auto id = add_shape(*session_, world::box(size), world::at(place.x(), place.y(), place.z()), name);
@@ -49,7 +49,7 @@ class TechniqueHandTest : public ::testing::Test {
     return id;
   }
   void choose(const Technique& technique) {
-    const auto chosen = session_->set_technique(technique);
+    const auto chosen = session_->techniques().set(technique);
     ASSERT_TRUE(chosen) << chosen.error().message;
     session_->update();
   }
@@ -61,24 +61,24 @@ class TechniqueHandTest : public ::testing::Test {
     hands_[hand]->set_target(place);
     hands_[hand]->put(place);
     run_until(*session_, [&] {
-      return (session_->pointer(hand).device_from_stylus.translation() - place).norm() < 1e-6;
+      return (session_->hands().pointer(hand).device_from_stylus.translation() - place).norm() < 1e-6;
     });
   }
   void turn(std::size_t hand, const Vector3& axis, double angle) {
     const base::Quaternion turned(Eigen::AngleAxisd(angle, axis));
     hands_[hand]->turn(turned);
     run_until(*session_, [&] {
-      return base::Quaternion(session_->pointer(hand).device_from_stylus.linear()).angularDistance(turned) <
-             1e-6;
+      return base::Quaternion(session_->hands().pointer(hand).device_from_stylus.linear())
+                 .angularDistance(turned) < 1e-6;
     });
   }
   void press(std::size_t hand, std::uint32_t buttons) {
     hands_[hand]->hold_buttons(buttons);
-    run_until(*session_, [&] { return session_->pointer(hand).buttons == buttons; });
+    run_until(*session_, [&] { return session_->hands().pointer(hand).buttons == buttons; });
   }
   const Affine3& place_of(world::ObjectId id) const { return session_->world().find(id)->parent_from_object; }
   Vector3 where(world::ObjectId id) const { return place_of(id).translation(); }
-  Vector3 eye() const { return session_->view().world_from_eye.translation(); }
+  Vector3 eye() const { return session_->view().now().world_from_eye.translation(); }
 
   std::array<devices::SimulatedDevice*, 2> hands_ = {};
   std::unique_ptr<Session> session_;
@@ -90,14 +90,15 @@ TEST_F(TechniqueHandTest, ARaySelectsAtADistanceWhatItMeetsFirst) {
   const auto aside = add({1.0, 0.0, -3.0}, 0.2, "aside");
   choose(Selecting::RayPointer, Holding::AlongRay);
   put(0, {0.0, 0.0, 0.1});
-  EXPECT_EQ(session_->technique()->outcome().pointed.id, far.value);
-  EXPECT_NEAR((session_->technique()->outcome().pointed.point - Vector3(0.0, 0.0, -2.95)).norm(), 0.0, 1e-6);
+  EXPECT_EQ(session_->techniques().current()->outcome().pointed.id, far.value);
+  EXPECT_NEAR((session_->techniques().current()->outcome().pointed.point - Vector3(0.0, 0.0, -2.95)).norm(),
+              0.0, 1e-6);
   EXPECT_TRUE(session_->selection().empty()) << "to point is not to select";
   press(0, 1);
   EXPECT_EQ(session_->selection(), std::vector{far});
-  EXPECT_TRUE(session_->holds(0));
+  EXPECT_TRUE(session_->hands().holds(0));
   press(0, 0);
-  EXPECT_EQ(session_->history().undo_name(), "Add aside") << "a press without a way moves nothing";
+  EXPECT_EQ(session_->history().actions().undo_name(), "Add aside") << "a press without a way moves nothing";
   turn(0, Vector3::UnitY(), -std::atan2(1.0, 3.1));
   press(0, 1);
   EXPECT_EQ(session_->selection(), std::vector{aside});
@@ -121,14 +122,14 @@ TEST_F(TechniqueHandTest, SolidsAreGotReadyBesideTheWindow) {
   session_->settle();
   hands_[0]->hold_buttons(1);
   choose(Selecting::RayPointer, Holding::AlongRay);
-  EXPECT_TRUE(session_->technique()->is_getting_ready());
-  run_until(*session_, [&] { return !session_->technique()->is_getting_ready(); });
-  EXPECT_FALSE(session_->holds(0)) << "a button that was down all the time presses nothing";
+  EXPECT_TRUE(session_->techniques().current()->is_getting_ready());
+  run_until(*session_, [&] { return !session_->techniques().current()->is_getting_ready(); });
+  EXPECT_FALSE(session_->hands().holds(0)) << "a button that was down all the time presses nothing";
   press(0, 0);
   put(0, {0.0, 0.0, 0.1});
-  EXPECT_EQ(session_->technique()->outcome().pointed.id, solid.value);
+  EXPECT_EQ(session_->techniques().current()->outcome().pointed.id, solid.value);
   press(0, 1);
-  EXPECT_TRUE(session_->holds(0));
+  EXPECT_TRUE(session_->hands().holds(0));
 }
 
 TEST_F(TechniqueHandTest, WhatHangsOnARayIsMovedAsOneAction) {
@@ -142,24 +143,25 @@ TEST_F(TechniqueHandTest, WhatHangsOnARayIsMovedAsOneAction) {
   press(0, 5);  // reeled away
   run_until(*session_, [&] { return where(box).z() < -3.2; });
   press(0, 0);
-  EXPECT_FALSE(session_->holds(0));
-  EXPECT_EQ(session_->history().undo_name(), "Move box");
-  ASSERT_TRUE(session_->undo());
+  EXPECT_FALSE(session_->hands().holds(0));
+  EXPECT_EQ(session_->history().actions().undo_name(), "Move box");
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(where(box), Vector3(0.0, 0.0, -3.0));
-  EXPECT_EQ(session_->history().undo_name(), "Add box");
+  EXPECT_EQ(session_->history().actions().undo_name(), "Add box");
 }
 
 TEST_F(TechniqueHandTest, GoGoReachesWhatTheArmDoesNot) {
   const auto box = add({0.0, 0.0, -0.45}, 0.1);
   choose(Selecting::VirtualHand, Holding::Hand);
   put(0, {0.0, 0.0, -0.1});  // the rim of the device's workspace
-  EXPECT_EQ(session_->technique()->outcome().pointed.id, 0U);
+  EXPECT_EQ(session_->techniques().current()->outcome().pointed.id, 0U);
   choose(Selecting::GoGo, Holding::GoGo);
-  EXPECT_EQ(session_->technique()->outcome().pointed.id, box.value);
+  EXPECT_EQ(session_->techniques().current()->outcome().pointed.id, box.value);
   press(0, 1);
   ASSERT_EQ(session_->selection(), std::vector{box});
   // r + k (r - D)^2 with D = 0.6 m, k = 38.9 / m: from 0.489 m behind the middle to the middle.
-  const double reach = go_go_reach(session_->technique()->technique().selecting_settings.go_go, 0.7) - 0.6;
+  const double reach =
+      go_go_reach(session_->techniques().current()->technique().selecting_settings.go_go, 0.7) - 0.6;
   EXPECT_NEAR(reach, 0.489, 1e-3);
   put(0, Vector3::Zero());
   EXPECT_NEAR((where(box) - Vector3(0.0, 0.0, -0.45 + reach)).norm(), 0.0, 1e-5);
@@ -172,7 +174,7 @@ TEST_F(TechniqueHandTest, TwoHandsMoveTurnAndScaleWithoutAJump) {
   put(0, {-0.05, 0.0, 0.0});
   put(1, {0.05, 0.0, 0.0});
   press(0, 1);
-  ASSERT_TRUE(session_->holds(0));
+  ASSERT_TRUE(session_->hands().holds(0));
   put(0, {-0.05, 0.02, 0.0});
   EXPECT_NEAR((where(box) - Vector3(0.0, 0.02, 0.0)).norm(), 0.0, 1e-6);
   put(0, {-0.05, 0.0, 0.0});
@@ -189,7 +191,7 @@ TEST_F(TechniqueHandTest, TwoHandsMoveTurnAndScaleWithoutAJump) {
   EXPECT_NEAR((where(box) - before.translation() - Vector3(0.0, 0.0, 0.03)).norm(), 0.0, 1e-5);
   EXPECT_NEAR(place_of(box).linear().determinant(), 8.0, 1e-3);
   press(0, 0);
-  ASSERT_TRUE(session_->undo());
+  ASSERT_TRUE(session_->history().undo());
   EXPECT_TRUE(place_of(box).matrix().isIdentity()) << "all of it was one action";
 }
 
@@ -197,15 +199,15 @@ TEST_F(TechniqueHandTest, FlyingTakesThePointerAlong) {
   add({0.0, 0.0, -20.0}, 0.1);
   choose(Selecting::RayPointer, Holding::AlongRay, Travelling::Fly);
   put(0, {0.03, 0.01, 0.0});
-  const Vector3 from_eye = session_->pointer(0).tip - eye();
+  const Vector3 from_eye = session_->hands().pointer(0).tip - eye();
   press(0, 2);
   run_until(*session_, [&] { return eye().z() < 0.0; });
   press(0, 0);
   EXPECT_NEAR(eye().x(), 0.0, 1e-9);
   const Vector3 there = eye();
-  run_until(*session_, [&] { return (session_->pointer(0).tip - eye() - from_eye).norm() < 1e-3; });
+  run_until(*session_, [&] { return (session_->hands().pointer(0).tip - eye() - from_eye).norm() < 1e-3; });
   EXPECT_EQ(eye(), there) << "nobody flies without the button";
-  EXPECT_FALSE(session_->history().undo_name() != "Add box") << "to travel is no action";
+  EXPECT_FALSE(session_->history().actions().undo_name() != "Add box") << "to travel is no action";
 }
 
 TEST_F(TechniqueHandTest, ATeleportArrivesSoftlyWhereTheHandPointed) {
@@ -215,13 +217,14 @@ TEST_F(TechniqueHandTest, ATeleportArrivesSoftlyWhereTheHandPointed) {
   put(0, Vector3::Zero());
   turn(0, Vector3::UnitX(), -std::atan2(1.0, 2.0));  // from 1 m above the floor to 2 m ahead
   press(0, 2);
-  ASSERT_TRUE(session_->technique()->outcome().destination);
+  ASSERT_TRUE(session_->techniques().current()->outcome().destination);
   EXPECT_NEAR(eye().z(), 0.6, 1e-9) << "not yet";
   press(0, 0);
   run_until(*session_, [&] { return std::abs(eye().z() + 2.0) < 1e-6; });
   EXPECT_NEAR((eye() - Vector3(0.0, 1.0, -2.0)).norm(), 0.0, 1e-6);
-  run_until(*session_,
-            [&] { return (session_->pointer(0).tip - eye() - Vector3(0.0, 0.0, -0.6)).norm() < 1e-3; });
+  run_until(*session_, [&] {
+    return (session_->hands().pointer(0).tip - eye() - Vector3(0.0, 0.0, -0.6)).norm() < 1e-3;
+  });
 }
 
 TEST_F(TechniqueHandTest, TwoHandsOrbitByAsMuchAsTheyTurn) {
@@ -240,7 +243,7 @@ TEST_F(TechniqueHandTest, TwoHandsOrbitByAsMuchAsTheyTurn) {
   press(0, 0);
   press(1, 0);
   const Vector3 there = eye();
-  run_until(*session_, [&] { return std::abs(session_->pointer(1).tip.y()) < 1e-3; });
+  run_until(*session_, [&] { return std::abs(session_->hands().pointer(1).tip.y()) < 1e-3; });
   EXPECT_NEAR((eye() - there).norm(), 0.0, 1e-9);
 }
 
@@ -264,18 +267,18 @@ TEST_F(TechniqueHandTest, AnotherTechniqueLetsGoAndDoesNotTakeItAgain) {
   const auto box = add({0.0, 0.0, -1.0}, 0.2);
   choose(Selecting::RayPointer, Holding::Hand);
   press(0, 1);
-  ASSERT_TRUE(session_->holds(0));
+  ASSERT_TRUE(session_->hands().holds(0));
   put(0, {0.01, 0.0, 0.0});
   const Vector3 there = where(box);
   EXPECT_GT(there.x(), 0.0);
   choose(Selecting::Spotlight, Holding::Hand);
   put(0, {0.05, 0.0, 0.0});
-  EXPECT_FALSE(session_->holds(0)) << "the button was down before";
+  EXPECT_FALSE(session_->hands().holds(0)) << "the button was down before";
   EXPECT_EQ(where(box), there);
-  ASSERT_TRUE(session_->set_technique(std::nullopt));
-  EXPECT_EQ(session_->technique(), nullptr);
+  ASSERT_TRUE(session_->techniques().set(std::nullopt));
+  EXPECT_EQ(session_->techniques().current(), nullptr);
   for (int i = 0; i < 5; ++i) session_->update();
-  EXPECT_FALSE(session_->holds(0));
+  EXPECT_FALSE(session_->hands().holds(0));
   press(0, 0);
 }
 
@@ -283,17 +286,17 @@ TEST_F(TechniqueHandTest, DoesNotGrabByTouch) {
   const auto box = add({-0.5, 0.0, 0.0}, 1.0);
   look_from(Vector3(0.3, 0.0, 0.6));
   hands_[0]->set_target({-0.31, 0.0, 0.0});
-  run_until(*session_, [&] { return session_->touched(0) == box; });
+  run_until(*session_, [&] { return session_->hands().touched(0) == box; });
   choose(Selecting::LookAt, Holding::Hand);
   press(0, 1);
   for (int i = 0; i < 5; ++i) session_->update();
-  EXPECT_FALSE(session_->holds(0)) << "it looks past the box";
-  EXPECT_EQ(session_->touched(0), box);
+  EXPECT_FALSE(session_->hands().holds(0)) << "it looks past the box";
+  EXPECT_EQ(session_->hands().touched(0), box);
   press(0, 0);
-  ASSERT_TRUE(session_->set_technique(std::nullopt));
+  ASSERT_TRUE(session_->techniques().set(std::nullopt));
   session_->update();
   press(0, 1);
-  EXPECT_TRUE(session_->holds(0)) << "by touch again";
+  EXPECT_TRUE(session_->hands().holds(0)) << "by touch again";
 }
 
 TEST_F(TechniqueHandTest, LetsGoOfADeviceThatIsLost) {
@@ -303,15 +306,15 @@ TEST_F(TechniqueHandTest, LetsGoOfADeviceThatIsLost) {
   put(0, {0.01, 0.0, 0.0});
   const Vector3 there = where(box);
   hands_[0]->inject(devices::SimulatedFailure::Unplugged);
-  run_until(*session_, [&] { return !session_->holds(0); });
+  run_until(*session_, [&] { return !session_->hands().holds(0); });
   hands_[0]->inject(devices::SimulatedFailure::None);
-  run_until(*session_, [&] { return session_->pointer(0).status == devices::DeviceStatus::Ok; });
+  run_until(*session_, [&] { return session_->hands().pointer(0).status == devices::DeviceStatus::Ok; });
   put(0, {0.0, 0.0, 0.0});
-  EXPECT_FALSE(session_->holds(0)) << "until the button is pressed anew";
+  EXPECT_FALSE(session_->hands().holds(0)) << "until the button is pressed anew";
   EXPECT_LT((where(box) - there).norm(), 1e-5) << "as far as the hand had settled";
   press(0, 0);
   press(0, 1);
-  EXPECT_TRUE(session_->holds(0));
+  EXPECT_TRUE(session_->hands().holds(0));
 }
 
 TEST_F(TechniqueHandTest, LetsGoWhenTheWorldIsChangedByOthers) {
@@ -319,19 +322,19 @@ TEST_F(TechniqueHandTest, LetsGoWhenTheWorldIsChangedByOthers) {
   choose(Selecting::RayPointer, Holding::Hand);
   press(0, 1);
   put(0, {0.01, 0.0, 0.0});
-  ASSERT_TRUE(session_->undo());
+  ASSERT_TRUE(session_->history().undo());
   session_->update();
-  EXPECT_FALSE(session_->holds(0));
+  EXPECT_FALSE(session_->hands().holds(0));
   put(0, {0.05, 0.0, 0.0});
   EXPECT_EQ(where(box), Vector3(0.0, 0.0, -1.0));
   press(0, 0);
   put(0, {0.0, 0.0, 0.0});
   press(0, 1);
-  ASSERT_TRUE(session_->holds(0));
-  ASSERT_TRUE(session_->perform(delete_subtree(session_->world(), box), "Delete box"));
+  ASSERT_TRUE(session_->hands().holds(0));
+  ASSERT_TRUE(session_->history().perform(delete_subtree(session_->world(), box), "Delete box"));
   session_->update();
-  EXPECT_FALSE(session_->holds(0));
-  EXPECT_EQ(session_->technique()->outcome().pointed.id, 0U) << "it is not there any more";
+  EXPECT_FALSE(session_->hands().holds(0));
+  EXPECT_EQ(session_->techniques().current()->outcome().pointed.id, 0U) << "it is not there any more";
 }
 
 TEST_F(TechniqueHandTest, SizesThatCannotBeChangeNothing) {
@@ -339,9 +342,9 @@ TEST_F(TechniqueHandTest, SizesThatCannotBeChangeNothing) {
   Technique wrong;
   wrong.selecting = Selecting::Spotlight;
   wrong.selecting_settings.spotlight = std::nan("");
-  EXPECT_FALSE(session_->set_technique(wrong));
-  ASSERT_NE(session_->technique(), nullptr);
-  EXPECT_EQ(session_->technique()->technique().selecting, Selecting::RayPointer);
+  EXPECT_FALSE(session_->techniques().set(wrong));
+  ASSERT_NE(session_->techniques().current(), nullptr);
+  EXPECT_EQ(session_->techniques().current()->technique().selecting, Selecting::RayPointer);
   for (const double size : {0.0, -1.0, 1e300, std::nan(""), HUGE_VAL})
     EXPECT_TRUE(check(desk_technique(Selecting::GoGo, Holding::GoGo, Travelling::Fly, size, 0.6))) << size;
   for (const double distance : {0.0, -1.0, 1e300, std::nan(""), HUGE_VAL})
@@ -352,16 +355,16 @@ TEST_F(TechniqueHandTest, SizesThatCannotBeChangeNothing) {
 TEST_F(TechniqueHandTest, ARecordingDoesTheSameOnceMoreToTheLastBit) {
   const auto group = add({0.3, 0.1, -2.0}, 0.3, "stand");
   add({-0.4, 0.0, -2.0}, 0.2, "other");
-  ASSERT_TRUE(session_->perform(
+  ASSERT_TRUE(session_->history().perform(
       world::PlaceObject{group, world::at(0.3, 0.1, -2.0) * Eigen::AngleAxisd(0.7, Vector3(0.6, 0.8, 0.0))},
       "Turn"));
-  EXPECT_FALSE(session_->record_technique()) << "by touch";
+  EXPECT_FALSE(session_->techniques().record()) << "by touch";
   choose(Selecting::RayPointer, Holding::TwoHands, Travelling::Fly);
   const world::World before = session_->world();
-  ASSERT_TRUE(session_->record_technique());
+  ASSERT_TRUE(session_->techniques().record());
   put(0, {0.3, 0.1, 0.013});
   press(0, 1);
-  ASSERT_TRUE(session_->holds(0));
+  ASSERT_TRUE(session_->hands().holds(0));
   put(0, {0.31, 0.08, 0.03});
   put(1, {0.1, 0.0, 0.0});
   press(1, 1);
@@ -374,10 +377,10 @@ TEST_F(TechniqueHandTest, ARecordingDoesTheSameOnceMoreToTheLastBit) {
   press(0, 1);
   put(0, {0.0, 0.0, 0.0});
   press(0, 0);
-  const auto recorded = session_->stop_recording();
+  const auto recorded = session_->techniques().stop_recording();
   ASSERT_TRUE(recorded);
   EXPECT_TRUE(recorded->is_whole);
-  EXPECT_FALSE(session_->stop_recording());
+  EXPECT_FALSE(session_->techniques().stop_recording());
   EXPECT_NE(hash(session_->world()), hash(before));
   const auto read = interaction::recording_from_text(interaction::recording_to_text(recorded->recording));
   ASSERT_TRUE(read) << read.error().message;
@@ -392,11 +395,11 @@ TEST_F(TechniqueHandTest, ARecordingDoesTheSameOnceMoreToTheLastBit) {
 TEST_F(TechniqueHandTest, ARecordingIsKeptWithTheDesignThatItBeganWith) {
   add({0.0, 0.0, -1.0}, 0.2);
   choose(Selecting::RayPointer, Holding::Hand);
-  ASSERT_TRUE(session_->record_technique());
+  ASSERT_TRUE(session_->techniques().record());
   press(0, 1);
   put(0, {0.04, 0.0, 0.0});
   press(0, 0);
-  const auto recorded = session_->stop_recording();
+  const auto recorded = session_->techniques().stop_recording();
   ASSERT_TRUE(recorded);
   const std::filesystem::path folder = ::testing::TempDir() + "icome-recording";
   std::filesystem::create_directories(folder);
@@ -415,9 +418,9 @@ TEST_F(TechniqueHandTest, ARecordingIsKeptWithTheDesignThatItBeganWith) {
 
 TEST_F(TechniqueHandTest, DoingItOnceMoreCanBeStopped) {
   choose(Selecting::RayPointer, Holding::Hand);
-  ASSERT_TRUE(session_->record_technique());
+  ASSERT_TRUE(session_->techniques().record());
   put(0, {0.04, 0.0, 0.0});
-  const auto recorded = session_->stop_recording();
+  const auto recorded = session_->techniques().stop_recording();
   ASSERT_TRUE(recorded);
   ASSERT_GE(recorded->recording.stream.size(), 2U);
   world::World again;
@@ -434,7 +437,7 @@ TEST_F(TechniqueHandTest, ARecordingEndsWhereOthersChangeTheWorld) {
   const auto box = add({0.0, 0.0, -1.0}, 0.2);
   choose(Selecting::RayPointer, Holding::Hand);
   const world::World before = session_->world();
-  ASSERT_TRUE(session_->record_technique());
+  ASSERT_TRUE(session_->techniques().record());
   press(0, 1);
   put(0, {0.04, 0.0, 0.0});
   press(0, 0);
@@ -444,7 +447,7 @@ TEST_F(TechniqueHandTest, ARecordingEndsWhereOthersChangeTheWorld) {
   press(0, 1);
   put(0, {0.0, 0.0, 0.0});
   press(0, 0);
-  const auto recorded = session_->stop_recording();
+  const auto recorded = session_->techniques().stop_recording();
   ASSERT_TRUE(recorded);
   EXPECT_FALSE(recorded->is_whole);
   world::World again = before;
@@ -457,33 +460,33 @@ TEST(MouseTechnique, PointsFromTheEyeThroughTheHand) {
   const auto session = start();
   const auto box = add_shape(*session, world::box(0.2), world::at(1.0, 0.5, -3.0));
   session->settle();
-  ASSERT_TRUE(session->set_technique(
+  ASSERT_TRUE(session->techniques().set(
       desk_technique(Selecting::RayPointer, Holding::AlongRay, Travelling::None, 0.1, 1.0)));
   session->update();
-  EXPECT_EQ(session->technique()->outcome().pointed.id, 0U) << "the mouse is elsewhere";
-  const Vector3 eye = session->view().world_from_eye.translation();
+  EXPECT_EQ(session->techniques().current()->outcome().pointed.id, 0U) << "the mouse is elsewhere";
+  const Vector3 eye = session->view().now().world_from_eye.translation();
   const auto aim_over = [&](const Vector3& place) {
     const Vector3 hand = eye + 0.1 * (place - eye);
-    session->put_hand(hand);
-    run_until(*session, [&] { return (session->pointer(0).tip - hand).norm() < 1e-6; });
+    session->hands().put(hand);
+    run_until(*session, [&] { return (session->hands().pointer(0).tip - hand).norm() < 1e-6; });
   };
   aim_over({1.0, 0.5, -3.0});
-  EXPECT_EQ(session->technique()->outcome().pointed.id, box.value);
-  session->hold_hand_buttons(1);
-  run_until(*session, [&] { return session->holds(0); });
+  EXPECT_EQ(session->techniques().current()->outcome().pointed.id, box.value);
+  session->hands().hold_buttons(1);
+  run_until(*session, [&] { return session->hands().holds(0); });
   aim_over({0.0, 0.5, -3.0});
   const Vector3 there = session->world().find(box)->parent_from_object.translation();
   EXPECT_NEAR(there.x(), 0.0, 0.1);
-  session->park_hand();
+  session->hands().park();
   session->update();
-  EXPECT_FALSE(session->holds(0)) << "a hand that is laid aside holds nothing";
+  EXPECT_FALSE(session->hands().holds(0)) << "a hand that is laid aside holds nothing";
 }
 
 TEST(MouseTechnique, KeepsTheMiniatureInSightWhereverTheViewTurns) {
   const auto session = start();
   add_shape(*session, world::box(2.0), world::at(1.0, 0.5, -3.0));
   session->settle();
-  ASSERT_TRUE(session->set_technique(
+  ASSERT_TRUE(session->techniques().set(
       desk_technique(Selecting::Miniature, Holding::Miniature, Travelling::None, 0.1, 1.0)));
   const base::Bounds all(Vector3(0.0, -0.5, -4.0), Vector3(2.0, 1.5, -2.0));
   for (const double pitch : {0.0, -0.6, -1.5, 0.9}) {
@@ -493,9 +496,9 @@ TEST(MouseTechnique, KeepsTheMiniatureInSightWhereverTheViewTurns) {
       view.world_from_eye =
           Pose(Eigen::Translation3d(3.0, 4.0, 5.0)) *
           Pose(Eigen::AngleAxisd(0.7, Vector3::UnitY()) * Eigen::AngleAxisd(pitch, Vector3::UnitX()));
-      session->set_view(view);
+      session->view().set(view);
       session->update();
-      const auto copy = session->miniature();
+      const auto copy = session->techniques().miniature();
       ASSERT_TRUE(copy);
       for (int i = 0; i < 8; ++i) {
         const Vector3 seen =

@@ -32,9 +32,9 @@ State wait_for(TrialStage& stage, State state) {
 /// The hand of the mouse goes straight to a place, at some decimetres a second.
 auto leads_to(session::Session& session, const Vector3& goal) {
   return [&session, goal] {
-    const Vector3 tip = session.pointer(0).tip;
+    const Vector3 tip = session.hands().pointer(0).tip;
     const Vector3 way = goal - tip;
-    session.aim_hand(way.norm() < 0.01 ? goal : Vector3(tip + 0.01 * way.normalized()));
+    session.hands().aim(way.norm() < 0.01 ? goal : Vector3(tip + 0.01 * way.normalized()));
   };
 }
 
@@ -55,14 +55,14 @@ TEST(TrialStage, MeasuresATrialWithTheMousesHand) {
   ASSERT_EQ(wait_for(*blank.stage, State::Running), State::Running) << blank.stage->why();
   EXPECT_TRUE(blank.stage->take_beep());
   EXPECT_FALSE(blank.stage->take_beep());
-  EXPECT_NEAR((blank.session->pointer(0).tip - blank.study.task->start).norm(), 0.0, 0.002);
+  EXPECT_NEAR((blank.session->hands().pointer(0).tip - blank.study.task->start).norm(), 0.0, 0.002);
   // Over the block, to the target.
   bool is_over_block = false;
   const auto climbs = leads_to(*blank.session, {0.06, 0.03, 0.0});
   const auto reaches = leads_to(*blank.session, {0.06, -0.03, -0.06});
   ASSERT_EQ(wait_for(*blank.stage, State::Over,
                      [&] {
-                       is_over_block = is_over_block || blank.session->pointer(0).tip.y() > 0.025;
+                       is_over_block = is_over_block || blank.session->hands().pointer(0).tip.y() > 0.025;
                        is_over_block ? reaches() : climbs();
                      }),
             State::Over)
@@ -89,7 +89,7 @@ TEST(TrialStage, AHeldPointerStaysAtTheStart) {
   double farthest = 0.0;
   const auto pulls = leads_to(*blank.session, {0.1, 0.0, 0.1});
   wait_for(*blank.stage, State::Running, [&] {
-    farthest = std::max(farthest, (blank.session->pointer(0).tip - blank.study.task->start).norm());
+    farthest = std::max(farthest, (blank.session->hands().pointer(0).tip - blank.study.task->start).norm());
     pulls();
   });
   EXPECT_LT(farthest, 0.03);
@@ -120,7 +120,7 @@ TEST(TrialStage, ThingsThatAreNotInATrialAreBackAfterIt) {
   const std::size_t shown = session->world().objects().size();
   stage.stop();
   EXPECT_EQ(session->world().objects().size(), shown + 6);
-  EXPECT_FALSE(session->modified());
+  EXPECT_FALSE(session->files().modified());
   stage.begin(measured_trial(study, {}, 0, 1));
   EXPECT_EQ(wait_for(stage, State::Running), State::Running) << stage.why();
   EXPECT_EQ(session->world().objects().size(), shown);
@@ -145,7 +145,7 @@ TEST(TrialStage, ALostDeviceFailsTheTrialAndItCanBeDoneAgain) {
   const auto session = session::start(std::move(settings));
   TrialStage stage(*session, study, folder.path(), {});
   const auto seeks = [&] {
-    const session::PointerView& view = session->pointer(0);
+    const session::PointerView& view = session->hands().pointer(0);
     base::Pose stage_from_stylus = base::Pose::Identity();
     stage_from_stylus.linear() = view.orientation.toRotationMatrix();
     stage_from_stylus.translation() = view.tip;

@@ -64,7 +64,7 @@ TEST_F(FileActionsTest, CancelKeepsTheWork) {
   EXPECT_FALSE(done);
   EXPECT_TRUE(answer(QMessageBox::Cancel));
   EXPECT_FALSE(done);
-  EXPECT_TRUE(session().modified());
+  EXPECT_TRUE(session().files().modified());
 }
 
 TEST_F(FileActionsTest, DontSaveGoesOn) {
@@ -78,21 +78,21 @@ TEST_F(FileActionsTest, DontSaveGoesOn) {
 
 TEST_F(FileActionsTest, SaveGoesOnWhenAllIsWritten) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
-  ASSERT_EQ(session().path(), file("a.icome"));
+  ASSERT_EQ(session().files().path(), file("a.icome"));
   change();
   bool done = false;
   files_.when_safe([&] { done = true; });
   EXPECT_TRUE(answer(QMessageBox::Save));
   finish_files();
   EXPECT_TRUE(done);
-  EXPECT_FALSE(session().modified());
+  EXPECT_FALSE(session().files().modified());
 }
 
 TEST_F(FileActionsTest, AFailedSaveDoesNotGoOn) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
   change();
   std::filesystem::remove_all(path_of(folder_.path()));
@@ -101,15 +101,15 @@ TEST_F(FileActionsTest, AFailedSaveDoesNotGoOn) {
   EXPECT_TRUE(answer(QMessageBox::Save));
   finish_files();
   EXPECT_FALSE(done);
-  EXPECT_TRUE(session().modified());
+  EXPECT_TRUE(session().files().modified());
 }
 
 TEST_F(FileActionsTest, WhatAFormatCannotHoldKeepsTheQuestionWithTheReason) {
   change();
   perform(world::CreateMaterial{session().ids().next<world::MaterialId>(), {.name = "oak"}});
-  session().save(file("a.off"));
+  session().files().save(file("a.off"));
   finish_files();
-  EXPECT_TRUE(session().modified());
+  EXPECT_TRUE(session().files().modified());
   bool done = false;
   files_.when_safe([&] { done = true; });
   auto* const box = window_.findChild<QMessageBox*>("save_changes");
@@ -118,16 +118,16 @@ TEST_F(FileActionsTest, WhatAFormatCannotHoldKeepsTheQuestionWithTheReason) {
       << qPrintable(box->informativeText());
   EXPECT_TRUE(box->informativeText().contains("materials")) << qPrintable(box->informativeText());
   EXPECT_TRUE(answer(QMessageBox::Cancel));
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
-  EXPECT_FALSE(session().modified());
+  EXPECT_FALSE(session().files().modified());
   files_.when_safe([&] { done = true; });
   EXPECT_TRUE(done);
 }
 
 TEST_F(FileActionsTest, AsksBeforeItReplacesWhatAnotherProgramWrote) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
   const auto write = [&](const char* text) { std::ofstream(file("a.icome")) << text; };
   write("# somebody else's\nv 0 0 0\n");
@@ -142,7 +142,7 @@ TEST_F(FileActionsTest, AsksBeforeItReplacesWhatAnotherProgramWrote) {
   box->button(QMessageBox::Cancel)->click();
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   EXPECT_FALSE(done);
-  EXPECT_TRUE(session().modified());
+  EXPECT_TRUE(session().files().modified());
   std::string first;
   std::getline(std::ifstream(file("a.icome")), first);
   EXPECT_EQ(first, "# somebody else's");
@@ -164,9 +164,9 @@ TEST_F(FileActionsTest, AsksBeforeItReplacesWhatAnotherProgramWrote) {
 
 TEST_F(FileActionsTest, OpensAndRemembersWhatWasOpened) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
-  session().make_new();
+  session().files().make_new();
   EXPECT_EQ(files_.design_name(), "Untitled");
   files_.open(file("a.icome"));
   finish_files();
@@ -177,31 +177,31 @@ TEST_F(FileActionsTest, OpensAndRemembersWhatWasOpened) {
 
 TEST_F(FileActionsTest, WhatWaitsToBeWrittenIsWrittenBeforeAnybodyIsAskedAgain) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   change();
   bool done = false;
   files_.when_safe([&] { done = true; });
   EXPECT_TRUE(answer(QMessageBox::Save));
-  ASSERT_TRUE(session().saving());
+  ASSERT_TRUE(session().files().saving());
   files_.hear({.kind = session::SessionEvent::Kind::Saved, .text = "The first was saved."});
   EXPECT_FALSE(window_.findChild<QMessageBox*>("save_changes"));
   EXPECT_FALSE(done);
   finish_files();
   EXPECT_TRUE(done);
-  EXPECT_FALSE(session().modified());
+  EXPECT_FALSE(session().files().modified());
 }
 
 TEST_F(FileActionsTest, WhoGoesOnMeanwhileIsToldAndCanOpenItAgain) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
-  session().make_new();
+  session().files().make_new();
   files_.open(file("a.icome"));
   change();
-  EXPECT_FALSE(session().opening());
+  EXPECT_FALSE(session().files().opening());
   const std::vector<Note> told = notes();
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].text, "a.icome was not opened, as you went on with Untitled. Open it again to have it.");
@@ -209,15 +209,15 @@ TEST_F(FileActionsTest, WhoGoesOnMeanwhileIsToldAndCanOpenItAgain) {
   EXPECT_EQ(told[0].remedies, std::vector{Note::Remedy::Open});
   EXPECT_EQ(told[0].design, file("a.icome"));
   EXPECT_EQ(world().objects().size(), 1U);
-  EXPECT_TRUE(session().modified());
+  EXPECT_TRUE(session().files().modified());
 }
 
 TEST_F(FileActionsTest, WhoCancelsIsToldThatItWasCancelled) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
   files_.open(file("a.icome"));
-  session().cancel_open();
+  session().files().cancel_open();
   const std::vector<Note> told = notes();
   ASSERT_EQ(told.size(), 1U);
   EXPECT_NE(told[0].text.find("cancelled"), std::string::npos);
@@ -226,20 +226,20 @@ TEST_F(FileActionsTest, WhoCancelsIsToldThatItWasCancelled) {
 
 TEST_F(FileActionsTest, AnEditCountsMoreThanWorkWithoutANameThatIsBeingRead) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
-  session().open(file("a.icome"));  // as if it had no name: these actions know none
+  session().files().open(file("a.icome"));  // as if it had no name: these actions know none
   change();
   finish_files();
   EXPECT_EQ(world().objects().size(), 2U);
-  EXPECT_TRUE(session().modified());
+  EXPECT_TRUE(session().files().modified());
 }
 
 TEST_F(FileActionsTest, WhatIsGoneIsNotOfferedAgain) {
   change();
-  session().save(file("a.icome"));
+  session().files().save(file("a.icome"));
   finish_files();
-  session().save(file("b.icome"));
+  session().files().save(file("b.icome"));
   finish_files();
   EXPECT_EQ(RecentFiles(settings_).paths().size(), 2);
   std::filesystem::remove(file("a.icome"));

@@ -34,7 +34,7 @@ class MoveActionsTest : public DesktopTest {
     QTest::keyClicks(field, text);
     QTest::keyClick(field, Qt::Key_Return);
   }
-  const session::GrabSettings& grab() { return session().grab(); }
+  const session::GrabSettings& grab() { return session().hands().grab(); }
 
   QTemporaryDir folder_;
   QSettings settings_{folder_.filePath("icome.conf"), QSettings::IniFormat};
@@ -59,7 +59,7 @@ TEST_F(MoveActionsTest, KeepsWhatIsSwitched) {
     EXPECT_FALSE(grab().stop);
     EXPECT_TRUE(grab().snaps.edges && grab().snaps.middles);
     EXPECT_FALSE(grab().snaps.vertices || grab().snaps.faces || grab().snaps.grid);
-    session().set_grab({});
+    session().hands().set_grab({});
     begin();
   }
   EXPECT_FALSE(menu_->findChild<QAction*>("move.stop")->isChecked());
@@ -79,7 +79,7 @@ TEST_F(MoveActionsTest, TakesDistancesAndForcesThatMakeSense) {
     EXPECT_NEAR(grab().snaps.radius, 0.004, 1e-12);
     EXPECT_EQ(grab().snap_strength, 1.5);
     EXPECT_NEAR(grab().weight, 0.3, 1e-12);
-    session().set_grab({});
+    session().hands().set_grab({});
     begin();
   }
 }

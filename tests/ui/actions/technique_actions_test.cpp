@@ -30,7 +30,7 @@ class TechniqueActionsTest : public DesktopTest {
     return *found;
   }
   const interaction::Technique* technique() {
-    const session::TechniqueHand* hand = session().technique();
+    const session::TechniqueHand* hand = session().techniques().current();
     return hand ? &hand->technique() : nullptr;
   }
 
@@ -67,7 +67,7 @@ TEST_F(TechniqueActionsTest, ChooseHowToSelectHoldAndTravel) {
 TEST_F(TechniqueActionsTest, AreRemembered) {
   action("technique.spotlight").trigger();
   action("technique.travel.fly").trigger();
-  ASSERT_TRUE(session().set_technique(std::nullopt));
+  ASSERT_TRUE(session().techniques().set(std::nullopt));
   open_menu();
   EXPECT_TRUE(action("technique.spotlight").isChecked());
   EXPECT_TRUE(action("technique.travel.fly").isChecked());
@@ -115,7 +115,7 @@ TEST_F(TechniqueActionsTest, TheMouseHoldsTheHandsButtonWhileItPresses) {
     for (int i = 0; i < 2000; ++i) {
       tool.tick();
       session().update();
-      if (session().pointer(0).buttons == buttons) return true;
+      if (session().hands().pointer(0).buttons == buttons) return true;
     }
     return false;
   };
@@ -128,13 +128,13 @@ TEST_F(TechniqueActionsTest, TheMouseHoldsTheHandsButtonWhileItPresses) {
   tool.press(0.0);
   EXPECT_TRUE(lives(0));
   // Straight ahead, at 0.6 of the way to what is looked at.
-  const interaction::View& view = session().view();
+  const interaction::View& view = session().view().now();
   const base::Vector3 there = view.world_from_eye * base::Vector3(0.0, 0.0, -0.6 * view.distance);
   bool arrived = false;
   for (int i = 0; i < 2000 && !arrived; ++i) {
     tool.tick();
     session().update();
-    arrived = (session().pointer(0).tip - there).norm() < 1e-6;
+    arrived = (session().hands().pointer(0).tip - there).norm() < 1e-6;
   }
   EXPECT_TRUE(arrived);
   action("technique.touch").trigger();

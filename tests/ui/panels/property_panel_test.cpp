@@ -122,9 +122,9 @@ TEST_F(PropertyPanelTest, MovesAllThatIsSelectedInOneAction) {
   type(field<QuantityField>("Position, mm x"), "3 cm");
   EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.03);
   EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.03);
-  EXPECT_EQ(session().history().undo_name(), "Move 2 objects");
+  EXPECT_EQ(session().history().actions().undo_name(), "Move 2 objects");
   EXPECT_EQ(field<QuantityField>("Position, mm x").text(), "30");
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.02);
 }
 
@@ -172,13 +172,13 @@ TEST_F(PropertyPanelTest, ASpunValueIsOneStepToUndo) {
   for (int i = 0; i < 5; ++i) QTest::keyClick(&x, Qt::Key_Up);
   QTest::keyClick(&x, Qt::Key_Up, Qt::ShiftModifier);
   EXPECT_NEAR(world().find(one_)->parent_from_object.translation().x(), 0.025, 1e-12);
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.01);
   QApplication::processEvents();
   // After something else, spinning begins another action.
   QTest::keyClick(&x, Qt::Key_Up);
   EXPECT_NEAR(world().find(one_)->parent_from_object.translation().x(), 0.011, 1e-12);
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.01);
 }
 
@@ -197,7 +197,7 @@ TEST_F(PropertyPanelTest, RefusesAbsurdValuesAtTheField) {
   type(field<QuantityField>("Radius, mm"), "25");
   EXPECT_DOUBLE_EQ(radius(), 0.025);
   EXPECT_EQ(complaint(), "");
-  EXPECT_EQ(session().history().undo_name(), "Change radius of one");
+  EXPECT_EQ(session().history().actions().undo_name(), "Change radius of one");
 }
 
 TEST_F(PropertyPanelTest, AnglesStayAsTheyWereTyped) {
@@ -233,7 +233,7 @@ TEST_F(PropertyPanelTest, AnEffectIsChangedAndSwitched) {
   const auto effect = [&] { return std::get<world::ForceEffect>(*world().find(one_)->fixture); };
   type(field<TextField>("Force"), "well:0,0,0,0.01,1.5");
   EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
-  EXPECT_EQ(session().history().undo_name(), "Change force of one");
+  EXPECT_EQ(session().history().actions().undo_name(), "Change force of one");
   type(field<TextField>("Force"), "well:0,0,0,0.01");
   EXPECT_TRUE(complaint().contains("number 5")) << complaint().toStdString();
   EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
@@ -276,8 +276,8 @@ TEST_F(PropertyPanelTest, ADragOfAnEffectsSliderIsFeltAllTheWayAndOneStepToUndo)
     EXPECT_EQ(text(), "well:0,0,0.01,0.01," + std::string(step == 200 ? "2" : step == 250 ? "2.5" : "3"));
   }
   force.setSliderDown(false);
-  EXPECT_EQ(session().history().undo_name(), "Change force of one");
-  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(session().history().actions().undo_name(), "Change force of one");
+  ASSERT_TRUE(session().history().undo());
   QApplication::processEvents();
   EXPECT_EQ(text(), "well:0,0,0.01,0.01,1.5") << "all of the drag";
   EXPECT_EQ(force.value(), 150);
@@ -287,7 +287,7 @@ TEST_F(PropertyPanelTest, ADragOfAnEffectsSliderIsFeltAllTheWayAndOneStepToUndo)
   force.setSliderDown(true);
   force.setSliderPosition(50);
   force.setSliderDown(false);
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(text(), "well:0,0,0.01,0.01,1") << "two drags are two steps";
 }
 
@@ -313,7 +313,7 @@ TEST_F(PropertyPanelTest, TouchKnowsTheDevicesBest) {
   EXPECT_EQ(stiffness.placeholderText(), "device's best");
   type(stiffness, "0.8 N/mm");
   EXPECT_DOUBLE_EQ(*material().touch.stiffness, 800.0);
-  EXPECT_EQ(session().history().undo_name(), "Change stiffness of Beech");
+  EXPECT_EQ(session().history().actions().undo_name(), "Change stiffness of Beech");
   type(stiffness, "nan");
   EXPECT_DOUBLE_EQ(*material().touch.stiffness, 800.0);
   stiffness.setFocus();
@@ -369,13 +369,13 @@ TEST_F(PropertyPanelTest, FollowsUndoAndSurvivesAnotherWorld) {
   select({one_});
   type(field<TextField>("Name"), "first");
   EXPECT_EQ(world().find(one_)->name, "first");
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   QApplication::processEvents();
   EXPECT_EQ(field<TextField>("Name").text(), "one");
   perform(world::delete_subtree(world(), one_));
   QApplication::processEvents();
   EXPECT_FALSE(is_shown("Name"));
-  session().make_new();
+  session().files().make_new();
   QApplication::processEvents();
   EXPECT_FALSE(is_shown("Name"));
 }

@@ -81,14 +81,14 @@ TEST_F(WorldTreeTest, DeletesGroupsAndDuplicatesAsOneActionEach) {
   create("below", two);
   session().select({one, two});
   ASSERT_TRUE(group_selected(session()));
-  EXPECT_EQ(session().history().undo_name(), "Group 2 objects");
+  EXPECT_EQ(session().history().actions().undo_name(), "Group 2 objects");
   const ObjectId group = session().selection().front();
   EXPECT_EQ(world().find(group)->children, (std::vector{one, two}));
   ASSERT_TRUE(duplicate_selected(session(), world::Duplicate::CopyObjectAndChildren));
   EXPECT_EQ(world().objects().size(), 8U);
   ASSERT_TRUE(delete_selected(session()));
   EXPECT_EQ(world().objects().size(), 4U);
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(session().undo());
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(world().roots(), (std::vector{one, two}));
   session().select({});
   EXPECT_TRUE(delete_selected(session()));

@@ -25,13 +25,13 @@ class SceneToolsTest : public DesktopTest {
   SceneToolsTest()
       : tools_(session(), {.refused = [this](const std::string& why) { refused_ += why; },
                            .asked = [this](QPointF) { ++asked_; }}),
-        window_(tools_, session().display()) {
+        window_(tools_, session().view().display()) {
     left_ = add_box("left", -0.3);
     right_ = add_box("right", 0.3);
     interaction::View view;
     view.world_from_eye.translation() = Vector3(0.0, 0.0, 2.0);
     view.distance = 2.0;
-    session().set_view(view);
+    session().view().set(view);
     window_.resize(800, 600);
     QResizeEvent resized(window_.size(), QSize());
     QCoreApplication::sendEvent(&window_, &resized);
@@ -54,7 +54,7 @@ class SceneToolsTest : public DesktopTest {
 
   /// Where a point of the world is in the picture.
   QPointF pixel(const Vector3& point) {
-    const interaction::View& view = session().view();
+    const interaction::View& view = session().view().now();
     const Vector3 seen = view.world_from_eye.inverse() * point;
     const double scale = 300.0 / (std::tan(0.5 * view.field) * -seen.z());
     return {400.0 + scale * seen.x(), 300.0 - scale * seen.y()};
@@ -125,10 +125,10 @@ TEST_F(SceneToolsTest, ADragMovesWithTheMouseAndIsOneAction) {
   drag(from, pixel(Vector3(-0.3, 0.2, 0.1)));
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.3, 0.2, 0.0), 1e-9));
   EXPECT_EQ(session().selection(), std::vector{left_});
-  EXPECT_EQ(session().history().undo_name(), "Move left");
-  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(session().history().actions().undo_name(), "Move left");
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
-  EXPECT_EQ(session().history().undo_name(), "Edit");
+  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
   EXPECT_EQ(refused_, "");
 }
 
@@ -145,8 +145,8 @@ TEST_F(SceneToolsTest, TheSymbolOfAnEffectIsSelectedAndDraggedAndTheDragUndone) 
   EXPECT_TRUE(session().selection().empty());
   drag(rim, pixel(Vector3(0.0, 0.25, 0.0)));
   EXPECT_LT((at(well) - Vector3(0.0, 0.2, 0.0)).norm(), 1e-3) << at(well).transpose();
-  EXPECT_EQ(session().history().undo_name(), "Move well");
-  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(session().history().actions().undo_name(), "Move well");
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(at(well), Vector3(Vector3::Zero()));
   EXPECT_EQ(refused_, "");
 }
@@ -156,7 +156,7 @@ TEST_F(SceneToolsTest, ADragOfOneMovesAllThatIsSelected) {
   drag(face(left_), pixel(Vector3(-0.4, 0.0, 0.1)));
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.4, 0.0, 0.0), 1e-9));
   EXPECT_TRUE(at(right_).isApprox(Vector3(0.2, 0.0, 0.0), 1e-9));
-  EXPECT_EQ(session().history().undo_name(), "Move 2 objects");
+  EXPECT_EQ(session().history().actions().undo_name(), "Move 2 objects");
 }
 
 TEST_F(SceneToolsTest, AHeldKeyKeepsADragToItsAxis) {
@@ -198,7 +198,7 @@ TEST_F(SceneToolsTest, WhatIsLetGoGetsToWhereItIsDraggedAsSoonAsItIsKnownHowFar)
   arrive();
   EXPECT_NEAR(at(left_).x(), 0.1, 1e-3);
   EXPECT_EQ(refused_, "");
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
 }
 
@@ -219,9 +219,9 @@ TEST_F(SceneToolsTest, ADragStopsAtWhatIsInTheWay) {
   session().select({left_});
   key(QEvent::KeyPress, Qt::Key_Right);
   EXPECT_NEAR(at(left_).x(), 0.1, 1e-5) << "nor by the keyboard";
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
-  session().set_grab({.stop = false});
+  session().hands().set_grab({.stop = false});
   settle();
   drag(face(left_), pixel(Vector3(0.25, 0.05, 0.1)));
   EXPECT_NEAR(at(left_).x(), 0.25, 1e-9);
@@ -232,7 +232,7 @@ TEST_F(SceneToolsTest, ADragSnapsUnlessAltIsHeld) {
   session::GrabSettings settings;
   settings.snaps.grid = true;
   settings.snaps.spacing = settings.snaps.radius = 0.05;
-  session().set_grab(settings);
+  session().hands().set_grab(settings);
   mouse(QEvent::MouseButtonPress, face(left_));
   const QPointF there = pixel(Vector3(-0.21, 0.12, 0.1));
   mouse(QEvent::MouseMove, there);
@@ -262,12 +262,12 @@ TEST_F(SceneToolsTest, AnotherWorldEndsADrag) {
   mouse(QEvent::MouseButtonPress, face(left_));
   mouse(QEvent::MouseMove, pixel(Vector3(0.0, 0.3, 0.1)));
   tools_.tick();
-  session().make_new();
+  session().files().make_new();
   session().update();
   mouse(QEvent::MouseMove, pixel(Vector3(0.0, 0.2, 0.1)));
   tools_.tick();
   mouse(QEvent::MouseButtonRelease, pixel(Vector3(0.0, 0.2, 0.1)));
-  EXPECT_FALSE(session().history().can_undo());
+  EXPECT_FALSE(session().history().actions().can_undo());
   EXPECT_EQ(refused_, "");
 }
 
@@ -278,21 +278,21 @@ TEST_F(SceneToolsTest, ArrowsNudgeByMillimetres) {
   key(QEvent::KeyPress, Qt::Key_Up, Qt::ShiftModifier);
   key(QEvent::KeyPress, Qt::Key_Up, Qt::ShiftModifier, true);
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.299, 0.02, 0.0), 1e-9));
-  ASSERT_TRUE(session().undo());  // what one key did while it was held
+  ASSERT_TRUE(session().history().undo());  // what one key did while it was held
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.299, 0.0, 0.0), 1e-9));
 }
 
 TEST_F(SceneToolsTest, RightDragTurnsAndMiddleDragShiftsTheView) {
-  const Vector3 eye = session().view().world_from_eye.translation();
+  const Vector3 eye = session().view().now().world_from_eye.translation();
   drag({400.0, 300.0}, {430.0, 300.0}, Qt::RightButton);
-  Vector3 moved = session().view().world_from_eye.translation();
+  Vector3 moved = session().view().now().world_from_eye.translation();
   EXPECT_LT(moved.x(), eye.x());  // what is seen follows the mouse
   EXPECT_NEAR(moved.norm(), eye.norm(), 1e-9);
   EXPECT_EQ(asked_, 0);
-  const interaction::View before = session().view();
+  const interaction::View before = session().view().now();
   drag({400.0, 300.0}, {430.0, 300.0}, Qt::MiddleButton);
-  EXPECT_TRUE(session().view().world_from_eye.linear().isApprox(before.world_from_eye.linear()));
-  moved = before.world_from_eye.inverse() * session().view().world_from_eye.translation();
+  EXPECT_TRUE(session().view().now().world_from_eye.linear().isApprox(before.world_from_eye.linear()));
+  moved = before.world_from_eye.inverse() * session().view().now().world_from_eye.translation();
   EXPECT_LT(moved.x(), 0.0);
   EXPECT_TRUE(session().selection().empty());
 }
@@ -310,7 +310,7 @@ TEST_F(SceneToolsTest, TheWheelZoomsTowardsTheMouse) {
   const QPointF after = face(left_);
   EXPECT_NEAR(after.x(), mouse_at.x(), 1e-6);
   EXPECT_NEAR(after.y(), mouse_at.y(), 1e-6);
-  EXPECT_LT(session().view().world_from_eye.translation().z(), 2.0);
+  EXPECT_LT(session().view().now().world_from_eye.translation().z(), 2.0);
 }
 
 TEST_F(SceneToolsTest, KeysChooseTheTool) {
@@ -321,17 +321,17 @@ TEST_F(SceneToolsTest, KeysChooseTheTool) {
   EXPECT_EQ(tools_.tool(), Tool::View);
   key(QEvent::KeyPress, Qt::Key_Tab);
   EXPECT_EQ(tools_.tool(), Tool::Shape);
-  EXPECT_TRUE(session().shaping());
+  EXPECT_TRUE(session().hands().shaping());
   key(QEvent::KeyPress, Qt::Key_Escape);
-  EXPECT_FALSE(session().shaping());
+  EXPECT_FALSE(session().hands().shaping());
   EXPECT_EQ(tools_.tool(), Tool::Select);
 }
 
 TEST_F(SceneToolsTest, InTheViewToolTheLeftButtonTurns) {
   tools_.choose(Tool::View);
-  const Vector3 eye = session().view().world_from_eye.translation();
+  const Vector3 eye = session().view().now().world_from_eye.translation();
   drag(face(left_), face(left_) + QPointF(0.0, 40.0));
-  EXPECT_GT(session().view().world_from_eye.translation().y(), eye.y());
+  EXPECT_GT(session().view().now().world_from_eye.translation().y(), eye.y());
   EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
 }
 
@@ -354,14 +354,14 @@ TEST_F(PenTest, PressesIntoWhatIsUnderIt) {
   EXPECT_FALSE(pen(QEvent::TabletMove, face(left_), 0.0)) << "the other tools take it as a mouse";
   tools_.choose(Tool::Touch);
   EXPECT_TRUE(pen(QEvent::TabletMove, face(left_), 0.0));
-  const auto& hand = session().pointer(0);
+  const auto& hand = session().hands().pointer(0);
   // It hovers over the box first, then its tip is held at the surface.
   ASSERT_TRUE(
       hand_until([&] { return !hand.touching && (hand.tip - Vector3(-0.3, 0.0, 0.1)).norm() < 0.05; }));
   EXPECT_TRUE(pen(QEvent::TabletPress, face(left_), 0.8));
   ASSERT_TRUE(hand_until([&] { return hand.touching && hand.force.z() > 0.1; }));
   EXPECT_NEAR(hand.scp.z(), 0.1, 1e-6);
-  EXPECT_EQ(session().touched(0), left_);
+  EXPECT_EQ(session().hands().touched(0), left_);
   EXPECT_TRUE(pen(QEvent::TabletRelease, face(left_), 0.8));
   EXPECT_TRUE(hand_until([&] { return !hand.touching; }));
 }
@@ -370,18 +370,18 @@ TEST_F(PenTest, IsLiftedWhenTouchIsLeft) {
   tools_.choose(Tool::Touch);
   mouse(QEvent::MouseMove, face(right_));
   mouse(QEvent::MouseButtonPress, face(right_));
-  ASSERT_TRUE(hand_until([&] { return session().pointer(0).touching; }));
+  ASSERT_TRUE(hand_until([&] { return session().hands().pointer(0).touching; }));
   tools_.choose(Tool::Select);
-  EXPECT_TRUE(hand_until([&] { return !session().pointer(0).touching; }));
+  EXPECT_TRUE(hand_until([&] { return !session().hands().pointer(0).touching; }));
 }
 
 TEST_F(PenTest, SpacePressesToo) {
   tools_.choose(Tool::Touch);
   mouse(QEvent::MouseMove, face(right_));
   key(QEvent::KeyPress, Qt::Key_Space);
-  EXPECT_TRUE(hand_until([&] { return session().pointer(0).touching; }));
+  EXPECT_TRUE(hand_until([&] { return session().hands().pointer(0).touching; }));
   key(QEvent::KeyRelease, Qt::Key_Space);
-  EXPECT_TRUE(hand_until([&] { return !session().pointer(0).touching; }));
+  EXPECT_TRUE(hand_until([&] { return !session().hands().pointer(0).touching; }));
 }
 
 TEST_F(PenTest, AFreeHandGoesAsTheMouseGoesAndTheWheelAway) {
@@ -389,11 +389,11 @@ TEST_F(PenTest, AFreeHandGoesAsTheMouseGoesAndTheWheelAway) {
   mouse(QEvent::MouseMove, {123.0, 456.0});  // wherever the mouse is
   const Vector3 start(0.3, 0.0, 0.3);
   tools_.touch_tool().go_freely(start);
-  const auto& hand = session().pointer(0);
+  const auto& hand = session().hands().pointer(0);
   const auto is_at = [&](const Vector3& place) {
     return hand_until([&] { return (hand.tip - place).norm() < 0.002; });
   };
-  session().put_hand(start);
+  session().hands().put(start);
   EXPECT_TRUE(is_at(start));
   const QPointF right = pixel(start + Vector3(0.05, 0.0, 0.0)) - pixel(start);
   mouse(QEvent::MouseMove, QPointF(123.0, 456.0) + right);
@@ -402,7 +402,7 @@ TEST_F(PenTest, AFreeHandGoesAsTheMouseGoesAndTheWheelAway) {
   EXPECT_TRUE(is_at(start + Vector3(0.05, 0.0, -0.05)));
   tools_.touch_tool().turn_wheel(32.0);  // 1 cm into the box
   EXPECT_TRUE(hand_until([&] { return hand.touching && hand.force.z() > 0.1; }));
-  EXPECT_EQ(session().touched(0), right_);
+  EXPECT_EQ(session().hands().touched(0), right_);
 }
 
 TEST_F(SceneToolsTest, AClickThatIsShorterThanATickIsNotMissed) {
@@ -414,7 +414,7 @@ TEST_F(SceneToolsTest, AClickThatIsShorterThanATickIsNotMissed) {
 
 TEST_F(SceneToolsTest, AToolThatStaysCannotBeLeftNorTheViewMoved) {
   tools_.stay_with(Tool::Touch);
-  const auto before = session().view().world_from_eye.matrix();
+  const auto before = session().view().now().world_from_eye.matrix();
   tools_.choose(Tool::Select);
   tools_.key_press(Qt::Key_Tab, {}, false);
   tools_.key_press(Qt::Key_Escape, {}, false);
@@ -423,7 +423,7 @@ TEST_F(SceneToolsTest, AToolThatStaysCannotBeLeftNorTheViewMoved) {
   drag({300.0, 300.0}, {500.0, 350.0}, Qt::MiddleButton);
   tools_.wheel({.at = {400.0, 300.0}, .size = {800.0, 600.0}}, 3.0);
   settle();
-  EXPECT_EQ(session().view().world_from_eye.matrix(), before);
+  EXPECT_EQ(session().view().now().world_from_eye.matrix(), before);
   EXPECT_EQ(asked_, 0);
 }
 
@@ -444,7 +444,7 @@ class PartToolTest : public SceneToolsTest {
   /// Does a finger that comes from the eye's side go through the plate there?
   bool goes_through(double x, double y) {
     session().settle();
-    return !session().pick({Vector3(x, y, 1.0), -Vector3::UnitZ()});
+    return !session().stage().pick({Vector3(x, y, 1.0), -Vector3::UnitZ()});
   }
   /// On the rim of the hole's ghost, before the plate.
   QPointF rim(double x) { return pixel(Vector3(x, 0.02, 0.05)); }
@@ -466,17 +466,17 @@ TEST_F(PartToolTest, AHoleIsDraggedByItsGhostAndFeltAtOnceAndTheDragUndone) {
   EXPECT_TRUE(goes_through(-0.05, 0.0));
   EXPECT_FALSE(goes_through(0.05, 0.0));
   EXPECT_EQ(at(left_), Vector3(Vector3::Zero())) << "the solid itself stays";
-  EXPECT_EQ(session().history().undo_name(), "Move operand 1 of left");
-  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(session().history().actions().undo_name(), "Move operand 1 of left");
+  ASSERT_TRUE(session().history().undo());
   EXPECT_TRUE(goes_through(0.05, 0.0));
-  EXPECT_EQ(session().history().undo_name(), "Edit");
+  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
   EXPECT_EQ(refused_, "");
 }
 
 TEST_F(PartToolTest, GhostsAreThereOnlyWhileTheirObjectIsSelectedAndLeaveClicksToWhatIsBehind) {
   drag(rim(0.05), rim(0.0));
   EXPECT_LT(at(left_).x(), -0.04) << "the solid, with its hole";
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   settle();
   session().select({left_});
   click(rim(0.05), Qt::ControlModifier);
@@ -495,21 +495,21 @@ TEST_F(PartToolTest, EscapeTakesItBackAndAnAxisKeepsIt) {
   key(QEvent::KeyPress, Qt::Key_Escape);
   key(QEvent::KeyRelease, Qt::Key_X);
   EXPECT_TRUE(goes_through(0.05, 0.0));
-  EXPECT_EQ(session().history().undo_name(), "Edit");
+  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
   mouse(QEvent::MouseButtonRelease, rim(0.0));
 }
 
 TEST_F(PartToolTest, WhatAHandDragsStaysPointedOutWhereverTheMouseIs) {
   const auto marked = [this] {
-    const auto& it = session().marked_part();
+    const auto& it = session().stage().marked_part();
     return it ? it->part.operand : std::nullopt;
   };
   session().select({left_});
   const Vector3 grip(0.05, 0.02, 0.05);  // on the rim of the hole's ghost, in the air
-  session().put_hand(grip);
-  ASSERT_TRUE(hand_until([&] { return (session().pointer(0).tip - grip).norm() < 1e-3; }));
-  session().hold_hand_buttons(1);
-  ASSERT_TRUE(hand_until([&] { return session().holds(0); }));
+  session().hands().put(grip);
+  ASSERT_TRUE(hand_until([&] { return (session().hands().pointer(0).tip - grip).norm() < 1e-3; }));
+  session().hands().hold_buttons(1);
+  ASSERT_TRUE(hand_until([&] { return session().hands().holds(0); }));
   const QPointF edge = pixel(Vector3(0.0, 0.1, 0.02));  // of the block's ghost
   for (const QPointF& there : {face(right_), edge}) {
     mouse(QEvent::MouseMove, there);
@@ -517,12 +517,12 @@ TEST_F(PartToolTest, WhatAHandDragsStaysPointedOutWhereverTheMouseIs) {
     EXPECT_EQ(marked(), 1U);
     EXPECT_EQ(tools_.drag_words(), "");
   }
-  session().hold_hand_buttons(0);
-  ASSERT_TRUE(hand_until([&] { return !session().holds(0); }));
+  session().hands().hold_buttons(0);
+  ASSERT_TRUE(hand_until([&] { return !session().hands().holds(0); }));
   tools_.tick();
   EXPECT_EQ(marked(), 0U) << "what the mouse is over";
   tools_.leave();
-  EXPECT_FALSE(session().marked_part());
+  EXPECT_FALSE(session().stage().marked_part());
 }
 
 TEST_F(PartToolTest, CtrlTurnsIt) {
@@ -535,7 +535,7 @@ TEST_F(PartToolTest, CtrlTurnsIt) {
   mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::ControlModifier);
   EXPECT_FALSE(goes_through(0.0, 0.12));
   EXPECT_TRUE(goes_through(0.09, 0.09));
-  EXPECT_EQ(session().history().undo_name(), "Move operand 0 of left");
+  EXPECT_EQ(session().history().actions().undo_name(), "Move operand 0 of left");
   EXPECT_EQ(refused_, "");
 }
 

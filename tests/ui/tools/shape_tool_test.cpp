@@ -28,7 +28,7 @@ class ShapeToolTest : public DesktopTest {
     interaction::View view;
     view.world_from_eye.translation() = Vector3(0.0, 0.0, 2.0);
     view.distance = 2.0;
-    session().set_view(view);
+    session().view().set(view);
     tools_.resize({800.0, 600.0});
     session().settle();
     session().update();
@@ -57,7 +57,7 @@ class ShapeToolTest : public DesktopTest {
   }
 
   SceneInput input_at(const Vector3& point, Qt::MouseButton button = Qt::NoButton) {
-    const interaction::View& view = session().view();
+    const interaction::View& view = session().view().now();
     const Vector3 seen = view.world_from_eye.inverse() * point;
     const double scale = 300.0 / (std::tan(0.5 * view.field) * -seen.z());
     SceneInput input;
@@ -97,11 +97,11 @@ TEST_F(ShapeToolTest, AVertexFollowsTheMouseAsOneAction) {
   drag({0.0, 0.0, 0.0}, {0.05, 0.08, 0.0});
   EXPECT_LT((vertices()[4] - Vector3(0.05, 0.08, 0.0)).norm(), 1e-9);
   for (std::size_t v = 0; v < rest.size(); ++v) EXPECT_TRUE(v == 4 || vertices()[v] == rest[v]) << v;
-  EXPECT_EQ(session().history().undo_name(), "Drag vertex of sheet");
+  EXPECT_EQ(session().history().actions().undo_name(), "Drag vertex of sheet");
   drag({0.05, 0.08, 0.0}, {0.0, 0.1, 0.0});
   EXPECT_LT((vertices()[4] - Vector3(0.0, 0.1, 0.0)).norm(), 1e-9) << "it is found where it is now";
-  ASSERT_TRUE(session().undo());
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(hash(world()), before);
   EXPECT_EQ(refused_, "");
 }
@@ -112,14 +112,14 @@ TEST_F(ShapeToolTest, EdgesAndFacesAndWhatIsRoundThemFollow) {
   EXPECT_NEAR(vertices()[4].y(), 0.05, 1e-9);
   EXPECT_NEAR(vertices()[5].y(), 0.05, 1e-9);
   EXPECT_EQ(vertices()[3].y(), 0.0);
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   session().settle();
   session().update();
   set({.target = ShapingTarget::Face, .soft = {.radius = 0.25, .falloff = geometry::Falloff::Linear}});
   drag({0.12, 0.05, 0.0}, {0.12, 0.15, 0.0});
   for (const int v : {4, 5, 8}) EXPECT_NEAR(vertices()[v].y(), (v == 8 ? 0.2 : 0.0) + 0.1, 1e-9) << v;
   EXPECT_NEAR(vertices()[3].y(), 0.1 * (1.0 - 0.2 / 0.25), 1e-9);
-  EXPECT_EQ(session().history().undo_name(), "Drag face of sheet");
+  EXPECT_EQ(session().history().actions().undo_name(), "Drag face of sheet");
 }
 
 TEST_F(ShapeToolTest, KeepsToAnAxisAndEscapeBringsItBack) {
@@ -135,7 +135,7 @@ TEST_F(ShapeToolTest, KeepsToAnAxisAndEscapeBringsItBack) {
   EXPECT_TRUE(tools_.dragging());
   tools_.key_press(Qt::Key_Escape, {}, false);
   EXPECT_EQ(hash(world()), before);
-  EXPECT_EQ(session().history().undo_name(), "Edit");
+  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
   EXPECT_FALSE(tools_.dragging());
   EXPECT_EQ(tools_.tool(), Tool::Shape) << "the next one leaves the tool";
 }
@@ -143,23 +143,23 @@ TEST_F(ShapeToolTest, KeepsToAnAxisAndEscapeBringsItBack) {
 TEST_F(ShapeToolTest, PointsOfTheLatticeDeformTheSelection) {
   set({.target = ShapingTarget::Lattice, .cells = {2, 2, 1}});
   session().update();
-  EXPECT_FALSE(session().shaping()->cage()) << "nothing is selected";
+  EXPECT_FALSE(session().hands().shaping()->cage()) << "nothing is selected";
   drag({0.1, 0.05, 0.0}, {0.1, 0.05, 0.0});  // a click
   EXPECT_EQ(session().selection(), std::vector{sheet_});
-  ASSERT_TRUE(session().shaping()->cage());
+  ASSERT_TRUE(session().hands().shaping()->cage());
   const std::uint64_t before = hash(world());
-  const std::vector<Vector3> rest = session().shaping()->cage()->lattice().points;
+  const std::vector<Vector3> rest = session().hands().shaping()->cage()->lattice().points;
   // The near face of the box is nearest to the eye: its middle point is (1, 1, 1).
-  const std::size_t middle = session().shaping()->cage()->lattice().index({1, 1, 1});
+  const std::size_t middle = session().hands().shaping()->cage()->lattice().index({1, 1, 1});
   drag(rest[middle], rest[middle] + Vector3(0.1, 0.0, 0.0));
   EXPECT_NEAR(vertices()[4].x(), 0.1 * 0.25 * 0.5, 1e-9) << "B(1,2)^2 B(1,1) in the middle";
   EXPECT_EQ(vertices()[0], Vector3(-0.2, -0.2, 0.0));
-  EXPECT_EQ(session().history().undo_name(), "Deform sheet");
-  EXPECT_NEAR(session().shaping()->cage()->lattice().points[middle].x(), 0.1, 1e-9);
-  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(session().history().actions().undo_name(), "Deform sheet");
+  EXPECT_NEAR(session().hands().shaping()->cage()->lattice().points[middle].x(), 0.1, 1e-9);
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(hash(world()), before);
   session().update();
-  EXPECT_EQ(session().shaping()->cage()->lattice().points, rest) << "at rest again";
+  EXPECT_EQ(session().hands().shaping()->cage()->lattice().points, rest) << "at rest again";
 }
 
 TEST_F(ShapeToolTest, WhatHasNoVerticesSaysWhatToDo) {
@@ -194,16 +194,16 @@ TEST_F(ShapeToolTest, TheRowOfOptionsSetsWhatIsDragged) {
   EXPECT_TRUE(radius->isHidden());
   options.findChild<QSpinBox*>("shape.cells.1")->setValue(4);
   EXPECT_EQ(tools_.shape_tool().settings().cells, (std::array{2, 4, 2}));
-  EXPECT_EQ(session().shaping()->settings().target, ShapingTarget::Lattice);
+  EXPECT_EQ(session().hands().shaping()->settings().target, ShapingTarget::Lattice);
 }
 
 TEST_F(ShapeToolTest, LeavingTheToolGivesObjectsBack) {
   press({0.0, 0.0, 0.0});
   move({0.0, 0.05, 0.0});
   tools_.choose(Tool::Select);
-  EXPECT_FALSE(session().shaping());
+  EXPECT_FALSE(session().hands().shaping());
   EXPECT_NEAR(vertices()[4].y(), 0.05, 1e-9) << "it stays where it is";
-  EXPECT_EQ(session().history().undo_name(), "Drag vertex of sheet");
+  EXPECT_EQ(session().history().actions().undo_name(), "Drag vertex of sheet");
 }
 
 }  // namespace

@@ -61,13 +61,13 @@ TEST_F(MainWindowTest, DeletesAndDuplicatesAsOneAction) {
   action("edit.duplicate")->trigger();
   EXPECT_EQ(world().objects().size(), 4U);
   EXPECT_EQ(session().selection().size(), 2U);
-  EXPECT_EQ(session().history().undo_name(), "Duplicate 2 objects");
-  ASSERT_TRUE(session().undo());
+  EXPECT_EQ(session().history().actions().undo_name(), "Duplicate 2 objects");
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(world().objects().size(), 2U);
   session().select({table, lamp});
   action("edit.delete")->trigger();
   EXPECT_TRUE(world().objects().empty());
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(world().objects().size(), 2U);
 }
 
@@ -96,16 +96,16 @@ TEST_F(MainWindowTest, AnOperationIsAskedForAndPerformed) {
   window_->findChild<QPushButton*>("operation.apply")->click();
   ASSERT_EQ(world().objects().size(), 1U);
   EXPECT_EQ(world().objects().begin()->second.name, "seat");
-  EXPECT_EQ(session().history().undo_name(), "Create");
+  EXPECT_EQ(session().history().actions().undo_name(), "Create");
   window_->findChild<QPushButton*>("operation.close")->click();
   EXPECT_FALSE(dock->isVisible());
 }
 
 TEST_F(MainWindowTest, OpensWhatIsDroppedOnIt) {
   add("leg");
-  session().save(path_of(file("tables.icome")));
+  session().files().save(path_of(file("tables.icome")));
   ASSERT_TRUE(until_title("tables.icome - ICOME"));
-  session().make_new();
+  session().files().make_new();
   ASSERT_TRUE(until_title("Untitled - ICOME"));
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(file("tables.icome"))});
@@ -142,15 +142,15 @@ TEST_F(MainWindowTest, LaysAPictureOnTheObjectThatItIsDroppedOn) {
   load(cube);
   session().settle();
   session().update();
-  session().home();
+  session().view().home();
   const std::uint64_t before = hash(world());
   const QString wood = QString::fromStdString((places::project_folder() / "examples" / "wood.png").string());
   drop_on_scene(wood);
   ASSERT_TRUE(until([&] { return !world().textures().empty(); }));
-  EXPECT_EQ(session().history().undo_name(), "Put Picture on cube");
+  EXPECT_EQ(session().history().actions().undo_name(), "Put Picture on cube");
   const world::PhysicalObject& object = world().objects().begin()->second;
   EXPECT_TRUE(world().find(world().find(object.material)->texture));
-  ASSERT_TRUE(session().undo());
+  ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(hash(world()), before);
 
   QFile words(file("words.png"));
@@ -207,14 +207,14 @@ TEST_F(MainWindowTest, AsksBeforeItClosesOverUnsavedWork) {
 
 TEST_F(MainWindowTest, WhatIsBeingTypedIsSavedToo) {
   const auto leg = add("leg");
-  session().save(path_of(file("a.icome")));
+  session().files().save(path_of(file("a.icome")));
   ASSERT_TRUE(until_title("a.icome - ICOME"));
   session().select({leg});
   QTest::keyClicks(&name_field(), "table leg");
   EXPECT_EQ(world().find(leg)->name, "leg");
   action("file.save")->trigger();
   EXPECT_EQ(world().find(leg)->name, "table leg");
-  EXPECT_TRUE(until([&] { return !session().saving() && !session().modified(); }));
+  EXPECT_TRUE(until([&] { return !session().files().saving() && !session().files().modified(); }));
 }
 
 TEST_F(MainWindowTest, NothingGoesOnOverWhatWasRefused) {
@@ -253,10 +253,10 @@ TEST_F(MainWindowTest, CommittedFieldsLeaveUndoToTheDesign) {
   redo(x);
   EXPECT_EQ(place(), 0.025);
   ASSERT_TRUE(until([&] { return x.text() == "25" && action("edit.undo")->isEnabled(); }));
-  const std::string before = session().history().undo_name();
+  const std::string before = session().history().actions().undo_name();
   x.clearFocus();
   EXPECT_EQ(place(), 0.025);
-  EXPECT_EQ(session().history().undo_name(), before) << "leaving the field does nothing";
+  EXPECT_EQ(session().history().actions().undo_name(), before) << "leaving the field does nothing";
   undo(x);
   EXPECT_EQ(place(), 0.0);
 
@@ -267,7 +267,7 @@ TEST_F(MainWindowTest, CommittedFieldsLeaveUndoToTheDesign) {
   EXPECT_EQ(y.text(), "0");
   EXPECT_TRUE(world().find(leg)) << "not the object, which the design would have taken back";
   y.clearFocus();
-  EXPECT_EQ(session().history().undo_name(), "Add leg");
+  EXPECT_EQ(session().history().actions().undo_name(), "Add leg");
 
   QLineEdit& name = name_field();
   QTest::keyClicks(&name, "table leg");
@@ -322,7 +322,7 @@ TEST_F(MainWindowTest, WhatAnOperationRemarkedGivesWayToTheHintOfAnotherTool) {
 
 TEST_F(MainWindowTest, ClosingAsksAboutWhatIsBeingTyped) {
   const auto leg = add("leg");
-  session().save(path_of(file("a.icome")));
+  session().files().save(path_of(file("a.icome")));
   ASSERT_TRUE(until_title("a.icome - ICOME"));
   session().select({leg});
   QTest::keyClicks(&name_field(), "table leg");
@@ -405,7 +405,7 @@ TEST_F(MainWindowTest, F6GoesRoundAllPartsThatAreSeen) {
     return parts;
   };
   EXPECT_EQ(round(), (QStringList{"scene", "dock.world", "dock.properties"}));
-  session().save(path_of(file("a.icome")));
+  session().files().save(path_of(file("a.icome")));
   ASSERT_TRUE(until_title("a.icome - ICOME"));
   window_->begin(path_of(file("nothing.wrl")));
   ASSERT_TRUE(until([&] { return window_->findChild<QWidget*>("banner")->isVisible(); }));
@@ -433,19 +433,19 @@ TEST_F(MainWindowTest, PlaysMotionsAndPutsThingsBack) {
   QAction* const play = action("view.play");
   EXPECT_EQ(play->shortcut(), QKeySequence("F5"));
   play->trigger();
-  EXPECT_FALSE(session().playing());  // nothing moves
+  EXPECT_FALSE(session().stage().playing());  // nothing moves
   EXPECT_FALSE(play->isChecked());
   world::Motion motion;
   motion.translation = {.times = {0.0, 1.0}, .values = {0, 0, 0, 1, 0, 0}};
   perform(world::ChangeMotion{add("lift"), std::make_shared<const world::Motion>(motion)});
   play->trigger();
-  EXPECT_TRUE(session().playing());
+  EXPECT_TRUE(session().stage().playing());
   EXPECT_TRUE(play->isChecked());
   play->trigger();
-  EXPECT_FALSE(session().playing());
+  EXPECT_FALSE(session().stage().playing());
   EXPECT_FALSE(play->isChecked());
   play->trigger();
-  session().make_new();
+  session().files().make_new();
   EXPECT_TRUE(until([&] { return !play->isChecked(); }));
 }
 

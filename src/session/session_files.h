@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/storage/recovery.h"
+
+namespace icome::session {
+
+struct SessionParts;
+
+/// The files of a session: opening, saving and recovering designs, in the background; Session::update() tells
+/// how each ends. Main's.
+class SessionFiles {
+ public:
+  explicit SessionFiles(SessionParts& parts) : parts_(parts) {}
+  SessionFiles(const SessionFiles&) = delete;
+  SessionFiles& operator=(const SessionFiles&) = delete;
+
+  /// Starts an empty design.
+  void make_new();
+  /// Starts reading; a reading under way is given up. The world stays what it is until all is read.
+  void open(const std::filesystem::path& design);
+  void cancel_open();
+  /// The part that is done, [0, 1], while a design is being read.
+  std::optional<double> opening() const;
+  /// Starts writing what the world is now, there from now on. What another program has changed there since,
+  /// and a damaged file, are only replaced `anyway`; the event SaveAsks tells.
+  void save(const std::filesystem::path& design, bool anyway = false);
+  bool saving() const;
+  /// Of the design; empty: it has never been saved.
+  const std::filesystem::path& path() const;
+  /// Would closing lose something?
+  bool modified() const;
+  /// What the file does not hold, as its format cannot, in sentences; empty: it was saved whole, or not yet.
+  const std::vector<std::string>& left_out() const;
+  /// The work is saved or not wanted: nothing of it is kept for recovery.
+  void close();
+  std::vector<RecoverableWork> recoverable() const;
+  /// Opens it instead of the design that it was made of, as modified work on that.
+  void recover(const RecoverableWork& work);
+  void discard(const RecoverableWork& work);
+
+ private:
+  SessionParts& parts_;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,112 @@
+#include "session/session_parts.h"
+
+namespace icome::session {
+
+void SessionHands::set_grab(const GrabSettings& settings) { parts_.grab_settings = settings; }
+
+const GrabSettings& SessionHands::grab() const { return parts_.grab_settings; }
+
+Surroundings& SessionHands::surroundings() { return parts_.surroundings; }
+
+bool SessionHands::holds(std::size_t index) const {
+  const bool by_technique = index == 0 && parts_.technique && parts_.technique->holds();
+  return by_technique || parts_.grabs[index].holds() || parts_.part_grabs[index].holds() ||
+         parts_.point_grabs[index].holds();
+}
+
+bool SessionHands::is_mouse_driven() const { return parts_.mouse_hand != nullptr; }
+
+void SessionHands::hold_pointer(const std::optional<base::Vector3>& place) {
+  haptics::GripFeel feel;
+  if (place) {
+    feel.holds = true;
+    feel.start = *place;
+    feel.freedom.setZero();
+  }
+  parts_.hands.grip(0, feel);
+}
+
+void SessionHands::give_forces(bool given) {
+  for (std::size_t i = 0; i < parts_.hands.pointers(); ++i) parts_.hands.give_forces(i, given);
+}
+
+void SessionHands::trace(bool on) { parts_.hands.trace(on); }
+
+SessionHands::Ticks SessionHands::take_trace() {
+  return {parts_.hands.take_trace(), parts_.hands.lost_ticks(), parts_.felt.read().names};
+}
+
+base::Result<void> SessionHands::set_shaping(const std::optional<interaction::ShapingSettings>& settings) {
+  if (settings) {
+    interaction::Shaping fresh;
+    if (const auto good = fresh.set(*settings); !good) return good;
+    if (!parts_.shaping) parts_.shaping = std::move(fresh);
+    (void)parts_.shaping->set(*settings);  // what it knows of shapes it keeps
+  } else {
+    parts_.shaping.reset();
+  }
+  // What is held is let go: it may not be there to be held any more.
+  for (std::size_t i = 0; i < parts_.hands.pointers(); ++i) {
+    if (holds(i)) parts_.hands.grip(i, {});
+    parts_.grabs[i] = {};
+    parts_.part_grabs[i] = {};
+    parts_.point_grabs[i] = {};
+  }
+  if (parts_.technique) parts_.technique->let_go();
+  parts_.mouse_marks.reset();
+  parts_.mark_part(std::nullopt);
+  return {};
+}
+
+interaction::Shaping* SessionHands::shaping() { return parts_.shaping ? &*parts_.shaping : nullptr; }
+
+ServoHealth SessionHands::servo() const {
+  const realtime::LoopRunner& loop = *parts_.hands.loop();
+  ServoHealth health;
+  health.running = loop.running();
+  health.rate_hz = parts_.settings.servo.rate_hz;
+  health.summary = loop.recorder().summary();
+  health.load_histogram = loop.recorder().load_histogram();
+  health.notice = loop.report().notice;
+  return health;
+}
+
+void SessionHands::hold_buttons(std::uint32_t buttons) {
+  if (parts_.mouse_hand) parts_.mouse_hand->hold_buttons(buttons);
+}
+
+std::size_t SessionHands::pointers() const { return parts_.hands.pointers(); }
+
+const PointerView& SessionHands::pointer(std::size_t index) const { return parts_.hands.view(index); }
+
+const devices::DeviceInfo& SessionHands::pointer_info(std::size_t index) const {
+  return parts_.hands.info(index);
+}
+
+std::optional<world::ObjectId> SessionHands::touched(std::size_t index) const {
+  const PointerView& view = parts_.hands.view(index);
+  if (!view.touching) return std::nullopt;
+  return parts_.felt.read().names->object(view.touched);
+}
+
+const std::vector<haptics::CappedEffect>& SessionHands::capped_effects() const {
+  static const std::vector<haptics::CappedEffect> kNone;
+  const auto& capped = parts_.felt.read().capped;
+  return capped ? *capped : kNone;
+}
+
+void SessionHands::aim(const base::Vector3& position) {
+  if (!position.allFinite()) return;
+  parts_.aim(position);
+}
+
+void SessionHands::put(const base::Vector3& position) {
+  if (!position.allFinite()) return;
+  parts_.put(position);
+}
+
+void SessionHands::park() { parts_.hand_is_aimed = false; }
+
+std::vector<ForceSample> SessionHands::take_forces() { return parts_.hands.take_forces(); }
+
+}  // namespace icome::session

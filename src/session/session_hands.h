@@ -1,0 +1,94 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "devices/pointer_device.h"
+#include "haptics/servo/servo.h"
+#include "interaction/shaping/shaping.h"
+#include "realtime/loop.h"
+#include "session/felt/haptic_representation.h"
+#include "session/hands/hand_grab.h"
+#include "session/hands/pointer_view.h"
+#include "session/hands/surroundings.h"
+
+namespace icome::session {
+
+struct SessionParts;
+
+/// How the servo is doing.
+struct ServoHealth {
+  bool running = false;
+  double rate_hz = 0.0;  // as asked for
+  realtime::LoopSummary summary = {};
+  std::array<std::uint64_t, realtime::LoopRecorder::kLoadBins> load_histogram = {};  // since the start
+  std::string notice = {};  // what the system refused; or empty
+};
+
+/// The pointers of a session: what they touch and hold, how things are dragged, the hand that the mouse
+/// drives, and how the servo is doing. Main's.
+class SessionHands {
+ public:
+  explicit SessionHands(SessionParts& parts) : parts_(parts) {}
+  SessionHands(const SessionHands&) = delete;
+  SessionHands& operator=(const SessionHands&) = delete;
+
+  std::size_t pointers() const;
+  const PointerView& pointer(std::size_t index) const;
+  const devices::DeviceInfo& pointer_info(std::size_t index) const;
+  /// Effects that the first pointer feels softer than they were asked for, so that they are stable.
+  const std::vector<haptics::CappedEffect>& capped_effects() const;
+  /// The object that a pointer touches.
+  std::optional<world::ObjectId> touched(std::size_t index) const;
+  /// Is something held by it? While button 0 is down, what it touched goes along with it (HandGrab), or what
+  /// the technique holds, as the first pointer's.
+  bool holds(std::size_t index) const;
+  /// From now on hands take hold of points of shapes, not of objects (PointGrab), and these are shown; or not
+  /// any more. Fails as Shaping::set() does, changing nothing.
+  base::Result<void> set_shaping(const std::optional<interaction::ShapingSettings>& settings);
+  /// Null while points are not what is dragged.
+  interaction::Shaping* shaping();
+  /// How things are moved from now on, and felt then.
+  void set_grab(const GrabSettings& settings);
+  const GrabSettings& grab() const;
+  /// What they stop at and snap to.
+  Surroundings& surroundings();
+  /// Is the first pointer the simulated hand that the mouse drives?
+  bool is_mouse_driven() const;
+  /// Keeps the first pointer at a place of the stage by springs, where it touches nothing, or lets it go. For
+  /// who has set GrabSettings::takes_hold to false; hands that take hold have springs of their own.
+  void hold_pointer(const std::optional<base::Vector3>& place);
+  /// As Servo::give_forces(), of all pointers.
+  void give_forces(bool given);
+  /// Every tick of the first pointer is kept from now on, or none any more.
+  void trace(bool on);
+  /// Ticks since the last call, oldest first, of which some seconds are kept.
+  struct Ticks {
+    std::vector<PointerView> ticks;
+    std::uint64_t lost = 0;                     // ticks in all that found no room
+    std::shared_ptr<const TouchedNames> names;  // what PointerView::touched names; null before the first
+  };
+  Ticks take_trace();
+  /// Where the hand of the mouse-driven pointer wants to be, stage frame; surfaces may keep it away. Without
+  /// effect on other devices.
+  void aim(const base::Vector3& position);
+  /// Puts that hand there without a way in between, as a pen is lifted and set down elsewhere.
+  void put(const base::Vector3& position);
+  /// Holds these buttons of that hand down (bit i: button i).
+  void hold_buttons(std::uint32_t buttons);
+  /// Puts it at the eye, out of sight and touching nothing, and keeps it there until it is aimed or put
+  /// again.
+  void park();
+  ServoHealth servo() const;
+  /// Force over time of the first pointer since the last call, oldest first, some 200 a second.
+  std::vector<ForceSample> take_forces();
+
+ private:
+  SessionParts& parts_;
+};
+
+}  // namespace icome::session
