@@ -76,7 +76,7 @@ struct CoinFrames::Scene {
   Scene& operator=(const Scene&) = delete;
   ~Scene() { root->unref(); }
 
-  /// What Coin keeps in a context, such as lists, is not another's.
+  /// An id for the things that Coin keeps in a context, such as lists, which contexts do not share.
   static std::uint32_t own_cache() {
     static std::uint32_t contexts = 0;
     return ++contexts;

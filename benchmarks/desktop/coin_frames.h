@@ -6,7 +6,7 @@
 
 namespace icome::benchmarks {
 
-/// Coin3D drawing into the OpenGL context and the frame that are current, as a program of it would: its own
+/// Coin3D drawing into the current OpenGL context and frame, as in a program that uses it: with its own
 /// solids, a light at the eye, no shadows.
 class CoinFrames {
  public:
@@ -17,7 +17,7 @@ class CoinFrames {
   ~CoinFrames();
 
   void move_all(const base::Vector3& by);
-  /// From that direction, so that all is seen.
+  /// Draws the scene from that direction, so that all is seen.
   void draw(const base::Vector3& toward_eye, int width, int height);
 
  private:

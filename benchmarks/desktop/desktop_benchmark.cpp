@@ -1,4 +1,4 @@
-// What the desktop costs: frames of a view that moves, beside Coin drawing the same. One run, one table.
+// Measures the cost of the desktop: frames of a moving view, beside Coin drawing them. One run, one table.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Frames of a view that moves, ours beside Coin's, in one context.
+// Compares frames of a moving view, ours and Coin's, in one context.
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ using base::Affine3;
 using base::Vector3;
 using render::RenderScenePointer;
 
-/// What cannot fail, unless the benchmark is wrong.
+/// The value of a result that cannot fail, unless the benchmark is wrong.
 template <typename Value>
 Value must(base::Result<Value> result) {
   if (!result) {
@@ -75,13 +75,13 @@ world::GeometryPointer shape_of(FrameSolid::Kind kind) {
   return std::make_shared<PrimitiveGeometry>(geometry::Cone{kHalf, 0.0, kSolidSize});
 }
 
-/// Round the scene, a little further each frame.
+/// Direction to the eye, which goes round the scene, a little further each frame.
 Vector3 toward_eye(int frame) {
   const double angle = 0.5 + 0.02 * frame;
   return {std::sin(angle), 0.5, std::cos(angle)};
 }
 
-/// The frame that both draw into.
+/// The frame that both renderers draw into.
 class FrameTarget {
  public:
   explicit FrameTarget(const DesktopExtent& extent) : extent_(extent) {
@@ -89,7 +89,7 @@ class FrameTarget {
   }
   render::SceneTarget ours() const { return {canvas_.frame.name(), extent_.width, extent_.height, {}}; }
 
-  /// CPU time of a frame, ms; the first ones, which make and upload things, do not count.
+  /// Median CPU time of a frame, ms; the first ones, which make and upload things, do not count.
   double median(const std::function<void(int)>& draw) const {
     constexpr int kFirst = 2;
     std::vector<double> times;

@@ -7,7 +7,7 @@
 
 namespace icome::benchmarks {
 
-/// A solid of the scene of many.
+/// A solid of the scene of many solids.
 struct FrameSolid {
   enum class Kind { Box, Ball, Cylinder, Cone } kind;
   base::Vector3 at;  // m
@@ -16,7 +16,7 @@ struct FrameSolid {
 constexpr double kSolidSize = 0.06;  // m, height and width of each
 constexpr double kSolidStep = 0.1;   // m, from one to the next
 
-/// In a cube of rows.
+/// Solids in rows, which fill a cube.
 std::vector<FrameSolid> frame_solids(std::size_t count);
 
 /// A bumpy ball of 0.1 m.

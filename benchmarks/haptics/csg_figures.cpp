@@ -21,7 +21,7 @@ using haptics::NamedTree;
 constexpr double kSize = 0.1;          // m, of the solids
 constexpr double kGrooveDepth = 1e-3;  // m, of slides
 
-/// The same tree for the renderer of either name, with a solver that serves it.
+/// A tree as a scene for one of the two renderers, with a solver that serves it.
 struct Rendered {
   std::shared_ptr<const HapticScene> scene;
   std::unique_ptr<ContactSolver> solver;
@@ -32,14 +32,14 @@ Rendered exactly(const CsgTree& tree) {
   return {scene_of(haptics::shape_of(tree)), std::make_unique<haptics::ScpSolver>(), false};
 }
 
-/// Nothing for a tree whose sub-normal form is too large.
+/// The tree for the thesis's renderer; nothing where its sub-normal form is too large.
 std::optional<Rendered> as_in_the_thesis(const CsgTree& tree) {
   const auto shape = haptics::ThesisCsgShape::create(tree);
   if (!shape) return std::nullopt;
   return Rendered{scene_of(*shape), std::make_unique<haptics::ThesisSolver>(), true};
 }
 
-/// How far SCPs are from where they belong, and how often they were where they must not be.
+/// The largest distance of an SCP from its correct place, and counts of places and of pops.
 struct Accuracy {
   double error = 0.0;  // m, the largest
   std::size_t places = 0, pops = 0, ticks = 0;
@@ -53,7 +53,7 @@ struct Accuracy {
   }
 };
 
-/// Follows the path, looks at every `sample`th place in contact by brute force and at all for pops.
+/// Follows the path; judges every `sample`th place in contact by brute force, and all ticks for pops.
 Accuracy follow(Rendered rendered, const BruteSolid& solid, const std::vector<Vector3>& path,
                 std::size_t sample) {
   Accuracy result;
@@ -109,7 +109,7 @@ std::vector<CsgTree> random_trees(std::size_t each) {
   return trees;
 }
 
-/// A plate with holes, bosses, domes and countersinks, one feature every 12 mm, of so many primitives.
+/// A plate with holes, bosses, domes and countersinks, one feature every 12 mm, of `primitives` primitives.
 CsgTree machined_plate(std::size_t primitives) {
   constexpr double kPitch = 0.012;  // m
   const auto side = int(std::ceil(std::sqrt(double(primitives - 1))));
@@ -145,7 +145,7 @@ Vector3 gradient(const BruteSolid& solid, const Vector3& at) {
   return result;
 }
 
-/// Comes down from `start` until kGrooveDepth inside and walks about at this depth.
+/// A path that comes down from `start` until kGrooveDepth inside, and walks about at this depth.
 std::vector<Vector3> slide_in(const BruteSolid& solid, const Vector3& start, std::size_t ticks) {
   base::Random random(31);
   const double step = kSlow * kTick;
@@ -186,10 +186,10 @@ Row tick_row(const std::string& name, const CsgTree& tree, const Vector3& start,
   return row;
 }
 
-/// The thesis's renderer on the same way: its contact stage alone.
+/// Row of the thesis's renderer on the same path: its contact stage alone.
 Row thesis_tick_row(const CsgTree& tree, const Vector3& start, const Extent& extent) {
   const std::vector<Vector3> tips = slide_in(BruteSolid(tree), start, extent.csg_ticks);
-  Rendered rendered = *as_in_the_thesis(tree);  // of figure 5.6, which is small
+  Rendered rendered = *as_in_the_thesis(tree);  // of figure 5.6, which is small enough
   rendered.solver->adopt(*rendered.scene, {});
   const BestRun run =
       time_queries(extent.repeats, tips.size(), [&](std::size_t i) { rendered.solver->step(tips[i], 0.0); });

@@ -10,7 +10,7 @@
 
 namespace icome::benchmarks {
 
-/// How much is measured.
+/// The sizes of the measurements.
 struct Extent {
   std::vector<int> frequencies;  // of the bumpy spheres, coarse to fine; 20 f^2 triangles each
   int reference;                 // the frequency at which peers and builds are compared
@@ -21,7 +21,7 @@ struct Extent {
   std::size_t csg_ticks;                   // of each slide on a CSG solid
   std::size_t csg_trees;                   // random ones of each size
   std::size_t csg_presses;                 // and slides on each solid
-  int loop_level;                          // of the mesh that a Loop surface is held against
+  int loop_level;                          // of the mesh that a Loop surface is compared with
   int repeats;                             // of each timed run
   int builds;                              // of each tree
 };
@@ -29,7 +29,7 @@ struct Extent {
 /// Slides and stabs on meshes with a point and a sphere tip, building trees, and the packaged peers.
 std::vector<Section> mesh_figures(const Extent& extent);
 
-/// A mesh that somebody else made.
+/// A mesh from a file, such as a scan or a part.
 struct RealMesh {
   std::string name;
   std::shared_ptr<const geometry::TriangleMesh> mesh;
@@ -42,7 +42,7 @@ base::Result<RealMesh> read_real_mesh(const std::filesystem::path& file);
 /// Slides over real meshes with a point and a sphere tip. Closed ones are judged.
 std::vector<Section> real_mesh_figures(const Extent& extent, const std::vector<RealMesh>& meshes);
 
-/// Large scenes of primitives, of which one is touched.
+/// Large scenes of primitives, one of which is touched.
 Section primitive_figures(const Extent& extent);
 
 /// Walls of 1 mm that are pressed 5 mm deep.

@@ -1,5 +1,5 @@
-// The haptic core against the figures that are asked for and against packaged peers: one run, one table.
-// Ends with 1 when any surface contact point was wrong: a quick answer that is wrong is no answer.
+// Compares the haptic core with its target figures and with packaged peers: one run, one table. Ends with 1
+// when any surface contact point was wrong: a quick answer that is wrong is no answer.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -44,7 +44,7 @@ Extent quick() {
           .builds = 1};
 }
 
-/// Scans and parts that others made, small to large; those that are not there are left out.
+/// Files of scans and parts, small to large; missing ones are left out.
 std::vector<std::filesystem::path> usual_meshes() {
   std::vector<std::filesystem::path> files{"/usr/share/glmark2/models/bunny.obj"};
   for (const char* name :

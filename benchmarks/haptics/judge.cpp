@@ -5,7 +5,7 @@
 namespace icome::benchmarks {
 namespace {
 
-/// Distance to the surface, m, negative inside.
+/// Signed distance to the surface, m, negative inside.
 double signed_distance(const EmbreeMesh& mesh, const Vector3& position) {
   const double distance = (mesh.nearest(position) - position).norm();
   const bool outside = mesh.first_hit(Vector3::Zero(), position).has_value();
@@ -15,7 +15,7 @@ double signed_distance(const EmbreeMesh& mesh, const Vector3& position) {
 /// Does a ray from there to far away cross the mesh an odd number of times?
 bool crosses_oddly(const EmbreeMesh& mesh, const Vector3& from, const Vector3& direction) {
   constexpr double kFar = 10.0;   // m, beyond every mesh that is measured
-  constexpr double kPast = 1e-7;  // m, beyond a crossing: single precision tells no less apart here
+  constexpr double kPast = 1e-7;  // m, beyond a crossing: the resolution of single precision here
   const Vector3 end = from + kFar * direction;
   Vector3 at = from;
   bool odd = false;

@@ -7,7 +7,7 @@
 
 namespace icome::benchmarks {
 
-/// What half and 99.9 % of some durations stay within, in whatever unit the user of it says.
+/// Median and 99.9 % quantile of some durations, in a unit that the user of it states.
 struct Quantiles {
   double median = 0.0;
   double p999 = 0.0;
@@ -18,7 +18,7 @@ Quantiles quantiles_us(std::vector<std::int32_t> nanoseconds);
 
 double median(std::vector<double> values);
 
-/// Repeated runs of the same work on a machine that others use too: the one with the best p99.9 counts.
+/// Repeated runs of equal work on a machine that others use, too: the one with the best p99.9 counts.
 struct BestRun {
   Quantiles us;
   double noise = 1.0;     // the worst run's p99.9 over the best one's

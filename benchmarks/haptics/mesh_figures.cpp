@@ -27,7 +27,7 @@ std::string grouped(std::size_t count) {
   return fmt::format("{},{:03}", grouped(count / 1000), count % 1000);
 }
 
-/// The tip's ways over the meshes: the same for all of them.
+/// A path of the tip, which is the same over all meshes.
 struct Motion {
   std::string name;
   std::vector<Vector3> tips;
@@ -39,7 +39,7 @@ std::vector<Motion> motions(const Extent& extent) {
           {"stabs", stab_path(kBumpySphere, kStabDepth, extent.stabs)}};
 }
 
-/// What is to be reached at 1.06M triangles.
+/// Sets the targets for 1.06M triangles.
 void set_targets(Row& row, double tip_radius, bool slow) {
   if (tip_radius > 0.0) {
     row.to_reach = 1.5;
@@ -60,7 +60,7 @@ Row query_row(const std::string& figure, const BestRun& run, const Quantiles& ou
   return row;
 }
 
-/// The naive way: look at every triangle.
+/// The nearest point, found in the naive way: by looking at every triangle.
 Vector3 nearest_of_all(const TriangleMesh& mesh, const Vector3& point) {
   Vector3 best = Vector3::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -124,7 +124,7 @@ Section build_figures(const std::shared_ptr<const TriangleMesh>& mesh, const Emb
            {.figure = bytes("CGAL"), .unit = "B", .median = double(cgal.bytes()) / count}}};
 }
 
-/// Single queries at the tips of a slide, beside what a whole tick of ours took there.
+/// Rows of single queries at the tips of a slide, compared with our whole ticks there.
 Section peer_figures(const haptics::MeshShape& shape, const EmbreeMesh& embree, const CgalMesh& cgal,
                      const std::vector<Vector3>& tips, const TouchRun& run, int repeats) {
   constexpr std::size_t kNaiveQueries = 20;
@@ -153,7 +153,7 @@ Section peer_figures(const haptics::MeshShape& shape, const EmbreeMesh& embree, 
            query_row("naive: nearest point of every triangle", naive, ours)}};
 }
 
-/// Grows by one mesh after the other.
+/// Collects the figures, mesh by mesh.
 class MeshFigures {
  public:
   explicit MeshFigures(const Extent& extent) : extent_(extent), motions_(motions(extent)) {}

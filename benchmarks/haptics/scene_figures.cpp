@@ -48,7 +48,7 @@ Lattice make_lattice(std::size_t count) {
   return lattice;
 }
 
-/// As on meshes, by the closed form of the one primitive that is visited.
+/// Counts faults as on meshes, by the closed form of the one primitive that is visited.
 Faults judge_visits(const Lattice& lattice, const Visits& visits, const std::vector<Vector3>& scps) {
   const Primitive sphere(geometry::Sphere{kHalfSize});
   const Primitive box(geometry::Box{Vector3::Constant(kHalfSize)});
@@ -85,7 +85,7 @@ constexpr double kWallThickness = 0.001;  // m
 constexpr double kWallSide = 0.1;         // m
 constexpr double kPressDepth = 0.005;     // m
 
-/// Presses in which the SCP was ever more than kPop below the wall's face.
+/// Number of presses in which the SCP was ever more than kPop below the wall's face.
 std::size_t popped_presses(const Presses& presses, const std::vector<Vector3>& scps, double tip_radius) {
   const double lowest = 0.5 * kWallThickness + tip_radius - kPop;
   std::size_t popped = 0;

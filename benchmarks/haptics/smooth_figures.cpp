@@ -20,7 +20,7 @@ namespace {
 using geometry::TriangleMesh;
 using haptics::Shape;
 
-constexpr double kStroke = 0.002;      // m/s: slower than this a hand does not stroke
+constexpr double kStroke = 0.002;      // m/s: the slowest stroke of a hand
 constexpr double kStiffness = 1000;    // N/m
 constexpr int kControlFrequency = 22;  // 9,680 faces
 

@@ -43,7 +43,7 @@ std::string ratio(const Row& row) {
   return pair(median, p999) + (reached ? " reached" : " NOT reached");
 }
 
-/// What the kernel calls the processor; "unknown processor" where it does not say.
+/// The kernel's name of the processor; "unknown processor" where it gives none.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

@@ -8,20 +8,20 @@
 
 namespace icome::benchmarks {
 
-/// One line of the table. What does not apply stays empty.
+/// A line of the table. Fields that do not apply stay empty.
 struct Row {
   std::string figure;
   std::string unit = "us";
   std::optional<double> median = std::nullopt;  // or the only value there is
   std::optional<double> p999 = std::nullopt;
-  std::optional<Quantiles> solver = std::nullopt;  // the contact stage of it
-  std::optional<Quantiles> load = std::nullopt;  // with what is made ready for the next tick after the output
+  std::optional<Quantiles> solver = std::nullopt;  // of the contact stage alone
+  std::optional<Quantiles> load = std::nullopt;  // with the preparations for the next tick, after the output
   std::optional<double> noise = std::nullopt;    // see BestRun
   std::optional<Faults> faults = std::nullopt;
-  std::optional<double> to_reach = std::nullopt;  // by median
+  std::optional<double> to_reach = std::nullopt;  // for the median
   std::optional<double> p999_to_reach = std::nullopt;
   std::string elsewhere = "";                    // the best open toolkit of today
-  std::optional<Quantiles> ours = std::nullopt;  // what a peer is held against
+  std::optional<Quantiles> ours = std::nullopt;  // which a peer is compared with
 };
 
 struct Section {
@@ -32,7 +32,7 @@ struct Section {
 void print_table(const std::vector<Section>& sections);
 void print_json(const std::vector<Section>& sections);
 
-/// Pops and sticks of all rows together.
+/// The pops and sticks of all rows together.
 Faults total_faults(const std::vector<Section>& sections);
 
 }  // namespace icome::benchmarks

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kAir = 0.003;  // m, above the surface, where a slide begins
 
-/// Appends the positions from `from` (left out) to `to` at `speed` m/s. By value, since `from` may be the
-/// last of the tips, which move when there is no more room.
+/// Appends the positions from `from` (left out) to `to` at `speed` m/s. `from` is passed by value, as it may
+/// be the last of the tips, which move when there is no more room.
 void go(std::vector<Vector3>& tips, Vector3 from, Vector3 to, double speed) {
   const int steps = std::max(1, int(std::ceil((to - from).norm() / (speed * kTick))));
   for (int i = 1; i <= steps; ++i) tips.push_back(from + double(i) / steps * (to - from));
@@ -29,7 +29,7 @@ Vector3 near_direction(base::Random& random, const Vector3& axis, double angle) 
   return cosine * axis + std::sqrt(1.0 - cosine * cosine) * (std::cos(turn) * u + std::sin(turn) * v);
 }
 
-/// A place on the unit sphere that walks about with smoothly random turns.
+/// A place on the unit sphere that wanders with smoothly random turns.
 class Wanderer {
  public:
   Vector3 position = Vector3::UnitX();
@@ -49,11 +49,11 @@ class Wanderer {
  private:
   base::Random random_{11};
   Vector3 heading_ = Vector3(0.0, 0.6, 0.8);
-  double turning_ = 0.0;  // of the way, radians a radian
+  double turning_ = 0.0;  // of the path, radians a radian
   int until_turn_ = 0;    // ticks
 };
 
-/// Of unit length; `otherwise` for a sliver whose normal drowns in rounding.
+/// Unit normal of a face; `otherwise` for a sliver whose normal drowns in rounding.
 Vector3 face_normal(const geometry::TriangleMesh& mesh, std::size_t face, const Vector3& otherwise) {
   const Vector3 a = mesh.corner(face, 0);
   const Vector3 normal =
@@ -61,7 +61,7 @@ Vector3 face_normal(const geometry::TriangleMesh& mesh, std::size_t face, const 
   return normal.norm() > 1e-9 ? normal.normalized() : otherwise;
 }
 
-/// The part of a vector along a surface with that unit normal, as a direction; any one where nothing is left.
+/// Direction of a vector's part along a surface with that unit normal; any one where nothing is left.
 Vector3 along(const Vector3& vector, const Vector3& normal) {
   const Vector3 rest = vector - vector.dot(normal) * normal;
   return rest.norm() > 1e-6 ? rest.normalized() : normal.unitOrthogonal();

@@ -8,7 +8,7 @@
 namespace icome::benchmarks {
 namespace {
 
-/// A device whose tip is where a list of positions says.
+/// A device whose tip follows a list of positions, one for each read.
 class ListDevice final : public devices::PointerDevice {
  public:
   explicit ListDevice(const std::vector<Vector3>& tips) : tips_(tips) {}

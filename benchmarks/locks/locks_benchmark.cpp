@@ -24,7 +24,7 @@ constexpr std::size_t kMostThreads = 4;
 constexpr int kRounds = 7;
 constexpr auto kRoundTime = std::chrono::milliseconds(200);
 
-// One way of calling for the three locks; only the Bakery lock wants to know the thread.
+// A common interface to the three locks; only the Bakery lock uses the number of the thread.
 struct Bakery {
   static constexpr const char* kName = "Bakery";
   BakeryLock<kMostThreads> lock;

@@ -1,4 +1,4 @@
-// What tools that shape meshes cost, each beside the plain way to the same result in the same run.
+// Measures the cost of tools that shape meshes, each beside the plain way to the same result in the same run.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -33,10 +33,10 @@ struct ModellingRow {
   std::string figure;
   double seconds;
   std::optional<double> plain = {};  // s, the plain way
-  std::string of = {};               // what that is
+  std::string of = {};               // name of the plain way
 };
 
-/// What cannot fail, unless the benchmark is wrong.
+/// The value of a result that cannot fail, unless the benchmark is wrong.
 template <typename Value>
 Value must(base::Result<Value> result) {
   if (!result) std::abort();
@@ -71,7 +71,7 @@ geometry::TriangleMesh sheet(int squares) {
   return mesh;
 }
 
-/// One control point of 125 is dragged; what follows it, and what else is to be done for hand and world.
+/// Measures a drag of one control point of 125: the motion of the vertices, and the work for hand and world.
 void print_deformation(const ModellingExtent& extent) {
   geometry::TriangleMesh mesh = sheet(extent.grid);
   base::Affine3 box = base::Affine3::Identity();
@@ -120,7 +120,7 @@ void print_extrusion(const ModellingExtent& extent) {
   geometry::TriangleMesh mesh;
   const double seconds =
       median_seconds(extent.repeats, [&] { mesh = must(geometry::extrude(circle, std::vector{step})); });
-  // At least every corner has to be moved, and every triangle to be written.
+  // A lower bound: every corner has to be moved, and every triangle to be written.
   const double plain = median_seconds(extent.repeats, [&] {
     geometry::TriangleMesh copy;
     const base::Affine3 motion = geometry::motion(step);
@@ -143,7 +143,7 @@ void print_subdivision(const ModellingExtent& extent) {
   print("subdivision", {{fmt::format("{} triangles to {}", coarse.triangles.size(), triangles), seconds}});
 }
 
-/// An edit of every vertex of the large mesh, done, undone and done again.
+/// Measures an edit of every vertex of the large mesh, done, undone and done again.
 void print_undo(const ModellingExtent& extent) {
   const geometry::TriangleMesh mesh = sheet(extent.grid);
   constexpr world::GeometryId kMesh{1};

@@ -11,7 +11,7 @@
 
 namespace icome::benchmarks {
 
-/// What cannot fail, unless the benchmark is wrong.
+/// The value of a result that cannot fail, unless the benchmark is wrong.
 template <typename Value>
 Value must(base::Result<Value> result) {
   if (!result) {
@@ -25,7 +25,7 @@ inline std::unique_ptr<session::Session> start_session() {
   return must(session::Session::create(session::SessionSettings{}));
 }
 
-/// Turns the main loop until the condition holds; false after a minute.
+/// Runs the main loop until the condition holds; false after a minute.
 template <typename Condition>
 bool turn_until(session::Session& session, const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
@@ -37,14 +37,14 @@ bool turn_until(session::Session& session, const Condition& condition) {
   return false;
 }
 
-/// The ids of something that was added.
+/// The ids of an object that was added, and of its shape and material.
 struct Added {
   world::ObjectId object;
   world::GeometryId geometry;
   world::MaterialId material;
 };
 
-/// Adds a shape of a material of its own.
+/// Adds an object with this shape and a material of its own.
 Added add_shape(session::Session& session, world::GeometryPointer shape, const base::Affine3& place);
 world::GeometryPointer thick_plate();  // 0.4 m, its top at y = 0
 /// A bumpy plate of 0.4 m about y = 0, with 2 * squares * squares triangles.

@@ -1,4 +1,4 @@
-// From an edit to the first tick that feels it: a hand rests on a plate, which an edit then takes away.
+// Measures the time from an edit to the first tick that feels it: it takes a plate away from under a hand.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,9 +12,9 @@ namespace icome::benchmarks {
 namespace {
 
 const base::Vector3 kAbove(0.0, 0.03, 0.0), kWithin(0.0, -0.004, 0.0);
-constexpr double kFar = 0.1;  // m, that a plate is lowered to be gone
+constexpr double kFar = 0.1;  // m; a plate lowered so far is out of reach
 
-/// Ticks until the hand hears of the edit, which leaves nothing to touch. `undo` brings it back.
+/// Ticks until the hand feels that an edit has left nothing to touch; each edit is undone afterwards.
 std::vector<double> ticks_to_feel(session::Session& session, int edits,
                                   const std::function<void()>& take_away) {
   std::vector<double> ticks;
@@ -35,7 +35,7 @@ std::vector<double> ticks_to_feel(session::Session& session, int edits,
   return ticks;
 }
 
-/// The vertices of the large plate within 3 cm of its middle, that much lower than now.
+/// An edit that lowers the vertices of the large plate within 3 cm of its middle by `depth` (m).
 world::MoveVertices dent(const session::Session& session, world::GeometryId geometry, double depth) {
   const auto& mesh = dynamic_cast<const world::MeshGeometry&>(*session.world().find(geometry)->shape).mesh;
   world::MoveVertices edit{geometry, {}, {}};

@@ -1,4 +1,4 @@
-// Does an edit cost by itself, and not by the design that it is in? One box of many is moved.
+// Measures whether the cost of an edit depends on the size of its design: one box of many is moved.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ base::Affine3 beside(const world::World& world, world::ObjectId id, double metre
   return Eigen::Translation3d(metres, 0.0, 0.0) * world.find(id)->parent_from_object;
 }
 
-/// What the followers' thread does between an edit and the box that the servo takes the scene from, us.
+/// Row of the time, us, that the followers' thread takes from an edit to handing the scene to the servo.
 SessionRow work_row(int count, int edits) {
   world::World world;
   world::IdSource ids(1);
@@ -64,7 +64,7 @@ SessionRow work_row(int count, int edits) {
   return row_of(fmt::format("one of {} boxes: made felt", count), std::move(us), "us");
 }
 
-/// From an edit of a session to its being in what servos and pictures are made of, ms.
+/// Row of the time, ms, from an edit of a session until servos and pictures have its result.
 SessionRow session_row(int count, int edits) {
   const auto session = start_session();
   std::vector<world::ObjectId> boxes;

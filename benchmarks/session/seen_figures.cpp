@@ -1,4 +1,4 @@
-// From an edit to the frame that shows it: a plate before the eye changes its colour.
+// Measures the time from an edit to the frame that shows it: a plate before the eye changes its colour.
 #include "base/clock.h"
 #include "bench_session.h"
 #include "session_figures.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
 
-/// Looks down at the plate.
+/// Turns the view down to the plate.
 void look_down(session::Session& session) {
   interaction::View view;
   view.world_from_eye = base::Pose(Eigen::AngleAxisd(-1.5, base::Vector3::UnitX()));
@@ -42,7 +42,7 @@ Seen time_to_see(session::Session& session, const Added& plate, int edits) {
     must(session.history().perform(world::ChangeMaterial{plate.material, painted(red)}, "Paint"));
     if (!turn_until(session, [&] { return display.is_red() == red; })) break;
     const WatchingDisplay::Change change = display.last_change();
-    if (i == 0) continue;  // shapes go to the graphics card
+    if (i == 0) continue;  // not counted: shapes go to the graphics card
     const bool straddled = change.begun > begin && change.frame > before + 1;
     seen.frames.push_back(double(change.frame - before - (straddled ? 1 : 0)));
     seen.milliseconds.push_back(1e-6 * double(change.done - begin));

@@ -1,4 +1,4 @@
-// How steady the servo is: alone, beside a display that draws without a pause, and beside an import.
+// Measures how steady the servo is: alone, beside a display that draws without a pause, and beside an import.
 #include <unistd.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace icome::benchmarks {
 namespace {
 
-/// Turns the main loop for that long while the hand wanders over the plate.
+/// Runs the main loop for `seconds` while the hand wanders over the plate.
 void wander(session::Session& session, double seconds, const std::function<void()>& at_each_turn) {
   const auto start = std::chrono::steady_clock::now();
   double time = 0.0;
@@ -31,7 +31,7 @@ struct Measured {
   std::string note;
 };
 
-/// A design file of the large mesh.
+/// A design file of the large mesh, removed with the object.
 class LargeFile {
  public:
   explicit LargeFile(int grid)

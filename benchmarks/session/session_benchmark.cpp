@@ -1,5 +1,5 @@
-// A session against what is asked of it: how soon an edit is felt and seen, how steady the servo stays beside
-// a display and an import, how soon a design is on the screen. One run, one table.
+// Compares a session with its targets: how soon an edit is felt and seen, how steady the servo stays beside a
+// display and an import, how soon a design is on the screen. One run, one table.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

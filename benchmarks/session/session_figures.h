@@ -6,7 +6,7 @@
 
 namespace icome::benchmarks {
 
-/// How much is measured.
+/// The sizes of the measurements.
 struct SessionExtent {
   int edits = 60;         // of each kind
   int grid = 708;         // squares along each side of the large mesh: two triangles each
@@ -16,15 +16,15 @@ struct SessionExtent {
   std::filesystem::path demo = {};  // the design that start-up is measured with
 };
 
-/// One line of the table. What does not apply stays empty.
+/// A line of the table. Fields that do not apply stay empty.
 struct SessionRow {
   std::string figure = {};
   std::string unit = "ms";
   double median = 0.0;
   std::optional<double> high = {};  // 99.9 %
   std::optional<double> worst = {};
-  std::optional<double> times_of = {};  // a median of the same run that this one's is held against
-  std::string of = {};                  // what that is
+  std::optional<double> times_of = {};  // a median of the same run that this one's is compared with
+  std::string of = {};                  // name of that value
 };
 
 struct SessionSection {
@@ -38,7 +38,7 @@ SessionSection seen_figures(const SessionExtent& extent);
 SessionSection servo_figures(const SessionExtent& extent);
 SessionSection start_figures(const SessionExtent& extent);
 
-/// Median and worst of the values; `unit` as they are.
+/// Row with the median and the worst of the values, which are in `unit`.
 SessionRow row_of(const std::string& figure, std::vector<double> values, const std::string& unit = "ms");
 
 void print_sections(const std::vector<SessionSection>& sections);

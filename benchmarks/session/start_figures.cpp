@@ -1,4 +1,4 @@
-// From nothing to the first frame of a design.
+// Measures start-up: from the creation of a session to the first frame of a design.
 #include "base/clock.h"
 #include "bench_session.h"
 #include "session_figures.h"

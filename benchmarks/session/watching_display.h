@@ -8,8 +8,8 @@
 
 namespace icome::benchmarks {
 
-/// A display thread: draws what a session shows, off the screen, and looks at the middle of each picture.
-/// Ends with the object.
+/// A display thread that draws the scene of a session off the screen, and looks at the middle of each
+/// picture. It ends with the object.
 class WatchingDisplay {
  public:
   enum class Pace { WhenDue, Always };
@@ -19,17 +19,17 @@ class WatchingDisplay {
   WatchingDisplay(const WatchingDisplay&) = delete;
   WatchingDisplay& operator=(const WatchingDisplay&) = delete;
 
-  /// The picture in which the middle looked different from the one before, last.
+  /// The last picture in which the middle looked different from the picture before.
   struct Change {
     std::int64_t begun = 0, done = 0;  // ns, steady clock: of drawing it
     std::uint64_t frame = 0;           // its number, from 1
     bool is_red = false;               // more red than green in the middle
   };
   bool is_red() const { return red_.load(std::memory_order_acquire); }
-  /// Of the newest change; valid while the middle stays what it is.
+  /// The newest change; valid while the middle stays as it is.
   Change last_change() const;
   std::uint64_t frames() const { return frames_.load(std::memory_order_acquire); }
-  /// When the newest frame was begun and done, ns on the steady clock.
+  /// Time at which the newest frame was done, ns on the steady clock.
   std::int64_t last_done() const { return last_done_.load(std::memory_order_acquire); }
 
  private:

@@ -1,5 +1,5 @@
-// What analyses of variance cost: ours, the sums of textbooks and R, on the same files in the same run; and
-// how many digits of NIST's certified F each of them has.
+// Measures the cost of analyses of variance: ours, the sums of textbooks and R, on the same files in the same
+// run; and the number of digits of NIST's certified F that each of them gets right.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -33,16 +33,16 @@ struct StatsExtent {
   int repeats = 5;
 };
 
-/// What is analysed, and how.
+/// An analysis to be measured: its sample, and the ways to compute it.
 struct StatsFigure {
   std::string title;
   StatsSample sample;
   std::function<FValues(const StatsSample&)> ours, textbook;
-  std::string peer;       // of R: as in stats_peer.R
-  std::string peer_call;  // the same, for a reader
+  std::string peer;       // R's analysis, as in stats_peer.R
+  std::string peer_call;  // its name for a reader
 };
 
-/// What cannot fail, unless the benchmark is wrong.
+/// The value of a result that cannot fail, unless the benchmark is wrong.
 template <typename Value>
 Value stats_must(base::Result<Value> result) {
   if (!result) std::abort();
@@ -71,14 +71,14 @@ FValues our_repeated(const StatsSample& sample) {
   return f_of(analysis.terms);
 }
 
-/// To how many digits two numbers agree; 15 at most, which is what a double can tell.
+/// Number of digits to which two numbers agree; 15 at most, the precision of a double.
 double common_digits(double value, double expected) {
   const double error = std::abs(value - expected) / std::abs(expected);
   if (!(error > 1e-15)) return 15.0;
   return std::max(0.0, -std::log10(error));
 }
 
-/// The worst of all terms.
+/// The least number of common digits over all terms.
 double common_digits(const FValues& values, const FValues& expected) {
   double digits = 15.0;
   for (const auto& [term, f] : expected) {
@@ -143,7 +143,7 @@ void print_figures(const StatsExtent& extent, const fs::path& file) {
   for (const StatsFigure& figure : figures) print_figure(figure, file, extent.repeats);
 }
 
-/// NIST's sets of the higher difficulties agree in their first digits, which squares of the values then hold.
+/// Prints digits of NIST's certified F; in its harder sets, squares of values are filled by shared digits.
 void print_certified_digits() {
   const fs::path folder = places::shared_data() / "stats" / "nist-strd-anova";
   if (!fs::exists(folder)) {

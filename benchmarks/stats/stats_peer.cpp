@@ -11,7 +11,7 @@
 namespace icome::benchmarks {
 namespace {
 
-/// What a command prints; nothing where it fails.
+/// The output of a command; nothing where it fails.
 std::optional<std::string> output_of(const std::string& command) {
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (!pipe) return std::nullopt;

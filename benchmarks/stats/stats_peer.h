@@ -7,16 +7,16 @@
 
 namespace icome::benchmarks {
 
-/// What R took, and what it found.
+/// R's times and results.
 struct PeerAnswer {
   double read = 0.0, compute = 0.0;  // s, medians
   FValues f;
 };
 
-/// Whether R is installed.
+/// Is R installed?
 bool has_peer();
 
-/// Has R read and analyse the file; `kind` as in stats_peer.R. Nothing where R is not there or fails.
+/// Lets R read and analyse the file; `kind` as in stats_peer.R. Nothing where R is not there or fails.
 std::optional<PeerAnswer> ask_peer(const std::string& kind, const std::filesystem::path& file, int repeats);
 
 }  // namespace icome::benchmarks

@@ -42,11 +42,11 @@ StatsSample one_way_sample(int rows) {
 
 StatsSample factorial_sample(int rows) {
   std::mt19937_64 random(kSampleSeed);
-  // Cells of 1 to 12 shares.
+  // The cells get 1 to 12 shares of the rows.
   std::discrete_distribution<int> cell({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
   StatsSample sample{{}, {named_factor("a", 3), named_factor("b", 4)}};
   for (int row = 0; row < rows; ++row) {
-    // So that no cell of a small sample is empty.
+    // The first rows go to all cells in turn, so that no cell of a small sample is empty.
     const int drawn_cell = row < 24 ? row % 12 : cell(random);
     const int a = drawn_cell / 4, b = drawn_cell % 4;
     sample.values.push_back(drawn(random, 20.0 + 0.002 * a + 0.003 * b + 0.001 * a * b));

@@ -7,23 +7,23 @@
 
 namespace icome::benchmarks {
 
-/// An experiment whose numbers are drawn: the same ones in every run.
+/// The values of an experiment with their factors. Drawn values are equal in every run.
 struct StatsSample {
   std::vector<double> values;
   std::vector<stats::Factor> factors;
 };
 
-/// As many observations of each of ten levels.
+/// A sample with as many observations of each of ten levels.
 StatsSample one_way_sample(int rows);
-/// A 3 x 4 design whose cells hold different numbers of observations.
+/// A sample of a 3 x 4 design with different numbers of observations in its cells.
 StatsSample factorial_sample(int rows);
-/// Everyone in each of 3 x 4 conditions once; the first factor is the subject.
+/// A sample with each subject once in each of 3 x 4 conditions; the first factor is the subject.
 StatsSample repeated_sample(int subjects);
 
-/// As CSV, the response first and named "y".
+/// Writes a sample as CSV, with the response first and named "y".
 void write_sample(const StatsSample& sample, const std::filesystem::path& file);
 
-/// What a CSV file or one of NIST's says: the response is the column "y", or the last.
+/// Reads a sample from a CSV file or one of NIST's: the response is the column "y", or the last.
 StatsSample read_sample(const std::filesystem::path& file);
 
 }  // namespace icome::benchmarks

@@ -8,13 +8,13 @@ namespace {
 
 using stats::Factor;
 
-/// Of the observations with the same levels.
+/// Counts and sums of the observations with equal levels.
 struct Totals {
   Eigen::VectorXd n, sum;
   double squares = 0.0;  // of all values
 };
 
-/// By combination of the factors' levels, the last one's fastest.
+/// Totals for each combination of the factors' levels; the last factor's level changes fastest.
 Totals totals_of(const StatsSample& sample, const std::vector<const Factor*>& factors) {
   std::size_t cells = 1;
   for (const Factor* factor : factors) cells *= factor->levels.size();
@@ -30,17 +30,17 @@ Totals totals_of(const StatsSample& sample, const std::vector<const Factor*>& fa
   return totals;
 }
 
-/// What the cells' means account for: the sum of T squared over n.
+/// The sum of squares that the cells' means account for: the sum of T squared over n.
 double accounted(const Totals& totals) { return totals.sum.cwiseAbs2().cwiseQuotient(totals.n).sum(); }
 
-/// What a model of cells accounts for: b'X'y, with b from the normal equations.
+/// The sum of squares that a model of cells accounts for: b'X'y, with b from the normal equations.
 double accounted(const Totals& totals, const Eigen::MatrixXd& x) {
   const Eigen::MatrixXd squared = x.transpose() * totals.n.asDiagonal() * x;
   const Eigen::VectorXd right = x.transpose() * totals.sum;
   return right.dot(squared.ldlt().solve(right));
 }
 
-/// The grand mean and dummies of one factor or both.
+/// Design matrix of the grand mean and the dummies of one factor or both.
 Eigen::MatrixXd dummies(int a_levels, int b_levels, bool with_a, bool with_b) {
   const int a_columns = with_a ? a_levels - 1 : 0, b_columns = with_b ? b_levels - 1 : 0;
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(a_levels * b_levels, 1 + a_columns + b_columns);

@@ -1,5 +1,5 @@
-// What keeping every tick of a trial costs the servo, beside the naive ways; and what a trial costs on the
-// way to the disk. One run, one table.
+// Measures the cost, for the servo, of keeping every tick of a trial, beside the naive ways; and the cost of
+// a trial on its way to the disk. One run, one table.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -90,7 +90,7 @@ Cost cost_of(std::vector<std::int64_t>& times) {
   return {at(0.5), at(0.999), at(1.0)};
 }
 
-/// The time of each tick with what is done with it then.
+/// Cost of a tick together with `keep`; `between` runs, untimed, after every 16th tick.
 Cost measure(int ticks, const std::function<void(const session::PointerView&)>& keep,
              const std::function<void()>& between) {
   Wandering hand;
@@ -157,7 +157,7 @@ void tick_costs(const Extent& extent) {
   std::fclose(file);
 }
 
-/// A study's folder that goes with it.
+/// A folder for a study's data, removed with the object.
 class Folder {
  public:
   Folder()
@@ -186,7 +186,7 @@ study::Trace trace_of(double seconds) {
   return trace;
 }
 
-/// Trials of a person, each with its trace, one after the other onto the disk.
+/// Writes trials of a person, each with its trace, to the disk one after the other.
 class Trials {
  public:
   Trials()
@@ -235,7 +235,7 @@ void disk_costs(const Extent& extent) {
   }
 }
 
-/// A session's servo while its ticks are kept, or not, and while trials go to the disk.
+/// Prints a row on a session's servo while its ticks are kept or not, and trials are written to disk or not.
 void live_row(const char* what, double seconds, bool kept, bool written) {
   auto session = must(session::Session::create({}));
   session->files().open(study_scene());

@@ -14,7 +14,7 @@
 namespace icome::benchmarks {
 namespace {
 
-/// A scene of Coin, let go of at the end.
+/// A scene of Coin, released at the end.
 class CoinScene {
  public:
   explicit CoinScene(const std::filesystem::path& path) {

@@ -3,13 +3,13 @@
 
 namespace icome::benchmarks {
 
-// Coin3D by itself, the library of our VRML process: as a program would use it that trusts its files.
+// Coin3D by itself, the library of our VRML process, used as by a program that trusts its files.
 
-/// Parses a VRML file. False: it could not.
+/// Parses a VRML file; false: it failed.
 bool parse_with_coin(const std::filesystem::path& path);
-/// The same, and then calls for every triangle, as a program that wants a mesh must.
+/// Parses it and then has a call for every triangle, as a program that wants a mesh must; false: it failed.
 bool walk_with_coin(const std::filesystem::path& path);
-/// Parses a VRML file before, and then writes it to `to`; gives the time that the writing took, s.
+/// Parses a VRML file first, and then writes it to `to`; returns the time of the writing, s; 0: it failed.
 double write_with_coin(const std::filesystem::path& path, const std::filesystem::path& to);
 
 }  // namespace icome::benchmarks

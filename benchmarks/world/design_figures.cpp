@@ -38,7 +38,7 @@ void add_format(const World& world, const std::filesystem::path& path, const Wor
   }
 }
 
-/// Figures of the peer for a file; the time that only parsing takes.
+/// Adds the figures of the peer for a file; returns the time of parsing alone, s.
 double add_coin(const std::filesystem::path& path, const WorldExtent& extent, const WorkFolder& folder,
                 WorldSection& section) {
   const double parsed = median_seconds(extent.repeats, [&] { parse_with_coin(path); });

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTargetUs = 20.0;
 
-/// Times one kind of edit, which `make` thinks of one after the other, and then taking each back.
+/// Times edits of one kind, which `make` makes one after the other, and then taking each of them back.
 template <typename Make>
 void add_rows(const std::string& name, World& world, const WorldExtent& extent, WorldSection& section,
               Make&& make) {

@@ -37,7 +37,7 @@ void add_rows(const std::string& name, const World& world, const WorldExtent& ex
       {.figure = name + ": on disk, an object", .unit = "B", .value = size / double(world.objects().size())});
 }
 
-/// As many edits as objects behind a snapshot: what a long day leaves.
+/// Row of reading a snapshot with as many edits behind it as there are objects, as after a long day.
 WorldRow replay_row(const World& world, const WorldExtent& extent) {
   const WorkFolder folder;
   const std::filesystem::path path = folder / "world.icome";

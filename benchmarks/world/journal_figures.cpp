@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kPlain = "an edit that is only applied";
 
-/// Objects placed here and there, one edit after the other.
+/// Edits that place objects here and there, one after the other.
 class Drags {
  public:
   explicit Drags(const World& world) : roots_(world.roots()) {}
@@ -28,7 +28,7 @@ class Drags {
   base::Random random_{2};
 };
 
-/// `perform` does the edits, each of which is timed.
+/// Row of edits that `perform` does; each of them is timed.
 template <typename Perform>
 WorldRow drags_row(const std::string& figure, const World& world, std::size_t count, Perform&& perform) {
   Drags drags(world);
@@ -40,7 +40,7 @@ WorldRow drags_row(const std::string& figure, const World& world, std::size_t co
   return timed_row(figure, times);
 }
 
-/// Per edit, as a wait for the disk is for many.
+/// Row of the time per edit where many edits share one wait for the disk.
 WorldRow grouped_row(JournaledWorld& journal, const WorldExtent& extent) {
   Drags drags(journal.world());
   const double seconds = median_seconds(extent.repeats, [&] {
@@ -51,7 +51,7 @@ WorldRow grouped_row(JournaledWorld& journal, const WorldExtent& extent) {
           .value = seconds * 1e6 / double(extent.group)};
 }
 
-/// What programs do that have no journal: the whole design is saved for each edit.
+/// Row of the way of programs without a journal: the whole design is saved for each edit.
 WorldRow saved_whole_row(const World& world, const WorldExtent& extent, const WorkFolder& folder) {
   const double seconds =
       median_seconds(extent.repeats, [&] { must(files::write_journal(folder / "saved.icome", world)); });

@@ -21,7 +21,7 @@ World mesh_world(std::size_t grid) {
   return world;
 }
 
-/// Does an edit, takes it back and does it again, some times.
+/// Adds rows of an edit that is done, undone and done again, some times.
 void add_rows(const std::string& name, const std::function<Edit(int)>& make, const EditSink& sink,
               const WorldExtent& extent, double copy_seconds, WorldSection& section) {
   History history;

@@ -10,16 +10,16 @@
 
 namespace icome::benchmarks {
 
-/// Every object a root: where rows of siblings are longest.
+/// A world in which every object is a root, so that the list of siblings is longest.
 world::World flat_world(std::size_t objects);
-/// Groups of 100 objects with names and places, of 100 shapes and 10 materials. `own_shapes`: each object
-/// has one of its own.
+/// A world of groups of 100 objects with names and places, and of 100 shapes and 10 materials. With
+/// `own_shapes`, each object has a shape of its own.
 world::World grouped_world(std::size_t objects, bool own_shapes);
 
-/// Two triangles in each square of a grid.
+/// A mesh over a grid, with two triangles in each square.
 world::GeometryPointer grid_mesh(std::size_t squares_along_side, double height);
 
-/// What cannot fail, unless the benchmark is wrong.
+/// The value of a result that cannot fail, unless the benchmark is wrong.
 template <typename Value>
 Value must(base::Result<Value> result) {
   if (!result) std::abort();

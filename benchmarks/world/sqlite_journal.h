@@ -8,11 +8,11 @@ struct sqlite3_stmt;
 
 namespace icome::benchmarks {
 
-/// The peer: edits kept in an SQLite database with a write-ahead log, as programs do that need no journal of
-/// their own. One transaction for each edit.
+/// The peer: edits in an SQLite database with a write-ahead log, as in programs that need no journal of their
+/// own. One transaction for each edit.
 class SqliteJournal {
  public:
-  /// `synced`: survives that the power goes; else the end of the program only.
+  /// With `synced`, edits survive a power failure; else only the end of the program.
   SqliteJournal(const std::filesystem::path& path, bool synced);
   void append(std::string_view bytes);
 

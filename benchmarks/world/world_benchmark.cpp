@@ -1,5 +1,5 @@
-// The world against the figures that are asked for: edits, their journal beside SQLite and beside saving the
-// whole design, opening, memory, edits of a large mesh, and files beside Coin. One run, one table.
+// Compares the world with its target figures: edits, their journal beside SQLite and beside saving the whole
+// design, opening, memory, edits of a large mesh, and files beside Coin. One run, one table.
 #include <CLI/CLI.hpp>
 
 #include "world_figures.h"

@@ -6,7 +6,7 @@
 
 namespace icome::benchmarks {
 
-/// How much is measured.
+/// The sizes of the measurements.
 struct WorldExtent {
   std::size_t objects = 100'000;
   std::size_t edits = 20'000;  // of each kind that does not wait for the disk

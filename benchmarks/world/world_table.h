@@ -7,15 +7,15 @@
 
 namespace icome::benchmarks {
 
-/// One line of the table. What does not apply stays empty.
+/// A line of the table. Fields that do not apply stay empty.
 struct WorldRow {
   std::string figure = {};
   std::string unit = "us";
   double value = 0.0;                         // the median, or the only value there is
   std::optional<double> p999 = std::nullopt;  // of single edits
   std::optional<double> to_reach = std::nullopt;
-  std::optional<double> times_of = std::nullopt;  // a value of the same run that this is held against
-  std::string of = {};                            // what that is
+  std::optional<double> times_of = std::nullopt;  // a value of the same run that this is compared with
+  std::string of = {};                            // name of that value
 };
 
 struct WorldSection {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kBadUsage = 2;
 
-/// The options as CLI11 fills them in, before they mean anything.
+/// The options as CLI11 fills them in, before they are understood.
 struct Entries {
   CsgOptions csg;
   std::string form = "tree";
@@ -48,7 +48,7 @@ struct Entries {
   std::string bounds;
 };
 
-/// How far files of others are trusted.
+/// Adds options that limit the trust in other people's files.
 void add_trust_options(CLI::App& command, ReadingOptions& reading) {
   command
       .add_option("--memory-limit", reading.memory_mb,
@@ -361,7 +361,7 @@ CommandLine bad_usage(const std::string& sentence, const std::string& help) {
   return command_line;
 }
 
-/// Beside a command there is no window.
+/// Fails when the window's options stand beside a command.
 base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptions& options,
                                                        const CLI::App& app) {
   if (app.get_subcommands().empty()) return options;
@@ -379,13 +379,13 @@ const CLI::App* named_subcommand(const CLI::App& app, int place, int argc, char*
   return named.empty() ? nullptr : named.front();
 }
 
-/// "stats anova ": the words that name the subcommand, and its own subcommand where it has such.
+/// "stats anova ": the words that name the subcommand, and its own subcommand if it has one.
 std::string path_of(const CLI::App& named, int argc, char** argv) {
   const CLI::App* const within = named_subcommand(named, 2, argc, argv);
   return named.get_name() + " " + (within != nullptr ? within->get_name() + " " : "");
 }
 
-/// "choose from describe, anova, ...": why a command with commands of its own goes no further; empty where
+/// "choose from describe, anova, ...": why a command with commands of its own goes no further; empty if
 /// one of these, or an option, is named.
 std::string no_such_part(const CLI::App& named, int argc, char** argv) {
   const auto all = named.get_subcommands([](const CLI::App*) { return true; });
@@ -398,7 +398,7 @@ std::string no_such_part(const CLI::App& named, int argc, char** argv) {
                   : fmt::format("say which {}: {}.", part, names);
 }
 
-/// Breaks what stands beside the names of options and commands into lines of 100 characters.
+/// Breaks the descriptions beside the names of options and commands into lines of 100 characters.
 std::string wrapped_help(std::string_view text) {
   constexpr std::size_t kWidth = 100, kColumn = 30;  // CLI11 lays descriptions out from there
   std::string wrapped;

@@ -12,7 +12,7 @@
 
 namespace icome::apps {
 
-/// What the command line asks for.
+/// The options given on the command line.
 struct CommandLine {
   // The subcommand that is to run, or the window that is to open.
   std::optional<TouchOptions> touch;
@@ -25,10 +25,10 @@ struct CommandLine {
   std::optional<StudyOptions> study;
   std::optional<TechniquesOptions> techniques;
   std::optional<DesktopCommandOptions> desktop;
-  int exit_code = 0;  // what to return when none is: help and version were printed, or an error
+  int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };
 
-/// Reads the command line. Help and version go to standard output; what is wrong is said in a sentence
+/// Reads the command line. Help and version go to standard output; an error is reported in a sentence
 /// on standard error, with exit code 2.
 CommandLine parse_command_line(int argc, char** argv);
 

@@ -2,7 +2,7 @@
 
 namespace icome::apps {
 
-/// From here on Ctrl-C (and a request to terminate) asks the run to end instead of killing the program;
+/// From here on Ctrl-C (or a request to terminate) ends the run early instead of killing the program;
 /// a second one kills it. Call once.
 void catch_interrupts();
 

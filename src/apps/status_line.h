@@ -5,7 +5,7 @@
 
 namespace icome::apps {
 
-/// A line on standard error that says what is going on, for a person who waits; silent where standard
+/// A line on standard error that shows progress to a person who waits; silent where standard
 /// error is no terminal, so that logs stay clean.
 class StatusLine {
  public:

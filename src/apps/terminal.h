@@ -4,7 +4,7 @@
 
 namespace icome::apps {
 
-// Where text leaves the program for people. What comes from files may be anything, so it all goes through
+// Output of text for people. Text from files may be anything, so it all goes through
 // base::terminal_text().
 
 /// "icome: The sentence." on standard error.

@@ -10,7 +10,7 @@ Quaternion rotation_between(const Vector3& from, const Vector3& to) {
   const Vector3 a = from.stableNormalized(), b = to.stableNormalized();
   if (a.isZero(0.0) || b.isZero(0.0)) return Quaternion::Identity();
   Vector3 axis = a.cross(b);
-  axis -= a.dot(axis) * a;  // what rounding leaves of a along the axis would be felt near half a turn
+  axis -= a.dot(axis) * a;  // the part of a that rounding leaves in the axis would be felt near half a turn
   constexpr double kRounding = 1e-15;
   if (!(axis.norm() > kRounding)) axis = a.unitOrthogonal();
   // The chord and its complement are twice the sine and cosine of half the angle, exact at both ends.

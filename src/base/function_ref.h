@@ -9,7 +9,7 @@ template <typename Signature>
 class FunctionRef;
 
 /// A reference to something callable, for parameters of virtual functions: unlike std::function it
-/// never allocates. What it refers to outlives the call it is passed to.
+/// never allocates. The callable must outlive the call that the reference is passed to.
 template <typename Return, typename... Arguments>
 class FunctionRef<Return(Arguments...)> {
  public:

@@ -7,7 +7,7 @@
 
 namespace icome::base {
 
-/// Letters to be put in, left out or changed (Levenshtein 1966).
+/// Number of letters to insert, delete or change (Levenshtein 1966).
 inline std::size_t edit_distance(std::string_view one, std::string_view other) {
   std::vector<std::size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -23,11 +23,11 @@ inline std::size_t edit_distance(std::string_view one, std::string_view other) {
   return row.back();
 }
 
-/// "; did you mean 'extrude'?" for the name that differs from what was said by the fewest letters, or ";
+/// "; did you mean 'extrude'?" for the name that differs from `said` by the fewest letters, or ";
 /// there are a, b, c" where none is near and they are few; else empty.
 inline std::string suggestion(std::string_view said, std::vector<std::string> names) {
   constexpr std::size_t kMostListed = 24;
-  // Longer ones are not compared: nobody mistypes them by a letter, and comparing takes their product.
+  // Longer ones are not compared: nobody mistypes them by a letter, and it takes the product of lengths.
   constexpr std::size_t kLongestCompared = 64;
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());

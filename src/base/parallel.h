@@ -8,9 +8,9 @@
 namespace icome::base {
 
 /// Calls `body(begin, end)` on consecutive parts of [0, count), one thread a part, and waits for all.
-/// Fewer than `grain` items stay on the calling thread, as do parts that the system gives no thread for. What
-/// a part throws is thrown here when all are over: the first part's, where several do. The split never
-/// changes results: parts are independent. Not for the servo (it starts threads).
+/// Fewer than `grain` items stay on the calling thread, as do parts that the system gives no thread for. An
+/// exception of a part is rethrown here when all have ended: the first part's, if several throw. The split
+/// never changes results: parts are independent. Not for the servo (it starts threads).
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, Body&& body) {
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());

@@ -5,7 +5,7 @@
 
 namespace icome::base {
 
-/// Why something that a user asked for could not be done: one sentence that says what to do.
+/// The reason why something that a user asked for could not be done: one sentence that says what to do.
 struct Error {
   std::string message;
 };

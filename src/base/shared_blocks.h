@@ -9,8 +9,8 @@
 
 namespace icome::base {
 
-/// A list that lies in blocks of 64 items, which its changed copies share: changing a few items of many costs
-/// by the blocks that they are in, and not by the list. Immutable; any number of threads may read one.
+/// A list that lies in blocks of 64 items, which its changed copies share: the cost of changing a few items
+/// depends on the blocks that they are in, not on the list. Immutable; any number of threads may read one.
 template <typename Item>
 class SharedBlocks {
  public:
@@ -94,7 +94,7 @@ class SharedBlocks {
  private:
   using Block = std::shared_ptr<Item[]>;
 
-  /// Copies a block that others may have too.
+  /// Replaces a block, which other lists may share, by a copy of this list's own; returns its items.
   Item* own(std::size_t which) {
     const std::span<const Item> from = block(which);
     Block copy = std::make_shared<Item[]>(from.size());

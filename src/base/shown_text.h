@@ -7,7 +7,7 @@
 
 namespace icome::base {
 
-/// What a person wrote, as errors repeat it: the first 60 characters, and "..." where there are more.
+/// Text that a person wrote, as errors repeat it: its first 60 characters, and "..." where it has more.
 inline std::string shown_text(std::string_view text) {
   constexpr std::size_t kMostCharacters = 60;
   std::size_t bytes = 0;

@@ -5,8 +5,8 @@
 
 namespace icome::base {
 
-/// One channel of a colour as displays show it (sRGB) as light intensity, and back (IEC 61966-2-1). What lies
-/// outside [0, 1] is light that no display shows: it comes back as the nearest that one does.
+/// Converts one channel of a colour from sRGB, as displays show it, to linear light intensity, and back
+/// (IEC 61966-2-1). Intensities outside [0, 1], which no display shows, become the nearest that one does.
 inline double linear_from_srgb(double channel) {
   return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
 }

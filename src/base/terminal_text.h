@@ -11,7 +11,7 @@ namespace icome::base {
 /// The text as a terminal may be given it, whatever file it came from: a control character, with which a text
 /// could move the cursor, write over what stands there or send the terminal commands, is shown as `\u001b`
 /// and the like, which JSON reads as that character; so are marks that turn the direction of reading around.
-/// Line ends and tabs stay, and a byte that is no UTF-8 becomes a question mark.
+/// Line ends and tabs stay, and a byte that is not UTF-8 becomes a question mark.
 inline std::string terminal_text(std::string_view text) {
   const auto code_of = [](std::string_view character) -> std::uint32_t {
     const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(character[i])); };

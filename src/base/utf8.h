@@ -4,7 +4,7 @@
 
 namespace icome::base {
 
-/// Bytes of the character that begins a text; 0: it is none.
+/// Bytes of the UTF-8 character that begins a text; 0 if the text begins with none.
 inline std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
@@ -24,7 +24,7 @@ inline std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-/// The text with a question mark for every byte that is no UTF-8, as JSON must be.
+/// The text with a question mark for every byte that is not UTF-8, as JSON requires.
 inline std::string as_utf8(std::string_view text) {
   std::string result;
   while (!text.empty()) {

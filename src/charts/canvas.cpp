@@ -13,7 +13,7 @@ namespace {
 
 using base::Vector2;
 
-/// Cairo keeps coordinates in 24.8 fixed point pixels; what lies farther out is off any page anyway.
+/// Cairo keeps coordinates in 24.8 fixed point pixels; points farther out are off any page anyway.
 constexpr double kFarOut = 1e5;
 
 double bounded(double v) { return std::clamp(v, -kFarOut, kFarOut); }
@@ -55,7 +55,7 @@ void fill_with(cairo_t* cairo, cairo_pattern_t* pattern, std::span<const Colour>
   cairo_pattern_destroy(pattern);
 }
 
-/// The bytes of the UTF-8 character at the start of `text`; 0 where there is none.
+/// Length in bytes of the UTF-8 character at the start of `text`; 0 where there is none.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -98,7 +98,7 @@ struct Canvas::Page {
   cairo_t* cairo;
   double width;                      // page units
   double height;                     // page units
-  std::unique_ptr<std::string> svg;  // where the surface writes; null of a page with pixels
+  std::unique_ptr<std::string> svg;  // the output of the surface; null for a page with pixels
 
   Page(cairo_surface_t* made, double wide, double high, std::unique_ptr<std::string> text)
       : surface(made), cairo(cairo_create(surface)), width(wide), height(high), svg(std::move(text)) {}
@@ -272,7 +272,7 @@ std::string fitted(const Canvas& canvas, std::string_view text, const TextStyle&
   std::string shown = printable(text);
   if (canvas.text_width(shown, style) <= width) return shown;
   while (!shown.empty() && canvas.text_width(shown + "\u2026", style) > width) {
-    // A whole character goes: its last bytes 10xxxxxx, then its first.
+    // Removes a whole character: its last bytes 10xxxxxx, then its first.
     while (shown.size() > 1 && (static_cast<unsigned char>(shown.back()) & 0xc0) == 0x80) shown.pop_back();
     shown.pop_back();
   }

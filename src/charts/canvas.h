@@ -19,14 +19,14 @@ struct Area {
   double bottom() const { return y + height; }
 };
 
-/// How a line is drawn; lengths in page units.
+/// The look of a line; lengths in page units.
 struct Stroke {
   Colour colour;
   double width = 1.0;
   std::vector<double> dashes;  ///< lengths on, off, on, ...; empty is solid
 };
 
-/// How text is set, in the DejaVu Sans family.
+/// The look of text, which is set in the DejaVu Sans family.
 struct TextStyle {
   double size = 14.0;  ///< page units
   Colour colour;
@@ -35,7 +35,7 @@ struct TextStyle {
   double turn = 0.0;   ///< rad, counter-clockwise
 };
 
-/// A white page to draw and write on. Owns its pixels, or what was drawn where it has none; `scale` pixels
+/// A white page to draw and write on. Owns its pixels, or the recorded drawing if it has none; `scale` pixels
 /// make one page unit.
 class Canvas {
  public:
@@ -50,7 +50,7 @@ class Canvas {
   double height() const;  ///< page units
 
   void fill(const Area& area, const Colour& colour);
-  /// From the colour at the left or, if `upward`, at the bottom, evenly through all of them.
+  /// A gradient evenly through all colours, from left to right or, if `upward`, from bottom to top.
   void fill_gradient(const Area& area, std::span<const Colour> colours, bool upward);
   /// The polygon, filled with `colours` from the bottom of `span` to its top.
   void fill_gradient(std::span<const base::Vector2> polygon, const Area& span,
@@ -62,19 +62,19 @@ class Canvas {
   void line(std::span<const base::Vector2> points, const Stroke& stroke);
   /// The text's baseline passes through `at`. Bytes that are not UTF-8 show as a replacement mark.
   void text(const base::Vector2& at, std::string_view text, const TextStyle& style);
-  /// How wide that text is, page units.
+  /// Width of the text, page units.
   double text_width(std::string_view text, const TextStyle& style) const;
-  /// Puts an image there, scaled to fit; sharp when it has exactly the area's pixels.
+  /// Draws an image, scaled to fit the area; sharp when it has exactly the area's pixels.
   void image(const Image& image, const Area& area);
 
   /// Draws only inside the area until unclip().
   void clip(const Area& area);
   void unclip();
 
-  /// What was drawn so far. Of a page with pixels only.
+  /// The drawing so far. Only for a page with pixels.
   Image snapshot() const;
-  /// What was drawn as an SVG file in which letters are shapes, so that it needs no font; a page unit is a
-  /// pixel of CSS. Of a page without pixels only, which takes nothing more then.
+  /// The drawing as an SVG file in which letters are shapes, so that it needs no font; a page unit is a
+  /// pixel of CSS. Only for a page without pixels, which accepts no drawing afterwards.
   std::string svg();
 
  private:

@@ -37,7 +37,7 @@ Vector3 linear_from_oklab(const Vector3& lab) {
 
 bool in_gamut(const Vector3& linear) { return linear.minCoeff() >= 0.0 && linear.maxCoeff() <= 1.0; }
 
-/// The colour of that lightness and hue (radians) with the wished chroma, or the most the screen has.
+/// The colour of that lightness, hue (radians) and chroma, or with the most chroma that the screen shows.
 Vector3 linear_of(double light, double chroma, double hue) {
   const auto at = [&](double c) { return linear_from_oklab({light, c * std::cos(hue), c * std::sin(hue)}); };
   double low = 0.0;

@@ -13,7 +13,7 @@
 namespace icome::charts {
 namespace {
 
-constexpr int kMaxSide = 32767;  // what Cairo's image surface takes
+constexpr int kMaxSide = 32767;  // the largest side of Cairo's image surface
 
 using CairoImage = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
@@ -46,7 +46,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// Writes all bytes and closes; 0, or the errno of what failed.
+/// Writes all bytes and closes the file; returns 0, or the errno of the failure.
 int write_and_close(int file, const std::vector<std::uint8_t>& bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {

@@ -25,7 +25,7 @@ struct Image {
 base::Result<std::vector<std::uint8_t>> encode_png(const Image& image);
 
 /// Writes the picture as a PNG file. The file appears whole or not at all: it is written beside
-/// `path` and renamed. The error names the file and says what the system said.
+/// `path` and renamed. The error names the file and gives the system's message.
 base::Result<void> write_png(const Image& image, const std::filesystem::path& path);
 
 }  // namespace icome::charts

@@ -15,7 +15,7 @@ const Colour kGrid{0.90, 0.91, 0.93};
 const Colour kShade{0.925, 0.94, 0.965};
 constexpr double kTextSize = 16.0;
 
-/// From the quantities to the page.
+/// Maps the plotted quantities to places on the page.
 struct Axes {
   Area frame;
   Span x_range;

@@ -9,7 +9,7 @@
 
 namespace icome::charts {
 
-/// Where an axis gets its marks: multiples of 1, 2 or 5 times a power of ten.
+/// Marks of an axis, at multiples of 1, 2 or 5 times a power of ten.
 struct Ticks {
   double step = 1.0;
   std::vector<double> at;  ///< ascending, within the range asked for

@@ -9,7 +9,7 @@
 namespace icome::devices {
 namespace {
 
-// Where a data sheet gives no continuous rating, half of the peak force is taken: the motors of the
+// Half of the peak force is taken where a data sheet gives no continuous rating: the motors of the
 // devices that do give one (PHANToM) hold 14 to 27 % for hours, parallel devices more.
 constexpr double kContinuousShare = 0.5;
 

@@ -7,7 +7,7 @@
 
 namespace icome::devices {
 
-/// What is known of the force-feedback devices people own: one DeviceInfo each, in the order of the
+/// Profiles of force-feedback devices that people own: one DeviceInfo each, in the order of the
 /// table in device_profiles.cpp, which names the source of every number. Lives as long as the program.
 std::span<const DeviceInfo> device_profiles();
 

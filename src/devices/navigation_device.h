@@ -7,9 +7,9 @@
 
 namespace icome::devices {
 
-/// One reading of a navigation device, in the device's frame (x right, y up, z to the user): how far it is
-/// pushed and turned, each axis from -1 to 1, a vector as an angle about its direction. What speed that means
-/// is for who reads it.
+/// One reading of a navigation device, in the device's frame (x right, y up, z to the user): its deflection
+/// by pushing and turning, each axis from -1 to 1; a turn is an angle about its vector's direction. The
+/// reader decides which speed a deflection means.
 struct NavigationState {
   Vector3 push = Vector3::Zero();
   Vector3 turn = Vector3::Zero();
@@ -17,7 +17,7 @@ struct NavigationState {
 };
 
 /// A device that moves the user through the world, such as a 3D mouse (thesis 5.6.3). Back-ends derive from
-/// it; whoever created the device owns it, and one thread (main) calls read().
+/// it; its creator owns the device, and one thread (main) calls read().
 class NavigationDevice {
  public:
   virtual ~NavigationDevice() = default;

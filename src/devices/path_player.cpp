@@ -105,7 +105,7 @@ base::Result<PathPlayer> PathPlayer::parse(std::string_view text, const std::str
   const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   player.times_.reserve(rows);
   player.positions_.reserve(rows);
-  // Empty lines may end the file, not part it.
+  // Empty lines may stand only at the end of the file.
   for (text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1); !text.empty();) {
     ++line;
     const auto row = parse_row(take_until(text, '\n'));

@@ -14,7 +14,7 @@ namespace icome::devices {
 class PathPlayer final : public PointerDevice {
  public:
   /// Reads a file whose first line is `t,x,y,z` and whose rows are seconds and metres, t increasing.
-  /// `info` is what the limiter and the display are told; its name becomes the file's. The error names
+  /// `info` is passed on to the limiter and the display, under the name of the file. The error names
   /// file and line.
   static base::Result<PathPlayer> create(const std::string& path, DeviceInfo info = {});
 
@@ -25,7 +25,7 @@ class PathPlayer final : public PointerDevice {
   /// The next row and its velocity (backward difference, zero in the first row); Stalled after the last.
   /// Real-time safe.
   DeviceStatus read(PointerState& state) override;
-  /// Ok, and nothing happens: a path does not yield. Real-time safe.
+  /// Ignores the force and returns Ok: a path does not yield. Real-time safe.
   DeviceStatus write(const Vector3& force) override;
 
   /// Has every row been read? Real-time safe.

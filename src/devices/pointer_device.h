@@ -10,12 +10,12 @@ using base::Pose;
 using base::Quaternion;
 using base::Vector3;
 
-/// What a pointer device can do; from the vendor's data sheet or a profile (see device_profiles.h).
+/// The abilities of a pointer device; from the vendor's data sheet or a profile (see device_profiles.h).
 struct DeviceInfo {
   std::string name{};
   double workspace_radius = 0.1;      // m, sphere that the tip can reach
   double max_force = 3.3;             // N, peak; 0 for a device without force
-  double continuous_force = 1.0;      // N, what it can hold for minutes
+  double continuous_force = 1.0;      // N, held for minutes
   double nominal_stiffness = 1000.0;  // N/m, the hardest wall it renders well
   double effective_mass = 0.1;        // kg, apparent at the tip
 };
@@ -26,19 +26,19 @@ struct PointerState {
   Vector3 velocity = Vector3::Zero();               // m/s
   Quaternion orientation = Quaternion::Identity();  // device_from_stylus
   std::uint32_t buttons = 0;                        // bit i: button i is down
-  bool jumped = false;                              // it got there without a way: what it touched it left
+  bool jumped = false;                              // moved without a path in between: contacts are left
   bool parked = false;                              // it lies aside, touching nothing
 };
 
-/// How a read or write went.
+/// The outcome of a read or write.
 enum class DeviceStatus : std::uint8_t {
   Ok,       // fresh data
   Stalled,  // the device is there but gave nothing new
   Lost,     // unplugged or failed; forces go nowhere
 };
 
-/// A device that moves one pointer and may push back. Back-ends derive from it; whoever created the
-/// device owns it, and one thread (the servo) calls read() and write().
+/// A device that moves one pointer and may push back. Back-ends derive from it; its creator owns the
+/// device, and one thread (the servo) calls read() and write().
 class PointerDevice {
  public:
   virtual ~PointerDevice() = default;

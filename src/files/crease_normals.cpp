@@ -10,11 +10,11 @@ namespace {
 
 using base::Vector3;
 
-/// Normals come from single-precision positions, which are not exact: an angle that was meant to be the
-/// crease angle must not fall on either side by chance.
+/// Normals come from single-precision positions, which are not exact: an angle that was meant to equal
+/// the crease angle must not fall on either side by chance.
 constexpr double kAngleSlack = 0x1p-18;
 
-/// Of unit length; zero when it has no direction.
+/// The vector at unit length; zero when it has no direction.
 Vector3 direction_of(const Vector3& vector) {
   const double largest = vector.cwiseAbs().maxCoeff();
   if (!(largest > 0.0) || !std::isfinite(largest)) return Vector3::Zero();
@@ -87,7 +87,7 @@ class CreaseNormals {
     }
   }
 
-  /// Does every polygon meet every other smoothly? Looks at pairs only where a cone around their mean, half
+  /// Does every polygon meet every other smoothly? Compares pairs only where a cone around their mean, half
   /// as wide, does not hold them all.
   bool all_lie_near(std::span<const std::uint32_t> corners) const {
     Vector3 mean = Vector3::Zero();
@@ -115,14 +115,14 @@ class CreaseNormals {
     return sum;
   }
 
-  /// The sum's direction, else the polygon's own, else any.
+  /// The sum's direction, else the polygon's own normal, else the z axis.
   Vector3 direction_or(const Vector3& sum, std::uint32_t corner) const {
     const Vector3 direction = direction_of(sum);
     if (!direction.isZero(0.0)) return direction;
     return face(corner).isZero(0.0) ? Vector3::UnitZ() : face(corner);
   }
 
-  /// Of the polygon at a corner, rad.
+  /// Angle of the polygon at a corner, rad.
   double angle_at(std::uint32_t corner) const {
     const std::uint32_t polygon = polygon_of_[corner];
     const std::uint32_t first = mesh_.begins[polygon], end = mesh_.begins[polygon + 1];
@@ -145,7 +145,7 @@ class CreaseNormals {
   std::vector<Vector3> result_;
 };
 
-/// Each polygon's own; nothing where the polygons around every vertex lie in one plane.
+/// Each polygon's own normal; empty where the polygons around every vertex lie in one plane.
 std::vector<Vector3> flat_normals(const PolygonMesh& mesh) {
   const std::vector<Vector3> faces = polygon_normals(mesh);
   const double cosine = std::cos(kAngleSlack);

@@ -15,11 +15,11 @@ struct PolygonMesh {
   std::size_t polygons() const { return begins.size() - 1; }
 };
 
-/// The unit normals of the polygons, by their fronts (Newell's sum over the edges). Zero for those without
-/// area.
+/// The unit normals of the polygons, on their front sides (Newell's sum over the edges). Zero for those
+/// without area.
 std::vector<base::Vector3> polygon_normals(const PolygonMesh& mesh);
 
-/// The unit normal of each corner as VRML 2.0 makes it of a crease angle (rad, >= 0): the mean of the
+/// The unit normal of each corner as VRML 2.0 derives it from a crease angle (rad, >= 0): the mean of the
 /// polygons around the vertex whose normals lie within the angle of this polygon's, weighted by their angles
 /// at the vertex. Empty when no edge is a crease, so that all corners of a vertex agree. More than
 /// `kMostPolygonsAround` polygons around a vertex each keep their own normal there, if there are creases.

@@ -19,7 +19,7 @@ void DesignBuilder::put(const world::Edit& edit, std::size_t known_bytes) {
   }
 }
 
-/// The equal primitive that is there already, else the shape itself.
+/// The equal primitive that exists already, else the shape itself.
 world::GeometryPointer DesignBuilder::known(world::GeometryPointer shape) {
   const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(shape.get());
   if (!primitive) return shape;

@@ -10,19 +10,19 @@
 
 namespace icome::files {
 
-/// Puts a world together as a file is read. What the world refuses is remembered and told at the end, so
-/// that readers ask once.
+/// Assembles a world while a file is read. The first refusal of the world is remembered and reported at
+/// the end, so that readers check once.
 class DesignBuilder {
  public:
-  /// All that is added counts as memory that is taken, a motion that many objects have once. Refers to the
+  /// Everything added counts as memory taken, a motion that many objects share once. Refers to the
   /// budget.
   explicit DesignBuilder(io::MemoryBudget& memory) : memory_(memory) {}
 
-  /// Each is a shape of its own in the world; primitives that are equal lie in memory once.
+  /// Each is a shape of its own in the world; equal primitives are stored once.
   world::GeometryId add(world::GeometryPointer shape);
   world::MaterialId add(world::Material material);
   world::TextureId add(world::Texture texture);
-  /// Behind the last child of its parent, or behind the last root.
+  /// Adds it behind the last child of its parent, or behind the last root.
   world::ObjectId add(world::PhysicalObject object);
   world::SceneId add_scene(const std::string& name, const std::vector<world::ObjectId>& roots);
 
@@ -35,7 +35,7 @@ class DesignBuilder {
   base::Result<LoadedDesign> take(std::string format, const std::string& name);
 
  private:
-  /// Of its memory, `known_bytes` have been counted before.
+  /// Applies the edit; `known_bytes` of its memory have been counted before.
   void put(const world::Edit& edit, std::size_t known_bytes = 0);
   world::GeometryPointer known(world::GeometryPointer shape);
 

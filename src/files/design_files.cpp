@@ -74,7 +74,7 @@ base::Result<Remarks> write_stl_design(const std::filesystem::path& path, const 
 
 struct Format {
   const char* ending;
-  UpAxis up;           // by custom, or as the standard says
+  UpAxis up;           // by custom, or by the standard
   DesignReader read;   // null: cannot be read
   bool may_be_packed;  // as .xz
   DesignWriter write;  // null: cannot be written
@@ -98,7 +98,7 @@ const Format* format_of(const io::FileEnding& ending) {
   return found == kFormats.end() ? nullptr : found;
 }
 
-/// ".obj, .ply and .stl", of the formats that `can`.
+/// Lists the endings of the formats that `can`: ".obj, .ply and .stl".
 template <typename Can>
 std::string list_of_endings(const Can& can) {
   std::vector<std::string> endings;
@@ -113,7 +113,7 @@ std::string list_of_endings(const Can& can) {
   return list;
 }
 
-/// Whether there is such a file matters more than what its name says.
+/// The error `why`, unless there is no such file, which matters more than its name.
 tl::unexpected<base::Error> cannot_read(const std::filesystem::path& path, const std::string& why) {
   std::error_code error;
   if (!std::filesystem::exists(path, error))
@@ -121,7 +121,7 @@ tl::unexpected<base::Error> cannot_read(const std::filesystem::path& path, const
   return base::fail(fmt::format("{}: {}", path.string(), why));
 }
 
-/// Has a reader do its work within the limits of memory and time, which it hears of by being stopped.
+/// Runs a reader within the limits of memory and time, beyond which its progress is stopped.
 base::Result<LoadedDesign> read_within_limits(DesignReader read, const std::filesystem::path& path,
                                               const DesignReadOptions& options) {
   io::MemoryBudget memory(options.memory_limit);
@@ -144,17 +144,17 @@ base::Result<LoadedDesign> read_within_limits(DesignReader read, const std::file
   return design;
 }
 
-/// Turns all objects by a quarter about x: what pointed along z, the axis up of CAD and of printing, then
-/// points along y, or with `back` the other way round.
+/// Turns all objects by a quarter about x: z, the axis that is up in CAD and printing, becomes y, or with
+/// `back` the other way round.
 void turn_up(World& world, bool back) {
   base::Pose turn = base::Pose::Identity();
-  // Written out, so that what lies on the axes stays there to the last bit.
+  // Written out, so that points on the axes stay there to the last bit.
   turn.linear() << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
   if (back) turn = turn.inverse();
   world::EditGroup turned;
   for (const world::ObjectId root : world.roots())
     turned.edits.push_back(world::PlaceObject{root, turn * world.find(root)->parent_from_object});
-  // Turning flattens no place that is none already.
+  // Cannot fail: turning flattens no place that was not flat before.
   (void)world::apply(world, turned);
 }
 

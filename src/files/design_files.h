@@ -13,11 +13,11 @@ namespace icome::files {
 base::Result<LoadedDesign> read_design(const std::filesystem::path& path,
                                        const DesignReadOptions& options = {});
 
-/// Fails with what there is instead where write_design() knows no such format.
+/// Fails where write_design() does not know the format, naming those that it knows.
 base::Result<void> check_can_write(const std::filesystem::path& path);
 
-/// Writes a design by the ending of the name, as above without .xz and .csg; what was there is replaced
-/// when all is written, and stays if not; .stl has z up, as is its custom. Tells what the format cannot hold.
+/// Writes a design by the ending of the name, as above without .xz and .csg; an old file is replaced when all
+/// is written, and stays if not; .stl has z up, as is its custom. Tells what the format cannot hold.
 base::Result<std::vector<Remark>> write_design(const std::filesystem::path& path, const world::World& world);
 
 }  // namespace icome::files

@@ -12,7 +12,7 @@ namespace {
 
 using world::MeshGeometry;
 
-/// Is there a leaf whose colour is such?
+/// Is there a leaf whose colour satisfies `such`?
 template <typename Such>
 bool any_leaf_colour(const world::Geometry& shape, const Such& such) {
   const auto* const csg = dynamic_cast<const world::CsgGeometry*>(&shape);
@@ -23,7 +23,7 @@ bool any_leaf_colour(const world::Geometry& shape, const Such& such) {
   return false;
 }
 
-/// As the window draws exact shapes.
+/// Adds normals as the window draws exact shapes.
 void add_crease_normals(MeshGeometry& shape) {
   constexpr double kCrease = 0.6;  // rad
   PolygonMesh polygons;

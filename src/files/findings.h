@@ -7,21 +7,21 @@
 
 namespace icome::files {
 
-/// Something that may be wrong with many things of a file.
+/// A kind of fault that many things of a file may have.
 struct FindingKind {
   const char* text;    // "Faces with fewer than three corners are left out"
   const char* owners;  // that have it: "shapes"
 };
 
-/// Counts what is found wrong as a file is read, and tells it in one remark a kind, however many there are.
+/// Counts the faults found while a file is read, and reports each kind in one remark, however many there are.
 class Findings {
  public:
-  /// `owner` is the name of what has it; empty: it has none. `count` is how many times it has it; 0: that
-  /// means nothing. Kinds are told apart by their address.
+  /// `owner` is the name of the thing with the fault; empty: it has none. `count` is how often it has the
+  /// fault; 0: not counted. Kinds are told apart by their address.
   void add(const FindingKind& kind, const std::string& owner, std::size_t count = 0);
-  /// A sentence of its own, for what happens seldom; of very many, only the first ones are kept.
+  /// Adds a sentence of its own, for rare cases; of very many, only the first ones are kept.
   void tell(std::string text);
-  /// In the order in which their kinds were found first, then the single ones.
+  /// Remarks in the order in which their kinds were first found, then the single sentences.
   std::vector<Remark> remarks() const;
 
  private:
@@ -36,7 +36,7 @@ class Findings {
   std::size_t untold_ = 0;
 };
 
-/// A name as sentences have it: in quotes, shortened, "one without a name" for none.
+/// A name for sentences: in quotes, shortened; "one without a name" for none.
 std::string quoted_name(const std::string& name);
 
 }  // namespace icome::files

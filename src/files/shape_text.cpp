@@ -49,7 +49,7 @@ std::string text_of(const std::vector<std::uint32_t>& indices) {
   return text;
 }
 
-/// The numbers of a text, as many as fit into rows.
+/// The numbers of a text; fails unless they fill rows.
 base::Result<std::vector<double>> numbers_of(const ShapeText& text, const char* key, std::size_t row) {
   std::vector<double> numbers;
   const auto found = text.find(key);

@@ -27,7 +27,7 @@ using MadeTriangles = base::Result<std::shared_ptr<const MeshGeometry>>;
 const char* const kNothingOfIt =
     "no triangles stand for it: it is empty, or nothing of it is large enough to be found.";
 
-/// The longest side of the box around it. Endless shapes, which have no triangles, say so themselves.
+/// The longest side of its bounds; 1 for unlimited shapes, whose triangles() fails anyway.
 double size_of(const world::Geometry& shape) {
   const double longest = shape.bounds().sizes().maxCoeff();
   return std::isfinite(longest) && longest > 0.0 ? longest : 1.0;
@@ -39,7 +39,7 @@ bool has_colours(const World& world, const std::vector<ShownObject>& objects) {
   });
 }
 
-/// Is the recipe that of a picture that was thrown on a mesh, whose shape it does not tell?
+/// Is the recipe that of a picture projected on a mesh, without information on the shape?
 bool tells_of_a_picture(std::string_view recipe) {
   const auto said = nlohmann::json::parse(recipe, nullptr, false);
   return said.is_object() && said.value("op", nlohmann::json()) == "texture";
@@ -84,7 +84,7 @@ class Flattening {
     const world::Material* const material = world_.find(world_.find(it.object)->material);
     flat_.colours.resize(flat_.mesh.positions.size(), (material ? *material : world::Material{}).diffuse);
     if (it.mesh->colours.empty()) return;
-    // The first colour of a vertex stays with it; each other one gets a vertex of its own.
+    // The first colour of a vertex stays with it; each further one gets a vertex of its own.
     std::vector<bool> coloured(flat_.mesh.positions.size() - first, false);
     std::map<std::pair<std::uint32_t, Colour>, std::uint32_t> others;
     for (std::size_t t = 0; t < it.mesh->colours.size(); ++t) {
@@ -151,7 +151,7 @@ void remark_on_losses(const World& world, const std::vector<ShownObject>& shown,
   if (!world.scenes().empty()) tell("This format knows no scenes: they are left out.");
 }
 
-/// Of solids, where a format does not hold them as they are.
+/// Remarks on the colours of solids' parts, for formats that do not keep these solids exactly.
 void tell_of_part_colours(const World& world, bool keeps_colours, std::vector<Remark>& remarks) {
   bool coloured = false, clear = false;
   for (const auto& [id, geometry] : world.geometries()) {
@@ -164,7 +164,7 @@ void tell_of_part_colours(const World& world, bool keeps_colours, std::vector<Re
     remarks.push_back({{}, 0, "Colours of parts of solids are written without their opacity."});
 }
 
-/// What stands for exact shapes, made once for all objects that are to look alike.
+/// The triangles of exact shapes with their looks, made once for all objects that look alike.
 class ExactLooks {
  public:
   explicit ExactLooks(const World& world) : world_(world) {}
@@ -221,7 +221,7 @@ bool shows_nothing(const World& world) {
 }
 
 MadeTriangles shown_triangles(const world::Geometry& shape) {
-  // As parts of the shape's size. Solids that have to be sampled take their time, by its third power.
+  // Relative to the shape's size. Sampling a solid takes time by its third power.
   const double finest = shape.kind() == "csg" || shape.kind() == "implicit" ? 1.0 / 28.0 : 1.0 / 500.0;
   constexpr double kCoarser = 2.0;
   constexpr std::size_t kEnough = 8000;
@@ -232,7 +232,7 @@ MadeTriangles shown_triangles(const world::Geometry& shape) {
   for (int i = 1; best && (*best)->mesh.triangles.size() > kEnough && i < kMostTries; ++i) {
     tolerance *= kCoarser;
     auto made = shape.triangles(tolerance);
-    // Solids lose parts when they get too coarse, and do not become smaller without end.
+    // Solids lose parts when they get too coarse, and do not shrink beyond some size.
     if (!made || (*made)->mesh.triangles.size() >= (*best)->mesh.triangles.size()) break;
     best = std::move(made);
   }
@@ -247,7 +247,7 @@ ShownShapes::Maker written_triangles(const std::filesystem::path& path) {
 
 MadeTriangles fine_triangles(const world::Geometry& shape) {
   if (shape.bounds().isEmpty()) return std::make_shared<const MeshGeometry>(geometry::TriangleMesh{});
-  // Contoured solids take a cell of this size, and lie nearer than that.
+  // Contoured solids take a cell of this size, and their triangles are nearer than that.
   const bool contoured = shape.kind() == "csg" || shape.kind() == "implicit";
   return shape.triangles((contoured ? 1.0 / 100.0 : 1.0 / 500.0) * size_of(shape));
 }
@@ -277,7 +277,7 @@ base::Result<std::vector<ShownObject>> shown_objects(const World& world, bool wi
   ExactLooks looks(world);
   std::vector<ShownObject> shown;
   std::size_t triangles = 0;
-  std::string refusal;  // of the first object that cannot be made triangles, but is something
+  std::string refusal;  // of the first object that has something but no triangles
   std::vector<Visit> open;
   const auto enter = [&](const std::vector<ObjectId>& row, const base::Affine3& world_from_parent) {
     for (auto id = row.rbegin(); id != row.rend(); ++id) open.push_back({*id, world_from_parent});

@@ -10,7 +10,7 @@ using world::Interpolation;
 using world::KeyFrames;
 using world::Motion;
 
-/// Each value but the first is there twice, first as what it was before.
+/// Writes each value but the first twice: at its time, the value before it comes first.
 void cut_steps(KeyFrames& frames, std::size_t size) {
   KeyFrames cut = frames;
   cut.interpolation = Interpolation::Linear;
@@ -28,8 +28,8 @@ void cut_steps(KeyFrames& frames, std::size_t size) {
   frames = std::move(cut);
 }
 
-/// `part` gives the numbers of the part at a moment of the cycle. Where it jumps, the first of the two key
-/// frames is as the part was just before.
+/// `part` gives the numbers of the part at a moment of the cycle. At a jump, the first of the two key
+/// frames has the part's value just before it.
 template <typename Part>
 void cut_spline(KeyFrames& frames, const Part& part) {
   KeyFrames cut = frames;

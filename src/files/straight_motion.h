@@ -6,13 +6,13 @@
 
 namespace icome::files {
 
-/// Into so many straight pieces what is bent between two key frames is cut, for formats that know no others.
+/// Number of straight pieces into which each piece of a spline is cut, for formats without splines.
 inline constexpr std::size_t kPiecesOfBend = 16;
 
-/// The moments that cut each piece between two of these in so many; jumps stay where they are.
+/// The moments with each interval between two of these cut into so many pieces; jumps stay.
 std::vector<double> cut_finer(const std::vector<double>& times, std::size_t pieces);
 
-/// The same motion with key frames that lie on straight ways: steps as two at one moment, splines cut.
+/// An equal motion with linear key frames only: steps as two at one moment, splines cut.
 world::Motion straightened(const world::Motion& motion);
 
 /// Does it have splines?

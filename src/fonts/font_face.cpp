@@ -40,7 +40,7 @@ std::string text_of(const FcPattern* pattern, const char* what, int n) {
   return reinterpret_cast<const char*>(text);
 }
 
-/// Has the pattern a family of this name? fontconfig gives another font rather than none.
+/// Does the pattern have a family of this name? fontconfig gives another font rather than none.
 bool has_family(const FcPattern* pattern, const std::string& family) {
   for (int n = 0;; ++n) {
     const std::string name = text_of(pattern, FC_FAMILY, n);
@@ -67,7 +67,7 @@ base::Result<FoundFont> find_font(const std::string& family) {
   return font;
 }
 
-/// Takes the lines and curves of a letter and makes points of them.
+/// Turns the lines and curves of a letter into rings of points.
 class RingCollector {
  public:
   RingCollector(double grid, double tolerance) : grid_(grid), tolerance_(tolerance) {}
@@ -111,7 +111,7 @@ class RingCollector {
     at_ = c;
     return 0;
   }
-  /// The same bound with the larger of both second differences.
+  /// A piece of a cubic is off by at most 3/4 of the larger second difference, over the pieces squared.
   int cubic(const FT_Vector& by, const FT_Vector& and_by, const FT_Vector& to) {
     const Vector2 a = at_, b = point(by), c = point(and_by), d = point(to);
     const int pieces = pieces_for(0.75 * std::max((a - 2.0 * b + c).norm(), (b - 2.0 * c + d).norm()));
@@ -142,7 +142,7 @@ struct FontFace::Impl {
     if (library) FT_Done_FreeType(library);
   }
 
-  /// Loads the letter as it was drawn.
+  /// Loads the letter's outline, unscaled; false where it has none.
   bool load(std::uint32_t glyph) const {
     return FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_IGNORE_TRANSFORM) == 0 &&
            face->glyph->format == FT_GLYPH_FORMAT_OUTLINE;

@@ -19,7 +19,7 @@ namespace {
 using base::Vector2;
 using ClipperLib::cInt;
 
-/// The letters of text that is UTF-8.
+/// The letters of UTF-8 text.
 std::vector<char32_t> letters_of(const std::string& utf8) {
   std::vector<char32_t> letters;
   for (std::size_t i = 0; i < utf8.size();) {
@@ -126,7 +126,7 @@ std::vector<Vector2> ring_of(const ClipperLib::Path& path, bool counter_clockwis
   return ring;
 }
 
-/// What the rings cover, as pieces that do not overlap.
+/// The area that the rings cover, as pieces that do not overlap.
 std::vector<geometry::Outline> united(const ClipperLib::Paths& paths) {
   ClipperLib::Clipper clipper;
   clipper.StrictlySimple(true);

@@ -14,7 +14,7 @@ inline constexpr std::size_t kMostLetters = 2000;
 
 /// Text as a solid: z from -depth / 2 to depth / 2, closed and facing out; a sheet in the plane z = 0 that
 /// faces +z where depth is 0 (m). `height` (m) is that of the capital H. Lines end with '\n'; each is centred
-/// on x = 0 by what is seen of it, and all of them on y = 0 by their capitals. Letters that overlap become
+/// on x = 0 by its visible extent, and all of them on y = 0 by their capitals. Letters that overlap become
 /// one piece. Round edges keep to within a thousandth of the height.
 ///
 /// `family` is a family of fonts that fontconfig finds here, perhaps with a style ("DejaVu Serif:bold");

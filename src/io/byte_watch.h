@@ -8,10 +8,10 @@
 
 namespace icome::io {
 
-/// What a reading ends with that somebody has stopped.
+/// The error that ends an interrupted reading.
 inline base::Error interruption() { return {"interrupted"}; }
 
-/// Goes along with who goes through bytes, tells how far that is and asks whether to go on. Refers to the
+/// Follows a reader through its bytes, reports its progress and asks whether to go on. Refers to the
 /// bytes and the time budget.
 class ByteWatch {
  public:

@@ -17,9 +17,9 @@ namespace {
 
 /// The largest table that xz's own presets need to unpack is 65 MiB.
 constexpr std::uint64_t kUnpackMemoryLimit = 256ULL << 20U;
-constexpr std::size_t kPiece = 1U << 20U;  // that is read or unpacked before asking whether to go on
+constexpr std::size_t kPiece = 1U << 20U;  // bytes read or unpacked between two checks whether to go on
 
-/// An open file descriptor, closed when it goes.
+/// An open file descriptor, closed on destruction.
 class Descriptor {
  public:
   explicit Descriptor(const std::filesystem::path& path)
@@ -43,7 +43,7 @@ std::string limit_text(std::uint64_t limit) {
   return fmt::format("{:.6g} MiB", static_cast<double>(limit) / (1024.0 * 1024.0));
 }
 
-/// A decoder that is given back when it goes.
+/// A decoder that is freed on destruction.
 struct Decoder {
   lzma_stream stream = LZMA_STREAM_INIT;
   Decoder() = default;
@@ -113,7 +113,7 @@ base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit
       return base::fail(fmt::format("{}: {}", name, memory->problem().message));
     if (time_budget && !time_budget->lasts(double(decoder.stream.total_in) / double(packed.size())))
       return tl::unexpected(interruption());
-    bytes.resize(filled + kPiece);  // what it has room for grows by factors
+    bytes.resize(filled + kPiece);  // its capacity grows by factors
     decoder.stream.next_out = reinterpret_cast<std::uint8_t*>(bytes.data() + filled);
     decoder.stream.avail_out = bytes.size() - filled;
     while (code == LZMA_OK && decoder.stream.avail_out > 0) code = lzma_code(&decoder.stream, LZMA_FINISH);

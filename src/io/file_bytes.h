@@ -18,7 +18,7 @@ base::Result<std::string> read_bytes(const std::filesystem::path& path, std::uin
 
 /// Unpacks xz data (all its streams) piece by piece, so that a small file which unpacks to more than
 /// `limit` bytes is refused before they are taken. `name` is for the errors. Fails also when the time budget
-/// (may be null) ends, or the memory (may be null) that is counted there.
+/// or the memory budget (either may be null) is used up.
 base::Result<std::string> unpack_xz(std::string_view packed, std::uint64_t limit, const std::string& name,
                                     TimeBudget* time_budget = nullptr, MemoryBudget* memory = nullptr);
 

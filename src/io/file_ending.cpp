@@ -3,7 +3,7 @@
 namespace icome::io {
 namespace {
 
-/// Of ascii letters, as endings are, whatever the machine's language is.
+/// The word with its ASCII capitals made small, whatever the machine's language is.
 std::string small_letters(std::string word) {
   for (char& letter : word) {
     if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');

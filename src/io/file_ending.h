@@ -4,7 +4,7 @@
 
 namespace icome::io {
 
-/// What a file's name says that it is.
+/// The type of a file, as its name gives it.
 struct FileEnding {
   std::string type;     // in small letters: ".obj", also of "part.OBJ.xz"; empty where there is none
   bool packed = false;  // by xz

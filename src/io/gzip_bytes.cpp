@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kFirstUnpacked = 1U << 20U;
 constexpr int kGzipWindow = 15 + 16;  // the largest window; gzip's head and checksum
 
-/// A decoder that is given back when it goes.
+/// A decoder that is freed on destruction.
 struct Inflater {
   z_stream stream{};
   bool ready = inflateInit2(&stream, kGzipWindow) == Z_OK;

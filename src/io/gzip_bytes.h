@@ -12,8 +12,8 @@ namespace icome::io {
 bool is_gzip(std::string_view bytes);
 
 /// Unpacks gzip data (all its members) piece by piece, so that a small file which unpacks to more than
-/// `limit` bytes is refused before they are taken. `name` is for the errors. Fails also when the memory (may
-/// be null) that is counted there ends.
+/// `limit` bytes is refused before they are taken. `name` is for the errors. Fails also when the memory
+/// budget (may be null) is used up.
 base::Result<std::string> unpack_gzip(std::string_view packed, std::uint64_t limit, const std::string& name,
                                       MemoryBudget* memory = nullptr);
 

@@ -25,8 +25,8 @@ tl::unexpected<base::Error> cannot_write(const std::filesystem::path& path, cons
   return base::fail(fmt::format("{}: cannot be written ({}).", path.string(), why));
 }
 
-/// Opens a file of its own; null, with errno, when there can be none. A name may be taken by another thread,
-/// or by what a program that was killed left.
+/// Opens a new file beside the path; null, with errno, on failure. A name may be taken by another thread,
+/// or by a file that a killed program left.
 std::FILE* open_beside(const std::filesystem::path& path, std::filesystem::path& beside) {
   constexpr int kMostTries = 100;
   for (int i = 0;; ++i) {
@@ -46,7 +46,7 @@ bool is_gone(std::string_view text) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-/// Takes away what processes that are gone left beside the path.
+/// Removes files that ended processes left beside the path.
 void remove_parts_of_the_gone(const std::filesystem::path& path) {
   const std::string whole = path.filename().string();
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -74,7 +74,7 @@ bool is_part_of(std::string_view name, std::string_view whole) {
 }
 
 base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
-  // Renaming over a device such as /dev/null would replace it, and so it would a link.
+  // Renaming over a device such as /dev/null would replace it, and likewise a link.
   std::error_code error;
   const bool there = std::filesystem::exists(path, error);
   if (there && !std::filesystem::is_regular_file(path, error))
@@ -85,7 +85,7 @@ base::Result<NewFile> NewFile::create(const std::filesystem::path& path) {
   std::filesystem::path beside;
   std::FILE* const file = open_beside(real, beside);
   if (file == nullptr) return cannot_write(path, std::strerror(errno));
-  // Who could read and change what was there can do so again.
+  // The new file keeps the permissions of the old one.
   struct stat before = {};
   if (there && ::stat(real.c_str(), &before) == 0) {
     [[maybe_unused]] const int ignored = ::fchmod(::fileno(file), before.st_mode & 07777U);
@@ -98,7 +98,7 @@ NewFile::NewFile(std::filesystem::path path, std::filesystem::path beside, std::
 
 NewFile::~NewFile() {
   if (file_ == nullptr) return;
-  std::error_code ignored;  // nothing is left to be told here
+  std::error_code ignored;  // a failure cannot be reported here
   std::filesystem::remove(beside_, ignored);
 }
 

@@ -11,21 +11,21 @@ namespace icome::io {
 /// A file that appears whole or not at all: written beside its path, and renamed by finish().
 class NewFile {
  public:
-  /// Opens the file beside `path`. The error names the path and what the system said, so an impossible path
-  /// is told before the work, not after it. What a program that was killed left beside `path`, half written,
-  /// is taken away.
+  /// Opens the file beside `path`. The error names the path and gives the system's message, so that an
+  /// impossible path is reported before the work. Half-written files that killed programs left beside `path`
+  /// are removed.
   static base::Result<NewFile> create(const std::filesystem::path& path);
 
   NewFile(NewFile&&) noexcept = default;
   /// Leaves what is at the path as it was unless finish() succeeded.
   ~NewFile();
 
-  /// What could not be written is told by finish().
+  /// Appends the bytes; finish() reports a failure.
   void write(std::string_view bytes);
   /// Gives the file its name. Call once.
   base::Result<void> finish();
   const std::filesystem::path& path() const { return path_; }
-  /// Of the file that is being written, for who goes on with it: copy it before finish(), which closes it.
+  /// Descriptor of the file that is being written, for further use: copy it before finish(), which closes it.
   int descriptor() const;
 
  private:

@@ -10,10 +10,10 @@ void append_number(std::string& text, double number);
 void append_number(std::string& text, float number);
 void append_number(std::string& text, std::uint32_t number);
 
-/// In single precision; what is beyond it becomes the largest number there is.
+/// In single precision; a number out of range becomes the largest of its sign.
 float to_single(double number);
 
-/// The number that such a text of a float says, to all digits of a double: 0.9, not 0.89999998.
+/// The double that the shortest text of a float stands for: 0.9, not 0.89999998.
 double as_written(float number);
 
 }  // namespace icome::io

@@ -13,7 +13,7 @@ namespace icome::io {
 namespace {
 
 int flags_for(OpenFile::Use use) {
-  // Opening must not wait for whoever is at the other end of a pipe.
+  // Opening must not wait for the other end of a pipe.
   constexpr int kAlways = O_CLOEXEC | O_NONBLOCK;
   switch (use) {
     case OpenFile::Use::Read:
@@ -26,7 +26,7 @@ int flags_for(OpenFile::Use use) {
   return kAlways;
 }
 
-/// Calls again what a signal interrupted.
+/// Repeats a call that a signal interrupted.
 template <typename Call>
 auto retry_on_eintr(Call&& call) {
   auto result = call();

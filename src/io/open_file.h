@@ -8,14 +8,14 @@
 
 namespace icome::io {
 
-/// An ordinary file that is open, closed when it goes. Errors name the file and what the system said.
+/// An ordinary file that is open, closed on destruction. Errors name the file and give the system's message.
 class OpenFile {
  public:
   enum class Use { Read, Change, ChangeOrCreate };
 
-  /// Fails for what is not there (unless it may be created), folders and other special files.
+  /// Fails for missing files (unless they may be created), folders and other special files.
   static base::Result<OpenFile> open(const std::filesystem::path& path, Use use);
-  /// Goes on with an open descriptor, of which it makes a copy.
+  /// Uses a copy of an open descriptor.
   static base::Result<OpenFile> copy_of(int descriptor, const std::filesystem::path& path);
 
   OpenFile(OpenFile&& other) noexcept
@@ -36,12 +36,12 @@ class OpenFile {
   /// where one of them has done so before.
   base::Result<bool> lock() const;
 
-  /// Reads just so many bytes, which are there.
+  /// Reads exactly `count` bytes, which must be there.
   base::Result<void> read(std::uint64_t offset, char* bytes, std::size_t count) const;
   /// Writes all bytes; where that fails, some of them may be there.
   base::Result<void> write(std::uint64_t offset, std::string_view bytes) const;
   base::Result<void> cut_to(std::uint64_t size) const;
-  /// Brings what was written to the disk, where it survives that the power goes.
+  /// Forces written data to the disk, where it survives a power failure.
   base::Result<void> sync() const;
 
  private:
@@ -52,7 +52,7 @@ class OpenFile {
   int descriptor_ = -1;  // below zero once moved from
 };
 
-/// Brings the name of a file that is new to the disk. Not every file system can, and the file is whole in any
+/// Forces the name of a new file to the disk. Not every file system can, and the file is whole in any
 /// case.
 void sync_folder_of(const std::filesystem::path& path);
 

@@ -18,7 +18,7 @@ double from_single(float value) {
 }
 
 double from_short_single(float value) {
-  // So many places behind the point that at most one such number has this float nearest to it.
+  // As many decimal places as leave at most one such number that rounds to a given float.
   struct Magnitude {
     float below;
     double places;

@@ -7,8 +7,8 @@ namespace icome::io {
 /// Numbers that are not finite stay as they are.
 double from_single(float value);
 
-/// The same where that text has about six digits, as people and programs write them; else the number as it
-/// is. Fast, for a million at once.
+/// As from_single() if that text has about six digits, as people and programs write them; else the number as
+/// it is. Fast, for a million at once.
 double from_short_single(float value);
 
 }  // namespace icome::io

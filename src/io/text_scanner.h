@@ -34,7 +34,7 @@ class TextScanner {
 
   /// The next word; empty when there is none (on this line, where lines matter).
   std::string_view word();
-  /// What is left of the line, without space around it and comments behind space: a name of several words.
+  /// The rest of the line, without space around it and comments behind space: a name of several words.
   std::string_view rest();
   /// The next word as a number; "nan" and "inf" are numbers. `what` names it in errors: "a coordinate".
   double number(const char* what);
@@ -45,9 +45,9 @@ class TextScanner {
   void fail(const std::string& message);
   bool failed() const { return !error_.message.empty(); }
   const base::Error& error() const { return error_; }
-  /// Of the last word read, from 1. Takes time by how far that is into the text.
+  /// Line of the last word read, from 1. Takes time in proportion to the text before it.
   int line() const;
-  /// Where the next word is looked for.
+  /// Offset in the text from which the next word is looked for.
   std::size_t position() const { return static_cast<std::size_t>(at_ - text_.data()); }
 
  private:

@@ -8,43 +8,43 @@
 
 namespace icome::io {
 
-/// Knows how long reading a file may still go on: until its time is over or whoever waits for it says stop.
+/// Limits how long the reading of a file may go on: until its time is over or its progress callback stops it.
 class TimeBudget {
  public:
   using Progress = std::function<bool(double part)>;
 
   TimeBudget() = default;
-  /// As long as it takes.
+  /// Without a time limit.
   explicit TimeBudget(Progress progress) : progress_(std::move(progress)) {}
-  /// For `seconds` from now; `progress` hears parts from `begin` to 1.
+  /// Ends `seconds` from now; `progress` is called with parts from `begin` to 1.
   TimeBudget(double seconds, Progress progress, double begin)
       : end_(base::steady_nanoseconds() + std::int64_t(1e9 * seconds)),
         progress_(std::move(progress)),
         begin_(begin) {}
 
-  /// From now on the work is in the step that makes this part of the whole.
+  /// Begins the step that makes the part from `begin` to `end` of the whole work.
   void step(double begin, double end) {
     begin_ = begin;
     step_end_ = end;
     done_ = 0.0;
   }
 
-  /// False when time is over. Cheap enough to ask for every face.
+  /// False when time is over or the work was stopped. Cheap enough to ask for every face.
   bool lasts() {
     if (++asked_ % kAsksForOneLook == 0) look();
     return !over_ && !stopped_;
   }
-  /// The same after something that takes long, or to tell how much is done of this step, in [0, 1].
+  /// As lasts(), after something that takes long, or to report how much of this step is done, in [0, 1].
   bool lasts(double done) {
     done_ = done;
     return lasts_now();
   }
-  /// The same before something that takes long.
+  /// As lasts(), before something that takes long.
   bool lasts_now() {
     look();
     return !over_ && !stopped_;
   }
-  /// The same before a polygon is cut, which takes longer the more corners it has.
+  /// As lasts(), before a polygon is cut, which takes longer the more corners it has.
   bool lasts_for_polygon(std::size_t corners) { return corners > kManyCorners ? lasts_now() : lasts(); }
   bool stopped() const { return stopped_; }
 
@@ -57,7 +57,7 @@ class TimeBudget {
     if (progress_ && !stopped_) stopped_ = !progress_(begin_ + done_ * (step_end_ - begin_));
   }
 
-  std::int64_t end_ = 0;  // none
+  std::int64_t end_ = 0;  // 0: none
   Progress progress_;
   double begin_ = 0.0, step_end_ = 1.0;  // of the step
   double done_ = 0.0;

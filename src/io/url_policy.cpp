@@ -48,7 +48,7 @@ std::string percent_decoded(std::string_view url) {
   return decoded;
 }
 
-/// The names that a url may mean: as it stands, without the escapes of urls, and as programs on Windows
+/// The names that a url may mean: as it stands, without the escapes of urls, and as Windows programs
 /// write it.
 std::vector<std::string> meanings(std::string_view url) {
   std::vector<std::string> names = {std::string(url), percent_decoded(url)};
@@ -57,7 +57,7 @@ std::vector<std::string> meanings(std::string_view url) {
   return names;
 }
 
-/// Why a name does not count from the file that it stands in; null: it does.
+/// The reason why a name does not count from the file that it stands in; null if it does.
 const char* objection(const std::string& name) {
   if (name.empty()) return "it is empty";
   if (name.find('\0') != std::string::npos) return "it holds a zero byte";
@@ -83,7 +83,7 @@ std::filesystem::path textual_place(const std::filesystem::path& name) {
   std::error_code error;
   const std::filesystem::path normal = name.lexically_normal();
   std::filesystem::path known = normal.parent_path();
-  // What is not there has no links.
+  // Parts of a path that do not exist have no links.
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(known, error);
   return (error ? known : resolved) / normal.filename();
 }
@@ -174,7 +174,7 @@ base::Result<std::filesystem::path> find_beside(const std::filesystem::path& bas
   for (const std::string& meaning : names) {
     std::error_code error;
     const std::filesystem::path there = std::filesystem::absolute(folder / meaning, error);
-    // Before it is looked for, so that nothing is learnt of other places; links are seen behind that.
+    // Checked before the file is looked for, so that nothing is learnt of other places; links come later.
     if (!reach.may_lead_above() && !reach.is_within(textual_place(there))) return leads_above(url);
     const std::filesystem::path found = std::filesystem::canonical(there, error);
     if (error || !std::filesystem::is_regular_file(found, error)) continue;

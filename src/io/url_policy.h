@@ -10,17 +10,17 @@
 
 namespace icome::io {
 
-/// How far the urls of a design may lead: beside it and below its folder, or where a person has said so,
-/// above it, too. Remembers what was found above.
+/// The reach of a design's urls: beside it and below its folder or, where a person has allowed it, above it,
+/// too. Remembers the files found above.
 class UrlReach {
  public:
   explicit UrlReach(const std::filesystem::path& design, bool above = false);
 
-  /// `path` has its links resolved.
+  /// Does `path`, with its links resolved, lie in the design's folder or below it?
   bool is_within(const std::filesystem::path& path) const;
   bool may_lead_above() const { return above_; }
   void note(const std::filesystem::path& found);
-  /// Sentences on what was found above: it goes into what is saved.
+  /// Sentences about the files found above, which go into saved designs.
   std::vector<std::string> sentences() const;
 
  private:
@@ -42,7 +42,7 @@ base::Result<std::filesystem::path> find_beside(const std::filesystem::path& bas
 base::Result<std::string> fetch_beside(const std::filesystem::path& base_file, std::string_view url,
                                        std::uint64_t limit, UrlReach& reach);
 
-/// Where packages put data that anybody may read.
+/// The folder where packages put data that anybody may read.
 inline constexpr const char* kInstalledData = "/usr/share";
 
 /// As find_beside(), and also what packages have installed: an absolute name (`/usr/share/a/b.obj`,

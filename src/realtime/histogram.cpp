@@ -39,7 +39,7 @@ void DurationHistogram::add(std::int64_t nanoseconds) {
   const std::int64_t value = std::max<std::int64_t>(nanoseconds, 0);
   if (value > max()) max_.store(value, std::memory_order_relaxed);
   sum_.store(sum_.load(std::memory_order_relaxed) + value, std::memory_order_relaxed);
-  // Last and released: who counts the sample also sees a maximum that is not below it.
+  // Last and released: a reader that counts the sample also sees a maximum that is not below it.
   std::atomic<std::uint64_t>& bucket = buckets_[bucket_of(static_cast<std::uint64_t>(value))];
   bucket.store(bucket.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 }

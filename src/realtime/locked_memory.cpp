@@ -42,7 +42,7 @@ bool is_of_the_language(const std::string& path) {
   return std::any_of(std::begin(kNames), std::end(kNames), [&](auto it) { return name.starts_with(it); });
 }
 
-/// Thread stacks begin behind a page that nobody may touch. Each has 8 MB, of which little is ever used.
+/// Thread stacks begin behind an inaccessible page. Each has 8 MB, of which little is ever used.
 bool is_stack(const Mapping& mapping, const Mapping& before) {
   return mapping.path.empty() && before.path.empty() && before.access.starts_with("---") &&
          before.end == mapping.begin;
@@ -54,7 +54,7 @@ bool may_be_needed_by_a_tick(const Mapping& mapping, const Mapping& before, cons
   return mapping.path == "[heap]" || mapping.path == program || is_of_the_language(mapping.path);
 }
 
-/// Uses the stack once, so that its pages are there.
+/// Writes to the stack once, so that its pages are in memory.
 [[gnu::noinline]] void touch_stack() {
   char stack[kStack];
   volatile char* bytes = stack;
@@ -74,7 +74,7 @@ bool lock_memory() {
   for (std::string line; std::getline(maps, line);) {
     const Mapping mapping = Mapping::of(line);
     if (may_be_needed_by_a_tick(mapping, before, program)) {
-      // Refused for what another thread has given back meanwhile, which nobody needs.
+      // Fails for memory that another thread has freed meanwhile, which no tick needs.
       static_cast<void>(mlock(reinterpret_cast<const void*>(mapping.begin), mapping.end - mapping.begin));
     }
     before = mapping;

@@ -34,8 +34,8 @@ class SpinWait {
 };
 
 /// Lamport's Bakery lock (thesis section 5.6.1, after Silberschatz and Galvin 1998) for a fixed number
-/// of threads, kept beside the others for comparison. It needs no atomic read-modify-write; whoever
-/// comes first is served first. Each thread passes its own number, 0 to kThreads - 1.
+/// of threads, kept beside the others for comparison. It needs no atomic read-modify-write; threads are
+/// served in the order in which they come. Each passes its own number, 0 to kThreads - 1.
 template <std::size_t kThreads>
 class BakeryLock {
  public:
@@ -90,7 +90,7 @@ class BakeryLock {
 };
 
 /// A spin lock (test and test-and-set) for sections of a few instructions. Usable with
-/// std::scoped_lock. The servo takes no lock, this one neither.
+/// std::scoped_lock. The servo takes no lock, not even this one.
 class SpinLock {
  public:
   void lock() {

@@ -11,7 +11,7 @@
 
 namespace icome::realtime {
 
-/// How a loop is to run.
+/// Settings of a loop.
 struct LoopSettings {
   double rate_hz = 1000.0;        // Hz, 500 to 10,000; stiff contact and texture like 5,000 and more
   bool realtime_priority = true;  // ask for SCHED_FIFO, so that no ordinary thread delays a tick
@@ -20,14 +20,14 @@ struct LoopSettings {
   std::string name = "servo";     // of the thread, for debuggers; 15 letters are shown
 };
 
-/// What the system granted of the settings.
+/// The settings that the system granted.
 struct LoopReport {
   bool realtime_priority = false;  // the loop runs under SCHED_FIFO
-  bool memory_locked = false;      // what was mapped when the loop began stays in memory
+  bool memory_locked = false;      // memory mapped when the loop began stays in memory
   std::string notice;  // sentences for the user: what was asked for but refused, and what to do; or empty
 };
 
-/// What a tick is told. Times on the steady clock (base::steady_nanoseconds).
+/// Information for one tick. Times on the steady clock (base::steady_nanoseconds).
 struct TickInfo {
   std::uint64_t index = 0;     // number of the deadline, from 0; skipped deadlines leave gaps
   std::int64_t scheduled = 0;  // ns, the deadline itself

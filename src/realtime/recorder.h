@@ -8,7 +8,7 @@
 
 namespace icome::realtime {
 
-/// When one tick of a loop was due and ran, ns on the steady clock (base::steady_nanoseconds).
+/// Times at which one tick of a loop was due and ran, ns, steady clock (base::steady_nanoseconds).
 struct TickTimes {
   std::int64_t scheduled = 0;  // the deadline that it was started for
   std::int64_t started = 0;
@@ -16,7 +16,7 @@ struct TickTimes {
   std::uint64_t skipped = 0;  // deadlines passed over since the tick before
 };
 
-/// What half, 99 %, 99.9 % and all of the ticks stayed within.
+/// Bounds that half, 99 %, 99.9 % and all of the ticks stayed within.
 struct Quantiles {
   double median = 0.0;
   double p99 = 0.0;
@@ -24,7 +24,7 @@ struct Quantiles {
   double max = 0.0;
 };
 
-/// How a loop has run. Times are right to 0.2 % (exact below 256 ns), maxima and means are exact.
+/// Statistics of a loop's run. Times are right to 0.2 % (exact below 256 ns), maxima and means are exact.
 struct LoopSummary {
   std::uint64_t ticks = 0;
   std::uint64_t overruns = 0;  // ticks that ended after the next one was due

@@ -9,7 +9,7 @@
 namespace icome::world {
 
 /// Mixes values into a number (64 bits, the finaliser of splitmix64 after each word): the same on every
-/// machine. For comparing worlds, not against forgery.
+/// machine. For comparing worlds, no protection against forgery.
 class Hasher {
  public:
   template <typename Number>

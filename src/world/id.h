@@ -6,8 +6,8 @@
 
 namespace icome::world {
 
-/// Names a thing of a world for good: an id is never given away twice, so one whose thing is gone names
-/// nothing. Made by an IdSource; zero names nothing.
+/// The permanent name of a thing in a world: an id is never given twice, so the id of a deleted thing
+/// names nothing. Made by an IdSource; zero names nothing.
 template <typename Named>
 struct Id {
   std::uint64_t value = 0;
@@ -28,16 +28,16 @@ using MaterialId = Id<Material>;
 using TextureId = Id<Texture>;
 using SceneId = Id<Scene>;
 
-/// Gives ids away for one author (one per person who works on a design, also offline): authors need not
-/// ask each other. One counter serves all kinds. What it gives when all numbers are spent, no world takes.
+/// Gives ids to one author (one per person who works on a design, also offline): authors need not ask each
+/// other. One counter serves all kinds. Ids given after all numbers are spent are refused by worlds.
 class IdSource {
  public:
   static constexpr int kNumberBits = 40;
   static constexpr std::uint64_t kNumberMask = (std::uint64_t{1} << kNumberBits) - 1;
-  /// There is always a next number, which is no good when all of an author's are spent.
+  /// The last valid number. The next one is always given when an author's are spent; it is refused.
   static constexpr std::uint64_t kLastNumber = kNumberMask - 1;
 
-  /// `first` is the first number to give; World::next_number knows it for a design that exists.
+  /// `first` is the first number to give; World::next_number knows it for an existing design.
   explicit IdSource(std::uint32_t author = 0, std::uint64_t first = 1) : author_(author), next_(first) {}
 
   template <typename AnyId>

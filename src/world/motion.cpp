@@ -15,12 +15,12 @@ using base::Quaternion;
 
 constexpr double kLeastScale = 1e-6;   // of key frames
 constexpr double kLeastTurn = 1e-100;  // length: below, squares of its numbers are lost
-constexpr double kUnit = 1e-6;         // off 1: a length that still is that of a turn
+constexpr double kUnit = 1e-6;         // tolerance off 1 for the length of a turn
 
 template <int Size>
 using Numbers = Eigen::Matrix<double, Size, 1>;
 
-/// Which of the three that a spline has at each key.
+/// Part of the three values that a spline has at each key.
 enum class KeyPart : std::uint8_t { Arriving, Value, Leaving };
 
 template <int Size>
@@ -30,7 +30,7 @@ Numbers<Size> numbers_at(const KeyFrames& frames, std::size_t key, KeyPart part 
   return Eigen::Map<const Numbers<Size>>(frames.values.data() + row * Size);
 }
 
-/// The moment of the cycle. The end of a cycle is its end, not the beginning of the next (VRML 2.0, 6.50).
+/// The moment within the cycle. Its end is not the beginning of the next (VRML 2.0, 6.50).
 double within_cycle(const KeyFrames& frames, double time) {
   if (!(time > 0.0)) return 0.0;
   if (!frames.loops) return std::min(time, frames.cycle);
@@ -40,7 +40,7 @@ double within_cycle(const KeyFrames& frames, double time) {
 
 /// The key frames around a moment.
 struct Around {
-  std::size_t before = 0, after = 0;  // the same where there is nothing between
+  std::size_t before = 0, after = 0;  // equal where there is nothing between
   double share = 0.0;                 // of the way between them
   double seconds = 0.0;               // from one to the other
 };
@@ -54,7 +54,7 @@ Around around(const std::vector<double>& times, double time) {
   return {before, before + 1, (time - times[before]) / seconds, seconds};
 }
 
-/// glTF 2.0, appendix C.5.
+/// The value on a cubic spline by glTF 2.0, appendix C.5.
 template <int Size>
 Numbers<Size> on_spline(const KeyFrames& frames, const Around& it) {
   if (it.before == it.after) return numbers_at<Size>(frames, it.before);
@@ -91,7 +91,7 @@ bool is_turn(const Numbers<4>& numbers) {
   return std::isfinite(length) && length > kLeastTurn;
 }
 
-/// Turns at rest are used as they are: another length would stretch the object.
+/// Turns at rest are used unchanged: another length than 1 would stretch.
 bool is_unit_turn(const Quaternion& turn) { return std::abs(turn.norm() - 1.0) < kUnit; }
 
 base::Result<void> check_frames(const KeyFrames& frames, std::size_t size, const char* what) {
@@ -133,7 +133,7 @@ std::optional<Similarity> similarity(const Affine3& frame) {
   return Similarity{Quaternion(turn).normalized(), scale, frame.translation()};
 }
 
-/// Puts `change` in the place of each row of numbers; it hears whether that is a slope.
+/// Replaces each row of numbers by change(row, is_slope).
 template <int Size, typename Change>
 void change_values(KeyFrames& frames, Change&& change) {
   const bool spline = frames.interpolation == Interpolation::CubicSpline;
@@ -155,7 +155,7 @@ Affine3 affine(const PlaceParts& parts) {
   base::Matrix3 linear = parts.rotation.toRotationMatrix();
   const Vector3& scale = parts.scale;
   if (scale.x() == scale.y() && scale.y() == scale.z()) {
-    linear *= scale.x();  // along whatever axes
+    linear *= scale.x();  // about any axes
   } else {
     const base::Matrix3 axes = parts.stretch_axes.toRotationMatrix();
     linear = linear * axes * scale.asDiagonal() * axes.transpose();
@@ -186,7 +186,7 @@ PlaceParts parts_at(const Motion& motion, double time) {
   parts.translation = vector_at(motion.translation, parts.translation, time);
   parts.rotation = turn_at(motion.rotation, parts.rotation, time);
   if (motion.scale.times.empty()) return parts;
-  // Who is smaller than that at rest stays as small.
+  // A scale that is smaller than the limit at rest may stay as small.
   const double least = std::min(kLeastScale, motion.rest.scale.cwiseAbs().minCoeff());
   parts.scale = vector_at(motion.scale, parts.scale, time).unaryExpr([least](double scale) {
     return std::copysign(std::max(std::abs(scale), least), scale);

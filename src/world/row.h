@@ -7,15 +7,15 @@
 
 namespace icome::world {
 
-// Objects side by side: the children of one, or the roots of the world or of a scene.
+// Rows of objects side by side: the children of one, or the roots of the world or of a scene.
 
-/// Where the id is; the row's size where it is not in it.
+/// Index of the id in the row; the row's size where it is not in it.
 inline std::size_t place_of(const std::vector<ObjectId>& row, ObjectId id) {
   return std::size_t(std::find(row.begin(), row.end(), id) - row.begin());
 }
 
-/// Where an id that is in the row is, sooner than place_of in a row of very many: most work goes on at the
-/// ends, else it is likely to be near the place where it was put.
+/// Index of an id that is in the row, found sooner than by place_of in a very long row: most work happens
+/// at the ends, else it is likely to be near the place where it was put.
 inline std::size_t place_near(const std::vector<ObjectId>& row, ObjectId id, std::size_t hint) {
   constexpr std::size_t kEnd = 16;
   const std::size_t last = row.size() - 1;

@@ -68,7 +68,7 @@ void add_to(Hasher& hasher, const PhysicalObject& it) {
 
 void add_to(Hasher& hasher, const GeometryObject& it) { hasher.add(it.shape->hash()); }
 
-/// Nothing for materials that VRML 2.0 can say whole.
+/// Adds nothing for materials that VRML 2.0 can express completely.
 void add_beyond_vrml(Hasher& hasher, const Material& it) {
   const Material usual;
   if (it.picture_frame != usual.picture_frame) {
@@ -120,7 +120,7 @@ void add_to(Hasher& hasher, const Scene& it) {
   for (const ObjectId root : it.roots) add_id(hasher, root.value);
 }
 
-/// In the order of ids: tables keep none.
+/// Adds a table in the order of ids, as tables keep no order.
 template <typename Named>
 void add_table(Hasher& hasher, const World::Table<Named>& table) {
   std::vector<Id<Named>> ids;
@@ -173,7 +173,7 @@ Bounds bounds(const World& world, ObjectId root) {
     world_from.emplace(id, here);
     if (!object.geometry) continue;
     const Bounds own = world.find(object.geometry)->shape->bounds();
-    // An endless box, turned, would be made of 0 times infinity.
+    // Turning an infinite box would multiply 0 by infinity.
     const bool has_end = own.min().allFinite() && own.max().allFinite();
     if (!own.isEmpty() && has_end) result.extend(own.transformed(here));
   }

@@ -15,8 +15,8 @@ namespace icome::world {
 struct Motion;
 using MotionPointer = std::shared_ptr<const Motion>;  // null: none; motion.h
 
-/// A thing in the world (thesis 2.4.1, 5.6.2): where it is with respect to its parent, what it is made of
-/// and what it looks and feels like. It owns nothing that it names.
+/// A thing in the world (thesis 2.4.1, 5.6.2): its place with respect to its parent, its shape, its look
+/// and its feel. It owns nothing that it names.
 struct PhysicalObject {
   std::string name = {};
   ObjectId parent = {};                 // none: a root of the world
@@ -25,44 +25,44 @@ struct PhysicalObject {
   GeometryId geometry = {};  // none: only a group
   MaterialId material = {};  // none: the default
   FixturePointer fixture = {};
-  MotionPointer motion = {};  // by itself; null: it stays
+  MotionPointer motion = {};  // null: it stays
 
   // Kept by the world, for speed.
-  std::uint32_t place_hint = 0;  // about where it is among its siblings
-  std::uint32_t scenes = 0;      // that it is a root of
+  std::uint32_t place_hint = 0;  // about its index among its siblings
+  std::uint32_t scenes = 0;      // number of scenes that it is a root of
 };
 
 /// A shape that objects share: a clone uses the same one, a copy one of its own.
 struct GeometryObject {
   GeometryPointer shape;    // never null
-  std::uint32_t users = 0;  // objects made of it
+  std::uint32_t users = 0;  // objects that use it
 };
 
-/// How the surface feels. What is not set is left to the device's own best.
+/// The feel of a surface. Values that are not set are left to the device's own best.
 struct TouchProperties {
   std::optional<double> stiffness = {};  // N/m
   std::optional<double> damping = {};    // N s/m
   double static_friction = 0.0;          // >= dynamic
   double dynamic_friction = 0.0;
-  std::string texture = {};  // of the haptic textures, by name; empty: smooth
+  std::string texture = {};  // name of a haptic texture; empty: smooth
 
   bool operator==(const TouchProperties&) const = default;
 };
 
-/// Where a picture lies: the rows of what turns texture coordinates (u, v) into the place that is looked up,
-/// (0, 0) its lower left and (1, 1) its upper right.
+/// The placement of a picture: the rows of the transform from texture coordinates (u, v) to the place that
+/// is looked up, (0, 0) its lower left and (1, 1) its upper right.
 using PictureFrame = std::array<double, 6>;
 inline constexpr PictureFrame kPictureAsItLies = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
 
-/// What decides about seeing through a surface, beside its transparency.
+/// The rule by which one sees through a surface, beside its transparency.
 enum class AlphaMode : std::uint8_t {
   ByPicture,  // the picture's opacity: holes and edges, or glass (VRML 2.0)
-  Opaque,     // nothing, whatever the picture says
-  Mask,       // there is nothing where the picture's opacity is below the cutoff
+  Opaque,     // seen through nowhere, whatever the picture's opacity
+  Mask,       // clear where the picture's opacity is below the cutoff
   Blend       // the picture's opacity, as of glass
 };
 
-/// Looks after the VRML 2.0 model, and how it feels. Always shared, never copied with objects.
+/// The look by the model of VRML 2.0, and the feel. Always shared, never copied with objects.
 struct Material {
   std::string name = {};
   float ambient = 0.2F;  // of the diffuse colour
@@ -70,10 +70,10 @@ struct Material {
   Colour specular = {};
   Colour emission = {};
   float shininess = 0.2F;     // in [0, 1]
-  float transparency = 0.0F;  // 1 is not seen
+  float transparency = 0.0F;  // 1: invisible
   TextureId texture = {};     // none: plain
   TouchProperties touch = {};
-  // Beyond VRML 2.0, as glTF has it.
+  // Beyond VRML 2.0, as in glTF.
   PictureFrame picture_frame = kPictureAsItLies;
   bool tints =
       false;  // the diffuse colour multiplies any picture's; else only a grey one's, and others replace it
@@ -88,17 +88,17 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// A picture on a surface, kept as the file that it came as.
+/// A picture on a surface, kept as its original file.
 struct Texture {
-  std::string name;        // where it came from, for people
+  std::string name;        // its origin, for people
   std::string media_type;  // "image/png", "image/jpeg"
   std::shared_ptr<const std::string> bytes;
-  std::array<bool, 2> repeats = {true, true};  // along u and v; else the edge goes on
+  std::array<bool, 2> repeats = {true, true};  // along u and v; else the edge is continued
   std::uint32_t users = 0;                     // materials that show it; kept by the world
 };
 
 /// A part of the world that is seen and touched together: the subtrees of some objects. A change of an
-/// object shows in all scenes that it is in.
+/// object shows in all its scenes.
 struct Scene {
   std::string name;
   std::vector<ObjectId> roots;
@@ -110,7 +110,7 @@ struct Edit;
 /// edit.h); copying one copies tables but no shapes. One thread owns it.
 class World {
  public:
-  /// Null for what is not there (any more). Valid until the next edit.
+  /// Null for things that are not there (any more). Valid until the next edit.
   const PhysicalObject* find(ObjectId id) const { return look(objects_, id); }
   const GeometryObject* find(GeometryId id) const { return look(geometries_, id); }
   const Material* find(MaterialId id) const { return look(materials_, id); }
@@ -160,15 +160,15 @@ bool is_within(const World& world, ObjectId id, ObjectId ancestor);
 /// The objects of a subtree, parents before children.
 std::vector<ObjectId> subtree(const World& world, ObjectId root);
 
-/// Around the shapes of a subtree, in the world's frame; those without an end, such as planes, are left out.
+/// Bounds of the shapes of a subtree, in the world's frame; unlimited ones, such as planes, are left out.
 /// Empty where there are none.
 Bounds bounds(const World& world, ObjectId root);
 
-/// The object on whose subtree a light shines; none: on everything. A scoped one shines on all that its
-/// object is and has below it or, where that is nothing but the light, on the group that it is in.
+/// The object on whose subtree a light shines; none: on everything. A scoped one shines on its object
+/// with all below it or, where that is nothing but the light, on the group that it is in.
 ObjectId lit_group(const World& world, ObjectId light);
 
-/// Equal for worlds that hold the same, whatever the way they came about.
+/// Equal for worlds with equal content, however they came about.
 std::uint64_t hash(const World& world);
 
 }  // namespace icome::world

@@ -11,7 +11,7 @@ using base::Vector3;
 using geometry::TriangleMesh;
 
 /// A mesh in Embree 3, with the watertight (robust) traversal: the packaged peer for nearest and segment
-/// queries, and the judge's independent eyes. Single precision inside. Keeps a reference to the mesh.
+/// queries, and the independent basis of the judge. Single precision inside. Keeps a reference to the mesh.
 class EmbreeMesh {
  public:
   explicit EmbreeMesh(const TriangleMesh& mesh);
@@ -22,7 +22,7 @@ class EmbreeMesh {
   /// The point of the mesh nearest to `point`, m.
   Vector3 nearest(const Vector3& point) const;
 
-  /// Where the segment from `a` to `b` first meets the mesh: 0 at `a`, 1 at `b`.
+  /// The first hit of the segment from `a` to `b`: 0 at `a`, 1 at `b`; nothing: it misses the mesh.
   std::optional<double> first_hit(const Vector3& a, const Vector3& b) const;
 
   double build_seconds() const;

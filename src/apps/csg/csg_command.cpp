@@ -29,7 +29,7 @@ constexpr double kMillimetre = 0.001;             // m
 constexpr std::size_t kPointsAtOnce = 1U << 16U;  // between two looks at Ctrl-C
 constexpr std::size_t kPointsWorthAThread = 4096;
 
-/// The file, and all that was asked to be found out about it.
+/// The solid of the file, and the answers about it.
 struct CsgWork {
   geometry::CsgTree tree;  // in the form
   CsgFigures figures;
@@ -54,7 +54,7 @@ base::Result<void> bring_to_form(CsgWork& work, const CsgOptions& options) {
   return {};
 }
 
-// What is quick to find wrong is looked for first.
+// Errors that are quick to find are looked for first.
 base::Result<CsgWork> prepare_csg(const CsgOptions& options, StatusLine& status) {
   CsgWork work;
   if (options.mesh) {

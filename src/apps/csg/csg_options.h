@@ -8,11 +8,11 @@
 
 namespace icome::apps {
 
-/// What a person asked `icome csg` for, as the command line says it.
+/// The options of `icome csg`, as the command line gives them.
 struct CsgOptions {
   std::filesystem::path file;
   geometry::CsgForm form = geometry::CsgForm::Tree;
-  std::size_t max_nodes = geometry::NormaliseOptions{}.max_nodes;  // of the form; beyond it gives up
+  std::size_t max_nodes = geometry::NormaliseOptions{}.max_nodes;  // of the form; more are an error
   std::optional<std::filesystem::path> inside;                     // points to be judged
   std::optional<std::filesystem::path> mesh;                       // STL to be written
   std::optional<double> cell_mm;  // of the mesh's grid; none: kCellsAlong of the longest side
@@ -21,7 +21,7 @@ struct CsgOptions {
 
 constexpr double kCellsAlong = 200.0;  // cells along the longest side of the solid
 
-/// Says which option has a value that makes no sense, or which two contradict each other.
+/// Fails, naming the option whose value makes no sense, or the two that contradict each other.
 base::Result<void> check(const CsgOptions& options);
 
 /// "tree", "normal" or "subnormal".

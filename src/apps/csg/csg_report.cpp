@@ -28,7 +28,7 @@ std::string duration(double seconds) {
   return seconds < 1.0 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.2f} s", seconds);
 }
 
-/// A row of the table; one without a label goes on with the one before.
+/// A row of the table; one without a label continues the one before.
 std::string row(const char* label, const std::string& value) {
   return fmt::format("  {:<14}{}\n", label, value);
 }
@@ -83,7 +83,7 @@ std::string json_report(const CsgFigures& figures) {
                       {"error", figures.mesh->error}};
   }
   if (figures.inside) report["inside"] = *figures.inside;
-  // A million points are better on one line. Names of files may hold bytes that are no UTF-8.
+  // A million points are better on one line. Names of files may hold bytes that are not UTF-8.
   return report.dump(figures.inside ? -1 : 2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -10,10 +10,10 @@
 
 namespace icome::apps {
 
-/// What `icome csg` found out about a solid. SI units.
+/// The figures of a solid that `icome csg` reports. SI units.
 struct CsgFigures {
   std::string file;
-  std::vector<std::string> notes;  // what the reader left out or put right
+  std::vector<std::string> notes;  // on what the reader left out or repaired
   geometry::CsgCount counted;      // of the tree as it was read
   double read_seconds = 0.0;
 
@@ -31,10 +31,10 @@ struct CsgFigures {
     double error = 0.0;  // m
   };
   std::optional<Mesh> mesh;
-  std::optional<std::vector<std::uint8_t>> inside;  // 0 or 1 a point
+  std::optional<std::vector<std::uint8_t>> inside;  // 0 or 1 for each point
 };
 
-/// How many operands the chain of unions at the top of the tree has; 0 for an empty tree.
+/// The number of operands of the chain of unions at the top of the tree; 0 for an empty tree.
 std::size_t count_products(const geometry::CsgTree& tree);
 
 /// "part.stl: 12,345 triangles, at most 4 um off the surface, cells of 250 um".

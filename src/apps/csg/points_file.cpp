@@ -31,7 +31,7 @@ std::string_view take_up_to(std::string_view& text, char end) {
   return taken;
 }
 
-/// The error is the end of a sentence that begins with file and line.
+/// The number in a cell; the error is the end of a sentence that begins with file and line.
 base::Result<double> parse_coordinate(std::string_view cell, char column) {
   const std::string_view word = without_blanks(cell);
   const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
@@ -73,7 +73,7 @@ base::Result<std::vector<base::Vector3>> read_points(const std::filesystem::path
     return fail_here(fmt::format("the first line must be {}, not {}", kPointsHeader, io::quoted(header)));
   std::vector<base::Vector3> points;
   points.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
-  // Empty lines may end the file, not part it.
+  // Empty lines may stand only at the end of the file.
   for (text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1); !text.empty();) {
     ++line;
     const auto point = parse_point(take_up_to(text, '\n'));

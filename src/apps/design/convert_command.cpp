@@ -40,7 +40,7 @@ std::string convert_text(const ConvertOptions& options, std::size_t objects,
 int run_convert(const ConvertOptions& options) {
   catch_interrupts();
   StatusLine status;
-  // That a format cannot be written is better told before a long read.
+  // A format that cannot be written is better reported before a long read.
   if (const auto able = files::check_can_write(options.out); !able)
     return end_without_result(able.error(), status);
   const auto design = read_for_person(options.in, options.reading, status);

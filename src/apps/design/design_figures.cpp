@@ -48,7 +48,7 @@ void count_tables(const World& world, DesignFigures& figures) {
   }
 }
 
-/// Walks down the tree, measuring what is shown.
+/// Walks down the tree, measuring the shapes that are shown.
 class Measuring {
  public:
   Measuring(const World& world, DesignFigures& figures, files::ShownShapes::Maker maker)

@@ -11,7 +11,7 @@
 
 namespace icome::apps {
 
-/// What `icome info` found out about a design. SI units, world frame.
+/// The figures of a design that `icome info` reports. SI units, world frame.
 struct DesignFigures {
   std::string file, format;
   std::size_t objects = 0;
@@ -19,7 +19,7 @@ struct DesignFigures {
   std::size_t triangles = 0;                 // of all objects, as shown
   std::map<std::string, std::size_t> kinds;  // shapes by kind
   std::size_t materials = 0, textures = 0, scenes = 0, lights = 0, viewpoints = 0, scripts = 0;
-  std::size_t depth = 0;  // objects on the longest way down
+  std::size_t depth = 0;  // objects on the longest path down the tree
   base::Bounds bounds;    // without endless planes
   std::size_t bytes = 0;  // of memory for shapes and pictures
   double read_seconds = 0.0;
@@ -35,8 +35,8 @@ struct DesignFigures {
   std::vector<std::string> warnings;
 };
 
-/// `maker` makes what is shown, and counted. `go_on` is asked between shapes, which may take long to be made
-/// triangles; fails when it says no.
+/// `maker` makes the triangles that are shown and counted. `go_on` is called before each object, as making
+/// triangles may take long; fails when it returns false.
 base::Result<DesignFigures> figures_of(const files::LoadedDesign& design, const std::string& file,
                                        files::ShownShapes::Maker maker,
                                        const std::function<bool(std::size_t done, std::size_t all)>& go_on);

@@ -5,7 +5,7 @@
 
 namespace icome::apps {
 
-/// How designs are read, as the command line says it.
+/// The options for reading designs, as the command line gives them.
 struct ReadingOptions {
   std::string unit = "m";  // of numbers in formats that name none: files::parse_unit
   std::string up;          // the axis that points up in the file: "y", "z"; empty: as its format has it
@@ -14,7 +14,7 @@ struct ReadingOptions {
   bool urls_above = false;          // follow urls to files above the design's folder
 };
 
-/// What a person asked `icome info` for, as the command line says it.
+/// The options of `icome info`, as the command line gives them.
 struct InfoOptions {
   std::filesystem::path file;
   ReadingOptions reading;
@@ -22,16 +22,16 @@ struct InfoOptions {
   bool json = false;
 };
 
-/// What a person asked `icome convert` for.
+/// The options of `icome convert`.
 struct ConvertOptions {
   std::filesystem::path in;
   std::filesystem::path out;
   ReadingOptions reading;
-  bool force = false;  // replaces a file that holds what would be lost
+  bool force = false;  // replaces a file even if some of it would be lost
   bool json = false;
 };
 
-/// What a person asked `icome edit` for.
+/// The options of `icome edit`.
 struct EditOptions {
   std::string in;                // a design's file, or kNewDesign
   std::filesystem::path apply;   // operations, one a line; "-": standard input
@@ -39,13 +39,13 @@ struct EditOptions {
   std::filesystem::path out;
   ReadingOptions reading;
   bool keep_going = false;
-  bool force = false;     // replaces a file that holds what would be lost
-  bool help_ops = false;  // only tell what operations there are
+  bool force = false;     // replaces a file even if some of it would be lost
+  bool help_ops = false;  // only list the operations
   std::string operation;  // then: only this one; empty: all
   bool json = false;
 };
 
-/// What begins with an empty design, in place of a file.
+/// The name that stands for an empty design, in place of a file.
 constexpr const char* kNewDesign = "new";
 
 }  // namespace icome::apps

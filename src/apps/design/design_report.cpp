@@ -28,7 +28,7 @@ std::string table_row(const char* label, const std::string& value) {
 }
 
 std::string metres(const base::Vector3& v) {
-  // Rounding leaves a minus before nothing.
+  // Rounding leaves a minus sign before a zero.
   const base::Vector3 clean = v + base::Vector3::Zero();
   return fmt::format("{:.6g}, {:.6g}, {:.6g}", clean.x(), clean.y(), clean.z());
 }
@@ -38,7 +38,7 @@ std::string memory_text(std::size_t bytes) {
   return fmt::format("{:.4g} MB", 1e-6 * double(bytes));
 }
 
-/// What a file says could trick a terminal: control characters are left out.
+/// The text without control characters, with which a file could trick a terminal.
 std::string printable(std::string text) {
   std::erase_if(text,
                 [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; });
@@ -145,7 +145,7 @@ std::string json_report(const DesignFigures& figures) {
         {{"object", it.name}, {"keys", it.keys}, {"seconds", it.seconds}, {"loops", it.loops}});
   report["bytes"] = figures.bytes;
   report["read_seconds"] = figures.read_seconds;
-  // Names in files may hold bytes that are no UTF-8.
+  // Names in files may hold bytes that are not UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

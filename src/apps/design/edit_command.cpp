@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kLargestScript = 2ULL << 30U;  // bytes
 
-/// What is to be done, as it was written down.
+/// The text of the script or the recording.
 base::Result<std::string> script_text(const EditOptions& options) {
   if (!options.replay.empty()) return io::read_bytes(options.replay, kLargestScript);
   if (options.apply != "-") return io::read_bytes(options.apply, kLargestScript);
@@ -47,7 +47,7 @@ base::Result<files::LoadedDesign> beginning(const EditOptions& options, StatusLi
   return read_for_person(options.in, options.reading, status);
 }
 
-/// Does to the world what was written down, as a script or as a recording.
+/// Performs the text on the world, as a script or as a recording.
 base::Result<EditOutcome> perform_text(const EditOptions& options, std::string_view text, world::World& world,
                                        StatusLine& status) {
   const auto goes_on = [&](double part) {
@@ -72,7 +72,7 @@ base::Result<EditOutcome> perform_text(const EditOptions& options, std::string_v
   return EditOutcome{.operations = actions.value_or(0), .stopped = !actions};
 }
 
-/// What there is to tell of a run.
+/// The report of a run.
 struct EditReport {
   EditOutcome outcome;
   files::LoadedDesign design;  // as the operations left it
@@ -119,7 +119,7 @@ std::string edit_text(const EditOptions& options, const EditReport& report) {
   return text;
 }
 
-/// Tells what is wrong, with the lines.
+/// Tells all errors, with their lines.
 int end_with_errors(const EditOptions& options, const EditReport& report, StatusLine& status) {
   status.clear();
   for (const EditError& error : report.outcome.errors)
@@ -141,12 +141,12 @@ int list_operations(const EditOptions& options) {
 int run_edit(const EditOptions& options) {
   if (options.help_ops) return list_operations(options);
   StatusLine status;
-  // That a format cannot be written is better told before the work.
+  // A format that cannot be written is better reported before the work.
   if (const auto able = files::check_can_write(options.out); !able)
     return end_without_result(able.error(), status);
   const auto script = script_text(options);
   if (!script) return end_without_result(script.error(), status);
-  catch_interrupts();  // not before: what waits for standard input would not hear of them
+  catch_interrupts();  // not before: Ctrl-C must end a wait for standard input
   auto design = beginning(options, status);
   if (!design) return end_without_result(design.error(), status);
 

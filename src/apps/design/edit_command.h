@@ -3,8 +3,8 @@
 
 namespace icome::apps {
 
-/// Runs `icome edit`: performs a file of operations on a design, one a line, and writes what they made. A
-/// wrong line is told with its number, and then nothing is written. Returns the program's exit code, as
+/// Runs `icome edit`: performs a file of operations on a design, one a line, and writes the result. A
+/// wrong line is reported with its number, and then nothing is written. Returns the program's exit code, as
 /// run_convert does.
 int run_edit(const EditOptions& options);
 

@@ -21,7 +21,7 @@ std::string operation_of(const Value& command) {
   return name && name->text() ? *name->text() : "";
 }
 
-/// Counts what went well, with what there is to know of it, or keeps the error.
+/// Performs a line; counts it and keeps its note, or keeps the error.
 bool perform_line(interaction::OperationRunner& runner, std::string_view text, std::size_t line,
                   EditOutcome& outcome) {
   const auto command = interaction::value_from_json(text);

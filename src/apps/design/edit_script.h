@@ -16,14 +16,14 @@ struct EditError {
   std::string message;    // a sentence
 };
 
-/// What people should know of a line that was done.
+/// A note for people on a line that was done.
 struct EditNote {
   std::size_t line;       // from 1
   std::string operation;  // its name
   std::string text;
 };
 
-/// What a script came to.
+/// The outcome of a script.
 struct EditOutcome {
   std::size_t operations = 0;  // that were done
   std::vector<EditNote> notes = {};
@@ -32,7 +32,7 @@ struct EditOutcome {
 };
 
 /// Performs the operations of a text, one JSON object a line; empty lines and those that begin with # are
-/// skipped. Ends with the first that is wrong, or goes on to the end. `progress` hears which part is done, in
+/// skipped. Ends with the first that is wrong, or goes on to the end. `progress` gets the part done, in
 /// [0, 1], before every line; false stops.
 EditOutcome perform_script(interaction::OperationRunner& runner, std::string_view text, bool keep_going,
                            const std::function<bool(double part)>& progress);

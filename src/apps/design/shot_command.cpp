@@ -21,7 +21,7 @@
 namespace icome::apps {
 namespace {
 
-/// What was drawn, for the report.
+/// The figures of a picture, for the report.
 struct ShotFigures {
   std::string view;
   std::size_t objects = 0, triangles = 0;
@@ -75,7 +75,7 @@ base::Result<render::Camera> choose_camera(const render::RenderScene& scene, con
                   options.view, quoted_names(scene.viewpoints(), [](const auto& it) { return it.name; })));
 }
 
-/// Everything at rest, or at a moment (s).
+/// The scene at rest, or at a moment (s).
 render::RenderScenePointer scene_of(const world::World& world, world::SceneId scene,
                                     std::optional<double> time) {
   render::ScenePublisher publisher(scene);
@@ -113,7 +113,7 @@ std::string shot_json(const ShotFigures& figures, const ShotOptions& options) {
   report["draw_seconds"] = figures.draw_seconds;
   report["seconds"] = figures.read_seconds + figures.draw_seconds;
   report["warnings"] = figures.remarks;
-  // Names may hold bytes that are no UTF-8.
+  // Names may hold bytes that are not UTF-8.
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -128,7 +128,7 @@ std::string shot_text(const ShotFigures& figures, const ShotOptions& options) {
 
 base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& status) {
   if (const auto png = check_picture_name(options.out); !png) return tl::unexpected(png.error());
-  // An impossible path is told before the work.
+  // An impossible path is reported before the work.
   auto out = io::NewFile::create(options.out);
   if (!out) return tl::unexpected(out.error());
   ShotFigures figures;

@@ -8,7 +8,7 @@
 
 namespace icome::apps {
 
-/// What a person asked `icome shot` for, as the command line says it.
+/// The options of `icome shot`, as the command line gives them.
 struct ShotOptions {
   std::filesystem::path file;
   std::filesystem::path out;

@@ -8,7 +8,7 @@
 
 namespace icome::apps {
 
-/// A 3D mouse may be plugged in at any time. Where there is no force-feedback device, the mouse is the hand.
+/// A 3D mouse may be plugged in at any time. Without a force-feedback device, the mouse is the hand.
 session::SessionSettings desktop_settings() {
   session::SessionSettings settings;
   if (auto mouse = devices::SpaceMouse::create({.wait = true})) settings.navigation = std::move(*mouse);

@@ -6,10 +6,10 @@
 
 namespace icome::apps {
 
-/// May the word on the command line be meant as a design's file, and not as a command that there is not?
+/// Could the word be meant as a design's file, rather than as a command that does not exist?
 bool is_design_name(const std::string& word);
 
-/// A session with what devices there are.
+/// The settings of a session with the devices that there are.
 session::SessionSettings desktop_settings();
 
 /// Opens the desktop window, and gives the process's exit code when it is closed.

@@ -4,7 +4,7 @@
 
 namespace icome::apps {
 
-/// What `icome` without a command is asked for.
+/// The options of `icome` without a command.
 struct DesktopCommandOptions {
   std::filesystem::path design = {};  // empty: none is named
   std::string theme = {};             // "dark" or "light"; empty: as chosen before

@@ -72,7 +72,7 @@ std::string anova_sentence(const AnovaTerm& term, const Anova& anova, bool sever
   return text;
 }
 
-/// Says why an effect size can stand outside of its interval, where one does.
+/// Adds a warning where an effect size stands outside of its interval.
 void note_intervals(StatsReport& report, const Anova& anova, bool several) {
   const auto stands_outside = [&](const AnovaTerm& term) {
     const auto interval =
@@ -86,7 +86,7 @@ void note_intervals(StatsReport& report, const Anova& anova, bool several) {
         "so the value itself can stand outside.");
 }
 
-/// The title of the chart: the term that speaks most of all factors together.
+/// The title of the chart: the last term, which is that of the most factors.
 std::string anova_title(const Anova& anova) {
   const bool several = anova.terms.size() > 1;
   const AnovaTerm& term = anova.terms.back();

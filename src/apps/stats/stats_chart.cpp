@@ -38,7 +38,7 @@ bool has_groups(const StatsChart& chart) {
 
 bool has_legend(const StatsChart& chart) { return has_groups(chart) && chart.series.size() > 1; }
 
-/// What the page shows, in a few words.
+/// The heading: the content of the page in a few words.
 std::string heading_of(const StatsChart& chart) {
   switch (chart.kind) {
     case ChartKind::Scatter:
@@ -66,7 +66,7 @@ std::string heading_of(const StatsChart& chart) {
   return text;
 }
 
-/// How the marks are to be read.
+/// A key to the marks.
 std::string reading_key(const StatsChart& chart) {
   const std::string interval = fmt::format("{} {}confidence interval", percent_text(chart.confidence),
                                            chart.within_people ? "within-subject " : "");
@@ -125,7 +125,7 @@ Extremes extremes_of(const StatsChart& chart) {
   return extremes;
 }
 
-/// The axis with room beyond what it must show, but none across zero.
+/// The axis with room beyond the extremes, but not across zero.
 AxisRange roomy_axis(const Extremes& extremes, double share, int count) {
   const double room = share * (extremes.high - extremes.low);
   double low = extremes.low - room, high = extremes.high + room;
@@ -139,7 +139,7 @@ AxisRange y_range(const StatsChart& chart) {
   if (chart.kind == ChartKind::Curve || shares) return axis_over(0.0, 1.0, 5);
   const Extremes extremes = extremes_of(chart);
   const bool stand_on_zero = chart.kind == ChartKind::Bars || chart.kind == ChartKind::Shares;
-  // Of zeros alone both ends would be zero.
+  // With zeros alone both ends would be zero.
   if (stand_on_zero && extremes.low == 0.0 && extremes.high == 0.0) return axis_over(0.0, 1.0, 6);
   AxisRange range = roomy_axis(extremes, 0.05, 6);
   if (stand_on_zero && extremes.low == 0.0) range.low = 0.0;
@@ -171,7 +171,7 @@ std::string counts_below(const StatsChart& chart, std::size_t group) {
   return fmt::format("n = {}{}", chart.values.front()[group].size(), chart.series.size() > 1 ? " each" : "");
 }
 
-/// How the groups' names stand below the axis.
+/// The layout of the groups' names below the axis.
 struct GroupLabels {
   bool turned = false;
   double height = 0.0;
@@ -188,7 +188,7 @@ GroupLabels labels_of(const Canvas& canvas, const StatsChart& chart, double slot
   return {true, 26.0 + std::sin(kLabelTurn) * std::min(widest + 60.0, kLongestTurned)};
 }
 
-/// The names of the factors that series are of, a line each.
+/// The names of the series' factors, a line each.
 std::vector<std::string> legend_heads(const StatsChart& chart) {
   std::vector<std::string> heads;
   for (std::size_t from = 0; from <= chart.series_label.size();) {
@@ -209,7 +209,7 @@ double legend_width(const Canvas& canvas, const StatsChart& chart) {
   return 28.0 + std::min(widest, kWidestLegend);
 }
 
-/// Makes place for the axes' words.
+/// Lays out the frame, with room for the labels of the axes.
 ChartFrame frame_of(const Canvas& canvas, const StatsChart& chart, const AxisRange& y, const AxisRange& x,
                     GroupLabels& labels) {
   double widest = 0.0;

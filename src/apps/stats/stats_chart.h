@@ -10,7 +10,7 @@
 
 namespace icome::apps {
 
-/// How a result is drawn.
+/// The kind of a chart.
 enum class ChartKind {
   Box,          // quartiles, values and means of groups
   Bars,         // means of groups with confidence intervals
@@ -21,7 +21,7 @@ enum class ChartKind {
   Curve,        // power over sample size
 };
 
-/// What a chart shows, in the words and units of the data.
+/// The content of a chart, in the words and units of the data.
 struct StatsChart {
   ChartKind kind = ChartKind::Box;
   std::string title;
@@ -38,20 +38,20 @@ struct StatsChart {
   bool within_people = false;                            // the intervals are within-subject ones
 };
 
-/// What may follow --plot-kind, in the order of ChartKind.
+/// The values of --plot-kind, in the order of ChartKind.
 inline constexpr const char* kChartKinds[] = {"box",    "bars",   "interaction", "scatter",
                                               "matrix", "shares", "curve"};
 
-/// The chart as an SVG file; as the bytes of a PNG file of 1920 x 1280 pixels. Fail for more groups or series
-/// than a page can show.
+/// The chart as an SVG file, and as the bytes of a PNG file of 1920 x 1280 pixels. Fail for more groups or
+/// series than a page can show.
 base::Result<std::string> chart_svg(const StatsChart& chart);
 base::Result<std::vector<std::uint8_t>> chart_png(const StatsChart& chart);
 
-/// Writes the chart by how `out` ends: .png, else an SVG file. Fails as those do, and when the file cannot be
-/// written.
+/// Writes the chart as a PNG file if `out` ends in .png, else as an SVG file. Fails as those do, and when the
+/// file cannot be written.
 base::Result<void> write_chart(const StatsChart& chart, const std::filesystem::path& out);
 
-/// Whether the path ends in .svg or .png.
+/// Does the path end in .svg or .png?
 bool is_chart_name(const std::filesystem::path& out);
 
 }  // namespace icome::apps

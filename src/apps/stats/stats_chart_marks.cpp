@@ -21,11 +21,11 @@ using charts::Colour;
 
 namespace {
 
-constexpr std::size_t kMostDots = 300;      // of a group; beyond that only what is outside the whiskers
-constexpr std::size_t kMostPoints = 4'000;  // of a scatter; beyond that one for each spot of the page
+constexpr std::size_t kMostDots = 300;      // of a group; with more, only values outside the whiskers
+constexpr std::size_t kMostPoints = 4'000;  // of a scatter; with more, one for each spot of the page
 constexpr double kWidestBox = 96.0;
 
-/// A group without series is told by its own colour, as long as there are enough.
+/// Groups without series have colours of their own, as long as there are enough.
 Colour colour_of(const StatsChart& chart, std::size_t series, std::size_t group) {
   if (chart.series.size() > 1) return chart_colour(series);
   return chart_colour(chart.groups.size() <= 6 ? group : 0);
@@ -60,7 +60,7 @@ void interval_mark(Canvas& canvas, double x, double low, double high, double hal
   level(canvas, high, x - half, x + half, stroke);
 }
 
-/// -0.5 ... 0.5, evenly spread and the same each time (the golden ratio's multiples).
+/// Offsets in -0.5 ... 0.5, evenly spread and the same each time (the golden ratio's multiples).
 double spread(std::size_t i) {
   const double turn = 0.61803398874989485 * double(i + 1);
   return turn - std::floor(turn) - 0.5;
@@ -86,7 +86,7 @@ BoxFigures box_of(const std::vector<double>& values) {
 void draw_dots(Canvas& canvas, const ChartFrame& frame, const Place& place, const std::vector<double>& values,
                const BoxFigures& box, const Colour& colour) {
   const bool all = values.size() <= kMostDots;
-  std::set<long> drawn;  // places of what is outside, a spot once
+  std::set<long> drawn;  // spots of values outside the whiskers, each once
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double y = frame.y(values[i]);
     if (!all &&
@@ -227,7 +227,7 @@ void draw_interaction(Canvas& canvas, const StatsChart& chart, const ChartFrame&
 
 namespace {
 
-/// The line of least squares, and what its interval needs.
+/// The line of least squares, and the figures for its interval.
 struct Fit {
   double centre = 0.0, height = 0.0;  // means of x and y
   double slope = 0.0;
@@ -235,7 +235,7 @@ struct Fit {
   double error = 0.0;  // standard error of the estimate
   double count = 0.0;
   double at(double x) const { return height + slope * (x - centre); }
-  /// Half the interval of the mean there, for this quantile of t.
+  /// Half the interval of the mean at `x`, for the quantile `t` of Student's distribution.
   double half(double x, double t) const {
     return t * error * std::sqrt(1.0 / count + (x - centre) * (x - centre) / sxx);
   }
@@ -379,7 +379,7 @@ void draw_matrix(Canvas& canvas, const StatsChart& chart, const Area& area) {
   const double side = std::min((area.height - 8.0) / count, (area.width - 2.0 * kNames) / count);
   const charts::TextStyle row{std::clamp(0.3 * side, 7.0, 15.5), kChartInk, false, 1.0};
   const charts::TextStyle column{row.size, kChartQuiet};
-  // In the middle, unless the names of rows need what those of columns leave.
+  // Centred, unless the names of rows need the room that the names of columns leave.
   const double spare = area.width - count * side;
   double for_rows = 0.0, for_columns = 0.0;
   for (std::size_t i = 0; i < chart.groups.size(); ++i) {
@@ -390,7 +390,7 @@ void draw_matrix(Canvas& canvas, const StatsChart& chart, const Area& area) {
   const double left = area.x + std::max(0.5 * spare, std::min(for_rows, spare - for_columns));
   for (std::size_t i = 0; i < chart.groups.size(); ++i) {
     const double top = area.y + 4.0 + side * double(i), text = top + 0.5 * side + 0.36 * row.size;
-    // The first has no row, the last no column.
+    // The first name has no row, the last no column.
     if (i > 0)
       canvas.text({left - 12.0, text}, fitted(canvas, chart.groups[i], row, left - 12.0 - area.x), row);
     for (std::size_t k = 0; k < i; ++k)

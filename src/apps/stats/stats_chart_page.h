@@ -8,7 +8,7 @@
 
 namespace icome::apps {
 
-// What the drawings of stats_chart have in common; lengths in page units.
+// Parts that the drawings of stats_chart have in common; lengths in page units.
 
 inline constexpr double kChartWidth = 960.0;
 inline constexpr double kChartHeight = 640.0;
@@ -17,17 +17,17 @@ inline const charts::Colour kChartQuiet{0.40, 0.43, 0.48};
 inline const charts::Colour kChartGrid{0.90, 0.91, 0.93};
 inline const charts::Colour kChartPaper{1.0, 1.0, 1.0};
 
-/// The colours of Okabe and Ito, which colour-blind eyes tell apart, and grey; then the same lighter, then
-/// darker, then again from the first.
+/// The colours of Okabe and Ito, which colour-blind eyes tell apart, grey and violet; then the same lighter,
+/// then darker, then again from the first.
 charts::Colour chart_colour(std::size_t which);
 
-/// From a quantity to a stretch of the page.
+/// Maps a quantity to a stretch of the page.
 struct ChartScale {
   double low = 0.0, high = 1.0, from = 0.0, to = 1.0;
   double operator()(double value) const { return from + (to - from) * (value - low) / (high - low); }
 };
 
-/// Where the marks go, and how quantities become places.
+/// The place of the marks, and the scales from quantities to places.
 struct ChartFrame {
   charts::Area area{};
   ChartScale x, y;
@@ -41,7 +41,7 @@ struct AxisRange {
   std::vector<double> at;
   double step = 1.0;
 };
-/// From `low` to `high`, a little wider where they are the same.
+/// The axis from `low` to `high`, a little wider where they are equal.
 AxisRange axis_over(double low, double high, int count);
 
 /// Mean and interval of a group, as charts show them. NaN where there are too few values.
@@ -58,17 +58,17 @@ struct FittedLine {
 /// Empty `lower` where there is none: less than three points, or all at one x.
 FittedLine fitted_line(const StatsChart& chart);
 
-/// A minus sign for every hyphen that is one.
+/// The text with a minus sign for every hyphen that stands for one.
 std::string with_minus(std::string_view text);
 
-// The marks of each kind; `frame` is made.
+// Draw the marks of each kind in a frame that is laid out.
 void draw_boxes(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
 void draw_bars(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
 void draw_interaction(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
 void draw_scatter(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
 void draw_curve(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
 void draw_shares(charts::Canvas& canvas, const StatsChart& chart, const ChartFrame& frame);
-/// The whole page but its head.
+/// Draws the whole page but its head.
 void draw_matrix(charts::Canvas& canvas, const StatsChart& chart, const charts::Area& area);
 
 }  // namespace icome::apps

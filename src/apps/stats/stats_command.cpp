@@ -14,7 +14,7 @@ namespace {
 
 using Reporter = base::Result<StatsReport> (*)(const StatsOptions&);
 
-/// A subcommand and what answers it.
+/// A subcommand and the function that makes its report.
 struct StatsTest {
   const char* name;
   Reporter report;
@@ -34,13 +34,13 @@ base::Result<StatsReport> answered(const StatsOptions& options) {
   return base::fail(fmt::format("there is no test \"{}\".", options.test));
 }
 
-/// Whether both are one file, however they are written.
+/// Do both paths lead to one file, however they are written?
 bool is_same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
   std::error_code failed;
   return one == other || std::filesystem::equivalent(one, other, failed);
 }
 
-/// Whether values of one person are taken for such.
+/// Does the test know which values are of the same person?
 bool pairs_people(const StatsOptions& options) {
   if (options.test == "anova") return !options.within.empty();
   return options.paired || options.test == "friedman";

@@ -12,7 +12,7 @@ namespace icome::apps {
 /// The options of `icome stats` and its subcommands, which set `options`.
 void add_stats_options(CLI::App& stats, StatsOptions& options);
 
-/// Which options do not fit together; empty: all do.
+/// A sentence about options that do not fit together; empty if all do.
 std::string misfit(const StatsOptions& options);
 
 /// Runs `icome stats`: reads a table, makes a test and prints its result for a person or as JSON, and draws

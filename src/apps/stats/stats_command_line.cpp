@@ -6,7 +6,7 @@
 namespace icome::apps {
 namespace {
 
-/// An option that may be given several times, a value each.
+/// Adds an option that may be given several times, each time with one value.
 void add_names(CLI::App& command, const char* name, std::vector<std::string>& into, const char* help) {
   command.add_option(name, into, help)->type_name("COLUMN")->expected(1)->take_all()->allow_extra_args(false);
 }
@@ -50,7 +50,7 @@ void add_alternative(CLI::App& command, StatsOptions& options) {
       ->check(CLI::IsMember({"two-sided", "less", "greater"}));
 }
 
-/// A response by the levels of a factor, or a column a group.
+/// Adds options for a response by the levels of a factor, or for one column a group.
 void add_groups(CLI::App& command, StatsOptions& options, bool matched) {
   command.add_option("--response", options.response, "What was measured")->type_name("COLUMN");
   add_names(command, "--factor", options.factors, "Whose levels are the groups");

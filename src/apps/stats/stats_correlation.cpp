@@ -103,7 +103,7 @@ StatsJson matrix_json(const Matrix& matrix) {
   return rows;
 }
 
-/// "-.45***": below the diagonal.
+/// A correlation as it stands below the diagonal: "-.45***".
 std::string starred(double r, double p) {
   return share_text(r) + (p < 0.001 ? "***" : p < 0.01 ? "** " : p < 0.05 ? "*  " : "   ");
 }

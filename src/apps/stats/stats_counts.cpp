@@ -30,7 +30,7 @@ std::string_view take_until(std::string_view& text, char end) {
   return taken;
 }
 
-/// From "63,180/16,180".
+/// Reads counts such as "63,180/16,180".
 base::Result<Counted> counts_in_words(std::string_view text) {
   Counted result;
   result.source = "--counts";
@@ -156,7 +156,7 @@ base::Result<StatsReport> counts_report(const Counted& counted, StatsJson json, 
   StatsChart chart;
   chart.kind = *kind;
   chart.title = fmt::format("{}: {}", name, sentence);
-  // A bar a row, parted by columns; of a goodness of fit a bar a column.
+  // One bar for each row, divided by columns; for a goodness of fit one for each column.
   const bool one = counted.rows.size() == 1;
   chart.groups = one ? counted.columns : counted.rows;
   chart.x_label = one ? counted.column_factor : counted.row_factor;
@@ -171,7 +171,7 @@ base::Result<StatsReport> counts_report(const Counted& counted, StatsJson json, 
   return report;
 }
 
-/// The same levels in the same order, before and after: those that only one of them has, too.
+/// Gives rows and columns the same levels in the same order, also those that only one of them has.
 void make_square(Counted& counted) {
   std::vector<std::string> levels = counted.rows;
   for (const std::string& name : counted.columns)

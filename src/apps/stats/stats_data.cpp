@@ -52,7 +52,7 @@ base::Result<LongForm> read_long_form(const stats::DataTable& table, const Stats
   return LongForm{std::move(*values), std::move(*factor)};
 }
 
-/// What people have in each group: sums and counts, to average.
+/// The values of a person in each group: sums and counts, to average.
 struct PersonCells {
   std::vector<double> sum;
   std::vector<std::size_t> count;
@@ -139,7 +139,7 @@ stats::Factor reordered(stats::Factor factor, const std::vector<int>& order) {
   return factor;
 }
 
-/// In the order in which levels appear.
+/// The levels in the order in which they appear in the data.
 std::vector<int> levels_of_data(const stats::Factor& factor) {
   std::vector<int> order;
   std::vector<bool> seen(factor.levels.size());
@@ -168,7 +168,7 @@ std::vector<std::string> parted_by_commas(std::string_view text) {
   return parts;
 }
 
-/// The factor with the levels in the order that a person tells, who names each of them once.
+/// The factor with its levels in the order that `told` gives; fails unless that names each of them once.
 base::Result<stats::Factor> told_order(const stats::DataTable& table, stats::Factor factor,
                                        std::string_view told) {
   std::string names;

@@ -21,13 +21,13 @@ using stats::Description;
 constexpr std::size_t kMostNamedOutliers = 10;
 constexpr std::size_t kMostModes = 3;
 
-/// A column, or what of it belongs to a level of --factor.
+/// A column, or its part that belongs to a level of --factor.
 struct Described {
   std::string name;
   std::vector<double> values;     // NaN: missing
   std::vector<std::size_t> at;    // lines of the file
   std::vector<std::size_t> rows;  // of the table
-  std::size_t column = 0;         // which of those that are described it is of
+  std::size_t column = 0;         // index of its column among those described
 };
 
 StatsJson description_json(const Description& it) {
@@ -79,7 +79,7 @@ base::Result<std::vector<Described>> columns_to_describe(const stats::DataTable&
   return all;
 }
 
-/// Each column by the levels of the factor.
+/// Splits each column by the levels of the factor.
 std::vector<Described> parted(const std::vector<Described>& columns, const stats::Factor& factor) {
   std::vector<Described> all;
   for (const Described& column : columns) {
@@ -101,7 +101,7 @@ std::vector<Described> parted(const std::vector<Described>& columns, const stats
   return all;
 }
 
-/// What describe prints, column by column of the table.
+/// The tables that describe prints, and its outliers.
 struct DescribeTables {
   TextTable centre{{"", "n", "missing", "mean", "SD", "CI of the mean", "mode"}};
   TextTable spread{{"", "minimum", "quartile", "median", "quartile", "maximum", "skewness"}};
@@ -165,7 +165,7 @@ base::Result<StatsChart> describe_chart(const std::vector<Described>& all, const
   return chart;
 }
 
-/// A cell as it may stand in a table whose cells that sign parts.
+/// The text of a cell, in quotation marks where a table with that separator needs them.
 std::string table_cell(std::string_view text, char separator) {
   const bool plain = text.find_first_of("\"\r\n") == std::string_view::npos &&
                      text.find(separator) == std::string_view::npos && !text.starts_with(' ') &&
@@ -176,7 +176,7 @@ std::string table_cell(std::string_view text, char separator) {
   return cell + '"';
 }
 
-/// A heading that no column has yet.
+/// The wanted heading, numbered if a column has it already.
 std::string free_heading(const std::string& wanted, const std::vector<std::string>& taken) {
   std::string heading = wanted;
   for (int i = 2; std::ranges::find(taken, heading) != taken.end(); ++i)
@@ -184,7 +184,7 @@ std::string free_heading(const std::string& wanted, const std::vector<std::strin
   return heading;
 }
 
-/// A column of z scores for each column that is described, NaN where there is none.
+/// A column of z scores for each described column, NaN where there is none.
 std::vector<std::vector<double>> z_columns(const stats::DataTable& table, const std::vector<Described>& all,
                                            std::size_t columns, std::vector<std::string>& warnings) {
   std::vector<std::vector<double>> scores(

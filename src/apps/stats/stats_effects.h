@@ -3,13 +3,13 @@
 
 namespace icome::apps {
 
-/// Of intervals of shares of variance: they leave out 0 just where p < .05 (Steiger 2004).
+/// Confidence of intervals of shares of variance: they leave out 0 just where p < .05 (Steiger 2004).
 inline constexpr double kEffectConfidence = 0.90;
 
 /// {"df", "ss", "ms"}.
 inline StatsJson squares_json(int df, double ss, double ms) { return {{"df", df}, {"ss", ss}, {"ms", ms}}; }
 
-/// What every row of a table of analysis of variance tells, between subjects or within.
+/// The members of every row of a table of analysis of variance, between subjects or within.
 template <typename Term>
 StatsJson effect_json(const Term& term) {
   return {{"term", term.term},

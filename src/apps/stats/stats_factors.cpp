@@ -37,7 +37,7 @@ std::string joined_levels(const std::vector<int>& levels, std::span<const stats:
   return text;
 }
 
-/// Observations of which nothing is missing, and which cell each is in.
+/// The complete observations, and the cell of each.
 struct CellsOfFactors {
   std::vector<double> values;
   std::vector<int> cell;
@@ -58,7 +58,7 @@ CellsOfFactors cells_of(const FactorialData& data, std::span<const stats::Factor
   return result;
 }
 
-/// Takes the mean of its group off each value.
+/// Subtracts from each value the mean of its group.
 void take_means_off(std::vector<double>& values, std::span<const int> group_of) {
   const int groups = group_of.empty() ? 0 : 1 + *std::ranges::max_element(group_of);
   const stats::GroupedValues grouped = stats::grouped(values, group_of, std::size_t(groups));
@@ -68,7 +68,7 @@ void take_means_off(std::vector<double>& values, std::span<const int> group_of) 
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= means[std::size_t(group_of[i])];
 }
 
-/// What Levene's test compares: values of each cell between subjects, of subjects their mean.
+/// The groups that Levene's test compares: values of each cell between subjects, or the subjects' means.
 std::vector<std::vector<double>> groups_between(const FactorialData& data) {
   const CellsOfFactors cells = cells_of(data, data.factors);
   std::vector<std::vector<double>> groups(cells.combinations.size());
@@ -125,15 +125,15 @@ void add_normality(StatsReport& report, StatsJson& json, const FactorialData& da
            : fmt::format("  normal residuals, Shapiro-Wilk: not tested: {}\n", test.error().message);
 }
 
-/// The observations of people who have one in each cell within subjects, with the differences between people
-/// taken off and Morey's growth, group by group; NaN of others.
+/// The observations of people with one in each cell within subjects, less the differences between people and
+/// with Morey's growth, group by group; NaN for all others.
 std::vector<double> without_people(const FactorialData& data) {
   std::vector<std::vector<int>> groups, columns;
   const std::size_t count = data.values.size();
   const std::vector<int> group =
       data.factors.empty() ? std::vector<int>(count, 0) : stats::combined_levels(data.factors, count, groups);
   const std::vector<int> column = stats::combined_levels(data.within, count, columns);
-  // By group and person the observation in each column.
+  // For each group and person, the observation in each column.
   std::map<std::pair<int, int>, std::vector<std::size_t>> people;
   for (std::size_t i = 0; i < count; ++i) {
     if (group[i] == stats::kNoLevel || column[i] == stats::kNoLevel || std::isnan(data.values[i])) continue;
@@ -180,7 +180,7 @@ StatsJson cell_json(const stats::CellDescription& cell, std::span<const stats::F
           {"mean_interval", {it.mean_low, it.mean_high}}};
 }
 
-/// Of a chart: which series every observation is in.
+/// Assigns the observations to the series of a chart.
 void set_series(StatsChart& chart, const CellsOfFactors& cells, std::span<const stats::Factor> all,
                 std::size_t series_factors) {
   const std::span<const stats::Factor> others = all.subspan(1, series_factors);
@@ -326,7 +326,7 @@ base::Result<StatsChart> factorial_chart(const FactorialData& data, const StatsO
   chart.y_label = data.response;
   chart.groups = all.front().levels;
   chart.confidence = options.confidence;
-  // The moved values are no independent ones if a mark pools several cells of each person.
+  // The moved values are not independent if a mark pools several cells of each person.
   chart.within_people = !data.within.empty() && *kind != ChartKind::Box && series_factors + 1 == all.size();
   FactorialData drawn = data;
   if (chart.within_people) drawn.values = without_people(data);

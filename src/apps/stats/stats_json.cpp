@@ -5,7 +5,7 @@
 
 namespace icome::apps {
 
-/// To the library that writes it.
+/// Converts a value for the library that writes it.
 struct StatsJson::Writer {
   using Written = nlohmann::ordered_json;
 

@@ -15,7 +15,7 @@ class StatsJson {
  public:
   struct Member;
 
-  // The source has what needs to know Member.
+  // Defined in the source file, as they need the complete Member.
   StatsJson();
   StatsJson(const StatsJson& other);
   StatsJson(StatsJson&& other) noexcept;
@@ -40,13 +40,13 @@ class StatsJson {
   static StatsJson array();
   static StatsJson object();
 
-  /// The member of an object, made where there is none. A null becomes an object.
+  /// The member of an object, created if it is missing. A null becomes an object.
   StatsJson& operator[](const std::string& key);
   /// Adds an element to an array.
   void push_back(StatsJson element);
   /// Adds the members of another object.
   void append(const StatsJson& object);
-  /// On several lines; a mark in place of bytes that are no UTF-8.
+  /// The text on several lines; bytes that are not UTF-8 become a mark.
   std::string text() const;
 
  private:

@@ -3,8 +3,8 @@
 
 namespace icome::apps {
 
-/// The levels of --post-hoc and --simple factors compared, to text and JSON ("post_hoc", "simple_effects").
-/// Data of subjects. Fails where a factor is none of the analysis.
+/// Adds comparisons of the levels of --post-hoc and --simple factors to text and JSON ("post_hoc",
+/// "simple_effects"). For data of subjects. Fails for a factor that is not in the analysis.
 base::Result<void> add_level_comparisons(StatsReport& report, const FactorialData& data,
                                          const StatsOptions& options);
 

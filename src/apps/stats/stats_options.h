@@ -6,7 +6,7 @@
 
 namespace icome::apps {
 
-/// What a person asked `icome stats` for, as the command line says it; each test takes what concerns it.
+/// The options of `icome stats`, as the command line gives them; each test uses those that concern it.
 struct StatsOptions {
   std::string test;  // the subcommand: "anova"
   std::filesystem::path data;
@@ -30,7 +30,7 @@ struct StatsOptions {
   double mean = 0.0;
   double confidence = 0.95;
 
-  // Of power.
+  // For power.
   std::string of;
   double effect = 0.0;
   double count = 0.0;

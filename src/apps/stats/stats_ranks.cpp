@@ -10,7 +10,7 @@
 namespace icome::apps {
 namespace {
 
-/// What rank tests compare, and how it is told.
+/// The groups that rank tests compare, with their mean ranks.
 struct RankGroups {
   Samples samples;
   std::vector<double> mean_ranks;  // empty where there are none
@@ -41,7 +41,7 @@ std::string rank_groups_text(const RankGroups& groups) {
   return table.text();
 }
 
-/// Head, groups and sentence; the chart where one is asked for.
+/// The report of head, groups and sentence, with the chart where one is asked for.
 base::Result<StatsReport> rank_report(const RankGroups& groups, StatsJson json, const std::string& name,
                                       const std::string& sentence, const StatsOptions& options) {
   StatsReport report;

@@ -145,7 +145,7 @@ std::string effects_text(const RepeatedMeasures& analysis) {
   return fmt::format("\nEffect sizes, partial, generalised and omega squared\n{}", table.text());
 }
 
-/// Says why a share can stand outside of its interval, where one does.
+/// Adds a warning where a share stands outside of its interval.
 void note_shares(StatsReport& report, const RepeatedMeasures& analysis) {
   const auto stands_outside = [](const EffectShare& share) {
     return share.interval && (share.value < share.interval->low || share.value > share.interval->high);

@@ -10,15 +10,15 @@
 
 namespace icome::apps {
 
-/// What a test answers, in every form.
+/// The result of a test, in every form.
 struct StatsReport {
   StatsJson json;                     // without the warnings
   std::string text;                   // for a person, without the notes
   std::vector<std::string> warnings;  // sentences, for both
-  std::optional<StatsChart> chart;    // where options.plot asks for one
+  std::optional<StatsChart> chart;    // if options.plot names a file
 };
 
-// One function a subcommand. Fails, in a sentence, where data, columns or values are not what it needs.
+// One function for each subcommand. Fails, in a sentence, where data, columns or values do not suit it.
 base::Result<StatsReport> report_describe(const StatsOptions& options);
 base::Result<StatsReport> report_anova(const StatsOptions& options);
 base::Result<StatsReport> report_repeated_measures(const StatsOptions& options);

@@ -16,7 +16,7 @@ stats::Alternative alternative_of(const StatsOptions& options) {
   return options.alternative == "greater" ? stats::Alternative::Greater : stats::Alternative::TwoSided;
 }
 
-/// A test, its name and what it was done on.
+/// A test, its name and its data.
 struct TRun {
   std::string name;
   std::string what;
@@ -59,7 +59,7 @@ TRun run_pairs(Samples samples, const stats::TTestSettings& settings) {
 
 base::Result<Samples> samples_of_t_test(const stats::DataTable& table, const StatsOptions& options) {
   StatsOptions asked = options;
-  // One column is asked about alone.
+  // A response without groups is tested as one column.
   if (asked.columns.empty() && asked.factors.empty() && asked.within.empty() && !asked.response.empty())
     asked.columns = {asked.response};
   auto samples = asked.paired ? read_matched_samples(table, asked) : read_samples(table, asked);
@@ -100,7 +100,7 @@ std::string t_groups_text(const Samples& samples) {
   return table.text();
 }
 
-/// Normality of what the test takes for normal: each sample, or the differences.
+/// Adds tests of normality of what the test takes as normal: each sample, or the differences.
 void add_t_assumptions(StatsReport& report, const TRun& run, bool paired) {
   std::vector<std::vector<double>> sets = run.samples.values;
   std::vector<std::string> names = run.samples.names;

@@ -11,15 +11,15 @@ namespace icome::apps {
 namespace {
 
 const std::string kNoFigure = "-";
-constexpr double kWrittenOut = 1e15;     // numbers below it: digits beyond are not the value's
-constexpr std::size_t kWidestCell = 60;  // letters of a heading or level that the table still bears
+constexpr double kWrittenOut = 1e15;     // numbers below it are written out: later digits are not the value's
+constexpr std::size_t kWidestCell = 60;  // letters of a heading or level shown in a table
 
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
 }
 
-/// Its first letters, with a mark where there are more.
+/// The first letters of a text, with a mark where there are more.
 std::string cut_to_width(std::string text) {
   if (letters(text) <= kWidestCell) return text;
   std::size_t end = 0;
@@ -30,7 +30,7 @@ std::string cut_to_width(std::string text) {
   return text.substr(0, end) + "\u2026";
 }
 
-/// Control characters of a table's headings and levels do not reach the terminal.
+/// The cell with blanks for control characters, which must not reach the terminal.
 std::string terminal_safe(const std::string& cell) {
   std::string text = base::as_utf8(cell);
   std::ranges::replace_if(

@@ -7,7 +7,7 @@ namespace icome::apps {
 
 // Numbers as papers print them, for the reports of `icome stats`.
 
-/// A table in plain text: the first column from the left, the others from the right.
+/// A table in plain text: the first column is aligned left, the others right.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> headings) : rows_{std::move(headings)} {}
@@ -20,7 +20,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// With blanks for control characters, but line feeds: what files say must not steer a terminal.
+/// The text with blanks for control characters other than line feeds: files must not steer a terminal.
 std::string without_control_characters(std::string text);
 
 /// ".26", "-.12", "1.00": a number that cannot leave -1 ... 1, without the 0 that says so. "-" of NaN.

@@ -20,7 +20,7 @@
 namespace icome::apps {
 namespace {
 
-/// Writes what is not there yet.
+/// Writes a file that is not there yet.
 base::Result<void> write_new(const std::filesystem::path& file, const std::string& text) {
   std::FILE* const out = std::fopen(file.c_str(), "wx");
   if (out == nullptr && errno == EEXIST)
@@ -34,7 +34,7 @@ base::Result<void> write_new(const std::filesystem::path& file, const std::strin
   return base::fail(fmt::format("{} cannot be written: is the disk full?", file.string()));
 }
 
-/// A scene that is there already is as good when it is the same.
+/// Writes a scene, unless the same one is there already.
 base::Result<void> write_scene(const std::filesystem::path& file, std::string_view text) {
   const auto there = io::read_bytes(file, text.size());
   if (there && *there == text) return {};
@@ -93,7 +93,7 @@ void add_check_options(CLI::App& study, StudyOptions& options) {
   check.add_flag("--json", options.json, "Print it as JSON (fields: icome study --help)");
 }
 
-/// What run and resume have in common.
+/// Adds a command with the options that run and resume have in common.
 CLI::App& add_session_command(CLI::App& study, StudyOptions& options, const char* name, const char* summary) {
   CLI::App& command = *study.add_subcommand(name, summary);
   command.callback([&options, name] { options.task = name; });

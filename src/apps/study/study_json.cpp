@@ -76,7 +76,7 @@ StatsJson crossings_json(const study::Study& study, bool between) {
   return all;
 }
 
-/// Numbers of conditions, of the first people of the first group.
+/// The orders as numbers of conditions, of the first people of the first group.
 StatsJson orders_json(const study::Study& study, const study::StudyCheck& check) {
   StatsJson all = StatsJson::array();
   const bool drawn = study.order == study::OrderMethod::Random;

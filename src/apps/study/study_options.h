@@ -8,15 +8,15 @@
 
 namespace icome::apps {
 
-/// What a person asked `icome study` for.
+/// The options of `icome study`.
 struct StudyOptions {
   std::string task;            // the subcommand: "new", "check", "run", "resume", "report"
   std::filesystem::path file;  // the study
   std::string from = "blank";  // of new: the template
   bool json = false;
-  // Of run and resume.
+  // For run and resume.
   std::filesystem::path data;              // empty: beside the study file
-  std::optional<std::string> participant;  // none: the next number; of resume the only one to go on
+  std::optional<std::string> participant;  // none: the next number; for resume the only one to go on
   std::string language;                    // empty: the study's first
   std::vector<std::string> with;           // "age=31": control variables
   std::size_t simulate = 0;                // people; 0: a real one

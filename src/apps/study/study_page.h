@@ -7,14 +7,14 @@
 
 namespace icome::apps {
 
-/// What a page is for: a browser (pictures of lines), or ui::write_pdf(), whose HTML is simpler.
+/// The purpose of a page: a browser (pictures of lines), or ui::write_pdf(), whose HTML is simpler.
 enum class PageForm : std::uint8_t { Screen, Paper };
 
-/// The report of a study: one page of XHTML that needs nothing else. What people wrote is text in it, never
-/// markup; where data are simulated every caption says so..
+/// The report of a study: one page of XHTML that needs nothing else. Words of people are text in it, never
+/// markup; where data are simulated every caption says so.
 std::string study_page(const study::StudyData& data, const study::Analysis& analysis, PageForm form);
 
-/// The same results as JSON: study, simulated, participants, tables, correlations, questions, hypotheses,
+/// The results as JSON: study, simulated, participants, tables, correlations, questions, hypotheses,
 /// checks, warnings.
 std::string study_page_json(const study::StudyData& data, const study::Analysis& analysis);
 

@@ -21,7 +21,7 @@ std::size_t answered(const study::QuestionSummary& question) {
   return count;
 }
 
-/// Why nothing is tested, where the analysis does not say.
+/// The reason for no test, where the analysis gives none.
 std::string no_test_sentence(const study::Item& item, const study::QuestionSummary& question) {
   if (question.columns.size() == 1)
     return item.kind == study::ItemKind::Rating
@@ -47,7 +47,7 @@ std::string tested_sentence(const study::Study& study, const study::QuestionSumm
   return text;
 }
 
-/// How many people answered at all, by column.
+/// The number of people who answered at all, by column.
 std::vector<std::size_t> answerers(const StudyPage& page, const study::QuestionSummary& question) {
   std::vector<std::size_t> people(question.columns.size());
   for (const study::GivenAnswer& answer : study::answers_to(page.data(), question.place))
@@ -55,12 +55,12 @@ std::vector<std::size_t> answerers(const StudyPage& page, const study::QuestionS
   return people;
 }
 
-/// Whether a chart of shares would show shares of ticks rather than of people.
+/// Would a chart of shares show shares of ticks rather than of people?
 bool has_ticks(const study::Study& study, const study::QuestionSummary& question) {
   return item_of(study, question).kind == study::ItemKind::Choices && question.columns.size() > 1;
 }
 
-/// Of a question with several answers, after each condition: how many people chose each.
+/// Writes a table of how many people chose each of several answers, after each condition.
 void write_ticks(StudyPage& page, const study::QuestionSummary& question, const std::string& name) {
   const study::Study& study = page.data().study;
   const std::vector<std::size_t> people = answerers(page, question);
@@ -79,8 +79,8 @@ void write_ticks(StudyPage& page, const study::QuestionSummary& question, const 
   page.table(table);
 }
 
-/// As figures 6.2 to 6.5: how many people gave each answer; of one that was asked after each condition the
-/// shares of answers in each.
+/// Draws, as figures 6.2 to 6.5, how many people gave each answer; for a question that was asked after each
+/// condition, the shares of answers in each.
 void write_shares(StudyPage& page, const study::QuestionSummary& question, const std::string& name) {
   const bool one = question.columns.size() == 1;
   const study::Item& item = item_of(page.data().study, question);
@@ -174,7 +174,7 @@ void write_numbers(StudyPage& page, const study::QuestionSummary& question) {
   page.table(table);
 }
 
-/// In which language a person answered, of whom `who` begins with the id.
+/// The language in which a person answered; `who` begins with the person's id.
 std::size_t language_of(const study::StudyData& data, const std::string& who) {
   const std::string id = who.substr(0, who.find(','));
   const auto found = std::ranges::find_if(

@@ -12,7 +12,7 @@ StatsJson interval_json(const study::TestResult& test) {
   return {test.effect_interval->low, test.effect_interval->high};
 }
 
-/// The members of a test; nulls where there is none, and "why".
+/// The members of a test; where there is none, nulls and the member "why".
 StatsJson test_json(const study::Tested& tested) {
   if (!tested.result)
     return {{"test", nullptr},   {"statistic", nullptr}, {"df", StatsJson::array()},     {"p", nullptr},

@@ -49,14 +49,14 @@ std::string participants_text(const StudyPage& page) {
       people.complete);
 }
 
-/// A factor of one level, as one has whose other levels could not be run, compares nothing.
+/// The factors of two or more levels: one whose other levels could not be run compares nothing.
 std::vector<const study::IndependentVariable*> varied_factors(const study::Study& study, bool between) {
   auto factors = study::factors_of(study, between);
   std::erase_if(factors, [](const auto* factor) { return factor->levels.size() < 2; });
   return factors;
 }
 
-/// What the study file has and these data have not.
+/// A sentence on what the study was run without.
 std::string left_out_sentence(const study::Study& study) {
   std::vector<std::string> needs;
   for (const std::string& need : study.without) {
@@ -89,7 +89,7 @@ std::string design_sentence(const study::Study& study) {
                      factors.size() == 1 ? "" : "s", joined(factors));
 }
 
-/// By how many people of a group each order was had.
+/// The least and the most people of a group that had the same order.
 struct OrderSpread {
   std::size_t least = 0, most = 0;
 };
@@ -136,7 +136,7 @@ std::string balance_text(const StudyPage& page) {
   return text;
 }
 
-/// What the study, its levels and its scenes need, together.
+/// All needs of the study, its levels and its scenes.
 std::vector<std::string> all_needs(const study::Study& study) {
   std::vector<std::string> needs = study.needs;
   for (const study::IndependentVariable& factor : study.independent)
@@ -147,7 +147,7 @@ std::vector<std::string> all_needs(const study::Study& study) {
   return needs;
 }
 
-/// Whether there is something to feel in some trial, with a device that gives forces.
+/// Is there something to feel in some trial, with a device that gives forces?
 bool gives_forces(const study::Study& study) {
   bool always_set = false;
   for (const study::IndependentVariable& factor : study.independent) {
@@ -221,7 +221,7 @@ std::string trials_phrase(const study::Study& study) {
   return fmt::format("{}{}", several ? "in each condition " : "", joined(trials));
 }
 
-/// How a session began and what a condition was.
+/// A sentence on the beginning of a session and the trials of a condition.
 std::string trials_sentence(const study::Study& study) {
   std::vector<std::string> before;
   if (!study.consent.empty()) before.emplace_back("giving consent");
@@ -254,7 +254,7 @@ std::string rest_text(const StudyPage& page) {
       shorter, rests, least);
 }
 
-/// How simulated people did trials, and what of the protocol they did not do.
+/// The procedure of simulated people, and the parts of the protocol that they did not do.
 std::string procedure_of_simulation(const StudyPage& page) {
   const study::Study& study = page.data().study;
   const study::Trials& trials = study.trials;
@@ -302,7 +302,7 @@ std::string measures_text(const study::Study& study) {
   return text;
 }
 
-/// "Wilcoxon's signed rank test (one-sided)", so that in a list it is clear what is one-sided.
+/// "Wilcoxon's signed rank test (one-sided)", so that a list shows clearly which test is one-sided.
 std::string test_phrase(const std::string& test) {
   const std::size_t comma = test.find(", ");
   return comma == std::string::npos ? test
@@ -326,7 +326,7 @@ std::string tests_text(const StudyPage& page) {
                      decision_rule(page.data().study, page.analysis()));
 }
 
-/// Who is not in the tests of quantities.
+/// A sentence on people who are missing in the tests of quantities.
 std::string missing_text(const StudyPage& page) {
   const std::size_t people = page.analysis().participants.people;
   std::size_t least = people, most = 0;
@@ -344,7 +344,7 @@ std::string missing_text(const StudyPage& page) {
                      least == most ? "" : ", by variable");
 }
 
-/// Whether a P-value is one of corrected degrees of freedom.
+/// Is any P-value one of corrected degrees of freedom?
 bool has_correction(const study::Analysis& analysis) {
   const auto corrected = [](const study::Tested& test) {
     return test.result && std::ranges::any_of(test.result->notes, [](const std::string& note) {

@@ -12,7 +12,7 @@
 namespace icome::apps {
 namespace {
 
-/// As data: addresses have bytes (RFC 4648).
+/// Encodes bytes in base64 (RFC 4648), as data: addresses have them.
 std::string base64(std::span<const unsigned char> bytes) {
   static constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -41,7 +41,7 @@ base::Result<std::string> picture_address(const StatsChart& chart, PageForm form
   return fmt::format("data:image/svg+xml;base64,{}", base64({bytes, svg->size()}));
 }
 
-/// Which answer a binomial test expects more often.
+/// The answer that a binomial test expects more often, in words.
 std::string answers_expectation(const study::Study& study, const study::Hypothesis& hypothesis) {
   const auto dependent =
       std::ranges::find(study.dependent, hypothesis.dependent, &study::DependentVariable::id);
@@ -63,7 +63,7 @@ std::string answers_expectation(const study::Study& study, const study::Hypothes
   return fmt::format("\u201c{}\u201d more often than \u201c{}\u201d", named[0], named[1]);
 }
 
-/// A cell of the tag "td" or "th"; the scope says what such a name is of: "col", "row".
+/// A cell with the tag "td" or "th"; `scope` says what a "th" is the name of: "col", "row".
 std::string cell(std::string_view tag, std::string_view scope, bool left, const std::string& text,
                  const char* kind) {
   const std::string names = tag == "th" ? fmt::format(" scope=\"{}\"", scope) : std::string();
@@ -90,7 +90,7 @@ std::string escaped(std::string_view text) {
     else
       result += byte < 0x20U || byte == 0x7fU ? ' ' : c;
   }
-  // U+FFFE and U+FFFF are letters of no XML.
+  // U+FFFE and U+FFFF are not allowed in XML.
   for (const char* const none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
     for (std::size_t at = result.find(none); at != std::string::npos; at = result.find(none))
       result.erase(at, 3);

@@ -8,7 +8,7 @@
 
 namespace icome::apps {
 
-/// The text as it may stand between tags and in attributes of XHTML: no markup, no byte that is no UTF-8, no
+/// The text escaped for XHTML, between tags and in attributes: no markup, no byte that is not UTF-8, no
 /// control characters.
 std::string escaped(std::string_view text);
 
@@ -25,7 +25,7 @@ struct PageTable {
   bool study_caption = false;      // the caption is in the study's language
 };
 
-/// A page that is being put together. Numbers its tables and figures and stamps what is simulated. Data and
+/// A page that is being put together. Numbers its tables and figures and stamps simulated ones. Data and
 /// analysis outlive it.
 class StudyPage {
  public:
@@ -39,24 +39,24 @@ class StudyPage {
   void heading(std::string_view text);
   void subheading(std::string_view text);
   void paragraph(std::string_view text);
-  /// One that says of simulated data that they are.
+  /// A paragraph with a stamp if the data are simulated.
   void stamped_paragraph(std::string_view text);
   void list(const std::vector<std::string>& lines);
-  /// Left away where it has no rows.
+  /// A table without rows is omitted.
   void table(const PageTable& table);
-  /// Of a figure that cannot be drawn the page tells why.
+  /// A figure that cannot be drawn is replaced by a sentence that says why.
   void figure(StatsChart chart, std::string_view caption);
-  /// Markup.
+  /// Appends markup as it is.
   void raw(std::string_view markup) { body_ += markup; }
 
   bool on_paper() const { return form_ == PageForm::Paper; }
   const std::string& body() const { return body_; }
 
-  /// Markup that says of simulated data that they are; otherwise empty.
+  /// Markup that says that the data are simulated; empty if they are not.
   std::string stamp() const;
 
  private:
-  /// Of a text that is escaped.
+  /// The caption for a text that is escaped already.
   std::string caption(const char* kind, int number, std::string_view text) const;
 
   const study::StudyData& data_;
@@ -83,7 +83,7 @@ std::string page_style(PageForm form);
 
 // Words that several parts share.
 
-/// With spaces at which no line ends.
+/// The text with no-break spaces for spaces.
 std::string unbroken(std::string text);
 
 /// "Nobody", "One person", "8 simulated people".
@@ -94,24 +94,24 @@ std::string as_sentence(std::string text);
 std::string quantity_name(const study::DependentVariable& variable);
 /// The name in the study's first language, else the id.
 std::string name_of(const study::Text& name, const std::string& id);
-/// "F(1, 22) = 4.21", "U = 12"; "-" of a test with p only.
+/// "F(1, 22) = 4.21", "U = 12"; without a statistic the test's counts, or "-".
 std::string statistic_text(const study::TestResult& result);
-/// "partial η² = .16 [.00, .40]"; "-" where there is none.
+/// "partial η² = 0.16, 90 % CI [0.00, 0.40]"; "-" where there is none.
 std::string effect_text(const study::TestResult& result);
 /// "shown", "not shown", "the opposite is shown", "not computed".
 const char* decision_text(study::Decision decision);
-/// The hypothesis and what became of it, in one sentence with both P-values and all that speaks against it:
-/// "New is faster. Shown: t(9) = 3.1, p = .012, p (Holm) = .024; but differences are not normal (...)."
+/// The hypothesis and its outcome, in one sentence with both P-values and all that speaks against it:
+/// "New is faster. Shown: t(9) = 3.10, p = .012, p (Holm) = .024; but differences are not normal (...)."
 std::string conclusion_text(const study::Study& study, const study::HypothesisResult& result);
-/// Stands beside the decision where there are doubts, else empty: ", with reservations".
+/// ", with reservations" to stand beside the decision where there are doubts, else empty.
 std::string reservation_text(const study::HypothesisResult& result);
-/// How hypotheses are decided: which P-value, over how many.
+/// The rule that decides hypotheses: which P-value, over how many.
 std::string decision_rule(const study::Study& study, const study::Analysis& analysis);
 /// "Point and click, with forces": names of levels; "everybody" of the empty crossing.
 std::string condition_name(const study::Study& study, bool between, std::size_t crossing);
-/// "less in new than in old"; "differs".
+/// "new < old"; "differs by technique".
 std::string expectation_text(const study::Study& study, const study::Hypothesis& hypothesis);
-/// What kind of trials a table is of: "all measurements", "last trial of each person".
+/// The factor and trials of a table: "Technique, all measurements", or the level that it is in.
 std::string table_title(const study::Study& study, const study::ResultTable& table);
 
 }  // namespace icome::apps

@@ -18,7 +18,7 @@ std::string row_name(const study::DependentVariable& variable, const study::Resu
   return fmt::format("{}, mean{}", quantity_name(variable), variable.from == "errors" ? " a trial" : "");
 }
 
-/// All with as many decimals as the largest needs.
+/// The cells of the levels, all with as many decimals as the largest needs.
 std::vector<std::string> level_cells(const study::ResultRow& row) {
   double largest = 0.0;
   for (const std::optional<double>& level : row.levels)
@@ -34,7 +34,7 @@ void add_once(std::vector<std::string>& notes, const std::string& note) {
   if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
 }
 
-/// What the thesis's footnote in 6.4.1 asks for: the result with and without what is far from the rest.
+/// The note of the thesis's footnote in 6.4.1, which asks for results with and without outliers.
 std::string outlier_note(const study::DependentVariable& variable, const study::ResultRow& row) {
   const std::string people = row.outliers == 1 ? "one person" : fmt::format("{} people", row.outliers);
   const std::string without = row.without_outliers.result ? unbroken(p_text(row.without_outliers.result->p))
@@ -43,7 +43,7 @@ std::string outlier_note(const study::DependentVariable& variable, const study::
                      name_of(variable.name, variable.id), people, without);
 }
 
-/// "A and B p = .012, ...": who reads a table of three levels asks which of them differ.
+/// "A and B p = .012, ...": the pairs of levels, which show where three or more differ.
 std::string pairs_note(const study::IndependentVariable& factor, const std::string& variable,
                        const study::ResultRow& row) {
   std::string pairs;
@@ -138,14 +138,14 @@ void write_variance(StudyPage& page, const study::VarianceAnalysis& variance) {
   page.table(table);
 }
 
-/// The people of a group, less what they differ in overall where each has several conditions.
+/// The rows of a group's people, less their overall differences where each has several conditions.
 std::vector<std::vector<double>> comparable(const std::vector<std::vector<double>>& rows) {
   if (rows.empty() || rows.front().size() < 2) return rows;
   const auto moved = stats::without_person_differences(rows);
   return moved ? *moved : rows;
 }
 
-/// Means of conditions (along x) and groups (by colour); of one condition the groups stand along x.
+/// Means of conditions (along x) and groups (by colour); with one condition the groups stand along x.
 StatsChart chart_of(const study::StudyData& data, const study::DependentVariable& variable,
                     const study::PersonTable& table) {
   const study::Study& study = data.study;

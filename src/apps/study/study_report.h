@@ -6,10 +6,10 @@
 
 namespace icome::apps {
 
-/// What a study is, for a person. `source` names its file where something is to be thought about.
+/// The description of a study for a person. `source` names its file in what is to be thought about.
 std::string study_text(const study::Study& study, const study::StudyCheck& check, const std::string& source);
 
-/// The same as JSON.
+/// The description of a study as JSON.
 std::string study_json(const study::Study& study, const study::StudyCheck& check);
 
 }  // namespace icome::apps

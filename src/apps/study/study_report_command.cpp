@@ -14,7 +14,7 @@
 namespace icome::apps {
 namespace {
 
-/// Without links and dots, so that two ways to write one path are the same.
+/// The path without links and dots, so that two ways to write one path are the same.
 std::filesystem::path plain_path(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::path plain = std::filesystem::weakly_canonical(path, error);
@@ -28,7 +28,7 @@ bool ends_as(const std::filesystem::path& path, std::initializer_list<const char
   return std::ranges::find(endings, ending) != endings.end();
 }
 
-/// Data that people gave are not to be lost: within their folder only the report's own name is written.
+/// Fails for paths within the data's folder other than the report's own, so that no data are lost.
 base::Result<void> check_beside_data(const std::filesystem::path& out, const std::filesystem::path& folder,
                                      const char* own_name) {
   const std::filesystem::path data = plain_path(folder), plain = plain_path(out);

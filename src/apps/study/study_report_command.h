@@ -3,7 +3,7 @@
 
 namespace icome::apps {
 
-/// What a person asked `icome study report` for.
+/// The options of `icome study report`.
 struct StudyReportOptions {
   std::filesystem::path folder;  // of the data
   std::filesystem::path out;     // of the page; empty: report.html in the folder
@@ -11,7 +11,7 @@ struct StudyReportOptions {
   bool json = false;
 };
 
-/// Writes the page, and the PDF file where one is asked for, and prints the key results with where they are,
+/// Writes the page, and the PDF file where one is asked for, and prints the key results with their paths,
 /// or all results as JSON. Refuses to write over the data. Gives the program's exit code.
 int run_study_report(const StudyReportOptions& options);
 

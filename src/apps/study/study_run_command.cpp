@@ -32,7 +32,7 @@ std::vector<study::TrialScene> scenes_of_trials(const study::Study& study) {
   return scenes;
 }
 
-/// The study without what the program does not have yet.
+/// The study without the parts that need what the program lacks so far.
 base::Result<study::Study> pointer_alone(const study::Study& study) {
   std::vector<std::string> needs;
   for (const study::UnmetNeed& need : study::unmet_needs(study))
@@ -40,7 +40,7 @@ base::Result<study::Study> pointer_alone(const study::Study& study) {
   return study::without_needs(study, needs);
 }
 
-/// What is run: with what there is, and with nothing missing.
+/// The study as the options have it run; fails, with the reasons, where it cannot be run.
 base::Result<OpenedStudy> study_to_run(const StudyOptions& options) {
   auto opened = open_study(options.file);
   if (!opened) return opened;
@@ -70,7 +70,7 @@ std::filesystem::path data_folder(const StudyOptions& options) {
                                                   options.simulate > 0 ? "simulated" : "data");
 }
 
-/// The scenes as they are now.
+/// The scene files as they are now.
 base::Result<std::vector<study::SceneFile>> scenes_of(const OpenedStudy& opened) {
   std::vector<study::SceneFile> files;
   for (const study::TrialScene& scene : scenes_of_trials(opened.study)) {
@@ -133,7 +133,7 @@ std::string possible_values(const study::ControlVariable& variable) {
   return all;
 }
 
-/// Of --with, in the order of the study; what was not given is "n/a".
+/// The answers of --with, in the order of the study's variables; "n/a" for those not given.
 base::Result<std::vector<std::string>> control_answers(const study::Study& study,
                                                        const std::vector<std::string>& with) {
   std::vector<std::string> answers(study.control.size(), "n/a");
@@ -164,7 +164,7 @@ std::string names_of(const std::vector<study::Participant>& people) {
   return names;
 }
 
-/// Who is to go on.
+/// The person who is to go on.
 base::Result<study::Participant> to_resume(const study::DataFolder& data, const StudyOptions& options) {
   if (options.participant) return data.find(*options.participant);
   const auto unfinished = data.unfinished();
@@ -232,7 +232,7 @@ base::Result<study::SessionRun> begin_session(const StudyOptions& options, const
   return study::SessionRun::begin(opened.study, std::move(*log), std::move(clock), text_of(now()));
 }
 
-/// How the person's session ended, and what comes next.
+/// Tells how the person's session ended, and what comes next.
 void tell_end(const StudyOptions& options, const study::DataFolder& data, const std::string& id,
               bool through) {
   const std::string folder = data.path().string();
@@ -251,7 +251,7 @@ void tell_end(const StudyOptions& options, const study::DataFolder& data, const 
       options.file.string(), id, where, options.pointer_alone ? " --pointer-only" : ""));
 }
 
-/// Forces that nobody feels are told before somebody takes part.
+/// Warns of forces that nobody feels, before somebody takes part.
 void tell_of_forces(const study::Study& study) {
   const auto gives = [](const study::Level& level) { return level.forces.value_or(false); };
   const bool varied = std::ranges::any_of(study.independent, [&](const study::IndependentVariable& factor) {
@@ -263,7 +263,7 @@ void tell_of_forces(const study::Study& study) {
         "push, and which nobody feels. Do not take such data for a study of force feedback.");
 }
 
-/// Whether there is anybody who can go on.
+/// Fails for resume where there are no data yet.
 base::Result<void> check_begun(const StudyOptions& options) {
   std::error_code failed;
   const std::filesystem::path folder = data_folder(options);
@@ -281,7 +281,7 @@ int run_person(int argc, char** argv, const StudyOptions& options, const OpenedS
   window.full_screen = !options.in_window;
   window.interrupted = [] { return interrupted(); };
   std::string id;
-  std::optional<study::DataFolder> data;  // opened when there is a display, which nothing begins without
+  std::optional<study::DataFolder> data;  // opened once there is a display, without which nothing begins
   const int code = ui::run_study_window(argc, argv, window, opened.folder, std::move(settings), [&] {
     auto folder = open_data(options, opened);
     if (!folder) return base::Result<study::SessionRun>(tl::unexpected(folder.error()));

@@ -50,7 +50,7 @@ std::string variables_text(const study::Study& study) {
   return text;
 }
 
-/// ": old > new", of the answers to a question.
+/// The comparison of the answers to a question: ": old > new".
 std::string answers_compared(const study::Hypothesis& hypothesis) {
   if (hypothesis.direction != study::Direction::Differ)
     return fmt::format(": {} {} {}", hypothesis.first,
@@ -80,7 +80,7 @@ std::string hypotheses_text(const study::Study& study) {
 std::string orders_text(const study::Study& study, const study::StudyCheck& check) {
   const auto conditions = study::crossings(study, false);
   std::string text;
-  // Those of a group; the same in every group, but for orders that are drawn.
+  // The orders of one group; they are the same in every group unless drawn at random.
   const bool drawn = study.order == study::OrderMethod::Random;
   const std::size_t shown = std::min(kMostOrdersShown, drawn ? kMostOrdersShown : check.orders);
   for (std::size_t person = 0; person < shown; ++person) {

@@ -35,7 +35,7 @@ base::Result<void> write_picture(const interaction::BenchResult& result, io::New
 int run_techniques(const TechniquesOptions& options) {
   catch_interrupts();
   StatusLine status;
-  // An impossible path is told before the work.
+  // An impossible path is reported before the work.
   std::optional<io::NewFile> out;
   if (!options.picture.empty()) {
     if (const auto named = check_picture_name(options.picture); !named)

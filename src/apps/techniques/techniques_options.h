@@ -5,7 +5,7 @@
 
 namespace icome::apps {
 
-/// What a person asked `icome techniques` for, as the command line says it.
+/// The options of `icome techniques`, as the command line gives them.
 struct TechniquesOptions {
   interaction::BenchSettings bench;
   std::int64_t seed = 1;          // of bench; not below 0

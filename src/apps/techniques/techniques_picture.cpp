@@ -59,13 +59,13 @@ void panel_title(Canvas& canvas, const Area& area, const std::string& title, con
   canvas.text({area.x, area.y + 44.0}, below, {15.5, kPageQuiet});
 }
 
-/// From a quantity to a stretch of the page.
+/// Maps a quantity to a stretch of the page.
 struct PageScale {
   double low, high, from, to;
   double operator()(double value) const { return from + (to - from) * (value - low) / (high - low); }
 };
 
-/// The greatest of the values, and up to the next tick.
+/// The end of an axis: the next tick above the greatest value.
 double axis_end(double greatest) {
   const double step = charts::nice_ticks(0.0, std::max(greatest, 1e-3), 5).step;
   return step * std::ceil(greatest / step + 1e-9);
@@ -263,7 +263,7 @@ void condition_cell(Canvas& canvas, const Area& cell, const ConditionResult& it,
   canvas.fill(inner, colour);
   const Colour ink = charts::lightness(colour) > 0.6 ? kPageInk : Colour{1.0, 1.0, 1.0};
   canvas.text(middle, fmt::format("{:.1f}", it.time.mean), {14.0, ink, false, 0.5});
-  // Errors are told by a dot for every started 5 %.
+  // Each dot stands for a started 5 % of errors, up to four dots.
   const int dots = std::min(4, int(std::ceil(20.0 * it.error_rate - 1e-9)));
   for (int i = 0; i < dots; ++i) canvas.fill_disc({inner.right() - 4.5 - 6.0 * i, inner.y + 5.0}, 1.9, ink);
 }

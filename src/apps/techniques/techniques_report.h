@@ -8,10 +8,10 @@ namespace icome::apps {
 /// The result as a JSON object on several lines: the names are a contract with scripts (see the help).
 std::string techniques_json(const interaction::BenchResult& result);
 
-/// The ranking as a table for a person, and what it means.
+/// The ranking as a table for a person, and its meaning.
 std::string techniques_text(const interaction::BenchResult& result);
 
-/// What a ranking by simulated people is, and is not: goes with every form of it.
+/// The limits of a ranking by simulated people: the notice goes with every form of it.
 inline constexpr const char* kSimulationNotice =
     "It ranks techniques under stated assumptions about simulated people and is no study of people.";
 

@@ -15,7 +15,7 @@ using base::Bounds;
 using base::Vector3;
 using geometry::TriangleMesh;
 
-constexpr double kSmoothOff = 0.0005;       // of the size: what pictures of smooth surfaces may be off
+constexpr double kSmoothOff = 0.0005;       // of the size: tolerance for pictures of smooth surfaces
 constexpr double kSampledCell = 1.0 / 100;  // of the size, of solids that are sampled
 
 double tolerance_for(const world::Geometry& shape, const Bounds& box) {
@@ -23,7 +23,7 @@ double tolerance_for(const world::Geometry& shape, const Bounds& box) {
   return (sampled ? kSampledCell : kSmoothOff) * box.sizes().maxCoeff();
 }
 
-/// In the frame of what is felt.
+/// The triangles of a shape in the felt frame; none where it cannot be made triangles.
 TriangleMesh triangles_of(const world::Geometry& shape, const session::FeltShape& felt) {
   const auto triangles = shape.triangles(tolerance_for(shape, shape.bounds()));
   if (!triangles) return {};
@@ -42,7 +42,7 @@ std::shared_ptr<TouchEye> make_eye(const world::GeometryPointer& shape,
   return std::make_shared<TouchEye>([=] { return triangles_of(*shape, *felt); });
 }
 
-/// Around a placed shape, as tight as the shape can tell.
+/// The box around a placed shape, as tight as the shape allows; empty for an unlimited one.
 Bounds placed_bounds(const world::Geometry& shape, const Affine3& placing) {
   Bounds box;
   if (const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape)) {

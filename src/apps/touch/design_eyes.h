@@ -11,8 +11,8 @@ namespace icome::apps {
 /// The eyes of shapes that are felt, each made once for all bodies that share one. In the felt frame.
 class DesignEyes {
  public:
-  /// Null for a CSG tree that is felt as what it is, which needs no triangles to be seen. What cannot be made
-  /// triangles is seen as none.
+  /// Null for a CSG tree that is felt exactly, which needs no triangles to be seen. A shape that cannot be
+  /// made triangles has an eye without any.
   const std::shared_ptr<TouchEye>& eye(const world::GeometryPointer& shape,
                                        const session::FeltShapePointer& felt);
 
@@ -20,7 +20,7 @@ class DesignEyes {
   std::map<const session::FeltShape*, std::shared_ptr<TouchEye>> eyes_;
 };
 
-/// The length of the longest side of the box around all objects of a design that have an end, m.
+/// The length of the longest side of the box around all bounded objects of a design, m.
 double longest_side(const world::World& world);
 
 }  // namespace icome::apps

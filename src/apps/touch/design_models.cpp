@@ -26,7 +26,7 @@ namespace {
 using base::Affine3;
 using world::World;
 
-constexpr std::size_t kMostSentences = 20;  // of a design's; info tells them all
+constexpr std::size_t kMostSentences = 20;  // of a design's; `icome info` lists them all
 
 base::Result<files::LoadedDesign> read_file(const std::string& text, const TouchOptions& options) {
   auto how = understood_reading(options.reading);
@@ -36,7 +36,7 @@ base::Result<files::LoadedDesign> read_file(const std::string& text, const Touch
   return files::read_design(text, *how);
 }
 
-/// Scaled about the origin, never moved, as all MODELs are.
+/// The placing of a design: scaled about the origin, never moved, as all MODELs are.
 Affine3 placing(const World& world, const TouchOptions& options) {
   Affine3 world_from_design = Affine3::Identity();
   if (!options.fit) return world_from_design;
@@ -45,10 +45,10 @@ Affine3 placing(const World& world, const TouchOptions& options) {
   return world_from_design;
 }
 
-/// Makes the bodies of what a representation holds.
+/// Makes the bodies of the objects in a haptic representation.
 class BodyMaker {
  public:
-  /// `check`: will somebody judge?
+  /// `check`: is there a judge?
   BodyMaker(const World& world, const session::HapticRepresentation& felt, bool check, DesignMotions& motions,
             const Affine3& world_from_design)
       : world_(world), felt_(felt), check_(check), motions_(motions), world_from_design_(world_from_design) {}
@@ -83,7 +83,7 @@ class BodyMaker {
     }
   }
 
-  /// In the frame of what is felt; made once for all clones, none where the judge cannot make it.
+  /// The limit's mesh in the felt frame; made once for all clones, none where the judge cannot make it.
   const JudgedMesh& limit(const world::LoopGeometry& loop, const session::FeltShape& felt) {
     const auto [made, fresh] = limits_.try_emplace(&felt);
     if (!fresh) return made->second;
@@ -93,7 +93,7 @@ class BodyMaker {
     return made->second;
   }
 
-  /// By plain evaluation where there is one; made once for all clones.
+  /// The inside, by plain evaluation where there is one; made once for all clones.
   const haptics::MembershipSolid& membership(const world::Geometry& geometry,
                                              const session::FeltShape& felt) {
     const auto [made, fresh] = memberships_.try_emplace(&felt);
@@ -123,7 +123,7 @@ class BodyMaker {
   std::map<const session::FeltShape*, JudgedMesh> limits_;
 };
 
-/// Tells the first sentences and how many there are.
+/// Adds the first sentences, and how many more there are.
 void tell_sentences(TouchModel& model, const std::vector<std::string>& sentences) {
   const std::size_t count = std::min(sentences.size(), kMostSentences);
   model.repairs.insert(model.repairs.end(), sentences.begin(), sentences.begin() + std::ptrdiff_t(count));
@@ -137,7 +137,7 @@ std::vector<std::string> sentences_of(const files::LoadedDesign& design, const s
   return sentences;
 }
 
-/// What was put right before objects could be felt.
+/// Sentences on the repairs that were needed before objects could be felt.
 std::vector<std::string> repairs_of(const World& world, const session::HapticRepresentation& felt) {
   std::vector<std::string> sentences;
   std::set<const session::FeltShape*> told;
@@ -154,7 +154,7 @@ std::vector<std::string> repairs_of(const World& world, const session::HapticRep
   return sentences;
 }
 
-/// Feels bodies as the options ask for that say what files are.
+/// Applies --subdivide or the thesis's renderer to the bodies, where the options ask for it.
 base::Result<void> render_as_asked(TouchModel& model, const TouchOptions& options) {
   const bool thesis = renderer_of(options) == haptics::Renderer::Thesis;
   for (TouchBody& body : model.bodies) {
@@ -167,7 +167,7 @@ base::Result<void> render_as_asked(TouchModel& model, const TouchOptions& option
   return {};
 }
 
-/// What is said of the form of a solid, and of a tip with a radius that feels what it is.
+/// Sentences on the form of a CSG solid, and on how a tip with a radius feels the bodies.
 std::vector<std::string> forms_of(const TouchModel& model, const TouchOptions& options) {
   std::vector<std::string> sentences;
   if (model.bodies.size() == 1 && model.body().csg) {
@@ -184,7 +184,7 @@ std::vector<std::string> forms_of(const TouchModel& model, const TouchOptions& o
   return sentences;
 }
 
-/// With all that may be why, as what is left out of a file may be what was to be touched.
+/// Gives all possible reasons, as parts left out of a file may be those that were to be touched.
 tl::unexpected<base::Error> nothing_to_touch(const std::string& text, const files::LoadedDesign& design,
                                              const std::vector<std::string>& remarks) {
   constexpr std::size_t kMostReasons = 5;

@@ -14,7 +14,7 @@ namespace {
 using base::Affine3;
 using base::Pose;
 
-/// A body in the form that it begins with, however its place stretches it later.
+/// The pose of a body in the form that it begins with, however its place stretches it later.
 Pose place_of_body(const world::Geometry& shape, const Affine3& world_from_object,
                    const base::Vector3& middle) {
   Pose world_from_felt = session::felt_place(shape, world_from_object).world_from_felt;
@@ -35,7 +35,7 @@ bool changes_form(const world::Geometry& shape, const world::ObjectCourse& cours
   return false;
 }
 
-/// Of all above it and of itself.
+/// The longest cycle (s) of the motions of the object and of all objects above it.
 double longest_cycle(const world::World& world, world::ObjectId id) {
   double longest = 0.0;
   for (const world::PhysicalObject* it = world.find(id); it; it = world.find(it->parent))

@@ -9,21 +9,21 @@
 
 namespace icome::apps {
 
-/// The motions that the file of a design brings, as its bodies and effects go by them. Refers to the world.
+/// The motions of a design's file, as its bodies and effects follow them. Refers to the world.
 class DesignMotions {
  public:
   /// `still`: nothing moves, whatever the file says.
   DesignMotions(const world::World& at_rest, bool still);
 
-  /// The world with all in the place from which it sets out.
+  /// The world with all objects at the start of their motions.
   const world::World& at_start() const { return start_ ? start_->world() : at_rest_; }
 
-  /// Empty for what stays.
+  /// The course of a body or an effect; empty if it stays.
   Course of_body(world::ObjectId object, const base::Affine3& world_from_design,
                  const session::FeltShape& felt);
   Course of_effect(world::ObjectId object, const base::Affine3& world_from_design) const;
 
-  /// How many move, and which are not felt as they are.
+  /// Sentences on how many objects move, and on bodies that take other forms than the one felt.
   std::vector<std::string> sentences() const;
 
  private:

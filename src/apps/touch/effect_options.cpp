@@ -18,7 +18,7 @@ std::string help_entry(std::string_view name, const std::string& usage, std::str
   return fmt::format("  {}{}\n      {}\n      {}\n", name, usage, summary, ranges);
 }
 
-/// Sentences, each once.
+/// Collects sentences about what is felt softer, each once.
 class CappedFeel {
  public:
   explicit CappedFeel(double rate_hz) : rate_hz_(rate_hz) {}
@@ -58,7 +58,7 @@ std::vector<haptics::PlacedEffect> effects_of(const std::vector<TouchModel>& mod
   for (const std::string& text : options.effects) effects.push_back({.text = text});
   for (const TouchModel& model : models)
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
-  for (std::size_t i = 0; i < effects.size(); ++i) effects[i].id = i + 1;  // two designs have the same ids
+  for (std::size_t i = 0; i < effects.size(); ++i) effects[i].id = i + 1;  // two designs may share ids
   return effects;
 }
 

@@ -11,7 +11,7 @@
 
 namespace icome::apps {
 
-/// Says which --texture or --effect is wrong, and where in it.
+/// Fails, saying which --texture or --effect is wrong, and where in it.
 base::Result<void> check_effects(const TouchOptions& options);
 
 /// The effects that the options ask for, which check_effects() accepted, and those of designs.

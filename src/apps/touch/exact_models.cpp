@@ -30,7 +30,7 @@ namespace {
 constexpr double kCellsAcross = 160.0;  // of the meshes for pictures, of a simple solid
 constexpr std::size_t kSimple = 40;     // primitives; each more makes every cell dearer
 constexpr double kFewestAcross = 40.0;
-constexpr std::size_t kPictureTriangles = 400'000;  // what a subdivided surface may have for pictures
+constexpr std::size_t kPictureTriangles = 400'000;  // the most of a subdivided surface for pictures
 constexpr int kFinestPicture = 5;                   // subdivisions
 
 std::string in_millimetres(double metres) { return fmt::format("{:.2g} mm", 1e3 * metres); }
@@ -47,7 +47,7 @@ geometry::ContourOptions contour_options(const base::Bounds& bounds, std::size_t
   return options;
 }
 
-/// Makes the body's mesh what is felt. `detail`: how near the mesh is, or why there is one.
+/// Has the body felt as its mesh. `detail`: the accuracy of the mesh, or the reason for it.
 void touch_mesh(TouchModel& model, TouchBody& body, const TouchOptions& options, const std::string& detail) {
   haptics::MeshShapeSettings settings;
   settings.closed = body.closed;
@@ -99,7 +99,7 @@ geometry::ControlMesh control_mesh(const geometry::TriangleMesh& mesh, const Tou
   return control;
 }
 
-/// What a sphere tip feels of a Loop surface: exactly, unless that takes too much.
+/// Has a sphere tip feel a Loop surface: exactly, unless that takes too much; then as a mesh.
 void touch_offset(TouchModel& model, TouchBody& body,
                   const std::shared_ptr<const geometry::LoopSurface>& surface, const TouchOptions& options) {
   const auto centres = geometry::LoopOffset::create(surface, options.radius);
@@ -206,7 +206,7 @@ base::Result<TouchModel> load_implicit(const TouchOptions& options) {
   model.kind = (*surface)->changes() ? "implicit surface that changes with time" : "implicit surface";
   model.body().exact = true;
   model.build_seconds = watch.seconds();
-  std::optional<geometry::ContourMesh> mesh;  // made only where somebody needs it
+  std::optional<geometry::ContourMesh> mesh;  // made only where it is needed
   const auto make_mesh = [&]() -> base::Result<void> {
     if (mesh) return {};
     auto made = geometry::contour(geometry::sampled(**surface, 0.0), contour_options((*surface)->bounds()));

@@ -18,7 +18,7 @@ namespace icome::apps {
 /// A piece of the hand's way.
 struct Exploration::Leg {
   base::Vector3 to;  // m
-  double length;     // m, what it counts in time: more than its distance for a rest
+  double length;     // m, its time as a length: more than its distance for a rest
   bool presses;      // below the surface
 };
 
@@ -33,25 +33,25 @@ constexpr double kStep = 0.002;  // s between the targets of the table
 constexpr double kSizesPerSecond = 0.7;
 constexpr double kFastest = 0.3;  // m/s
 
-// A hand of 300 N/m that wants to be 4 mm below a stiff surface presses with about 1 N, which every
+// A hand of 300 N/m that aims 4 mm below a stiff surface presses with about 1 N, which every
 // device can hold; small objects are pressed less.
 constexpr double kDeepest = 0.004;     // m
 constexpr double kDepthOfSize = 0.04;  // of the model's size
-constexpr double kStartSeconds = 0.1;  // s of way through the air: where the hand comes from
+constexpr double kStartSeconds = 0.1;  // s of way through the air, before the first landing
 
 constexpr double kMostTurn = 0.7;  // cosine: the surface may turn by 45 degrees along two depths of a stroke
 constexpr double kMargin = 1.5;    // depths of a stroke that it stays away from edges
 constexpr double kFacing = 0.3;    // cosine: how squarely a place must be seen to be landed on
-constexpr double kStrokeOfSize = 0.5;     // how long a stroke is at least, of the model's size
+constexpr double kStrokeOfSize = 0.5;     // shortest stroke, of the model's size
 constexpr double kLeastShare = 1e-6;      // of the whole way: no stroke need be shorter
-constexpr double kMostSeconds = 120.0;    // of way: who touches for longer goes to and fro on it
-constexpr double kPressesForAir = 3.0;    // how much longer it presses than it flies
+constexpr double kMostSeconds = 120.0;    // of way: longer explorations go to and fro on it
+constexpr double kPressesForAir = 3.0;    // least ratio of pressing to flying, in time
 constexpr double kAirSpeed = 2.0;         // of flights, against strokes
 constexpr int kHalvings = 6;              // of the depth, where there is little room
-constexpr int kSides = 8;                 // to which room is looked for
-constexpr int kPlaces = 400;              // looked for, where the hand may land
-constexpr double kSheetShare = 0.85;      // how far towards a sheet's rim
-constexpr std::size_t kDirectTries = 40;  // places asked for a straight way through the air
+constexpr int kSides = 8;                 // directions in which room is looked for
+constexpr int kPlaces = 400;              // looks for places where the hand may land
+constexpr double kSheetShare = 0.85;      // of a sheet, within which the hand lands: off its rim
+constexpr std::size_t kDirectTries = 40;  // places tried for a straight way through the air
 constexpr int kArcPieces = 12;            // of a way around the models
 constexpr std::uint64_t kSeed = 1;
 
@@ -68,7 +68,7 @@ struct Landing {
 /// outside, slides along the smooth patch around it like a billiard ball, turning at edges and at walls, and
 /// presses all the time, less deep and slower where there is little room. A flight leads through free space
 /// to the next place: straight, or out of the model and around it. The hand flies on when it has pressed for
-/// long enough to do so. Only lines of sight are asked for.
+/// long enough to do so. The plan uses lines of sight only.
 class StrokePlanner {
  public:
   StrokePlanner(const SurfaceProbe& probe, double tip)
@@ -83,8 +83,8 @@ class StrokePlanner {
     find_landings();
   }
 
-  /// A way of at least this length (m), that begins so far (m) from where it lands first; empty where there
-  /// is no place to land.
+  /// A way of at least `length` (m) that begins `approach` (m) before its first landing; empty where there is
+  /// no place to land.
   std::vector<Leg> way(double length, double approach) {
     if (landings_.empty()) return {};
     const Landing first = landings_.front();
@@ -116,13 +116,13 @@ class StrokePlanner {
       if (!seen || seen->normal.dot(eye) <= kFacing) continue;
       landings_.push_back({*seen, eye, depth_at(*seen)});
     }
-    // Where there is room the hand slides best: the half with less is left out.
+    // The hand slides best where there is room: the half with less is left out.
     std::stable_sort(landings_.begin(), landings_.end(),
                      [](const Landing& a, const Landing& b) { return a.depth > b.depth; });
     landings_.resize((landings_.size() + 1) / 2);
   }
 
-  /// As deep as leaves room to slide to most sides.
+  /// The greatest depth that leaves room to slide to most sides.
   double depth_at(const ProbedPoint& place) {
     track_.assign(1, place);
     double deep = depth_;
@@ -171,7 +171,7 @@ class StrokePlanner {
   }
   void press(const ProbedPoint& place) {
     const Vector3 target = place.point + (tip_ - start_.depth) * place.normal;
-    // Where the hand presses less it moves as much slower, so as not to slip off.
+    // The less deep the hand presses, the slower it moves, so as not to slip off.
     add(target, (target - legs_.back().to).norm() * depth_ / start_.depth, true);
     track_.push_back(place);
   }
@@ -186,7 +186,7 @@ class StrokePlanner {
     press(landing.place);
   }
 
-  /// Slides on from where the hand is, and rests for what is left where it cannot.
+  /// Slides on from the hand's place; rests for the remaining length where it cannot.
   void stroke(double length) {
     const double end = gone_ + length;
     Vector3 heading = tangent(random_.direction(), track_.back().normal);
@@ -205,7 +205,7 @@ class StrokePlanner {
     return along.norm() > 1e-3 ? Vector3(along.normalized()) : normal.unitOrthogonal();
   }
 
-  /// The next place ahead, or where the heading turned to when there was none.
+  /// The next place ahead, or to a side when there is none; `heading` then turns to it.
   std::optional<ProbedPoint> slide(Vector3& heading) {
     constexpr std::array<double, 8> kTurns{0.0, 0.9, -0.9, 1.7, -1.7, 2.5, -2.5, kPi};
     const Vector3 wanted = heading;
@@ -224,7 +224,7 @@ class StrokePlanner {
     return place && smooth_floor(heading, kMargin * depth, depth) ? place : std::nullopt;
   }
 
-  /// The place of the surface so far ahead (m), if the way there is free and it has turned little since.
+  /// The place of the surface `step` (m) ahead, if the way is free and the surface has turned little since.
   std::optional<ProbedPoint> smooth_floor(const Vector3& heading, double step, double depth) const {
     const ProbedPoint& here = track_.back();
     const double lift = tip_ + depth;
@@ -240,7 +240,7 @@ class StrokePlanner {
     return smooth ? floor : std::nullopt;
   }
 
-  /// The landing that is farthest from all that was visited.
+  /// The next landing: far from all that was visited, with a straight way there if possible.
   const Landing& next() const {
     const auto news = [&](const Landing& it) {
       double least = std::numeric_limits<double>::infinity();
@@ -296,7 +296,7 @@ class StrokePlanner {
     air(leaving(legs_.back().to, *way));
   }
 
-  /// Where a line leaves the ball around the models; the point itself where it is outside already.
+  /// The point where a line leaves the ball around the models; `from` itself where it is outside already.
   Vector3 leaving(const Vector3& from, const Vector3& way) const {
     const Vector3 off = from - centre_;
     const double along = off.dot(way);
@@ -341,7 +341,7 @@ double pressed_share(const std::vector<Leg>& way) {
   return all > 0.0 ? pressed / all : 0.0;
 }
 
-/// Where effects are felt, world frame.
+/// The reaches of the effects, world frame.
 std::vector<haptics::Reach> reaches_of(const std::vector<TouchModel>& models) {
   std::vector<haptics::Reach> reaches;
   for (const TouchModel& model : models) {
@@ -354,7 +354,7 @@ std::vector<haptics::Reach> reaches_of(const std::vector<TouchModel>& models) {
 
 /// A way of this length (m) through the air about the effects, from one to the next.
 std::vector<Leg> way_among(const std::vector<haptics::Reach>& reaches, double length) {
-  constexpr double kUsualRadius = 0.03;  // m, of what acts everywhere
+  constexpr double kUsualRadius = 0.03;  // m, of effects that act everywhere
   constexpr double kBeyond = 1.3;        // radii: a little more than the effect reaches
   base::Random random(kSeed);
   std::vector<Leg> way;

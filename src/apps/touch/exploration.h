@@ -22,13 +22,13 @@ class Exploration {
   /// goes back the same way. Where there are effects alone, it leads through the air about these.
   static Exploration plan(const std::vector<TouchModel>& models, double tip, double seconds);
 
-  /// Why a hand that went this way may have touched for less than that: a clause.
+  /// A clause that says why a hand on this way may have touched for less than that.
   std::string why_little() const;
 
-  /// Where the hand wants to be `t` >= 0 seconds after the start, m, world frame. Real-time safe.
+  /// The place that the hand aims for `t` >= 0 seconds after the start, m, world frame. Real-time safe.
   base::Vector3 target(double t) const;
 
-  /// The middle of the models, m: where the device's workspace belongs.
+  /// The middle of the models, m: the place for the device's workspace.
   const base::Vector3& centre() const { return centre_; }
 
  private:

@@ -37,7 +37,7 @@ std::string json_report(const TouchFigures& figures) {
   report["effects"] = figures.effects;
   report["capped"] = figures.capped;
   report["peak_memory_bytes"] = figures.peak_memory_bytes;
-  // Names of files may hold bytes that are no UTF-8.
+  // Names of files may hold bytes that are not UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -36,7 +36,7 @@ base::Result<geometry::Formula> formula_of_time(std::string_view text, std::size
   return formula;
 }
 
-/// From `moment` on, where a thing that is at `first` at the moment 0 comes.
+/// The pose at `moment`, and the motion from then on, of a thing that is at `first` at the moment 0.
 struct Going {
   Pose pose;
   haptics::Motion motion;
@@ -68,7 +68,7 @@ base::Result<ModelMotion> ModelMotion::parse(const std::string& text) {
   return base::fail(fmt::format("it takes X,Y,Z or X,Y,Z,RX,RY,RZ: three or six formulas, not {}.", count));
 }
 
-/// Where a formula has no value it counts as at the start.
+/// A formula without a value counts as at the start.
 Pose ModelMotion::at(double time) const {
   const auto value = [&](std::size_t i) {
     const double now = formulas_[i].value(Vector3::Zero(), time);

@@ -14,7 +14,7 @@ namespace icome::apps {
 struct TouchModel;
 struct TouchOptions;
 
-/// How a MODEL moves, as --motion says it: "0:0.02*sin(3*t),0,0" or "1:0,0,0,0,0,2*t". Immutable.
+/// The motion of a MODEL, as --motion gives it: "0:0.02*sin(3*t),0,0" or "1:0,0,0,0,0,2*t". Immutable.
 class ModelMotion {
  public:
   /// A number from 0, a colon, and three or six formulas in t (s): the way of the model (m), and the turn
@@ -22,7 +22,7 @@ class ModelMotion {
   static base::Result<ModelMotion> parse(const std::string& text);
 
   std::size_t model() const { return model_; }  // its number on the command line
-  /// Where the world's frame is then if it goes along with the model.
+  /// The pose at that time of the world's frame if it goes along with the model.
   base::Pose at(double time) const;
 
  private:
@@ -32,33 +32,33 @@ class ModelMotion {
   std::vector<geometry::Formula> formulas_;  // three or six; finite at t = 0
 };
 
-/// Where a thing is at a moment (s) by the motions of its file, before its model moves; empty: it stays.
+/// The pose of a thing at a moment (s) by the motions of its file, before its model moves; empty: it stays.
 using Course = std::function<base::Pose(double time)>;
 
-/// What carries a body or an effect: the motions of its file, and its model with all in it.
+/// The carriers of a body or an effect: the motions of its file, and its model with everything in it.
 struct Carrier {
   Course course = {};
-  const ModelMotion* model = nullptr;  // null: that stands
+  const ModelMotion* model = nullptr;  // null: the model stands
 
   bool moves() const { return course || model != nullptr; }
-  /// Where it is at a moment (s) that is at `first` at the moment 0.
+  /// The pose at a moment (s) of a thing whose pose is `first` at the moment 0.
   base::Pose at(const base::Pose& first, double time) const;
 };
 
 /// Does anything of the model move?
 bool moves(const TouchModel& model);
 
-/// Are all --motion well written, each of another MODEL that there is?
+/// Fails unless every --motion is well written, each of another existing MODEL.
 base::Result<void> check_motions(const TouchOptions& options);
 
-/// Gives the models their motions, and puts them where these begin.
+/// Gives the models their motions, and puts them at the start of these.
 void set_going(std::vector<TouchModel>& models, const TouchOptions& options);
 
-/// What a servo feels of models, some of which move: main says again and again where they are and how they go
-/// on. One thread owns it; models and options outlive it.
+/// The models as a servo feels them, some of which move: main publishes again and again where they are and
+/// how they go on. One thread owns it; models and options outlive it.
 class MovingScene {
  public:
-  /// How long main usually takes from one moment to the next, s.
+  /// The usual time between two such moments, s.
   static constexpr double kPeriod = 0.01;
 
   /// `scene` is that of the models.
@@ -67,8 +67,8 @@ class MovingScene {
 
   /// Does anything move?
   bool moves() const { return moves_; }
-  /// Brings to the servo where everything is at `moment` (s) and, evenly, until `next`. What does not move
-  /// needs this once.
+  /// Publishes to the servo where everything is at `moment` (s) and, moving evenly, until `next`. A scene in
+  /// which nothing moves needs this once.
   void publish(haptics::Servo& servo, double moment, double next) const;
 
  private:

@@ -13,12 +13,12 @@ namespace {
 
 using base::Vector3;
 
-// How much of a surface must face one way for it to count as a sheet: 1 is flat, a half sphere has 0.5.
+// Share of a surface that must face one way for it to count as a sheet: 1 is flat, a half sphere has 0.5.
 constexpr double kSheet = 0.7;
 
 /// A place of a body's surface, in its own frame.
 struct BodyHit {
-  double parameter;  // of the way looked along, in [0, 1], or the distance, m
+  double parameter;  // along the line of sight, in [0, 1]
   Vector3 point;     // m
   Vector3 normal;    // unit, out of the solid or towards the front
 };
@@ -29,7 +29,7 @@ Vector3 area_vector(const geometry::TriangleMesh& mesh, std::size_t triangle) {
   return (mesh.corner(triangle, 1) - first).cross(mesh.corner(triangle, 2) - first);
 }
 
-/// What the triangles of a mesh add up to, in its own frame.
+/// Sums over the triangles of a mesh, in its own frame: twice the areas, as vectors and as numbers.
 struct AreaSum {
   Vector3 vector = Vector3::Zero();
   double area = 0.0;
@@ -68,8 +68,8 @@ std::optional<BodyHit> hit_on(TouchEye& eye, const Vector3& from, const Vector3&
   return BodyHit{hit->parameter, hit->point, area_vector(*eye.mesh(), hit->triangle).normalized()};
 }
 
-/// Needs no triangles where a line of sight has a closed form, or an exact answer. Of a half-space only the
-/// square that pictures show of it is looked at, so that the hand stays there.
+/// The first hit on a body. Needs no triangles where a line of sight has a closed form, or an exact answer. A
+/// half-space is hit only in the square that pictures show of it, so that the hand stays there.
 std::optional<BodyHit> first_hit(const TouchBody& body, const Vector3& from, const Vector3& to) {
   if (body.solid) return hit_on(*body.solid, from, to);
   return body.primitive && !is_half_space(body) ? hit_on(*body.primitive, from, to)

@@ -8,20 +8,20 @@
 
 namespace icome::apps {
 
-/// A place on the surface of the models and the direction away from it, on the side that was looked from.
+/// A place on the surface of the models, with the normal on the side that was looked from.
 struct ProbedPoint {
   base::Vector3 point;   // m, world frame
   base::Vector3 normal;  // unit
 };
 
-/// What a hand can know of the models before touching them: where they are and where a line of sight
-/// ends. Refers to the models.
+/// The knowledge that a hand can have of the models before touching them: their places and the ends of lines
+/// of sight. Refers to the models.
 class SurfaceProbe {
  public:
   explicit SurfaceProbe(const std::vector<TouchModel>& models);
 
-  /// Where the line of sight from `from` to `to` ends, if it does; an open surface turns its normal towards
-  /// `from`.
+  /// The place where the line of sight from `from` to `to` ends, if it does; an open surface turns its normal
+  /// towards `from`.
   std::optional<ProbedPoint> look(const base::Vector3& from, const base::Vector3& to) const;
 
   const base::Bounds& bounds() const { return bounds_; }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLabelWidth = 14;
 constexpr std::size_t kBarWidth = 24;
 
-/// Rows of "label  value"; a row without a label goes on with the one before.
+/// Rows of "label  value"; a row without a label continues the one before.
 class Table {
  public:
   void row(std::string_view label, std::string_view value) {

@@ -11,12 +11,12 @@
 
 namespace icome::apps {
 
-/// Keeps what a run leaves behind: trace, verdicts, tick times, and samples for the picture. It is fed
+/// Keeps the results of a run: trace, verdicts, tick times, and samples for the picture. It is fed
 /// outside the timed part of the ticks and belongs to one thread. Owns neither trace nor judge.
 class TickLog {
  public:
-  /// Trace and judge may be null: then there is none. The judge is told forces only where they are those of
-  /// surfaces: effects and textures push as they like.
+  /// Trace and judge may be null: then there is none. The judge gets forces only where they are those of
+  /// surfaces: effects and textures may push in any way.
   TickLog(TraceFile* trace, haptics::ContactJudge* judge, bool forces_of_surfaces, bool keep_samples)
       : trace_(trace), judge_(judge), forces_of_surfaces_(forces_of_surfaces), keep_samples_(keep_samples) {}
 

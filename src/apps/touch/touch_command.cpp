@@ -33,7 +33,7 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kInterrupted = 130;  // what shells report for Ctrl-C
 
-/// All that a run needs, made ready before it begins.
+/// Everything that a run needs, prepared before it begins.
 struct Prepared {
   std::vector<TouchModel> models;
   std::shared_ptr<const haptics::HapticScene> scene;
@@ -121,7 +121,7 @@ bool surfaces_alone(const std::vector<TouchModel>& models, const TouchOptions& o
          });
 }
 
-// What is quick to find wrong is looked for first; the trace is opened last, so that nothing is left
+// Errors that are quick to find are looked for first; the trace is opened last, so that nothing is left
 // behind when something else fails.
 base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) {
   Prepared prepared;
@@ -221,7 +221,7 @@ void tell_outcome(const RunOutcome& outcome) {
   }
 }
 
-/// The first sentences, and how many there are; the JSON report has them all.
+/// Tells the first sentences, and how many more there are; the JSON report has them all.
 void tell_capped(const std::vector<std::string>& sentences) {
   constexpr std::size_t kMostTold = 5;
   const std::size_t told = std::min(sentences.size(), kMostTold);
@@ -236,7 +236,7 @@ void tell_little_touch(const Exploration& exploration, const TouchFigures& figur
                    exploration.why_little()));
 }
 
-/// Writes what was asked for beside the report; false when something failed, which it tells.
+/// Writes the files that were asked for; false when one failed, after telling the error.
 bool write_files(Prepared& prepared, const TickLog& log, const TouchFigures& figures,
                  const TouchOptions& options, StatusLine& status) {
   bool good = true;

@@ -8,8 +8,8 @@
 
 namespace icome::apps {
 
-/// The triangles that show a body: for pictures, for where the simulated hand looks, and for who judges a
-/// body that is felt as them. Those of a body that is felt as what it is are made when they are first asked
+/// The triangles that show a body: for pictures, for the looks of the simulated hand, and for the judge of a
+/// body that is felt as them. For a body that is felt exactly they are made when they are first asked
 /// for, and then kept. Bodies that share a shape share its eye. One thread owns it.
 class TouchEye {
  public:
@@ -18,7 +18,7 @@ class TouchEye {
   /// `make` is called once at most.
   explicit TouchEye(std::function<geometry::TriangleMesh()> make) : make_(std::move(make)) {}
   explicit TouchEye(Mesh mesh) : mesh_(std::move(mesh)) {}
-  /// Of what is felt as triangles, whose tree serves both.
+  /// For a body that is felt as triangles, whose tree serves both.
   explicit TouchEye(const std::shared_ptr<const haptics::MeshShape>& felt);
 
   const Mesh& mesh();
@@ -32,7 +32,7 @@ class TouchEye {
   Tree tree_;                                     // over `mesh_`; null: not made yet
 };
 
-/// What pictures show of a primitive: within 1/2000 of its size.
+/// The eye of a primitive for pictures: within 1/2000 of its size.
 std::shared_ptr<TouchEye> eye_of(const geometry::Primitive& primitive);
 
 }  // namespace icome::apps

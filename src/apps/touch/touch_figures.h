@@ -25,24 +25,24 @@ struct TouchFigures {
   std::uint64_t ticks = 0;
   double rate_hz = 0.0;
   realtime::Quantiles tick_us;  // us, exact: all of a tick except device input and output
-  realtime::Quantiles load;     // the same as a share of the period
+  realtime::Quantiles load;     // tick_us as a share of the period
   std::array<std::uint64_t, kLoadBins> load_bins{};  // ticks by load
   std::uint64_t overruns = 0;                        // ticks that were not done when the next was due
   double max_force = 0.0;                            // N
   double touch_fraction = 0.0;                       // of the ticks
-  std::optional<std::uint64_t> pops;                 // none when nobody judged
+  std::optional<std::uint64_t> pops;                 // none without --check
   std::optional<std::uint64_t> sticks;
   std::optional<std::uint64_t> silent;
   std::optional<std::uint64_t> pulls;
-  std::optional<std::uint64_t> unjudged;  // ticks of which the judge could not tell whether they were pops
+  std::optional<std::uint64_t> unjudged;          // ticks of which the judge could not tell if they were pops
   std::optional<std::uint64_t> judge_unfinished;  // questions of the judge that took too long
   std::optional<std::string> texture;             // as it was asked for
-  std::vector<std::string> effects;               // the same, then those of designs
-  std::vector<std::string> capped;                // what is felt softer than asked for, a sentence each
+  std::vector<std::string> effects;               // as they were asked for, then those of designs
+  std::vector<std::string> capped;                // sentences, one for each feel softer than asked for
   std::size_t peak_memory_bytes = 0;              // of the whole program
 };
 
-/// The nearest-rank quantiles of raw samples, in units of `unit` of them; zeros without samples. Takes a
+/// The nearest-rank quantiles of raw samples, divided by `unit`; zeros without samples. Takes a
 /// copy to sort.
 realtime::Quantiles exact_quantiles(std::vector<std::uint32_t> samples, double unit);
 

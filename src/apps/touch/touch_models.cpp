@@ -17,7 +17,7 @@ namespace {
 
 using haptics::TouchableSides;
 
-/// The same primitive, every length times `factor`.
+/// Scales every length of a primitive by `factor`; a plane stays as it is.
 class Scaled {
  public:
   explicit Scaled(double factor) : factor_(factor) {}

@@ -26,23 +26,23 @@ struct JudgedMesh {
   double error = 0.0;
 };
 
-/// A body that is touched: an object of a design, or all of another MODEL. What bodies share, clones share.
+/// A body that is touched: an object of a design, or all of another MODEL. Clones share what pointers hold.
 struct TouchBody {
-  std::shared_ptr<TouchEye> eye;  // what is felt, unless `exact`; may be null where `solid` is set
+  std::shared_ptr<TouchEye> eye;  // the felt mesh, unless `exact`; may be null where `solid` is set
   std::shared_ptr<const haptics::Shape> shape;             // never null
   base::Pose world_from_body = base::Pose::Identity();     // at the moment 0
   Course course = {};                                      // by the motions of its file
-  std::optional<geometry::Primitive> primitive = {};       // what a primitive is
+  std::optional<geometry::Primitive> primitive = {};       // of a primitive
   std::shared_ptr<const geometry::CsgTree> csg = nullptr;  // of a CSG tree that is drawn as one; else null
-  /// Tells where the surface is of what is touched without a mesh of it, as a point touches it. Else null.
+  /// The surface of a body that is touched without a mesh, as a point touches it. Else null.
   std::shared_ptr<const haptics::SmoothShape> solid = nullptr;
-  /// What lies in it, as its model says: of solids that are touched without a mesh; else empty.
+  /// The inside of a solid that is touched without a mesh, as its model defines it; else empty.
   std::optional<haptics::MembershipSolid> membership = {};
-  JudgedMesh judged = {};  // of a Loop surface, in its own frame; only where somebody judges
+  JudgedMesh judged = {};  // of a Loop surface, in its own frame; only where it is judged
   bool exact = false;      // touched as what it is, without a mesh; primitives are, too
-  bool is_mesh = false;    // a mesh is what it is
+  bool is_mesh = false;    // it is a mesh in its file
   bool closed = true;
-  haptics::Surface surface = {};              // what the model itself says; the options come before it
+  haptics::Surface surface = {};              // as the model gives it; the options take precedence
   std::optional<charts::Colour> colour = {};  // none: the picture's own
 };
 
@@ -52,13 +52,13 @@ inline constexpr const char* kPrimitive = "primitive";
 struct TouchModel {
   std::string name;  // as the person wrote it
   std::string kind;  // "binary PLY", "primitive" and so on
-  /// Of a primitive and of a formula one, of a design that has effects alone none.
+  /// One for a primitive or a formula, none for a design that has effects alone.
   std::vector<TouchBody> bodies = std::vector<TouchBody>(1);
   std::size_t triangles = 0;                            // that are touched
-  std::vector<haptics::PlacedEffect> effects = {};      // that a design has
+  std::vector<haptics::PlacedEffect> effects = {};      // of a design
   std::vector<Course> effect_courses = {};              // of each of these
   std::shared_ptr<const ModelMotion> motion = nullptr;  // null: it stands where it is
-  std::vector<std::string> repairs = {};                // what the reader did and found, one sentence each
+  std::vector<std::string> repairs = {};                // sentences on what the reader did and found
   double read_seconds = 0.0;                            // s, reading and repairing
   double build_seconds = 0.0;                           // s, building what the servo touches
 
@@ -75,12 +75,12 @@ bool names_primitive(std::string_view text);
 /// the world frame can rely on it.
 base::Result<TouchModel> load_model(const std::string& text, const TouchOptions& options);
 
-/// All MODELs, in the order of the command line, the surface of --implicit last. `say` hears what is read.
+/// All MODELs, in the order of the command line, the surface of --implicit last. `say` announces each.
 base::Result<std::vector<TouchModel>> load_models(const TouchOptions& options,
                                                   const std::function<void(const std::string&)>& say);
 
-/// Around its surface, of a half-space around the square that pictures show of it; in its own frame or the
-/// world's.
+/// The box around its surface, or around the square that pictures show of a half-space; in its own frame or
+/// the world's.
 base::Bounds own_bounds(const TouchBody& body);
 base::Bounds bounds(const TouchBody& body);
 base::Bounds bounds(const TouchModel& model);
@@ -88,7 +88,7 @@ base::Bounds bounds(const TouchModel& model);
 /// Is the body the unlimited plane, solid below the z = 0 of its own frame?
 bool is_half_space(const TouchBody& body);
 
-/// How the body feels: as its model says where the options say nothing else.
+/// The feel of the body: as the options say, else as its model does.
 haptics::Surface surface_of(const TouchBody& body, const TouchOptions& options);
 
 /// The scene of all models. Bodies of model i have the index i in their ids, and their number, from 1, as the

@@ -17,7 +17,7 @@ namespace {
 constexpr double kLongestRun = 86400.0;  // s
 constexpr double kLargestRadius = 1.0;   // m
 
-// Written so that what is not a number is refused too.
+// Written so that NaN is refused, too.
 base::Result<void> check_range(const char* option, double value, double least, double most,
                                const char* unit) {
   if (value >= least && value <= most) return {};

@@ -24,14 +24,14 @@ struct Friction {
   double sliding = 0.0;
 };
 
-/// What a person asked `icome touch` for, as the command line says it. SI units.
+/// The options of `icome touch`, as the command line gives them. SI units.
 struct TouchOptions {
   std::vector<std::string> models;            // files or primitives; at least one, if there is no --implicit
   std::optional<std::string> implicit;        // a formula
-  std::optional<base::Bounds> bounds;         // m, where it counts
-  std::optional<Subdivision> subdivision;     // none: meshes are what they are
+  std::optional<base::Bounds> bounds;         // m, the box of --implicit
+  std::optional<Subdivision> subdivision;     // none: meshes are touched as they are
   std::optional<double> crease_degrees;       // edges that are sharper stay sharp
-  std::optional<haptics::Renderer> renderer;  // as it was named, if it was
+  std::optional<haptics::Renderer> renderer;  // none: not named
   ReadingOptions reading;                     // of the files
   std::optional<double> fit;                  // m, longest side of each model
 
@@ -41,7 +41,7 @@ struct TouchOptions {
   std::optional<std::filesystem::path> path;  // tip positions to replay
   double radius = 0.0;                        // m, of the tip; 0 is a point
   std::vector<std::string> motions;           // of models: ModelMotion::parse
-  bool still = false;                         // what files say of motions is left aside
+  bool still = false;                         // the motions of files are left aside
 
   std::optional<haptics::TouchableSides> sides;  // none: front of closed bodies, both of open ones
   std::optional<double> stiffness;     // N/m; 0: the device's nominal stiffness; none: the models' own
@@ -58,7 +58,7 @@ struct TouchOptions {
 
 constexpr double kDefaultSeconds = 5.0;  // s, of exploring; a path is replayed to its end
 
-/// The renderer that the options add up to.
+/// The renderer that follows from the options.
 haptics::Renderer renderer_of(const TouchOptions& options);
 
 /// Reads "limit" or "thesis:LEVEL".
@@ -67,7 +67,7 @@ base::Result<Subdivision> parse_subdivision(const std::string& text);
 /// Reads a box from one length (a cube), three lengths (centred) or six coordinates (both corners), m.
 base::Result<base::Bounds> parse_bounds(const std::string& text);
 
-/// Says which option has a value that makes no sense, or which two contradict each other.
+/// Fails, naming the option whose value makes no sense, or the two that contradict each other.
 base::Result<void> check(const TouchOptions& options);
 
 /// Reads "S,D" (or "S": both the same) into the two coefficients.

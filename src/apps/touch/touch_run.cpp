@@ -23,7 +23,7 @@ namespace {
 // Rows between two entries in the log: its work then disturbs the caches of few ticks.
 constexpr std::size_t kBlockRows = 8192;
 
-// How long the log may fall behind the servo, s.
+// The longest time that the log may fall behind the servo, s.
 constexpr double kLongestDelay = 60.0;
 
 constexpr auto kDiaryPeriod = std::chrono::milliseconds(10);
@@ -37,7 +37,7 @@ haptics::ServoSettings servo_settings(const TouchOptions& options) {
   return settings;
 }
 
-/// How many rows of a path belong to its first `seconds`.
+/// The number of rows of a path within its first `seconds`.
 std::size_t rows_within(const std::vector<double>& times, const std::optional<double>& seconds) {
   if (!seconds) return times.size();
   const double last = times.front() + *seconds;
@@ -66,8 +66,8 @@ class ClockedRun {
     return info.index < last_index_;
   }
 
-  /// Puts down what has come so far, until the user ends the run or `most` (s) has gone by: rows may come
-  /// faster than they are judged. `seconds`: of the whole run.
+  /// Logs the rows that have come so far, until the user ends the run or `most` (s) has gone by: rows may
+  /// come faster than they are judged. `seconds`: of the whole run.
   void drain(TickLog& log, StatusLine& status, double seconds,
              double most = std::numeric_limits<double>::infinity()) {
     const Stopwatch watch;
@@ -87,8 +87,8 @@ class ClockedRun {
   double rate_hz_;
   std::uint64_t last_index_;
   realtime::MessagePipe<TickRow> rows_;
-  std::uint64_t lost_rows_ = 0;  // the loop's
-  double time_ = 0.0;            // s, of the last row put down
+  std::uint64_t lost_rows_ = 0;  // written by the loop
+  double time_ = 0.0;            // s, of the last row logged
 };
 
 RunOutcome outcome_of(const realtime::LoopRunner& loop) {
@@ -101,7 +101,7 @@ RunOutcome outcome_of(const realtime::LoopRunner& loop) {
   return outcome;
 }
 
-/// Says to the servo where things are at a row of a path; returns when it is to hear that again, s.
+/// Publishes to the servo where things are at a row of a path; returns when to do so again, s.
 double publish_from(const MovingScene& moving, haptics::Servo& servo, const std::vector<double>& times,
                     std::size_t row) {
   const double following = row + 1 < times.size() ? times[row + 1] : times[row];
@@ -137,7 +137,7 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
   block.reserve(std::min(kBlockRows, rows));
   const double period = 1.0 / options.rate_hz;
   const Stopwatch watch;
-  double due = times.front();  // when the servo is to hear where things are
+  double due = times.front();  // s, the time of the next publication
   for (std::size_t row = 0; row < rows && !outcome.interrupted;) {
     const std::size_t end = std::min(rows, row + kBlockRows);
     for (; row < end; ++row) {

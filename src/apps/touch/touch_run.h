@@ -15,7 +15,7 @@
 
 namespace icome::apps {
 
-/// How a run went.
+/// The outcome of a run.
 struct RunOutcome {
   bool interrupted = false;              // ended by the user before its time
   std::uint64_t overruns = 0;            // ticks that were not done when the next was due
@@ -24,7 +24,7 @@ struct RunOutcome {
   realtime::Quantiles lateness{};        // s, from deadline to start; zero when there was no clock
   std::string notice;                    // what the system refused the servo loop; or empty
   double wall_seconds = 0.0;             // s, the run itself
-  std::vector<std::string> capped = {};  // as capped_feel() says
+  std::vector<std::string> capped = {};  // sentences of capped_feel()
 };
 
 /// Replays a path over `scene`, which is that of the models: one row a tick, no clock, as fast as the machine

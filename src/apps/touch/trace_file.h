@@ -12,10 +12,10 @@ namespace icome::apps {
 /// The file appears whole, by finish(), or not at all.
 class TraceFile {
  public:
-  /// Opens the file and writes the header. An impossible path is told before a run, not after it.
+  /// Opens the file and writes the header. An impossible path is reported before a run, not after it.
   static base::Result<TraceFile> create(const std::filesystem::path& path);
 
-  /// Adds a row. What could not be written is told by finish().
+  /// Adds a row; finish() reports a failure.
   void add(const TickRow& row);
 
   /// Gives the file its name. Call once.

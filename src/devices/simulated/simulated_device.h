@@ -9,9 +9,9 @@
 
 namespace icome::devices {
 
-/// A hand that holds the pointer: its mass rides on the tip, and a spring with a damper pulls it to where
-/// the person wants to be. Ranges as Hajian and Howe (1997) and Kuchenbecker et al. (2003) measured on
-/// fingers and wrists; the mass of a pen grip is a choice within theirs.
+/// A hand that holds the pointer: its mass rides on the tip, and a spring with a damper pulls it to the
+/// place that the person aims for. Ranges as Hajian and Howe (1997) and Kuchenbecker et al. (2003) measured
+/// on fingers and wrists; the mass of a pen grip is a choice within theirs.
 struct SimulatedHand {
   double mass = 0.05;        // kg, usually 0.005 to 0.2
   double stiffness = 300.0;  // N/m, usually 100 (relaxed) to 800 (tense)
@@ -22,15 +22,15 @@ struct SimulatedSettings {
   DeviceInfo info = {.name = "simulated"};  // limits and mass of the device; a profile's, for example
   SimulatedHand hand;
   double rate = 1000.0;             // Hz, ticks a second: each read() advances 1/rate
-  int substeps = 8;                 // a tick, usually 1 to 20: how often the target is followed
+  int substeps = 8;                 // per tick, usually 1 to 20: times that the target is followed
   double encoder_resolution = 0.0;  // m, usually 2e-5 to 6e-5; 0: exact position and velocity
   Vector3 start = Vector3::Zero();  // m, where the tip rests at first
-  /// Where the hand wants to be (m) at a time (s): called by read(), so it must be real-time safe.
-  /// May be null: then set_target() says where.
+  /// Position (m) that the hand aims for at a time (s): called by read(), so it must be real-time safe.
+  /// May be null: then set_target() gives it.
   std::function<Vector3(double)> trajectory;
 };
 
-/// What can go wrong with a real device.
+/// Failures of a real device that can be simulated.
 enum class SimulatedFailure : std::uint8_t {
   None,
   Unplugged,   // read and write return Lost, the motors are dead
@@ -51,21 +51,21 @@ class SimulatedDevice final : public PointerDevice {
   /// Advances one tick, then reads; a velocity is the exact one, or with an encoder the backward
   /// difference of its readings. Real-time safe.
   DeviceStatus read(PointerState& state) override;
-  /// Sets the force (N) that the motors hold until the next write; one that is not finite breaks the
-  /// simulation as little as a real amplifier: it is taken as none. Real-time safe.
+  /// Sets the force (N) that the motors hold until the next write; one that is not finite is taken as none,
+  /// so that it does no more harm here than to a real amplifier. Real-time safe.
   DeviceStatus write(const Vector3& force) override;
 
-  /// Where the hand wants to be from the next tick on, m. One other thread may call this.
+  /// Sets the position that the hand aims for from the next tick on, m. One other thread may call this.
   /// Real-time safe.
   void set_target(const Vector3& position) { target_.publish(position); }
-  /// Puts the tip there at rest, m, without a way in between, as a pen is lifted and set down elsewhere. The
-  /// hand still wants to be where it was told. One other thread, that of set_target(), may call this.
+  /// Puts the tip there at rest, m, without a path in between, as a pen is lifted and set down elsewhere. The
+  /// hand keeps its target. One other thread, that of set_target(), may call this.
   /// Real-time safe.
   void put(const Vector3& position) { put_.publish({position, false}); }
-  /// Lays it aside there, where it touches nothing until it is put again. The same thread as put().
+  /// Lays the tip aside there, where it touches nothing until put() is called. Same thread as put().
   /// Real-time safe.
   void park(const Vector3& position) { put_.publish({position, true}); }
-  /// Turns the stylus so, from the next tick on. The same thread as set_target(). Real-time safe.
+  /// Sets the stylus's orientation from the next tick on. Same thread as set_target(). Real-time safe.
   void turn(const Quaternion& device_from_stylus) { turned_.publish(device_from_stylus); }
   /// Holds these buttons down (bit i: button i) from the next tick on. Any thread. Real-time safe.
   void hold_buttons(std::uint32_t buttons) { buttons_.store(buttons, std::memory_order_relaxed); }

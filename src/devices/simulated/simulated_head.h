@@ -6,8 +6,8 @@
 
 namespace icome::devices {
 
-/// A head tracker in software, for tests and for driving a session from a program: the head is where it was
-/// put last. One thread uses it.
+/// A head tracker in software, for tests and for driving a session from a program: the head is at the pose of
+/// the last put(). One thread uses it.
 class SimulatedHead final : public HeadDevice {
  public:
   explicit SimulatedHead(std::string name = "simulated head tracker") : name_(std::move(name)) {}

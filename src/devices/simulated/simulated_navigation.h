@@ -6,8 +6,8 @@
 
 namespace icome::devices {
 
-/// A navigation device in software, for tests and for driving a session from a program: it is held as it was
-/// told last. One thread uses it.
+/// A navigation device in software, for tests and for driving a session from a program: it keeps the state of
+/// the last hold(). One thread uses it.
 class SimulatedNavigation final : public NavigationDevice {
  public:
   explicit SimulatedNavigation(std::string name = "simulated 3D mouse") : name_(std::move(name)) {}

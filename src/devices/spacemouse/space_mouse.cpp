@@ -13,7 +13,7 @@ namespace icome::devices {
 namespace {
 
 constexpr int kButtons = 32;
-constexpr int kMostEvents = 4096;  // in one read: nobody may keep us by talking
+constexpr int kMostEvents = 4096;  // in one read, so that a flood of events cannot hold it up
 
 }  // namespace
 
@@ -58,11 +58,11 @@ void SpaceMouse::take_in() {
   for (int i = 0; i < kMostEvents; ++i) {
     const auto event = link_->next();
     if (!event) return;
-    plugged_ = event->kind != SpnavEvent::Kind::Unplugged;  // what says something is there
+    plugged_ = event->kind != SpnavEvent::Kind::Unplugged;  // any other event shows that it is there
     switch (event->kind) {
       case SpnavEvent::Kind::Motion: {
         const auto& [x, y, z, rx, ry, rz] = event->axes;
-        // Its z points away, and turns go with that: mirrored in z, they are those of our frame.
+        // Its z points away from the user, for turns, too: with z negated, both are vectors of our frame.
         state_.push = {axis(x), axis(y), -axis(z)};
         state_.turn = {axis(rx), axis(ry), -axis(rz)};
         break;

@@ -12,12 +12,12 @@ class SpnavLink;
 
 struct SpaceMouseSettings {
   double range = 350.0;  // counts at full deflection, usually 250 to 500
-  double dead = 10.0;    // counts about rest that are none, usually 2 to 30; < range
-  bool wait = false;     // there need not be one yet: it is looked for now and then
-  double retry = 2.0;    // s, between two looks for one that is not there
+  double dead = 10.0;    // counts, dead zone about rest, usually 2 to 30; < range
+  bool wait = false;     // create() succeeds without one and looks for it now and then
+  double retry = 2.0;    // s, between two searches for a missing one
 };
 
-/// A 3D mouse of 3Dconnexion and its like, through spacenavd, the driver that Linux has for them. Lost while
+/// A 3D mouse of 3Dconnexion or a compatible one, through spacenavd, its driver on Linux. Lost while
 /// spacenavd does not run or the mouse is unplugged; goes on by itself when they are back. A program has one
 /// at most.
 class SpaceMouse final : public NavigationDevice {
@@ -40,7 +40,7 @@ class SpaceMouse final : public NavigationDevice {
   std::unique_ptr<SpnavLink> link_;  // never null
   SpaceMouseSettings settings_;
   std::int64_t next_look_ = 0;  // ns, steady clock
-  bool plugged_ = true;         // as far as spacenavd has said
+  bool plugged_ = true;         // as far as spacenavd has reported
   NavigationState state_;
 };
 

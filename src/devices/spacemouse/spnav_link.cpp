@@ -22,8 +22,8 @@ namespace {
 using EventNumbers = std::array<std::int32_t, 8>;
 constexpr int kMostUnknown = 64;  // in one call
 
-/// What spacenavd answers when it is greeted. libspnav waits for 0.3 s for it; comes it later, or after an
-/// event that libspnav took for it, it stands among the events.
+/// Is the number spacenavd's answer to the greeting? libspnav waits 0.3 s for it; an answer that comes later,
+/// or after an event that libspnav took for it, stands among the events.
 bool is_answer(std::int32_t number) { return (std::uint32_t(number) & 0xffffff00U) == 0x7faa5500U; }
 
 std::atomic<bool> link_taken = false;
@@ -44,7 +44,7 @@ std::string configured_socket() {
   return {};
 }
 
-/// Where libspnav looks.
+/// The paths at which libspnav looks for spacenavd's socket.
 std::vector<std::string> socket_paths() {
   std::vector<std::string> paths;
   if (const char* path = std::getenv("SPNAV_SOCKET")) paths.emplace_back(path);
@@ -60,7 +60,7 @@ bool listens(const std::string& path) {
   std::memcpy(address.sun_path, path.c_str(), path.size());
   const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (probe < 0) return false;
-  // libspnav looks at its socket by select(), which must not be asked about larger numbers.
+  // libspnav looks at its socket by select(), which takes no larger numbers.
   const bool usable = probe < FD_SETSIZE;
   const bool connected = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
   ::close(probe);
@@ -87,7 +87,7 @@ std::optional<SpnavEvent> translated(const spnav_event& event) {
   }
 }
 
-/// Takes bytes that are there from the connection.
+/// Discards available bytes of the connection.
 void skip(std::size_t bytes) {
   EventNumbers away = {};
   static_cast<void>(recv(spnav_fd(), away.data(), bytes, MSG_DONTWAIT));
@@ -106,7 +106,7 @@ SpnavLink::~SpnavLink() {
   link_taken = false;
 }
 
-// Asked first, since each failing spnav_open() loses memory and, with settings, an open file.
+// Checked first, since each failing spnav_open() loses memory and, with settings, an open file.
 bool SpnavLink::somebody_listens() {
   for (const std::string& path : socket_paths()) {
     if (listens(path)) return true;
@@ -138,14 +138,14 @@ void SpnavLink::open() {
     opener_ = std::thread(connect);
     state_ = State::Opening;
   } catch (const std::system_error&) {
-    // There may be a thread to have when it is asked for again.
+    // The next attempt may get a thread.
   }
 }
 
 std::optional<SpnavEvent> SpnavLink::next() {
-  // Somebody may go on saying what nobody understands.
+  // Skips a limited number of unknown events, as there may be no end of them.
   for (int i = 0; i < kMostUnknown && state() == State::Open; ++i) {
-    // libspnav neither says that spacenavd has ended, nor can it take half an event.
+    // libspnav neither reports that spacenavd has ended, nor can it take half an event.
     EventNumbers ahead = {};
     const ssize_t there = recv(spnav_fd(), ahead.data(), sizeof(ahead), MSG_PEEK | MSG_DONTWAIT);
     if (there < 0 && errno == EINTR) continue;
@@ -163,7 +163,7 @@ std::optional<SpnavEvent> SpnavLink::next() {
       continue;
     }
     spnav_event event = {};
-    if (spnav_poll_event(&event) == 0) continue;  // of a kind that it does not know
+    if (spnav_poll_event(&event) == 0) continue;  // of a kind that libspnav does not know
     if (const auto said = translated(event)) return said;
   }
   return std::nullopt;

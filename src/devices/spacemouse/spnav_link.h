@@ -7,7 +7,7 @@
 
 namespace icome::devices {
 
-/// One thing that spacenavd says, as it says it: counts, x right, y up, z away from the user.
+/// One event of spacenavd, in its own terms: counts, x right, y up, z away from the user.
 struct SpnavEvent {
   enum class Kind : std::uint8_t { Motion, Button, Plugged, Unplugged };
   Kind kind = Kind::Motion;
@@ -16,8 +16,8 @@ struct SpnavEvent {
   bool down = false;             // of Button
 };
 
-/// A connection to spacenavd by libspnav, which knows one at a time in a program. Nothing here waits: what
-/// libspnav waits for goes on in a thread. One thread uses it.
+/// A connection to spacenavd by libspnav, which has one at a time in a program. Nothing here waits: libspnav
+/// does its waiting in a thread of its own. One thread uses it.
 class SpnavLink {
  public:
   /// Null while the program has another one.
@@ -28,12 +28,12 @@ class SpnavLink {
   static bool somebody_listens();
 
   enum class State : std::uint8_t { Closed, Opening, Open };
-  /// Of a connection that is asked for; it ends by itself when spacenavd does.
+  /// The state of the connection; it closes by itself when spacenavd ends.
   State state();
-  /// Begins to connect, from Closed; stays so where the system has no thread to give.
+  /// Begins to connect if Closed; stays Closed where the system has no thread to give.
   void open();
-  /// What was said next; nothing when all is taken, the connection has ended, or much was said that is not
-  /// known here: what follows comes with later calls.
+  /// The next event; nothing when none is left, the connection has ended, or many unknown events were
+  /// skipped: later calls return those that follow.
   std::optional<SpnavEvent> next();
 
  private:

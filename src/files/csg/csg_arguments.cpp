@@ -23,7 +23,7 @@ CsgArguments::CsgArguments(const CsgDocument& document, Index statement,
     if (name == "$fn" || std::find(names.begin(), names.end(), name) != names.end())
       bind(argument, name);
     else if (name.starts_with('$'))
-      continue;  // a special variable that says nothing about the shape
+      continue;  // a special variable without meaning for the shape
     else if (!name.empty())
       error_ = document.error_at(argument.name, taken(names) + ", not " + io::quoted(name));
     else if (positional == names.end())

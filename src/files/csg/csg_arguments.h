@@ -12,8 +12,8 @@
 
 namespace icome::files {
 
-/// The arguments of one statement, by name. The first failure sticks: from then on nothing is found, and
-/// error() says what and where. So a shape may read all its arguments and ask once.
+/// The arguments of one statement, by name. The first failure is kept: from then on nothing is found,
+/// and error() says what and where. So a shape may read all its arguments and check once.
 class CsgArguments {
  public:
   /// `names` are those that the statement takes, in the order of arguments without a name. Special variables
@@ -34,11 +34,11 @@ class CsgArguments {
     read_numbers(vector, found.data(), Count, what);
     return found;
   }
-  /// How many elements the vector has.
+  /// Number of elements of the vector.
   std::size_t length(CsgDocument::Index vector) const;
 
   void fail(CsgDocument::Index value, const std::string& message);
-  /// "`expected`, but there is a string"
+  /// Fails with "`expected`, but there is a string".
   void fail_kind(CsgDocument::Index value, const std::string& expected);
   bool failed() const { return !error_.message.empty(); }
   const base::Error& error() const { return error_; }

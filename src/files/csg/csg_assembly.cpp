@@ -9,7 +9,7 @@ using geometry::CsgOperator;
 using geometry::CsgTree;
 using Index = CsgDocument::Index;
 
-/// An operation whose operands are being put together.
+/// An operation whose operands are being collected.
 struct Chain {
   Index end;  // statement past its operands
   CsgOperator op;

@@ -21,7 +21,7 @@ using Statement = CsgDocument::Statement;
 
 constexpr std::size_t kMostRepairNotes = 20;
 
-/// Things of one kind that are told in one sentence, however many they are.
+/// Things of one kind that are reported in one sentence, however many they are.
 struct Tally {
   std::size_t count = 0;
   std::string_view first_name = {};
@@ -32,7 +32,7 @@ struct Tally {
     first_name = name;
     first_line = line;
   }
-  /// The sentence when there was one thing, and when there were more: of {count}, {name} and {line}.
+  /// Adds the sentence for one thing, or for several; both may hold {count}, {name} and {line}.
   void tell(std::vector<std::string>& notes, const char* one, const char* many) const {
     if (count == 0) return;
     notes.push_back(fmt::format(fmt::runtime(count == 1 ? one : many), fmt::arg("count", count),
@@ -48,13 +48,13 @@ class PartGatherer {
   base::Result<CsgParts> run(std::vector<std::string>& notes);
 
  private:
-  /// An operation whose operands are being looked at.
+  /// An operation whose operands are being examined.
   struct Operation {
     Index statement, end;
     CsgKeyword keyword;
-    CsgVolume volume;  // LeftOut until the first operand came
+    CsgVolume volume;  // LeftOut until its first operand is known
   };
-  /// What a multmatrix or color does to all in it.
+  /// The effect of a multmatrix or color on all statements in it.
   struct Placement {
     Index end;
     Affine3 tree_from_here;
@@ -78,7 +78,7 @@ class PartGatherer {
   void fail(Index index, const std::string& message) {
     error_ = document_.error_at(document_.statements()[index].offset, message);
   }
-  /// Asked in the order of the text, so that all of them together cost one pass.
+  /// To be called in the order of the text, so that all calls together take one pass.
   std::size_t line_of(Index index);
   void add(Tally& tally, Index index) {
     tally.add(document_.name(document_.statements()[index]), line_of(index));
@@ -107,7 +107,7 @@ std::size_t PartGatherer::line_of(Index index) {
   return line_;
 }
 
-/// The first statement marked '!' that is not disabled, as in OpenSCAD: alone and without what is around it.
+/// Finds the first statement marked '!' that is not disabled: as in OpenSCAD, it alone counts.
 void PartGatherer::choose_root() {
   result_.end = static_cast<Index>(document_.statements().size());
   for (Index i = 0; i < result_.end;) {
@@ -124,7 +124,7 @@ void PartGatherer::choose_root() {
   }
 }
 
-/// Is the statement marked as one that does not count? Background counts where it is the root itself.
+/// Is the statement marked as left out? A background part counts where it is the root itself.
 bool PartGatherer::left_out(Index index) {
   const std::uint8_t modifiers = document_.statements()[index].modifiers;
   if ((modifiers & CsgDocument::Disabled) != 0) {
@@ -154,7 +154,7 @@ base::Result<CsgParts> PartGatherer::run(std::vector<std::string>& notes) {
   return std::move(result_);
 }
 
-/// Ends what has no more operands at this statement.
+/// Closes the operations and placements that end before this statement.
 void PartGatherer::close_until(Index statement) {
   while (open_.size() > 1 && open_.back().end <= statement) {
     const Operation closed = open_.back();
@@ -166,7 +166,7 @@ void PartGatherer::close_until(Index statement) {
   while (placements_.back().end <= statement) placements_.pop_back();
 }
 
-/// Gives the operation that is open its next operand.
+/// Gives the innermost open operation its next operand.
 void PartGatherer::deliver(CsgVolume operand) {
   Operation& operation = open_.back();
   const bool first = operation.volume == CsgVolume::LeftOut;
@@ -221,7 +221,7 @@ void PartGatherer::color(Index index) {
   if (read->clamped) add(clamped_colours_, index);
   Placement placement = placements_.back();
   placement.end = document_.statements()[index].end;
-  if (!placement.colour) placement.colour = read->colour;  // the outermost counts, as in OpenSCAD
+  if (!placement.colour) placement.colour = read->colour;  // the outermost colour counts, as in OpenSCAD
   placements_.push_back(placement);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// From the statements of a .csg file to a tree: first what each statement makes, then the tree of it.
+// From the statements of a .csg file to a tree: first the parts that each makes, then their tree.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,9 +13,9 @@
 
 namespace icome::files {
 
-/// What a statement and all in it make.
+/// The result of a statement with all in it.
 enum class CsgVolume : std::uint8_t {
-  LeftOut,  // disabled, background or outside the root: as if it were not there
+  LeftOut,  // disabled, background or outside the root: as if it were absent
   None,     // the empty solid
   Some
 };
@@ -36,12 +36,12 @@ struct CsgParts {
   std::vector<Leaf> leaves;               // in the order of their statements
 };
 
-/// Understands every statement that counts. Adds to `notes` what was left out or put right. Fails also when
+/// Interprets every statement that counts. Adds to `notes` what was left out or repaired. Fails also when
 /// the time budget ends.
 base::Result<CsgParts> gather_parts(const CsgDocument& document, std::size_t max_primitives,
                                     std::vector<std::string>& notes, io::TimeBudget& time_budget);
 
-/// The tree of the parts; empty when they have no volume. It is not whole when the time budget ends.
+/// The tree of the parts; empty when they have no volume. It is incomplete when the time budget ends.
 geometry::CsgTree assemble(const CsgDocument& document, const CsgParts& parts, io::TimeBudget& time_budget);
 
 }  // namespace icome::files

@@ -175,7 +175,7 @@ CsgTree::Colour from_rgba(std::uint32_t packed) {
   return {channel(packed, 24), channel(packed, 16), channel(packed, 8), channel(packed, 0)};
 }
 
-/// The digits after the '#'.
+/// The colour of the digits after the '#'; nothing for other text.
 std::optional<CsgTree::Colour> parse_hexadecimal(std::string_view digits) {
   std::uint32_t packed = 0;
   const char* const end = digits.data() + digits.size();

@@ -6,7 +6,7 @@
 
 namespace icome::files {
 
-/// The colour that OpenSCAD means by a name of the web's list (in any case), "transparent", or #rgb, #rgba,
+/// The colour that OpenSCAD gives to a name of the web's list (in any case), "transparent", or #rgb, #rgba,
 /// #rrggbb, #rrggbbaa. Nothing for other text.
 std::optional<geometry::CsgTree::Colour> parse_colour(std::string_view text);
 

@@ -10,9 +10,9 @@
 
 namespace icome::files {
 
-/// A .csg text taken apart into statements `name(arguments) { children }`, in the order of the text,
-/// whatever the names mean. Everything lies in flat arrays, so that nothing recurses however deep the text
-/// nests. Refers to the text, which must outlive it.
+/// A .csg text parsed into statements `name(arguments) { children }`, in the order of the text, whatever
+/// the names mean. All parts lie in flat arrays, so that nothing recurses however deep the text nests.
+/// Refers to the text, which must outlive it.
 class CsgDocument {
  public:
   using Index = std::uint32_t;
@@ -39,8 +39,8 @@ class CsgDocument {
     Index end = 0;               // past the last statement inside this one
   };
 
-  /// Takes the text apart. The error names `name`, line and column, and what was expected there. Fails also
-  /// when the time budget ends.
+  /// Parses the text. The error names `name`, line and column, and what was expected there. Fails also when
+  /// the time budget ends.
   static base::Result<CsgDocument> parse(std::string_view text, const std::string& name,
                                          io::TimeBudget& time_budget);
 
@@ -53,13 +53,13 @@ class CsgDocument {
 
   std::string_view name(const Statement& statement) const;
   std::string_view name(const Argument& argument) const;
-  /// The characters of a String, its escapes replaced.
+  /// The characters of a String, with its escapes replaced.
   std::string string(const Value& value) const;
 
-  /// Counted from 1.
+  /// The line of an offset, counted from 1.
   std::size_t line(Offset offset) const { return 1 + line_breaks(0, offset); }
   std::size_t line_breaks(Offset from, Offset to) const;
-  /// "cup.csg:3:14: " and the message; columns count characters from 1.
+  /// The error "cup.csg:3:14: " and the message; columns count characters from 1.
   base::Error error_at(Offset offset, const std::string& message) const;
 
  private:

@@ -22,7 +22,7 @@ double sine(double degrees) {
 
 double cosine(double degrees) { return sine(degrees <= 270.0 ? degrees + 90.0 : degrees - 270.0); }
 
-/// Rings of corners, from the bottom up, become walls of quadrilaterals between two lids.
+/// Turns rings of corners, from the bottom up, into walls of quadrilaterals and two lids.
 class RingSolid {
  public:
   explicit RingSolid(int sides) : sides_(static_cast<std::uint32_t>(sides)) {}

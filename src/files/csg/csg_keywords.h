@@ -5,7 +5,7 @@
 
 namespace icome::files {
 
-/// What a statement of a .csg file asks for. Render and the top level are unions like Group.
+/// Meanings of a .csg file's statements. Render and the top level are unions like Group.
 enum class CsgKeyword : std::uint8_t {
   Cube,
   Sphere,
@@ -24,7 +24,7 @@ CsgKeyword csg_keyword(std::string_view name);
 
 constexpr bool is_primitive(CsgKeyword keyword) { return keyword <= CsgKeyword::Polyhedron; }
 
-/// Why a statement of this name cannot be read: the message for Inexact and Unknown.
+/// The reason why a statement of this name cannot be read: the message for Inexact and Unknown.
 std::string refusal(std::string_view name, CsgKeyword keyword);
 
 }  // namespace icome::files

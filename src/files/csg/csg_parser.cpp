@@ -59,7 +59,7 @@ class CsgParser {
   bool string();
   bool word_value();
 
-  /// Skips space and comments. False, with the error, when a comment does not end or the time budget does.
+  /// Skips space and comments. False, with the error, when a comment is not closed or the time budget ends.
   bool skip_space();
   bool skip_comment();
   /// Skips space, then takes the character if it comes next.
@@ -71,7 +71,7 @@ class CsgParser {
   }
   bool fail(const char* place, const std::string& message);
   bool fail_expected(const std::string& what);
-  /// What stands at at_, for messages.
+  /// The text at at_, for messages.
   std::string found() const;
 
   CsgDocument document_;
@@ -193,7 +193,7 @@ bool CsgParser::statement() {
   return true;
 }
 
-/// Reads up to and with the ')'.
+/// Reads the arguments with their ')'.
 bool CsgParser::arguments() {
   if (take(')')) return true;
   while (argument()) {
@@ -236,12 +236,12 @@ bool CsgParser::value() {
   }
 }
 
-/// After a value: closes the vectors that end here and goes to the next element.
+/// To be called after a value: closes the vectors that end here and goes to the next element.
 bool CsgParser::close_vectors() {
   while (!open_vectors_.empty()) {
     if (take(',')) {
       if (!skip_space()) return false;
-      if (peek() != ']') return true;  // OpenSCAD lets a comma stand before the bracket
+      if (peek() != ']') return true;  // OpenSCAD allows a comma before the bracket
     }
     if (!take(']')) return fail_expected("',' or ']'");
     document_.values_[open_vectors_.back()].number = static_cast<double>(document_.values_.size());
@@ -259,7 +259,7 @@ bool CsgParser::scalar() {
   return fail_expected("a value");
 }
 
-/// All that a person would take for one number, so that "1.2.3" is refused whole.
+/// All characters that look like one number to a person, so that "1.2.3" is refused as a whole.
 std::string_view CsgParser::number_word() const {
   const char* last = at_ + 1;
   for (; last < end_; ++last) {

@@ -20,7 +20,7 @@ using Kind = CsgDocument::Kind;
 /// The determinant of a matrix with columns of length 1 that rounding leaves where it should be zero.
 constexpr double kFlat = 1e-14;
 
-/// Red, green, blue and alpha as the vector says them.
+/// Red, green, blue and alpha as given by the vector; alpha is 1 in a vector of three.
 std::array<double, 4> channels(CsgArguments& arguments, Index vector) {
   if (arguments.length(vector) != 3) return arguments.numbers<4>(vector, "a colour");
   const auto [red, green, blue] = arguments.numbers<3>(vector, "a colour");
@@ -81,7 +81,7 @@ base::Result<CsgColour> read_colour(const CsgDocument& document, Index statement
   const std::optional<double> alpha = arguments.number("alpha");
   if (arguments.failed()) return tl::unexpected(arguments.error());
   if (rgba && alpha) rgba->back() = *alpha;
-  // OpenSCAD writes -1 for what was not given, and lets such a colour not count.
+  // OpenSCAD writes -1 for channels that were not given, and ignores such a colour.
   if (!rgba || *std::min_element(rgba->begin(), rgba->end()) < 0.0) return result;
   result.clamped = *std::max_element(rgba->begin(), rgba->end()) > 1.0;
   result.colour.emplace();

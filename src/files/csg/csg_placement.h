@@ -13,9 +13,9 @@ base::Result<geometry::Affine3> read_matrix(const CsgDocument& document, CsgDocu
 /// Does the transform leave no volume?
 bool flattens(const geometry::Affine3& transform);
 
-/// What a color statement asks for.
+/// The colour that a color statement gives.
 struct CsgColour {
-  std::optional<geometry::CsgTree::Colour> colour;  // nothing: none that counts
+  std::optional<geometry::CsgTree::Colour> colour;  // nothing: it has no effect
   bool unknown_name = false;
   bool clamped = false;  // a channel was above 1
 };

@@ -20,7 +20,7 @@ using geometry::TriangleMesh;
 using Index = CsgDocument::Index;
 using Kind = CsgDocument::Kind;
 
-/// Less volume than this, in cubes of the mesh's size, is what rounding makes of none.
+/// A volume below this, in cubes of the mesh's size, is zero up to rounding.
 constexpr double kNoVolume = 1e-14;
 
 class PolyhedronReader {
@@ -38,7 +38,7 @@ class PolyhedronReader {
     if (points && faces) read_faces(*faces);
     if (arguments_.failed()) return tl::unexpected(arguments_.error());
     TriangleMesh mesh = collector_.take(&time_budget_);
-    // Putting a mesh right takes long.
+    // Repairing a mesh takes long.
     if (!time_budget_.lasts_now()) return tl::unexpected(io::interruption());
     return solid(std::move(mesh));
   }
@@ -113,7 +113,7 @@ void PolyhedronReader::read_faces(Index faces) {
     read_face(i);
 }
 
-/// Welding shared corners and dropping spare ones changes nothing that a person would want to know.
+/// Is the repair worth a note? Welding shared corners and dropping spare ones is not.
 bool worth_telling(const RepairReport& report) {
   return report.turned_parts + report.rewound_faces + report.duplicate_faces + report.degenerate_faces +
              report.crack_vertices + report.flipped_edges >

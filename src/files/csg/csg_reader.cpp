@@ -17,7 +17,7 @@
 namespace icome::files {
 namespace {
 
-// Of the whole work, done when that is.
+// Shares of the whole work that are done at the end of each step.
 constexpr double kCsgReadPart = 0.05, kCsgUnpackedPart = 0.2, kCsgParsedPart = 0.5, kCsgGatheredPart = 0.8;
 
 base::Result<LoadedCsg> make_csg(std::string_view text, const std::string& name,
@@ -63,7 +63,7 @@ base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgRea
   const auto bytes = io::read_unpacked(path, options.size_limit, packed, kParts, time_budget, memory);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return base::fail(name + ": the file is empty");
-  // Of a plain file the budget has more for each byte; a packed one may hold any amount.
+  // The budget of a plain file allows more for each byte; a packed one may hold any amount.
   if (constexpr std::uint64_t kBytesForAByte = 10; packed && !memory.take(kBytesForAByte * bytes->size()))
     return base::fail(fmt::format("{}: {}", name, memory.problem().message));
   CsgReadOptions limited = options;

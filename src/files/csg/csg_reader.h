@@ -13,7 +13,7 @@
 
 namespace icome::files {
 
-/// How much a .csg file may ask for; guards against files made to exhaust memory.
+/// Limits and callbacks for reading a .csg file; guards against files made to exhaust memory.
 struct CsgReadOptions {
   std::uint64_t size_limit = 256ULL << 20U;        ///< bytes, packed and unpacked, below 4 GiB
   std::size_t max_primitives = 1'000'000;          ///< about half a kilobyte each
@@ -21,29 +21,29 @@ struct CsgReadOptions {
   io::MemoryBudget* memory = nullptr;  ///< bounds unpacking and primitives; null: that of the file
 };
 
-/// A CSG tree that read_csg() brought in, in metres, with at least one primitive.
+/// The CSG tree of a .csg file, in metres, with at least one primitive.
 struct LoadedCsg {
   geometry::CsgTree tree;
-  std::vector<std::string> notes;  ///< what was left out or put right, one sentence each
+  std::vector<std::string> notes;  ///< what was left out or repaired, one sentence each
   double read_seconds = 0.0;       ///< opening, unpacking, parsing and building
 };
 
 /// Reads a .csg file as OpenSCAD writes it, also packed as `.xz`: cube, sphere, cylinder, polyhedron,
-/// multmatrix, color, group, union, intersection, difference and render, with OpenSCAD's meaning. Lengths
-/// are millimetres in the file and metres in the tree. sphere and cylinder are truly round, but with $fn
-/// from 3 to 16 the faceted solids that OpenSCAD makes. An operation on several children becomes a chain
-/// that begins on the left; what has no volume takes part as the empty solid. Parts marked `*` (disabled)
-/// or `%` (background) are left out, and where a part is marked `!` only the first such part counts. Leaves
+/// multmatrix, color, group, union, intersection, difference and render, with OpenSCAD's meaning. Lengths are
+/// millimetres in the file and metres in the tree. sphere and cylinder are truly round, but with $fn from 3
+/// to 16 they are the faceted solids of OpenSCAD. An operation on several children becomes a chain that
+/// begins on the left; children without volume take part as the empty solid. Parts marked `*` (disabled) or
+/// `%` (background) are left out, and where a part is marked `!` only the first such part counts. Leaves
 /// carry their whole transform, and the outermost colour around them.
 ///
-/// Fails with one sentence that names the file, line and column, and says what was expected, when the text
-/// is malformed; when it uses what has no exact form (hull, minkowski, extrusions, 2D shapes, text, import
+/// Fails with one sentence that names the file, line and column, and says what was expected, when the text is
+/// malformed; when it uses things without an exact form (hull, minkowski, extrusions, 2D shapes, text, import
 /// and so on) or an unknown name; when a polyhedron is open or not manifold; when a matrix is not affine;
 /// when sizes are below 1e-6 mm or coordinates beyond 1e9 mm; when nothing with a volume is left; and when it
 /// is stopped: "interrupted".
 base::Result<LoadedCsg> read_csg(const std::filesystem::path& path, const CsgReadOptions& options = {});
 
-/// The same from a text that is in memory; `name` stands for the file in errors.
+/// Reads a .csg text from memory; `name` stands for the file in errors.
 base::Result<LoadedCsg> parse_csg(std::string_view text, const std::string& name,
                                   const CsgReadOptions& options = {});
 

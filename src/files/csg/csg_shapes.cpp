@@ -17,26 +17,26 @@ using geometry::Primitive;
 using geometry::Vector3;
 using Index = CsgDocument::Index;
 
-// With so many facets a shape is meant to have them; with more or none it is meant to be round.
+// With so many facets a shape is meant to be faceted; with more or none it is meant to be round.
 constexpr double kFewestFacets = 3.0;
 constexpr double kMostFacets = 16.0;
 
 double metres(double millimetres) { return millimetres / kMillimetresPerMetre; }
 
-/// How many facets the statement asks for; 0 for a round shape.
+/// Number of facets of the statement; 0 for a round shape.
 int facets(CsgArguments& arguments) {
   const double wanted = arguments.number_or("$fn", 0.0);
   return wanted >= kFewestFacets && wanted <= kMostFacets ? static_cast<int>(wanted) : 0;
 }
 
-/// A radius, given itself or as the diameter, which wins as in OpenSCAD.
+/// A radius, given directly or as the diameter, which wins as in OpenSCAD.
 std::optional<double> radius_of(CsgArguments& arguments, std::string_view radius, std::string_view diameter) {
   const std::optional<double> given = arguments.number(radius);
   const std::optional<double> across = arguments.number(diameter);
   return across ? *across / 2 : given;
 }
 
-/// The error when arguments were wrong or a size is not of this world. Sizes in mm.
+/// The error when arguments were wrong or a size is out of range. Sizes in mm.
 base::Result<void> checked(const CsgArguments& arguments, const CsgDocument& document, Index statement,
                            std::initializer_list<double> sizes) {
   if (arguments.failed()) return tl::unexpected(arguments.error());

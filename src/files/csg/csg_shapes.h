@@ -12,17 +12,17 @@
 
 namespace icome::files {
 
-/// What cube, sphere, cylinder or polyhedron makes.
+/// The part made by cube, sphere, cylinder or polyhedron.
 struct CsgPart {
   std::optional<geometry::CsgShape> shape;               // nothing: it has no volume
-  geometry::Vector3 centre = geometry::Vector3::Zero();  // m, where the shape's frame stands
-  std::vector<std::string> notes;                        // what was done to it
+  geometry::Vector3 centre = geometry::Vector3::Zero();  // m, the origin of the shape's frame
+  std::vector<std::string> notes;                        // repairs made to it
 };
 
 /// Makes the shapes of one file. Faceted shapes of the same size are made once and shared.
 class CsgShapes {
  public:
-  // Each reads the arguments of a statement of the name and says in the error what is wrong with them.
+  // Each reads the arguments of a statement of its name; the error says what is wrong with them.
   // Lengths are millimetres in the document and metres in the shape.
   base::Result<CsgPart> cube(const CsgDocument& document, CsgDocument::Index statement);
   base::Result<CsgPart> sphere(const CsgDocument& document, CsgDocument::Index statement);
@@ -37,7 +37,7 @@ class CsgShapes {
 base::Result<CsgPart> read_polyhedron(const CsgDocument& document, CsgDocument::Index statement,
                                       io::TimeBudget& time_budget);
 
-/// What the unit of a .csg file is.
+/// The unit of a .csg file: millimetres to a metre.
 constexpr double kMillimetresPerMetre = 1000.0;
 // Sizes and coordinates that can be touched, mm: those of geometry::parse_primitive.
 constexpr double kSmallestSize = 1e-6;

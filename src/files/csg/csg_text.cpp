@@ -25,7 +25,7 @@ using geometry::CsgTree;
 using geometry::MeshSolid;
 using geometry::Vector3;
 
-// A node takes some 200 bytes and may stand in ten bytes of text.
+// A node takes some 200 bytes and may come from ten bytes of text.
 constexpr std::size_t kMostNodes = 10'000'000;
 constexpr std::string_view kOperators[] = {"union", "intersection", "difference"};
 
@@ -36,13 +36,13 @@ tl::unexpected<base::Error> too_many() {
                   kMostNodes));
 }
 
-/// To the last bit: zeros keep their signs.
+/// Equal to the last bit: zeros with different signs differ.
 template <typename Matrix>
 bool same_bits(const Matrix& one, const Matrix& other) {
   return std::memcmp(one.data(), other.data(), sizeof(double) * std::size_t(one.size())) == 0;
 }
 
-/// Each node stands on a line.
+/// Upper bound of the lines, each of which may hold a node.
 std::size_t most_lines(std::string_view text) {
   return 1 +
          std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }));
@@ -135,7 +135,7 @@ class CsgTextWriter {
   std::unordered_map<const MeshSolid*, std::uint32_t> meshes_;
 };
 
-/// Reads line after line; from the first failure on the scanner gives nothing more.
+/// Reads line after line; after the first failure the scanner gives nothing more.
 class CsgTextReader {
  public:
   explicit CsgTextReader(std::string_view text)
@@ -178,7 +178,7 @@ class CsgTextReader {
     for (std::uint32_t& corner : corners)
       corner = index("the number of a vertex", defined_->positions.size());
   }
-  /// A mesh ends where something else begins.
+  /// Ends the mesh being read, as another statement begins.
   void finish_mesh() {
     if (!defined_) return;
     std::string why = world::complaint(*defined_);
@@ -221,7 +221,7 @@ class CsgTextReader {
       if (!scanner_.failed()) return meshes_[number];
       return geometry::Plane{};
     }
-    constexpr std::size_t kLongest = 200;  // three numbers, and no novel in the error
+    constexpr std::size_t kLongest = 200;  // three numbers, and errors of a readable length
     const auto primitive = geometry::parse_primitive(word.substr(0, kLongest));
     if (primitive) return *primitive;
     scanner_.fail(primitive.error().message);
@@ -247,7 +247,7 @@ class CsgTextReader {
     }
   }
 
-  /// Not by way of a double: it would be rounded twice.
+  /// A part of a colour, not read by way of a double: it would be rounded twice.
   float colour_part() {
     const std::string_view word = scanner_.word();
     float part = 0.0F;

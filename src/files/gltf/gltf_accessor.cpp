@@ -51,7 +51,7 @@ double number_as(const char* at) {
   return io::load<Number>(at, io::ByteOrder::LittleEndian);
 }
 
-/// `largest`: what stands for 1 in normalised numbers.
+/// A number as stored; `largest` stands for 1 in normalised numbers.
 struct Raw {
   double value;
   double largest;

@@ -13,7 +13,7 @@ namespace icome::files {
 /// The bytes of a buffer view, checked to lie in its buffer. Throws GltfError.
 std::string_view view_bytes(const tinygltf::Model& model, int view);
 
-/// The numbers of an accessor of a model that outlives it, each checked to lie in its data.
+/// The numbers of an accessor of a model, which outlives it; each is checked to lie in its data.
 class GltfAccessor {
  public:
   /// Throws GltfError, also unless an element has from `least` to `most` components.
@@ -27,7 +27,7 @@ class GltfAccessor {
   std::uint32_t whole(std::size_t element) const;
 
  private:
-  /// Numbers as they lie in a buffer.
+  /// Numbers as stored in a buffer.
   struct Numbers {
     const char* data = nullptr;  // null: all are zero
     std::size_t stride = 0;

@@ -36,17 +36,17 @@ bool moves_about_centre(const Motion& motion) {
   return !motion.rest.centre.isZero(0.0) && (!motion.rotation.times.empty() || !motion.scale.times.empty());
 }
 
-/// A moment to be written, and the one whose place it has: earlier where something jumps.
+/// A moment to be written, and the moment whose place it gets: an earlier one before a jump.
 struct Moment {
   double time = 0.0;
   double seen = 0.0;
   auto operator<=>(const Moment&) const = default;
 };
 
-/// The moment before, as files have it in single precision.
+/// The latest moment before `time` in a file's single precision.
 double just_before(double time) { return double(std::nextafter(float(time), 0.0F)); }
 
-/// Where it jumps: two key frames at one moment, as the file will have them, or one that nothing leads to.
+/// The jumps: two key frames at one moment, as the file will have them, or a step of a Step course.
 std::vector<Moment> jumps_in(const KeyFrames& frames) {
   std::vector<Moment> jumps;
   for (std::size_t key = 1; key < frames.times.size(); ++key) {
@@ -70,7 +70,7 @@ bool in_one_cycle(const Motion& motion) {
   return true;
 }
 
-/// The moments of all parts, finely, up to the end of the cycle, beyond which key frames may lie.
+/// The moments of all parts, finely cut, up to the cycle's end, beyond which key frames may lie.
 std::vector<Moment> common_moments(const Motion& motion, double cycle) {
   std::vector<double> times;
   std::vector<Moment> moments;
@@ -89,10 +89,10 @@ std::vector<Moment> common_moments(const Motion& motion, double cycle) {
   return moments;
 }
 
-/// The way of a node without a centre that says the same.
+/// The translation of a node without a centre that has the same place.
 Vector3 way_of(const PlaceParts& parts) { return world::affine(parts).translation(); }
 
-/// The way of what turns or grows about a centre, all of it in one cycle, for a node without.
+/// The translation of a turn or growth about a centre, in one cycle, for a node without.
 KeyFrames way_about_centre(const Motion& motion) {
   const KeyFrames& like = motion.rotation.times.empty() ? motion.scale : motion.rotation;
   KeyFrames way{.cycle = like.cycle, .loops = like.loops};
@@ -116,7 +116,7 @@ bool fits_singles(const Motion& motion) {
 
 using NodeMotion = tl::expected<Motion, GltfAnimations::Loss>;
 
-/// The same without a centre and axes of a stretch, which nodes have not; or why that cannot be.
+/// The motion without a centre and stretch axes, which nodes lack; or the loss.
 NodeMotion as_node(const Motion& motion) {
   Motion node = motion;
   if (!always_even(motion) && !motion.rest.stretch_axes.isApprox(base::Quaternion::Identity(), 1e-12))
@@ -125,7 +125,7 @@ NodeMotion as_node(const Motion& motion) {
     if (!in_one_cycle(motion)) return tl::unexpected(GltfAnimations::Loss::Cycles);
     node.translation = way_about_centre(motion);
   } else if (!motion.rest.centre.isZero(0.0)) {
-    // It shifts all places alike.
+    // The centre shifts all places alike.
     PlaceParts beside = motion.rest;
     beside.translation.setZero();
     const Vector3 shift = way_of(beside);
@@ -142,7 +142,7 @@ NodeMotion as_node(const Motion& motion) {
   return node;
 }
 
-/// glTF wants each later than the one before.
+/// The times in single precision, each later than the one before, as glTF requires.
 std::vector<std::array<float, 1>> rising(const std::vector<double>& times) {
   std::vector<std::array<float, 1>> result;
   for (const double time : times) {

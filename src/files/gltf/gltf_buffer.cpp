@@ -89,7 +89,7 @@ std::vector<std::array<float, 2>> GltfBuffer::pairs(int accessor) const {
   std::vector<std::array<float, 2>> rows(it.count);
   const std::vector<unsigned char>& buffer = model_.buffers[0].data;
   const std::size_t begin = model_.bufferViews[std::size_t(it.bufferView)].byteOffset;
-  // Of a buffer that grew too large parts are missing.
+  // A buffer that grew too large lacks parts.
   if (failure_.empty()) std::memcpy(rows.data(), buffer.data() + begin, rows.size() * sizeof(rows[0]));
   return rows;
 }

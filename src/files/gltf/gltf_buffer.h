@@ -10,27 +10,27 @@ class Model;
 
 namespace icome::files {
 
-/// The one buffer of a glTF file that is written; the model that it is a part of outlives it.
+/// The one buffer of a glTF file that is written; its model outlives it.
 class GltfBuffer {
  public:
   explicit GltfBuffer(tinygltf::Model& model);
 
-  /// A part of the buffer, which begins where any number may. `target`: what OpenGL takes it for, 0: nothing.
+  /// A part of the buffer, aligned for any number. `target`: its use for OpenGL; 0: none.
   int add_view(const void* data, std::size_t bytes, int target);
   /// An attribute of vertices; positions need bounds.
   int add_accessor(const std::vector<std::array<float, 3>>& rows, bool with_bounds = false);
   int add_accessor(const std::vector<std::array<float, 2>>& rows);
-  /// Moments of key frames (with bounds), and what something is then.
+  /// Moments of key frames (with bounds), and the values at these moments.
   int add_times(const std::vector<std::array<float, 1>>& times);
   int add_values(const std::vector<std::array<float, 3>>& ways);
   int add_values(const std::vector<std::array<float, 4>>& turns);
-  /// As 16 bits each where these hold them all.
+  /// Indices of 16 bits each where these hold them all.
   int add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertices);
 
-  /// The rows of such an accessor of two numbers each, as they were added.
+  /// The rows of an accessor of two numbers each, as they were added.
   std::vector<std::array<float, 2>> pairs(int accessor) const;
 
-  /// A sentence on why the buffer cannot be written; empty while it can.
+  /// A sentence on why the buffer cannot be written; empty as long as it can.
   const std::string& failure() const { return failure_; }
 
  private:

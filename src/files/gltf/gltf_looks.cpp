@@ -26,7 +26,7 @@ GltfColour colour_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// The transform of KHR_texture_transform: scaled, turned, moved.
+/// The transform of KHR_texture_transform: scales, turns, moves.
 world::PictureFrame texture_frame(const tinygltf::Value& transform) {
   const auto pair = [&](const char* name, double otherwise) {
     const tinygltf::Value& array = member(transform, name);
@@ -44,8 +44,8 @@ world::PictureFrame texture_frame(const tinygltf::Value& transform) {
   return {c * sx, s * sy, x, -s * sx, c * sy, y};
 }
 
-/// From which opacity on a picture is seen whose opacity is multiplied with `opacity`; above 1 it is seen
-/// nowhere (glTF 2.0, 3.9.4).
+/// The opacity of the picture from which on it is seen, where the picture's opacity is multiplied with
+/// `opacity`; above 1 it is seen nowhere (glTF 2.0, 3.9.4).
 float cutoff_of_picture(double cutoff, double opacity) {
   constexpr double kNowhere = 1e6;
   if (!(cutoff > 0.0)) return 0.0F;
@@ -65,7 +65,7 @@ double roughness_of(float shininess) { return std::pow(2.0 / (128.0 * double(shi
 world::PictureFrame upside_down(const world::PictureFrame& frame) {
   const auto& [a, b, c, d, e, f] = frame;
   world::PictureFrame turned{a, -b, b + c, -d, e, 1.0 - e - f};
-  for (double& number : turned) number += 0.0;  // nothing has no sign
+  for (double& number : turned) number += 0.0;  // no negative zeros
   return turned;
 }
 
@@ -107,7 +107,7 @@ void GltfLooks::read(int index) {
   GltfSurface surface;
   surface.colour = colour_of(pbr.baseColorFactor);
   material.diffuse = srgb_from_linear(surface.colour);
-  // A map of emission says where it glows; without it, all would.
+  // An emission map tells where the surface glows; without the map, all of it would.
   if (it.emissiveTexture.index < 0) material.emission = srgb_from_linear(colour_of(it.emissiveFactor));
   const auto [metal, rough] = metal_and_roughness(it);
   material.metallic = part_of_one(metal);
@@ -120,7 +120,7 @@ void GltfLooks::read(int index) {
   read_alpha(it, material);
   count_maps(it);
   complete(material, extras);
-  // Written for meshes with colours of their own, which glTF multiplies with those of the material.
+  // A variant, written for meshes with their own colours, which glTF multiplies with the material's.
   const auto same = index_in(extras, "variantOf", std::size_t(index));
   if (same && surfaces_[std::size_t(*same)].own_places) {
     surface.own_places = true;
@@ -244,7 +244,7 @@ world::TextureId GltfLooks::texture(int index) {
                                                   : std::string(image.image.begin(), image.image.end());
   world::Texture texture;
   texture.media_type = std::string(picture_type(bytes));
-  // What the file itself holds cannot be somebody else's.
+  // A picture in the file's own buffer cannot be foreign: its stated type counts.
   if (texture.media_type.empty() && image.bufferView >= 0 && !bytes.empty())
     texture.media_type = image.mimeType.substr(0, 64);
   texture.name = !image.name.empty() ? image.name : image.uri.substr(0, 256);

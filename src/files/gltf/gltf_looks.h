@@ -23,8 +23,8 @@ namespace icome::files {
 float shininess_of(double roughness);
 double roughness_of(float shininess);
 
-/// The rows of a frame for texture coordinates that count down from a picture's top, as glTF's do, of one for
-/// those that count up, as a world's do, and back.
+/// Converts a frame for texture coordinates that count down from a picture's top, as in glTF, to one for
+/// those that count up, as in a world, and back.
 world::PictureFrame upside_down(const world::PictureFrame& frame);
 
 /// The materials and pictures of a glTF file, put into the design that is being read.
@@ -32,13 +32,13 @@ class GltfLooks {
  public:
   using GoOn = std::function<void()>;
 
-  /// Throws GltfError, and what `go_on` does, which is asked before each picture that is unpacked. `memory`
-  /// is the one of the builder.
+  /// Throws GltfError, and whatever `go_on` throws, which is called before each picture that is unpacked.
+  /// `memory` is the one of the builder.
   GltfLooks(const tinygltf::Model& model, DesignBuilder& builder, io::MemoryBudget& memory, GoOn go_on);
 
-  /// Of a primitive; none where it names none.
+  /// The material of a primitive; none where it names none.
   world::MaterialId material(int index) const;
-  /// What it says about the primitive's mesh.
+  /// The properties of the primitive's mesh that the material decides.
   GltfSurface surface(int material) const;
 
  private:
@@ -47,11 +47,11 @@ class GltfLooks {
   void read_picture(const tinygltf::Material& from, GltfSurface& surface, world::Material& material);
   void read_alpha(const tinygltf::Material& from, world::Material& material) const;
   using Mean = std::optional<std::array<double, 3>>;
-  /// Those of a map as its means.
+  /// Metal and roughness; of a map its means.
   std::pair<double, double> metal_and_roughness(const tinygltf::Material& from);
   /// picture_mean of a texture.
   Mean mean_of(int index);
-  /// The same of a picture that was not met before; none also where unpacking it would go too far.
+  /// picture_mean of a new picture; none also where unpacking it would exceed a limit.
   Mean new_mean(std::string_view bytes);
   void count_maps(const tinygltf::Material& from);
   void tell_what_is_left_out();
@@ -73,9 +73,9 @@ class GltfLooks {
     std::size_t mirrored = 0, unsmoothed = 0;                             // textures
   } left_out_;
   std::size_t averaged_maps_ = 0;
-  std::size_t heavy_maps_ = 0;         // that are too large to be unpacked with the others
+  std::size_t heavy_maps_ = 0;         // too large to be unpacked with the others
   std::uint64_t unpacked_pixels_ = 0;  // of all maps
-  /// By the bytes of pictures, which the world holds: many images may be one, which is large when unpacked.
+  /// By the bytes of pictures, which the world holds: many images may share one, which unpacks to much.
   std::map<std::string_view, Mean> means_;
 };
 

@@ -59,7 +59,7 @@ std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, in
   triangles.reserve(list ? corners.size() / 3 : corners.size());
   for (std::size_t i = 0; i + 2 < corners.size(); i += list ? 3 : 1) {
     Triangle triangle{corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i], corners[i + 1], corners[i + 2]};
-    // In a strip every second triangle runs the other way round; repeated vertices lead from part to part.
+    // In a strip every second triangle runs the other way round; repeated vertices join parts.
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1) std::swap(triangle[1], triangle[2]);
     const bool joint = triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
     if (list || !joint) triangles.push_back(triangle);
@@ -88,7 +88,7 @@ class PrimitiveReading {
     triangles_ = triangles_of(corners_of(model, primitive, positions_.size()), primitive.mode);
   }
 
-  /// Of memory that making the shape takes, about.
+  /// Approximate memory that making the shape takes, bytes.
   std::uint64_t bytes() const {
     const bool has_normals = normals_ || !surface_.smooth;
     const std::uint64_t of_corner = (has_normals ? sizeof(Vector3) : 0) +
@@ -125,7 +125,7 @@ class PrimitiveReading {
     return primitive.attributes.at("POSITION");
   }
 
-  /// Of the vertices that are used, in the order of the file.
+  /// The mesh of the used vertices, in the order of the file.
   geometry::TriangleMesh mesh() const {
     geometry::TriangleMesh mesh;
     mesh.triangles = triangles_;
@@ -158,7 +158,7 @@ class PrimitiveReading {
     return used;
   }
 
-  /// As written: 0.1 where the file holds the float nearest to it.
+  /// The decimal number as written: 0.1 where the file holds the float nearest to it.
   double exact(const GltfAccessor& accessor, std::uint32_t vertex, std::size_t component) const {
     const double number = accessor.number(vertex, component);
     return accessor.is_float() ? io::from_short_single(float(number)) : number;
@@ -166,7 +166,7 @@ class PrimitiveReading {
   Vector3 position(std::uint32_t v) const {
     return {exact(positions_, v, 0), exact(positions_, v, 1), exact(positions_, v, 2)};
   }
-  /// glTF counts down from a picture's top.
+  /// Texture coordinates of a world; glTF counts down from a picture's top.
   Vector2 coordinate(std::uint32_t v) const {
     return {exact(*coordinates_, v, 0), 1.0 - exact(*coordinates_, v, 1)};
   }

@@ -20,8 +20,8 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return io::load<std::uint32_t>(bytes.data() + at, io::ByteOrder::LittleEndian);
 }
 
-/// The JSON of a GLB file, whose parts were found to lie in it. tinygltf reads eight bytes too far where
-/// the last part is said to be longer than it is, so that it must not see such files.
+/// The JSON of a GLB file, whose chunks were checked to lie in it. tinygltf reads eight bytes too far
+/// where the last chunk claims to be longer than it is, so it must not see such files.
 std::string_view checked_json_chunk(std::string_view bytes) {
   if (bytes.size() < kGlbHead + kChunkHead) throw GltfError("it is cut short");
   if (word_at(bytes, 4) != 2)
@@ -40,7 +40,7 @@ std::string_view checked_json_chunk(std::string_view bytes) {
   return json;
 }
 
-/// Stands between tinygltf and the disk.
+/// Passed to the functions by which tinygltf reads files.
 struct GltfFetching {
   std::filesystem::path base;
   std::uint64_t left = 0;  // bytes that may still be read
@@ -70,14 +70,14 @@ bool refuse_to_write(std::string*, const std::string&, const std::vector<unsigne
   return false;
 }
 
-/// Keeps pictures as the files that they are. What lies in a buffer is taken from there later, checked.
+/// Keeps pictures as their original files. A picture in a buffer is taken from there later, checked.
 bool keep_picture(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                   const unsigned char* bytes, int size, void*) {
   if (image->bufferView == -1 && size > 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
-/// The first of the library's sentences.
+/// The first of the library's sentences; a general one if there is none.
 std::string first_line(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
   return line.empty() ? "its JSON does not describe a glTF 2.0 model" : line;
@@ -93,7 +93,7 @@ GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
     throw GltfError("it is larger than glTF files may be");
   const auto shape = look_at_json(json, memory.left());
   if (!shape) throw GltfError(shape.error().message);
-  // Each would get a copy of the binary part.
+  // Each of these would get a copy of the binary part.
   if (shape->own_buffers > (binary ? 1U : 0U)) throw GltfError("it has buffers without data");
   GltfFetching fetching{path, options.size_limit, memory, io::UrlReach(path, options.follows_urls_above), {}};
   tinygltf::TinyGLTF library;
@@ -117,7 +117,7 @@ GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
   if (!good) throw GltfError(fetching.refusals.empty() ? first_line(error) : fetching.refusals.back());
   if (!model->asset.version.starts_with("2."))
     throw GltfError(fmt::format("it is of version {:.8}; only 2 can be read", model->asset.version));
-  // What it needs at least, which glTF 2.1 or later may have and this reader lacks.
+  // The least version it needs, which glTF 2.1 or later may have and this reader lacks.
   if (const std::string& least = model->asset.minVersion; !least.empty() && least != "2.0" && least != "2")
     throw GltfError(fmt::format("it needs version {:.8}; only 2.0 can be read", least));
   std::vector<std::string> notes;

@@ -16,20 +16,20 @@ class Model;
 
 namespace icome::files {
 
-/// Thrown among the sources that read glTF, and caught where a Result leaves them.
+/// Thrown within the sources that read glTF, and caught where a Result leaves them.
 struct GltfError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A glTF 2.0 file as tinygltf gives it, after the checks that it does not make itself: nothing of it has
-/// been taken at its word yet but that buffers have the bytes that they say.
+/// A glTF 2.0 file as read by tinygltf, after the checks that it does not make itself: nothing in it is
+/// trusted yet, except that buffers have the bytes that they claim.
 struct GltfModel {
   std::shared_ptr<const tinygltf::Model> model;
   std::string format;              // "binary glTF 2.0", "glTF 2.0"
-  std::vector<std::string> notes;  // sentences on pictures that are not there, and on what lies elsewhere
+  std::vector<std::string> notes;  // sentences on missing pictures, and on files elsewhere
 };
 
-/// `bytes` are of the file at `path`, beside which buffers and pictures are looked for. Throws GltfError.
+/// `bytes` are those of the file at `path`, beside which buffers and pictures are found. Throws GltfError.
 GltfModel load_gltf(std::string_view bytes, const std::filesystem::path& path,
                     const DesignReadOptions& options, io::MemoryBudget& memory);
 

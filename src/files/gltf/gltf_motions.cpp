@@ -40,7 +40,7 @@ KeyFrames Motion::*part_of(std::string_view path) {
   return path == "scale" ? &Motion::scale : nullptr;
 }
 
-/// A number in single precision is what it says in decimals: 0.1.
+/// All numbers; one in single precision becomes the short decimal that it stands for: 0.1.
 std::vector<double> all_numbers(const GltfAccessor& from) {
   std::vector<double> numbers;
   numbers.reserve(from.size() * from.components());
@@ -81,12 +81,12 @@ void GltfMotions::read(const tinygltf::Animation& animation) {
   const tinygltf::Value& loops = member(extras, "loops");
   for (Course& it : courses) {
     KeyFrames& frames = motions_[it.node].*it.part;
-    if (!frames.times.empty()) {  // two channels of one place are no glTF
+    if (!frames.times.empty()) {  // two channels of one place are invalid
       let_go(it.frames);
       continue;
     }
     frames = std::move(it.frames);
-    constexpr double kStill = 1.0;  // s, where all is at the moment 0
+    constexpr double kStill = 1.0;  // s, where all key frames are at the moment 0
     frames.cycle = cycle > 0.0 && std::isfinite(cycle) ? cycle : kStill;
     frames.loops = !loops.IsBool() || loops.Get<bool>();
   }
@@ -140,10 +140,10 @@ world::MotionPointer GltfMotions::of(std::size_t node) {
   const auto found = motions_.find(node);
   if (found == motions_.end()) return nullptr;
   Motion motion = std::move(found->second);
-  motions_.erase(found);  // a node is one object
+  motions_.erase(found);  // a node becomes one object
   for (const KeyFrames* frames : {&motion.translation, &motion.rotation, &motion.scale}) let_go(*frames);
   motion.rest = parts_of_place(model_.nodes[node]);
-  if (!world::check_motion(motion)) return nullptr;  // it is flat, which is told
+  if (!world::check_motion(motion)) return nullptr;  // its place is flat, as a remark tells
   return std::make_shared<const Motion>(std::move(motion));
 }
 

@@ -17,22 +17,22 @@ class Model;
 
 namespace icome::files {
 
-/// What the animations of a glTF file do to its nodes. Those that move one place of one node are choices
-/// between which the format has no order: the first one counts. What cannot be taken is told.
+/// The motions of the nodes by the animations of a glTF file. Several animations of one place of one node
+/// are alternatives without an order in the format: the first one counts. Remarks tell what is left out.
 class GltfMotions {
  public:
   using GoOn = std::function<void()>;
 
-  /// Reads all of them. Throws GltfError where they refer to what is not there, or take more memory than
-  /// there is, and what `go_on` does, which is asked before each. The model outlives it.
+  /// Reads all animations. Throws GltfError where they refer to missing things, or take more memory than
+  /// there is, and whatever `go_on` throws, which is called before each. The model outlives it.
   GltfMotions(const tinygltf::Model& model, io::MemoryBudget& memory, GoOn go_on);
 
-  /// The motion of a node, whose memory counts no more; null: it has none.
+  /// The motion of a node, whose memory is no longer counted; null: it has none.
   world::MotionPointer of(std::size_t node);
   std::vector<Remark> remarks() const { return findings_.remarks(); }
 
  private:
-  /// What one channel moves.
+  /// The part of the place that one channel moves.
   using Part = world::KeyFrames world::Motion::*;
   struct Course {
     std::size_t node = 0;
@@ -40,12 +40,12 @@ class GltfMotions {
     world::KeyFrames frames;
   };
   void read(const tinygltf::Animation& animation);
-  /// False: it moves nothing that is known here, which is told.
+  /// False: it moves nothing that is known here, which a remark tells.
   bool read(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel, Course& course);
   bool read_frames(const tinygltf::Animation& animation, int sampler, std::size_t size,
                    world::KeyFrames& frames);
 
-  /// These key frames are needed no more.
+  /// Gives back the memory of key frames that are not needed any more.
   void let_go(const world::KeyFrames& frames);
 
   const tinygltf::Model& model_;

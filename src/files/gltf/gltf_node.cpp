@@ -28,7 +28,7 @@ Affine3 parent_from_node(const tinygltf::Node& node) {
   Affine3 frame = Affine3::Identity();
   if (!node.matrix.empty()) {
     if (node.matrix.size() != 16) throw GltfError("a node's matrix has the wrong length");
-    // Column after column; the last row of an affine one says nothing.
+    // Column after column; the last row of an affine matrix has no information.
     frame.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).topRows<3>();
     return frame;
   }
@@ -46,10 +46,10 @@ world::PlaceParts parts_of_place(const tinygltf::Node& node) {
   if (node.rotation.empty()) return parts;
   if (node.rotation.size() != 4) throw GltfError("a node's rotation has the wrong length");
   parts.rotation = base::Quaternion(node.rotation.data());
-  // What is of unit length already stays as it is to the last bit.
+  // A quaternion of unit length stays as it is to the last bit.
   constexpr double kRounding = 1e-14;
   if (!(std::abs(parts.rotation.squaredNorm() - 1.0) < kRounding)) parts.rotation.normalize();
-  // Four zeros turn nothing.
+  // Four zeros mean no rotation.
   if (parts.rotation.coeffs().isZero(0.0)) parts.rotation.setIdentity();
   return parts;
 }

@@ -35,7 +35,7 @@ bool is_understood(const std::string& extension) {
   return std::find(kUnderstood.begin(), kUnderstood.end(), extension) != kUnderstood.end();
 }
 
-/// Without what looks have beyond (KHR_materials_...), they only become plainer.
+/// Extensions of looks (KHR_materials_...): without them, looks only become plainer.
 bool can_be_done_without(const std::string& extension) { return extension.starts_with("KHR_materials_"); }
 
 /// Has it extras of another program?
@@ -45,7 +45,7 @@ bool has_foreign_extras(const Value& extras) {
   return std::any_of(names.begin(), names.end(), [](const std::string& it) { return it != "icome"; });
 }
 
-/// How often at most reading a model asks whether to go on, exact shapes aside.
+/// Largest number of times that reading a model asks whether to go on, exact shapes aside.
 std::size_t steps_in(const tinygltf::Model& model) {
   std::size_t steps = model.nodes.size() + model.meshes.size() + model.materials.size() + 1;
   for (const tinygltf::Animation& animation : model.animations) steps += animation.channels.size();
@@ -95,7 +95,7 @@ class GltfReading {
   const Value& root_extras() const { return icome_extras(model_.extras); }
   const Value& root_shapes() const { return member(root_extras(), "shapes"); }
 
-  /// Of each scene; of a file without any, the nodes that no other has below it.
+  /// The roots of each scene; of a file without scenes, the nodes that are nobody's children.
   std::vector<NamedNodes> scene_roots() const {
     std::vector<NamedNodes> roots;
     for (const tinygltf::Scene& scene : model_.scenes) roots.emplace_back(scene.name, scene.nodes);
@@ -113,7 +113,7 @@ class GltfReading {
     return {all};
   }
 
-  /// Adds nodes with all that is below them; those that are there already are shown by several scenes.
+  /// Adds nodes with all that is below them; nodes that exist already belong to several scenes.
   std::vector<ObjectId> add_tree(const std::vector<int>& roots) {
     std::vector<Visit> open;
     const auto enter = [&](const std::vector<int>& nodes, ObjectId parent) {
@@ -126,7 +126,7 @@ class GltfReading {
       if (visit.node < 0 || std::size_t(visit.node) >= objects_.size())
         throw GltfError("its nodes do not form a tree");
       NodeObject& known = objects_[std::size_t(visit.node)];
-      // A node belongs to one parent, but several scenes may show a root: this also ends every circle.
+      // A node belongs to one parent, but several scenes may show a root: this also ends cycles.
       if (known.seen && (visit.parent || (known.id && !is_root(known.id))))
         throw GltfError("its nodes do not form a tree");
       if (known.seen) continue;
@@ -147,7 +147,7 @@ class GltfReading {
     return object && !object->parent;
   }
 
-  /// None where the node flattens all that is in it.
+  /// None where the node flattens its content.
   ObjectId add_node(std::size_t index, ObjectId parent) {
     ask_whether_to_go_on();
     const tinygltf::Node& node = model_.nodes[index];
@@ -202,7 +202,7 @@ class GltfReading {
     return parts;
   }
 
-  /// What two primitives must have in common to be one shape.
+  /// A key that is equal for two primitives if they can be one shape.
   std::string key_of(const tinygltf::Primitive& primitive, const GltfSurface& surface) const {
     std::string key = fmt::format("{} {} {}", primitive.mode, primitive.indices, surface.smooth);
     const auto add = [&](const std::string& name) {
@@ -218,7 +218,7 @@ class GltfReading {
     return key;
   }
 
-  /// None for what is no triangles.
+  /// None for primitives that are no triangles.
   GeometryId shape_of(const tinygltf::Mesh& mesh, const tinygltf::Primitive& primitive) {
     const Value& extras = icome_extras(mesh.extras);
     if (const auto exact = index_in(extras, "shape", root_shapes().ArrayLen())) {
@@ -237,14 +237,14 @@ class GltfReading {
     std::string lost;
     const auto shape = gltf_mesh(model_, primitive, surface, memory_, lost);
     std::string recipe = text_in(extras, "recipe");
-    // One that cannot be written again, or that tells of more than this part, is no good.
+    // A recipe that cannot be written again, or that describes more than this part, is dropped.
     if (recipe.size() <= world::kMostRecipeBytes && mesh.primitives.size() == 1)
       shape->recipe = std::move(recipe);
     if (!lost.empty()) builder_.remark(mesh.name.empty() ? lost : fmt::format("\"{}\": {}", mesh.name, lost));
     return found->second = keep(shape);
   }
 
-  /// Of the root's extras; none where it cannot be made, which is told once.
+  /// An exact shape of the root's extras; none where it cannot be made, which is told once.
   GeometryId exact_shape(int index) {
     const auto [found, is_new] = exact_.try_emplace(index);
     if (!is_new) return found->second;
@@ -343,7 +343,7 @@ class GltfReading {
     }
   }
 
-  /// Small things that other programs may want back.
+  /// Remarks on small losses that other programs may miss.
   void tell_what_else_is_left() {
     const auto tell = [&](std::size_t count, const char* one, const char* several, const char* what) {
       if (count > 0) builder_.remark(fmt::format("{} {} {}", count, count == 1 ? one : several, what));
@@ -375,7 +375,7 @@ class GltfReading {
       builder_.remark("Its note on copyright is left out: " + model_.asset.copyright.substr(0, 200));
   }
 
-  /// Nodes below such that were left out.
+  /// Number of nodes below flat ones, which were left out with them.
   std::size_t below_flat() const {
     std::size_t count = 0;
     std::vector<bool> counted(objects_.size(), false);
@@ -396,7 +396,7 @@ class GltfReading {
     return count;
   }
 
-  /// Throws when a person has had enough, or the file takes longer than allowed.
+  /// Throws when the person stops it, or the file takes longer than allowed.
   void ask_whether_to_go_on() {
     ++steps_;
     const double seconds = 1e-9 * double(base::steady_nanoseconds() - started_);
@@ -410,7 +410,7 @@ class GltfReading {
   DesignBuilder& builder_;
   io::MemoryBudget& memory_;
   const DesignReadOptions& options_;
-  // Before looks and motions, which ask whether to go on while they are made.
+  // Declared before looks and motions, which ask whether to go on while they are made.
   std::int64_t started_ = base::steady_nanoseconds();
   std::size_t steps_ = 0;
   std::size_t all_steps_;
@@ -451,7 +451,7 @@ base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::fi
 base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options,
                                      io::MemoryBudget& memory) {
   io::TimeBudget time_budget(options.progress);
-  constexpr io::FileParts kSoonDone = {0.0, 0.0};  // next to the rest
+  constexpr io::FileParts kSoonDone = {0.0, 0.0};  // short beside the rest
   const bool packed = io::ending_of(path).packed;
   const auto bytes = io::read_unpacked(path, options.size_limit, packed, kSoonDone, time_budget, memory);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -4,11 +4,11 @@
 
 namespace icome::files {
 
-/// glTF 2.0, binary or text, with what stands beside it. docs/file-formats.md tells what becomes of what.
+/// Reads glTF 2.0, binary or text, with the files beside it, as told by docs/file-formats.md.
 base::Result<LoadedDesign> read_gltf(const std::filesystem::path& path, const DesignReadOptions& options,
                                      io::MemoryBudget& memory);
 
-/// The same of bytes that are in memory; `path` is for errors, and for what stands beside.
+/// Reads glTF from bytes in memory; `path` is for errors, and for files beside it.
 base::Result<LoadedDesign> read_gltf_bytes(std::string_view bytes, const std::filesystem::path& path,
                                            const DesignReadOptions& options, io::MemoryBudget& memory);
 

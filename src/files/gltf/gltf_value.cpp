@@ -183,7 +183,7 @@ void complete(world::Material& material, const Value& value) {
   if (const Value& flag = member(value, "alphaByPicture"); flag.IsBool() && flag.Get<bool>())
     material.alpha_mode = world::AlphaMode::ByPicture;
   if (material.texture) material.picture_frame = frame_in(value).value_or(material.picture_frame);
-  // What was worked out of them says no more than they do.
+  // Values that were derived from the highlights add no information.
   const bool worked_out = shininess && material.metallic == 0.0F && material.roughness &&
                           std::abs(*material.roughness - roughness_of(material.shininess)) < 1e-5;
   if (worked_out) material.metallic = material.roughness = std::nullopt;

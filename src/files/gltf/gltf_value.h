@@ -12,45 +12,45 @@ class Value;
 
 namespace icome::files {
 
-// What ICOME puts into the `extras` of glTF files under the name "icome": that which glTF has no words for.
-// docs/file-formats.md tells about every member. What comes back may be anybody's: whatever does not fit is
-// taken for not there.
+// The data that ICOME keeps in the `extras` of glTF files under the name "icome": all that glTF cannot
+// express. docs/file-formats.md tells about every member. A file may come from anybody: members that do not
+// fit are treated as missing.
 
 /// The member "icome" of an object's extras, or a value that has no members.
 const tinygltf::Value& icome_extras(const tinygltf::Value& extras);
 /// Extras with that member.
 tinygltf::Value extras_with(tinygltf::Value icome);
 
-/// A member; one without members or value where there is none.
+/// A member; where it is missing, a value without members or content.
 const tinygltf::Value& member(const tinygltf::Value& object, const std::string& name);
 std::optional<double> number_in(const tinygltf::Value& object, const std::string& name);
-/// Below `count`, of something that is counted from 0.
+/// The number of something that is counted from 0, if it is below `count`.
 std::optional<int> index_in(const tinygltf::Value& object, const std::string& name, std::size_t count);
 std::string text_in(const tinygltf::Value& object, const std::string& name);
 
 tinygltf::Value value_of(const world::Light& light);
 std::optional<world::Light> light_of(const tinygltf::Value& value);
 
-/// Of what the glTF of a material says there is more to it.
+/// The additions that a material's glTF form needs.
 struct MaterialExtras {
   bool diffuse = false;       // a picture's colours replace it
   bool transparency = false;  // a picture's opacity replaces it
-  bool by_picture = false;    // how it is seen through follows from its picture
-  bool frame = false;         // the picture is stretched in a way that glTF cannot say: where it lies on
-                              // meshes is told as it would be without, too
+  bool by_picture = false;    // its transparency follows from its picture
+  bool frame = false;         // glTF cannot express the stretch of the picture: its places on meshes
+                              // are also written as they would be without it
 };
-/// What the glTF of a material does not say of it.
+/// The properties of the material that its glTF form lacks.
 tinygltf::Value value_of(const world::Material& material, const MaterialExtras& more);
-/// Puts that back.
+/// Sets these properties again.
 void complete(world::Material& material, const tinygltf::Value& value);
 
-/// Do meshes of the material say in kGltfOwnPlaces, too, where its picture lies?
+/// Do the material's meshes have kGltfOwnPlaces, its picture's places without its frame?
 bool says_own_places(const tinygltf::Value& value);
 
 tinygltf::Value value_of(const ShapeText& text);
 ShapeText shape_text_of(const tinygltf::Value& value);
 
-/// In [0, 1], whatever it was.
+/// Clamped to [0, 1]; any number is accepted.
 float part_of_one(double value);
 
 }  // namespace icome::files

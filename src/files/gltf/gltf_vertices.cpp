@@ -14,7 +14,7 @@ using base::Vector3;
 template <std::size_t Size, typename Vector>
 std::array<float, Size> floats_of(const Vector& vector) {
   std::array<float, Size> floats;
-  // What is nothing is written without a minus, so that equal vertices are found to be.
+  // Adding zero drops the sign of negative zeros, so that equal vertices are found to be equal.
   for (std::size_t i = 0; i < Size; ++i) floats[i] = float(vector[Eigen::Index(i)]) + 0.0F;
   return floats;
 }
@@ -37,7 +37,7 @@ bool all_flat(const world::MeshGeometry& shape) {
   return true;
 }
 
-/// All that makes a vertex of glTF.
+/// All that distinguishes a vertex of glTF.
 struct Corner {
   std::uint32_t position = 0;
   std::array<float, 8> rest = {};  // normal, texture coordinates, colour
@@ -107,7 +107,7 @@ class Splitting {
   std::unordered_map<Corner, std::uint32_t, CornerHash> known_;
 };
 
-/// Vertices as they are; no corner has anything of its own.
+/// The vertices unchanged; no corner has data of its own.
 GltfVertices as_they_are(const geometry::TriangleMesh& mesh) {
   GltfVertices result;
   result.positions.reserve(mesh.positions.size());
@@ -118,18 +118,18 @@ GltfVertices as_they_are(const geometry::TriangleMesh& mesh) {
   return result;
 }
 
-/// Of the mesh as it is written, in single precision: so those of what is read back are the same.
+/// Normals of the mesh as written, in single precision: after reading it back they are the same.
 std::vector<Vector3> smooth_normals(const geometry::TriangleMesh& mesh) {
   geometry::TriangleMesh written = mesh;
   for (Vector3& position : written.positions) position = position.cast<float>().cast<double>();
   return geometry::vertex_normals(written);
 }
 
-/// Of meshes whose normals follow from their triangles.
+/// Adds the normals of a mesh whose normals follow from its triangles.
 void add_smooth_normals(const geometry::TriangleMesh& mesh, GltfVertices& result) {
   result.smooth = true;
   for (const Vector3& normal : smooth_normals(mesh)) {
-    // A vertex of no triangle has no normal, but must have one.
+    // A vertex without triangles has no normal, but glTF requires one.
     result.normals.push_back(normal.isZero(0.0) ? std::array<float, 3>{0.0F, 0.0F, 1.0F}
                                                 : floats_of<3>(normal));
   }

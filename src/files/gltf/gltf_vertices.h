@@ -7,7 +7,7 @@
 
 namespace icome::files {
 
-/// A mesh as glTF has it: whatever belongs to a corner belongs to a vertex.
+/// A mesh in the form of glTF: all data of corners belong to vertices.
 struct GltfVertices {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;      // of every vertex or none: every triangle is flat
@@ -17,7 +17,7 @@ struct GltfVertices {
   bool smooth = false;                            // the normals are those of a mesh without any
 };
 
-/// Splits vertices as little as can be. A mesh without normals, which is smooth, gets normals that make
+/// Splits as few vertices as possible. A mesh without normals, which is smooth, gets normals that make
 /// other programs show it so.
 GltfVertices gltf_vertices(const world::MeshGeometry& shape);
 

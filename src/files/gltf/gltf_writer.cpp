@@ -51,17 +51,17 @@ std::vector<world::Id<Named>> ids_in_order(const World::Table<Named>& table) {
   return ids;
 }
 
-/// Linear, as glTF wants it, and precise enough to come back as what it was.
+/// Linear, as glTF requires, and precise enough to be read back unchanged.
 std::vector<double> numbers_of(const world::Colour& colour) {
   std::vector<double> numbers;
   for (const float channel : colour) numbers.push_back(base::linear_from_srgb(double(channel)));
   return numbers;
 }
 
-/// With as many digits as are still the same when it was read and worked out again.
+/// Rounded to digits that stay the same when the number is read and derived again.
 double settled(double number) { return std::strtod(fmt::format("{:.12g}", number).c_str(), nullptr); }
 
-/// The fields of KHR_texture_transform; none for a frame that is flat, or not stretched before it is turned.
+/// The fields of KHR_texture_transform; none for a frame that is flat, or stretched after being turned.
 std::optional<Value> texture_transform(const world::PictureFrame& frame) {
   const auto [a, b, c, d, e, f] = upside_down(frame);
   const base::Vector2 u(a, d), v(b, e);
@@ -79,7 +79,7 @@ std::optional<Value> texture_transform(const world::PictureFrame& frame) {
   return Value(std::move(fields));
 }
 
-/// Does the frame turn, stretch along its own axes and move, and no more, as glTF wants it?
+/// Does the frame do more than turn, stretch along its own axes and move, which is all glTF has?
 bool has_shear(const base::Affine3& frame) {
   const base::Matrix3 products = frame.linear().transpose() * frame.linear();
   constexpr double kRounding = 1e-6;  // of cosines
@@ -167,7 +167,7 @@ class GltfMaking {
     if (shown.mode == world::AlphaMode::Blend) material.alphaMode = "BLEND";
     const bool masked = shown.mode == world::AlphaMode::Mask;
     if (masked) material.alphaMode = "MASK";
-    // What is clear everywhere must stay below the cutoff.
+    // A surface that is clear everywhere must stay below the cutoff.
     if (masked)
       material.alphaCutoff = shown.opacity > 0.0F ? double(shown.cutoff) * double(shown.opacity) : 0.5;
     if (it.unlit) material.extensions["KHR_materials_unlit"] = Value(Value::Object{});
@@ -185,7 +185,7 @@ class GltfMaking {
     model_.materials.push_back(std::move(material));
   }
 
-  /// False where glTF cannot say how: then meshes say where it lies.
+  /// False where glTF cannot express the frame: then meshes get coordinates with it.
   bool lay_picture(const world::Material& material, tinygltf::TextureInfo& info) {
     if (material.picture_frame == world::kPictureAsItLies) return true;
     auto transform = texture_transform(material.picture_frame);
@@ -201,7 +201,7 @@ class GltfMaking {
   }
 
   /// The material for a mesh. glTF multiplies a mesh's own colours with those of its material, and allows no
-  /// texture on a mesh without coordinates: materials that are otherwise get a variant for such meshes.
+  /// texture on a mesh without coordinates: materials with a colour or a texture get variants for these.
   int material_for(MaterialId id, const tinygltf::Primitive& primitive) {
     const int base = materials_.at(id);
     const auto factor = model_.materials[std::size_t(base)].pbrMetallicRoughness.baseColorFactor;
@@ -226,8 +226,8 @@ class GltfMaking {
     return found->second;
   }
 
-  /// Colours that a picture replaces stand under a name that other programs leave alone. Where nothing says
-  /// how the picture lies there is none, and the colours are seen.
+  /// Colours that a picture replaces get a name that other programs ignore. A mesh without texture
+  /// coordinates shows no picture, and its colours are seen.
   void hide_colours(const world::Material& material, tinygltf::Primitive& primitive) const {
     const auto colours = primitive.attributes.find("COLOR_0");
     if (colours == primitive.attributes.end() || primitive.attributes.count("TEXCOORD_0") == 0 ||
@@ -237,8 +237,8 @@ class GltfMaking {
     primitive.attributes.erase(colours);
   }
 
-  /// Where the picture lies for other programs, if the material cannot say how; as it would lie otherwise is
-  /// then the further set of coordinates that ICOME reads.
+  /// Places the picture for other programs, if the material cannot express its frame; the coordinates
+  /// without the frame are then kept in the second set, which ICOME reads.
   void lay_on(const world::Material& material, tinygltf::Primitive& primitive) {
     const auto places = primitive.attributes.find("TEXCOORD_0");
     if (places == primitive.attributes.end() || !material.texture ||
@@ -258,7 +258,7 @@ class GltfMaking {
     places->second = found->second;
   }
 
-  /// Its place in the root's extras; -1 for shapes that are all triangles.
+  /// Index in the root's extras; -1 for shapes that are all triangles.
   int exact_shape(GeometryId id) {
     const auto [found, is_new] = exact_.try_emplace(id, -1);
     if (!is_new) return found->second;
@@ -273,16 +273,16 @@ class GltfMaking {
     return found->second;
   }
 
-  /// What meshes must have in common to share accessors. Shapes that are triangles alone are told apart by
-  /// theirs: each has its own. Exact ones that lie in memory once have theirs in the file once.
+  /// The key by which meshes share accessors. Shapes that are triangles alone differ by their ids: each
+  /// has its own. Exact shapes that are in memory once have their triangles in the file once.
   using Triangles = std::pair<const world::Geometry*, GeometryId>;
   Triangles triangles_of(GeometryId id) {
     return {world_.find(id)->shape.get(), exact_shape(id) >= 0 ? GeometryId{} : id};
   }
 
-  /// The accessors of a shape, which meshes of several materials share: those of solids with parts in colours
-  /// of their own differ by the material's, and those of primitives by whether there is a picture, as they
-  /// then say where it lies.
+  /// The accessors of a shape, shared by meshes of several materials: those of solids with coloured parts
+  /// differ by the material's colour, and those of primitives by whether there is a picture, as they need
+  /// texture coordinates then.
   const tinygltf::Primitive* primitive_of(GeometryId id, const world::Material& material) {
     const Triangles triangles = triangles_of(id);
     const world::Geometry& shape = *world_.find(id)->shape;
@@ -357,7 +357,7 @@ class GltfMaking {
       model_.nodes.push_back(node_of(object));
       enter(object.children, index);
     }
-    if (scene.nodes.empty()) return;  // the library would write a scene without anything as null
+    if (scene.nodes.empty()) return;  // the library would write an empty scene as null
     model_.scenes.push_back(std::move(scene));
     model_.defaultScene = 0;
   }
@@ -385,7 +385,7 @@ class GltfMaking {
     if (object.fixture)
       std::visit([&](const auto& fixture) { add_fixture(fixture, node, extras); }, *object.fixture);
     if (!extras.empty()) node.extras = extras_with(Value(std::move(extras)));
-    // The library would write a node without anything as null.
+    // The library would write an empty node as null.
     if (node.name.empty() && node.matrix.empty() && !moves) node.translation = {0.0, 0.0, 0.0};
     return node;
   }
@@ -400,7 +400,7 @@ class GltfMaking {
     light.color = numbers_of(it.colour);
     light.intensity = it.intensity;
     if (it.kind != world::Light::Kind::Directional) light.range = it.radius;
-    constexpr double kWidest = 1.5707963;  // glTF wants at most a right angle, and less within
+    constexpr double kWidest = 1.5707963;  // glTF's limit: a right angle; the inner one is less
     light.spot.outerConeAngle = std::clamp(it.cut_off_angle, 1e-3, kWidest);
     light.spot.innerConeAngle = std::clamp(it.beam_width, 0.0, 0.999 * light.spot.outerConeAngle);
     Value::Object extension;
@@ -459,7 +459,7 @@ class GltfMaking {
   std::unordered_map<MaterialId, int> materials_;
   std::map<std::tuple<MaterialId, bool, bool>, int> variants_;  // white, without texture
   std::unordered_map<GeometryId, int> exact_;
-  // By whether they say where a picture lies, and the colour of parts without their own.
+  // By whether they have texture coordinates, and the colour of parts without their own.
   std::map<std::tuple<Triangles, bool, world::Colour>, tinygltf::Primitive> primitives_;
   std::map<std::pair<int, world::PictureFrame>, int> laid_;  // accessors of coordinates
   std::set<Triangles> smooth_;
@@ -470,7 +470,7 @@ class GltfMaking {
   std::size_t sheared_ = 0, grouped_lights_ = 0, clear_parts_ = 0;
 };
 
-/// What is written into the stream goes into the file.
+/// A stream buffer that writes into the file.
 class FileBuffer final : public std::streambuf {
  public:
   explicit FileBuffer(io::NewFile& file) : file_(file) {}

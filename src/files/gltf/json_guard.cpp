@@ -15,7 +15,7 @@ constexpr std::size_t kDeepestNesting = 64;  // the model's extras are read and 
 constexpr std::uint64_t kBytesOfObject = 1200;
 constexpr std::uint64_t kBytesOfValue = 200;
 
-/// Counts as the text goes by; the names of its functions are the library's.
+/// Counts values while the text is parsed; the names of its functions are the library's.
 class JsonLook final : public nlohmann::json_sax<json> {
  public:
   JsonLook(std::string_view text, std::uint64_t memory_limit) : text_(text), limit_(memory_limit) {}

@@ -19,11 +19,11 @@ namespace icome::files {
 //            multiple of 8
 //
 // The first record ('C', none where there are no objects) names all objects that the file began with, so that
-// what a damage took can be told: id (u64), length of the name (u32), name, one after the other. The next
-// make the world as it was when the file was written (kinds 'S', then one 'N', without content, to say that
-// this is all), the others ('E') are what was done since, in order. The content of 'S' and 'E' is an edit
-// (world::to_bytes); that of 'S' a single one, so that a damage takes one thing. Files of version 1 have no
-// 'C', and groups of up to 256 edits in 'S'.
+// losses can be told: id (u64), length of the name (u32), name, one after the other. The next make the world
+// as it was when the file was written (kinds 'S', then one 'N', without content, to mark the end), the others
+// ('E') are the edits since, in order. The content of 'S' and 'E' is an edit (world::to_bytes); that of 'S' a
+// single one, so that a damage loses one thing. Files of version 1 have no 'C', and groups of up to 256 edits
+// in 'S'.
 
 inline constexpr std::uint32_t kJournalVersion = 2;
 inline constexpr std::size_t kJournalHeaderBytes = 16;
@@ -35,28 +35,28 @@ enum class JournalKind : char { Contents = 'C', Snapshot = 'S', SnapshotEnd = 'N
 std::string journal_header();
 
 enum class JournalHeader { Good, Newer, Damaged, SomethingElse };
-/// Of the first bytes of a file; fewer than a header has are damaged if they begin like one.
+/// Judges the first bytes of a file; fewer than a header's are damaged if they begin like one.
 JournalHeader judge_journal_header(std::string_view bytes);
 
-/// What stands before a record's content.
+/// The frame in front of a record's content.
 struct JournalFrame {
   JournalKind kind = JournalKind::Edit;
   std::uint32_t length = 0;  // of the content
   std::uint64_t number = 0;
   std::uint32_t checksum = 0;
 
-  /// Of content and padding.
+  /// Length of content and padding.
   std::uint64_t padded_length() const { return (std::uint64_t{length} + 7) / 8 * 8; }
   bool fits(std::string_view padded_content) const;
 };
 
-/// Nothing for bytes that are no frame, or damaged ones. As many bytes as a frame has.
+/// Nothing for bytes that are no frame, or a damaged one. `bytes` has the length of a frame.
 std::optional<JournalFrame> read_journal_frame(std::string_view bytes);
 
-/// The names of objects, as 'C' has them.
+/// The names of objects, the content of 'C'.
 using JournalNames = std::vector<std::pair<world::ObjectId, std::string>>;
 std::string journal_names_to_bytes(const JournalNames& names);
-/// Those before the first that is none.
+/// The names before the first invalid one.
 JournalNames journal_names_from_bytes(std::string_view bytes);
 
 /// Appends a whole record to `bytes`. The content is shorter than 4 GB.

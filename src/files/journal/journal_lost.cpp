@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kPieceOfLost = 1U << 20U;  // bytes at once
 
-/// Calls with the bytes from the first damage on, a piece at a time, until that says no.
+/// Calls `take` with the bytes from the first damage on, a piece at a time, until it returns false.
 template <typename Take>
 base::Result<bool> each_piece(const io::OpenFile& file, std::uint64_t from, std::uint64_t end,
                               const Take& take) {
@@ -25,7 +25,7 @@ base::Result<bool> each_piece(const io::OpenFile& file, std::uint64_t from, std:
   return true;
 }
 
-/// Has an earlier opening kept the same?
+/// Did an earlier opening keep the same bytes in this file?
 bool is_kept_in(const std::filesystem::path& name, const io::OpenFile& journal, const JournalReport& report) {
   const auto copy = io::OpenFile::open(name, io::OpenFile::Use::Read);
   const auto size = copy ? copy->size() : base::Result<std::uint64_t>(tl::unexpected(copy.error()));

@@ -9,20 +9,20 @@
 
 namespace icome::files {
 
-/// Does to a world what can be done of edits that build on something which a damage took: an object whose
-/// parent is lost stands at the top, one whose shape or material is lost has none. Notes what is missing, for
+/// Applies to a world as much as possible of edits that build on things lost by a damage: an object whose
+/// parent is lost becomes a root, one whose shape or material is lost has none. Notes what is missing, for
 /// people. World and permit outlive it.
 class JournalMending {
  public:
   JournalMending(world::World& world, const world::Permit& permit) : world_(world), permit_(permit) {}
 
-  /// Each edit of a group for itself. Nothing where all of it could be done, else why the first that was left
-  /// out could not.
+  /// Performs each edit of a group by itself. Nothing where all of it could be done, else why the first that
+  /// was left out could not.
   std::optional<base::Error> perform(const world::Edit& edit);
 
-  /// Takes the names of what should be there now; what is not is told.
+  /// Takes the names of what should be there now; notes what is missing.
   void compare(const JournalNames& names);
-  /// What is missing, in sentences.
+  /// Sentences on what is missing.
   std::vector<Remark> remarks() const;
 
  private:
@@ -49,7 +49,7 @@ class JournalMending {
   const world::Permit& permit_;
   Findings findings_;
   std::vector<LostParent> lost_parents_;
-  std::unordered_map<world::ObjectId, std::string> missing_;  // that the table names, and that are not there
+  std::unordered_map<world::ObjectId, std::string> missing_;  // named by the table, but missing
 };
 
 }  // namespace icome::files

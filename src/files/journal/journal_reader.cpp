@@ -6,7 +6,7 @@ namespace icome::files {
 namespace {
 
 constexpr std::size_t kWindow = 1U << 20U;
-constexpr std::uint64_t kWord = 8;  // edits are read where they lie, which must be at such a place
+constexpr std::uint64_t kWord = 8;  // edits are read in place, which must be aligned so
 
 }  // namespace
 
@@ -37,7 +37,7 @@ base::Result<JournalReader> JournalReader::create(const io::OpenFile& file) {
 base::Result<std::string_view> JournalReader::view(std::uint64_t offset, std::size_t count) {
   const bool is_there = offset >= window_offset_ && offset + count <= window_offset_ + window_.size();
   if (!is_there || (position_ - window_offset_) % kWord != 0) {
-    // Words begin where records do, which is anywhere behind bytes that were cut out.
+    // Words are aligned to records, which begin anywhere behind bytes that were cut out.
     const std::uint64_t over = (offset - position_ % kWord) % kWord;
     const std::uint64_t start = offset < over ? 0 : offset - over;
     const std::uint64_t least = offset + count - start;
@@ -94,7 +94,7 @@ base::Result<bool> JournalReader::is_cut_off() {
   return *frame && (*frame)->number == number_ && (*frame)->padded_length() > left - kJournalFrameBytes;
 }
 
-/// Honest bytes are looked at once or twice; others may pretend that very many long records begin everywhere.
+/// Honest bytes are scanned once or twice; others may pretend that long records begin everywhere.
 base::Result<bool> JournalReader::go_on_at(std::uint64_t offset) {
   const auto frame = frame_at(offset);
   if (!frame) return tl::unexpected(frame.error());
@@ -110,13 +110,13 @@ base::Result<bool> JournalReader::go_on_at(std::uint64_t offset) {
 }
 
 base::Result<void> JournalReader::skip_damage() {
-  // It may be whole itself, and those before it are gone.
+  // This record may be whole itself, with its predecessors lost.
   const auto here = go_on_at(position_);
   if (!here) return tl::unexpected(here.error());
   if (*here) return {};
   const auto frame = frame_at(position_);
   if (!frame) return tl::unexpected(frame.error());
-  // What lies within a record may look like one, such as a journal that is somebody's picture.
+  // Bytes within a record may look like one, such as a journal stored as a picture: skips it first.
   if (const std::uint64_t left = size_ - position_;
       *frame && (*frame)->padded_length() <= left - kJournalFrameBytes) {
     const auto found = go_on_at(position_ + kJournalFrameBytes + (*frame)->padded_length());

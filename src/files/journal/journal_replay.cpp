@@ -14,7 +14,7 @@ std::string without_full_stop(std::string sentence) {
   return sentence;
 }
 
-/// Replays all records that are whole and that the world takes.
+/// Replays all records that are whole and that the world accepts.
 class JournalReplay {
  public:
   JournalReplay(JournalReader& reader, const world::GeometryFactory& factory, const JournalProgress& progress,
@@ -47,7 +47,7 @@ class JournalReplay {
   }
 
  private:
-  /// May it go on and take so many bytes more? Progress is told now and then, however long a record takes.
+  /// May it go on and take so many bytes more? Reports progress now and then, also in long records.
   bool permits(std::size_t bytes) {
     constexpr std::uint32_t kAsksForOneLook = 64;
     if (memory_ && !memory_->take(bytes)) return false;
@@ -55,7 +55,7 @@ class JournalReplay {
     return !stopped_;
   }
 
-  /// However few records there are.
+  /// Reports progress between records, however few there are.
   void look_at_times() {
     constexpr std::uint64_t kPiece = 1U << 20U;  // bytes between two looks
     if (reader_.position() < told_ + kPiece) return;
@@ -67,13 +67,13 @@ class JournalReplay {
     if (progress_ && !stopped_) stopped_ = !progress_(double(reader_.position()) / double(reader_.size()));
   }
 
-  /// What begins here is no whole record.
+  /// Skips bytes that are no whole record.
   base::Result<void> skip(std::uint64_t start) {
     const auto cut_off = reader_.is_cut_off();
     if (!cut_off) return tl::unexpected(cut_off.error());
     if (const auto skipped = reader_.skip_damage(); !skipped) return skipped;
     const bool all_else_is_good = has_snapshot_ && result_.fault == JournalFault::None;
-    // What follows a record that was cut off is no journal that was only ever added to.
+    // A record cut off by a stop of the program has nothing behind it in a journal.
     const bool torn = *cut_off && reader_.at_end();
     lose(torn && all_else_is_good ? JournalFault::CutOff : JournalFault::Damaged, start,
          reader_.position() - start,
@@ -87,7 +87,7 @@ class JournalReplay {
       lose(JournalFault::Damaged, start, record.bytes, "its parts are out of order");
       return;
     }
-    // Where a damage took the end of the snapshot, that is as it should be.
+    // If a damage took the end of the snapshot, this order is expected.
     if (!in_snapshot && !has_snapshot_ && places_ == 0)
       lose(JournalFault::Damaged, start, 0, "its parts are out of order");
     if (!has_snapshot_ && (!in_snapshot || record.kind == JournalKind::SnapshotEnd)) end_snapshot();
@@ -106,7 +106,7 @@ class JournalReplay {
     if (places_ > 0) mending_.compare(names_);
   }
 
-  /// Gives false for what could not be done, not even in part.
+  /// False for a record that could not be applied, not even in part.
   bool perform(const JournalReader::Record& record, std::uint64_t start) {
     const auto edit = world::edit_from_bytes(record.content, factory_, permit_);
     if (!edit) {
@@ -155,17 +155,17 @@ class JournalReplay {
   JournalReader& reader_;
   const world::GeometryFactory& factory_;
   const JournalProgress& progress_;
-  io::MemoryBudget* memory_;  // null: any amount
+  io::MemoryBudget* memory_;  // null: unlimited
   std::uint32_t asked_ = 0;
-  std::uint64_t told_ = 0;  // how far progress was told, bytes
+  std::uint64_t told_ = 0;  // position at the last report of progress, bytes
   bool stopped_ = false;
   const world::Permit permit_ = [this](std::size_t bytes) { return permits(bytes); };
   ReplayedJournal result_;
   JournalMending mending_{result_.world, permit_};
   JournalNames names_;
   bool has_snapshot_ = false;
-  std::size_t places_ = 0;  // that are damaged
-  std::string why_;         // the first is
+  std::size_t places_ = 0;  // number of damaged places
+  std::string why_;         // reason of the first one
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace icome::files {
 
-/// What is wrong with a journal; of several, the last of this list.
+/// Faults of a journal; of several, the last of this list counts.
 enum class JournalFault {
   None,
   Header,      // only its first bytes are damaged
@@ -23,8 +23,8 @@ struct ReplayedJournal {
   std::uint64_t records = 0;  // that were replayed
 };
 
-/// Makes the world of a journal, of all that is whole before and behind damages. Fails where it takes more
-/// memory than there is in the budget (null: any amount), or progress says stop.
+/// Makes the world of a journal from all that is whole before and behind damages. Fails where it takes
+/// more memory than the budget has (null: unlimited), or progress returns false.
 base::Result<ReplayedJournal> replay_journal(const io::OpenFile& file, const world::GeometryFactory& factory,
                                              const JournalProgress& progress = {},
                                              io::MemoryBudget* memory = nullptr);

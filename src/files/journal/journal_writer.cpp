@@ -10,7 +10,7 @@ namespace icome::files {
 namespace {
 
 JournalNames names_of(const world::World& world) {
-  // A record is shorter than 4 GB, and this one is only for telling what is lost.
+  // A record is shorter than 4 GB, and this one only serves to name losses.
   constexpr std::size_t kMostRecordBytes = 64U << 20U;
   JournalNames names;
   std::size_t bytes = 0;

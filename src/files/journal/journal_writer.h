@@ -10,7 +10,7 @@ struct JournalSnapshot {
   std::uint64_t records = 0;
 };
 
-/// Writes a whole journal that holds a world and no edits since. What could not be written is told by
+/// Writes a whole journal that holds a world and no edits. Write errors are reported by
 /// NewFile::finish; fails for a world with something that cannot be written.
 base::Result<JournalSnapshot> write_snapshot(const world::World& world, io::NewFile& file);
 

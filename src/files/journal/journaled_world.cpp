@@ -16,7 +16,7 @@ tl::unexpected<base::Error> in_use(const std::filesystem::path& path) {
   return base::fail(path.string() + ": somebody works with it already: close it there first.");
 }
 
-/// Opens and locks the file that the path leads to. Between the two, who had it before may have put another
+/// Opens and locks the file that the path leads to. In between, its former owner may have put another file
 /// in its place.
 base::Result<io::OpenFile> open_alone(const std::filesystem::path& path, io::OpenFile::Use use) {
   constexpr int kTries = 10;
@@ -41,8 +41,8 @@ base::Result<void> begin_journal(const io::OpenFile& file) {
   return synced;
 }
 
-/// Compaction writes a whole file beside the journal, which is left there when the program is killed. Whoever
-/// has the journal's lock may take such a file away.
+/// Compaction writes a whole file beside the journal, which is left there when the program is killed. The
+/// holder of the journal's lock may remove such a file.
 void remove_left_behind(const std::filesystem::path& path) {
   const std::string whole = path.filename().string();
   std::error_code error;
@@ -59,7 +59,7 @@ void remove_left_behind(const std::filesystem::path& path) {
 base::Result<JournaledWorld> JournaledWorld::open(const std::filesystem::path& path,
                                                   const world::GeometryFactory& factory,
                                                   const JournalOptions& options) {
-  // Where a link leads to, as compacting renames over it; and whatever the working folder becomes.
+  // The target of a link, as compacting renames over it; independent of the working folder.
   std::error_code error;
   const std::filesystem::path whole =
       std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
@@ -126,7 +126,7 @@ base::Result<void> JournaledWorld::append(std::string_view content) {
   record_.clear();
   add_journal_record(JournalKind::Edit, records_, content, record_);
   if (const auto written = file_.write(end_, record_); !written) {
-    // A part of it may be there, behind which nothing could be found again.
+    // A part of the record may be written, behind which nothing could be found again.
     if (const auto cut = file_.cut_to(end_); !cut) broken_ = cut.error();
     return base::fail(written.error().message +
                       " The edit was not done: make room, or save the design elsewhere.");
@@ -158,7 +158,7 @@ base::Result<void> JournaledWorld::write_anew(const world::World& world) {
   if (!fresh) return tl::unexpected(fresh.error());
   auto file = io::OpenFile::copy_of(fresh->descriptor(), path());
   if (!file) return tl::unexpected(file.error());
-  // Before it has the journal's name, so that nobody comes between.
+  // Locked before it gets the journal's name, so that nobody comes between.
   const auto locked = file->lock();
   if (!locked) return tl::unexpected(locked.error());
   const auto snapshot = write_snapshot(world, *fresh);

@@ -21,12 +21,12 @@ class FaceCollector {
   /// when it has more than geometry::kMaximumPolygonCorners.
   bool add_face(const std::vector<std::uint32_t>& corners);
 
-  /// The mesh: triangular faces in their order, then the polygons cut into triangles. Every index must
-  /// be below positions(). Leaves the collector empty. When the time budget (may be null) ends, so does the
-  /// mesh.
+  /// The mesh: triangular faces in their order, then the polygons cut into triangles. Every index must be
+  /// below positions(). Leaves the collector empty. The mesh is incomplete when the time budget (may be
+  /// null) ends.
   geometry::TriangleMesh take(io::TimeBudget* time_budget = nullptr);
 
-  /// One sentence on each thing left out.
+  /// One sentence on each kind of loss.
   std::vector<std::string> notes() const;
 
  private:

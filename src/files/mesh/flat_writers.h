@@ -9,7 +9,7 @@ namespace icome::files {
 /// Binary PLY. Coordinates are single precision where that holds them all exactly, else double.
 void write_ply(const FlatWorld& world, io::NewFile& file);
 
-/// Ascii OFF, numbers as short as they can be without loss.
+/// Ascii OFF, numbers as short as possible without loss.
 void write_off(const FlatWorld& world, io::NewFile& file);
 
 }  // namespace icome::files

@@ -14,7 +14,7 @@ base::Result<ParsedMesh> parse_glb(std::string_view bytes, const std::string& na
   memory.add_file(bytes.size());
   const auto design = read_gltf_bytes(bytes, name, options, memory);
   if (!design) return tl::unexpected(design.error());
-  std::vector<Remark> losses;  // of the hierarchy, which a mesh has none of
+  std::vector<Remark> losses;  // of the hierarchy, which a mesh does not have
   const auto objects = shown_objects(design->world, false, losses);
   if (!objects) return base::fail(name + ": " + objects.error().message);
   ParsedMesh parsed{flatten(design->world, *objects, false).mesh, "GLB", {}};

@@ -7,16 +7,16 @@
 
 namespace icome::files {
 
-// What meshes out of files need before they may be part of a world.
+// Checks and repairs that meshes out of files need before they become part of a world.
 
-/// Makes file units metres. Fails, naming the file, for coordinates that are too far out to mean anything.
+/// Converts file units to metres. Fails, naming the file, for coordinates too far out to be meant.
 base::Result<void> scale(std::vector<geometry::Vector3>& positions, double unit, const std::string& name);
 
-/// Takes triangles away that have a number that is not finite. Says so in a sentence; empty: there were
-/// none.
+/// Removes triangles that have a number that is not finite. Returns a sentence on them; empty: there
+/// were none.
 std::string drop_not_finite(world::MeshGeometry& shape);
 
-/// Takes vertices of no triangle away.
+/// Removes vertices without triangles.
 void drop_unused(geometry::TriangleMesh& mesh);
 
 /// "2 faces left out" becomes "2 faces left out."

@@ -42,7 +42,7 @@ base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, doubl
     return tl::unexpected(scaled.error());
   if (!time_budget.lasts(0.1)) return tl::unexpected(io::interruption());
   if (std::string lost = drop_not_finite(shape); !lost.empty()) result.remarks.push_back(std::move(lost));
-  // STL repeats every corner; what meets there is one vertex.
+  // STL repeats every corner; equal corners become one vertex.
   if (!time_budget.lasts(0.3)) return tl::unexpected(io::interruption());
   if (io::ending_of(path).type == ".stl") {
     geometry::weld_equal(shape.mesh, [&] { return time_budget.lasts_now(); });

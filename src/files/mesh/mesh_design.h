@@ -15,11 +15,11 @@ namespace icome::files {
 struct MeshShape {
   std::shared_ptr<const world::MeshGeometry> shape = nullptr;
   std::string format = {};                // for people: "binary PLY, xz" and so on
-  std::vector<std::string> remarks = {};  // sentences on what was left out or put right
+  std::vector<std::string> remarks = {};  // sentences on what was left out or repaired
 };
 
-/// Reads a file of any type that mesh_formats.h knows; `unit` is metres per unit of the file. TimeBudget is
-/// told how far that is; when it ends, so does the reading, soon: "interrupted".
+/// Reads a file of any type of mesh_formats.h; `unit` is metres per unit of the file. The time budget gets
+/// the progress; when it ends, so does the reading, soon: "interrupted".
 base::Result<MeshShape> read_mesh_shape(const std::filesystem::path& path, double unit,
                                         std::uint64_t size_limit, io::TimeBudget& time_budget,
                                         io::MemoryBudget& memory);

@@ -14,7 +14,7 @@
 
 namespace icome::files {
 
-/// What a file's bytes say, not yet repaired: indices are in range, coordinates may be anything.
+/// The content of a mesh file, not yet repaired: indices are in range, coordinates may be anything.
 struct ParsedMesh {
   geometry::TriangleMesh mesh;
   std::string format;                              ///< for people, such as "binary STL"
@@ -22,21 +22,21 @@ struct ParsedMesh {
   std::vector<std::array<float, 3>> colours = {};  ///< of the vertices, in [0, 1], or none
 };
 
-/// Coordinates further out than this are a mistake, and their products lose all meaning, m.
+/// Coordinates further out than this, m, are a mistake, and their products lose all meaning.
 inline constexpr double kFarthest = 1e15;
 
-/// Of the work that opening a mesh file is: reading and parsing.
+/// Share of reading and parsing in the work of opening a mesh file.
 inline constexpr double kParsedPart = 0.8;
 
-/// Reads a file of any type below, also packed as `.xz`, by the ending of its name.
-/// When the time budget ends, so does the reading, soon: "interrupted". It takes the first kParsedPart
-/// of the work that the time budget is told of.
+/// Reads a file of any type below, also packed as `.xz`, by the ending of its name. When the time
+/// budget ends, so does the reading, soon: "interrupted". It takes the first kParsedPart of the work
+/// in the time budget.
 base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std::uint64_t size_limit,
                                          io::TimeBudget& time_budget, io::MemoryBudget& memory);
 
-// Each takes the whole file and the name to use in errors. Memory taken is bounded by the bytes that
-// are there, never by a count that they declare. Errors: one sentence, with the line in text formats.
-// TimeBudget (may be null) is told how far they are; when it ends they fail, or what they give is not whole.
+// Each takes the whole file and the name for errors. Memory is bounded by the bytes that are there, never by
+// a count that they declare. Errors: one sentence, with the line in text formats. TimeBudget (may be null)
+// gets the progress; when it ends they fail, or the result is incomplete.
 
 /// Wavefront OBJ: `v` and `f` lines, negative indices, continued lines; everything else is left out.
 base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& name,
@@ -47,7 +47,7 @@ base::Result<ParsedMesh> parse_obj(std::string_view bytes, const std::string& na
 base::Result<ParsedMesh> parse_ply(std::string_view bytes, const std::string& name,
                                    io::TimeBudget* time_budget = nullptr);
 
-/// STL. Binary when the size is what a binary file's count says, whatever word the file begins with.
+/// STL. Binary when the size fits a binary file's count, whatever word the file begins with.
 base::Result<ParsedMesh> parse_stl(std::string_view bytes, const std::string& name,
                                    io::TimeBudget* time_budget = nullptr);
 

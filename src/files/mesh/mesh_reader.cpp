@@ -46,7 +46,7 @@ Parser parser_of(const std::string& type) {
   return found == kFileTypes.end() ? nullptr : found->parse;
 }
 
-/// Makes units metres and checks that the positions are of this world.
+/// Converts the units to metres and checks that the positions are within kFarthest.
 base::Result<void> place(TriangleMesh& mesh, const ReadOptions& options, const std::string& name) {
   double farthest = 0.0;
   for (Vector3& position : mesh.positions) {
@@ -109,7 +109,7 @@ base::Result<ParsedMesh> parse_mesh_file(const std::filesystem::path& path, std:
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty())
     return base::fail(name + (ending.packed ? ": the file is empty once unpacked" : ": the file is empty"));
-  // Of a plain file the budget has more for each byte; a packed one may hold any amount.
+  // The budget of a plain file allows more for each byte; a packed one may hold any amount.
   if (constexpr std::uint64_t kBytesForAByte = 5;
       ending.packed && !memory.take(kBytesForAByte * bytes->size()))
     return base::fail(fmt::format("{}: {}", name, memory.problem().message));

@@ -16,7 +16,7 @@ namespace {
 
 using world::Colour;
 
-// Of highlights: OBJ writes the exponent, VRML 2.0 a part of the largest that OpenGL knew.
+// Shininess: OBJ writes the exponent, VRML 2.0 a share of the largest that OpenGL knew.
 constexpr float kLargestExponent = 128.0F;
 
 /// Reads one text; nothing in it is an error.
@@ -104,7 +104,7 @@ class MtlReading {
     return std::find(kWords.begin(), kWords.end(), keyword) != kWords.end();
   }
 
-  /// Each once, and not more of a file than can be told.
+  /// Adds each name once, up to a number that a remark can list.
   static void add_name(std::string_view name, std::vector<std::string>& names) {
     constexpr std::size_t kMostNames = 12, kLongestName = 20;
     const std::string kept(name.substr(0, kLongestName));
@@ -116,7 +116,7 @@ class MtlReading {
     if (!names.empty()) notes_.push_back(fmt::format("{}{}.", what, fmt::join(names, ", ")));
   }
 
-  /// Of up to three, the first two; what is not there is `otherwise`.
+  /// The first two of up to three numbers; missing ones are `otherwise`.
   static std::array<double, 2> numbers_of_option(std::string_view& rest, double otherwise) {
     std::array<double, 2> numbers = {otherwise, otherwise};
     for (std::size_t i = 0; i < 3 && begins_with_number(rest); ++i) {
@@ -150,7 +150,7 @@ class MtlReading {
                                                                         : std::nullopt;
   }
 
-  /// One number stands for grey.
+  /// A colour of three numbers; one number stands for grey.
   Colour colour(const Colour& otherwise) {
     const auto red = number();
     if (!red) return otherwise;
@@ -161,7 +161,7 @@ class MtlReading {
     return result;
   }
 
-  /// VRML 2.0's ambient light is a part of the diffuse colour. Many programs write white whatever it is.
+  /// VRML 2.0's ambient light is a share of the diffuse colour. Many programs write white for any.
   void finish_one() {
     if (materials_.empty()) return;
     world::Material& material = materials_.back().material;

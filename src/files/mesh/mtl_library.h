@@ -17,12 +17,12 @@ struct MtlMaterial {
   int line = 0;  // of its name
 };
 
-/// Reads an MTL text, which may be anything: lines that mean nothing are left out. `notes`: sentences on
-/// what is left out of pictures.
+/// Reads an MTL text, which may be anything: unknown lines are left out. `notes`: sentences on what is
+/// left out of pictures.
 std::vector<MtlMaterial> parse_mtl(std::string_view text, std::vector<std::string>& notes);
 
-/// The material as an MTL paragraph; `shown`: what its picture is multiplied with; `picture`: its url, empty
-/// for none.
+/// The material as an MTL paragraph; `shown`: the factors of its picture; `picture`: its url, empty for
+/// none.
 std::string mtl_text(const world::Material& material, const ShownMaterial& shown, const std::string& name,
                      const std::string& picture, std::array<bool, 2> repeats);
 

@@ -9,7 +9,7 @@ namespace icome::files {
 base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
                                            const DesignReadOptions& options, io::MemoryBudget& memory);
 
-/// Writes all objects where they stand in the world, materials into a library beside, pictures into a
+/// Writes all objects at their places in the world, materials into a library beside, pictures into a
 /// folder beside. The file itself takes its place last.
 base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& path,
                                                    const world::World& world);

@@ -18,13 +18,13 @@ namespace {
 
 constexpr world::Colour kNoColour{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F};
 constexpr std::size_t kMostLibraries = 100;
-// In all tables here, while these grow, and of parts in the reader of designs.
+// Bytes in all tables here, while these grow, and those of parts in the reader of designs.
 constexpr std::uint64_t kBytesOfPart = 500, kBytesOfVertex = 2 * sizeof(base::Vector3),
                         kBytesOfFace = 2 * sizeof(ObjDocument::Face),
                         kBytesOfCorner = 2 * sizeof(ObjDocument::Corner);
 
 /// One reading of an OBJ text. A face may name vertices that come after it, so whether an index is in
-/// range is known at the end only; `vertex_limit` then lets a second reading find the line.
+/// range is known only at the end; `vertex_limit` then lets a second reading find the line.
 class ObjReading {
  public:
   ObjReading(std::string_view text, const std::string& name, ObjContent content, std::int64_t vertex_limit,
@@ -67,7 +67,7 @@ class ObjReading {
     if (all_ && scanner_.more_on_line()) read_colour();
   }
 
-  /// Three numbers after a position are a colour; one is a weight, and what is no number is left out.
+  /// Three numbers after a position are a colour; one is a weight, and other words are left out.
   void read_colour() {
     world::Colour colour{};
     for (float& part : colour) {
@@ -116,7 +116,7 @@ class ObjReading {
     return corner;
   }
 
-  /// Leaves `at` behind it. None for what is no index.
+  /// Leaves `at` behind the index. kNone for text that is no index.
   static std::uint32_t read_index(const char*& at, const char* end, std::size_t so_far) {
     std::int64_t given = 0;
     const auto [stop, code] = std::from_chars(at, end, given);
@@ -154,7 +154,7 @@ class ObjReading {
     }
   }
 
-  /// "off" and what is no number are none.
+  /// "off" and other words than numbers are no group.
   static std::uint32_t read_group(std::string_view word) {
     std::uint32_t group = word == "on" ? 1 : 0;
     std::from_chars(word.data(), word.data() + word.size(), group);
@@ -170,7 +170,7 @@ class ObjReading {
     count(kBytesOfPart);
   }
 
-  /// Whose memory is used up hears of it by the end of its time budget.
+  /// Counts memory; the owner of the budget stops the reading by its time budget.
   void count(std::uint64_t bytes) {
     if (memory_) memory_->take(bytes);
   }

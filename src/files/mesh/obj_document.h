@@ -12,16 +12,16 @@
 
 namespace icome::files {
 
-/// What a Wavefront OBJ text says: faces as they stand, every corner naming a position that is there.
+/// The content of a Wavefront OBJ text: faces unchanged, every corner naming an existing position.
 struct ObjDocument {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   struct Corner {
     std::uint32_t position = 0;
-    std::uint32_t coordinate = kNone;  // may be one that is not there
-    std::uint32_t normal = kNone;      // the same
+    std::uint32_t coordinate = kNone;  // may be out of range
+    std::uint32_t normal = kNone;      // likewise
   };
-  /// What faces belong to, from one statement on.
+  /// The object, group and material that faces belong to, from one statement on.
   struct Part {
     std::string object, group, material;
     bool operator==(const Part&) const = default;
@@ -29,7 +29,7 @@ struct ObjDocument {
   struct Face {
     std::uint32_t corners = 0;  // how many
     std::uint32_t part = 0;
-    std::uint32_t smoothing = kNone;  // its group; 0: it is flat, kNone: nothing has been said so far
+    std::uint32_t smoothing = kNone;  // its group; 0: it is flat, kNone: no statement so far
   };
   struct Library {
     std::string url;
@@ -47,13 +47,13 @@ struct ObjDocument {
   std::size_t others = 0;  // curves, surfaces, points and lines
 };
 
-/// Parts: positions, and what faces belong to. All: also normals, texture coordinates and colours.
+/// Parts: positions and the parts of faces. All: also normals, texture coordinates and colours.
 enum class ObjContent { Positions, Parts, All };
 
-/// `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`, `g`,
-/// `usemtl`, `mtllib`, `s`, which are then in order even where they are not kept. Errors name the line. Fails
-/// also when the time budget (may be null) ends; that of a reading whose memory (may be null) is used up
-/// does. All that is read is counted there, as few bytes may stand for much, packed ones for any amount.
+/// Reads `v` and `f` lines with negative indices and continued lines; but for Positions also `vt`, `vn`, `o`,
+/// `g`, `usemtl`, `mtllib`, `s`, which are then checked even where they are not kept. Errors name the line.
+/// Fails also when the time budget (may be null) ends, as it must when the memory (may be null) is used up.
+/// All content is counted there, as few bytes may stand for much, packed ones for any amount.
 base::Result<ObjDocument> parse_obj_document(std::string_view bytes, const std::string& name,
                                              ObjContent content, io::TimeBudget* time_budget = nullptr,
                                              io::MemoryBudget* memory = nullptr);

@@ -31,7 +31,7 @@ using base::Vector3;
 using world::MaterialId;
 using world::ObjectId;
 
-/// Makes the faces of one part after the other a mesh.
+/// Turns the faces of one part after the other into a mesh.
 class ObjMeshes {
  public:
   ObjMeshes(const ObjDocument& document, io::TimeBudget& time_budget)
@@ -51,7 +51,7 @@ class ObjMeshes {
 
   bool has_faces(std::uint32_t part) const { return !faces_[part].empty(); }
 
-  /// Not the whole mesh when the time budget ends.
+  /// An incomplete mesh when the time budget ends.
   world::MeshGeometry mesh_of(std::uint32_t part) {
     world::MeshGeometry shape(geometry::TriangleMesh{});
     shape.mesh.triangles.reserve(faces_[part].size());
@@ -92,7 +92,7 @@ class ObjMeshes {
   bool has_coordinate(const Corner& corner) const { return corner.coordinate < document_.coordinates.size(); }
   bool has_normal(const Corner& corner) const { return corner.normal < document_.normals.size(); }
 
-  /// Normals and colours count where all corners of a part have one.
+  /// Normals and colours are used where all corners of a part have one.
   void look_for_attributes(std::uint32_t part) {
     with_coordinates_ = false;
     with_normals_ = true;
@@ -115,7 +115,7 @@ class ObjMeshes {
     return group == ObjDocument::kNone ? 0 : group;
   }
 
-  /// Do smoothing groups say so? Where nothing is said of them, or all is of one, all of it is smooth.
+  /// Do smoothing groups make edges? A part without groups, or all in one group, is smooth.
   bool has_edges(std::uint32_t part) const {
     const std::vector<std::uint32_t>& faces = faces_[part];
     const std::uint32_t first = faces.empty() ? 0 : document_.faces[faces.front()].smoothing;
@@ -175,7 +175,7 @@ class ObjMeshes {
   io::TimeBudget& time_budget_;
   std::size_t done_ = 0;                           // faces
   std::vector<std::uint32_t> place_;               // of positions in the mesh of the part
-  std::vector<std::uint32_t> part_of_place_;       // for which that was found
+  std::vector<std::uint32_t> part_of_place_;       // the part for which that was found
   std::vector<std::uint32_t> first_corner_;        // of faces
   std::vector<std::vector<std::uint32_t>> faces_;  // of parts
   std::vector<std::array<std::uint32_t, 3>> cut_;
@@ -200,7 +200,7 @@ class ObjLooks {
         builder_(builder),
         reach_(path, options.follows_urls_above) {}
 
-  /// The rest of the line is one name, with spaces, or several.
+  /// The rest of the line is one name, with spaces, or several names.
   void read(const ObjDocument::Library& library) {
     if (io::find_beside(path_, library.url, reach_)) return read_one(library.url, library.line);
     constexpr int kMostNames = 32;
@@ -277,7 +277,7 @@ std::string name_of(const ObjDocument::Part& part) {
   return part.object + " " + part.group;
 }
 
-/// Parts of one name in several materials are children of one object.
+/// Parts of one name with several materials become children of one object.
 void add_parts(const ObjDocument& document, ObjMeshes& meshes, ObjLooks& looks,
                const std::filesystem::path& path, const io::MemoryBudget& memory, DesignBuilder& builder) {
   std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>> by_name;
@@ -323,7 +323,7 @@ base::Result<LoadedDesign> read_obj_design(const std::filesystem::path& path,
   const ObjContent content = options.with_looks ? ObjContent::All : ObjContent::Parts;
   auto document = parse_obj_document(*bytes, name, content, &time_budget, &memory);
   if (!document) return tl::unexpected(document.error());
-  std::string().swap(*bytes);  // what it said is in the document
+  std::string().swap(*bytes);  // its content is in the document
   time_budget.step(kParsedPart, 1.0);
   if (const auto scaled = scale(document->positions, options.unit, name); !scaled)
     return tl::unexpected(scaled.error());

@@ -27,10 +27,10 @@ using base::Vector3;
 using world::MaterialId;
 using world::World;
 
-/// Names are told apart by what readers of OBJ see of them.
+/// Gives names that differ in the letters that readers of OBJ distinguish.
 class ObjNames {
  public:
-  /// A name that no other has, of letters that can stand in a line.
+  /// A name that no other has, of letters that may be used in a line.
   std::string unique(const std::string& wanted, const char* otherwise, bool with_spaces) {
     std::string name = wanted.empty() ? otherwise : wanted;
     for (char& letter : name) {
@@ -48,10 +48,10 @@ class ObjNames {
 
  private:
   std::set<std::string> taken_;
-  std::unordered_map<std::string, std::size_t> counts_;  // of names that were wanted
+  std::unordered_map<std::string, std::size_t> counts_;  // of wanted names
 };
 
-/// Counts different rows of numbers, which many corners share.
+/// Numbers different rows of numbers, which many corners share.
 template <std::size_t Size>
 class ObjRows {
  public:
@@ -86,14 +86,14 @@ class ObjWriting {
     if (!library.empty()) text_ += "mtllib " + library + "\n";
   }
 
-  /// `frame`: how the picture lies.
+  /// `frame`: the placement of the picture.
   void add(const ShownObject& it, const std::string& name, const std::string& material,
            const world::PictureFrame& frame) {
     text_ += "o " + name + "\n";
     if (!material.empty()) {
       text_ += "usemtl " + material + "\n";
     } else if (any_material_) {
-      text_ += "usemtl\n";  // none again
+      text_ += "usemtl\n";  // back to none
     }
     any_material_ = any_material_ || !material.empty();
     const std::vector<std::uint32_t> vertices = add_vertices(it);
@@ -140,7 +140,7 @@ class ObjWriting {
     flush_if_long();
   }
 
-  /// The numbers of all corners' vertices, from 1 of the file. A vertex of several colours is several.
+  /// The vertex numbers of all corners, from 1 in the file. A vertex of several colours is several.
   std::vector<std::uint32_t> add_vertices(const ShownObject& it) {
     const world::MeshGeometry& shape = *it.mesh;
     std::vector<std::uint32_t> numbers;
@@ -189,7 +189,7 @@ class ObjWriting {
     return numbers;
   }
 
-  /// In single precision, which is plenty for directions.
+  /// In single precision, which is enough for directions.
   std::vector<std::uint32_t> add_normals(const ShownObject& it) {
     std::vector<std::uint32_t> numbers;
     if (it.mesh->normals.empty()) return numbers;
@@ -224,13 +224,13 @@ class ObjWriting {
 
   io::NewFile& file_;
   std::string text_;
-  std::uint32_t positions_ = 0, coordinates_ = 0, normals_ = 0;  // that stand in the file
+  std::uint32_t positions_ = 0, coordinates_ = 0, normals_ = 0;  // number of those in the file
   bool any_material_ = false;
 };
 
 using NamedMaterials = std::unordered_map<MaterialId, std::string>;
 
-/// The materials of objects as a library beside the design says them.
+/// The materials of objects in a library beside the design.
 struct ObjLibrary {
   NamedMaterials names;
   std::string text;  // empty: there are none
@@ -238,7 +238,7 @@ struct ObjLibrary {
 
 constexpr std::string_view kObjLibraryHead = "# made by ICOME\n";
 
-/// Writes pictures into a folder beside.
+/// Makes the library's text, and writes pictures into a folder beside.
 base::Result<ObjLibrary> make_library(const World& world, const std::filesystem::path& design) {
   std::vector<MaterialId> ids;
   for (const auto& [id, material] : world.materials()) ids.push_back(id);
@@ -266,15 +266,15 @@ base::Result<ObjLibrary> make_library(const World& world, const std::filesystem:
   return library;
 }
 
-/// Is that what the file holds?
+/// Does the file hold exactly this text?
 bool holds_text(const std::filesystem::path& path, const std::string& text) {
   const auto bytes = io::read_bytes(path, text.size());
   return bytes && *bytes == text;
 }
 
-/// Writes a library under a name that no design refers to yet, so that a design that is there keeps its own
-/// until it is replaced: table.mtl, or with a number made of what it holds, table_0123abcd.mtl. Other
-/// people's files stay.
+/// Writes a library under a name that no design refers to yet, so that an existing design keeps its own
+/// until it is replaced: table.mtl, or with a checksum of the text, table_0123abcd.mtl. Other people's
+/// files stay.
 base::Result<std::filesystem::path> write_library(const std::string& text,
                                                   const std::filesystem::path& design) {
   std::error_code error;
@@ -302,7 +302,7 @@ bool is_library_of(const std::filesystem::path& path, const std::filesystem::pat
          name.find_first_not_of("0123456789abcdef", stem.size() + 1) == stem.size() + 1 + kDigits;
 }
 
-/// Takes away libraries that ICOME wrote for what stood here before.
+/// Removes libraries that ICOME wrote for earlier designs of this name.
 void remove_old_libraries(const std::filesystem::path& design, const std::filesystem::path& current) {
   const std::filesystem::path folder = design.has_parent_path() ? design.parent_path() : ".";
   std::vector<std::filesystem::path> old;
@@ -327,7 +327,7 @@ bool has_touch(const World& world) {
                      [](const auto& it) { return !(it.second.touch == world::TouchProperties{}); });
 }
 
-/// Of how materials look.
+/// Adds remarks on the losses in the looks of materials.
 void tell_what_obj_loses(const World& world, std::vector<Remark>& remarks) {
   Findings losses;
   constexpr static FindingKind kHoles = {
@@ -371,7 +371,7 @@ base::Result<std::vector<Remark>> write_obj_design(const std::filesystem::path& 
     const world::PhysicalObject& object = *world.find(it.object);
     const world::Material& material = object.material ? *world.find(object.material) : plain;
     if (material.texture) it.mesh = with_picture_places(*world.find(object.geometry)->shape, it.mesh);
-    // Readers of OBJ multiply them. Where nothing says how the picture lies, only the colours are seen.
+    // Readers of OBJ multiply the two. Without texture coordinates only the colours are seen.
     if (!it.mesh->colours.empty() && !it.mesh->texture_coordinates.empty() &&
         hides_colours(world, material)) {
       it.mesh = without_colours(*it.mesh);

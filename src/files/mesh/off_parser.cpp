@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kShortestVertex = 6;
 constexpr std::size_t kShortestFace = 8;
 
-/// What stands behind a vertex, by a letter or two before "OFF".
+/// Data behind a vertex, announced by a letter or two before "OFF".
 struct OffVariant {
   std::string_view prefix;
   std::size_t numbers;  // in binary files
@@ -40,12 +40,12 @@ std::optional<std::vector<OffVariant>> variants_of(std::string_view word) {
   return word == "OFF" ? std::optional(variants) : std::nullopt;
 }
 
-/// What a file has that is not read.
+/// The parts of a file that are not read.
 struct OffLeftOut {
   std::vector<OffVariant> variants;
   std::size_t coloured_faces = 0;
 
-  /// With `notes` in front.
+  /// The sentences on them, with `notes` in front.
   std::vector<std::string> sentences(std::vector<std::string> notes) const {
     for (const OffVariant& variant : variants) notes.emplace_back(variant.note);
     if (coloured_faces > 0)
@@ -55,7 +55,7 @@ struct OffLeftOut {
   }
 };
 
-/// A count or index in a row of its own line.
+/// Reads a count or an index, which is not negative.
 std::int64_t read_count(io::TextScanner& scanner, const char* what) {
   const std::int64_t count = scanner.integer(what);
   if (count < 0) scanner.fail(fmt::format("{} is not {}", count, what));
@@ -71,7 +71,7 @@ void read_vertex(io::TextScanner& scanner, FaceCollector& faces) {
   scanner.skip_line();
 }
 
-/// Has it more than its corners, as a colour?
+/// Does the face have more than its corners, such as a colour?
 bool read_face(io::TextScanner& scanner, FaceCollector& faces, std::vector<std::uint32_t>& corners) {
   scanner.at_end();
   corners.clear();
@@ -89,7 +89,7 @@ bool read_face(io::TextScanner& scanner, FaceCollector& faces, std::vector<std::
   return more;
 }
 
-/// Reads up to the counts of vertices and faces; those of edges are often wrong and never needed.
+/// Reads up to the counts of vertices and faces; those of edges are often wrong and not needed.
 std::pair<std::int64_t, std::int64_t> read_header(io::TextScanner& scanner, OffLeftOut& left_out) {
   scanner.at_end();
   auto variants = variants_of(scanner.word());
@@ -104,8 +104,8 @@ std::pair<std::int64_t, std::int64_t> read_header(io::TextScanner& scanner, OffL
   return {vertices, faces};
 }
 
-/// The rest of a file that says so behind its keyword: whole numbers and singles of four bytes, the most
-/// significant first. Geomview wrote such files.
+/// The rest of a file whose keyword is followed by BINARY: whole numbers and singles of four bytes, the
+/// most significant first. Geomview wrote such files.
 class BinaryOff {
  public:
   BinaryOff(std::string_view bytes, std::size_t begin, std::string name, io::TimeBudget* time_budget)
@@ -170,8 +170,8 @@ class BinaryOff {
   std::vector<std::uint32_t> corners_;
 };
 
-/// Where the numbers of a binary file begin, and what a vertex has beside its coordinates; nothing for an
-/// ascii one.
+/// The offset of a binary file's numbers, and the data of a vertex beside its coordinates; nothing for an
+/// ascii file.
 std::optional<std::pair<std::size_t, std::vector<OffVariant>>> binary_body(std::string_view bytes) {
   const std::size_t line = bytes.find('\n');
   if (line == bytes.npos) return std::nullopt;

@@ -28,7 +28,7 @@ struct PlyElement {
   std::uint64_t rows = 0;  ///< as declared: not to be trusted
   std::vector<PlyProperty> properties;
 
-  /// Bytes that a row takes at least in a binary file (its lists empty).
+  /// Least bytes of a row in a binary file (with empty lists).
   std::size_t smallest_row() const;
   /// The column of that name, or nothing.
   std::optional<std::size_t> column(std::string_view property) const;
@@ -42,7 +42,7 @@ struct PlyHeader {
   std::size_t size = 0;  ///< bytes up to the first row
 };
 
-/// Reads the header that `bytes` begin with. Errors name the line.
+/// Reads the header at the beginning of `bytes`. Errors name the line.
 base::Result<PlyHeader> parse_ply_header(std::string_view bytes, const std::string& name);
 
 }  // namespace icome::files

@@ -14,7 +14,7 @@
 namespace icome::files {
 namespace {
 
-/// The numbers of a binary file, one after the other. The first failure sticks, as in TextScanner.
+/// The numbers of a binary file, one after the other. The first failure is kept, as in TextScanner.
 class BinaryRows {
  public:
   BinaryRows(std::string_view bytes, std::size_t begin, std::string name, io::ByteOrder order,
@@ -65,7 +65,7 @@ class BinaryRows {
   }
   bool failed() const { return !error_.message.empty(); }
   const base::Error& error() const { return error_; }
-  /// At most this many rows of the element can still be there.
+  /// Upper bound of the element's rows that can follow.
   std::size_t rows_left(const PlyElement& element) const { return left() / element.smallest_row(); }
 
  private:
@@ -79,7 +79,7 @@ class BinaryRows {
   base::Error error_;
 };
 
-/// The numbers of an ascii file. Line ends are mere space here, as for most readers.
+/// The numbers of an ascii file. Line ends count as space here, as for most readers.
 class AsciiRows {
  public:
   AsciiRows(std::string_view bytes, const std::string& name, io::TimeBudget* time_budget)
@@ -101,10 +101,10 @@ class AsciiRows {
   std::size_t size_;
 };
 
-/// Rows of triangles in which each shares two corners with the one before; -1 ends a strip within a row.
+/// Strips of triangles, each sharing two corners with the one before; -1 ends a strip within a row.
 constexpr const char* kStrips = "tristrips";
 
-/// The list of a face's corners, which goes by two names.
+/// The list of a face's corners, which has either of two names.
 std::optional<std::size_t> corner_column(const PlyElement& faces) {
   const std::optional<std::size_t> column = faces.column("vertex_indices");
   return column ? column : faces.column("vertex_index");
@@ -122,7 +122,7 @@ std::optional<std::array<std::size_t, 3>> colour_columns(const PlyElement& verti
   return {{*red, *green, *blue}};
 }
 
-/// What stands for full light in a column of this type.
+/// The number for full light in a column of this type.
 double brightest(PlyType type) {
   switch (type) {
     case PlyType::Int8:
@@ -142,7 +142,7 @@ double brightest(PlyType type) {
   }
 }
 
-/// What the header lacks for a mesh, as the end of a sentence; empty when it lacks nothing.
+/// The part of a mesh that the header lacks, as the end of a sentence; empty when it is complete.
 std::string missing_from(const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
@@ -161,7 +161,7 @@ std::string missing_from(const PlyHeader& header) {
   return {};
 }
 
-/// The names of what is not read, shortened where they are long or many.
+/// The names of unread parts, shortened where they are long or many.
 class LeftOutNames {
  public:
   void add(const std::string& name) {
@@ -179,7 +179,7 @@ class LeftOutNames {
   std::string text_;
 };
 
-/// Which properties and elements of the file nothing is made of.
+/// Notes the properties and elements of the file that are not used.
 void tell_what_is_left_out(const PlyHeader& header, std::vector<std::string>& notes) {
   LeftOutNames of_vertices, of_faces, elements;
   for (const PlyElement& element : header.elements) {
@@ -216,7 +216,7 @@ class PlyBody {
       if (element.name == "vertex") vertices_ = std::min<std::uint64_t>(element.rows, 0xffffffff);
   }
 
-  /// Of the vertices; none where the file has none.
+  /// The colours of the vertices; none where the file has none.
   std::vector<std::array<float, 3>> take_colours() { return std::move(colours_); }
 
   void run(FaceCollector& faces) {
@@ -293,7 +293,7 @@ class PlyBody {
                         index, vertices_));
       last = {last[1], last[2], static_cast<std::uint32_t>(index)};
       if (++count < 3) continue;
-      // Every second triangle runs the other way round; repeated vertices lead from part to part.
+      // Every second triangle runs the other way round; repeated vertices join parts.
       const bool turned = count % 2 == 0;
       const bool joint = last[0] == last[1] || last[1] == last[2] || last[2] == last[0];
       corners_ = {last[0], last[turned ? 2 : 1], last[turned ? 1 : 2]};

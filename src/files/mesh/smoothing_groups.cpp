@@ -9,13 +9,13 @@ namespace {
 using geometry::TriangleMesh;
 using geometry::Vector3;
 
-/// Of a triangle, as long as twice its area.
+/// Normal of a triangle, as long as twice its area.
 Vector3 area_vector(const TriangleMesh& mesh, std::size_t t) {
   const Vector3& a = mesh.corner(t, 0);
   return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a);
 }
 
-/// Of the triangle at a corner, rad.
+/// Angle of the triangle at a corner, rad.
 double corner_angle(const TriangleMesh& mesh, std::size_t t, int i) {
   const Vector3& here = mesh.corner(t, i);
   const Vector3 before = mesh.corner(t, (i + 2) % 3) - here, after = mesh.corner(t, (i + 1) % 3) - here;
@@ -27,7 +27,7 @@ Vector3 unit_or(const Vector3& vector, const Vector3& otherwise) {
   return unit.allFinite() && !unit.isZero(0.0) ? unit : otherwise;
 }
 
-/// What a vertex is in a group.
+/// Key of a vertex in a group.
 std::uint64_t place_in_group(std::uint32_t vertex, std::uint32_t group) {
   return (std::uint64_t{group} << 32U) | vertex;
 }
@@ -45,7 +45,7 @@ std::vector<std::array<Vector3, 3>> smoothed_normals(const TriangleMesh& mesh,
       first += face.triangles;
     }
   };
-  // At first all corners have their polygon's own.
+  // All corners start with the normal of their polygon.
   for_triangles([&](std::size_t t, std::size_t first, const SmoothedFace& face) {
     if (t > first) {
       normals[t] = normals[first];

@@ -22,7 +22,7 @@ std::uint64_t declared_facets(std::string_view bytes) {
 }
 
 /// Many binary files begin with the word "solid" too, so the size decides. Only when it fits no binary
-/// file is the beginning looked at.
+/// file is the beginning examined.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= kBinaryBegin && bytes.size() == kBinaryBegin + kBinaryFacet * declared_facets(bytes))
     return true;
@@ -66,7 +66,7 @@ void expect(io::TextScanner& scanner, std::string_view expected) {
                    : fmt::format("{} where '{}' is expected", io::quoted(word), expected));
 }
 
-/// Reads what follows the word "facet". The normal is left out: the corners say it, and it is often wrong.
+/// Reads a facet after its first word. The normal is left out: the corners give it, and it is often wrong.
 void read_facet(io::TextScanner& scanner, FaceCollector& faces, std::vector<std::uint32_t>& corners) {
   expect(scanner, "normal");
   for (int i = 0; i < 3; ++i) scanner.word();

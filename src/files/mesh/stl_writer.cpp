@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kWriteAtOnce = 1U << 20U;
-// Not beginning with "solid": that is how ascii files begin.
+// Not beginning with "solid", as ascii files do.
 constexpr std::string_view kStlHeader = "binary STL, made by ICOME";
 
 template <typename Number>
@@ -37,7 +37,7 @@ base::Result<void> write_stl(const geometry::TriangleMesh& mesh, double unit, io
     for (int i = 0; i < 3; ++i) corners[i] = (mesh.corner(t, i) / unit).cast<float>();
     if (!corners[0].allFinite() || !corners[1].allFinite() || !corners[2].allFinite())
       return base::fail(file.path().string() + ": the mesh is too large for an STL file's single precision");
-    // Of the corners that the file has, so that it is the same when they have been read from it.
+    // The normal of the rounded corners, so that it is the same after reading them back.
     const geometry::Vector3 first = corners[0].cast<double>();
     const geometry::Vector3 across =
         (corners[1].cast<double>() - first).cross(corners[2].cast<double>() - first);

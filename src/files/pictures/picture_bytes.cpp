@@ -12,7 +12,7 @@
 namespace icome::files {
 namespace {
 
-/// Does a graphics control extension (GIF89a, 23) say so?
+/// Does a graphics control extension (GIF89a, 23) declare a clear colour?
 bool gif_has_clear_colour(std::string_view bytes) {
   constexpr std::string_view kControl("\x21\xf9\x04", 3);
   const std::size_t at = bytes.find(kControl);
@@ -20,7 +20,7 @@ bool gif_has_clear_colour(std::string_view bytes) {
          (static_cast<unsigned char>(bytes[at + kControl.size()]) & 1U) != 0;
 }
 
-/// Red, green, blue, opacity of a PNG file's pixels; none of what is no such file, damaged or too large.
+/// Red, green, blue, opacity of a PNG file's pixels; empty if it is no PNG file, damaged or too large.
 std::vector<std::uint8_t> png_pixels(std::string_view bytes) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -30,8 +30,8 @@ std::vector<std::uint8_t> png_pixels(std::string_view bytes) {
   if (image.width > kMostPixelSide || image.height > kMostPixelSide ||
       std::uint64_t{image.width} * image.height > kMostPixels)
     return {};
-  // Without this flag the library takes numbers of 16 bits for linear ones, and makes them brighter, wherever
-  // no gAMA part says otherwise. With it only such a part changes them, as it does those of 8 bits.
+  // Without this flag the library takes numbers of 16 bits for linear ones, and makes them brighter, unless a
+  // gAMA part says otherwise. With it only such a part changes them, as it does those of 8 bits.
   image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
@@ -45,7 +45,7 @@ const unsigned char* jpeg_data(std::string_view bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
-/// Width and height that a JPEG file says; none of what is no such file.
+/// Width and height declared by a JPEG file; none if it is no such file.
 std::optional<std::array<int, 2>> jpeg_size(const Jpeg& jpeg, std::string_view bytes) {
   int width = 0, height = 0, subsampling = 0, colours = 0;
   if (!jpeg || tjDecompressHeader3(jpeg.get(), jpeg_data(bytes), bytes.size(), &width, &height, &subsampling,
@@ -55,7 +55,7 @@ std::optional<std::array<int, 2>> jpeg_size(const Jpeg& jpeg, std::string_view b
   return {{width, height}};
 }
 
-/// The same of a JPEG file, of the means of squares of eight pixels, which are quick to come by.
+/// The pixels of a JPEG file as means of squares of eight pixels, which are quick to compute.
 std::vector<std::uint8_t> jpeg_squares(std::string_view bytes) {
   const Jpeg jpeg(tjInitDecompress(), tjDestroy);
   const auto size = jpeg_size(jpeg, bytes);
@@ -110,7 +110,7 @@ base::Result<std::string> png_of(const PixelPicture& picture) {
 
 std::uint64_t pixel_count(std::string_view bytes) {
   const std::string_view type = picture_type(bytes);
-  constexpr std::size_t kPngSizes = 16;  // where its first part says them
+  constexpr std::size_t kPngSizes = 16;  // offset of the sizes in its first part
   if (type == "image/png" && bytes.size() >= kPngSizes + 8) {
     const char* const sizes = bytes.data() + kPngSizes;
     return std::uint64_t{io::load<std::uint32_t>(sizes, io::ByteOrder::BigEndian)} *
@@ -124,7 +124,7 @@ std::uint64_t pixel_count(std::string_view bytes) {
 world::PictureOpacity picture_opacity(std::string_view bytes) {
   using world::PictureOpacity;
   if (!world::may_be_clear(bytes)) return PictureOpacity::Opaque;
-  // The pixels of a GIF are seen or not.
+  // The pixels of a GIF are opaque or clear.
   if (picture_type(bytes) == "image/gif")
     return gif_has_clear_colour(bytes) ? PictureOpacity::CutOut : PictureOpacity::Opaque;
   const std::vector<std::uint8_t> pixels = png_pixels(bytes);

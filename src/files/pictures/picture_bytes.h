@@ -10,7 +10,7 @@
 
 namespace icome::files {
 
-/// "image/png", "image/jpeg" or "image/gif" by how the bytes of such files begin; empty for all else.
+/// "image/png", "image/jpeg" or "image/gif" by the first bytes of such files; empty for all else.
 std::string_view picture_type(std::string_view bytes);
 
 /// A picture that a design holds as numbers.
@@ -25,15 +25,15 @@ struct PixelPicture {
 base::Result<std::string> png_of(const PixelPicture& picture);
 inline constexpr std::uint32_t kMostPixelSide = 16384;
 
-/// The mean of a PNG's or JPEG's pixels: red, green and blue as they stand in the file, 0 ... 1. None for
-/// other files, and for what cannot be read, as above.
+/// The mean of a PNG's or JPEG's pixels: red, green and blue as stored in the file, 0 ... 1. None for
+/// other files, and for unreadable ones, as above.
 std::optional<std::array<double, 3>> picture_mean(std::string_view bytes);
 
-/// How many pixels a PNG or JPEG file says that it has; 0 for other files.
+/// Number of pixels that a PNG or JPEG file declares; 0 for other files.
 std::uint64_t pixel_count(std::string_view bytes);
 
-/// How much a picture lets be seen through it; one that cannot be read, or is larger than kMostPixelSide,
-/// counts as opaque.
+/// Degree to which one can see through a picture; one that cannot be read, or is larger than
+/// kMostPixelSide, counts as opaque.
 world::PictureOpacity picture_opacity(std::string_view bytes);
 
 }  // namespace icome::files

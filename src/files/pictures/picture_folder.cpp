@@ -21,7 +21,7 @@ constexpr PictureKind kKinds[] = {{"image/png", {".png", ".PNG", ""}},
                                   {"image/jpeg", {".jpg", ".jpeg", ".JPG"}},
                                   {"image/gif", {".gif", ".GIF", ""}}};
 
-/// Letters, digits and what urls and all file systems take as it is.
+/// Letters, digits and signs that urls and all file systems accept unchanged.
 bool is_safe(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
 }
@@ -34,7 +34,7 @@ std::string safe(std::string_view name, std::string_view fallback) {
   return result.empty() ? std::string(fallback) : result;
 }
 
-/// "wood" and ".png" of "maps/wood.png": the ending is one that fits the picture.
+/// "wood" and ".png" of "maps/wood.png": the ending fits the kind of picture.
 std::pair<std::string, std::string> safe_name(const world::Texture& texture) {
   std::string_view name = texture.name;
   name.remove_prefix(std::min(name.size(), name.find_last_of("/\\") + 1));

@@ -9,7 +9,7 @@
 namespace icome::files {
 namespace {
 
-/// What is multiplied with the picture's colour, if there is one.
+/// The colour that multiplies the picture's colour, if there is one.
 world::Colour shown_colour(const world::World& world, const world::Material& material) {
   return hides_colours(world, material) ? world::Colour{1.0F, 1.0F, 1.0F} : material.diffuse;
 }

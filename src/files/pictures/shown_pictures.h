@@ -7,7 +7,7 @@
 
 namespace icome::files {
 
-/// What a material shows in formats that multiply its colour with its picture's, and its opacity likewise.
+/// The look of a material in formats that multiply its colour and opacity with its picture's.
 struct ShownMaterial {
   world::Colour colour = {};                         // as displays show it
   float opacity = 1.0F;                              // in [0, 1]
@@ -16,19 +16,19 @@ struct ShownMaterial {
 };
 ShownMaterial shown_material(const world::World& world, const world::Material& material);
 
-/// Do the colours of its picture replace those of the material and of meshes, wherever it lies on them? By
-/// the picture's header alone.
+/// Do the colours of its picture replace those of the material and of meshes, wherever the picture is
+/// seen? Judged by the picture's header alone.
 bool hides_colours(const world::World& world, const world::Material& material);
 
-/// The specular colour for formats that know no metal: of metal beneath a picture, what shines on average.
+/// The specular colour for formats without metal: the mean highlight of metal under a picture.
 world::Colour shown_specular(const world::World& world, const world::Material& material);
 
-/// The triangles of a shape with where a picture lies on them, which primitives have by what they are: `mesh`
+/// The triangles of a shape with texture coordinates, which follow from the kind of a primitive: `mesh`
 /// itself for shapes of other kinds.
 std::shared_ptr<const world::MeshGeometry> with_picture_places(
     const world::Geometry& shape, std::shared_ptr<const world::MeshGeometry> mesh);
 
-/// (u, v) as the frame lays it.
+/// (u, v) transformed by the frame.
 world::Vector2 laid(const world::PictureFrame& frame, const world::Vector2& place);
 
 }  // namespace icome::files

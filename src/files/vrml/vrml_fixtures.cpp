@@ -22,7 +22,7 @@ Number within(Number value, Number low, Number high, Number otherwise) {
 
 float part_of_one(float value, float otherwise) { return within(value, 0.0F, 1.0F, otherwise); }
 
-/// `otherwise` where it is not there or not finite.
+/// `otherwise` where it is missing or not finite.
 Vector3 vector_of(const flat::Vec3* from, const Vector3& otherwise) {
   const Vector3 result = from ? Vector3(from->x(), from->y(), from->z()) : otherwise;
   return result.allFinite() ? result : otherwise;

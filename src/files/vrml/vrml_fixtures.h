@@ -9,19 +9,19 @@ struct Viewpoint;
 struct Light;
 }  // namespace flat
 
-/// A fixture and where it is: VRML places lights and viewpoints by numbers, the world by the object they are
-/// on, whose -z they face.
+/// A fixture and its place: VRML places lights and viewpoints by numbers, the world by the object they
+/// belong to, whose -z they face.
 struct PlacedFixture {
   world::FixturePointer fixture;
   base::Affine3 parent_from_fixture = base::Affine3::Identity();  // rigid
 };
 
-/// Numbers that make no sense are replaced by those that VRML has by default.
+/// Invalid numbers are replaced by VRML's defaults.
 PlacedFixture fixture_of(const flat::Light& light);
 PlacedFixture fixture_of(const flat::Viewpoint& viewpoint);
 
-/// Turns -z to a direction, by the shortest way (about y where it is +z): how a light or viewpoint that only
-/// says where it looks is turned.
+/// Turns -z to a direction, by the shortest way (about y where it is +z): the turn of a light or viewpoint
+/// that has only a direction.
 base::Matrix3 facing(const base::Vector3& direction);
 
 }  // namespace icome::files

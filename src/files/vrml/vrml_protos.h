@@ -2,20 +2,20 @@
 
 namespace icome::files {
 
-/// What VRML 2.0 has no nodes for, as PROTOs: docs/file-formats.md tells about each field. Every geometry
+/// PROTOs for things without nodes in VRML 2.0: docs/file-formats.md describes each field. Every geometry
 /// PROTO shows an IndexedFaceSet, so that any viewer draws its triangles; ICOME reads the other fields.
 /// Written at the head of a file that uses them, each only if it is used.
 struct VrmlProto {
   const char* name;
   const char* fields;  // lines of VRML
   const char* body =
-      nullptr;  // the same; null: a geometry, which has the fields and the body of kTriangles too
+      nullptr;  // likewise; null: a geometry, which has the fields and the body of kTriangles too
 };
 
-/// DEF names that begin so stand for none: of things without a name that the file has to refer to.
+/// Prefix of DEF names that stand for none, for nameless things that the file has to refer to.
 inline constexpr const char* kNoName = "IcomeUnnamed";
 
-/// DEF name of the Appearance of objects that have no material: it looks as they do, and is none again.
+/// DEF name of the Appearance of objects without a material: it looks like theirs, and is read as none.
 inline constexpr const char* kNoMaterial = "IcomeDefault";
 
 inline constexpr VrmlProto kTriangles = {"", R"(  field SFNode coord NULL
@@ -67,7 +67,7 @@ inline constexpr VrmlProto kImplicitProto = {"IcomeImplicit", R"(  field SFStrin
   field SFString box ""
 )"};
 
-/// Read, never written: a design that is saved holds the triangles of its meshes.
+/// Read, never written: a saved design holds the triangles of its meshes.
 inline constexpr VrmlProto kMeshProto = {"IcomeMesh", R"(  field MFString url []
   field SFFloat unit 1
   field SFString package ""
@@ -77,7 +77,7 @@ inline constexpr VrmlProto kPrimitiveProto = {"IcomePrimitive", R"(  field SFStr
   field SFString axis "z"
 )"};
 
-/// Other viewers see nothing of it.
+/// Other viewers show nothing for it.
 inline constexpr VrmlProto kEffectProto = {"IcomeEffect", R"(  field SFString effect ""
   field SFBool on TRUE
 )",

@@ -9,10 +9,10 @@ namespace {
 
 using Kind = Element::Kind;
 
-constexpr double kLift = 1.0 / 16.0;  // of the length of a way: how high stations stand above their edge
-constexpr double kAlong = 1e-9;       // how fast a way along an edge may near another that is parallel to it
+constexpr double kLift = 1.0 / 16.0;  // of the length of a way: height of stations above their edge
+constexpr double kAlong = 1e-9;       // largest rate at which a way nears an edge that is parallel to it
 
-/// As height() says of flat pieces under a point tip, which are all there are here.
+/// height() of flat pieces under a point tip, the only elements here.
 double above(const Element& e, const Vector3& position) { return e.axis.dot(position - e.origin); }
 
 /// Calls `visit(inward, least)` for each edge of the element: inward . (place - origin) >= least within it.
@@ -35,7 +35,7 @@ struct Stretch {
   double first, last;  // m
 };
 
-/// How much of the line from `foot` along an edge of the element belongs to that, no farther than `reach`.
+/// The part of the line from `foot` along an edge that lies in the element, no farther than `reach`.
 Stretch edge_within(const Element& e, const Vector3& foot, const Vector3& along, double reach) {
   Stretch part{-reach, reach};
   for_each_rim(e, [&](const Vector3& inward, double least) {
@@ -92,8 +92,8 @@ void ContactFan::find_ways(const Vector3& pull) {
             [](const FanWay& one, const FanWay& other) { return one.gain > other.gain; });
 }
 
-/// A way `along`, whose length is the cosine of its angle to the pull, that ends `risen` metres farther above
-/// the element it runs on.
+/// Adds a way `along`, whose length is the cosine of its angle to the pull, that ends `risen` metres farther
+/// above the element it runs on.
 void ContactFan::consider(const Vector3& along, const Vector3& pull, std::size_t on, double risen) {
   const double cosine = along.norm();
   if (cosine * length_ <= tolerance_.touching()) return;
@@ -113,8 +113,8 @@ std::optional<FanWay> ContactFan::steepest(double held) {
   return std::nullopt;
 }
 
-/// Whether a straight way passes through the element, or through its plane so near to its edge that this
-/// cannot be told.
+/// Tells whether a straight way passes through the element, or through its plane so near to its edge
+/// that this is in doubt.
 ContactFan::Passage ContactFan::passage(const Element& e, const Vector3& from, const Vector3& to) const {
   --looks_;
   const double before = above(e, from);
@@ -165,8 +165,8 @@ bool ContactFan::is_floor(std::size_t element) {
   return *known;
 }
 
-/// The ends of the element's edges in the neighbourhood and the places farthest from these; of one without an
-/// edge there, four around the SCP's foot.
+/// Collects the ends of the element's edges in the neighbourhood and the places farthest from these; for one
+/// without an edge there, four places around the SCP's foot.
 void ContactFan::find_extremes(std::size_t element) {
   const Element& e = elements_[element];
   const double reach = kNeighbourhood * length_;
@@ -205,7 +205,7 @@ bool ContactFan::leads_on(std::size_t element) const {
   return shared;
 }
 
-/// Above each edge as seen from each of its faces, a way's length along it, and at its foot.
+/// Places stations above each edge, on each of its faces, a way's length from its foot either way.
 void ContactFan::find_stations() {
   has_stations_ = true;
   const auto add = [&](const Vector3& station) {

@@ -9,28 +9,28 @@
 
 namespace icome::haptics {
 
-/// A short way on from where elements meet.
+/// A short way on from a place where elements meet.
 struct FanWay {
   static constexpr std::size_t kNone = ~std::size_t(0);
 
   Vector3 end;     // m, where it leads
-  double gain;     // how fast it nears the tip: the cosine of its angle to the pull
+  double gain;     // rate at which it nears the tip: the cosine of its angle to the pull
   std::size_t on;  // the element that it runs along, or kNone
 };
 
 /// The flat elements around a place where a point tip's SCP rests, among them all that meet in a vertex. The
-/// free space there is what lies on the front of all of them together, as far as each reaches: beside a
-/// saddle more than what their half-spaces have in common. In a cone of flat faces the steepest free way
-/// leads straight to the tip, along a face, or along an edge: no other need be looked at. A way counts as
-/// free when its end can be reached from the SCP by straight pieces that pass through no element, all within
-/// the neighbourhood. Real-time safe.
+/// free space there lies on the front of all of them together, as far as each reaches: beside a saddle it is
+/// more than the intersection of their half-spaces. In a cone of flat faces the steepest free way leads
+/// straight to the tip, along a face, or along an edge: no other need be tested. A way counts as free when
+/// its end can be reached from the SCP by straight pieces that pass through no element, all within the
+/// neighbourhood. Real-time safe.
 class ContactFan {
  public:
   static constexpr std::size_t kCapacity = 24;   // elements
   static constexpr double kLength = 1024.0;      // gaps, of a way
-  static constexpr double kNeighbourhood = 2.0;  // lengths of a way: how far the elements must be known
+  static constexpr double kNeighbourhood = 2.0;  // lengths of a way: radius in which elements must be known
 
-  /// Can the elements be asked? Only triangles, rectangles and planes, for a point tip.
+  /// Can a fan be made of the elements? Only of triangles, rectangles and planes, for a point tip.
   static bool knows(std::span<const Element> elements);
 
   /// `elements`: all in the neighbourhood of `position`, at most kCapacity, facing it; the caller
@@ -39,7 +39,7 @@ class ContactFan {
              const Tolerance& tolerance);
 
   /// The steepest free way, unless none brings the SCP nearer to the tip by more than what counts as
-  /// touching. Friction holds what runs along an element with a gain of at most `held`.
+  /// touching. Friction holds ways that run along an element with a gain of at most `held`.
   std::optional<FanWay> steepest(double held);
 
  private:
@@ -47,7 +47,7 @@ class ContactFan {
   static constexpr std::size_t kMostStations = 8 * kCapacity;
   static constexpr std::size_t kMostExtremes = 12 * kCapacity;
 
-  static constexpr int kMostLooks = 4'000;  // at an element, some 10 ns each: then there is no way
+  static constexpr int kMostLooks = 4'000;  // tests of an element, some 10 ns each: then there is no way
 
   enum class Passage : std::uint8_t { Free, AtAnEdge, Through };
 
@@ -77,14 +77,14 @@ class ContactFan {
   std::array<Vector3, kMostStations> stations_;
   std::size_t station_count_ = 0;
   std::size_t seen_count_ = 0;
-  std::size_t looked_from_ = 0;  // of those seen, how many have been looked around from
+  std::size_t looked_from_ = 0;  // number of those seen from which it has looked around
   bool has_stations_ = false;
   // The outermost places of the elements in the neighbourhood, once asked for; and which elements are floors,
   // as far as that has been asked.
   std::array<Vector3, kMostExtremes> extremes_;
   std::size_t extreme_count_ = 0;
   std::array<std::optional<bool>, kCapacity> floor_{};
-  mutable int looks_ = kMostLooks;  // that are left
+  mutable int looks_ = kMostLooks;  // tests that are left
 };
 
 }  // namespace icome::haptics

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kLongStep = 0.5;        // of the region's reach
 constexpr double kFirstShare = 1.0 / 8;  // of a long step, asked first
-constexpr double kShareKept = 0.999;     // of a way out of a region: what is left is surely within
+constexpr double kShareKept = 0.999;     // of a way out of a region: so much of it is surely within
 
-/// The pieces of smooth surfaces that a sweep has asked: one that stands here with several boxes answers
-/// once.
+/// The pieces of smooth surfaces that a sweep has tested: a piece that has several boxes in the region
+/// is tested once.
 class AskedPieces {
  public:
   bool knows(const Element& element) {
@@ -39,8 +39,8 @@ class AskedPieces {
   std::size_t count_ = 0;
 };
 
-/// Where a line from `offset` by t * `step` leaves a ball around the origin, or a cylinder when both are at
-/// right angles to its axis: t, if it meets it at all.
+/// The t at which a line from `offset` by t * `step` leaves a ball around the origin, or a cylinder when
+/// both are at right angles to its axis; nothing if it misses it.
 std::optional<double> exit_from(const Vector3& offset, const Vector3& step, double radius) {
   const double a = step.squaredNorm();
   const double b = offset.dot(step);
@@ -183,7 +183,7 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
                        [&](const Element& contact) { return same_surface(contact, element); });
   };
   SweepHit first;
-  const Element* met = nullptr;  // what `first` is about, unless its contact is set already
+  const Element* met = nullptr;  // the element of `first`, unless its contact is set already
   AskedPieces asked_pieces;
   const auto ask = [&](const Element& element) {
     if (element.smooth()) {
@@ -201,8 +201,8 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
       met = &element;
     }
   };
-  // A long step is often stopped soon: what is near its beginning is asked first, and then the rest up to
-  // where it was stopped.
+  // A long step is often stopped soon: pieces near its beginning are tested first, and then the rest up
+  // to the place where it was stopped.
   const double margin = tolerance_.touching() + edge_dip(frame_.tip);
   double share = step.norm() > kLongStep * reach_ ? kFirstShare : 1.0;
   std::optional<geometry::SegmentQuery> asked;

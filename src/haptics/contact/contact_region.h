@@ -8,24 +8,24 @@
 
 namespace icome::haptics {
 
-/// No object's index.
+/// The index that stands for no object.
 constexpr std::uint32_t kNoObject = 0xffff'ffff;
 
-/// Where a tip moved by a sweep comes to rest.
+/// Resting place of a tip that was moved by a sweep.
 struct SweepHit {
   double t = 1.0;    // along the step, in [0, 1]
   bool met = false;  // did something hold it there?
-  Element contact;   // what, facing the tip
+  Element contact;   // the element that held it, facing the tip
 };
 
 class HapticScene;
 
-/// What surrounds the surface contact point: every element that a tip whose centre stays within `reach` of
-/// the segment from `a` to `b` can meet. All in a frame with the world's axes and an origin near by: far from
-/// the world's own, coordinates would have too few digits left. Gathered once, it answers all
-/// sweeps of a tick, and of the next ticks while the SCP stays inside. Pieces of large shapes are
-/// only boxes at first and become elements when a sweep comes near. Takes its memory when
-/// constructed; everything else is real-time safe.
+/// The surroundings of the surface contact point: every element that a tip whose centre stays within `reach`
+/// of the segment from `a` to `b` can meet. All in a frame with the world's axes and an origin near by: far
+/// from the world's own, coordinates would have too few digits left. Gathered once, it answers all sweeps of
+/// a tick, and of the next ticks while the SCP stays inside. Pieces of large shapes are only boxes at first
+/// and become elements when a sweep comes near. Takes its memory when constructed; everything else is
+/// real-time safe.
 class ContactRegion {
  public:
   static constexpr std::size_t kPieces = 4096;
@@ -34,9 +34,9 @@ class ContactRegion {
 
   ContactRegion();
 
-  /// What a region is gathered for.
+  /// The frame, the tip and the time for which a region is gathered.
   struct Frame {
-    Vector3 origin;      // m, where the region's frame lies in the world
+    Vector3 origin;      // m, origin of the region's frame in the world
     double tip = 0.0;    // m, the tip's radius
     double elapsed = 0;  // s after the moment of the scene's poses
   };
@@ -44,7 +44,7 @@ class ContactRegion {
   /// alive.
   void start(const HapticScene& scene, const Frame& frame, const Vector3& a, const Vector3& b, double reach,
              std::size_t limit = kPieces);
-  /// Says that an object of this size (m, how far it reaches from its middle) has pieces here.
+  /// Notes that an object of this size (m, from its middle outwards) has pieces here.
   void hold(double size);
   /// Adds an element (in this frame); `bounds` encloses the surface that it stands for, which is nearer to
   /// the tip's centre than the tip's radius where it holds. False when there was no room.
@@ -58,10 +58,10 @@ class ContactRegion {
   bool overflowed() const { return overflowed_; }
   std::size_t size() const { return size_; }
 
-  /// How far the tip may go from `position` in any direction without leaving; negative outside.
+  /// Distance, m, that the tip may go from `position` in any direction without leaving; negative outside.
   double clearance(const Vector3& position) const;
 
-  /// How much of a step from a position in the region stays in it, or hardly less: in [0, 1].
+  /// Share, in [0, 1], of a step from a position in the region that stays in it, or hardly less.
   double share_within(const Vector3& position, const Vector3& step) const;
 
   /// The first element that a tip moving from `start` by `step` comes to rest on, other than the
@@ -72,20 +72,20 @@ class ContactRegion {
   /// Makes the elements now that a sweep from `start` by about `step` will look at.
   void make_ready(const Vector3& start, const Vector3& step);
 
-  /// The flat elements within `distance` of a position in the region, and all curved ones that may be, facing
-  /// it: as many as fit in `into`; how many there are.
+  /// Fills `into` with the flat elements within `distance` of a position in the region, and all curved ones
+  /// that may be, facing it, as far as they fit; returns their number, which may be larger.
   std::size_t around(const Vector3& position, double distance, std::span<Element> into);
 
-  /// Elements that sweeps have looked at so far, and a quarter of the pieces that gathers have brought: what
-  /// it all cost, as a number that replays repeat.
+  /// Elements that sweeps have tested so far, and a quarter of the pieces that gathers have brought: the
+  /// cost of it all, as a number that replays repeat.
   std::uint64_t work() const { return looked_at_ + gathered_ / kPiecesForAnElement; }
 
   const Vector3& a() const { return a_; }
   const Vector3& b() const { return b_; }
   double reach() const { return reach_; }
   const Frame& frame() const { return frame_; }
-  /// What contact arithmetic does not tell apart here: it follows from the largest object that has pieces
-  /// here, and from the digits that coordinates have.
+  /// The tolerance of contact arithmetic here: it follows from the largest object that has pieces here,
+  /// and from the digits that coordinates have.
   const Tolerance& tolerance() const { return tolerance_; }
   /// The size (m) of the smallest object that has pieces here; infinite without any.
   double smallest() const { return smallest_; }
@@ -101,7 +101,7 @@ class ContactRegion {
 
   bool take_box(const Bounds& bounds);
   std::span<const Element> elements_of(Piece& piece);
-  /// For what a tip can meet whose centre stays within `reach` (m) of the segment.
+  /// The query for all that a tip can meet while its centre stays within `reach` (m) of the segment.
   geometry::SegmentQuery relative_query(const Vector3& from, const Vector3& to, double reach) const;
 
   const HapticScene* scene_ = nullptr;

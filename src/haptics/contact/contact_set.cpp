@@ -16,7 +16,7 @@ constexpr int kMaxTurns = 4;           // times that it may be cut so
 constexpr double kMaxGrowth = 8.0;     // of the share from one step to the next, either way
 constexpr double kNudge = 1e-3;        // share of the pull that presses on contacts, less each time
 constexpr int kMaxSettles = 4;
-constexpr double kRoom = 1.1;  // how much further than need be a way is lifted
+constexpr double kRoom = 1.1;  // lift of a way, relative to the least that it needs
 
 /// normal . step >= least
 struct HalfSpace {
@@ -240,7 +240,7 @@ Vector3 ContactSet::along(Footings at, const Vector3& pull, const Tolerance& tol
   return Polyhedron(std::span(at).first(size_), tolerance).project(pull);
 }
 
-/// Down to the contacts from a place near them, hardly sideways, if that is nearer to the goal than `best`.
+/// Lets a place near the contacts fall onto them, hardly sideways, if that is nearer to `goal` than `best`.
 Vector3 ContactSet::settled(Vector3 at, Vector3 best, const Vector3& goal, const Tolerance& tolerance) const {
   Footings now = footings(at);
   double nudge = 1.0;
@@ -255,14 +255,14 @@ Vector3 ContactSet::settled(Vector3 at, Vector3 best, const Vector3& goal, const
 
 namespace {
 
-/// The conditions on what is added to the middle of a straight way.
+/// The conditions on the lift that is added to the middle of a straight way.
 class Clearance {
  public:
   Clearance(const Vector3& position, const Vector3& step, const Tolerance& tolerance)
       : position_(position), step_(step), tolerance_(tolerance) {}
 
-  /// Where a contact touches, neither leg may begin, or end, below the tangent plane; where it does not,
-  /// neither may dip in its middle.
+  /// Adds the conditions of a contact: where it touches, neither leg may begin, or end, below the
+  /// tangent plane; elsewhere neither may dip in its middle.
   void pass(const Element& contact) {
     const Footing middle = look(contact, position_ + 0.5 * step_);
     need(middle.normal, tolerance_.gap - middle.height);
@@ -272,14 +272,14 @@ class Clearance {
     pass_end(contact, position_ + step_, step_, 0.75);
   }
 
-  /// The same with what is to be added: sideways the surface may have risen.
+  /// Adds the condition of a contact at the lifted middle: sideways the surface may have risen.
   void pass_top(const Element& contact, const Vector3& added) {
     const Footing top = look(contact, position_ + 0.5 * step_ + added);
     if (top.height < tolerance_.gap) need(top.normal, top.normal.dot(added) + tolerance_.gap - top.height);
   }
 
-  /// The least that will do: zero where nothing bulges, nothing where there is no way or the end is too far
-  /// to tell.
+  /// The least lift that meets the conditions: zero where nothing bulges, nothing where there is no way or
+  /// the end is too far to tell.
   std::optional<Vector3> least() const {
     if (!sure_) return std::nullopt;
     if (!bulges_) return Vector3::Zero();

@@ -33,9 +33,9 @@ class ContactSet {
     size_ = kept;
   }
 
-  /// The shortest-remaining-way step: of all steps that leave no contact's tangent plane (lifted to
-  /// the resting gap) at the wrong side, the one that ends nearest to `position + pull`: a projection
-  /// onto a polyhedral cone, by its active set of at most three planes.
+  /// The shortest-remaining-way step: of all steps that end on the free side of every contact's
+  /// tangent plane (lifted to the resting gap), the one that ends nearest to `position + pull`: a
+  /// projection onto a polyhedral cone, by its active set of at most three planes.
   Vector3 constrained(const Vector3& position, const Vector3& pull, const Tolerance& tolerance) const;
 
   /// Does any contact belong to a smooth surface?
@@ -50,9 +50,9 @@ class ContactSet {
   /// The least radius (m) of a curved contact; infinite where all are flat.
   double smallest_radius() const;
 
-  /// From `position`, where the contacts hold: the place nearest to `goal` that they all allow, as they
-  /// curve (not as their tangent planes say), and whether it was found exactly; else it lies on the way
-  /// there. `sure`: no walk along a contact had to stop short. Smooth contacts are followed from their last
+  /// The place nearest to `goal` that all contacts allow, from `position`, where they hold, as they curve
+  /// (not as their tangent planes say), and whether it was found exactly; else it lies on the way there.
+  /// `sure`: no walk along a contact had to stop short. Smooth contacts are followed from their last
   /// `follow`, so far and no farther.
   struct Rest {
     Vector3 place;
@@ -64,9 +64,9 @@ class ContactSet {
   /// Makes the feet of `position` those from which smooth contacts are found.
   void follow(const Vector3& position);
 
-  /// What must be added to the middle of a straight way from `position` by `step`, with both ends on the
-  /// contacts, so that it passes above them where they bulge. Zero where they don't; nothing between walls
-  /// that leave no way up.
+  /// The lift that the middle of a straight way from `position` by `step`, with both ends on the contacts,
+  /// needs to pass above them where they bulge. Zero where they don't; nothing between walls that leave no
+  /// way up.
   std::optional<Vector3> lift(const Vector3& position, const Vector3& step, const Tolerance& tolerance) const;
 
  private:

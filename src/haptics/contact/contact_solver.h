@@ -5,10 +5,10 @@
 
 namespace icome::haptics {
 
-/// What a solver found in a tick.
+/// Result of a solver in one tick.
 struct ScpState {
   Vector3 scp = Vector3::Zero();               // m, world; the tip's own position while nothing is touched
-  Vector3 normal = Vector3::UnitZ();           // unit, towards the free side, of what holds the SCP
+  Vector3 normal = Vector3::UnitZ();           // unit, towards the free side, of the surface at the SCP
   Vector3 surface_velocity = Vector3::Zero();  // m/s, of the touched object at the SCP
   bool touching = false;
   bool started_inside = false;       // the SCP was put on the surface because the tip began inside
@@ -34,7 +34,7 @@ class ContactSolver {
   /// Real-time safe.
   virtual void reset() = 0;
 
-  /// Goes over to another scene. `changes` name the objects that differ from the last one and may
+  /// Adopts another scene. `changes` name the objects that differ from the last one and may
   /// name more. Real-time safe.
   virtual void adopt(const HapticScene& scene, std::span<const SceneChange> changes) = 0;
 
@@ -42,8 +42,8 @@ class ContactSolver {
   /// finite (m, world). Real-time safe.
   virtual const ScpState& step(const Vector3& tip, double elapsed) = 0;
 
-  /// Makes ready what the next step will probably need, when the force of this one is out: what it costs is
-  /// load of the servo, but no delay of the force. The state stays as it is. Real-time safe.
+  /// Prepares the data that the next step will probably need, when the force of this one is out: the cost
+  /// loads the servo, but does not delay the force. The state stays as it is. Real-time safe.
   virtual void look_ahead() {}
 
   virtual const ScpState& state() const = 0;

@@ -12,14 +12,14 @@
 namespace icome::haptics {
 namespace {
 
-/// Where the tree should sort an unlimited box: anywhere, but at a number.
+/// The point by which the tree sorts a box; the origin if the box is unlimited and has no centre.
 Eigen::Vector3f sorting_point(const Bounds& bounds) {
   const Vector3 centre = bounds.center();
   return centre.allFinite() ? Eigen::Vector3f(centre.cast<float>()) : Eigen::Vector3f::Zero();
 }
 
-/// How far a box reaches from its middle. One that lies far from its own origin counts as larger: its
-/// coordinates have fewer digits.
+/// Half of the longest side of a box, m. A box that lies far from its own origin counts as larger:
+/// its coordinates have fewer digits.
 double own_size(const Bounds& box) {
   if (box.isEmpty()) return 0.0;
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
@@ -77,8 +77,8 @@ std::shared_ptr<const HapticScene> HapticScene::moved(std::span<const Move> move
   return scene;
 }
 
-/// Takes the objects, ascending, out of the tree; refits that where they have become too many to be looked at
-/// one by one.
+/// Takes the objects, ascending, out of the tree; refits the tree when there are too many outside it to be
+/// tested one by one.
 void HapticScene::let_stray(std::span<const std::uint32_t> moved) {
   constexpr std::size_t kMostStrays = 64;
   std::vector<std::uint32_t> strays;
@@ -193,7 +193,7 @@ void HapticScene::expand(std::uint32_t object, std::uint32_t piece, const Contac
   }
 }
 
-// What has no end is as large as the place on it is far out.
+// An unlimited object counts as large as the place on it is far out.
 double HapticScene::size_near(std::uint32_t object, const Vector3& place) const {
   const double size = (*sizes_)[object];
   return std::isfinite(size) ? size : std::max(1.0, place.cwiseAbs().maxCoeff());

@@ -26,16 +26,16 @@ struct HapticObject {
   double time = 0.0;  // s, the own time of a shape that changes, at the moment 0
 };
 
-/// What the servo touches: objects and a broad phase over them, immutable once compiled. Shares the shapes,
-/// and with the scenes that are made of it by moving objects all that these did not touch. The servo may read
-/// it while any other thread does too.
+/// The scene that the servo touches: objects and a broad phase over them, immutable once compiled. Shares the
+/// shapes, and shares all unchanged parts with the scenes that are made from it by moving objects. The servo
+/// may read it while any other thread does too.
 class HapticScene {
  public:
   /// Compiles a scene for the moment `moment` (s) of the shapes' own times. Ids must differ.
   static std::shared_ptr<const HapticScene> compile(std::vector<HapticObject> objects, double moment = 0.0);
 
-  /// The scene at a moment (s), with other poses for some objects; of several for one object the last holds.
-  /// Ids that the scene does not hold are passed over. Costs by what is moved: few objects are looked at
+  /// The scene at a moment (s), with other poses for some objects; the last of several for one object holds.
+  /// Ids that the scene does not hold are passed over. The cost grows with the moved objects: few are tested
   /// beside the tree of all, which is refitted when they have become many.
   struct Move {
     ObjectId id;
@@ -46,7 +46,7 @@ class HapticScene {
 
   /// Fills a region that was started for this scene. Real-time safe.
   void gather(ContactRegion& region) const;
-  /// The same for one object. Real-time safe.
+  /// Gathers the elements of one object. Real-time safe.
   void gather_object(ContactRegion& region, std::uint32_t object) const;
   /// The elements of a deferred piece of an object, in the frame of a region. Real-time safe.
   void expand(std::uint32_t object, std::uint32_t piece, const ContactRegion::Frame& frame,
@@ -68,12 +68,12 @@ class HapticScene {
     }
   }
 
-  /// The own time of an object's shape then, s. Real-time safe.
+  /// The own time, s, of an object's shape `elapsed` seconds after the moment of the poses. Real-time safe.
   double time(std::uint32_t object, double elapsed) const {
     return objects_[object].time + moment_ + elapsed;
   }
 
-  /// Does the object move from then on, or its shape change? Real-time safe.
+  /// Does the object move from `elapsed` (s) on, or its shape change? Real-time safe.
   bool is_dynamic(std::uint32_t object, double elapsed = 0.0) const {
     return objects_[object].motion.moves(elapsed) || objects_[object].shape->changes();
   }
@@ -81,32 +81,32 @@ class HapticScene {
   /// The object's pose `elapsed` seconds after the moment of the poses. Real-time safe.
   Pose pose(std::uint32_t object, double elapsed) const;
 
-  /// How fast the object moves as a whole at a place then, m/s. Real-time safe.
+  /// Velocity, m/s, of the object as a whole at a place, `elapsed` seconds after the moment. Real-time safe.
   Vector3 velocity(std::uint32_t object, double elapsed, const Vector3& place) const {
     return velocity_at(pose(object, elapsed), objects_[object].motion, elapsed, place);
   }
 
-  /// What contact arithmetic does not tell apart at a place on the object (in its frame). Real-time safe.
+  /// The tolerance of contact arithmetic at a place on the object (in its frame). Real-time safe.
   Tolerance tolerance_near(std::uint32_t object, const Vector3& place) const;
 
-  /// Everything the object can reach from its pose within the horizon, world frame.
+  /// Box around everything the object can reach from its pose within the horizon, world frame.
   Bounds object_bounds(std::uint32_t object) const;
 
-  /// The same in a frame that lies at `origin`, with the world's axes. Real-time safe.
+  /// The object's pose in a frame that lies at `origin`, with the world's axes. Real-time safe.
   Pose pose_in(const Vector3& origin, std::uint32_t object, double elapsed) const;
 
   /// The object's index in this scene. Real-time safe.
   std::optional<std::uint32_t> find(ObjectId id) const;
 
   const base::SharedBlocks<HapticObject>& objects() const { return objects_; }
-  /// Does one of the two come of the other, or both of a third, by moving objects? Then they hold the same
-  /// ones, at the same indices and with the same surfaces.
+  /// Was one of the two made from the other, or both from a third, by moving objects? Then they hold the
+  /// same objects, at the same indices and with the same surfaces.
   bool holds_the_same(const HapticScene& other) const { return by_id_ == other.by_id_; }
   /// May an object of this block of objects() be dynamic?
   bool is_dynamic_block(std::size_t block) const { return extents_[block].moves; }
-  /// The largest coordinate of what is limited, m; 1 where nothing is.
+  /// The largest coordinate of the limited objects, m; 1 where there are none.
   double extent() const { return extent_; }
-  /// What arithmetic with any coordinate of the scene does not tell apart.
+  /// The tolerance of arithmetic with any coordinate of the scene.
   Tolerance tolerance() const { return Tolerance::for_size(extent_); }
   /// The moment of the poses, s, on the clock of shapes that change.
   double moment() const { return moment_; }
@@ -117,7 +117,7 @@ class HapticScene {
   std::size_t bytes() const;
 
  private:
-  /// What the objects of a block reach.
+  /// The extent of the objects of a block.
   struct Extent {
     Bounds bounds;  // of those that are limited; empty: there are none
     bool moves = false;
@@ -141,10 +141,10 @@ class HapticScene {
   // Objects that have left their boxes in the tree, ascending, and their boxes, four at a time.
   std::vector<std::uint32_t> strays_;
   std::vector<geometry::FourBoxes> stray_boxes_;
-  // By nothing that moves.
+  // Data that moving objects does not change.
   std::shared_ptr<const std::vector<std::uint32_t>> order_;  // slot in the tree to object
   std::shared_ptr<const std::vector<std::uint32_t>> by_id_;  // objects in the order of their ids
-  std::shared_ptr<const std::vector<double>> sizes_;         // how far each object reaches from its middle, m
+  std::shared_ptr<const std::vector<double>> sizes_;         // size of each object from its middle, m
   double moment_ = 0.0;                                      // s
   double extent_ = 1.0;                                      // m
   Bounds bounds_;

@@ -6,14 +6,14 @@ namespace icome::haptics {
 using base::Pose;
 using base::Vector3;
 
-/// How a thing moves about the moment for which its pose was said, evenly, until it holds still: a program
-/// that stops answering cannot drag a hand along.
+/// The even motion of a thing about the moment for which its pose was given, until it holds still: a
+/// program that stops answering cannot drag a hand along.
 struct Motion {
-  static constexpr double kHorizon = 0.1;  // s, for which it goes on where nothing else is said
+  static constexpr double kHorizon = 0.1;  // s, for which it goes on where nothing else is given
 
   Vector3 linear = Vector3::Zero();   // m/s, world frame, of the thing's origin
   Vector3 angular = Vector3::Zero();  // rad/s, world frame, about the thing's origin
-  double arrives = 0.0;               // s after the moment, >= 0: then it is at the pose that was said
+  double arrives = 0.0;               // s after the moment, >= 0: then it is at the given pose
   double ends = kHorizon;             // s after the moment, >= `arrives`: from then on it holds still
 
   bool operator==(const Motion& other) const = default;
@@ -25,11 +25,11 @@ struct Motion {
 /// The motion that brings a thing from one pose to another in `seconds` > 0, and ends there.
 Motion motion_between(const Pose& from, const Pose& to, double seconds);
 
-/// Where a thing is `elapsed` s after the moment for which `said` is its pose. Real-time safe.
+/// The pose of a thing `elapsed` s after the moment for which `said` is its pose. Real-time safe.
 Pose moved(const Pose& said, const Motion& motion, double elapsed);
 
-/// How fast (m/s) the thing, at `pose` then, moves at a place, both in one frame with the world's axes.
-/// Real-time safe.
+/// Velocity (m/s) at a place of the thing, which is at `pose` then, both in one frame with the world's
+/// axes. Real-time safe.
 Vector3 velocity_at(const Pose& pose, const Motion& motion, double elapsed, const Vector3& place);
 
 /// A share (0 to 1) of the way from one pose to another. Real-time safe.

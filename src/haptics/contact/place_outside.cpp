@@ -9,7 +9,7 @@ namespace icome::haptics {
 namespace {
 
 constexpr int kMaxStepsOut = 64;     // in one direction
-constexpr double kStepGrowth = 4.0;  // of the least step: soon as large as what is in the way
+constexpr double kStepGrowth = 4.0;  // of the least step: soon as large as any obstacle
 constexpr double kLiftInGaps = 2.0;  // above a surface, where a place is clearly in front of it
 
 /// The solids of a scene at one moment.
@@ -17,11 +17,11 @@ class Solids {
  public:
   Solids(const HapticScene& scene, const ContactRegion::Frame& frame) : scene_(scene), frame_(frame) {}
 
-  /// How a place may leave a solid that holds it.
+  /// The way for a place out of a solid that holds it.
   struct Exit {
     Vector3 place;  // m, in front of the nearest place of the surface
-    double depth;   // m, from that to the place that was asked about
-    double lift;    // m, in front
+    double depth;   // m, from the surface to the place asked about
+    double lift;    // m, of `place` above the surface
   };
 
   /// Calls `visit(exit)` for each solid that holds the place until it returns false.
@@ -62,7 +62,7 @@ class Solids {
   const ContactRegion::Frame& frame_;
 };
 
-/// To the corners, sides and edges of a cube.
+/// Unit directions to the corners, sides and edges of a cube.
 std::array<Vector3, 26> directions_around() {
   std::array<Vector3, 26> directions;
   std::size_t count = 0;

@@ -19,38 +19,38 @@ constexpr std::size_t kManyPieces = 48;
 constexpr std::size_t kMostAhead = 1024;  // with more the region looks less far ahead
 constexpr double kTicksAhead = 4.0;
 constexpr double kLeastShare = 1e-3;
-constexpr double kLeastRoom = 0.25;    // of a region's reach: what a way on may well leave
-constexpr double kLeastOfTip = 1e-3;   // of its radius: how little a region reaches at least
+constexpr double kLeastRoom = 0.25;    // of a region's reach: with less room the SCP needs another region
+constexpr double kLeastOfTip = 1e-3;   // of its radius: least reach of a region
 constexpr double kLargestReach = 0.1;  // of the scene's extent
-constexpr double kFarOff = 256.0;      // sizes of what is near, from the origin: then that is moved
+constexpr double kFarOff = 256.0;      // sizes of the smallest near object, from the origin: then it is moved
 
 constexpr int kMaxShrinks = 48;
 constexpr int kMaxArches = 12;
 constexpr int kMaxIdle = 4;              // iterations that bring the SCP no nearer: contacts that take turns
 constexpr double kMaxAheadGrowth = 2.0;  // of the way that a region looks ahead, after one that overflowed
-constexpr int kMaxReturns = 6;           // in a tick, to where a way out was found before
-constexpr double kCrawl = 1e-4;          // of what is left of the way: a piece of way that leads nowhere
+constexpr int kMaxReturns = 6;           // in a tick, to a place where a way out was found before
+constexpr double kCrawl = 1e-4;          // of the remaining way: a shorter piece of way leads nowhere
 constexpr int kMaxCrawl = 16;            // such pieces in a tick
 constexpr int kFewCrawls = 3;            // after which a way in the open is looked for
-constexpr double kOpenWay = 2e-3;        // of the size of what is near: how long that is
+constexpr double kOpenWay = 2e-3;        // of the size of the smallest near object: length of that way
 constexpr int kOpenSides = 24;
-constexpr double kSamePull = 0.05;   // of its length: a change that opens no way
-constexpr double kRounding = 1e-14;  // of squared distances
-constexpr double kSteepest = 0.1;    // rise of an arch for its length
-constexpr double kStride = 8.0;      // times the last slide's way, a sphere tip's next slide is looked along
-constexpr double kRoundStep = 0.28;  // rad, along a rounded edge: no way over it is then too steep
-constexpr double kFarthest = 0.3;    // of its radius: how far a region looks ahead of a sphere tip in contact
-constexpr double kBulge = 0.3;       // rise of a way over an edge, times its radius, for the squared chord
-constexpr int kMaxHalvings = 24;     // of such a chord, until a region holds it
+constexpr double kSamePull = 0.05;     // of its length: a change that opens no way
+constexpr double kRounding = 1e-14;    // of squared distances
+constexpr double kSteepest = 0.1;      // rise of an arch for its length
+constexpr double kStride = 8.0;        // longest slide of a sphere tip, in lengths of its last one
+constexpr double kRoundStep = 0.28;    // rad, along a rounded edge: no way over it is then too steep
+constexpr double kFarthest = 0.3;      // of its radius: a region's way ahead of a sphere tip in contact
+constexpr double kBulge = 0.3;         // rise of a way over an edge, times its radius, for the squared chord
+constexpr int kMaxHalvings = 24;       // of such a chord, until a region holds it
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
-/// Of formulas in a tick. A point tip's sweeps begin on surfaces, where they cost most.
+/// Evaluations of formulas in a tick. A point tip's sweeps begin on surfaces, where they cost most.
 std::uint64_t evaluations_of(const ScpSettings& settings) {
   return std::uint64_t(settings.max_evaluations) * (settings.tip_radius > 0.0 ? 1 : 2);
 }
 
-/// Are all of these contacts with formulas' solids, which tell at once what is in them?
+/// Are all of these contacts with formulas' solids, which tell at once whether a place is in them?
 bool all_know_inside(const ContactSet& contacts) {
   const std::span<const Element> all = contacts.all();
   return std::all_of(all.begin(), all.end(), [](const Element& it) {
@@ -74,7 +74,7 @@ void ScpSolver::reset() {
   restart();
 }
 
-/// Goes on from wherever the tip will be.
+/// Starts afresh in the next step, from the place of the tip.
 void ScpSolver::restart() {
   started_ = false;
   sliding_ = false;
@@ -178,8 +178,8 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   return state_;
 }
 
-/// Gathers the region of the next tick now if the SCP, going on as in this one, would need another. Near what
-/// moves a region serves no longer than a tick.
+/// Gathers the region of the next tick now if the SCP, going on as in this one, would need another. Near
+/// moving objects a region serves no longer than a tick.
 void ScpSolver::look_ahead() {
   if (!started_ || scene_->moves()) return;
   const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
@@ -188,7 +188,7 @@ void ScpSolver::look_ahead() {
   region_.make_ready(position_, drift_);
 }
 
-/// To where the SCP is. Contacts are found again by the next sweep, and have all their digits then.
+/// Moves the origin to the SCP. Contacts are found again by the next sweep, and have all their digits then.
 void ScpSolver::move_origin() {
   origin_ += position_;
   last_tip_ -= position_;
@@ -210,7 +210,7 @@ bool ScpSolver::start(const Vector3& in_world) {
   return started_;
 }
 
-/// An SCP inside solids is put outside of all of them.
+/// Puts an SCP that is inside solids outside of all of them.
 void ScpSolver::leave_solids() {
   const std::optional<Vector3> free = place_outside(*scene_, frame(), position_);
   if (!free) return;
@@ -218,8 +218,8 @@ void ScpSolver::leave_solids() {
   left_solid_ = true;
 }
 
-/// Moves a sphere tip's SCP out of what it overlaps, if there is room near by. Who found none once looks no
-/// farther than where the tip is.
+/// Moves a sphere tip's SCP out of all that it overlaps, if there is room near by. After a search in vain,
+/// only the tip's own place is tested.
 bool ScpSolver::find_room() {
   if (settings_.tip_radius <= 0.0) return true;
   const TipRoom room(*scene_, frame());
@@ -235,14 +235,14 @@ bool ScpSolver::find_room() {
   return true;
 }
 
-/// How far above a place on an object (in its frame) the SCP is put.
+/// Height, m, above a place on an object (in its frame) at which the SCP is put.
 double ScpSolver::gap_on(std::uint32_t object, const Vector3& place) const {
   return std::max(scene_->tolerance_near(object, place).gap,
                   Tolerance::for_coordinates(position_.cwiseAbs().maxCoeff()).gap);
 }
 
 void ScpSolver::carry(double from, double to) {
-  // What rests on a moving object moves with it.
+  // An SCP that rests on a moving object moves with it.
   Vector3 target = position_;
   std::uint32_t pusher = kNoObject;
   for (Element& contact : contacts_.all()) {
@@ -267,7 +267,7 @@ void ScpSolver::carry(double from, double to) {
   if (near_moving) region_.invalidate();
   if (pusher != kNoObject) push_scp(target, pusher);
   if (!near_moving) return;
-  // What a moving object runs into is taken along.
+  // A moving object takes along an SCP that it runs into.
   const Vector3 there = origin_ + position_;
   scene_->near(there, there, settings_.tip_radius, [&](std::uint32_t object) {
     if (!scene_->objects()[object].motion.still())
@@ -277,7 +277,7 @@ void ScpSolver::carry(double from, double to) {
   });
 }
 
-// A surface that changes may have swallowed the SCP: it comes to the top.
+// A changing surface may have swallowed the SCP, which then comes to the top.
 void ScpSolver::surface_through(std::uint32_t object) {
   const Pose from_object = pose(object, elapsed_);
   const auto place = scene_->objects()[object].shape->way_out(from_object.inverse() * position_,
@@ -288,7 +288,7 @@ void ScpSolver::surface_through(std::uint32_t object) {
   push_scp(from_object * place->point + out * above, object);
 }
 
-// Seen from the object, the SCP moved from where it would be had it gone along to where it is.
+// Seen from the object, the SCP moved to its present place from where it would be had it gone along.
 void ScpSolver::sweep_relative(std::uint32_t object, const Pose& before, const Pose& now) {
   const auto held_by = [&](const Element& contact) { return contact.object == object; };
   if (std::any_of(contacts_.all().begin(), contacts_.all().end(), held_by)) return;
@@ -361,7 +361,7 @@ void ScpSolver::converge(const Vector3& tip) {
     } else if (!cut_ || position_ == from) {  // a part of a way may lead off at first
       ++idle;
     }
-    // Near such a place as the axis of a spiral stair the next tick goes on.
+    // Near a place such as the axis of a spiral stair, where the SCP crawls, the next tick goes on.
     const bool crawls = contacts_.any_smooth() && (contacts_.size() > 1 || in_doubt_) &&
                         (position_ - from).norm() < kCrawl * (tip - position_).norm();
     if (crawls && in_doubt_ && ++crawled % kFewCrawls == 0) {
@@ -386,8 +386,8 @@ bool ScpSolver::swallowed(const Vector3& position) const {
   return any_swallows(last_contacts_, position) || any_swallows(contacts_, position);
 }
 
-/// Where a surface has no tangent plane, as at the axis of a spiral stair, a step may end in the solid after
-/// all: then the SCP stays where it was.
+/// A step may end in the solid where its surface has no tangent plane, as at the axis of a spiral stair:
+/// then the SCP stays where it was.
 void ScpSolver::stay_out(const Vector3& before) {
   if (!swallowed(position_) || swallowed(before)) return;
   position_ = before;
@@ -395,7 +395,7 @@ void ScpSolver::stay_out(const Vector3& before) {
   state_.converged = false;
 }
 
-/// For a tick, or for making ready what the next one needs.
+/// Sets the budget of a tick, or of the preparations for the next one.
 void ScpSolver::grant_budget() { budget_ = region_.work() + std::uint64_t(settings_.max_elements); }
 
 /// Is the SCP nearer to the tip than `from` is, by more than rounding?
@@ -437,15 +437,15 @@ Vector3 ScpSolver::next_step(const Vector3& tip, bool& exact) {
   return pull;
 }
 
-/// Does the tip pull off the contact? At an apex the normal where the SCP is says little: what counts is
-/// the side of the surface that the tip is on, if that is near enough to tell.
+/// Does the tip pull off the contact? At an apex the normal at the SCP says little: then the side of the
+/// surface on which the tip lies decides, if it is near enough to tell.
 bool ScpSolver::lets_go(const Element& contact, const Vector3& tip) const {
   if (normal(contact, position_).dot(tip - position_) < 0.0) return false;
   const Footing under_tip = footing(contact, tip);
   return !under_tip.sure || under_tip.height >= 0.0;
 }
 
-/// The same with smooth surfaces among the contacts, which are followed as they curve.
+/// The piece of way with smooth surfaces among the contacts, which are followed as they curve.
 Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   const Tolerance& tolerance = region_.tolerance();
   const Vector3 pull = tip - position_;
@@ -460,7 +460,7 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   exact = rest.exact;
   in_doubt_ = !rest.sure && settings_.tip_radius <= 0.0 && all_know_inside(contacts_);
   const Vector3 step = rest.place - position_;
-  // The spring's share along the surface: for the cone, where it would rest is where it is pressed to.
+  // The spring's share along the surface: for the friction cone, the spring presses at the resting place.
   const double share = slip(step.norm(), (tip - rest.place).norm());
   if (share <= 0.0) return Vector3::Zero();
   goal_ = share < 1.0 ? Vector3(position_ + share * step) : tip;
@@ -468,8 +468,8 @@ Vector3 ScpSolver::next_smooth_step(const Vector3& tip, bool& exact) {
   return rest.place - position_;
 }
 
-/// Along rounded edges and corners of a mesh, which bend: a step along their tangents would rise off them,
-/// and where the tip is near their centres it would lead a small part of the way only.
+/// The piece of way along rounded edges and corners of a mesh, which bend: a step along their tangents
+/// would rise off them, and where the tip is near their centres it would lead a small part of the way only.
 Vector3 ScpSolver::next_round_step(const Vector3& tip, bool& exact) {
   const Vector3 pull = tip - position_;
   const Vector3 tangent = contacts_.constrained(position_, pull, tolerance());
@@ -495,12 +495,12 @@ Vector3 ScpSolver::next_round_step(const Vector3& tip, bool& exact) {
   return rest.place - position_;
 }
 
-/// Do the contacts say all about the free space around? Around what is convex and rounded by a sphere tip no
+/// Do the contacts say all about the free space around? Around convex elements that a sphere tip rounds no
 /// face ends at an edge: the next contact takes over with the same normal.
 bool ScpSolver::rounded() const { return settings_.tip_radius > 0.0 && contacts_.all_convex(); }
 
-/// Where faces meet in a saddle, the half-spaces of all of them together hold a tip that could still
-/// move: a face does not reach beyond its edges. True when there was a way and the SCP moved.
+/// Leaves a saddle, where the half-spaces of all faces together hold a tip that could still move: a
+/// face does not reach beyond its edges. True when there was a way and the SCP moved.
 bool ScpSolver::escape(const Vector3& tip) {
   if (contacts_.empty()) return false;
   if (at_edge() && escape_over_edge(tip)) return true;
@@ -522,8 +522,8 @@ bool ScpSolver::escape(const Vector3& tip) {
   return true;
 }
 
-/// By leaving out one contact at a time; the sweep, which sees surfaces as they are, says whether that opens
-/// a way.
+/// Escapes by leaving out one contact at a time; the sweep, which sees surfaces as they are, tells whether
+/// that opens a way.
 bool ScpSolver::escape_without_one(const Vector3& tip) {
   if (sliding_ || surface().static_friction > 0.0) return false;
   const Vector3 pull = tip - position_;
@@ -543,8 +543,8 @@ bool ScpSolver::escape_without_one(const Vector3& tip) {
   return false;
 }
 
-/// Where walks along surfaces have to stop short, as at nodes, and at the axis of a spiral stair, contacts
-/// say too little: looks for a short straight way that is free and leads nearer to the tip.
+/// Looks for a short straight way that is free and leads nearer to the tip. For places where walks along
+/// surfaces stop short and contacts say too little, as at nodes, and at the axis of a spiral stair.
 bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   if (contacts_.empty() || sliding_ || surface().static_friction > 0.0) return false;
   const Vector3 from = position_;
@@ -562,7 +562,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
       const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
       const Vector3 way =
           length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other));
-      if (any_swallows(held, from + way)) continue;  // which one evaluation tells
+      if (any_swallows(held, from + way)) continue;  // one evaluation tells that
       contacts_.clear();
       advance(way);
       if ((tip - position_).norm() < pull.norm() - 0.05 * length) return true;
@@ -577,7 +577,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   return false;
 }
 
-/// Is one flat face all that holds a point tip's SCP, so near to its edge that rounding says on which side?
+/// Is a point tip's SCP held by one flat face only, so near to its edge that rounding decides on which side?
 bool ScpSolver::at_edge() const {
   if (contacts_.size() != 1 || held_gain() > 0.0) return false;
   const Element& contact = contacts_.all().front();
@@ -585,8 +585,8 @@ bool ScpSolver::at_edge() const {
          nearest_rim(contact, position_).inside < kEdgeWidth * tolerance().gap;
 }
 
-/// A tip that glides along below an edge is held by a face that ends there, where beyond the edge the way on
-/// may be free: tries that side.
+/// Tries the side beyond an edge: a tip that glides along below the edge is held by a face that ends there,
+/// and beyond it the way on may be free.
 bool ScpSolver::escape_over_edge(const Vector3& tip) {
   const Vector3 from = position_;
   const ContactSet held = contacts_;
@@ -656,7 +656,7 @@ bool ScpSolver::advance(const Vector3& wanted) {
     }
     return false;
   }
-  if (!contacts_.empty()) {  // how far it falls before it lands says nothing about how far it will slide
+  if (!contacts_.empty()) {  // the length of a fall says nothing about the next slide
     last_slide_ = (position_ - from).norm();
     const double least_stride = kLeastShare * settings_.tip_radius;
     stride_ = kStride * (hit.met ? std::max(last_slide_, least_stride) : stride_);
@@ -680,8 +680,8 @@ SweepHit ScpSolver::sweep_on(const Vector3& step, std::span<const Element> ignor
   return hit;
 }
 
-/// The same, where only those contacts are ignored that hold the SCP at one of two places: who is merely
-/// near one could be gone through.
+/// Sweeps as sweep_on() does, but ignores only those contacts that hold the SCP at one of two places:
+/// one that is merely near could be gone through.
 SweepHit ScpSolver::sweep_past(const Vector3& step, const Vector3& one, const Vector3& other) {
   const double touching = tolerance().touching();
   const auto off = [&](const Element& contact) {
@@ -694,9 +694,9 @@ SweepHit ScpSolver::sweep_past(const Vector3& step, const Vector3& one, const Ve
   return sweep_on(step, held.all());
 }
 
-/// The same along contacts that may bulge: in two legs over the bulge. What is met up there need not be in
-/// the way, but bounds it: it joins the contacts, and the way to where all of them allow is tried.
-/// `step` becomes what was tried last.
+/// Moves the SCP along contacts that may bulge: in two legs over the bulge. An element that is met up
+/// there need not be in the way, but bounds it: it joins the contacts, and the way that all of them allow
+/// is tried. `step` becomes the last one that was tried.
 SweepHit ScpSolver::arch(Vector3& step) {
   const Vector3 from = position_;
   const Tolerance& tolerance = region_.tolerance();
@@ -723,7 +723,7 @@ SweepHit ScpSolver::arch(Vector3& step) {
       hit = sweep_past(0.5 * step + *top, from, from);
       if (!hit.met && !region_.overflowed()) hit = sweep_past(end - position_, end, end);
       if (!hit.met && !region_.overflowed()) return hit;
-      // No time is left to tell what is in the way: what is surely free of it counts.
+      // No time is left to tell what is in the way: the part of the step that is surely free counts.
       if (spent() && settings_.tip_radius <= 0.0 && !region_.overflowed() && nearer(from, goal_)) {
         step = position_ - from;
         lifted_ = 2.0 * top->norm();
@@ -737,15 +737,15 @@ SweepHit ScpSolver::arch(Vector3& step) {
       continue;
     }
     contacts_.add(hit.contact);
-    contacts_.follow(from);  // what is met up there may have its foot farther on
+    contacts_.follow(from);  // the met element may have its foot farther on
     step = contacts_.rest(from, goal_, tolerance).place - from;
   }
   step.setZero();
   return {};
 }
 
-/// The same along rounded edges and corners of a mesh: in two legs over the bulge, or as far as these are
-/// free. Who is stopped above a contact keeps it: it is what bounds the way back down.
+/// Moves the SCP along rounded edges and corners of a mesh: in two legs over the bulge, or as far as
+/// these are free. An SCP that is stopped above a contact keeps it, as it bounds the way back down.
 SweepHit ScpSolver::hop(Vector3& step) {
   const Vector3 from = position_;
   for (int i = 0; i < kMaxArches; ++i) {
@@ -778,15 +778,15 @@ bool ScpSolver::holds(const Element& element) const {
                      [&](const Element& contact) { return same_surface(contact, element); });
 }
 
-/// A step along the contacts about `length` long, in the direction of a longer one; none in that of none.
+/// A step along the contacts about `length` long, in the direction of a longer one; zero if that is zero.
 Vector3 ScpSolver::rest_within(double length, const Vector3& step) {
   if (step.isZero(0.0)) return step;
   const Vector3 part = (length / step.norm()) * step;
   return contacts_.rest(position_, position_ + part, tolerance()).place - position_;
 }
 
-/// A step of a sphere tip along faces, no longer than a few times what the last one came forward: the way to
-/// a tip far off leads deep into what will stop it soon.
+/// A step of a sphere tip along faces, no longer than a few times the progress of the last one: the way to a
+/// tip far off leads deep into solids that will stop it soon.
 Vector3 ScpSolver::within_stride(const Vector3& step) const {
   const auto flat = [](const Element& contact) { return contact.flat(); };
   const bool straight = std::all_of(contacts_.all().begin(), contacts_.all().end(), flat);
@@ -815,8 +815,8 @@ Vector3 ScpSolver::within_region(const Vector3& step) {
   return Vector3::Zero();
 }
 
-/// Is all that holds a sphere tip of a mesh? Then wherever a step ends is free; on a primitive it may end
-/// half-way along a chord.
+/// Is a sphere tip held by elements of meshes only? Then the end of any step is free; on a primitive it
+/// may lie half-way along a chord.
 bool ScpSolver::on_mesh() const {
   const auto of_mesh = [](const Element& contact) { return contact.flat() || contact.guarded; };
   return settings_.tip_radius > 0.0 && !contacts_.empty() &&
@@ -826,8 +826,8 @@ bool ScpSolver::on_mesh() const {
 /// Do steps lead along chords round edges and corners of a mesh?
 bool ScpSolver::on_chords() const { return contacts_.any_guarded() && !contacts_.any_smooth(); }
 
-/// A chord round an edge that the region holds: half as long until it does, as surround() shortens what it
-/// looks ahead. A beginning of the whole chord would lie in the edge.
+/// A chord round an edge that the region holds: half as long until it does, as surround() shortens its way
+/// ahead. A beginning of the whole chord would lie in the edge.
 Vector3 ScpSolver::chord_within_region(Vector3 chord) {
   for (int i = 0; i < kMaxHalvings; ++i) {
     chord = rest_within(0.5 * chord.norm(), chord);
@@ -840,7 +840,7 @@ double ScpSolver::largest_reach() const { return kLargestReach * scene_->extent(
 
 /// Gathers the region anew: around the SCP and ahead of it. Too many pieces are slow to sweep, so the
 /// region shrinks until few are left or it is as small as the motion allows. It also looks no farther than
-/// the things near by are large, or what lies far off would say what counts as small here.
+/// the objects near by are large, or objects far off would decide which lengths are small here.
 void ScpSolver::surround(const Vector3& step) {
   Vector3 ahead = way_ahead(step);
   const bool bent = on_chords();
@@ -886,14 +886,14 @@ void ScpSolver::gather(const Vector3& ahead, double reach, std::size_t most_piec
 /// Is this tick's budget spent?
 bool ScpSolver::spent() const { return region_.work() >= budget_ || geometry::FormulaAllowance::spent(); }
 
-/// With less room than this (m) in its region the SCP had better have another.
+/// The room (m) in its region with less of which the SCP had better have another region.
 double ScpSolver::least_room() const { return kLeastRoom * std::max(reach_, region_.reach()); }
 
 /// Is the SCP in the air between two places of a surface? Then its step points at the tip, which says
 /// little about how far it will go.
 bool ScpSolver::falling() const { return contacts_.empty() && state_.touching; }
 
-/// Where the SCP will go: as a rule on, as in the last tick, for a few ticks.
+/// The probable way of the SCP: as a rule on, as in the last tick, for a few ticks.
 Vector3 ScpSolver::way_ahead(const Vector3& step) {
   const double length = step.norm();
   const Vector3 on = kTicksAhead * drift_;
@@ -905,8 +905,8 @@ Vector3 ScpSolver::way_ahead(const Vector3& step) {
   }
   // A chord round an edge is short as it is; a beginning of it would lie in the edge.
   if (on_chords()) return step;
-  // A sphere tip that is pulled far along what it touches sinks into much that it will not come to. One that
-  // has gone far in this tick will go on: looking ahead as far again, a long way takes few regions.
+  // The step of a sphere tip that is pulled far along a surface leads into much that it will not reach. One
+  // that has gone far in this tick will go on: looking ahead as far again, a long way takes few regions.
   const double farthest =
       std::max({tip_motion_, kFarthest * settings_.tip_radius, (position_ - tick_start_).norm()});
   if (!contacts_.empty() && settings_.tip_radius > 0.0 && length > farthest)
@@ -934,7 +934,7 @@ void ScpSolver::report(const Vector3& tip) {
   report_contact(pull);
 }
 
-/// What holds the SCP most against `pull`.
+/// Reports the contact that holds the SCP most against `pull`.
 void ScpSolver::report_contact(const Vector3& pull) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Element& contact : contacts_.all()) {
@@ -953,7 +953,7 @@ void ScpSolver::report_contact(const Vector3& pull) {
   if (scene_->objects()[state_.object].shape->changes()) state_.surface_velocity += deformation_velocity();
 }
 
-/// How fast a changing surface itself moves under the SCP.
+/// Velocity, m/s, of a changing surface itself under the SCP.
 Vector3 ScpSolver::deformation_velocity() const {
   for (const Element& contact : contacts_.all()) {
     if (contact.smooth() && contact.object == state_.object) return smooth_velocity(contact, position_);

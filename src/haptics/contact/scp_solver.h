@@ -14,7 +14,7 @@ struct ScpSettings {
   double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
   // The budget of a tick is counted, not timed, so that replays agree bit for bit.
   int max_iterations = 256;     // pieces of way, usually 1 to 5
-  int max_elements = 8'000;     // looked at by sweeps, some 10 ns each, and a quarter of the pieces gathered;
+  int max_elements = 8'000;     // tested by sweeps, some 10 ns each, and a quarter of the pieces gathered;
                                 // usually below 100
   int max_evaluations = 6'000;  // of formulas, some 100 ns each, and twice as many for a point tip; usually
                                 // some 100
@@ -23,7 +23,7 @@ struct ScpSettings {
 /// Finds the surface contact point (SCP): the constraint-based method of Zilles and Salisbury (1995)
 /// and Ruspini et al. (1997), thesis 5.3.2, for point and sphere tips. From its last place the SCP
 /// moves towards the tip through free space only: every straight piece of the way is swept against
-/// all elements around, what is hit becomes a constraint, and the next piece is the shortest way to
+/// all elements around, each hit becomes a constraint, and the next piece is the shortest way to
 /// the tip that the constraints allow. This repeats until the SCP rests, within the tick. Coulomb
 /// friction shortens the pieces. Objects that move carry the SCP along. One thread owns a solver; it
 /// keeps a pointer to the scene, which the caller keeps alive.
@@ -38,7 +38,7 @@ class ScpSolver final : public ContactSolver {
   void look_ahead() override;
   const ScpState& state() const override { return state_; }
 
-  /// What all ticks cost so far, in the elements of ScpSettings::max_elements.
+  /// The cost of all ticks so far, in the elements of ScpSettings::max_elements.
   std::uint64_t work() const { return region_.work(); }
 
  private:
@@ -109,30 +109,30 @@ class ScpSolver final : public ContactSolver {
   bool met_ = false;       // did it end at something new?
   bool sliding_ = false;
   bool left_solid_ = false;  // put on the surface since the last report
-  // m, where no way in the open was found, and towards which tip
+  // m, the place where no way in the open was found, and the tip then
   Vector3 shut_in_at_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   Vector3 shut_in_tip_ = Vector3::Zero();
-  // m, where the frame of all that follows lies in the world: moved when the SCP is so far from it that what
-  // is near would have too few digits.
+  // m, origin in the world of the frame of all that follows: moved when the SCP is so far from it that
+  // coordinates near by would have too few digits.
   Vector3 origin_ = Vector3::Zero();
   Vector3 position_ = Vector3::Zero();    // m, of the SCP (centre of the tip that rests)
-  Vector3 tick_start_ = Vector3::Zero();  // m, where the SCP was when the tick began
+  Vector3 tick_start_ = Vector3::Zero();  // m, place of the SCP when the tick began
   Vector3 last_tip_ = Vector3::Zero();
   Vector3 goal_ =
       Vector3::Zero();       // m, where smooth contacts are pulled: the tip, or as far as friction lets
   double tip_motion_ = 0.0;  // m, of this tick
-  double stride_ = 0.0;      // m, how long a step may be
+  double stride_ = 0.0;      // m, longest step
   double lifted_ = 0.0;      // m, how high above its contacts the last step may have ended
   double last_slide_ = 0.0;  // m, the last step along a surface in this tick
   double fallen_ = 0.0;      // m, through free space since, in this tick
-  Vector3 drift_ = Vector3::Zero();  // m, how far the SCP went last tick
-  double reach_ = 0.0;               // m, how far around the SCP the region looks
-  // m, how far ahead the last region looked that held too much to look as far as it should.
+  Vector3 drift_ = Vector3::Zero();  // m, way of the SCP in the last tick
+  double reach_ = 0.0;               // m, distance around the SCP that the region covers
+  // m, the way ahead of the last region that held too much to look as far as it should.
   double ahead_ = std::numeric_limits<double>::infinity();
   std::uint64_t budget_ = 0;  // work of the region at which this tick ends
   ContactSet contacts_;
   ContactSet last_contacts_;     // at the beginning of the tick, if any is smooth
-  std::vector<Element> around_;  // what a way out looks at: memory only
+  std::vector<Element> around_;  // elements that a way out is found among: memory only
   ContactRegion region_;
   ContactRegion ride_region_;
   ScpState state_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMostPushes = 40;
 constexpr int kDirections = 48;
-constexpr double kLeastAdvance = 0.05;  // radii; what a way is looked at by
+constexpr double kLeastAdvance = 0.05;  // radii; least step along a direction
 constexpr double kGoldenAngle = 2.399963229728653;
 constexpr double kDirectEnough = 1.25;  // of the overlap: no shorter way out is worth a search
 
@@ -50,7 +50,7 @@ std::optional<TipRoom::Overlap> TipRoom::deepest(const Vector3& place) const {
   return most;
 }
 
-/// Out of what is overlapped most, again and again: in a groove it settles between the walls.
+/// Moves the tip out of its deepest overlap, again and again: in a groove it settles between the walls.
 std::optional<Vector3> TipRoom::pushed_out(const Vector3& place, double farthest) const {
   Vector3 at = place;
   for (int i = 0; i < kMostPushes; ++i) {
@@ -62,7 +62,7 @@ std::optional<Vector3> TipRoom::pushed_out(const Vector3& place, double farthest
   return std::nullopt;
 }
 
-/// How far along a direction (m) the tip fits first; `farthest` where it does not.
+/// Distance (m) along a direction at which the tip fits first; `farthest` where it does not.
 double TipRoom::along(const Vector3& place, const Vector3& direction, double farthest) const {
   double way = 0.0;
   while (way < farthest) {

@@ -5,13 +5,13 @@
 
 namespace icome::haptics {
 
-/// Where a sphere tip fits among the objects of a scene: for a tip that begins inside something, or around
-/// which something appears. Looks at the distance to surfaces, not at elements, so that it costs the same on
-/// the finest mesh: some microseconds where the tip fits or nearly does, about a millisecond in a narrow
-/// place. Real-time safe; the caller keeps the scene.
+/// Finds places where a sphere tip fits among the objects of a scene: for a tip that begins inside an
+/// object, or around which one appears. Uses the distance to surfaces, not elements, so that it costs the
+/// same on the finest mesh: some microseconds where the tip fits or nearly does, about a millisecond in a
+/// narrow place. Real-time safe; the caller keeps the scene.
 class TipRoom {
  public:
-  /// So many radii of the tip from where it would be, no place counts as its own any more.
+  /// Largest distance, in radii of the tip, from its own place to a place near by.
   static constexpr double kFarthest = 8.0;
 
   TipRoom(const HapticScene& scene, const ContactRegion::Frame& frame) : scene_(scene), frame_(frame) {}
@@ -24,11 +24,11 @@ class TipRoom {
   std::optional<Vector3> near(const Vector3& place) const;
 
  private:
-  /// What the tip at a place overlaps most.
+  /// The deepest overlap of the tip at a place.
   struct Overlap {
     double depth;  // m, a tip that moves by less overlaps still
     Vector3 out;   // unit, along which it moves out soonest
-    double gap;    // m, how far from the surface it shall be then
+    double gap;    // m, distance to keep from the surface then
   };
 
   std::optional<Overlap> deepest(const Vector3& place) const;

@@ -58,7 +58,7 @@ double Inertia::low_pass(double dt) const {
 
 double Inertia::mass_needed(double device_mass, double dt) const {
   const double smooth = low_pass(dt);
-  return std::min(device_mass, mass_ * smooth / (1.0 - smooth));  // where 1/(1 + M/m) is no less than it
+  return std::min(device_mass, mass_ * smooth / (1.0 - smooth));  // from which on 1/(1 + M/m) >= smooth
 }
 
 Vector3 Inertia::force(const EffectInput& input) {

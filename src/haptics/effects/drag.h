@@ -55,7 +55,7 @@ class FrictionEffect final : public Effect {
     Vector3 anchor = Vector3::Zero();  // m
   };
   FrictionSettings settings_;
-  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();  // of those that continue each other
+  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();  // shared by effects that continue each other
 };
 
 /// The tip feels heavier: a force against its acceleration, as of `mass` kg held in the hand (without
@@ -85,7 +85,7 @@ class Inertia final : public Effect {
     Vector3 last_velocity = Vector3::Zero();  // m/s
     Vector3 acceleration = Vector3::Zero();   // m/s^2, low-passed
   };
-  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();  // of those that continue each other
+  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();  // shared by effects that continue each other
 };
 
 }  // namespace icome::haptics

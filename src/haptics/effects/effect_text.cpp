@@ -38,7 +38,7 @@ constexpr Parameter kDamping = {"DAMPING", "N s/m", 0.0, 1e3, kUsualSpring.dampi
 // The smallest length that means anything to a hand.
 constexpr double kShortest = 1e-6;  // m
 
-// What one tick can look at beside everything else.
+// Limits on the work that fits into one tick beside everything else.
 constexpr std::size_t kMostCurvePoints = 1000;
 constexpr std::size_t kMostFieldSteps = 1000;
 constexpr double kMostField = 1000.0;  // N, of each component
@@ -176,11 +176,11 @@ EffectResult field_of(std::string_view text) {
       });
 }
 
-/// A kind with how it is read; those that have numbers alone are read by these.
+/// A kind of effect and its reader; effects that consist of numbers only are read by `parameters`.
 struct EffectMaker {
   EffectKind kind;
   std::function<EffectResult(std::string_view)> make;
-  std::span<const Parameter> parameters = {};  // of those that have numbers alone
+  std::span<const Parameter> parameters = {};  // of effects that consist of numbers only
 };
 
 EffectMaker of_numbers(std::string_view name, std::span<const Parameter> parameters,
@@ -231,13 +231,13 @@ const std::vector<EffectMaker>& effect_makers() {
   return kMakers;
 }
 
-/// What stands before the colon and behind it.
+/// The parts of a text before and after its colon.
 std::pair<std::string_view, std::string_view> parts_of(std::string_view text) {
   const std::size_t colon = text.find(':');
   return {text.substr(0, colon), colon == std::string_view::npos ? "" : text.substr(colon + 1)};
 }
 
-/// Null where there is no such kind.
+/// The maker of this name; null if there is no such kind.
 const EffectMaker* maker_named(std::string_view name) {
   const auto& makers = effect_makers();
   const auto maker = std::ranges::find(makers, name, [](const EffectMaker& it) { return it.kind.name; });

@@ -9,7 +9,7 @@
 
 namespace icome::haptics {
 
-/// A kind of effect that can be written.
+/// A kind of effect that can be written as text.
 struct EffectKind {
   std::string_view name;
   std::string usage;   // what follows the colon
@@ -23,22 +23,22 @@ const std::vector<EffectKind>& effect_kinds();
 struct EffectNumber {
   std::string_view name;  // in capitals, as the usage has it: "RADIUS"
   std::string_view unit;  // "m"; empty: none
-  double least = 0.0;     // what it may be, both ends included
+  double least = 0.0;     // limits of the value, both ends included
   double most = 0.0;
   double value = 0.0;
 };
-/// The numbers of an effect's text, those that it leaves out at their usual value; none where the text makes
-/// no effect, or one that is not of so many numbers (curve, field).
+/// The numbers of an effect's text, with usual values for those that it leaves out; none where the text
+/// makes no effect, or its kind has no fixed count of numbers (curve, field).
 std::vector<EffectNumber> effect_numbers(std::string_view text);
 
 /// The text of an effect of this kind with these numbers: "viscous:2".
 std::string effect_of_numbers(std::string_view kind, const std::vector<double>& numbers);
 
-/// The points of the text of a curve, m; none where it is no curve.
+/// The points of a curve's text, m; none if the text is no curve.
 std::vector<Vector3> curve_points(std::string_view text);
 
 /// The effect of a text such as "viscous:2" or "well:0,0,0.05,0.01,1.5"; see effect_kinds(). Places are m in
-/// the frame of who asks. Fails with a sentence that names the number that is wrong.
+/// the caller's frame. Fails with a sentence that names the number that is wrong.
 base::Result<std::unique_ptr<Effect>> make_effect(std::string_view text);
 
 }  // namespace icome::haptics

@@ -5,7 +5,7 @@
 namespace icome::haptics {
 namespace {
 
-constexpr double kNewest = 0.05;  // the share of the last tick in what counts as the last few
+constexpr double kNewest = 0.05;  // weight of the last tick in drift_, the mean of the last few
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 
 namespace icome::haptics {
 
-/// The same force everywhere, such as weight.
+/// A constant force, equal everywhere, such as weight.
 class ConstantForce final : public Effect {
  public:
   explicit ConstantForce(const Vector3& newtons) : force_(newtons) {}

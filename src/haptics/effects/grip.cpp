@@ -9,7 +9,7 @@
 namespace icome::haptics {
 namespace {
 
-/// Over so much of the way the least pull comes in.
+/// Distance over which the least pull is faded in.
 constexpr double kSoftStart = 0.002;  // m
 
 double smooth_step(double t) {
@@ -17,7 +17,7 @@ double smooth_step(double t) {
   return x * x * (3.0 - 2.0 * x);
 }
 
-/// Against the way that what is held was taken, as far as it can go there.
+/// The pull back against the displacement of the held thing, in its free directions only.
 Vector3 resistance(const GripFeel& feel, const Vector3& way) {
   const Vector3 taken = feel.freedom * way;
   const double distance = taken.norm();
@@ -25,7 +25,7 @@ Vector3 resistance(const GripFeel& feel, const Vector3& way) {
   return -pull_back(feel, distance) / distance * taken;
 }
 
-/// Springs and dampers of a device and tick; see SpringSettings.
+/// Stiffness and damping that are stable for the device and the tick; see SpringSettings.
 struct Hold {
   double stiffness, damping;
 
@@ -39,7 +39,7 @@ Vector3 guidance(const GripFeel& feel, const Hold& hold, const EffectInput& inpu
   return kept * (hold.stiffness * (feel.start - input.position) - hold.damping * input.velocity);
 }
 
-/// Damped on the way in only: a wall does not hold back who leaves it.
+/// Damped on the way in only: a wall does not hold back a tip that leaves it.
 Vector3 stop_force(const GripStop& stop, const Hold& hold, const EffectInput& input) {
   const double depth = (stop.point - input.position).dot(stop.normal);
   if (!(depth > 0.0)) return Vector3::Zero();
@@ -54,7 +54,7 @@ double pull_back(const GripFeel& feel, double distance) {
   return feel.least_pull * smooth_step(distance / kSoftStart) + (feel.most_pull - feel.least_pull) * rise;
 }
 
-/// As if guidance, a stop and the well pulled along the same line.
+/// Counts as if guidance, a stop and the well pulled along the same line.
 double grip_mass_needed(const GripFeel& feel, double device_mass, double dt) {
   if (!feel.holds) return 0.0;
   const double well = feel.well ? feel.well->stiffness : 0.0;
@@ -68,7 +68,7 @@ Vector3 grip_force(const GripFeel& feel, const EffectInput& input) {
   for (std::size_t i = 0; i < std::min(feel.stop_count, feel.stops.size()); ++i)
     force += stop_force(feel.stops[i], hold, input);
   if (feel.well) {
-    // To the nearest place of the line or plane.
+    // The centre is the nearest place of the well's line or plane.
     const Vector3 nearest = input.position - feel.well->across * (input.position - feel.well->centre);
     GravityWell well(nearest, feel.well->radius, feel.well->stiffness);
     force += well.force(input);

@@ -85,7 +85,7 @@ TextureSample GrainTexture::sample(const Vector3& point, const Vector3& /*normal
 
 Vector3 textured_force(const Vector3& force, const Vector3& normal, double stiffness,
                        const TextureSample& texture) {
-  const double flat = force.dot(normal);  // N, what the surface gives without relief
+  const double flat = force.dot(normal);  // N, of the surface without relief
   const double raised = std::max(0.0, flat + stiffness * texture.height);
   const Vector3 slope = texture.gradient - texture.gradient.dot(normal) * normal;
   return force - flat * normal + raised * (normal - slope);

@@ -63,10 +63,10 @@ class GrainTexture final : public HapticTexture {
   std::uint64_t seed_;
 };
 
-/// What a relief makes of a surface's force `force` (N, e.g. from spring_damper_force) at a contact with
-/// unit normal `normal`, on a surface of `stiffness` N/m: the height changes the depth and the slope
-/// tilts the force (Minsky's gradient method, 1995, in the form of Ho, Basdogan and Srinivasan, 1999).
-/// On a flat undamped surface the result is the gradient of the energy K/2 (depth + height)^2, so the
+/// The force (N) of a surface with relief, made from the surface's `force` (N, e.g. from spring_damper_force)
+/// at a contact with unit normal `normal`, on a surface of `stiffness` N/m: the height changes the depth and
+/// the slope tilts the force (Minsky's gradient method, 1995, in the form of Ho, Basdogan and Srinivasan,
+/// 1999). On a flat undamped surface the result is the gradient of the energy K/2 (depth + height)^2, so the
 /// relief itself neither gives nor takes energy. Never pulls inwards. Real-time safe.
 Vector3 textured_force(const Vector3& force, const Vector3& normal, double stiffness,
                        const TextureSample& texture);

@@ -11,7 +11,7 @@ std::vector<double> needed_together(std::span<const MassNeed> needs) {
 }
 
 double mass_share(double device_mass, double own, double together) {
-  // Who needs nothing takes nothing, whatever it is given.
+  // A force that needs no mass takes none from the others, whatever it is given.
   return own > 0.0 && together > device_mass ? device_mass * (own / together) : device_mass;
 }
 

@@ -6,21 +6,21 @@
 
 namespace icome::haptics {
 
-// How forces that act on one tip share what it can render stably. What is stable on a device of mass m is a
-// stiffness of at most 0.1 m/dt^2, a damping in proportion to m/dt (surface_force.h) and a mass added in
+// Forces that act on one tip share the range in which it is stable. A device of mass m is stable with a
+// stiffness of at most 0.1 m/dt^2, a damping in proportion to m/dt (surface_force.h) and an added mass in
 // proportion to m (Inertia): all grow with m. So the device is thought of as made of pieces that move as one,
-// each of which renders one force: what each keeps stable on its piece is stable in sum.
+// each of which renders one force: if each force is stable on its piece, so is their sum.
 
-/// What one force needs of a device: the least mass (kg) on which it is felt as it was asked for, no more
-/// than the device's own; and where it acts, in one frame for all.
+/// The needs of one force: the least mass (kg) of a device on which it is felt with its requested
+/// settings, no more than the device's own; and its reach, in one frame for all.
 struct MassNeed {
   double mass = 0.0;  // kg, >= 0
   Reach reach = {};
 };
 
-/// For each of them, the mass (kg) that it and all that may act at the same places need together. Who never
-/// act together take nothing from each other; an effect's part depends on where others reach, not on where
-/// the tip is, so that its force stays the same function of place and gives no energy.
+/// For each need, the mass (kg) that it and all that may act at the same places need together. Forces that
+/// never act together take nothing from each other. The mass depends on the reaches, not on the place of
+/// the tip, so that an effect's force stays the same function of place and gives no energy.
 std::vector<double> needed_together(std::span<const MassNeed> needs);
 
 /// The piece (kg) of a device of `device_mass` for a force that needs `own`, among forces that need

@@ -12,7 +12,7 @@
 namespace icome::haptics {
 namespace {
 
-constexpr Parameter kAnything{};  // bounds that are not worth telling
+constexpr Parameter kAnything{};  // default limits, which ranges_of() does not show
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');

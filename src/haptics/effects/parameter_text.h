@@ -13,15 +13,15 @@ namespace icome::haptics {
 struct Parameter {
   std::string_view name;       // in capitals, as the help shows it: "RADIUS"
   std::string_view unit = {};  // "m"; empty: none
-  double least = -1e6;         // what it may be, both ends included
+  double least = -1e6;         // limits of the value, both ends included
   double most = 1e6;
-  std::optional<double> usual = {};  // when it is left out; only the last ones have one
+  std::optional<double> usual = {};  // value if left out; only the last parameters have one
 };
 
 /// "X,Y,Z[,STIFFNESS[,DAMPING]]"
 std::string usage_of(std::span<const Parameter> parameters);
 
-/// "STIFFNESS 0 to 1e+06 N/m (200)", one after the other; those that may be anything give their unit only.
+/// "STIFFNESS 0 to 1e+06 N/m (200)", separated by commas; with the default limits the unit alone is shown.
 std::string ranges_of(std::span<const Parameter> parameters);
 
 /// Reads "0,0,0.05,0.01": all parameters, those that are left out at their usual value. Fails with a sentence

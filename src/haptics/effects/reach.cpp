@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kParallelLines = 1e-12;  // squared sine of the angle between two lines
 
-/// What two points or lines are apart. A line is free along its axis, and two that are not parallel meet but
-/// for their common normal.
+/// Distance between two points or lines. A line is free along its axis, so two that are not parallel are
+/// apart only along their common normal.
 double distance_between(const Reach& a, const Reach& b) {
   const Vector3 way = b.centre - a.centre;
   const Vector3 normal = a.axis.cross(b.axis);

@@ -6,14 +6,14 @@
 
 namespace icome::haptics {
 
-/// How hard a spring effect holds. Damping acts only in the directions in which the spring does and is
-/// kept within what is stable for the device and the tick (stable_damping).
+/// Stiffness and damping of a spring effect. Damping acts only in the directions in which the spring
+/// does and is kept within what is stable for the device and the tick (stable_damping).
 struct SpringSettings {
   double stiffness = 200.0;  // N/m, usually 50 to 500
   double damping = 1.0;      // N s/m, usually 0 to 5
 };
 
-/// What all springs share.
+/// Base of the spring effects.
 class Spring : public Effect {
  public:
   double mass_needed(double device_mass, double dt) const override {

@@ -7,16 +7,16 @@
 
 namespace icome::haptics {
 
-/// Damping that means: choose it for the wall, the device and the rate (stable_damping).
+/// Stands for a damping that is chosen for the wall, the device and the rate (stable_damping).
 constexpr double kAutomaticDamping = -1.0;
 
-/// Which sides of a surface stop the tip.
+/// The sides of a surface that stop the tip.
 enum class TouchableSides {
   Front,  // only from outside, along the outward normals
   Both,
 };
 
-/// What a surface feels like.
+/// Haptic properties of a surface.
 struct Surface {
   double stiffness = 0.0;              // N/m, usually 300 to 5000; 0: the device's nominal stiffness
   double damping = kAutomaticDamping;  // N s/m, usually 0.5 to 20; kAutomaticDamping
@@ -26,7 +26,7 @@ struct Surface {
   std::shared_ptr<const HapticTexture> texture = nullptr;  // read only; null: smooth
 };
 
-// How stiff and how damped a sampled wall may be. Derivation: a mass m meets F = -K x - B v that is
+// Limits of the stiffness and damping of a sampled wall. Derivation: a mass m meets F = -K x - B v that is
 // computed every dt from the position and its backward difference and held between (zero-order hold).
 // With k = K dt^2/m and b = B dt/m the characteristic polynomial is
 //   z^3 + (k/2 + b/2 - 2) z^2 + (1 + k/2) z - b/2,
@@ -57,21 +57,21 @@ DampingRange stable_damping_range(double stiffness, double effective_mass, doubl
 /// higher rate). Real-time safe.
 double stable_stiffness(double effective_mass, double dt, double requested);
 
-/// "stiffness 5000 N/m is felt as 1000 N/m, damping 60 N s/m as 5 N s/m": of a spring with this stiffness
-/// (N/m) and damping (N s/m; kAutomaticDamping asks for none) what stable_stiffness() and stable_damping()
-/// allow less of. Empty where all is given.
+/// "stiffness 5000 N/m is felt as 1000 N/m, damping 60 N s/m as 5 N s/m": the reductions by
+/// stable_stiffness() and stable_damping() of a spring with this stiffness (N/m) and damping (N s/m;
+/// kAutomaticDamping asks for none). Empty where nothing is reduced.
 std::string capped_spring(double effective_mass, double dt, double stiffness, double damping);
 
-/// How many ticks of a stiffness damping must pay for at least: the hold leaks half a tick of it, a device
+/// Least damping per stiffness, in ticks: the zero-order hold leaks half a tick of the stiffness, a device
 /// that answers one tick late a whole one (stable_damping).
 constexpr double kLeakTicks = 2.0;
 
-/// How long a force may lag behind that reaches the device's maximum, as ForceLimiter changes forces in
-/// steps, s: damping must pay for that, too, or a spring that is far harder than the device is strong feeds
-/// the hand. (Eight springs of 8 kN/m at 4 kHz shook an omega.x in a hand by 5 mm; with this they hold it.)
+/// Longest lag, s, of a force that reaches the device's maximum, as ForceLimiter changes forces in steps:
+/// damping must pay for that, too, or a spring that is far harder than the device is strong feeds the hand.
+/// (Eight springs of 8 kN/m at 4 kHz shook an omega.x in a hand by 5 mm; with this they hold it.)
 constexpr double kLimiterLag = 0.002;
 
-/// How many seconds of a stiffness damping must pay for at least. Real-time safe.
+/// Least damping per stiffness, s, that pays for the hold and the lag of forces. Real-time safe.
 double leak_seconds(double dt);
 
 /// The damping (N s/m) to use for a wall no stiffer than stable_stiffness(): `requested`, kept between

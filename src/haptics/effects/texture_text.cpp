@@ -16,7 +16,7 @@ using Numbers = std::vector<double>;
 
 constexpr std::uint64_t kGrainSeed = 1;
 
-// Slopes grow with depth over spacing; steeper ones than these are edges, which belong into the geometry.
+// Slopes grow with depth over spacing; steeper ones than these are edges, which belong in the geometry.
 constexpr double kMostDepthOfSpacing = 0.5;
 
 constexpr Parameter depth_of_texture(double usual) { return {"DEPTH", "m", 0.0, 0.01, usual}; }

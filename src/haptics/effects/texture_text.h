@@ -9,7 +9,7 @@
 
 namespace icome::haptics {
 
-/// A haptic texture that can be written.
+/// A kind of haptic texture that can be written as text.
 struct TextureKind {
   std::string_view name;
   std::string usage;   // what follows the colon
@@ -18,7 +18,7 @@ struct TextureKind {
 };
 const std::vector<TextureKind>& texture_kinds();
 
-/// How deep and how far apart the waves, bumps or grains of a texture's text are, m.
+/// Depth and spacing of the waves, bumps or grains of a texture's text, m.
 struct TextureSize {
   double depth = 0.0, spacing = 0.0;
 };

@@ -20,21 +20,21 @@ using base::Pose;
 using base::Vector3;
 
 constexpr int kMostSteps = 20'000;  // that one search for a way tries
-// All of them: then of meshes what cannot be told stays unjudged, of others it is a pop.
+// Steps of all searches: beyond them an undecided passage of a mesh stays unjudged, of others it is a pop.
 constexpr int kMostStepsEver = 400'000;
 constexpr int kMostWalked = 100'000;         // triangles and falls of one search along a mesh
 constexpr int kMostWalkedEver = 4'000'000;   // of all of them
 constexpr int kMostMarkedEver = 20'000'000;  // triangles looked at to prove that meshes part places, all told
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
-constexpr double kTellable = 30.0;    // times the noise, a length is told from none
-constexpr double kLeastForce = 1e-6;  // N; what rounding leaves of nothing
+constexpr double kTellable = 30.0;    // times the noise: the least length that is told from none
+constexpr double kLeastForce = 1e-6;  // N; a smaller force is due to rounding
 constexpr double kSideways = 0.1;     // cosine: a force at less than this to the surface does not pull
 constexpr double kLeastCosine = 0.2588;  // of the angle between the pull and a move that counts
 
-/// What is small for an object, m.
+/// Lengths that are small for an object, m.
 struct Lengths {
-  double noise;  // what positions may be off
-  double bumps;  // what a surface may rise and fall where it should be flat
+  double noise;  // possible error of positions
+  double bumps;  // rise and fall of a surface that should be flat
   double pop;    // as JudgeSettings has them
   double stick;
 
@@ -47,7 +47,7 @@ struct Lengths {
   }
 };
 
-/// Around `box`, given in the object's frame, in the world.
+/// Box in the world around `box`, which is given in the object's frame.
 Bounds placed(const Bounds& box, const Pose& world_from_object) {
   if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) return box;
   const Vector3 centre = world_from_object * Vector3(box.center());
@@ -55,7 +55,7 @@ Bounds placed(const Bounds& box, const Pose& world_from_object) {
   return {centre - reach, centre + reach};
 }
 
-/// One object, where it is now.
+/// One object, at its present pose.
 class Party {
  public:
   Party(const JudgedObject& object, const JudgeSettings& settings)
@@ -159,7 +159,7 @@ class ContactJudge::Court {
   }
 
  private:
-  /// Measures by what is near: the strictest of the objects that the tick can have to do with.
+  /// Sets near_ to the strictest lengths of the objects that the tick can have to do with.
   void look_around(const JudgedTick& tick) {
     const double reach = settings_.tip_radius + settings_.pop_depth + settings_.stick_move;
     const Vector3 from = seen_.value_or(tick.scp);
@@ -241,7 +241,7 @@ class ContactJudge::Court {
     });
   }
 
-  /// The same of a tip with its radius.
+  /// Does a tip with its radius reach into a solid with its centre, or by more than the pop depth?
   bool buried(const Vector3& tip) const {
     const double radius = settings_.tip_radius;
     if (radius <= 0.0) return deep(tip);
@@ -293,7 +293,7 @@ class ContactJudge::Court {
     return deep;
   }
 
-  /// What became of the way to where the SCP is now.
+  /// Outcome of the SCP's way to its present place.
   enum class Passage { Free, Unknown, Blocked };
 
   // `seen_` follows the SCP on the side where it ought to be: where the SCP is a bit behind a surface, by
@@ -315,13 +315,13 @@ class ContactJudge::Court {
     return search == WaySearch::None ? Passage::Blocked : Passage::Unknown;
   }
 
-  /// Where an edge or a bottleneck lets go, the SCP may run far in one tick. Is there a way through free
-  /// space that never moves away from the tip?
+  /// Is there a way through free space that never moves away from the tip? The SCP may run far in one
+  /// tick when an edge or a bottleneck lets go of it.
   WaySearch long_way(const Vector3& scp, const Vector3& tip) {
     if (apart(scp, tip)) return WaySearch::None;
     if (settings_.tip_radius <= 0.0 && walks_to(scp, tip)) return WaySearch::Found;
     const WaySearch search = slides_to(scp, tip);
-    // Of other shapes nothing is proved, so that what is not found there has to count.
+    // For other shapes nothing is proved, so that a way that is not found there has to count as none.
     return search == WaySearch::GaveUp && !mesh_between(scp) ? WaySearch::None : search;
   }
 
@@ -374,8 +374,8 @@ class ContactJudge::Court {
     return search == WaySearch::Found;
   }
 
-  /// The SCP when it is legal there. Within noise of a surface it may be on the wrong side of it, or on
-  /// neither: there the clearest of the legal places a little beside.
+  /// The clearest legal place at the SCP. Within noise of a surface the SCP may be on its wrong
+  /// side, or on neither: there the legal places a little beside count too.
   template <typename Legal>
   std::optional<Vector3> clearest(const Vector3& scp, Legal&& legal) const {
     std::optional<Vector3> best;
@@ -389,7 +389,7 @@ class ContactJudge::Court {
     return best;
   }
 
-  /// Where an SCP may be that noise has moved, itself first; it alone where no surface is near.
+  /// Possible places of an SCP that noise has moved, itself first; it alone where no surface is near.
   std::vector<Vector3> beside(const Vector3& scp) const {
     std::vector<Vector3> places{scp};
     if (distance(scp, 2.0 * near_.noise) >= 2.0 * near_.noise) return places;
@@ -453,7 +453,7 @@ class ContactJudge::Court {
 
   using Cell = std::array<double, 4>;  // its size and place, in sizes
 
-  /// Where a search leads, the cells that it has come to, and the places that it may go on from.
+  /// The goal of a search, the cells that it has come to, and the places that it may go on from.
   struct Search {
     Vector3 goal;
     std::set<Cell> known;
@@ -478,8 +478,8 @@ class ContactJudge::Court {
     return {size, std::floor(place.x() / size), std::floor(place.y() / size), std::floor(place.z() / size)};
   }
 
-  /// Adds the places that free steps `move` long lead to, none farther from the tip. Does one come nearer to
-  /// the goal?
+  /// Adds the places that free steps `move` long lead to, none farther from the tip. Tells whether one comes
+  /// nearer to the goal.
   bool walk_on(Search& search, const Vector3& from, const Vector3& scp, const Vector3& tip, double move) {
     constexpr std::array<double, 6> kCosines{0.95, 0.8, 0.6, 0.4, 0.2, 0.08};
     const double way = (tip - from).norm();
@@ -493,7 +493,7 @@ class ContactJudge::Court {
       search.add(to);
       nearer = nearer || (search.goal - to).norm() < left - 0.1 * move;
     };
-    // As far as it leads nearer to the goal, or up to what is in the way.
+    // Goes as far as the way leads nearer to the goal, or up to an obstacle.
     const auto run = [&](const Vector3& along, const Vector3& goal) {
       const double length = along.dot(goal - from);
       if (length <= move) return;
@@ -529,7 +529,7 @@ class ContactJudge::Court {
     return ways;
   }
 
-  /// Where a straight way begins, and how far the tip reaches into a surface there.
+  /// Start of a straight way, and the depth to which the tip reaches into a surface there.
   struct Start {
     Vector3 place;
     double overlap;
@@ -551,14 +551,14 @@ class ContactJudge::Court {
     return !nearest_possible(tip, way) && may_come_nearer(starts, pull / way, way);
   }
 
-  /// Nothing is nearer to the tip than the SCP is, give or take half a move.
+  /// Is no place nearer to the tip than the SCP is, give or take half a move?
   bool nearest_possible(const Vector3& tip, double way) const {
     const double least = least_distance(tip, way) + settings_.tip_radius;
     return way <= least + 0.5 * near_.stick && !passes(*seen_, tip);
   }
 
-  /// Tries the ways along what blocks the pull, then fans of directions around the pull; the widest is 15
-  /// degrees short of the right angle.
+  /// Tries the ways along the faces that block the pull, then fans of directions around the pull; the
+  /// widest is 15 degrees short of the right angle.
   bool may_come_nearer(const Starts& starts, const Vector3& pull, double way) const {
     constexpr std::array<double, 4> kCosines{kLeastCosine, 0.5, 0.7660, 0.9397};
     const auto along = unblocked(*seen_, near_.stick, pull);
@@ -575,8 +575,8 @@ class ContactJudge::Court {
     return false;
   }
 
-  /// Is a move in this direction, `cosine` of its angle to the pull, outside the friction cone, worth it and
-  /// free?
+  /// Is a move, at an angle of this `cosine` to the pull, outside the friction cone and clearly nearer to
+  /// the tip? It need not be free.
   bool clearly_nearer(double cosine, double way) const {
     const double move = near_.stick;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -596,9 +596,9 @@ class ContactJudge::Court {
   /// May the tip go straight from `a` to `b`?
   bool free(const Vector3& a, const Vector3& b) const { return passes(a, b) && has_room(start_at(a), b); }
 
-  /// Is there room on a way that its middle may go? A sphere may brush along what it touches already, its
-  /// bumps, and a thousandth of the way, which still tells walls from gaps in a groove of a tenth of a
-  /// degree.
+  /// Is there room for a sphere tip on a way that is free for its middle? It may reach into surfaces by
+  /// its overlap at the start, its bumps, and a thousandth of the way, which still tells walls from gaps
+  /// in a groove of a tenth of a degree.
   bool has_room(const Start& start, const Vector3& b) const {
     const Vector3& a = start.place;
     const double radius = settings_.tip_radius;
@@ -615,13 +615,13 @@ class ContactJudge::Court {
 
   JudgeSettings settings_;
   std::vector<Party> parties_;
-  Lengths near_;  // of what the last tick had to do with
+  Lengths near_;  // of the objects that the last tick had to do with
   JudgedTick last_;
   int pulling_ = 0;  // ticks in a row
   int steps_ = 0;    // tried by all searches for a way in all directions
-  int walked_ = 0;   // by all along meshes
+  int walked_ = 0;   // by all searches along meshes
   int marks_left_ = kMostMarkedEver;
-  std::optional<Vector3> seen_;  // m, where the SCP was last in front of everything
+  std::optional<Vector3> seen_;  // m, last place of the SCP in front of everything
 };
 
 ContactJudge::ContactJudge(const std::vector<JudgedObject>& objects, const JudgeSettings& settings)

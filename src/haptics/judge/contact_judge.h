@@ -11,19 +11,19 @@
 
 namespace icome::haptics {
 
-/// A solid of which is known, by an evaluation that is not the one judged, what lies in it.
+/// A solid whose points are known by an evaluation that is not the judged one.
 struct MembershipSolid {
   /// Is the point (own frame, m) inside at that time (s)? Deterministic.
   std::function<bool(const base::Vector3& point, double time)> inside;
   base::Bounds bounds;  // around it at all times
   /// A place of the solid nearer to `point` than `limit` (m), and at most some `fineness` (m) farther than
   /// the nearest, at that time (s); nothing where there is none. Parts thinner than that may be overlooked.
-  /// Empty where nobody knows: then a sphere tip is judged by samples in some directions.
+  /// Empty where that is unknown: then a sphere tip is judged by samples in some directions.
   std::function<std::optional<base::Vector3>(const base::Vector3& point, double time, double limit,
                                              double fineness)>
       nearest = {};
-  /// How many questions about nearest places ended so far before all was looked at that might have held one.
-  /// Empty where none ever does.
+  /// Number of questions about nearest places that ended so far before all places that might hold one were
+  /// tested. Empty where none ever does.
   std::function<std::uint64_t()> unfinished = {};
 };
 
@@ -33,8 +33,8 @@ struct JudgedObject {
   base::Pose world_from_object = base::Pose::Identity();
   bool closed = true;      // a mesh that encloses a solid, fronts out; primitives always do
   bool two_sided = false;  // both sides stop the tip; else only the front does
-  double error = 0.0;      // m, how far a mesh may be from the surface that it stands for
-  /// Where it is at a time (s), in place of `world_from_object`; empty for one that does not move.
+  double error = 0.0;      // m, largest distance of a mesh from the surface that it stands for
+  /// Its pose at a time (s), in place of `world_from_object`; empty for one that does not move.
   std::function<base::Pose(double time)> motion = {};
 };
 
@@ -45,22 +45,22 @@ struct JudgeSettings {
   double stick_move = 0.3e-3;    // m, an SCP that could move this far, nearer to the tip, sticks
 };
 
-/// What a solver answered to one tip in one tick; world frame.
+/// A solver's answer to one tip in one tick; world frame.
 struct JudgedTick {
   base::Vector3 tip;  // m
   base::Vector3 scp;  // m, the centre of a sphere tip
   bool touching = false;
-  double time = 0.0;                        // s, the moment for what moves and changes
-  std::optional<base::Vector3> force = {};  // N, as the person felt it; none: not looked at
+  double time = 0.0;                        // s, the moment for objects that move or change
+  std::optional<base::Vector3> force = {};  // N, as the person felt it; none: not judged
 };
 
-/// What was wrong with a tick; all false when nothing was.
+/// The faults of a tick; all false when there were none.
 struct Judgement {
   bool pop = false;
   bool stick = false;
   bool silent = false;
   bool pull = false;
-  bool unjudged = false;  // no fault: nobody knows
+  bool unjudged = false;  // no fault, but undecided
 
   bool fine() const { return !pop && !stick && !silent && !pull; }
 };
@@ -76,9 +76,9 @@ struct Judgement {
 /// passage counts once.
 ///
 /// Unjudged, a tick and no pop: the SCP passed a mesh, and whether a free way leads there takes too long to
-/// find out. Of a point tip a way that leads along a single mesh is found however long it is, and what a mesh
-/// parts within the ball that holds all such ways is known as a pop without a search. Of other shapes what
-/// takes too long to find out counts as a pop.
+/// find out. For a point tip a way along a single mesh is found however long it is, and a passage between
+/// places that a mesh parts within the ball that holds all such ways is known as a pop without a search. For
+/// other shapes a passage that takes too long to decide counts as a pop.
 ///
 /// A stick: the tip is "touching" though the straight way from SCP to tip is free; or a straight move
 /// of `stick_move` from the SCP is free, leads clearly nearer to the tip (by at least a tenth of the move),
@@ -114,8 +114,8 @@ class ContactJudge {
   std::uint64_t sticks() const { return sticks_; }
   std::uint64_t silent() const { return silent_; }
   std::uint64_t pulls() const { return pulls_; }
-  /// Questions that took too long to be answered: what would have been found then, of pops and sticks, is not
-  /// told.
+  /// Number of questions that took too long to be answered; pops and sticks that they would have shown are
+  /// missed.
   std::uint64_t unfinished() const;
   std::uint64_t unjudged() const { return unjudged_; }
 

@@ -9,20 +9,20 @@ namespace icome::haptics {
 
 class WitnessWays;
 
-/// Where a way is blocked: the share of it that is free, and the unit normal that blocks it, against the way.
+/// The block of a way: the share of it that is free, and the unit normal that blocks it, against the way.
 struct Block {
   double t;
   base::Vector3 normal;
 };
 
-/// How finely a judge looks.
+/// Smallest lengths that a judge tells apart.
 struct Resolution {
-  double noise;  // m, what positions may be off
+  double noise;  // m, possible error of positions
   double wall;   // m, the thinnest wall that must not be overlooked where only samples tell
 };
 
-/// What a judge asks one object. Points in the object's frame, m. The kinds of surface each answer in their
-/// own way, which shares nothing with the code that finds contacts.
+/// The questions of a judge to one object. Points in the object's frame, m. Each kind of surface answers in
+/// its own way, which shares nothing with the code that finds contacts.
 class Witness {
  public:
   virtual ~Witness() = default;
@@ -33,18 +33,18 @@ class Witness {
   /// The first place at which a point going from `a` to `b` meets a side that stops it.
   virtual std::optional<Block> blocked(const base::Vector3& a, const base::Vector3& b) const = 0;
 
-  /// Is there no such place?
+  /// Is there no such place on the way from `a` to `b`?
   virtual bool passes(const base::Vector3& a, const base::Vector3& b) const { return !blocked(a, b); }
 
   /// The distance from `point` to the nearest surface, `limit` when there is none within that.
   virtual double distance(const base::Vector3& point, double limit) const = 0;
 
-  /// Surely no surface is nearer than this; at most `limit`. 0 where only samples tell.
+  /// A distance within which surely no surface lies; at most `limit`. 0 where only samples tell.
   virtual double least_distance(const base::Vector3& point, double limit) const {
     return distance(point, limit);
   }
 
-  /// How far the surface reaches into a ball around `point`, from a side that stops it; 0 if not at all.
+  /// Depth of the surface in a ball around `point`, from a side that stops it; 0 if it does not reach in.
   virtual double overlap(const base::Vector3& point, double radius) const = 0;
 
   /// Does it reach into a ball around `point` at all, from a side that stops it?
@@ -63,13 +63,13 @@ class Witness {
     return distance(point, depth) >= depth && inside(point);
   }
 
-  /// How many questions so far took too long to be answered in full.
+  /// Number of questions so far that took too long to be answered in full.
   virtual std::uint64_t unfinished() const { return 0; }
-  /// What is known of the ways along it, of a mesh; null of anything else. Made when first asked for.
+  /// The ways along a mesh; null for any other surface. Made when first asked for.
   virtual const WitnessWays* ways() const { return nullptr; }
 };
 
-/// Around the object's surface, in its own frame.
+/// Box around the object's surface, in its own frame.
 base::Bounds bounds(const JudgedObject& object);
 
 std::unique_ptr<Witness> make_witness(const JudgedObject& object, const Resolution& resolution);

@@ -74,7 +74,7 @@ class MembershipWitness final : public Witness {
     };
     const auto look = [&](const Vector3& direction) { look_at(point + least * direction); };
     for (const Vector3& direction : around_) look(direction);
-    if (solid_.nearest) {  // what lies between the directions, or ends within the ball, too
+    if (solid_.nearest) {  // parts between the directions, or that end within the ball, too
       if (const auto place = nearest_place(point, least, radius)) look_at(*place);
     }
     for (double angle = 0.3; angle > 1e-4 && least < radius; angle *= 0.6) {
@@ -117,8 +117,8 @@ class MembershipWitness final : public Witness {
     double free, solid;
   };
 
-  /// Where a way first goes from free space into the solid. A start that is behind the surface by noise
-  /// counts as free. Near the start the samples are dense, since there an edge may be all that is in the way.
+  /// The stretch where a way first goes from free space into the solid. A start behind the surface by noise
+  /// counts as free. Near the start the samples are dense, as there an edge may be all that is in the way.
   std::optional<Stretch> first_hit_of(const Vector3& a, const Vector3& b) const {
     const Vector3 step = b - a;
     if (!way_meets_bounds(a, b)) return std::nullopt;
@@ -151,8 +151,8 @@ class MembershipWitness final : public Witness {
     return from;
   }
 
-  /// The outward normal of the surface there: a first guess from what is free around, then from the heights
-  /// of the surface beside the place.
+  /// The outward normal of the surface there: a first guess from the free places around, then from the
+  /// heights of the surface beside the place.
   Vector3 normal_at(const Vector3& place, const Vector3& step) const {
     const double far = 8.0 * resolution_.noise;
     Vector3 guess = Vector3::Zero();

@@ -11,7 +11,7 @@ using base::Vector3;
 using geometry::CsgOperator;
 
 constexpr std::uint32_t kOperation = 0xffff'ffff;
-// In place of a step: a part that is all free, or all solid.
+// Stand in place of a step for a part that is all free, or all solid.
 constexpr std::uint32_t kFree = 0xffff'ffff, kSolid = 0xffff'fffe;
 
 double of_constant(std::uint32_t part) {
@@ -23,7 +23,7 @@ double combined(CsgOperator op, double left, double right) {
   return std::max(left, op == CsgOperator::Difference ? -right : right);
 }
 
-/// What an operation leaves of operands of which one is a constant; nothing where it must be computed.
+/// The result of an operation one operand of which is a constant; nothing where it must be computed.
 std::optional<std::uint32_t> simplified(CsgOperator op, std::uint32_t left, std::uint32_t right) {
   if (op == CsgOperator::Union) {
     if (left == kSolid || right == kFree) return left;
@@ -46,7 +46,7 @@ double corner_of_cube(double half) { return std::sqrt(3.0) * half; }
 
 }  // namespace
 
-// The cubes that may hold the nearest place come first. Those that are small show by their centres.
+// The cubes that may hold the nearest place come first. Small ones are tested at their centres only.
 std::optional<Vector3> PlainCells::nearest(const Vector3& point, double limit, double fineness) {
   if (solid_.empty() || !(limit > 0.0)) return std::nullopt;
   make_room(limit);
@@ -77,7 +77,7 @@ std::optional<Vector3> PlainCells::nearest(const Vector3& point, double limit, d
   return found;
 }
 
-/// Questions of one reach are about cubes of one size.
+/// Fits the size of undivided cubes to the reach of questions; forgets all when there are too many.
 void PlainCells::make_room(double limit) {
   if (limit > size_) {
     forget();
@@ -119,10 +119,10 @@ void PlainCells::wait_at(Queue& queue, std::uint32_t cell, const Vector3& centre
   if (least < limit) queue.push({least, cell, centre, half});
 }
 
-/// No place of a program's solid in a cube is nearer than this, or the answer is `limit` or more. `over`
-/// leads to the cube. A solid is as far from anywhere as its bound says. And the way to a place of it in the
-/// cube turns by no acute angle at the foot on the endless beam of which the cube is a part: from there it is
-/// as long as the bound is there. The beam runs along the axis on which the cube lies.
+/// A distance within which a program's solid has no place in a cube, or `limit` or more. `over` leads to the
+/// cube. A solid is at least as far from anywhere as its bound says. And the way to a place of it in the cube
+/// turns by no acute angle at the foot on the endless beam of which the cube is a part: from there it is at
+/// least as long as the bound. The beam runs along the axis on which the cube lies.
 double PlainCells::least_distance(const Program& program, const Vector3& point, const Vector3& over,
                                   double limit) {
   if (asked_ != &program) {  // cubes side by side have the same, as a rule
@@ -161,8 +161,8 @@ PlainCells::Cell PlainCells::made(const Program& around, const Vector3& centre, 
   return {there, std::abs(there) > corner ? nullptr : local(around, corner), 0};
 }
 
-/// Without the steps whose values at a cube's centre, which were computed last, say that their surfaces are
-/// farther away than its corners.
+/// The program without the steps whose values at a cube's centre, which were computed last, show that their
+/// surfaces are farther away than its corners.
 const PlainCells::Program* PlainCells::local(const Program& around, double corner) {
   Program program;
   std::vector<std::uint32_t> now(around.steps.size());

@@ -15,7 +15,7 @@ namespace icome::haptics {
 
 /// A step of a solid that is put together of others: a leaf, or an operation on two steps before.
 struct PlainStep {
-  /// Of a leaf: its surface is at least so far from the point (m); negative inside. Empty in an operation.
+  /// Lower bound on the distance (m) of a leaf's surface; negative inside. Empty in an operation.
   std::function<double(const base::Vector3&)> bound = {};
   geometry::CsgOperator op = geometry::CsgOperator::Union;
   std::array<std::uint32_t, 2> operands = {};
@@ -31,13 +31,13 @@ class PlainCells {
   /// The last of the steps is the solid.
   explicit PlainCells(std::vector<PlainStep> solid) : solid_(std::move(solid)) {}
 
-  /// As MembershipSolid::nearest has it.
+  /// See MembershipSolid::nearest.
   std::optional<base::Vector3> nearest(const base::Vector3& point, double limit, double fineness);
 
   std::size_t kept() const { return cells_.size() + kept_steps_; }
 
  private:
-  /// What matters within a cube: the solid without the parts that are all solid or all free there.
+  /// A step of the solid in a cube, without the parts that are all solid or all free there.
   struct LocalStep {
     std::uint32_t leaf;  // in the solid's steps; kOperation: none
     geometry::CsgOperator op;
@@ -55,7 +55,7 @@ class PlainCells {
     const Program* program;  // null: all solid or all free
     std::uint32_t eighths;   // the first of eight; 0: not divided yet
   };
-  /// A cell to be looked at: no place of the solid in it is nearer than `least`.
+  /// A cell to be tested: no place of the solid in it is nearer than `least`.
   struct Waiting {
     double least;
     std::uint32_t cell;

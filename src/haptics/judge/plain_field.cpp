@@ -21,10 +21,10 @@ constexpr double kSafety = 1.6;                   // times the fall of slopes th
 constexpr std::size_t kMostPartLooks = 20'000;    // at parts, for one question
 constexpr std::size_t kMostFieldParts = 1 << 18;  // kept; some tens of MB
 constexpr int kMostFalls = 3;
-constexpr double kNothing = 1e-7;  // of a part: how deep what is solid may be and still be left out
-constexpr double kFinest = 0.3;    // of the fineness asked for, that of parts
+constexpr double kNothing = 1e-7;  // of a part: the depth up to which solid places may be left out
+constexpr double kFinest = 0.3;    // fineness of parts, relative to the one asked for
 
-/// Towards the corners of a part, as shares of the way: uneven, so that a wave does not repeat at them.
+/// Samples lie at these shares of the ways to a part's corners: uneven, so that a wave does not repeat there.
 constexpr std::array<double, 8> kCornerShares{0.97, 0.83, 0.91, 0.79, 0.87, 0.95, 0.76, 0.89};
 
 /// Values of a formula in a box, which is halved across its longest side again and again.
@@ -35,10 +35,10 @@ class PlainField {
 
   double value(const Vector3& point, double time) const { return value_(point, time); }
 
-  /// As MembershipSolid::nearest has it: the nearest parts first.
+  /// See MembershipSolid::nearest: the nearest parts are tested first.
   std::optional<Vector3> nearest(const Vector3& point, double time, double limit, double fineness) {
     make_ready(time, limit);
-    // At an edge a part may hide what is solid of it: the next one is farther by its diagonal, twice the
+    // At an edge a part may hide its solid places: the next one is farther by its diagonal, twice the
     // half.
     fineness *= kFinest;
     Nearest found{point, limit, fineness, std::nullopt};
@@ -70,12 +70,12 @@ class PlainField {
     std::uint32_t halves = 0;  // the first of two; 0: not halved yet
     bool looked_at = false;
     bool free = false;   // nothing of it is solid
-    bool known = false;  // what follows is
+    bool known = false;  // are the members below known?
     double value = 0.0;  // in the middle
     Vector3 slope = Vector3::Zero();
-    double fall = 0.0;  // by how much slopes may be less on the way from the middle
+    double fall = 0.0;  // possible decrease of slopes on the way from the middle
   };
-  /// A part to be looked at: no place of the solid in it is nearer than `least` (m).
+  /// A part to be tested: no place of the solid in it is nearer than `least` (m).
   struct Waiting {
     double least;
     std::uint32_t part;
@@ -89,7 +89,7 @@ class PlainField {
     double least, fineness;
     std::optional<Vector3> place;
 
-    /// Who is as far away need not be looked at.
+    /// Parts as far away need not be tested.
     double end() const { return place ? least - fineness : least; }
     bool is_nearer(const Vector3& other) const { return (other - to).norm() < least; }
     void take(const Vector3& other) {
@@ -102,7 +102,7 @@ class PlainField {
     return point.cwiseMax(centre - half).cwiseMin(centre + half);
   }
 
-  /// Samples are believed in parts no larger than what is asked about.
+  /// Prepares for a question: samples are trusted in parts no larger than its reach.
   void make_ready(double time, double limit) {
     const bool old = changes_ && time != time_;
     if (old || limit > trusted_ || parts_.size() > kMostFieldParts) parts_.clear();
@@ -141,12 +141,12 @@ class PlainField {
       const double middle = values[i] - slopes[i].dot(places[i]);  // of the plane through the sample
       lowest = std::max(lowest, middle - slopes[i].cwiseAbs().dot(of.half) - part.fall * beside);
     }
-    lowest += kNothing * part.slope.norm() * corner;  // what only comes to zero is not solid
+    lowest += kNothing * part.slope.norm() * corner;  // a value that only comes to zero is not solid
     part.free = part.known ? lowest > 0.0 : !defined && corner <= 0.25 * trusted_;
   }
 
-  /// How much less steeply the values rise, or more steeply fall, at one sample than at another before it.
-  /// Where functions are joined by max they never do, however sharp the edge.
+  /// The largest decrease of the slope along the way from one sample to another. There is none where
+  /// functions are joined by max, however sharp the edge.
   static double most_fall(const std::array<Vector3, 9>& places, const std::array<Vector3, 9>& slopes) {
     double most = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -162,7 +162,7 @@ class PlainField {
     return {i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0};
   }
 
-  /// By differences over a step towards which the box goes on.
+  /// The slope, by differences over steps that stay within the box.
   Vector3 slope_at(const Vector3& point, double here, double step) const {
     Vector3 slope;
     for (int axis = 0; axis < 3; ++axis) {
@@ -172,7 +172,7 @@ class PlainField {
     return slope;
   }
 
-  /// What is solid in the part lies beyond a plane.
+  /// Distance (m) to a plane beyond which all that is solid in the part lies; 0 where none is known.
   static double least_distance(const Part& part, const Waiting& of, const Vector3& point) {
     const double steepness = part.slope.norm();
     if (!part.known || !(steepness > 0.0)) return 0.0;
@@ -180,7 +180,7 @@ class PlainField {
     return above / steepness;
   }
 
-  /// The part's middle if it is solid, and where the way down the slope from the point becomes so.
+  /// Takes the part's middle if it is solid, and the place where the way down the slope gets solid.
   void take(const Part& part, const Waiting& of, Nearest& found) const {
     if (part.value < 0.0 && found.is_nearer(of.centre)) found.take(of.centre);
     const double square = part.slope.squaredNorm();
@@ -219,7 +219,7 @@ class PlainField {
   const Bounds box_;
   const bool changes_;
   const Vector3 root_half_ = 0.5 * box_.sizes();
-  double time_ = 0.0;     // s, of what is kept
+  double time_ = 0.0;     // s, of the parts that are kept
   double trusted_ = 0.0;  // m
   std::vector<Part> parts_;
   std::uint64_t unfinished_ = 0;  // questions that took too many looks

@@ -4,11 +4,11 @@
 
 namespace icome::haptics {
 
-/// The solid where a formula is negative in a box, for the judge. It knows nothing but values: what is
-/// nearest to a place is looked for in parts of the box, which are left out where the value and the slope in
-/// the middle say that nothing as near is solid, if slopes fall by no more than 1.6 times of what samples in
-/// the part show. Parts are kept for the next question; of a formula that `changes` with time, for the
-/// questions about the same moment. Functions share this, and the formula's state: one thread at a time.
+/// The solid in which a formula is negative in a box, for the judge. It knows nothing but values: the nearest
+/// place is searched for in parts of the box, which are left out where the value and the slope in the middle
+/// show that nothing as near is solid, if slopes fall by no more than 1.6 times as much as samples in the
+/// part show. Parts are kept for the next question; of a formula that `changes` with time, for the questions
+/// about the same moment. Functions share this, and the formula's state: one thread at a time.
 MembershipSolid plain_solid(const geometry::PlainFormula& value, const base::Bounds& box,
                             bool changes = true);
 

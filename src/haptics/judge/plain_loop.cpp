@@ -29,7 +29,7 @@ struct LoopEdge {
   bool sharp;
 };
 
-/// A mesh with what stays sharp.
+/// A mesh with its creases, and with the vertices that stay in place.
 struct SharpMesh {
   TriangleMesh mesh;
   std::vector<std::array<std::uint32_t, 2>> creases;
@@ -65,7 +65,7 @@ std::vector<LoopEdge> edges_of(const SharpMesh& of) {
   return edges;
 }
 
-/// Vertices stay in place in which several fans of triangles meet, or triangles that face different ways.
+/// Keeps vertices in place in which several fans of triangles meet, or triangles that face different ways.
 void keep_pinches(const std::vector<LoopEdge>& edges, SharpMesh& mesh) {
   // Corners that sides join belong to one fan; it is known by the first of them.
   std::vector<std::uint32_t> fan(3 * mesh.mesh.triangles.size());
@@ -112,7 +112,7 @@ class LoopRules {
   Vector3 refined(std::uint32_t vertex) const {
     return moved(vertex, 1.0 / 8.0, [](double count) { return beta(count); });
   }
-  /// After endless many; where a crease ends within the surface, nearly so.
+  /// A vertex on the limit surface; where a crease ends within the surface, nearly so.
   Vector3 limit(std::uint32_t vertex) const {
     return moved(vertex, 1.0 / 6.0, [](double count) { return 1.0 / (count + 3.0 / (8.0 * beta(count))); });
   }
@@ -135,7 +135,7 @@ class LoopRules {
     return (0.625 - root * root) / count;
   }
 
-  /// Drawn by each of its neighbours, or by both along a sharp curve.
+  /// The vertex drawn towards each of its neighbours, or towards both along a sharp curve.
   template <typename Weight>
   Vector3 moved(std::uint32_t vertex, double along_curve, Weight&& weight) const {
     const Around& around = around_[vertex];
@@ -186,8 +186,8 @@ std::vector<Vector3> limits(const SharpMesh& mesh, const std::vector<LoopEdge>& 
   return result;
 }
 
-/// How far a place is from the triangles of an edge, or from the edge where the surface ends there. Along
-/// these it may lie anywhere.
+/// Distance of a place from the planes of an edge's triangles, or from the edge's line where the surface
+/// ends there. Along these it may lie anywhere.
 double distance_beside(const SharpMesh& mesh, const std::vector<Vector3>& places, const LoopEdge& edge,
                        const Vector3& place) {
   const Vector3 off = place - places[edge.ends[0]];
@@ -201,7 +201,7 @@ double distance_beside(const SharpMesh& mesh, const std::vector<Vector3>& places
   return farthest;
 }
 
-/// How far a subdivision takes the limit from what the mesh before it, with its limits `old`, showed.
+/// Largest distance by which a subdivision takes the limit from the mesh before, with its limits `old`.
 double largest_change(const SharpMesh& mesh, const std::vector<LoopEdge>& edges,
                       const std::vector<Vector3>& old, const std::vector<Vector3>& fine) {
   double change = 0.0;

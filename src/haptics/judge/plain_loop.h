@@ -4,10 +4,10 @@
 namespace icome::haptics {
 
 /// The limit of Loop's subdivision as a mesh, for the judge: subdivided by the rules of the literature (Loop
-/// 1987, Hoppe et al. 1994) as they stand there, with nothing of what evaluates or refines a LoopSurface.
+/// 1987, Hoppe et al. 1994) as they stand there, with no code that evaluates or refines a LoopSurface.
 struct PlainLoop {
   geometry::TriangleMesh mesh;  // vertices on the limit, but for the ends of creases within the surface
-  double error;                 // m, how far it is from the limit: half of what the last subdivision changed
+  double error;                 // m, distance from the limit: half of the last subdivision's change
 };
 
 /// Subdivides until the mesh is within a millionth of its size, or has some hundred thousand triangles. Fails

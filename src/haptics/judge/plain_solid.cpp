@@ -24,8 +24,8 @@ using base::Vector3;
 using geometry::CsgOperator;
 using geometry::CsgTree;
 
-/// From a point of the half-plane beside an axis (distance from it, height) to what a trapezium beside the
-/// axis, `low` wide at -half and `high` at +half, sweeps around it.
+/// Distance of a point of the half-plane beside an axis (distance from it, height) from the solid that a
+/// trapezium beside the axis, `low` wide at -half, `high` at +half, sweeps around it; negative inside.
 double frustum_distance(const Vector2& point, double low, double high, double half) {
   const Vector2 bottom(low, -half), top(high, half);
   const auto to_edge = [&](const Vector2& from, const Vector2& to) {
@@ -117,7 +117,7 @@ class PlainTree {
 
   bool inside(const Vector3& point) const { return inside(root_, point); }
 
-  /// What bounds distances to it, in steps; the last is the whole.
+  /// The steps that bound distances to it; the last is the whole.
   std::vector<PlainStep> steps() const {
     std::vector<PlainStep> steps;
     for (CsgTree::Index i = 0; i <= root_; ++i) {
@@ -132,7 +132,7 @@ class PlainTree {
   struct Part {
     PlainShape shape;  // of a leaf; else empty
     Affine3 shape_from_tree;
-    double least_stretch = 1.0;  // of what the leaf's transform does to lengths
+    double least_stretch = 1.0;  // of lengths by the leaf's transform
     CsgOperator op = CsgOperator::Union;
     std::array<CsgTree::Index, 2> operands{};
     std::size_t size = 1;  // leaves
@@ -160,7 +160,7 @@ class PlainTree {
     return parts_[index].shape.inside(parts_[index].shape_from_tree * point) == outcome;
   }
 
-  /// No farther than the leaf's surface is; negative inside.
+  /// A distance no larger than that of the leaf's surface; negative inside.
   static std::function<double(const Vector3&)> bound(const Part& leaf) {
     return [distance = leaf.shape.distance, shape_from_tree = leaf.shape_from_tree,
             stretch = leaf.least_stretch](const Vector3& point) {

@@ -5,10 +5,10 @@
 
 namespace icome::haptics {
 
-// What a model says, evaluated in the plainest way and by nothing that contacts are found with: for the
+// Models evaluated in the plainest way, by none of the code that finds contacts: for the
 // judge.
 
-/// From `point` to the surface of a primitive, in its frame (m); negative inside.
+/// Distance from `point` to the surface of a primitive, in its frame (m); negative inside.
 double plain_distance(const geometry::Primitive& primitive, const base::Vector3& point);
 
 /// The solid of a CSG tree: primitives by their inequalities, polyhedra by winding numbers, put together by

@@ -28,7 +28,7 @@ double side_of(const Vector3& u, const Vector3& v, const Vector3& w) {
 
 }  // namespace
 
-// Over the face when the foot on its plane lies within all edges, else on the nearest edge.
+// The foot on the triangle's plane if it lies within all edges, else the nearest place of an edge.
 Vector3 nearest_on(const WitnessTree::Corners& corners, const Vector3& point) {
   const auto& [a, b, c] = corners;
   const Vector3 normal = (b - a).cross(c - a);
@@ -63,7 +63,7 @@ WitnessTree::Corners WitnessTree::corners(std::uint32_t triangle) const {
   return {mesh_->corner(triangle, 0), mesh_->corner(triangle, 1), mesh_->corner(triangle, 2)};
 }
 
-/// Halves the triangles by their middles along the longest side; the index of the node made.
+/// Halves the triangles by their middles along the longest side; returns the index of the node made.
 std::uint32_t WitnessTree::build(std::uint32_t first, std::uint32_t last,
                                  const std::vector<Vector3>& centres) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
@@ -89,8 +89,8 @@ std::uint32_t WitnessTree::build(std::uint32_t first, std::uint32_t last,
   return index;
 }
 
-/// By the axes that can separate a box and a segment: the box's own, and across each of them and the segment.
-/// What rounding may hide counts as met.
+/// Tests the axes that can separate a box and a segment: the box's own, and those across each of them and the
+/// segment. What rounding may hide counts as met.
 bool WitnessTree::meets(const Bounds& box, const Vector3& a, const Vector3& b) {
   constexpr double kBoxRounding = 1e-14;
   const Vector3 reach = 0.5 * (b - a);

@@ -17,7 +17,7 @@ class WitnessTree {
 
   explicit WitnessTree(std::shared_ptr<const geometry::TriangleMesh> mesh);
 
-  /// Around all triangles; empty without any.
+  /// Box around all triangles; empty without any.
   base::Bounds bounds() const { return nodes_.empty() ? base::Bounds() : nodes_.front().box; }
 
   Corners corners(std::uint32_t triangle) const;
@@ -36,7 +36,7 @@ class WitnessTree {
             visit);
   }
 
-  /// From `point` to the nearest triangle, `limit` where there is none within that; m.
+  /// Distance from `point` to the nearest triangle, `limit` where there is none within that; m.
   double distance(const base::Vector3& point, double limit) const;
 
  private:
@@ -76,20 +76,20 @@ class WitnessTree {
 /// The place of a triangle that is nearest to `point`.
 base::Vector3 nearest_on(const WitnessTree::Corners& corners, const base::Vector3& point);
 
-/// Where a segment crosses a triangle, and from which side.
+/// The place where a segment crosses a triangle, and the side that it comes from.
 struct Crossing {
   double t;  // share of the segment, in [0, 1]
   bool from_front;
-  double margin;  // how clearly it passes through the triangle and not by its rim: least barycentric part
+  double margin;  // distance of the place from the triangle's rim: least barycentric part
 };
 
-/// By the sides on which the segment from `start` to `start + step` passes the three edges, which count as
-/// part of the triangle. None slips between two triangles with a common edge.
+/// The crossing, found by the sides on which the segment from `start` to `start + step` passes the three
+/// edges, which count as part of the triangle. None slips between two triangles with a common edge.
 std::optional<Crossing> crossing(const WitnessTree::Corners& corners, const base::Vector3& start,
                                  const base::Vector3& step);
 
-/// How often a closed mesh winds around the point: fronts passed on the way out count against backs, so that
-/// parts may overlap.
+/// Number of times that a closed mesh winds around the point: fronts passed on the way out count against
+/// backs, so that parts may overlap.
 int winding(const WitnessTree& tree, const base::Vector3& point);
 
 }  // namespace icome::haptics

@@ -14,12 +14,12 @@ namespace {
 
 using base::Vector3;
 
-constexpr double kAside = 1e-3;          // of the straight way, how far it is moved off edges
+constexpr double kAside = 1e-3;          // of the straight way: distance that it is moved off edges
 constexpr int kBends = 6;                // ways that are tried
 constexpr double kOffEdge = 1e-9;        // the least barycentric part of a passage that is in no doubt
-constexpr double kOffCorner = 1e-3;      // of a triangle, how far inside its rim it is left from
+constexpr double kOffCorner = 1e-3;      // of a triangle: distance within its rim from which it is left
 constexpr int kMostAlongEdge = 16;       // places that an edge is left from
-constexpr double kAlongEdge = 1.0 / 16;  // of the straight way, how far apart these are
+constexpr double kAlongEdge = 1.0 / 16;  // of the straight way: distance between these
 
 double distance_to_edge(const Vector3& from, const Vector3& to, const Vector3& point) {
   const Vector3 way = to - from;
@@ -106,7 +106,7 @@ std::optional<std::vector<WitnessWays::Passage>> WitnessWays::passages(const Vec
   return clear ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// The same of a way that is moved aside a little, so that no edge lies on it where it begins or ends.
+/// The triangles passed by a way that is moved aside so that no edge lies on it where it begins or ends.
 std::optional<std::vector<WitnessWays::Passage>> WitnessWays::bent_passages(const Vector3& a,
                                                                             const Vector3& b) const {
   const Vector3 way = b - a;
@@ -133,7 +133,7 @@ bool WitnessWays::apart(const Vector3& a, const Vector3& b, const Vector3& centr
   if (!all) return false;
   Ball ball{centre, std::max((a - centre).norm(), (b - centre).norm()) + bend};
   std::unordered_map<std::uint32_t, std::size_t> part_of;
-  std::vector<int> passed;   // each part, from the front less from behind
+  std::vector<int> passed;   // by part: passages from the front less those from behind
   std::vector<bool> rimmed;  // has it a rim in the ball?
   for (const auto& [triangle, side] : *all) {
     if (!part_of.contains(triangle)) {
@@ -148,14 +148,14 @@ bool WitnessWays::apart(const Vector3& a, const Vector3& b, const Vector3& centr
   return false;
 }
 
-/// Marks what hangs together with a triangle within the ball. Has it a rim there, as far as the steps go?
+/// Marks the triangles connected with one within the ball. Have they a rim there, as far as the steps go?
 bool WitnessWays::mark_part(std::uint32_t start, std::size_t part, const Ball& ball,
                             std::unordered_map<std::uint32_t, std::size_t>& part_of, int& steps) const {
   bool rimmed = false;
   std::vector<std::uint32_t> open{start};
   part_of[start] = part;
   while (!open.empty()) {
-    if (steps <= 0) return true;  // what is not looked at may have one
+    if (steps <= 0) return true;  // untested triangles may have one
     --steps;
     const std::uint32_t triangle = open.back();
     open.pop_back();
@@ -196,15 +196,15 @@ class WitnessWays::Walk {
   }
 
  private:
-  using Node = std::uint32_t;  // twice the triangle, 1 more behind it
+  using Node = std::uint32_t;  // twice the triangle, plus 1 for its back
 
-  /// Its front, or its back if that is the side of the node.
+  /// Unit normal of the node's side: its triangle's front or back.
   Vector3 out_of(Node node) const {
     const Vector3 front = front_of(ways_.tree_.corners(node / 2));
     return node % 2 == 1 ? Vector3(-front) : front;
   }
 
-  /// The point can come to a place of that node as far from the tip as `level`.
+  /// Notes that the point can come to a place of that node as far from the tip as `level`.
   void reach(Node node, double level) {
     if (level < goal_) return;
     const auto [known, is_new] = level_.emplace(node, level);
@@ -218,7 +218,7 @@ class WitnessWays::Walk {
     return nearest_on(ways_.tree_.corners(triangle), point);
   }
 
-  /// The point is at a place that may lie on some triangles.
+  /// Notes that the point is at a place, which may lie on some triangles.
   void touch(const Vector3& place, double level) {
     const double near = 4.0 * noise_;
     ways_.tree_.around(place, near, [&](std::uint32_t triangle) {
@@ -229,7 +229,7 @@ class WitnessWays::Walk {
     });
   }
 
-  /// From a place off the surface the point falls to the tip, or goes straight to where it should come.
+  /// Lets the point fall from a place off the surface to the tip, or go straight to its goal.
   void leave(const Vector3& place) {
     --steps_;
     if ((place - tip_).norm() >= goal_) found_ = found_ || comes_to_goal(place);
@@ -242,7 +242,7 @@ class WitnessWays::Walk {
     return !met || (1.0 - met->first) * (b_ - place).norm() <= 4.0 * noise_;
   }
 
-  /// The share of the way that is free and what ends it.
+  /// The share of the way that is free, and the node that ends it; nothing where all is free.
   std::optional<std::pair<double, Node>> first_met(const Vector3& from, const Vector3& to) const {
     std::optional<std::pair<double, Node>> first;
     ways_.tree_.along(from, to, [&](std::uint32_t triangle) {
@@ -268,7 +268,7 @@ class WitnessWays::Walk {
     leave_from(corners, out, level);
   }
 
-  /// Over an edge to the triangles beyond: those that run along it the other way show the same side.
+  /// Goes over an edge to the triangles beyond: those that run along it the other way show the same side.
   void cross(Node node, int k, double level) {
     const Edge& between = ways_.edge(node / 2, k);
     if (between.count == 1) {
@@ -284,14 +284,14 @@ class WitnessWays::Walk {
     }
   }
 
-  /// From places along the rim, from the middle, and from where the tip is nearest.
+  /// Leaves from places along the rim, from the middle, and from the place nearest to the tip.
   void leave_from(const WitnessTree::Corners& corners, const Vector3& out, double level) {
     const Vector3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     const auto from = [&](const Vector3& place) {
       const Vector3 inner = place + kOffCorner * (middle - place);
       if (found_ || (inner - tip_).norm() > level + noise_) return;
       const Vector3 off = inner + 2.0 * noise_ * out;
-      // Beside a sharp concave crease that is behind the triangle next to it.
+      // Beside a sharp concave crease the place may lie behind the next triangle.
       if (first_met(middle + 2.0 * noise_ * out, off)) return;
       leave(off);
     };
@@ -309,7 +309,7 @@ class WitnessWays::Walk {
   double noise_;
   double apart_;  // m, places along an edge
   int& steps_;
-  double goal_;  // m, how far from the tip the point must be able to be to come to `b_`
+  double goal_;  // m, distance from the tip that must be within reach of the point to come to `b_`
   bool found_ = false;
   std::unordered_map<Node, double> level_;
   std::priority_queue<std::pair<double, Node>> open_;

@@ -10,26 +10,26 @@
 
 namespace icome::haptics {
 
-/// What a search for a way came to.
+/// Outcome of a search for a way.
 enum class WaySearch { Found, None, GaveUp };
 
-/// Where a point may go along a mesh, by triangles that lie edge to edge: the judge's own, for ways too long
+/// The ways of a point along a mesh, by triangles that lie edge to edge: the judge's own, for ways too long
 /// for a search by samples. Shares the tree; vertices at the same position are one.
 class WitnessWays {
  public:
-  /// Which sides of the triangles stop the point: both, or the fronts only.
+  /// `two_sided`: both sides of the triangles stop the point, else the fronts only.
   WitnessWays(const WitnessTree& tree, const geometry::TriangleMesh& mesh, bool two_sided);
 
   /// Must every way from `a` to `b` that leads no farther from `centre` than these are pass a side that stops
   /// the point? Proved by the parts of the surface within that ball: one without a rim in it, which the
   /// straight way passes more often from the front than from behind, is passed so by every way. False where
-  /// that proves nothing, also when `steps` (triangles looked at) are used up; takes off what it needed.
+  /// that proves nothing, also when `steps` (triangles looked at) are used up; subtracts those it used.
   bool apart(const base::Vector3& a, const base::Vector3& b, const base::Vector3& centre, int& steps) const;
 
   /// Is there a way from `a` to `b` that leads along the surface and falls straight to `tip`, and from one
   /// triangle to the next never farther from the tip? On each triangle a place at least as high is known as
-  /// the highest that the point can come to. `noise`: m, how near to the surface a place is on it. Gives up
-  /// when `steps` are used up; takes off what it needed.
+  /// the highest that the point can come to. `noise`: m, distance from the surface within which a place is
+  /// on it. Gives up when `steps` are used up; subtracts those it used.
   WaySearch leads(const base::Vector3& a, const base::Vector3& b, const base::Vector3& tip, double noise,
                   int& steps) const;
 
@@ -43,7 +43,7 @@ class WitnessWays {
     bool balanced;
   };
 
-  /// How a straight way passes a triangle: 1 from the front, -1 from behind.
+  /// The passage of a straight way through a triangle: 1 from the front, -1 from behind.
   struct Passage {
     std::uint32_t triangle;
     int side;

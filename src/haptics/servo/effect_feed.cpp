@@ -9,7 +9,7 @@
 namespace icome::haptics {
 namespace {
 
-/// From one side of its mirror to the other, where it has one.
+/// Negates x if the effect is mirrored.
 Vector3 across(bool mirrored, const Vector3& vector) {
   return mirrored ? Vector3(-vector.x(), vector.y(), vector.z()) : vector;
 }
@@ -21,7 +21,7 @@ base::Pose across(bool mirrored, base::Pose pose) {
   return pose;
 }
 
-/// From a frame that is there, and moves with `velocity` (m/s, world) where the tip is.
+/// The input in the frame of an effect that moves with `velocity` (m/s, world) at the place of the tip.
 EffectInput seen_from(const base::Pose& world_from_effect, bool mirrored, const Vector3& velocity,
                       const EffectInput& world) {
   const base::Pose effect_from_world = world_from_effect.inverse();
@@ -32,7 +32,7 @@ EffectInput seen_from(const base::Pose& world_from_effect, bool mirrored, const 
   return input;
 }
 
-/// Where it can act before the next version.
+/// Region in which the effect can act before the next version, world frame.
 Reach reach_of(const PlacedEffect& placed, const Effect& effect) {
   Reach reach = reach_in_world(placed, effect);
   const Vector3 velocity = velocity_at(placed.world_from_effect, placed.motion, 0.0, reach.centre);
@@ -40,7 +40,7 @@ Reach reach_of(const PlacedEffect& placed, const Effect& effect) {
   return reach;
 }
 
-/// In its direction.
+/// The force, no longer than `newtons`, in its own direction.
 Vector3 at_most(const Vector3& force, double newtons) {
   const double length = force.norm();
   return length > newtons ? Vector3(force * (newtons / length)) : force;
@@ -55,7 +55,7 @@ Reach reach_in_world(const PlacedEffect& placed, const Effect& effect) {
   return transformed(placed.world_from_effect, reach);
 }
 
-/// Null where the text makes no effect.
+/// Continues the last published effect of the same object, if any. Null where the text makes no effect.
 std::shared_ptr<EffectFeed::Felt> EffectFeed::felt_as(const PlacedEffect& placed) const {
   const auto last = std::ranges::find_if(
       published_.members, [&](const Member& it) { return placed.id != 0 && it.placed.id == placed.id; });
@@ -107,7 +107,7 @@ void EffectFeed::follow(double dt) {
   for (const Member& it : newest_.read().members) bring(it, dt, newer);
 }
 
-/// To where it is felt in this tick, with what it remembers.
+/// Moves an effect, with its memory, to its pose in this tick.
 void EffectFeed::bring(const Member& member, double dt, bool newer) {
   const PlacedEffect& placed = member.placed;
   Whereabouts& is = *member.felt->whereabouts;
@@ -142,14 +142,14 @@ Vector3 EffectFeed::force(const EffectInput& input, double beside) {
   return sum;
 }
 
-/// What it asks for, and what is left of what it gave before its numbers or its piece of the device were
-/// changed. A constant push that fades adds no stiffness and no damping: what is stable stays so.
+/// The requested force, and the fading rest of the force before the effect's numbers or its piece of the
+/// device were changed. A constant push that fades adds no stiffness and no damping, so stability is kept.
 Vector3 EffectFeed::eased(Felt& felt, const Vector3& asked, const EffectInput& own) const {
   Whereabouts& is = *felt.whereabouts;
   const double most = std::max(0.0, limits_.max_force);
   const bool changed = std::exchange(felt.changed, false);
   const bool other_share = std::exchange(is.share, own.device_mass) != own.device_mass;
-  // What is above all that the device has would take long to fade, and nobody would feel why.
+  // Force above the device's maximum is left out: it would take long to fade, and nobody would feel why.
   if (is.felt && (changed || other_share)) is.still = at_most(is.gave, most) - at_most(asked, most);
   const double fades = most * own.dt / kEaseSeconds;
   const double left = is.still.norm();

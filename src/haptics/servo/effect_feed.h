@@ -11,13 +11,13 @@
 
 namespace icome::haptics {
 
-/// An effect of a design, where its object is and how that moves.
+/// An effect of a design, with the pose and the motion of its object.
 struct PlacedEffect {
   std::uint64_t id = 0;  // of its object; 0: it has none
   std::string text;      // for make_effect(), which takes it
   base::Pose world_from_effect = base::Pose::Identity();
   Motion motion = {};
-  bool mirrored = false;  // its own x is turned round before its place turns it
+  bool mirrored = false;  // its own x is negated before its pose is applied
 
   bool operator==(const PlacedEffect& other) const {
     return id == other.id && text == other.text &&
@@ -26,7 +26,7 @@ struct PlacedEffect {
   }
 };
 
-/// Where it acts while it stays there, world frame.
+/// Region in which it acts while it stays there, world frame.
 Reach reach_in_world(const PlacedEffect& placed, const Effect& effect);
 
 /// An effect that is felt softer than it was asked for.
@@ -43,62 +43,62 @@ struct CappedEffect {
 /// however many versions the servo missed, the box holds three.
 class EffectFeed {
  public:
-  /// Over so long an effect goes, evenly, to where its object was put: longer than main takes from one edit
-  /// to the next while something is dragged, so that the force has no steps.
+  /// Time in which an effect moves, evenly, to its object's new pose: longer than the main thread takes
+  /// from one edit to the next while something is dragged, so that the force has no steps.
   static constexpr double kGlideSeconds = 0.02;  // s
-  /// What an effect gives goes over to what its changed numbers ask for no faster than by all that the device
-  /// has in so long: a slider that is thrown to its end is felt at once, and does not kick.
+  /// Time in which an effect's force may change by the device's maximum after its numbers were changed: a
+  /// slider that is thrown to its end is felt at once, and does not kick.
   static constexpr double kEaseSeconds = 0.05;  // s
 
-  /// Effects share what is stable on this device; see mass_shares.h.
+  /// Effects share the stable range of this device; see mass_shares.h.
   explicit EffectFeed(const DeviceLimits& limits = {}) : limits_(limits) {}
 
-  /// Makes these the ones that are felt. One whose object was among the last goes on, wherever it is now and
-  /// with whatever numbers: what is stuck in dry friction stays stuck, where it is, and its force goes over
-  /// to the changed one without a step (kEaseSeconds). The main thread calls this.
+  /// Makes these the effects that are felt. One whose object was among the last continues, also at another
+  /// place and with other numbers: a tip that is stuck in dry friction stays stuck, where it is, and the
+  /// force changes without a step (kEaseSeconds). The main thread calls this.
   void publish(const std::vector<PlacedEffect>& effects);
 
-  /// Of these, those that the device cannot render stably as they were asked for, beside forces that need
-  /// `beside` kg of its mass. The main thread calls this.
+  /// The published effects that the device cannot render stably in full, beside forces that need `beside`
+  /// kg of its mass. The main thread calls this.
   std::vector<CappedEffect> capped(double beside) const;
-  /// mass_needed() of these. The main thread calls this.
+  /// mass_needed() of the published effects. The main thread calls this.
   double published_mass_needed() const { return published_.mass_needed; }
 
-  /// Goes over to the newest ones, and on by `dt` (s). What an effect remembers stays in the world where it
-  /// is when its object is put elsewhere, and goes along with a motion. The servo calls this once a tick.
-  /// Real-time safe.
-  void follow(double dt);
-  /// Their sum, beside forces that need `beside` kg of the device's mass. The servo calls this at most once a
+  /// Adopts the newest effects and advances them by `dt` (s). The memory of an effect stays at its place in
+  /// the world when its object is put elsewhere, and goes along with a motion. The servo calls this once a
   /// tick. Real-time safe.
+  void follow(double dt);
+  /// The sum of the effects' forces (N), beside forces that need `beside` kg of the device's mass. The servo
+  /// calls this at most once a tick. Real-time safe.
   Vector3 force(const EffectInput& input, double beside);
-  /// How much of the device's mass (kg) effects need at one place, where that is most. Real-time safe.
+  /// The most of the device's mass (kg) that effects need together at one place. Real-time safe.
   double mass_needed() const { return newest_.read().mass_needed; }
-  /// They forget what they felt; see Effect::reset. The servo calls this. Real-time safe.
+  /// Resets all effects; see Effect::reset. The servo calls this. Real-time safe.
   void reset();
 
  private:
-  /// Where effects of one object are felt, and what they give; the servo's. World frame.
+  /// Pose and force of the effects of one object as they are felt; the servo's. World frame.
   struct Whereabouts {
     base::Pose at;                    // in the last tick
-    base::Pose put;                   // where its object was put last
-    double left = 0.0;                // s, until it is there
-    Motion goes_on = {};              // of the last tick, for one more
+    base::Pose put;                   // pose that its object was given last
+    double left = 0.0;                // s, until it arrives at `put`
+    Motion goes_on = {};              // motion of the last tick, for one more
     bool felt = false;                // has it given a force since it was placed or reset?
     double share = 0.0;               // kg, its piece of the device in the last tick
     Vector3 gave = Vector3::Zero();   // N, in the last tick
-    Vector3 still = Vector3::Zero();  // N, what is left of what it gave before it was changed
+    Vector3 still = Vector3::Zero();  // N, fading rest of its force before a change
   };
   /// An effect that versions with the same object, text and mirror share.
   struct Felt {
     std::unique_ptr<Effect> effect;            // never null
     std::shared_ptr<Whereabouts> whereabouts;  // never null
-    bool changed = false;                      // its numbers, and not felt since; the servo's once published
+    bool changed = false;                      // its numbers, not felt since; the servo's once published
   };
   struct Member {
     PlacedEffect placed;
     std::shared_ptr<Felt> felt;  // never null
     double needs = 0.0;          // kg, of the device's mass
-    double together = 0.0;       // kg, with all that may act where it does
+    double together = 0.0;       // kg, with all effects that may act at the same places
   };
   struct Version {
     std::vector<Member> members;

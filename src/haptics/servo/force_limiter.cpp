@@ -7,7 +7,7 @@
 namespace icome::haptics {
 namespace {
 
-// A scaled vector may come out longer than asked for by rounding; this much shorter it cannot.
+// Factor on a scaled vector, so that rounding cannot make it longer than asked for.
 constexpr double kRoundingRoom = 1.0 - 4e-15;
 
 // Share of the thermal budget that is kept to bring the limit down smoothly.
@@ -60,7 +60,7 @@ Vector3 ForceLimiter::limit(const Vector3& wanted, double dt, const LimiterInput
   if (sustained != grown) note(LimiterAct::Continuous);
 
   // The last force is brought under the present limit first: from there a step towards another force
-  // under the limit cannot leave it (balls are convex). What that took is taken off the step.
+  // under the limit cannot leave it (balls are convex). The length of that change is taken off the step.
   const Vector3 from = shortened(last_, allowed);
   const double reach = std::max(0.0, max_rate_ * step - (last_ - from).norm());
   const Vector3 change = shortened(sustained - from, reach);

@@ -10,7 +10,7 @@ namespace icome::haptics {
 
 using base::Vector3;
 
-/// How gently the limiter treats device and hand.
+/// Settings of the limiter for the safety of device and hand.
 struct LimiterSettings {
   double ramp_seconds = 0.5;      // s from no force to full force, usually 0.1 to 1; 0: at once
   double max_rate = 0.0;          // N/s, usually 1000 to 20000; 0: full force within 2 ms
@@ -19,14 +19,14 @@ struct LimiterSettings {
   double longest_step = 0.01;     // s, a longer tick ramps and moves no further than this one
 };
 
-/// What the limiter is told each tick beside the wanted force.
+/// Input of the limiter in one tick beside the wanted force.
 struct LimiterInput {
   bool source_fresh = true;     // did this tick see new data (position read, force computed)?
   bool device_ok = true;        // is the device there (no read or write said Lost)?
   bool started_inside = false;  // did the tip start inside an object (or one appear around it)?
 };
 
-/// What the limiter did. Several can act in one tick.
+/// Actions of the limiter. Several can occur in one tick.
 enum class LimiterAct : std::uint8_t {
   NotFinite,    // wanted force or time step was not a finite number: zero force
   Stalled,      // no fresh data for stall_ticks: zero force
@@ -38,7 +38,7 @@ enum class LimiterAct : std::uint8_t {
 };
 constexpr std::size_t kLimiterActs = 7;
 
-/// The last function before the device write (design.md, rule 16): whatever it is given, what it returns
+/// The last function before the device write (design.md, rule 16): whatever it is given, the returned force
 /// - is finite and never longer than the device's max_force,
 /// - never heats the motors beyond their rating: with h the exponentially weighted mean of |force|^2
 ///   (time constant thermal_seconds, starting at 0), h <= continuous_force^2 at every tick. Peak force is
@@ -79,7 +79,7 @@ class ForceLimiter {
   double continuous_force_;  // N
   double max_rate_;          // N/s
   LimiterSettings settings_;
-  Vector3 last_ = Vector3::Zero();  // N, what was returned last
+  Vector3 last_ = Vector3::Zero();  // N, as returned last
   double mean_square_ = 0.0;        // N^2, h above
   double ramp_ = 1.0;               // 0 to 1
   int stale_ticks_ = 0;

@@ -16,10 +16,10 @@ enum class Renderer {
 /// Reads "exact", "limit" or "thesis".
 base::Result<Renderer> parse_renderer(std::string_view name);
 
-/// The solver that renders so. The thesis renders a point tip and has no budget of its own to set.
+/// The solver of this renderer. The thesis renders a point tip and has no budget of its own to set.
 std::unique_ptr<ContactSolver> make_solver(Renderer renderer, const ScpSettings& settings);
 
-/// Fails with a sentence when the scene holds what the renderer cannot touch.
+/// Fails with a sentence when the scene holds an object that the renderer cannot touch.
 base::Result<void> check_renderer(Renderer renderer, const HapticScene& scene, const ScpSettings& settings);
 
 }  // namespace icome::haptics

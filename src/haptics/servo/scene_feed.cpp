@@ -20,7 +20,7 @@ void note_change(const HapticScene& before, std::optional<std::uint32_t> then, c
   changes.push_back({object.id, swept});
 }
 
-/// What the two share is not looked at, but for what moves by itself.
+/// Skips the blocks of objects that both scenes share, except those with objects that move by themselves.
 std::vector<SceneChange> changes_by_moving(const HapticScene& before, const HapticScene& after) {
   std::vector<SceneChange> changes;
   std::uint32_t next = 0;

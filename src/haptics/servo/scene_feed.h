@@ -12,16 +12,16 @@
 
 namespace icome::haptics {
 
-/// A scene as the servo receives it: with what it needs so as to go over to it without a jump.
+/// A scene as the servo receives it, with the data that it needs to adopt it without a jump.
 struct PublishedScene {
   std::uint64_t version = 0;
   std::shared_ptr<const HapticScene> scene;  // never null
   std::vector<SceneChange> changes;          // since the last version that the servo had taken, or before
   std::shared_ptr<const std::vector<Surface>> surfaces;  // by object, made stable for device and rate
-  double mass_needed = 0.0;  // kg, of the device's, by the surface that needs most
+  double mass_needed = 0.0;  // kg of the device's mass, for the surface that needs most
 };
 
-/// What surfaces and effects are fitted to: the device that renders them.
+/// The limits of the device that renders surfaces and effects, to which these are fitted.
 struct DeviceLimits {
   double nominal_stiffness = 1000.0;                           // N/m, for surfaces that name none
   double effective_mass = 0.1;                                 // kg
@@ -58,7 +58,7 @@ class SceneFeed {
   std::atomic<std::uint64_t> taken_ = 0;  // oldest version that the servo may use
 };
 
-/// What differs between two scenes: objects that moved, changed their shape or motion, appeared or went.
+/// The differences between two scenes: objects that moved, changed their shape or motion, appeared or went.
 std::vector<SceneChange> changes_between(const HapticScene& before, const HapticScene& after);
 
 }  // namespace icome::haptics

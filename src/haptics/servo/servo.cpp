@@ -13,8 +13,8 @@ DeviceLimits limits_of(const devices::DeviceInfo& device, double rate_hz) {
   return {device.nominal_stiffness, device.effective_mass, 1.0 / rate_hz, device.max_force};
 }
 
-/// Over so long a workspace moves to where it is carried: longer than main takes from one call to the next,
-/// so that the tip goes on without a halt.
+/// Time in which the workspace moves to the pose it is carried to: longer than the main thread takes from
+/// one call to the next, so that the tip goes on without a halt.
 constexpr double kCarrySeconds = 0.02;  // s
 
 /// Measures the stages of a tick, one after the other.
@@ -111,8 +111,8 @@ bool Servo::read() {
     solver_->reset();
     effect_feed_.reset();
   }
-  // The workspace's own speed is left out: it comes in jerks from who carries it, which damping would turn
-  // into jerks of the force.
+  // The workspace's own speed is left out: it comes in jerks from the caller of carry(), which damping
+  // would turn into jerks of the force.
   tip_velocity_ = world_from_device_.linear() * state.velocity;
   return true;
 }
@@ -151,7 +151,7 @@ void Servo::follow_scene(double dt) {
   feed_.done_before(*newer);
 }
 
-/// What was let go of is touched afresh from where the tip is.
+/// A released thing is touched afresh, from the place of the tip.
 void Servo::follow_grip() {
   const bool held = grip_.read().holds;
   if (grip_.update() && held && !grip_.read().holds) solver_->reset();
@@ -173,7 +173,7 @@ void Servo::find_contact() {
   report_.stiffness = felt_surface().stiffness;
 }
 
-/// How hard and how damped the touched surface is beside the effects. Holds no texture: the servo never owns
+/// Stiffness and damping of the touched surface beside the effects. Holds no texture: the servo never owns
 /// one.
 Surface Servo::felt_surface() const {
   const Surface& made = (*scene_->surfaces)[report_.contact.object];
@@ -187,8 +187,8 @@ Surface Servo::felt_surface() const {
   return felt;
 }
 
-/// Of the device's mass, kg. Surfaces count also where none is touched: effects that gave way to a surface in
-/// the moment of touching it would give energy.
+/// Part of the device's mass, kg, for the grip or the surfaces. Surfaces count also where none is touched:
+/// effects that gave way to a surface in the moment of touching it would give energy.
 double Servo::mass_needed_beside_effects(double dt) const {
   if (grip_.read().holds) return grip_mass_needed(grip_.read(), device_.info().effective_mass, dt);
   return scene_ == nullptr ? 0.0 : scene_->mass_needed;

@@ -22,18 +22,18 @@ struct ServoSettings {
   Renderer renderer = Renderer::Exact;
   ScpSettings scp;
   LimiterSettings limiter;
-  Pose world_from_device = Pose::Identity();  // where the device's workspace lies in the world at first
+  Pose world_from_device = Pose::Identity();  // initial pose of the device's workspace
   /// Feel interpolated normals (Shape::shading_normal). Their force belongs to no shape and could feed the
   /// hand: an EnergyTank bounds it.
   bool force_shading = false;
 };
 
-/// The stages of a tick, in their order. No more than somebody asks for: to read the clock takes as long as
-/// many a stage.
+/// The stages of a tick, in their order. There are no more than somebody asks for: reading the clock takes
+/// as long as many a stage.
 enum class Stage : std::uint8_t { Read, Scene, Contact, Force, Write, Ahead };
 constexpr std::size_t kStages = 6;
 
-/// What happened in a tick; world frame.
+/// Report of one tick; world frame.
 struct TickReport {
   devices::DeviceStatus status = devices::DeviceStatus::Stalled;
   Vector3 tip = Vector3::Zero();                                // m
@@ -43,14 +43,14 @@ struct TickReport {
   Vector3 force = Vector3::Zero();                              // N, as written, in the world frame
   ScpState contact;
   double time = 0.0;             // s, on the scene's clock (HapticScene::moment): when the contact was found
-  ObjectId object;               // what is touched, when contact.touching
-  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made, or the device's nominal one
-  double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
+  ObjectId object;               // touched object, when contact.touching
+  double asked_stiffness = 0.0;  // N/m, asked for by the touched object, or the device's nominal one
+  double stiffness = 0.0;        // N/m, as it is felt: no more than is stable
   std::array<std::int64_t, kStages> stage_ns{};  // time spent in each stage
 
-  /// What lay between device input and output, ns: by how much the force was late.
+  /// Time between device input and output, ns: the delay of the force.
   std::int64_t delay_ns() const;
-  /// All that the tick took except device input and output, ns.
+  /// Time of the tick without device input and output, ns.
   std::int64_t own_ns() const;
 };
 
@@ -66,25 +66,25 @@ class Servo {
   /// thread, the main one.
   void publish(std::shared_ptr<const HapticScene> scene) { feed_.publish(std::move(scene)); }
 
-  /// The effects that are felt from the next tick on. They share with the surfaces and with what is held
-  /// what is stable on the device (mass_shares.h). From the same thread.
+  /// The effects that are felt from the next tick on. They share the stable range of the device with the
+  /// surfaces and the held thing (mass_shares.h). From the same thread.
   void publish_effects(const std::vector<PlacedEffect>& effects) { effect_feed_.publish(effects); }
 
-  /// Of the effects published last, those that are felt softer than they were asked for. From the same
-  /// thread.
+  /// The effects among those published last that are felt softer than they were asked for. From the
+  /// same thread.
   std::vector<CappedEffect> capped_effects() const;
-  /// The same of a surface that is felt beside these effects; empty: it is not. From the same thread.
+  /// Names the reductions of a surface felt beside these effects; empty: none. From the same thread.
   std::string capped_surface(const Surface& surface) const;
 
-  /// Where the device's workspace lies in the world from now on: it moves there smoothly within some ticks,
+  /// Sets the pose of the device's workspace in the world: it moves there smoothly within some ticks,
   /// sweeping the tip along as a hand would. The pose is finite. From one thread, the main one.
   void carry(const Pose& world_from_device) { carried_.publish(world_from_device); }
 
-  /// What the hand feels of what it holds, from now on. While it holds something it touches nothing: what is
-  /// held goes along with the tip. From one thread, the main one.
+  /// Sets the feel of the held thing from now on. While the hand holds something it touches nothing: the
+  /// held thing goes along with the tip. From one thread, the main one.
   void grip(const GripFeel& feel) { grip_.publish(feel); }
 
-  /// Whether the hand feels anything from now on; what is touched is found and told all the same. A force
+  /// Switches all forces on or off from now on; contacts are found and reported in both cases. A force
   /// comes and goes as fast as the limiter lets it. Any thread. Real-time safe.
   void give_forces(bool given) { gives_forces_.store(given, std::memory_order_relaxed); }
 
@@ -121,7 +121,7 @@ class Servo {
   realtime::LatestValue<GripFeel> grip_;
   std::atomic<bool> gives_forces_ = true;
   Pose world_from_device_;
-  double carry_seconds_ = 0.0;  // until it is where it was carried to
+  double carry_seconds_ = 0.0;  // s, until it is at the pose it was carried to
   devices::PointerState state_;
   bool has_state_ = false;
   EnergyTank shading_;                      // device frame

@@ -12,7 +12,7 @@ namespace {
 using Kind = Element::Kind;
 
 constexpr double kCloseBy = 0.995;  // cosine between normals (0.1 rad): the chord is as good as the arc
-// The same round a shell, where not even the chord's dip may meet the other side: 1e-5 rad.
+// As kCloseBy, round a shell, where not even the chord's dip may meet the other side: 1e-5 rad.
 constexpr double kVeryCloseBy = 1.0 - 5e-11;
 constexpr double kArcStep = 0.1;  // rad, on pieces whose tangent plane is not free
 constexpr int kMaxTraceSteps = 100;
@@ -98,7 +98,7 @@ bool covers_cone(const Element& e, const Vector3& position, double rim) {
   return along >= -rim && along <= e.b + rim;
 }
 
-/// Is the free side of a sheet, as it is given, the other one?
+/// Does a two-sided flat piece, as it is given, face away from `position`?
 bool faces_away(const Element& e, const Vector3& position) {
   return e.two_sided && e.flat() && e.axis.dot(position - e.origin) < 0.0;
 }
@@ -114,16 +114,16 @@ std::optional<double> quadric_crossing(const Vector3& offset, const Vector3& ste
   const double discriminant = b * b - a * c;
   if (a <= 0.0 || discriminant < 0.0) return std::nullopt;
   const double root = std::sqrt(discriminant);
-  // The form without cancellation of each root. Who heads for the surface and is at it, up to rounding,
-  // meets it at once.
+  // The form without cancellation of each root. A path that heads for the surface and starts on it, up
+  // to rounding, meets it at once.
   double t = leaving ? (root - b) / a : (-b - root) / a;
   if (leaving && b > 0.0) t = std::max(0.0, -c / (b + root));
   if (!leaving && b < 0.0) t = std::max(0.0, c / (root - b));
   return t >= 0.0 && t <= 1.0 ? std::optional(t) : std::nullopt;
 }
 
-/// How sharply the height can bend towards the surface along a path near `position`: the radius (m) of
-/// the tightest concave curve of the piece there; infinite where the piece is convex.
+/// Bound on how sharply the height bends towards the surface along a path near `position`: the radius
+/// (m) of the tightest concave curve of the piece there; infinite where the piece is convex.
 double concave_radius(const Element& e, const Vector3& position) {
   double radius = std::numeric_limits<double>::infinity();
   if (e.kind == Kind::Ring) radius = radial(position - e.origin, e.axis).norm();  // the hole
@@ -225,7 +225,7 @@ std::optional<double> sweep_flat(const Element& e, const Vector3& start, const V
   return covers(e, start + through * step, tolerance) ? std::optional(rest) : std::nullopt;
 }
 
-/// The same for a curved piece that lies under the end of the path, by bisection.
+/// The t at which the path comes over a curved piece that lies under its end, not its start; by bisection.
 std::optional<double> curved_hit(const Element& e, const Vector3& start, const Vector3& step,
                                  const Tolerance& tolerance) {
   const Vector3 end = start + step;
@@ -241,13 +241,13 @@ std::optional<double> curved_hit(const Element& e, const Vector3& start, const V
   return comes_over(e, start + inside * step, tolerance) ? std::optional(inside) : std::nullopt;
 }
 
-/// Half-spaces that bound where a piece lies under a path: when does the path come into all of them?
+/// Half-spaces that bound the region over a piece; finds when a path comes into all of them.
 class Confines {
  public:
   explicit Confines(double rim) : rim_(rim) {}
 
-  /// One that holds what is not below zero, give or take the rim: `begin` at the start of the path, and
-  /// `change` over all of it.
+  /// Adds the half-space in which a coordinate is not below zero, give or take the rim: the coordinate
+  /// is `begin` at the start of the path, and changes by `change` over all of it.
   void add(double begin, double change) {
     if (begin >= -rim_) return;
     begins_within_ = false;
@@ -268,8 +268,8 @@ class Confines {
   double begin_ = 0.0;
 };
 
-/// For the rods and balls of meshes, of which a sweep asks many and meets few: what they are confined to and
-/// a squared distance tell most of them apart.
+/// Sweep for the rods and balls of meshes, of which a sweep asks many and meets few: their half-spaces and a
+/// squared distance rule most of them out.
 std::optional<double> sweep_guarded(const Element& e, const Vector3& start, const Vector3& step,
                                     const Tolerance& tolerance) {
   const Vector3 offset = start - e.origin;
@@ -384,7 +384,7 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
   const Vector3 here = normal(element, from);
   const double cosine = normal(element, nearest).dot(here);
   if (cosine >= (element.two_sided && element.convex() ? kVeryCloseBy : kCloseBy)) return nearest;
-  // To above the nearest point, from where it is reached by falling.
+  // Goes above the nearest point, which is reached from there by falling.
   if (element.convex() && cosine > 0.0) return from + radial(nearest - from, here);
   const Vector3 pull = radial(goal - from, here);
   const double length = pull.norm();
@@ -392,7 +392,7 @@ Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, 
   if (!element.convex()) {
     return settle(element, from + pull * std::min(1.0, kArcStep * element.radius / length), tolerance);
   }
-  // To the other side of a round solid: a quarter of the way round.
+  // Goes towards the other side of a round solid: a quarter of the way round.
   return from + pull * (element.radius / length);
 }
 
@@ -422,7 +422,7 @@ bool same_surface(const Element& one, const Element& other) {
   if (one.kind != other.kind || one.object != other.object) return false;
   if (one.flat()) return one.feature == other.feature;
   if (one.smooth()) return one.surface->same(one.feature, other.feature);
-  // The two sides of a curved shell are one surface: who rests on one side does not meet the other.
+  // The two sides of a curved shell are one surface: a tip that rests on one side does not meet the other.
   if (one.origin != other.origin || (one.inverted == other.inverted && one.radius != other.radius))
     return false;
   return one.kind == Kind::Ball || (one.axis == other.axis && one.a == other.a);

@@ -12,9 +12,9 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
-/// Lengths below which the contact arithmetic does not distinguish. They follow from the size of what is
-/// touched, never from a unit or from what lies far off: a mesh in metres and the same mesh in millimetres
-/// feel alike, and a thing feels the same alone and beside a mountain.
+/// Lengths below which the contact arithmetic does not distinguish. They follow from the size of the
+/// touched object, never from a unit or from objects far off: a mesh in metres and the same mesh in
+/// millimetres feel alike, and a thing feels the same alone and beside a mountain.
 struct Tolerance {
   /// m; the tip rests this far above a surface, so that its side is never in doubt.
   double gap = 0.0;
@@ -22,10 +22,10 @@ struct Tolerance {
   /// For an object of this size (m): five orders above the rounding of double precision there and far below
   /// what any device resolves.
   static Tolerance for_size(double size) { return {1e-10 * size}; }
-  /// The least for coordinates so large (m): some steps of their rounding.
+  /// The least tolerance for coordinates up to `largest` (m): some steps of their rounding.
   static Tolerance for_coordinates(double largest) { return {64.0 * 2.2e-16 * largest}; }
 
-  /// That whose rim is as wide as a distance (m), below zero inwards from the edges.
+  /// The tolerance with a rim as wide as `distance` (m); below zero it lies inwards from the edges.
   static Tolerance reaching(double distance) { return {4.0 * distance}; }
 
   double touching() const { return 4.0 * gap; }  // heights up to this count as contact
@@ -33,9 +33,9 @@ struct Tolerance {
   double rim() const { return 0.25 * gap; }      // edges reach this far out: no cracks between neighbours
 };
 
-/// How far below a thickened piece the straight way of a tip (radius in m) along a rounded edge may dip
-/// before the neighbouring face is asked: twice the height of a chord of 0.1 rad, the longest that slide()
-/// takes. Boxes around pieces are looked at with this margin.
+/// Depth, m, to which the straight way of a tip (radius in m) along a rounded edge may dip below a
+/// thickened piece before the neighbouring face is asked: twice the height of a chord of 0.1 rad, the
+/// longest that slide() takes. Boxes around pieces are tested with this margin.
 constexpr double edge_dip(double tip) { return 0.0025 * tip; }
 
 /// The foot on a smooth surface of a position of the tip, both in the surface's frame.
@@ -45,7 +45,7 @@ struct SmoothProjection {
   double time = 0.0;  // s, the surface's
 };
 
-/// One smooth piece of a surface, thickened by the radius of the tip: what can hold the surface
+/// One smooth piece of a surface, thickened by the radius of the tip: it can hold the surface
 /// contact point (SCP) at one side. A point tip has radius 0. A triangle with a sphere tip is a
 /// triangular face, three rods (its edges) and three balls (its corners). Heights are distances of
 /// the tip's centre to the thickened piece, positive on the free side (m). A plain value: shapes
@@ -80,7 +80,7 @@ struct Element {
   double tip = 0.0;     // m, the tip's radius
   const geometry::SmoothSurface* surface = nullptr;  // of Smooth; its shape keeps it alive
   double time = 0.0;                                 // s, of Smooth: the surface's own time
-  SmoothProjection here, ahead;                      // of Smooth: those found last, from which others are
+  SmoothProjection here, ahead;                      // of Smooth: found last, starts of the next searches
 
   bool flat() const { return kind <= Kind::Disc; }
   /// Is every tangent plane free of the piece?
@@ -97,7 +97,7 @@ double height(const Element& element, const Vector3& position);
 struct Footing {
   double height;
   Vector3 normal;
-  bool sure = true;  // that `position` was near enough to follow a smooth surface there
+  bool sure = true;  // `position` was near enough to follow a smooth surface there
 };
 Footing footing(const Element& element, const Vector3& position);
 
@@ -107,28 +107,28 @@ Vector3 normal(const Element& element, const Vector3& position);
 /// Does the piece itself, not only its extension, lie under `position`?
 bool covers(const Element& element, const Vector3& position, const Tolerance& tolerance);
 
-/// An edge of a flat piece: how far inwards of it a position lies (m), and the unit direction that leads out
-/// over it, in the piece's plane.
+/// An edge of a flat piece: the distance (m) of a position inwards from it, and the unit direction that
+/// leads out over it, in the piece's plane.
 struct Rim {
   double inside = std::numeric_limits<double>::infinity();
   Vector3 outward = Vector3::Zero();
 };
 
-/// The edge that is nearest to `position`; of a piece that has none, or is not flat, one infinitely far off.
+/// The edge nearest to `position`; infinitely far off for a piece that has no edges or is not flat.
 Rim nearest_rim(const Element& element, const Vector3& position);
 
 /// The point `gap` above the extended piece that is nearest to `position`.
 Vector3 settle(const Element& element, const Vector3& position, const Tolerance& tolerance);
 
-/// Where a tip that rests at `from` on the piece goes when `goal` pulls it: straight to the nearest
+/// The next place of a tip that rests at `from` on the piece when `goal` pulls it: the nearest
 /// point if that is close by along the surface, else a step towards it that is free of the piece.
 Vector3 slide(const Element& element, const Vector3& from, const Vector3& goal, const Tolerance& tolerance);
 
 /// The piece as felt from `position`: a two-sided one turned so that its free side is there.
 Element facing(const Element& element, const Vector3& position);
 
-/// When the tip's centre moves from `start` by t * `step`, t in [0, 1]: the first t at which it comes
-/// to rest on the piece, felt from `start`. Not for smooth ones (smooth_sweep).
+/// The first t in [0, 1] at which a tip's centre that moves from `start` by t * `step` comes to rest
+/// on the piece, felt from `start`; nothing if it does not. Not for smooth ones (smooth_sweep).
 std::optional<double> sweep(const Element& element, const Vector3& start, const Vector3& step,
                             const Tolerance& tolerance);
 

@@ -18,7 +18,7 @@ using geometry::TriangleMesh;
 constexpr std::size_t kFeatureGrain = 1 << 14;
 constexpr double kFlat = 1e-10;  // rad: faces reach over the wedge between them, their rims being as wide
 constexpr double kBendNoise = 2e-15;      // rad, of a bend over an edge as long as its triangles are high
-constexpr std::size_t kMostConvex = 24;   // edges at a corner: with more the corner is kept unasked
+constexpr std::size_t kMostConvex = 24;   // edges at a corner: with more the corner is always kept
 constexpr std::size_t kFewestConvex = 3;  // of a corner away from rims
 constexpr unsigned kFrontBit = 1, kBackBit = 2;  // the sides on which an edge is convex
 
@@ -46,7 +46,7 @@ class Incidence {
   std::vector<std::uint32_t> triangles_;
 };
 
-/// How the surface bends over the edges of each triangle and at each vertex.
+/// Bends of the surface over the edges of each triangle and at each vertex.
 class Bends {
  public:
   explicit Bends(const TriangleMesh& mesh)
@@ -115,8 +115,8 @@ class Bends {
     return unsure < kFlat ? 0 : kFrontBit | kBackBit;
   }
 
-  /// The sides on which some place has the vertex as its nearest: those are where the ways to it are at more
-  /// than a right angle to every edge.
+  /// The sides on which some position has the vertex as its nearest place: those with directions from the
+  /// vertex at more than a right angle to every edge.
   Sides corner_sides(std::uint32_t vertex) const {
     std::array<Vector3, kMostConvex> convex;  // unit, along edges that bend, each as often as it is found
     std::size_t count = 0;
@@ -126,7 +126,7 @@ class Bends {
         const auto [from, to] = edge(triangle, which);
         if ((from != vertex && to != vertex) || edges_[triangle][which] == 0) continue;
         if (from != vertex && neighbours_[triangle][which] != geometry::kNoTriangle)
-          continue;  // seen from there
+          continue;  // counted in the neighbour
         if (count == kMostConvex) return kFrontBit | kBackBit;
         convex[count++] = way(vertex, from == vertex ? to : from);
       }
@@ -139,7 +139,7 @@ class Bends {
     return told ? side_of(vertex, *out) : kFrontBit | kBackBit;
   }
 
-  /// In the middle of all directions at right angles or more to the edges, if there are any. The extreme ones
+  /// The middle of all directions at right angles or more to the edges, if there are any. The extreme ones
   /// are at right angles to two edges. Two edges alone are a rim or, in line, a ridge that runs on.
   static std::optional<Vector3> apex(std::span<const Vector3> edges) {
     Vector3 sum = Vector3::Zero();
@@ -163,11 +163,11 @@ class Bends {
     return found ? std::optional(sum.stableNormalized()) : std::nullopt;
   }
 
-  /// As the triangles run around `out`, seen against it: counter-clockwise, and it is in front of them. They
-  /// are projected from the vertex on a plane across, where their sides stay straight: unit vectors could
-  /// turn the other way round where some of them lie nearly across. A way that leads up lies in a flat face
-  /// of more than half a turn, beside which no place has the vertex as its nearest. Triangles that pass
-  /// through each other, as at the end of a twisted flap, run around it either way.
+  /// The side on which `out` lies: the front if the triangles run around it counter-clockwise, seen against
+  /// it. They are projected from the vertex on a plane across, where their sides stay straight: unit vectors
+  /// could turn the other way round where some of them lie nearly across. An edge that leads up lies in a
+  /// flat face of more than half a turn, beside which no position has the vertex as its nearest. Triangles
+  /// that pass through each other, as at the end of a twisted flap, run around it either way.
   Sides side_of(std::uint32_t vertex, const Vector3& out) const {
     double turn = 0.0;
     double whole = 0.0;
@@ -201,7 +201,7 @@ class Bends {
     return false;
   }
 
-  /// Unit, from a vertex of a triangle to the others in their order.
+  /// Unit directions from a vertex of a triangle to the others in their order.
   std::array<Vector3, 2> ways(std::uint32_t vertex, std::uint32_t triangle) const {
     const auto& corners = mesh_.triangles[triangle];
     const auto which = unsigned(std::find(corners.begin(), corners.end(), vertex) - corners.begin());

@@ -6,10 +6,10 @@
 
 namespace icome::haptics {
 
-/// Which edges and corners of a triangle a sphere tip needs beside the faces. An edge or a corner is the
-/// nearest place of the surface to some position only where the surface is convex there, which on a scan half
-/// of the edges are and few of the corners; what several triangles share is one triangle's to hand out.
-/// Bit i: edge i, from corner i to the next; bit 3 + i: corner i.
+/// The edges and corners of a triangle that a sphere tip needs beside the faces. An edge or a corner is the
+/// nearest place of the surface to some position only where the surface is convex, as on a scan at half of
+/// the edges and few of the corners; a feature that several triangles share is handed out by one of them. Bit
+/// i: edge i, from corner i to the next; bit 3 + i: corner i.
 struct MeshFeatures {
   std::uint8_t front;  // of a closed mesh that is touched from outside
   std::uint8_t both;   // touched from both sides

@@ -8,12 +8,12 @@ namespace {
 
 using geometry::Corners;
 
-// A triangle's slot in the tree and which of its parts make an element's feature number.
+// An element's feature number consists of a triangle's slot in the tree and the number of its part.
 constexpr std::uint32_t kPartBits = 3;
 constexpr std::uint32_t kFirstEdge = 1;
 constexpr std::uint32_t kFirstCorner = 4;
 
-/// The same order for the two triangles that share an edge, so that their rods are the same.
+/// Orders the ends of an edge alike for both triangles that share it, so that their rods are the same.
 bool comes_first(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
@@ -92,7 +92,7 @@ class TriangleElements {
     return e;
   }
 
-  /// Half of space to which an edge or a corner is confined: what is behind an open sheet is no surface.
+  /// Normal of the half-space that confines an edge or a corner to the front of an open sheet; else zero.
   Vector3 front() const { return closed_ ? Vector3(Vector3::Zero()) : normal_; }
 
   const Corners& corners_;
@@ -142,7 +142,7 @@ void MeshShape::gather(const GatherRequest& request, ElementSink& sink) const {
   });
 }
 
-/// Which edges and corners the triangle hands out, as MeshFeatures numbers them.
+/// The edges and corners that the triangle hands out, numbered as in MeshFeatures.
 unsigned MeshShape::features(std::uint32_t slot, TouchableSides sides) const {
   if (features_.empty()) return ~0u;
   if (sides == TouchableSides::Both) return features_[slot].both;
@@ -169,7 +169,7 @@ std::optional<geometry::SurfacePoint> MeshShape::way_out(const Vector3& position
   const Vector3 face = (triangle.corner(hit->triangle, 1) - triangle.corner(hit->triangle, 0))
                            .cross(triangle.corner(hit->triangle, 2) - triangle.corner(hit->triangle, 0))
                            .normalized();
-  // From a place on the surface, give or take rounding, the way to it says nothing.
+  // At a place on the surface, give or take rounding, the way to it has no sure direction.
   const double least = Tolerance::for_coordinates(position.cwiseAbs().maxCoeff()).gap;
   const double length = away.norm();
   return geometry::SurfacePoint{hit->point, length > least ? Vector3(away / length) : face};

@@ -9,7 +9,7 @@
 
 namespace icome::haptics {
 
-/// How a mesh is to be touched.
+/// Settings of a mesh that is to be touched.
 struct MeshShapeSettings {
   bool closed = false;               // it encloses a solid, outward normals out: only then has it an inside
   bool interpolate_normals = false;  // for force shading
@@ -22,7 +22,7 @@ class MeshShape final : public Shape {
  public:
   MeshShape(std::shared_ptr<const geometry::TriangleMesh> mesh, const MeshShapeSettings& settings);
 
-  /// `other` with vertices elsewhere: the mesh has the same triangles. Much sooner there than one made anew.
+  /// `other` with moved vertices: the mesh has the same triangles. Much faster than making a new shape.
   MeshShape(const MeshShape& other, std::shared_ptr<const geometry::TriangleMesh> mesh);
 
   Bounds bounds() const override { return tree_.bounds(); }

@@ -4,7 +4,7 @@
 
 namespace icome::haptics {
 
-/// A primitive that can be touched as what it is: no mesh, exact curvature.
+/// A primitive that is touched exactly: no mesh, exact curvature.
 class PrimitiveShape final : public Shape {
  public:
   explicit PrimitiveShape(const geometry::Primitive& primitive) : primitive_(primitive) {}

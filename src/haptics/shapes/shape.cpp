@@ -19,7 +19,7 @@ bool ElementSink::defer(std::uint32_t piece, const Bounds& bounds) {
   return region_.defer(object_, piece, in_world(bounds));
 }
 
-/// The box around the turned box.
+/// The axis-parallel box in the world around a box in the shape's frame.
 Bounds ElementSink::in_world(const Bounds& bounds) const {
   if (in_place_) return bounds;
   const Vector3 half = 0.5 * bounds.sizes();

@@ -10,8 +10,8 @@
 
 namespace icome::haptics {
 
-/// What a shape is asked for: what a tip of radius `tip` (m) can meet while its centre stays within
-/// `reach` of the segment from `a` to `b`, all in the shape's own frame.
+/// A request to a shape for all that a tip of radius `tip` (m) can meet while its centre stays
+/// within `reach` of the segment from `a` to `b`, all in the shape's own frame.
 struct GatherRequest {
   Vector3 a;
   Vector3 b;
@@ -21,7 +21,7 @@ struct GatherRequest {
   double time = 0.0;  // s, the shape's own
 };
 
-/// Takes what a shape hands out, in the shape's frame. Lives on the stack of one gather.
+/// Takes the elements and pieces of a shape, in the shape's frame. Lives on the stack of one gather.
 class ElementSink {
  public:
   ElementSink(ContactRegion& region, std::uint32_t object, const Pose& world_from_object);
@@ -61,7 +61,7 @@ class PieceElements {
   bool complete_ = true;
 };
 
-/// Where a straight way meets a shape, in the shape's frame.
+/// The hit of a straight way on a shape, in the shape's frame.
 struct ShapeHit {
   double t;        // along the step, in [0, 1]
   Vector3 point;   // m, on the surface
@@ -75,7 +75,7 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  /// Around the surface, in the shape's own frame; infinite for an unlimited shape.
+  /// Box around the surface, in the shape's own frame; infinite for an unlimited shape.
   virtual Bounds bounds() const = 0;
 
   /// Hands out every element or piece that the request can meet, and perhaps others. Real-time safe.
@@ -90,15 +90,15 @@ class Shape {
   virtual std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double time) const = 0;
 
   /// The place of the surface nearest to a position outside, if it is within `limit` metres and its touched
-  /// side is there; the normal points from it to the position. Only shapes that a sphere tip feels as they
-  /// are answer. Real-time safe.
+  /// side faces the position; the normal points from it to the position. Answered only by shapes that a
+  /// sphere tip feels as they are. Real-time safe.
   virtual std::optional<geometry::SurfacePoint> nearest(const Vector3& /*position*/, double /*limit*/,
                                                         TouchableSides /*sides*/) const {
     return std::nullopt;
   }
 
-  /// Where start + t * step, t in [0, 1], first goes through the surface, from either side; for picking with
-  /// the mouse, so it may allocate. `time`: see changes().
+  /// The hit at which start + t * step, t in [0, 1], first goes through the surface, from either side; for
+  /// picking with the mouse, so it may allocate. `time`: see changes().
   virtual std::optional<ShapeHit> cast(const Vector3& start, const Vector3& step, double time) const = 0;
 
   /// The normal to feel at a position on element `feature`: interpolated between faces where the

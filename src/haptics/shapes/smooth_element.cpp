@@ -27,12 +27,12 @@ bool answers(const SmoothProjection& known, const Element& e, const Vector3& in_
          (known.of - in_surface).squaredNorm() <= kSamePlace * kSamePlace * in_surface.squaredNorm();
 }
 
-/// Found from the nearer one of the feet that are known.
+/// The projection, found from the nearer one of the known feet.
 SurfacePlace projection(const Element& e, const Vector3& in_surface) {
   if (answers(e.here, e, in_surface)) return e.here.place;
   if (answers(e.ahead, e, in_surface)) return e.ahead.place;
   const double from_here = (e.here.place.point - in_surface).squaredNorm();
-  const bool nearer_ahead = (e.ahead.of - in_surface).squaredNorm() < from_here;  // not where it is unknown
+  const bool nearer_ahead = (e.ahead.of - in_surface).squaredNorm() < from_here;  // false where it is unknown
   return e.surface->nearest_local(nearer_ahead ? e.ahead.place : e.here.place, in_surface, e.time);
 }
 
@@ -47,7 +47,7 @@ Footing footing_at(const Element& e, const SurfacePlace& place, const Vector3& i
   return {e.inverted ? -outward : outward, felt_normal(e, place), place.reached};
 }
 
-/// What else of the surface a way meets first.
+/// The first hit of a way on any piece of the surface but the foot's own.
 std::optional<geometry::SurfaceHit> met_beside(const Element& e, const SurfacePlace& foot,
                                                const Vector3& start, const Vector3& way,
                                                const Tolerance& tolerance) {
@@ -61,8 +61,8 @@ std::optional<geometry::SurfaceHit> met_beside(const Element& e, const SurfacePl
   return first;
 }
 
-/// A foot at the rim of a sheet or at a crease does not hold who is pulled beyond: so far over it that
-/// covers() sees that. Up the other side of a groove if the pull leads there, else not at all.
+/// Offset from a foot at the rim of a sheet or at a crease, which does not hold a tip that is pulled beyond:
+/// so far over it that covers() sees that. Up the other side of a groove if the pull leads there, else none.
 Vector3 over_rim(const Element& e, const SurfacePlace& foot, const Vector3& in_surface,
                  const Tolerance& tolerance) {
   const Vector3 pull = in_surface - foot.point;
@@ -77,7 +77,7 @@ Vector3 over_rim(const Element& e, const SurfacePlace& foot, const Vector3& in_s
   return (pull - other.dot(pull) * other).dot(along) > 0.0 ? way : Vector3::Zero();
 }
 
-/// Where a tip rests that is pulled to `in_surface`, whose foot is given: a gap above that.
+/// Resting place of a tip that is pulled to `in_surface`: a gap above the given foot of that.
 Vector3 above(const Element& e, const SurfacePlace& foot, const Vector3& in_surface,
               const Tolerance& tolerance) {
   return e.origin + from_surface(e, foot.point + over_rim(e, foot, in_surface, tolerance)) +
@@ -126,7 +126,7 @@ std::optional<double> smooth_sweep(Element& e, const Vector3& start, const Vecto
     if (!hit) continue;
     const double fall = std::abs(hit->place.normal.dot(way));
     const double back = fall > 0.0 ? tolerance.gap / fall : hit->t;
-    // Who ran out of time says only how far the way is surely free, however it grazes the surface there.
+    // Out of time, a hit tells only how far the way is surely free, however it grazes the surface there.
     const double least = geometry::FormulaAllowance::spent() ? 0.5 * hit->t : 0.0;
     const double rest = stretch * std::max(least, hit->t - back);
     if (rest > 1.0 || (first && rest >= *first)) continue;

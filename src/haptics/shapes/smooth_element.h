@@ -1,5 +1,5 @@
 #pragma once
-// What element.h asks, for elements that are pieces of a geometry::SmoothSurface. Positions as there.
+// The functions of element.h for elements that are pieces of a geometry::SmoothSurface. Positions as there.
 #include "haptics/shapes/element.h"
 
 namespace icome::haptics {
@@ -10,8 +10,8 @@ Vector3 smooth_settle(const Element& element, const Vector3& position, const Tol
 std::optional<double> smooth_sweep(Element& element, const Vector3& start, const Vector3& step,
                                    const Tolerance& tolerance);
 
-/// What settle() of element.h asks, and whether the walk there came to its end; the element remembers where,
-/// as the tip is likely to go there. Real-time safe.
+/// The result of settle() of element.h, and whether the walk there came to its end; the element remembers
+/// the place, as the tip is likely to go there. Real-time safe.
 struct SettledAhead {
   Vector3 place;
   bool sure;
@@ -25,7 +25,7 @@ void follow_projection(Element& element, const Vector3& position);
 /// safe.
 bool has_swallowed(const Element& element, const Vector3& position);
 
-/// How fast the surface itself moves at `position` (m/s). Real-time safe.
+/// Velocity of the surface itself, along its normal, at `position` (m/s). Real-time safe.
 Vector3 smooth_velocity(const Element& element, const Vector3& position);
 
 }  // namespace icome::haptics

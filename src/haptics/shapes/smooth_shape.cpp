@@ -14,8 +14,8 @@ struct WayThrough {
   std::uint32_t piece;
 };
 
-/// In the order in which they are come to. Cut to the pieces' boxes, so that a surface need not look far:
-/// what is near is found with the least work and the most digits.
+/// The parts in their order along the way. Cut to the pieces' boxes, so that a surface need not look far:
+/// near hits are found with the least work and the most digits.
 std::vector<WayThrough> ways_through(const geometry::SmoothSurface& surface, const Vector3& start,
                                      const Vector3& step, double time, double margin) {
   std::vector<WayThrough> ways;
@@ -29,7 +29,7 @@ std::vector<WayThrough> ways_through(const geometry::SmoothSurface& surface, con
   return ways;
 }
 
-/// The largest coordinate of what is finite among the surface and the way.
+/// The largest coordinate of the surface's bounds if they are finite, else of the way.
 double extent_of(const Bounds& bounds, const Vector3& start, const Vector3& step) {
   if (bounds.min().allFinite() && bounds.max().allFinite())
     return std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());

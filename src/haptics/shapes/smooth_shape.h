@@ -7,13 +7,13 @@
 
 namespace icome::haptics {
 
-/// A surface that is touched as what it is, without a mesh: a CSG solid, a subdivision surface's limit, an
+/// A surface that is touched exactly, without a mesh: a CSG solid, a subdivision surface's limit, an
 /// implicit surface. For a point tip; for a sphere tip it is the surface on which the tip's centre moves
 /// (geometry::CsgOffset).
 class SmoothShape final : public Shape {
  public:
-  /// The surface is shared, never null. `tip` (m): how far from what is touched the surface lies; the shape
-  /// is for a tip of this radius.
+  /// The surface is shared, never null. `tip` (m): the distance of the surface from the touched solid; the
+  /// shape is for a tip of this radius.
   explicit SmoothShape(std::shared_ptr<const geometry::SmoothSurface> surface, double tip = 0.0)
       : surface_(std::move(surface)), tip_(tip) {}
 

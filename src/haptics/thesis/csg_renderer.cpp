@@ -19,11 +19,11 @@ using geometry::SurfacePoint;
 constexpr std::uint32_t kInner = 0xffffffff;
 constexpr double kThreshold = 50.0;  // algorithm 5.1
 
-// What is known of a node about a point.
+// Flags of a node for one point.
 constexpr std::uint8_t kInside = 1;
-constexpr std::uint8_t kNeeded = 2;  // its SCP is
+constexpr std::uint8_t kNeeded = 2;  // its SCP is needed
 
-// Nodes that a tick may look at: two evaluations of the largest tree, and questions between operands.
+// Nodes that a tick may visit: two evaluations of the largest tree, and tests between operands.
 constexpr std::int64_t kMostLooks = 4 * std::int64_t(CsgWorkspace::kMostNodes);
 
 }  // namespace
@@ -239,7 +239,7 @@ std::optional<SurfacePoint> CsgRenderer::union_scp(std::uint32_t index, const Ev
   return chosen;
 }
 
-/// The second half of algorithm 5.4: the same for a candidate, the previous SCP moved like the pointer.
+/// The second half of algorithm 5.4: the SCP for a candidate, the previous SCP moved like the pointer.
 SurfacePoint CsgRenderer::retry_union(std::uint32_t index, Tick& tick) const {
   Evaluation& at = tick.space.at_candidate_;
   find_inside(index, tick.candidate, at, tick.space.looks_left_);
@@ -267,7 +267,7 @@ std::optional<CsgRenderer::Answer> CsgRenderer::scp(const Vector3& pointer, Dire
   Answer answer{at.scp[0], space.looks_left_ < 0};
   if (answer.exhausted) answer.place = memory.scp;
   if (!memory.touching && answer.place.point == memory.scp.point) {
-    // The previous SCP was no place of a surface: all that can be said is where it pushes.
+    // The previous SCP lay on no surface: the only normal known is the direction in which it pushes.
     const Vector3 out = answer.place.point - pointer;
     if (out.squaredNorm() > 0.0) answer.place.normal = out.normalized();
   }

@@ -19,7 +19,7 @@ class CsgWorkspace {
  private:
   friend class CsgRenderer;
 
-  /// What is known of the nodes about one point.
+  /// The state of the nodes for one point.
   struct Evaluation {
     std::vector<std::uint32_t> visited;       // nodes, parents first; the others were pruned
     std::vector<std::uint8_t> flags;          // by node, of those visited
@@ -30,12 +30,12 @@ class CsgWorkspace {
 };
 
 /// Haptic rendering of CSG trees as in thesis section 5.5, algorithms 5.1 to 5.4 as corrected in the errata:
-/// the SCPs of the operands, which are asked nothing but the three questions of 5.5, are combined upwards.
-/// A node whose bounding box does not hold the point is not looked into. Immutable; does not recurse.
+/// the SCPs of the operands, which answer only the three questions of 5.5, are combined upwards. A node
+/// whose bounding box does not hold the point is skipped. Immutable; does not recurse.
 ///
-/// Where the thesis is silent: a subtree that does not hold the pointer has no SCP to choose; a union inside
-/// a union that retries with the same candidate does not retry once more; "not in the other subtree" is asked
-/// a little outside the SCP, as operands may share a face.
+/// In points on which the thesis is silent: a subtree that does not hold the pointer has no SCP to choose; a
+/// union inside a union that retries with the same candidate does not retry once more; "not in the other
+/// subtree" is tested a little outside the SCP, as operands may share a face.
 class CsgRenderer {
  public:
   /// From a tree in any form; it is brought into sub-normal form (5.5.5). Fails when that is too large.
@@ -65,10 +65,10 @@ class CsgRenderer {
   struct Node {
     base::Bounds bounds;
     geometry::CsgOperator op = geometry::CsgOperator::Union;
-    std::uint32_t leaf = 0;    // kInner, or which leaf
+    std::uint32_t leaf = 0;    // kInner, or the index of the leaf
     std::uint32_t parent = 0;  // the root's is itself
     std::uint32_t right = 0;   // the left operand is the next node
-    std::uint32_t end = 0;     // behind the subtree
+    std::uint32_t end = 0;     // first node behind the subtree
   };
   struct Tick {
     const DirectMemory& memory;
@@ -97,7 +97,7 @@ class CsgRenderer {
   std::vector<Node> nodes_;
   std::vector<geometry::CsgLeaf> leaves_;
   base::Bounds bounds_;
-  double gap_ = 0.0;  // m, below what can be told apart
+  double gap_ = 0.0;  // m, distance outwards from an SCP of the place that buried() tests
 };
 
 }  // namespace icome::haptics

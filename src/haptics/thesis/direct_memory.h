@@ -5,8 +5,8 @@ namespace icome::haptics {
 
 using base::Vector3;
 
-/// What the renderers of the thesis remember from one tick to the next about one object, in the object's
-/// frame (m): "PreviousSCP" and "PreviousPointer" of algorithms 5.1 to 5.4.
+/// Memory of the thesis renderers from one tick to the next about one object, in the object's frame (m):
+/// "PreviousSCP" and "PreviousPointer" of algorithms 5.1 to 5.4.
 struct DirectMemory {
   geometry::SurfacePoint scp{Vector3::Zero(), Vector3::UnitZ()};  // the pointer itself while free
   Vector3 pointer = Vector3::Zero();

@@ -18,8 +18,8 @@ struct DirectAnswer {
   bool converged = true;  // false: the renderer ran out of budget and holds the last SCP
 };
 
-/// A shape that answers for its SCP itself, as the thesis has it, instead of handing out elements. Only
-/// ThesisSolver can touch it: to the others there is nothing.
+/// A shape that finds its SCP itself, as in the thesis, instead of handing out elements. Only
+/// ThesisSolver can touch it: it gives other solvers no elements.
 class DirectShape : public Shape {
  public:
   /// The SCP when `tip` (in the shape's frame, m) is inside, else nothing. Updates `memory`, which belongs to

@@ -88,7 +88,7 @@ LoopWorkspace::LoopWorkspace() : extended_(kMostFaces / 4), settled_(kMostFaces)
   for (std::vector<std::uint32_t>* faces : {&selected_, &next_, &seeds_}) faces->reserve(kMostFaces);
 }
 
-/// One point's way down the levels. Lives on the stack of a call.
+/// The descent of one point through the levels. Lives on the stack of a call.
 class LoopDescent {
  public:
   LoopDescent(const LoopRenderer& renderer, const Vector3& point, LoopWorkspace& space)
@@ -97,7 +97,7 @@ class LoopDescent {
     space_.selected_.clear();
   }
 
-  /// 5.4.2.
+  /// Tests inside or outside, thesis 5.4.2.
   void test_inside() {
     look_at_control_mesh();
     while (at_ < levels_.finest() && descend()) {
@@ -106,7 +106,7 @@ class LoopDescent {
     }
   }
 
-  /// 5.4.3, after the test: only the closest face matters from here on.
+  /// Finds the SCP, thesis 5.4.3, after the test: only the closest face matters from here on.
   geometry::SurfacePoint find_scp() {
     if (at_ < levels_.finest() && complete_) {
       space_.seeds_.clear();
@@ -167,8 +167,8 @@ class LoopDescent {
     return ray_crosses(corners[0], corners[1], corners[2], point_);
   }
 
-  /// Replaces what is selected by the children of its 1-neighbourhoods and looks at these. False when there
-  /// is nothing to subdivide, or too much.
+  /// Replaces the selected faces by the children of the 1-neighbourhoods of crossed and closest faces, and
+  /// checks these. False when there is nothing to subdivide, or too much.
   bool descend() {
     if (!complete_ || !select_children()) return false;
     std::swap(space_.selected_, space_.next_);

@@ -19,15 +19,15 @@ constexpr std::size_t face_checks(std::size_t control_faces, int level, std::siz
   return control_faces + std::size_t(level) * intersections * kNeighbourhood * kChildren;
 }
 
-/// What the mesh of that level would take: 25,600 for 100 faces and level 4.
+/// The face checks of the whole mesh of that level: 25,600 for 100 faces and level 4.
 constexpr std::size_t whole_mesh_checks(std::size_t control_faces, int level) {
   return control_faces << (2 * level);
 }
 
-/// Memory in which one thread looks at Loop surfaces, one at a time, taken once.
+/// Memory in which one thread tests Loop surfaces, one at a time, taken once.
 class LoopWorkspace {
  public:
-  static constexpr std::size_t kMostFaces = 65'536;  // looked at in one level below the control mesh
+  static constexpr std::size_t kMostFaces = 65'536;  // checked in one level below the control mesh
 
   LoopWorkspace();
 
@@ -65,12 +65,12 @@ struct LoopRendererSettings {
 };
 
 /// Haptic rendering of Loop surfaces as in thesis sections 5.4.2 (inside or outside) and 5.4.3 (SCP): of each
-/// refined level only what descends from the faces that a ray crosses and from the closest face is looked at.
+/// refined level only the descendants of the faces that a ray crosses and of the closest face are checked.
 /// Immutable; shares the levels.
 ///
-/// Where the thesis is silent: the ray goes along +z; the closest face is extended like the crossed ones (the
-/// SCP needs it); in adaptive subdivision a face that is not subdivided any more stays as it is, once, and
-/// what would descend from it is not looked at.
+/// In points on which the thesis is silent: the ray goes along +z; the closest face is extended like the
+/// crossed ones (the SCP needs it); in adaptive subdivision a face that is not subdivided any more stays as
+/// it is, once, and its descendants are not checked.
 class LoopRenderer {
  public:
   explicit LoopRenderer(std::shared_ptr<const geometry::LoopLevels> levels,
@@ -82,11 +82,11 @@ class LoopRenderer {
   struct Test {
     bool inside = false;
     int level = 0;              // reached: less than the finest after an early exit
-    std::size_t crossings = 0;  // there
+    std::size_t crossings = 0;  // at that level
     std::size_t checks = 0;     // of faces, so far
     bool complete = true;  // false: too many faces were crossed for the memory, and a coarser level answers
   };
-  /// 5.4.2. Real-time safe.
+  /// Thesis 5.4.2. Real-time safe.
   Test inside(const Vector3& point, LoopWorkspace& space) const;
 
   struct Answer {
@@ -94,13 +94,13 @@ class LoopRenderer {
     std::size_t checks = 0;                                         // including those for the SCP
     geometry::SurfacePoint scp{Vector3::Zero(), Vector3::UnitZ()};  // of a point inside
   };
-  /// 5.4.2 and, for a point inside, 5.4.3. Real-time safe.
+  /// Thesis 5.4.2 and, for a point inside, 5.4.3. Real-time safe.
   Answer render(const Vector3& point, LoopWorkspace& space) const;
 
  private:
   friend class LoopDescent;
 
-  /// What becomes of a face in adaptive subdivision.
+  /// Fate of a face in adaptive subdivision.
   enum class Fate : std::uint8_t { Divided, Kept, Absent };  // Absent: descends from one that is kept
 
   Fate fate(int level, std::uint32_t face) const {

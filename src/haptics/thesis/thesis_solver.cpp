@@ -44,7 +44,7 @@ void ThesisSolver::adopt(const HapticScene& scene, std::span<const SceneChange> 
   }
 }
 
-/// Remembers, in the frame of an object that came or changed, where the tip was in the old scene.
+/// Remembers the tip's place in the old scene, in the frame of an object that came or changed.
 void ThesisSolver::meet(const HapticScene& old, double old_elapsed, const SceneChange& change) {
   const std::optional<std::uint32_t> now = scene_->find(change.id);
   const std::optional<std::uint32_t> before = old.find(change.id);
@@ -81,7 +81,7 @@ const ScpState& ThesisSolver::step(const Vector3& tip, double elapsed) {
   return state_;
 }
 
-/// The last SCP, where the object that holds it has taken it.
+/// The last SCP, moved along with the object that holds it.
 Vector3 ThesisSolver::carried_scp(double elapsed) const {
   if (!state_.touching) return last_tip_;
   const Known* known = find_known(scene_->objects()[state_.object].id);

@@ -7,14 +7,14 @@
 
 namespace icome::haptics {
 
-/// Renders shapes that answer for their SCP themselves (DirectShape) with a point tip: thesis chapter 5 as
-/// corrected in the errata. It looks at where the tip is, not at the way it came, so whoever is fast or
-/// presses hard enough comes out on the other side: what the exact renderer exists to prevent.
+/// Renders shapes that find their SCP themselves (DirectShape) with a point tip: thesis chapter 5 as
+/// corrected in the errata. It looks at the place of the tip, not at its way there, so a tip that is fast
+/// or is pressed hard enough comes out on the other side, which the exact renderer exists to prevent.
 ///
-/// Of several objects that hold the tip, the one is felt whose SCP lies nearest the previous SCP and in no
-/// other object (as in algorithm 5.4), or nearest at all. Every object's memory is in its own frame, so what
-/// moves takes the SCP along. One thread owns a solver; it keeps a pointer to the scene, which the caller
-/// keeps alive.
+/// Among several objects that hold the tip, the one is felt whose SCP lies nearest the previous SCP and in
+/// no other object (as in algorithm 5.4), or nearest at all. Every object's memory is in its own frame, so a
+/// moving object takes the SCP along. One thread owns a solver; it keeps a pointer to the scene, which the
+/// caller keeps alive.
 class ThesisSolver final : public ContactSolver {
  public:
   static constexpr std::size_t kMostObjects = 64;  // whose boxes hold the tip; others are not asked

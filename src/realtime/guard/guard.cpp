@@ -58,7 +58,7 @@ RealtimeGuard::Counts RealtimeGuard::counts() const {
 #include <cerrno>
 #include <cstdlib>
 
-// glibc's own entrances, for programs that replace malloc.
+// glibc's own entry points, for programs that replace malloc.
 // NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(std::size_t size);
@@ -75,8 +75,8 @@ using icome::realtime::allocations_of_thread;
 using icome::realtime::frees_of_thread;
 using icome::realtime::locks_of_thread;
 
-// Counts a call of the lock function `kHiding` of this file, then calls the one of that name that it
-// hides. That one is looked up at the first call, which may come from a static initialiser of another
+// Counts a call of the lock function `kHiding` of this file, then calls the function of that name that it
+// hides. That function is looked up at the first call, which may come from a static initialiser of another
 // file; several threads may do so at once and find the same.
 template <auto* kHiding, typename... Arguments>
 int counted(const char* name, Arguments... arguments) {
@@ -182,7 +182,7 @@ int pthread_spin_trylock(pthread_spinlock_t* lock) noexcept {
   return counted<pthread_spin_trylock>("pthread_spin_trylock", lock);
 }
 
-// Waiting ends a cancelled thread by unwinding, so what waits may not be noexcept.
+// Waiting ends a cancelled thread by unwinding, so functions that wait must not be noexcept.
 int pthread_cond_wait(pthread_cond_t* condition, pthread_mutex_t* mutex) {
   return counted<pthread_cond_wait>("pthread_cond_wait", condition, mutex);
 }

@@ -38,7 +38,7 @@ std::vector<DrawnOperand> drawn_operands(const CsgOperands& product, const Matri
   return drawn;
 }
 
-/// How many groups OpenCSG makes of the subtracted operands: each goes into the first where it overlaps none.
+/// Number of groups that OpenCSG makes of subtracted operands: each joins the first where it overlaps none.
 std::size_t count_batches(const std::vector<DrawnOperand>& drawn) {
   std::vector<std::vector<const DrawnOperand*>> batches;
   for (const DrawnOperand& own : drawn) {
@@ -56,10 +56,10 @@ std::size_t count_batches(const std::vector<DrawnOperand>& drawn) {
   return batches.size();
 }
 
-/// The sequenced algorithm for convex operands: rounds of subtracting all groups until nothing changes, at
-/// most as many as there are groups (Stewart, Leach and John 2002).
+/// Time of the sequenced algorithm for convex operands: rounds of subtracting all groups until nothing
+/// changes, at most as many as there are groups (Stewart, Leach and John 2002).
 double seconds_in_sequence(const std::vector<DrawnOperand>& drawn) {
-  constexpr double kMostRounds = 4.0;  // that are usual
+  constexpr double kMostRounds = 4.0;  // usual rounds
   const double rounds = std::min(kMostRounds, static_cast<double>(count_batches(drawn)));
   double seconds = 0.0;
   for (const DrawnOperand& own : drawn) {
@@ -68,7 +68,7 @@ double seconds_in_sequence(const std::vector<DrawnOperand>& drawn) {
   return seconds;
 }
 
-/// Each layer of each operand is held against all others (Goldfeather, Hultquist and Fuchs 1986).
+/// Time where each layer of each operand is held against all others (Goldfeather, Hultquist and Fuchs 1986).
 double seconds_by_layers(const std::vector<DrawnOperand>& drawn) {
   double once = 0.0;
   double layers = 0.0;

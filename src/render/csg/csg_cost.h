@@ -8,21 +8,21 @@
 
 namespace icome::render {
 
-/// About how long a processor takes to find what is visible of the solid in one view of that many pixels,
-/// s. The work grows with the product of how many operands there are and how many of them lie one over the
+/// Estimated time, s, that a processor takes to find the visible surface of the solid in one view of that
+/// many pixels. The work grows with the number of operands times the number of them that lie one over the
 /// other in the picture.
 double software_seconds(const CsgGeometry& geometry, const Matrix4& clip_from_tree, double pixels);
 
-/// The same, from the frame of the geometry's buffers.
+/// software_seconds() from the frame of the geometry's buffers.
 double seconds_from_buffer(const CsgGeometry& geometry, const Matrix4& clip_from_buffer, double pixels);
 
-// How long images may take, s: of a solid in a view that moves, and in a picture of some fifty passes.
+// Longest times of images, s: of a solid in a view that moves, and in a picture of some fifty passes.
 constexpr double kLongestLiveView = 0.1;
 constexpr double kLongestStillView = 0.4;
 /// A graphics card's time as a share of a processor's, at most.
 constexpr double kHardwareFactor = 1.0 / 30.0;
 
-/// Why the solid had better be drawn as a triangle mesh, as a part of a sentence: the driver cannot make
+/// The reason to draw the solid as a triangle mesh, as a part of a sentence: the driver cannot make
 /// images of CSG, or a picture would take too long. Nothing when images will do.
 std::optional<std::string> reason_against_images(const Offscreen& context, const CsgGeometry& geometry,
                                                  const Matrix4& clip_from_tree, double pixels);

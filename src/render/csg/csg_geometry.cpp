@@ -23,8 +23,8 @@ using geometry::CsgProduct;
 using geometry::CsgTree;
 using geometry::TriangleMesh;
 
-/// By how much neighbours in rank grow apart, as a share of the solid's radius: well above what a depth
-/// buffer of 24 bits tells apart, well below what a picture shows.
+/// Difference in growth of neighbours in rank, as a share of the solid's radius: well above the
+/// resolution of a depth buffer of 24 bits, well below that of a picture.
 constexpr double kApart = 4e-5;
 
 charts::Colour colour_of(const CsgTree::Colour& c) { return {c[0], c[1], c[2]}; }
@@ -72,7 +72,7 @@ std::optional<unsigned> layers_of(const CsgLeaf& leaf) {
   return std::holds_alternative<geometry::Torus>(*primitive) ? 2 : 1;
 }
 
-/// What the planes at each vertex ask of it: sums of n nT and n, weighted by area.
+/// The planes at a vertex: sums of n nT and n, weighted by area.
 struct VertexPlanes {
   Matrix3 squares = Matrix3::Zero();
   Vector3 normals = Vector3::Zero();
@@ -186,7 +186,7 @@ std::size_t count_operands(const std::vector<CsgProduct>& products) {
   return sum;
 }
 
-/// Where faces of two products coincide, the first product's lie outside: its growth in steps, 0 ... 1.
+/// Growth of a product in steps, 0 ... 1: where faces of two products coincide, the first's lie outside.
 double preference(std::size_t product, std::size_t products) {
   return static_cast<double>(products - product - 1) / static_cast<double>(products);
 }
@@ -198,7 +198,7 @@ class GeometryMaker {
     made_.radius = ball.radius;
   }
 
-  /// `steps` are what the product's first operand grows by.
+  /// `steps`: the growth of the product's first operand.
   base::Result<void> add(const CsgProduct& product, double steps) {
     const auto intersected = static_cast<double>(
         std::count_if(product.begin(), product.end(), [](const CsgFactor& f) { return !f.subtracted; }));

@@ -17,16 +17,16 @@ struct CsgOperand {
   ShadingMesh mesh;     ///< closed, facing out, in the buffers' frame, which all operands share
   base::Bounds bounds;  ///< of the mesh, buffers' frame
   bool subtracted = false;
-  /// How many of its fronts can lie one behind the other: 1 when convex; nothing when it must be counted.
+  /// Most of its fronts that can lie one behind the other: 1 when convex; nothing when it must be counted.
   std::optional<unsigned> layers;
   std::optional<charts::Colour> colour;
 };
 
-/// Those of one product: what is in all of the intersected ones, of which there is one at least, and in no
-/// subtracted one.
+/// The operands of one product: the solid in all of the intersected ones, of which there is at least one,
+/// and in no subtracted one.
 using CsgOperands = std::vector<CsgOperand>;
 
-/// A CSG tree made ready for pictures: a union of products of meshes. Owns its arrays.
+/// A CSG tree prepared for pictures: a union of products of meshes. Owns its arrays.
 struct CsgGeometry {
   std::vector<CsgOperands> products;
   base::Vector3 centre{0.0, 0.0, 0.0};  ///< m, tree's frame: origin of the buffers' frame

@@ -20,7 +20,7 @@ extern "C" unsigned glewInit();  // NOLINT(readability-identifier-naming): their
 namespace icome::render {
 namespace {
 
-/// OpenCSG and GLEW keep what they know in global variables.
+/// OpenCSG and GLEW keep their state in global variables.
 struct Library {
   std::mutex lock;
   int last_number = 0;  // given to a context; none twice
@@ -36,7 +36,7 @@ Library& library() {
 /// current. False when GLEW does not know the context.
 bool load_library_functions() {
   constexpr unsigned kGood = 0;
-  constexpr unsigned kNoWindowSystem = 4;  // what is about X windows is missing; OpenGL itself is loaded
+  constexpr unsigned kNoWindowSystem = 4;  // functions for X windows are missing; OpenGL itself is loaded
   const unsigned outcome = glewInit();
   return outcome == kGood || outcome == kNoWindowSystem;
 }
@@ -85,7 +85,7 @@ class OperandView {
 
 using ProductView = std::vector<OperandView>;
 
-/// How many fronts of the operand lie one behind the other at most, in the view that is set.
+/// Largest number of the operand's fronts that lie one behind the other, in the view that is set.
 unsigned count_layers(const OperandView& operand) {
   std::array<GLint, 4> port{};
   glGetIntegerv(GL_VIEWPORT, port.data());
@@ -127,8 +127,8 @@ class LibraryPrimitive final : public OpenCSG::Primitive {
   const OperandView& operand_;
 };
 
-/// As OpenCSG would by itself, but for asking sooner whether a further round of subtractions changes
-/// anything: that pays from few operands on where the processor does the drawing.
+/// Chooses as OpenCSG would by itself, but asks sooner whether a further round of subtractions
+/// changes anything: that pays from few operands on where the processor does the drawing.
 void set_algorithm(const std::vector<LibraryPrimitive>& operands) {
   constexpr std::ptrdiff_t kRoundsWorthAQuery = 4;
   const auto subtracted = std::count_if(operands.begin(), operands.end(), [](const auto& operand) {
@@ -152,7 +152,7 @@ void draw_product_depth(const ProductView& product, const Matrix4& clip_from_buf
   OpenCSG::render(pointers);
 }
 
-/// One closed mesh hides itself: no images are needed to find what is visible of it.
+/// One closed mesh hides itself: no images are needed to find its visible surface.
 void draw_lone_depth(const OperandView& operand) {
   glPushAttrib(GL_ENABLE_BIT | GL_COLOR_BUFFER_BIT | GL_POLYGON_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);

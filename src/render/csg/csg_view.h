@@ -14,11 +14,11 @@ namespace icome::render {
 /// One operand's share in the visible surface of a solid.
 struct CsgFaces {
   std::optional<charts::Colour> colour;  ///< the operand's own, if it has one
-  bool subtracted;                       ///< seen from inside: its normals point into what is cut away
+  bool subtracted;                       ///< seen from inside: its normals point into the part cut away
 };
 
-/// What images of CSG need of the OpenGL context that is current where it is made, used and destroyed: all
-/// solids of the context share it. Kirsch and Doellner's OpenCSG, which does the work, keeps what it knows in
+/// The state for images of CSG in the OpenGL context that is current where it is made, used and destroyed:
+/// all solids of the context share it. Kirsch and Doellner's OpenCSG, which does the work, keeps its state in
 /// global variables: contexts of several threads take turns, solid by solid.
 class CsgImages {
  public:
@@ -38,8 +38,8 @@ class CsgImages {
 };
 
 /// A solid on the graphics card, drawn without making a mesh of its surface: image-based CSG. First
-/// draw_depth() finds what is visible and leaves its depth; then shade() draws the faces that have just this
-/// depth. Owns its buffers; the context that made it must outlive it.
+/// draw_depth() finds the visible surface and leaves its depth; then shade() draws the faces that have just
+/// this depth. Owns its buffers; the context that made it must outlive it.
 class CsgView {
  public:
   CsgView(std::shared_ptr<const CsgImages> images, const CsgGeometry& geometry);
@@ -47,12 +47,12 @@ class CsgView {
   CsgView& operator=(CsgView&&) noexcept;
   ~CsgView();
 
-  /// From the buffers' frame to the tree's own (metres): a scale and a shift.
+  /// Transform from the buffers' frame to the tree's own (metres): a scale and a shift.
   const Matrix4& tree_from_buffer() const { return tree_from_buffer_; }
 
-  /// Leaves the nearer of what is there and the solid in the depth buffer of the frame in use, which needs
-  /// 8 bits of stencil; the stencil is lost. The viewport must begin at pixel (0, 0) (OpenCSG 1.5 takes its
-  /// corner for a size); the scissor is heeded, and so is what glFrontFace says. Leaves no program in use.
+  /// Leaves the nearer of the solid and the depths there in the depth buffer of the frame in use, which
+  /// needs 8 bits of stencil; the stencil is lost. The viewport must begin at pixel (0, 0) (OpenCSG 1.5
+  /// takes its corner for a size); scissor and glFrontFace are heeded. Leaves no program in use.
   void draw_depth(const Matrix4& clip_from_buffer) const;
 
   /// Issues, with the program in use, the faces that the draw_depth() of the same matrix made visible.

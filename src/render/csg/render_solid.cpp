@@ -25,12 +25,12 @@ using Surface = std::shared_ptr<const MeshGeometry>;
 constexpr double kFine = 1.0 / 160.0;
 constexpr double kCoarse = 1.0 / 64.0;
 
-/// Cells of a grid where there is something.
+/// The filled cells of a grid.
 class Cells {
  public:
   explicit Cells(double side) : side_(side) {}
 
-  /// Of a triangle, so densely that all of it has a cell of these within reach: flat faces have large ones.
+  /// Fills cells so densely that all of a triangle has one of them within reach: flat faces have large ones.
   void add(std::array<Vector3, 3> corners) {
     const auto edge = [&](std::size_t i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
     const std::size_t longest = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0 : edge(1) >= edge(2) ? 1 : 2;
@@ -46,7 +46,7 @@ class Cells {
     }
   }
 
-  /// In the point's cell or one beside it?
+  /// Is the point's cell or one beside it filled?
   bool has_near(const Vector3& point) const {
     const std::array<std::int64_t, 3> middle = cell(point);
     for (int i = 0; i < 27; ++i) {
@@ -58,7 +58,7 @@ class Cells {
 
  private:
   void add_point(const Vector3& point) { filled_.insert(key(cell(point))); }
-  /// Each no longer than a side.
+  /// Number of steps over a length, each no longer than a side.
   int steps_over(double length) const { return std::max(1, int(std::ceil(length / side_))); }
 
   std::array<std::int64_t, 3> cell(const Vector3& point) const {
@@ -103,7 +103,7 @@ bool is_whole(const MeshGeometry& surface, const CsgGeometry& images, const geom
   return true;
 }
 
-/// In a view of usual size that the solid fills.
+/// Time of images, s, in a view of usual size that the solid fills.
 double usual_seconds(const CsgGeometry& images) {
   constexpr double kWidth = 1280.0, kHeight = 800.0;  // pixels
   FitOptions fit;
@@ -112,7 +112,7 @@ double usual_seconds(const CsgGeometry& images) {
   return software_seconds(images, fit_camera(images.surface, fit).clip_from_world(), kWidth * kHeight);
 }
 
-/// The images with what triangles they need beside them; made in the order of what takes longer.
+/// The images with the triangles that they need beside them; the quickest to make are tried first.
 DrawnSolid with_triangles(const world::CsgGeometry& shape, CsgGeometry images, double size) {
   auto solid = std::make_shared<RenderSolid>();
   solid->images = std::move(images);

@@ -8,10 +8,10 @@
 
 namespace icome::render {
 
-/// A CSG solid made ready to be drawn from images of its operands. Immutable once made.
+/// A CSG solid prepared to be drawn from images of its operands. Immutable once made.
 struct RenderSolid {
-  /// What the solid's triangles are good for. Making fine ones takes longer than anything else, so they are
-  /// made of solids only whose images take long to draw without a graphics card.
+  /// The use of the solid's triangles. Making fine ones takes longer than anything else, so they are made
+  /// only of solids whose images take long to draw without a graphics card.
   enum class Triangles {
     Fine,    ///< to be seen
     Coarse,  ///< for shadows, and to be seen where a driver takes no images

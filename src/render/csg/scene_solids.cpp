@@ -39,7 +39,7 @@ const CsgView* SceneSolids::shadow_images(const PlannedItem& planned) {
 
 const CsgView& SceneSolids::view(const RenderShapePointer& shape) {
   Entry& found = views_[shape.get()];
-  // Another may have come to lie where one that is gone was.
+  // Another shape may lie at the address of one that is gone.
   if (found.shape.lock() != shape) found = {shape, std::make_unique<CsgView>(images_, shape->solid->images)};
   return *found.view;
 }

@@ -11,7 +11,7 @@
 
 namespace icome::render {
 
-/// How CSG solids are drawn.
+/// The way in which CSG solids are drawn.
 enum class CsgWay {
   Automatic,  ///< whichever is faster
   Images,     ///< from images of their operands, wherever the driver can
@@ -25,9 +25,9 @@ class SceneSolids {
   /// `pixels` are those of the picture.
   void set_rule(CsgWay way, double pixels);
 
-  /// What draws the item from images; null where its triangles are drawn.
+  /// The view that draws the item from images; null where its triangles are drawn.
   const CsgView* images(const PlannedItem& planned);
-  /// What draws its shadow from images, as not all of it is there as triangles.
+  /// The view that draws its shadow from images, as its triangles lack parts; null where they are all there.
   const CsgView* shadow_images(const PlannedItem& planned);
 
   void drop_unused();

@@ -12,11 +12,11 @@ namespace icome::render {
 class MeshView {
  public:
   explicit MeshView(const ShadingMesh& mesh);
-  /// With more for each vertex, or nothing: where it lies in a picture (input 2) and its colour (input 3).
+  /// With more inputs for each vertex, if any: its place in a picture (input 2) and its colour (input 3).
   MeshView(const ShadingMesh& mesh, std::span<const Eigen::Vector2f> picture_places,
            std::span<const Eigen::Vector3f> colours);
 
-  /// From the buffers' frame to the mesh's own (metres): a scale and a shift.
+  /// Transform from the buffers' frame to the mesh's own (metres): a scale and a shift.
   const Matrix4& mesh_from_buffer() const { return mesh_from_buffer_; }
 
   /// Issues the triangles with the program in use; inputs 0 and 1 are position and normal.

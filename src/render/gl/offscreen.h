@@ -18,7 +18,7 @@ class Offscreen {
   Offscreen& operator=(Offscreen&&) noexcept;
   ~Offscreen();
 
-  /// What draws, in the driver's words, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+  /// Name of the renderer, in the driver's words, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
   std::string renderer() const;
 
   /// Does the processor do the drawing? Then it takes its time.

@@ -29,7 +29,7 @@ struct Wedge {
   double distance;  ///< along +z
 };
 
-/// How far the points reach across (`high`: max of x + t z; `low`: min of x - t z).
+/// The wedge around points that reach so far across (`high`: max of x + t z; `low`: min of x - t z).
 Wedge apex(double high, double low, double tangent) {
   return {0.5 * (high + low), 0.5 * (high - low) / tangent};
 }
@@ -54,7 +54,7 @@ Reach reach_of(std::span<const Vector3> points, const Matrix3& axes, double tang
   return reach;
 }
 
-/// What stands in for points that have no extent.
+/// Points that stand in for ones without extent.
 std::array<Vector3, 6> unit_ball(const Vector3& centre) {
   return {centre + Vector3::UnitX(), centre - Vector3::UnitX(), centre + Vector3::UnitY(),
           centre - Vector3::UnitY(), centre + Vector3::UnitZ(), centre - Vector3::UnitZ()};
@@ -141,7 +141,7 @@ base::Bounds device_box(const base::Bounds& box, const Matrix4& clip_from_box) {
 
 double pixels_a_metre(const Camera& camera, const Vector3& centre, double radius, double height) {
   const Vector3 middle = camera.camera_from_world * centre;
-  const auto depth = camera.clip_from_camera.row(3);  // what things grow smaller by
+  const auto depth = camera.clip_from_camera.row(3);  // the divisor by which things grow smaller
   const double nearest = depth.head<3>() * middle + depth[3] - radius * depth.head<3>().norm();
   const double pixels = 0.5 * height * camera.clip_from_camera.row(1).head<3>().norm() / nearest;
   return nearest > 0.0 && std::isfinite(pixels) ? pixels : HUGE_VAL;

@@ -103,7 +103,7 @@ bool find_gif_picture(GifFileType* gif, std::optional<int>& clear) {
   return false;
 }
 
-/// In which order the rows of an interlaced picture come.
+/// The rows of a picture in the order in which they come, which differs if it is interlaced.
 std::vector<int> gif_rows(int height, bool interlaced) {
   std::vector<int> rows;
   constexpr std::array<std::array<int, 2>, 4> kWeaves = {{{0, 8}, {4, 8}, {2, 4}, {1, 2}}};

@@ -65,9 +65,9 @@ std::string shape_name(const World& world, world::GeometryId id) {
   return "A shape";
 }
 
-constexpr double kRigid = 1e-12;  // of what turns and moves without stretching
+constexpr double kRigid = 1e-12;  // tolerance of a transform that does not stretch
 
-/// The work of a version: how much there is, and where.
+/// Sums up a block: its number of objects and triangles, and its bounds.
 void tally(RenderScene::Block& block) {
   block.bounds.setEmpty();
   block.objects = block.triangles = 0;
@@ -79,7 +79,7 @@ void tally(RenderScene::Block& block) {
   }
 }
 
-/// Null for all.
+/// The objects that a light shines on; null for all.
 std::shared_ptr<const std::unordered_set<ObjectId>> lit_objects(const World& world, ObjectId light) {
   const ObjectId group = world::lit_group(world, light);
   if (!group) return nullptr;
@@ -118,7 +118,7 @@ void ScenePublisher::show_roots(const World& world) {
 
 RenderScenePointer ScenePublisher::update(const World& world, const world::Changes& changes) {
   forget(world, changes);
-  // What a light's group holds may have changed.
+  // The objects in a light's group may have changed.
   const auto has_group = [](const RenderLight& it) { return it.group != nullptr; };
   if (!changes.objects.empty() && std::any_of(lights_.begin(), lights_.end(), has_group))
     fixtures_touched_ = true;
@@ -145,7 +145,7 @@ std::vector<world::GeometryId> ScenePublisher::changing_shapes(const World& worl
     if (geometry && render::changes(*geometry->shape)) ids.push_back(id);
   }
   if (ids.empty()) return ids;
-  // What is stretched is felt as triangles, as it is at t = 0: so it is seen, and all that share its shape.
+  // Stretched objects are felt as triangles of t = 0: they, and all that share their shape, are drawn so.
   for (const auto& [id, object] : world.objects()) {
     const base::Matrix3 stretch = world::world_from_object(world, id).linear();
     if ((stretch.transpose() * stretch).isIdentity(kRigid) && stretch.determinant() > 0.0) continue;
@@ -184,14 +184,14 @@ void ScenePublisher::forget(const World& world, const world::Changes& changes) {
   }
 }
 
-/// Shapes do not depend on each other, and some take long to be made triangles.
+/// Makes all shapes at once: they do not depend on each other, and some take long to be made triangles.
 void ScenePublisher::make_shapes(const World& world) {
   std::vector<world::GeometryId> ids;
   for (const auto& [id, geometry] : world.geometries()) {
     if (geometry.users > 0) ids.push_back(id);
   }
   std::sort(ids.begin(), ids.end());
-  // What lies in memory once is made once.
+  // A shape that lies in memory once is made once.
   std::unordered_map<const world::Geometry*, std::size_t> places;
   std::vector<const world::Geometry*> shapes;
   for (const auto id : ids) {

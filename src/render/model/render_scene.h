@@ -25,13 +25,13 @@ struct RenderPicture {
   std::array<bool, 2> repeats = {true, true};  ///< along u and v
 };
 
-/// How a surface looks: world::Material with linear colours. Immutable once made.
+/// The look of a surface: world::Material with linear colours. Immutable once made.
 struct RenderMaterial {
   Eigen::Vector3f diffuse{0.8F, 0.8F, 0.8F};
-  Eigen::Vector3f specular{0.0F, 0.0F, 0.0F};  ///< beside what shines as metal
+  Eigen::Vector3f specular{0.0F, 0.0F, 0.0F};  ///< without the metallic part
   Eigen::Vector3f emission{0.0F, 0.0F, 0.0F};
   float ambient = 0.2F;                               ///< of the diffuse colour
-  float metal = 0.0F;                                 ///< of what shines, 0 ... 1, as the surface is coloured
+  float metal = 0.0F;                                 ///< 0 ... 1: part of the diffuse colour that shines
   float shininess = 0.2F;                             ///< 0 ... 1
   float alpha = 1.0F;                                 ///< 1 is opaque
   bool double_sided = true;                           ///< else backs are not seen
@@ -41,7 +41,7 @@ struct RenderMaterial {
   bool picture_replaces_colour = false;             ///< else they are multiplied (VRML 2.0, 4.14)
   bool picture_replaces_alpha = false;              ///< likewise
   PictureOpacity opacity = PictureOpacity::Opaque;  ///< of the picture on this surface
-  float cutoff = 0.5F;                              ///< of what is cut out
+  float cutoff = 0.5F;                              ///< alpha below which a picture is cut out
 };
 
 /// One object as it is drawn.
@@ -68,9 +68,9 @@ struct RenderViewpoint {
   double field_of_view;                ///< rad, of the shorter side of the picture
 };
 
-/// What is drawn of a world: one published version. Immutable; a later version shares all that no edit
-/// touched, so that publishing costs by the edit and not by the design, and whoever draws keeps his own for
-/// as long as he likes without anybody waiting.
+/// The drawn part of a world: one published version. Immutable; a later version shares all that no edit
+/// touched, so that publishing costs by the edit and not by the design, and a drawing thread keeps its
+/// version for as long as it likes without anybody waiting.
 class RenderScene {
  public:
   static constexpr std::size_t kBlockItems = 64;
@@ -89,7 +89,7 @@ class RenderScene {
   const base::Bounds& bounds() const { return bounds_; }  ///< m, world frame; empty for nothing
   std::size_t object_count() const { return object_count_; }
   std::size_t triangle_count() const { return triangle_count_; }  ///< clones counted each
-  /// Sentences on what is not drawn as it should be.
+  /// Sentences on things that are not drawn as they should be.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Calls `visit` with every item that has something to draw.
@@ -120,7 +120,7 @@ using RenderScenePointer = std::shared_ptr<const RenderScene>;
 /// materials and pictures.
 class ScenePublisher {
  public:
-  /// Of one scene of the world or, without one, of all objects.
+  /// Publishes one scene of the world or, without one, all objects.
   explicit ScenePublisher(world::SceneId scene = {}) : scene_(scene) {}
 
   /// Makes all anew. Pictures that cannot be read and shapes that cannot be drawn become remarks.
@@ -129,15 +129,15 @@ class ScenePublisher {
   RenderScenePointer update(const world::World& world, const world::Changes& changes);
   /// Another scene of the same world (none: all objects), of the shapes that are made already.
   RenderScenePointer show_scene(const world::World& world, world::SceneId scene);
-  /// Makes anew, as it is at `time` (s), what changes with time; from now on everything is made for then.
-  /// Null where nothing does.
+  /// Makes anew, as of `time` (s), all shapes that change with time; from now on everything is made for
+  /// that time. Null where nothing changes.
   RenderScenePointer at_time(const world::World& world, double time);
   /// Is there something that changes with time?
   bool changes(const world::World& world) const { return !changing_shapes(world).empty(); }
 
  private:
   struct Made {
-    RenderShapePointer shape;  // null: cannot be drawn; the remark says what is not
+    RenderShapePointer shape;  // null: cannot be drawn; the remark names it
     std::string remark;
   };
   struct MadePicture {
@@ -147,7 +147,7 @@ class ScenePublisher {
 
   std::vector<world::GeometryId> changing_shapes(const world::World& world) const;
   void make_shapes(const world::World& world);
-  /// What was made of a shape, or why not, and what it lacks.
+  /// Keeps the result of making a shape, or the reason why not, and a remark on parts that it lacks.
   static void keep(const world::World& world, world::GeometryId id,
                    const base::Result<RenderShapePointer>& made, Made& as);
   const Made& shape(const world::World& world, world::GeometryId id);
@@ -166,12 +166,12 @@ class ScenePublisher {
   RenderScenePointer version(const world::World& world);
 
   world::SceneId scene_;
-  double time_ = 0.0;  // s, of what changes
+  double time_ = 0.0;  // s, of shapes that change
   std::unordered_map<world::GeometryId, Made> shapes_;
   std::unordered_map<world::MaterialId, std::shared_ptr<const RenderMaterial>> materials_;
   std::unordered_map<world::TextureId, MadePicture> pictures_;
   std::shared_ptr<const RenderMaterial> plain_;             // made when wanted
-  std::unordered_map<world::ObjectId, std::size_t> slots_;  // where shown objects stand in the blocks
+  std::unordered_map<world::ObjectId, std::size_t> slots_;  // places of shown objects in the blocks
   std::vector<std::size_t> free_;                           // slots
   std::vector<std::shared_ptr<const RenderScene::Block>> blocks_;
   std::unordered_map<std::size_t, std::shared_ptr<RenderScene::Block>> written_;  // since the last version

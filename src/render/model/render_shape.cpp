@@ -26,13 +26,13 @@ constexpr std::size_t kFewTriangles = 300;         // need no coarser ones
 constexpr std::uint32_t kNoVertex = 0xffffffff;    // ends a list of vertices
 constexpr std::size_t kMostVerticesCompared = 64;  // at the tip of a fine cone each triangle has its own
 
-/// How far triangles may be off the surface, as a share of its size: solids are sampled through their
-/// volume, so finer takes much longer there.
+/// Largest distance of triangles from the surface, as a share of its size: solids are sampled through
+/// their volume, so finer takes much longer there.
 double fineness(const world::Geometry& shape) {
   return shape.kind() == "implicit" ? 1.0 / 160.0 : 1.0 / 1500.0;
 }
 
-/// The same of one that is made again and again: an eighth of the work.
+/// Fineness of a shape that is made again and again: an eighth of the work.
 constexpr double kMovingFineness = 1.0 / 80.0;
 
 const world::ImplicitGeometry* changing(const world::Geometry& shape) {
@@ -40,7 +40,7 @@ const world::ImplicitGeometry* changing(const world::Geometry& shape) {
   return implicit && implicit->surface()->changes() ? implicit : nullptr;
 }
 
-/// Linear; what stands for the material's own colour is none.
+/// Linear; the value that stands for the material's own colour is passed on.
 Eigen::Vector3f light_of_corner(const world::Colour& colour) {
   return Eigen::Vector3f(
       (colour == world::kMaterialsColour ? colour : base::linear_from_srgb(colour)).data());
@@ -67,7 +67,7 @@ class ShapeWelder {
 
   void add_triangles() {
     for (std::size_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
-      // Those without area or with corners that make no sense have no normal.
+      // Triangles without area or with corners that make no sense have no normal.
       if (normals_[t][0].isZero()) continue;
       for (std::size_t k = 0; k < 3; ++k)
         out_.mesh.indices.push_back(vertex_of(surface_.mesh.triangles[t][k], look(t, k)));
@@ -114,11 +114,11 @@ class ShapeWelder {
   const MeshGeometry& surface_;
   RenderShape& out_;
   std::vector<std::array<Eigen::Vector3f, 3>> normals_;
-  std::vector<std::uint32_t> newest_;  // vertex of each position
-  std::vector<std::uint32_t> older_;   // of the same position as each vertex
+  std::vector<std::uint32_t> newest_;  // newest vertex of each position
+  std::vector<std::uint32_t> older_;   // the next older one at the same position, by vertex
 };
 
-/// Corners that triangles use: a file may have others, far away.
+/// Bounds of the corners that triangles use: a file may have others, far away.
 Bounds used_bounds(const geometry::TriangleMesh& mesh) {
   Bounds box;
   for (const auto& triangle : mesh.triangles) {
@@ -139,7 +139,7 @@ std::vector<Vector3> positions_of(const ShadingMesh& mesh) {
 
 using SolidPointer = std::shared_ptr<const RenderSolid>;
 
-/// Where the numbers of buffers are small.
+/// Sets the frame in which the numbers of buffers are small.
 void choose_frame(RenderShape& shape) {
   if (shape.solid) {
     shape.mesh.centre = shape.solid->images.centre;

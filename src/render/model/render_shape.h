@@ -27,10 +27,10 @@ struct RenderShape {
 
 using RenderShapePointer = std::shared_ptr<const RenderShape>;
 
-/// Makes it, fine enough for a picture that the shape fills. Where the shape has no normals of its own,
-/// bends of more than 0.9 rad are edges (2.2 rad in meshes of more than 20,000 triangles: the rims of scans
-/// are full of sharp bends that are no edges). One that changes is made as at `time` (s), more coarsely but
-/// for 0. Fails, saying why, for shapes that cannot be made triangles.
+/// Makes the surface of a shape, fine enough for a picture that the shape fills. Where the shape has no
+/// normals of its own, bends of more than 0.9 rad are edges (2.2 rad in meshes of more than 20,000
+/// triangles: the rims of scans are full of sharp bends that are no edges). One that changes is made as at
+/// `time` (s), more coarsely but for 0. Fails, saying why, for shapes that cannot be made triangles.
 base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape, double time = 0.0);
 
 /// Does the shape change with time?

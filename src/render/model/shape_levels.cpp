@@ -41,7 +41,7 @@ class CellNumbers {
   std::uint32_t count_ = 0;
 };
 
-/// Buffers span about -1 ... 1; a little more is let in for what rounding does.
+/// Buffers span about -1 ... 1; a little more is let in for rounding.
 std::uint32_t cell_key(const Vector3f& p, float cells_a_unit) {
   std::uint32_t key = 0;
   for (int k = 0; k < 3; ++k) {
@@ -51,14 +51,14 @@ std::uint32_t cell_key(const Vector3f& p, float cells_a_unit) {
   return key;
 }
 
-/// To which of the six sides of a box it points most.
+/// The side of a box, one of six, to which the normal points most.
 std::size_t side_of(const Vector3f& normal) {
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   return 2 * std::size_t(axis) + (normal[axis] < 0.0F ? 1 : 0);
 }
 
-/// What the vertices in one cell come to.
+/// The vertices in one cell, merged.
 struct Cell {
   Vector3f position = Vector3f::Zero();
   float members = 0.0F;
@@ -114,7 +114,7 @@ class Clustering {
     return cell.vertices[side];
   }
 
-  /// Where the surface is smooth, all sides of a cell have the same normal: no seams where one side's part
+  /// Gives all sides of a cell the same normal where the surface is smooth: no seams where one side's part
   /// meets another's.
   void merge_normals() {
     for (const Cell& cell : cells_) {
@@ -159,7 +159,7 @@ std::vector<ShapeLevel> make_shape_levels(const ShadingMesh& mesh, std::span<con
   std::vector<ShapeLevel> levels;
   const ShadingMesh* finer = &mesh;
   std::span<const Vector3f> finer_colours = colours;
-  levels.reserve(7);  // what was made stays where it is
+  levels.reserve(7);  // levels stay where they are
   for (double cell = kFinestCell; cell <= kCoarsestCell; cell *= 2.0) {
     if (finer->indices.size() < 3 * kFewestTriangles) break;
     ShapeLevel level = Clustering(*finer, finer_colours, cell).run();

@@ -8,7 +8,7 @@
 
 namespace icome::render {
 
-/// From what is seen to the eye, and what stands upright, where y is up.
+/// A direction of view, given to the eye, and the upright direction, where y is up.
 struct ViewDirection {
   std::string_view name;
   base::Vector3 toward_eye;
@@ -18,18 +18,18 @@ struct ViewDirection {
 /// front, back, left, right, top, bottom and iso.
 const std::array<ViewDirection, 7>& view_directions();
 
-/// The one of that name; nothing for other names.
+/// The direction of that name; nothing for other names.
 std::optional<ViewDirection> view_direction(std::string_view name);
 
 /// The camera that looks in that direction and sees all of the scene, as large as it can be; aspect is width
 /// over height.
 Camera fit_scene(const RenderScene& scene, const ViewDirection& direction, double aspect);
 
-/// The camera at a viewpoint of the design. What the placement stretches or mirrors is left out.
+/// The camera at a viewpoint of the design, without the stretching or mirroring of its placement.
 Camera look_from(const RenderViewpoint& viewpoint, const base::Bounds& bounds, double aspect);
 
 /// The perspective of a symmetric window that holds `field` (rad) along its shorter side; near and far are
-/// chosen so that depth tells apart what lies within the bounds (m, world frame).
+/// chosen so that depth tells things within the bounds (m, world frame) apart.
 Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds, double field,
                  double aspect);
 

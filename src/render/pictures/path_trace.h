@@ -12,18 +12,18 @@
 
 namespace icome::render {
 
-/// A picture of the world on a page: what is needed to lay lines over it that know what hides them.
+/// A picture of the world on a page, with the data that tell which parts of lines over it are hidden.
 struct PlacedPicture {
   const Camera& camera;
   const StudioPicture& picture;
   charts::Area area;  ///< where it lies on the page
-  double tolerance;   ///< m: how far behind a surface a point may lie and still count as on it
+  double tolerance;   ///< m: depth behind a surface up to which a point counts as on it
 };
 
 /// A point of a path in the world.
 struct PathPoint {
   base::Vector3 position;  ///< m, world frame
-  double value = 0.0;      ///< what the path shows there, such as newtons
+  double value = 0.0;      ///< value of the path there, such as newtons
   bool shown = true;       ///< the path is interrupted where false
 };
 
@@ -40,10 +40,10 @@ struct TracePoint {
 std::vector<std::vector<TracePoint>> trace_path(const PlacedPicture& placed, std::size_t count,
                                                 const std::function<PathPoint(std::size_t)>& point);
 
-/// Is the point in front of what the picture shows there (or outside the picture)?
+/// Is the point in front of the surface that the picture shows there (or outside the picture)?
 bool is_visible(const PlacedPicture& placed, const base::Vector3& position);
 
-/// Where the point lies on the page; nothing when it is behind the eye.
+/// The place of the point on the page; nothing when it is behind the eye.
 std::optional<base::Vector2> place_on_page(const PlacedPicture& placed, const base::Vector3& position);
 
 /// Cuts a stretch into runs of equal visibility; neighbours share a point, so that no gap opens.

@@ -18,7 +18,7 @@ namespace {
 constexpr int kMostSide = 16384;  // pixels
 constexpr int kTileSide = 2048;   // pixels: what is drawn at once takes 36 bytes a pixel
 
-/// Reads what the frame that is bound holds into the picture; `x`, `y` are of the lower left corner.
+/// Copies the bound frame into the picture; `x`, `y` are of the lower left corner.
 void read_tile(const SceneTarget& tile, int x, int y, charts::Image& image) {
   const std::size_t row = 4 * std::size_t(tile.width);
   std::vector<std::uint8_t> pixels(row * std::size_t(tile.height));
@@ -31,7 +31,7 @@ void read_tile(const SceneTarget& tile, int x, int y, charts::Image& image) {
   }
 }
 
-/// Equal parts of at most kTileSide pixels.
+/// Number of equal parts of at most kTileSide pixels along a side.
 int tiles_along(int side) { return (side + kTileSide - 1) / kTileSide; }
 
 }  // namespace

@@ -151,14 +151,14 @@ out vec4 result;
 void main() { result = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
 )";
 
-/// What one pass is lit by.
+/// One of the lights of a pass.
 struct Light {
   Vector3 to_light;   ///< unit, studio frame
   Vector3 intensity;  ///< linear RGB, already divided by the number of its kind
   double gloss;       ///< strength of its highlight
 };
 
-/// Spread evenly over the ball (a Fibonacci lattice); `up` is its pole.
+/// Directions spread evenly over the ball (a Fibonacci lattice); `up` is their pole.
 Vector3 sky_direction(int index, int count, const Eigen::Quaterniond& up_from_z) {
   const double z = 1.0 - (2.0 * index + 1.0) / count;
   const double angle = index * std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -170,8 +170,8 @@ Light sky_light(int index, int count, const Eigen::Quaterniond& up_from_z) {
   const Vector3 to_light = sky_direction(index, count, up_from_z);
   const double height = to_light.dot(up_from_z * Vector3::UnitZ());
   const double t = 0.5 + 0.5 * height;
-  // Above a cool sky, below what a light floor gives back. A full even ball of light 1 gives a surface 1
-  // when the mean of max(0, cos) = 1/4 is made up for.
+  // Above a cool sky, below the light that a bright floor gives back. A full even ball of light 1 gives
+  // a surface 1 when the mean of max(0, cos) = 1/4 is made up for.
   const Vector3 radiance = (1.0 - t) * Vector3(0.26, 0.25, 0.24) + t * Vector3(0.60, 0.63, 0.68);
   return {to_light, 4.0 / count * radiance, 0.0};
 }
@@ -311,7 +311,7 @@ base::Result<Target> make_frame_target(unsigned colour_format, unsigned depth_fo
   return target;
 }
 
-/// Where things are drawn to: the pass at hand, the sum of all, the shadow maps of the pass at hand, and
+/// The targets of drawing: the pass at hand, the sum of all, the shadow maps of the pass at hand, and
 /// the sum of the floor's shadow.
 struct Targets {
   Target pass, sum, shadow, floor;
@@ -336,7 +336,7 @@ base::Result<Targets> make_targets(const StudioSettings& settings, int shadow_si
                  std::move(*solid_shadow)};
 }
 
-/// How finely the light is sampled.
+/// Fineness with which the light is sampled.
 struct Sampling {
   int passes;
   int shadow_side;  ///< texels
@@ -377,7 +377,7 @@ struct Studio {
   Matrix4 clip_from_studio;
   Matrix4 clip_from_floor;  ///< looks straight down on it
   Vector3 eye;
-  PixelBox drawn;  ///< where the bodies can appear
+  PixelBox drawn;  ///< pixels in which the bodies can appear
   GlObject empty_arrays{GlObject::Kind::VertexArray};
 };
 
@@ -497,7 +497,7 @@ void draw_bodies(const Studio& studio, const Matrix4& clip, const Pass& pass) {
   for (const SolidItem& solid : studio.solids) draw_solid(studio, solid, clip);
 }
 
-/// What follows adds to what is there, whatever its depth.
+/// Lets all further drawing add to the target, whatever the depth.
 void begin_adding(const Target& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.frame.name());
   glDisable(GL_DEPTH_TEST);
@@ -555,7 +555,7 @@ void accumulate(const Studio& studio, const std::vector<PassLights>& lights) {
   }
 }
 
-/// The floor's shadow, smoothed, with where the rays of the picture meet it.
+/// The floor's shadow, smoothed, and the places where the rays of the picture meet it.
 class FloorShadow {
  public:
   FloorShadow(const Studio& studio, const Vector3& up)
@@ -660,7 +660,7 @@ charts::Image resolve(const Studio& studio) {
   return image;
 }
 
-/// How far each pixel's surface lies, from a pass without shift.
+/// Distance of each pixel's surface, m along the view axis, from a pass without shift.
 std::vector<float> measure_distance(const Studio& studio, const Camera& camera) {
   const int width = studio.settings.width;
   const int height = studio.settings.height;

@@ -19,14 +19,14 @@ struct StudioBody {
   charts::Colour colour{0.80, 0.79, 0.77};
 };
 
-/// One CSG solid in a picture, drawn from images of its operands; refers to what must outlive the call.
+/// One CSG solid in a picture, drawn from images of its operands; refers to data that must outlive the call.
 struct StudioSolid {
   const CsgGeometry& geometry;  ///< metres, the tree's own frame
   base::Pose world_from_tree = base::Pose::Identity();
   charts::Colour colour{0.80, 0.79, 0.77};  ///< of operands that have none of their own
 };
 
-/// What stands in the studio.
+/// The contents of the studio.
 struct StudioScene {
   std::vector<StudioBody> bodies;
   std::vector<StudioSolid> solids;
@@ -48,7 +48,7 @@ struct StudioSettings {
   charts::Colour background_edge{1.0, 1.0, 1.0};  ///< in its corners
 };
 
-/// What the studio draws: a picture, and how far what each pixel shows lies from the eye.
+/// Result of the studio: a picture, and the distance from the eye of the surface in each pixel.
 struct StudioPicture {
   charts::Image image;          ///< opaque
   std::vector<float> distance;  ///< m along the view axis, row by row from the top; infinite for nothing

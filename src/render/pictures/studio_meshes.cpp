@@ -19,8 +19,8 @@ using base::Vector3;
 using geometry::TriangleMesh;
 
 constexpr std::size_t kFinest = 0;              // as fine as the mesh is
-constexpr std::size_t kCrowdTriangles = 2'000;  // of what may be drawn at once with others
-constexpr double kLeastCell = 0.7;              // pixels: what is smaller is not seen
+constexpr std::size_t kCrowdTriangles = 2'000;  // of a mesh that may be drawn at once with others
+constexpr double kLeastCell = 0.7;              // pixels: a smaller one is not seen
 constexpr double kLargestCell = 3.0;            // pixels
 constexpr std::size_t kMostTriangles = 2'000'000;
 
@@ -37,7 +37,7 @@ std::optional<ShadingMesh> caster_of(const ShadingMesh& mesh) {
   return clustered(mesh, 1.0 / 64.0);
 }
 
-/// A mesh and what stands for it where it is seen small, which is made when it is first asked for.
+/// A mesh and its coarser levels for where it is seen small, made when they are first asked for.
 class Levels {
  public:
   explicit Levels(ShadingMesh finest) : finest_(std::move(finest)) {}
@@ -45,7 +45,7 @@ class Levels {
   const ShadingMesh& finest() const { return finest_; }
   ShadingMesh& mesh(std::size_t level) { return level == kFinest ? finest_ : (*coarser_)[level - 1].mesh; }
 
-  /// The coarsest whose cells are smaller than `cell` pixels; what is seen large stays as fine as it is.
+  /// The coarsest level with cells of at most `cell` pixels; a mesh seen large stays as fine as it is.
   std::size_t fine_enough(double pixels_a_unit, double cell) {
     if (kFinestCell * pixels_a_unit > kLeastCell) return kFinest;
     if (!coarser_) coarser_ = make_shape_levels(finest_, {});
@@ -59,7 +59,7 @@ class Levels {
   std::optional<std::vector<ShapeLevel>> coarser_;  // once it was asked for
 };
 
-/// A body, and as what it is drawn.
+/// A body, and the mesh as which it is drawn.
 struct Drawn {
   const StudioBody& body;
   Levels& levels;
@@ -120,7 +120,7 @@ class MeshMaker {
     }
   }
 
-  /// Which of the meshes made it is now: a large mesh is there once only.
+  /// Index of its mesh among those made: a large mesh is there once only.
   std::size_t taken(const Drawn& it) {
     ShadingMesh& mesh = it.levels.mesh(it.level);
     const auto [found, fresh] = indices_.try_emplace(&mesh, made_.meshes.size());
@@ -131,7 +131,7 @@ class MeshMaker {
     return found->second;
   }
 
-  /// One mesh of all of them, in the world's frame.
+  /// One mesh of all bodies of a crowd, in the world's frame.
   static ShadingMesh merged(const std::vector<const Drawn*>& crowd) {
     base::Bounds box;
     std::size_t vertices = 0, indices = 0;

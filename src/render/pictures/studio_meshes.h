@@ -15,16 +15,16 @@ struct StudioMesh {
   std::optional<ShadingMesh> caster;  ///< a coarser one that throws the shadows, for large meshes
 };
 
-/// One of them where it stands. Items may share one.
+/// A mesh at its place in the world. Items may share a mesh.
 struct StudioItem {
   std::size_t mesh;  ///< of StudioMeshes
   base::Pose world_from_mesh;
   charts::Colour colour;
 };
 
-/// The bodies of a picture as they are drawn: what is seen small has few triangles, and what has few
-/// triangles and one colour is one mesh, so that a picture of ten thousand bodies costs little more than one
-/// of ten.
+/// The bodies of a picture as they are drawn: bodies that are seen small have few triangles, and bodies of
+/// few triangles and one colour are one mesh, so that a picture of ten thousand bodies costs little more
+/// than one of ten.
 struct StudioMeshes {
   std::vector<StudioMesh> meshes;
   std::vector<StudioItem> items;

@@ -37,7 +37,7 @@ const charts::Stroke kTipHidden{kTip.with_alpha(0.75), 1.7, {0.5, 5.0}};
 const charts::Colour kBackground{0.985, 0.987, 0.99};
 const charts::Colour kBackgroundEdge{0.90, 0.915, 0.935};
 
-/// What the captions and axes need to know of a session.
+/// The facts of a session that the captions and axes need.
 struct Summary {
   std::size_t ticks = 0;
   std::size_t touching = 0;

@@ -35,11 +35,11 @@ struct TouchSolid {
   std::function<base::Result<geometry::TriangleMesh>()> mesh = {};
 };
 
-/// What a picture of a touch session shows. Refers to models and samples that must outlive the drawing.
+/// The contents of a picture of a touch session. Refers to models and samples that must outlive the drawing.
 struct TouchPicture {
   std::string title;                     ///< such as the model's name
   std::vector<std::string> notes;        ///< up to two short lines at the upper right
-  std::vector<StudioBody> bodies;        ///< what was touched, where it stood
+  std::vector<StudioBody> bodies;        ///< the touched bodies, where they stood
   std::vector<TouchSolid> solids;        ///< likewise, those that are CSG trees
   std::span<const TouchSample> samples;  ///< in order of time, any number
   double rate_hz = 0.0;                  ///< of the servo, for the caption; 0 leaves it out

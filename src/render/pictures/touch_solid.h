@@ -14,8 +14,8 @@
 
 namespace icome::render {
 
-/// A solid of a touch picture on its way into the studio, as images of its operands or as a mesh. Owns what
-/// it is drawn from; refers to the solid that it was made of.
+/// A solid of a touch picture on its way into the studio, as images of its operands or as a mesh. Owns the
+/// data it is drawn from; refers to the solid that it was made of.
 class PreparedSolid {
  public:
   /// Fails when the solid can only be drawn as a mesh and none can be had.

@@ -14,7 +14,7 @@ using base::Vector3;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kContactsJudged = 2'000;
 
-/// Where the force of up to kContactsJudged contacts points: away from the surface, whatever the shape.
+/// Directions of the force at up to kContactsJudged contacts: away from the surface, whatever the shape.
 std::vector<Vector3> contact_normals(std::span<const TouchSample> samples) {
   const std::size_t step = std::max<std::size_t>(1, samples.size() / kContactsJudged);
   std::vector<Vector3> normals;
@@ -27,7 +27,7 @@ std::vector<Vector3> contact_normals(std::span<const TouchSample> samples) {
   return normals;
 }
 
-/// How well contacts with those normals show from that side: fully when it faces them.
+/// The visibility of contacts with those normals from that side: full when it faces them.
 double shown_share(const std::vector<Vector3>& normals, const Vector3& toward_eye) {
   double sum = 0.0;
   for (const Vector3& normal : normals) sum += std::clamp(0.15 + normal.dot(toward_eye), 0.0, 0.8);

@@ -8,7 +8,7 @@
 
 namespace icome::render {
 
-/// The ball that holds all bodies, and how far below its centre they reach.
+/// The ball that holds all bodies, and their lowest reach below its centre.
 struct ModelBall {
   base::Vector3 centre{0.0, 0.0, 0.0};  ///< m, world frame
   double radius = 1.0;                  ///< m, > 0

@@ -7,7 +7,7 @@
 namespace icome::render {
 namespace {
 
-/// Bottom row first, as OpenGL counts.
+/// The rows of an image, bottom row first, as OpenGL counts.
 std::vector<std::uint8_t> upside_down(const charts::Image& image) {
   std::vector<std::uint8_t> rows(image.rgba.size());
   const std::size_t row = 4 * std::size_t(image.width);
@@ -34,7 +34,7 @@ GlObject upload_picture(const RenderPicture& picture) {
 
 const MeshView& SceneBuffers::view(const RenderShapePointer& shape, int level) {
   ShapeEntry& found = shapes_[shape.get()];
-  // Another may have come to lie where one that is gone was.
+  // Another shape may lie at the address of one that is gone.
   if (found.shape.lock() != shape) found = {shape, {}};
   found.views.resize(1 + shape->coarser.size());
   std::unique_ptr<MeshView>& view = found.views[std::size_t(level - kFullLevel)];

@@ -14,7 +14,7 @@ namespace icome::render {
 /// of a scene has them any more. Lives in one context.
 class SceneBuffers {
  public:
-  /// `level` of the shape's coarser ones, or kFullLevel.
+  /// `level`: one of the shape's coarser levels, or kFullLevel.
   const MeshView& view(const RenderShapePointer& shape, int level);
   unsigned picture(const std::shared_ptr<const RenderPicture>& picture);
 

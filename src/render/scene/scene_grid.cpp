@@ -16,14 +16,14 @@ using base::Vector2;
 using base::Vector3;
 
 constexpr double kCellsAcross = 60.0;  // of the finest, across the view where they are seen best
-constexpr double kReach = 14.0;        // times the distance to what is looked at
+constexpr double kReach = 14.0;        // times the distance to the place that is looked at
 
 Eigen::Vector4f linear(const charts::Colour& colour) {
   return {float(base::linear_from_srgb(colour.red)), float(base::linear_from_srgb(colour.green)),
           float(base::linear_from_srgb(colour.blue)), float(colour.alpha)};
 }
 
-/// What is left of the place when whole steps are taken away: the shader has few digits.
+/// The rest of the place after whole steps: the shader has few digits.
 Vector2 wrapped(const Vector2& place, double step) {
   return place - step * Vector2((place / step).array().floor());
 }
@@ -34,7 +34,7 @@ std::optional<GridPlan> plan_grid(const Camera& camera) {
   const Vector3 eye = camera.eye();
   const Vector3 ahead = -camera.camera_from_world.linear().row(2).transpose();
   const double height = std::abs(eye.y());
-  // To the plane along the view, but not to near the horizon.
+  // Distance to the plane along the view, but not to near the horizon.
   const double distance = height / std::max(std::abs(ahead.y()), 0.25);
   const double opening = 2.0 / camera.clip_from_camera.row(1).head<3>().norm();
   const double width = distance * opening;
@@ -83,7 +83,7 @@ base::Result<void> SceneGrid::draw(const SceneLook& look, const Camera& whole, c
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  // It reaches farther than what the camera's depths are made for, and lies behind what stands on it.
+  // The grid reaches farther than the camera's depths are made for, and lies behind things that stand on it.
   glEnable(GL_DEPTH_CLAMP);
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_POLYGON_OFFSET_FILL);

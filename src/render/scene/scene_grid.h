@@ -9,7 +9,7 @@ namespace icome::render {
 
 struct SceneLook;
 
-/// Where the lines of a ground grid are.
+/// The lines of a ground grid.
 struct GridPlan {
   base::Vector2 middle;   ///< m, x and z of the place that it is drawn around: below the eye
   double cell = 0.1;      ///< m, of the finest lines: a power of ten
@@ -17,7 +17,7 @@ struct GridPlan {
   double reach = 1.0;     ///< m, from the middle to where it has faded away
 };
 
-/// By how large a part of the plane y = 0 the camera looks at. Nothing when the eye is in the plane.
+/// Fits a grid to the part of the plane y = 0 that the camera looks at. Nothing when the eye is in the plane.
 std::optional<GridPlan> plan_grid(const Camera& camera);
 
 /// Draws the grid of the look into the frame that is bound, with the scene's depths in it.

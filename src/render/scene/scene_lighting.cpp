@@ -21,7 +21,7 @@ Eigen::Vector3f shine_of(const world::Light& light, float strength) {
   return strength * Eigen::Vector3f(base::linear_from_srgb(light.colour).data());
 }
 
-/// Along the light's -z; nothing to go by where its placement is flat.
+/// Unit direction along the light's -z; along the world's -z where the light's placement is flat.
 Vector3 shining_along(const RenderLight& it) {
   const Vector3 along = it.world_from_light.linear() * -Vector3::UnitZ();
   const double size = along.stableNorm();
@@ -82,7 +82,7 @@ SceneLights design_lights(const RenderScene& scene) {
   return lights;
 }
 
-/// Behind the eye: looks at what is seen.
+/// The unit direction in the world's frame of one that is given in the camera's.
 Vector3 from_camera(const Camera& camera, const Vector3& direction) {
   return (camera.camera_from_world.linear().transpose() * direction).normalized();
 }
@@ -93,8 +93,8 @@ SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightC
   if (choice == LightChoice::Automatic) {
     SceneLights lights = design_lights(scene);
     if (!lights.suns.empty() || !lights.lamps.empty()) {
-      // What no light of the design reaches can still be made out. The first throws a shadow; that of the
-      // light at the eye is hidden behind what throws it.
+      // Parts that no light of the design reaches can still be made out. The first light throws a shadow;
+      // that of the light at the eye is hidden behind the thing that throws it.
       lights.shadowed = lights.suns.empty() || !lights.suns.front().group;
       lights.suns.push_back({from_camera(camera, Vector3::UnitZ()), Eigen::Vector3f::Constant(0.15F)});
       lights.sky = 0.4;

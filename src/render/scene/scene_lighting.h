@@ -9,7 +9,7 @@
 
 namespace icome::render {
 
-/// Which lights a picture is drawn in.
+/// The lights in which a picture is drawn.
 enum class LightChoice {
   Automatic,  ///< the design's own where it has any that are on, else the studio's
   Studio      ///< a soft light from above, the sky, and a faint one at the eye
@@ -37,7 +37,7 @@ struct LampLight {
   double full_within = 10.0;  ///< rad
 };
 
-/// What a picture is drawn in.
+/// All lights of a picture.
 struct SceneLights {
   std::vector<SunLight> suns;  ///< the first throws a shadow if `shadowed`
   std::vector<LampLight> lamps;
@@ -51,17 +51,17 @@ SceneLights choose_lights(const RenderScene& scene, const Camera& camera, LightC
 /// A sentence on lights that are too many to be drawn; empty where there are none.
 std::string lights_left_out(const RenderScene& scene);
 
-/// A direction from which the sky shines, and how much.
+/// A light of the sky.
 struct SkyLight {
   base::Vector3 to_light;  ///< unit, world frame
   Eigen::Vector3f light;
 };
 
-/// What is seen of the sky when looking up and when looking down; linear.
+/// Light of the sky from straight above and from straight below; linear.
 Eigen::Vector3f sky_above();
 Eigen::Vector3f sky_below();
 
-/// Number `index` of `count` that together shine as the sky does; y is up.
+/// Light number `index` of `count` that together shine as the sky does; y is up.
 SkyLight scene_sky_light(int index, int count, double strength);
 
 /// The direction of the sun in pass `index` of `count`: the passes together shine from its whole disc.

@@ -15,7 +15,7 @@ namespace {
 using base::Affine3;
 using base::Vector3;
 
-constexpr float kHiddenAlpha = 0.22F;  // of what lies behind something
+constexpr float kHiddenAlpha = 0.22F;  // of parts that lie behind something
 
 RenderShapePointer marker_shape(const geometry::Primitive& primitive) {
   auto made = make_render_shape(world::PrimitiveGeometry(primitive));
@@ -41,7 +41,7 @@ RenderItem marker_item(const RenderShapePointer& shape, const Affine3& place,
   return {{}, shape, look, place, shape->bounds.transformed(place)};
 }
 
-/// From a primitive of length 1 along z, centred, to one from `from` to `to`.
+/// Brings a primitive of length 1 along z, centred, to one from `from` to `to`.
 Affine3 stretched(const Vector3& from, const Vector3& to, double radius) {
   const Vector3 along = to - from;
   const double length = along.norm();
@@ -87,8 +87,8 @@ Eigen::Vector3f in_frame(const ShadingMesh& mesh, const Vector3& point) {
   return ((point - mesh.centre) / mesh.radius).cast<float>();
 }
 
-/// Four corners a dot, as the dot shader wants them: the place and which corner. Nearer to the eye than they
-/// are, so that what they lie on does not cut them.
+/// Four corners a dot, as the dot shader wants them: the place and the corner. Dots are moved nearer to the
+/// eye, so that surfaces on which they lie do not cut them.
 ShadingMesh dot_mesh(std::vector<Vector3> points, const Vector3& eye) {
   constexpr double kNearer = 0.004;  // of the distance
   for (Vector3& it : points) it += kNearer * (eye - it);
@@ -207,7 +207,7 @@ base::Result<void> SceneMarkers::draw(const SceneOverlay& overlay, const Camera&
     const std::vector<RenderItem> copied = copied_items(overlay.copies);
     if (auto drawn = pass.opaque(plan_all(copied, camera)); !drawn) return drawn;
   }
-  // What is behind something first, before markers hide each other.
+  // Hidden parts first, before markers hide each other.
   glDepthFunc(GL_GREATER);
   const std::vector<RenderItem> faint = items_of(overlay, kHiddenAlpha);
   auto done = pass.blended(plan_all(faint, camera));

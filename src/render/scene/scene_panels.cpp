@@ -11,7 +11,7 @@ namespace {
 
 using base::Vector2;
 
-/// Bytes that are there, and a size that the driver takes.
+/// Has the panel's picture all its bytes, and a size that the driver takes?
 bool can_be_drawn(const SceneOverlay::Panel& panel) {
   if (!panel.picture || !(panel.scale > 0.0) || !std::isfinite(panel.scale) || !(panel.alpha > 0.0))
     return false;
@@ -22,7 +22,7 @@ bool can_be_drawn(const SceneOverlay::Panel& panel) {
          it.rgba.size() == 4 * std::size_t(it.width) * std::size_t(it.height);
 }
 
-/// Pixels of the whole picture, from its lower left; nothing for what is behind the eye.
+/// The panel's place, pixels of the whole picture from its lower left; nothing when it is behind the eye.
 std::optional<Vector2> place_of(const SceneOverlay::Panel& panel, const Camera& camera, const Vector2& size) {
   if (!panel.at) return Vector2(panel.in_window.cwiseProduct(size));
   const auto seen = project(camera, *panel.at);
@@ -34,7 +34,7 @@ std::optional<Vector2> place_of(const SceneOverlay::Panel& panel, const Camera& 
 
 unsigned ScenePanels::texture(const std::shared_ptr<const charts::Image>& picture) {
   Entry& found = entries_[picture.get()];
-  // Another may have come to lie where one that is gone was.
+  // Another picture may lie at the address of one that is gone.
   if (found.picture.lock() != picture) {
     found = {picture, GlObject(GlObject::Kind::Texture)};
     glBindTexture(GL_TEXTURE_2D, found.texture.name());

@@ -62,7 +62,7 @@ void ScenePass::draw_surface(const SceneProgram& program, const PlannedItem& pla
   set_matrix(program.clip_from_buffer, Matrix4(clip_shift_ * planned.clip_from_buffer));
   set_look(program, planned);
   if (surface_kind(*planned.item).textured) bind_picture(buffers_, program, *planned.item);
-  // Where one side is drawn at a time, there is nothing to add.
+  // Only where culling is off: blended items are drawn one side at a time.
   const bool hides_backs = !planned.item->material->double_sided && glIsEnabled(GL_CULL_FACE) == GL_FALSE;
   if (hides_backs) {
     glCullFace(GL_BACK);
@@ -175,7 +175,7 @@ base::Result<void> ScenePass::mask(std::span<const PlannedItem> items) {
 base::Result<void> ScenePass::shadow_maps(const RenderScene& scene, const SceneCanvas& maps, int side) {
   glBindFramebuffer(GL_FRAMEBUFFER, maps.frame.name());
   glClear(GL_DEPTH_BUFFER_BIT);
-  glEnable(GL_DEPTH_CLAMP);  // what lies between the light and what is seen throws its shadow all the same
+  glEnable(GL_DEPTH_CLAMP);  // things between the light and the view throw their shadows all the same
   for (std::size_t i = 0; i < lights_.lenses().size(); ++i) {
     glViewport(GLint(i) * side, 0, side, side);
     const SceneDetail detail{double(side), kCasterCell};

@@ -18,22 +18,22 @@ struct PlannedSolid {
   const CsgView* view;
 };
 
-/// Draws the stages of one pass into the frame that is bound. Refers to what it is made of.
+/// Draws the stages of one pass into the frame that is bound. Refers to its arguments.
 class ScenePass {
  public:
-  /// `clip_shift` moves what is drawn by less than a pixel; `serial` differs from pass to pass.
+  /// `clip_shift` moves the picture by less than a pixel; `serial` differs from pass to pass.
   ScenePass(ScenePrograms& programs, SceneBuffers& buffers, const ScenePassLights& lights,
             const Matrix4& clip_shift, int serial)
       : programs_(programs), buffers_(buffers), lights_(lights), clip_shift_(clip_shift), serial_(serial) {}
 
   base::Result<void> shadow_maps(const RenderScene& scene, const SceneCanvas& maps, int side);
   base::Result<void> opaque(std::span<const PlannedItem> items);
-  /// Nothing behind is lost: backs first, then fronts, mixed with what is there.
+  /// Draws backs first, then fronts, mixed with the picture behind, so that nothing behind is lost.
   base::Result<void> blended(std::span<const PlannedItem> items);
-  /// The shadow on a plane through `middle`, y up, as black that hides part of what is behind.
+  /// The shadow on a plane through `middle`, y up, as black that hides part of the picture behind.
   base::Result<void> ground(const MeshView& square, const Camera& camera, const base::Vector3& middle,
                             double reach);
-  /// All in white.
+  /// Draws all items in white.
   base::Result<void> mask(std::span<const PlannedItem> items);
 
  private:

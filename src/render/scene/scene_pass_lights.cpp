@@ -83,7 +83,7 @@ void ScenePassLights::add_lamps(const SceneLights& lights) {
 
 void ScenePassLights::add_sky(double strength, bool sampled, PassNumber pass) {
   sky_up_ = (camera_.camera_from_world.linear() * Vector3::UnitY()).cast<float>();
-  // Without shadows nothing hides any of the sky; this makes up for what usually is.
+  // Without shadows nothing hides any of the sky; this makes up for the part that usually is hidden.
   const auto open = float(0.85 * strength);
   sky_above_ = open * sky_above();
   sky_below_ = open * sky_below();

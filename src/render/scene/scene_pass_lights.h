@@ -10,7 +10,7 @@
 
 namespace icome::render {
 
-/// Which of the pictures that are averaged.
+/// The number of a pass among those that are averaged.
 struct PassNumber {
   int index = 0;
   int count = 1;
@@ -19,16 +19,16 @@ struct PassNumber {
 /// The lights of one pass in the camera's frame, as shaders take them, with the lenses of its shadow maps.
 class ScenePassLights {
  public:
-  /// `toned`: what is drawn is shown as it is, not averaged.
+  /// `toned`: the pass is shown as it is, not averaged.
   ScenePassLights(const SceneLights& lights, const Camera& camera, const std::optional<ShadowRegion>& shadows,
                   int shadow_side, PassNumber pass, bool toned);
 
   const LightKinds& kinds() const { return kinds_; }
   const std::vector<Camera>& lenses() const { return lenses_; }  ///< one a shadow map
 
-  /// Tells the program, which is in use; the shadow maps are the texture of unit 0.
+  /// Sets the lights of the program, which is in use; the shadow maps are the texture of unit 0.
   void set(const SceneProgram& program) const;
-  /// Tells it which suns shine on the object.
+  /// Tells the program which suns shine on the object.
   void set_groups(const SceneProgram& program, world::ObjectId object) const;
 
  private:

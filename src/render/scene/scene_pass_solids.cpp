@@ -1,4 +1,4 @@
-// How a pass draws CSG solids from images of their operands.
+// The part of a pass that draws CSG solids from images of their operands.
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ base::Result<void> ScenePass::solids(std::span<const PlannedSolid> solids) {
   return {};
 }
 
-/// Only the nearest surface of the solid is mixed with what is there; depths are as before in the end.
+/// Mixes only the nearest surface of the solid with the picture behind; depths are as before in the end.
 base::Result<void> ScenePass::blended_solid(const PlannedSolid& solid) {
   SceneCanvas& kept = buffers_.solids().depths;
   const GLuint frame = bound_frame();
@@ -130,7 +130,7 @@ base::Result<void> ScenePass::draw_depths(const GlObject& depths, const std::arr
   return {};
 }
 
-/// In each pixel the program makes something of a picture.
+/// Runs the program in each pixel, with a picture as its source.
 void ScenePass::draw_whole(const GlObject& program, const GlObject& source) {
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, source.name());
@@ -159,8 +159,8 @@ base::Result<void> ScenePass::mask_solids(std::span<const PlannedSolid> solids) 
   return {};
 }
 
-/// Solids that are not all there as triangles are drawn by themselves and put among the others: images of CSG
-/// are made from pixel (0, 0) only, and of all that lies between the light and what is seen.
+/// Solids whose triangles lack parts are drawn by themselves and put among the others: images of CSG are made
+/// from pixel (0, 0) only, and of all that lies between the light and the view.
 base::Result<void> ScenePass::cast_solids(std::span<const PlannedItem> casters, const SceneCanvas& maps,
                                           int map, int side) {
   std::vector<PlannedSolid> imaged;

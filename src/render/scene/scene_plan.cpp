@@ -13,10 +13,10 @@ using base::Vector3;
 
 constexpr float kLeastAlpha = 1.0F / 512.0F;  // less is not seen
 
-/// The sides of what a camera sees, to tell what is outside.
+/// The sides of a camera's view, to tell which boxes are outside.
 class ViewSides {
  public:
-  /// `behind_eye` also takes what is before the nearest plane, as light does.
+  /// `also_nearer`: things before the nearest plane count as inside, too, as they do for light.
   ViewSides(const Matrix4& clip_from_world, bool also_nearer) {
     std::size_t n = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -34,7 +34,7 @@ class ViewSides {
     const Vector3 half = 0.5 * (box.max() - box.min());
     for (std::size_t i = 0; i < count_; ++i) {
       const Vector3 normal = sides_[i].head<3>().transpose();
-      // Written so that what is not a number counts as seen.
+      // Written so that a box with NaN counts as seen.
       if (normal.dot(centre) + normal.cwiseAbs().dot(half) + sides_[i][3] < 0.0) return false;
     }
     return true;
@@ -49,8 +49,8 @@ bool is_textured(const RenderItem& item) {
   return item.material->picture && !item.shape->picture_places.empty();
 }
 
-/// How many pixels a unit of the buffers' frame takes where the object is nearest; infinite where the eye may
-/// be in it.
+/// Pixels that a unit of the buffers' frame takes where the object is nearest; infinite where the eye may be
+/// in it.
 double pixels_a_unit(const PlannedItem& planned, const Camera& camera, double height) {
   const Bounds& box = planned.item->bounds;
   const double metre =
@@ -58,7 +58,7 @@ double pixels_a_unit(const PlannedItem& planned, const Camera& camera, double he
   return metre * planned.camera_from_buffer.topLeftCorner<3, 3>().colwise().norm().maxCoeff();
 }
 
-/// The coarsest that is fine enough.
+/// The coarsest level that is fine enough.
 int level_for(const RenderShape& shape, double pixels, double cell) {
   std::size_t fine_enough = 0;
   while (fine_enough < shape.coarser.size() && shape.coarser[fine_enough].cell * pixels <= cell)

@@ -17,27 +17,27 @@ struct PlannedItem {
   Matrix4 camera_from_buffer = Matrix4::Identity();
   base::Matrix3 direction_from_buffer = base::Matrix3::Identity();  ///< turns normals; not of unit length
   double distance = 0.0;                                            ///< m, from the eye to its middle
-  int level = kFullLevel;                                           ///< of the shape's coarser ones
+  int level = kFullLevel;                                           ///< one of the shape's coarser ones
   bool mirrored = false;                                            ///< fronts are clockwise
 };
 
-/// What a camera may see of a scene, in the order of drawing.
+/// The objects of a scene that a camera may see, in the order of drawing.
 struct ScenePlan {
-  std::vector<PlannedItem> opaque;   ///< what is drawn alike side by side, near before far
+  std::vector<PlannedItem> opaque;   ///< objects drawn alike side by side, near before far
   std::vector<PlannedItem> blended;  ///< seen through, far before near
 };
 
-/// How fine shapes are drawn.
+/// The fineness with which shapes are drawn.
 struct SceneDetail {
   double height = 0.0;  ///< pixels of the picture; 0: all as fine as they are
-  double cell = 0.7;    ///< pixels: what is smaller is not seen
-  /// With more, they get coarser, up to a few pixels.
+  double cell = 0.7;    ///< pixels: smaller cells are not seen
+  /// With more triangles, shapes get coarser, up to cells of a few pixels.
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
 };
 
 ScenePlan plan_scene(const RenderScene& scene, const Camera& camera, const SceneDetail& detail = {});
 
-/// All that may be between a light and what its lens (light_camera) covers.
+/// All objects that may throw a shadow into the region that a light's lens (light_camera) covers.
 std::vector<PlannedItem> plan_casters(const RenderScene& scene, const Camera& lens,
                                       const SceneDetail& detail = {});
 
@@ -47,7 +47,7 @@ base::Bounds visible_bounds(const RenderScene& scene, const Camera& camera);
 /// The matrices of one object, as a camera sees it.
 PlannedItem plan_item(const RenderItem& item, const Camera& camera);
 
-/// Which variant of the shaders draws it: equal for objects that the same one draws.
+/// The variant of the shaders that draws an object: equal for objects that the same one draws.
 struct SurfaceKind {
   bool textured = false;
   bool coloured = false;

@@ -8,7 +8,7 @@
 
 namespace icome::render {
 
-/// A variant of the scene's shaders with where its uniforms of every object are; -1 for those it has not.
+/// A variant of the scene's shaders with the places of its uniforms of every object; -1 for those it has not.
 struct SceneProgram {
   GlObject program;
   int clip_from_buffer = -1, camera_from_buffer = -1, direction_from_buffer = -1;
@@ -17,7 +17,7 @@ struct SceneProgram {
   int set_up_for = -1;  ///< the pass whose lights it knows
 };
 
-/// What a pass is lit by, as far as shaders differ by it.
+/// The kinds of light in a pass, as far as shaders differ by them.
 struct LightKinds {
   int suns = 0;
   int lamps = 0;

@@ -21,8 +21,8 @@ namespace {
 using base::Bounds;
 using base::Vector3;
 
-constexpr double kGroundReach = 3.0;  // times half the size of what stands on it
-constexpr double kCellAtOnce = 1.0;   // pixels: what is smaller may be left out
+constexpr double kGroundReach = 3.0;  // times half the size of the scene that stands on it
+constexpr double kCellAtOnce = 1.0;   // pixels: smaller cells may be left out
 constexpr int kMostPasses = 256;
 constexpr int kMeltingPasses = 8;  // from the picture that was drawn at once to the mean of passes
 
@@ -65,7 +65,7 @@ base::Result<void> check_target(const SceneTarget& target) {
                                 target.width, target.height, largest));
 }
 
-/// What is asked for.
+/// A picture that is asked for.
 struct ScenePictureWish {
   const RenderScene& scene;
   const Camera& camera;  ///< of the whole picture
@@ -77,7 +77,7 @@ struct ScenePictureWish {
   bool is_clear() const { return look.above.alpha < 1.0 || look.below.alpha < 1.0; }
 };
 
-/// What all passes of a picture share.
+/// The data that all passes of a picture share.
 struct ScenePicture {
   const ScenePictureWish& wish;
   SceneLights lights;
@@ -86,13 +86,13 @@ struct ScenePicture {
 
 ScenePicture plan_picture(const ScenePictureWish& wish) {
   ScenePicture picture{wish, choose_lights(wish.scene, wish.camera, wish.look.lights), std::nullopt};
-  // Of the whole picture: its tiles have the same shadows.
+  // The region of the whole picture: its tiles have the same shadows.
   if (wish.look.shadows)
     picture.shadows = shadow_region(visible_bounds(wish.scene, wish.camera), wish.camera);
   return picture;
 }
 
-/// What a background's looks depend on beside its size.
+/// The values on which a background's look depends beside its size.
 struct BackgroundKey {
   Eigen::Vector4f above = Eigen::Vector4f::Zero(), below = Eigen::Vector4f::Zero();
   Eigen::Vector2d window = Eigen::Vector2d::Zero();
@@ -100,7 +100,7 @@ struct BackgroundKey {
   bool operator==(const BackgroundKey&) const = default;
 };
 
-/// Triangles, in a picture that must be there before the next one is due.
+/// Most triangles in a picture that must be there before the next one is due.
 std::size_t drawn_at_once_at_most() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string_view driver = name ? name : "";
@@ -108,7 +108,7 @@ std::size_t drawn_at_once_at_most() {
   return in_software ? 250'000 : 5'000'000;
 }
 
-/// Colours are light from here on: what is drawn is turned into what screens take by the frame.
+/// While this lives, colours drawn are light: the frame turns them into the colours of screens.
 class ScreenColours {
  public:
   ScreenColours() { glEnable(GL_FRAMEBUFFER_SRGB); }
@@ -148,7 +148,7 @@ struct SceneRenderer::Parts {
   SceneGrid grid;
   SceneCanvas at_once;  // the picture in one pass, and its depths
   SceneCanvas pass, sum, mean;
-  SceneCanvas shown;  // with what is drawn over it
+  SceneCanvas shown;  // the picture with outlines and overlay
   SceneCanvas background, mask;
   BackgroundKey background_key;
   SceneShadowMaps steady_shadow;  // of pictures drawn at once: kept while things stay where they are
@@ -240,7 +240,7 @@ base::Result<void> SceneRenderer::Parts::draw_scene(const ScenePicture& picture,
 
 base::Result<void> SceneRenderer::Parts::draw_at_once(ScenePicture picture) {
   const ScreenColours light;
-  // Shadow maps that stay what they are while the view moves.
+  // Uses shadow maps that stay the same while the view moves.
   if (picture.shadows) picture.shadows = steady_region(*picture.shadows, picture.wish.scene.bounds());
   const ScenePictureWish& wish = picture.wish;
   const SceneDetail detail{double(wish.target.height), kCellAtOnce, most_triangles};
@@ -263,7 +263,7 @@ base::Result<void> SceneRenderer::Parts::refine(const ScenePicture& picture, int
   return done ? make_mean(wish) : done;
 }
 
-/// Fills the frame that is bound by what the program makes of a picture or, without one, of nothing.
+/// Fills the frame that is bound, by a program with a picture as its source or without one.
 base::Result<void> SceneRenderer::Parts::draw_whole(base::Result<SceneProgram*> program,
                                                     const GlObject* source) {
   if (!program) return tl::unexpected(program.error());
@@ -276,7 +276,7 @@ base::Result<void> SceneRenderer::Parts::draw_whole(base::Result<SceneProgram*> 
   return {};
 }
 
-/// It is the same from picture to picture: copied, not drawn.
+/// The background is the same from picture to picture: it is copied, not drawn.
 base::Result<void> SceneRenderer::Parts::fill_background(const ScenePictureWish& wish) {
   const BackgroundKey key{linear_with_alpha(wish.look.above), linear_with_alpha(wish.look.below),
                           Eigen::Vector2d(wish.target.window.bottom, wish.target.window.height)};
@@ -368,12 +368,12 @@ base::Result<void> SceneRenderer::Parts::draw_markers(const ScenePictureWish& wi
 }
 
 void SceneRenderer::Parts::begin_overlay(const SceneCanvas& picture) {
-  const ScreenColours light;  // all of them are: this makes it a mere copy
+  const ScreenColours light;  // of all canvases: this makes it a mere copy
   copy(picture, shown.frame.name(), GL_COLOR_BUFFER_BIT);
   copy(at_once, shown.frame.name(), GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-/// The picture as it is so far, with what is drawn over it.
+/// Shows the picture as it is so far, with outlines and overlay.
 base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
   const SceneCanvas* canvas = summed > 0 ? &mean : &at_once;
   base::Result<void> done;
@@ -397,7 +397,7 @@ base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
   return draw_whole(programs.clear(), &canvas->colour);
 }
 
-/// `passes` is how many the picture has then; 1 is what is drawn at once.
+/// `passes`: the number that the picture has afterwards; 1 stands for the picture drawn at once.
 base::Result<void> SceneRenderer::Parts::draw(const ScenePictureWish& wish, int passes, bool anew) {
   const bool fits = at_once.width == wish.target.width && at_once.height == wish.target.height;
   if (!fits || begun != wish.passes) anew = true;
@@ -414,7 +414,7 @@ base::Result<void> SceneRenderer::Parts::draw(const ScenePictureWish& wish, int 
     const ScenePicture picture = plan_picture(wish);
     if (anew) done = draw_at_once(picture);
     if (done && passes > 1) done = refine(picture, passes);
-    // What failed begins anew next time.
+    // A picture that failed begins anew next time.
     begun = done ? wish.passes : 0;
   }
   return done ? show(wish) : done;

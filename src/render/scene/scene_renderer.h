@@ -14,8 +14,8 @@
 
 namespace icome::render {
 
-/// What is drawn over a scene for a moment: markers of the hand, guides, measures. World frame. What lies
-/// behind something is drawn faintly, so that a marker is never lost.
+/// Things drawn over a scene for a moment: markers of the hand, guides, measures. World frame. Parts that
+/// lie behind something are drawn faintly, so that a marker is never lost.
 struct SceneOverlay {
   struct Ball {
     base::Vector3 centre;
@@ -33,26 +33,26 @@ struct SceneOverlay {
     double width = 2.0;  ///< pixels
   };
 
-  /// Round dots, of one size however far they are; a little before what they lie on.
+  /// Round dots, of one size however far they are; a little before the surface on which they lie.
   struct Dots {
     std::vector<base::Vector3> points;  ///< those that are not finite are passed over
     charts::Colour colour;
     double width = 7.0;  ///< pixels
   };
 
-  /// Text and other pictures, which whoever writes them draws: they face the eye and are never hidden.
+  /// Text and other pictures, drawn by the caller: they face the eye and are never hidden.
   struct Panel {
     /// sRGB, premultiplied, unlike other images; kept on the graphics card for as long as somebody has it.
     std::shared_ptr<const charts::Image> picture;
     std::optional<base::Vector3> at = {};             ///< m, world frame; nothing: in the window
     base::Vector2 in_window = base::Vector2::Zero();  ///< without `at`: shares from the left and the bottom
-    base::Vector2 anchor = {0.5, 0.5};  ///< which place of the panel comes there: shares, as in_window
+    base::Vector2 anchor = {0.5, 0.5};  ///< place of the panel that comes there: shares, as in_window
     base::Vector2 shift = base::Vector2::Zero();  ///< pixels to the right and up from there
     double scale = 1.0;                           ///< pixels of the window for one of the picture, > 0
     double alpha = 1.0;                           ///< 0 ... 1, of all of it
   };
 
-  /// A scene once more, elsewhere and of another size: a world in miniature. What is seen through is drawn
+  /// A scene once more, elsewhere and of another size: a world in miniature. Transparent objects are drawn
   /// opaque.
   struct Copy {
     RenderScenePointer scene;  ///< null: nothing
@@ -72,7 +72,7 @@ struct SceneOverlay {
   }
 };
 
-/// How a scene is drawn.
+/// The look in which a scene is drawn.
 struct SceneLook {
   charts::Colour above{0.80, 0.84, 0.88};  ///< background at the top; alpha 0 leaves it clear
   charts::Colour below{0.96, 0.96, 0.95};  ///< background at the bottom
@@ -97,18 +97,18 @@ struct SceneLook {
   SceneOverlay overlay = {};
 };
 
-/// Where a picture goes.
+/// The target of a picture.
 struct SceneTarget {
   unsigned frame =
       0;           ///< OpenGL's name of the framebuffer, drawn from its corner (0, 0); 0 is a window's own
   int width = 1;   ///< pixels
   int height = 1;  ///< pixels
-  PictureWindow window = {};  ///< which part of the camera's picture that is
+  PictureWindow window = {};  ///< the part of the camera's picture that it takes
 };
 
 /// Draws scenes in the OpenGL context (3.3, core or compatible) that is current where it is made, used and
 /// destroyed; knows no window. Keeps shapes, pictures and shaders on the graphics card from one picture to
-/// the next. It never waits for a world: what it is given is immutable. Owns all it has in the context.
+/// the next. It never waits for a world: scenes are immutable. Owns all it has in the context.
 class SceneRenderer {
  public:
   SceneRenderer();
@@ -123,11 +123,11 @@ class SceneRenderer {
 
   /// For windows, which show a picture at once and better it while nothing moves. Call it with 0 where
   /// something moved: that draws as with one pass. Each further number, up to look.passes - 1, adds one more
-  /// pass of the same picture and shows what they give so far, melting from the first into what draw() gives;
-  /// with the last it is just that. From look.passes on it shows that again, at little cost. Overlay and
+  /// pass of the same picture and shows their result so far, melting from the first into the result of
+  /// draw(), which the last one gives. From look.passes on it shows that again, at little cost. Overlay and
   /// selection may differ in each call, so that a moving hand does not start the picture anew; scene, camera
-  /// and the rest of the look must stay what they were with 0. A target of another size begins anew by
-  /// itself. Otherwise as draw().
+  /// and the rest of the look must stay as they were with 0. A target of another size begins anew by itself.
+  /// Otherwise as draw().
   base::Result<void> draw_pass(const RenderScene& scene, const Camera& camera, const SceneLook& look,
                                const SceneTarget& target, int number);
 

@@ -2,8 +2,8 @@
 
 namespace icome::render {
 
-// What scene_programs makes variants of. Directions and positions are the camera's, colours linear. Variants
-// instead of uniform conditions, because software renderers run both sides of those.
+// The shaders of which scene_programs makes variants. Directions and positions are the camera's, colours
+// linear. Variants instead of uniform conditions, because software renderers run both sides of those.
 
 constexpr char kSceneVertexShader[] = R"(
 #ifdef BUILT_IN
@@ -49,9 +49,9 @@ void main() {
 }
 )";
 
-// A point of shadow maps that lie side by side in one texture: MAPS in all, the first of them the shadowed
-// lamp's, SKIES others from all over the sky. Averaged over passes with some noise these melt into a soft
-// light. With a single pass the sky has none, and the texture's filter alone softens the shadow's edge.
+// The light at a point, from shadow maps side by side in one texture: MAPS in all, the first of them the
+// shadowed sun's, SKIES others from all over the sky. Averaged over passes with some noise these melt into a
+// soft light. With a single pass the sky has none, and the texture's filter alone softens the shadow's edge.
 constexpr char kSceneLightShader[] = R"(
 #if MAPS > 0
 uniform sampler2DShadow shadow_map;
@@ -268,7 +268,7 @@ void main() {
 }
 )";
 
-// How much light the ground misses, as black over what is behind, and lines every metre or so.
+// The light that the ground misses, as black over the picture behind.
 constexpr char kGroundFragmentShader[] = R"(
 in vec3 seen_position;
 in vec3 seen_normal;
@@ -303,9 +303,9 @@ void main() {
 }
 )";
 
-// Lines on the plane y = 0 at every cell, ten cells and a hundred, finer ones fading as cells come to be
-// smaller than is looked at; those through the world's origin in colours of their own. `place` counts cells
-// from the middle of what is drawn.
+// Lines on the plane y = 0 at every cell, ten cells and a hundred, finer ones fading as their cells become
+// too small for the view; those through the world's origin in colours of their own. `place` counts cells
+// from the middle of the drawn square.
 constexpr char kGridVertexShader[] = R"(
 in vec3 position;
 uniform mat4 clip_from_buffer;
@@ -385,7 +385,7 @@ void main() {
 }
 )";
 
-/// Depths of another picture, brought to another scale; where it has nothing, nothing.
+/// Depths of another picture, brought to another scale; empty where that is empty.
 constexpr char kDepthCopyFragmentShader[] = R"(
 uniform sampler2D source;
 uniform vec2 scale;
@@ -460,7 +460,7 @@ void main() {
 }
 )";
 
-// Less than one of 256 steps of noise hides the edges between the steps. How large a step is in light follows
+// Less than one of 256 steps of noise hides the edges between the steps. The size of a step in light follows
 // from the slope of the curve that screens have.
 constexpr char kDitherShader[] = R"(
 vec3 dithered(vec3 light) {
@@ -486,7 +486,7 @@ void main() {
 }
 )";
 
-/// A line round what the mask holds.
+/// A line round the parts in the mask.
 constexpr char kOutlineFragmentShader[] = R"(
 uniform sampler2D source;
 uniform vec4 colour;
@@ -529,7 +529,7 @@ void main() {
 }
 )";
 
-// A square that faces the eye round each place: `normal` says which corner. In it a disc with a smooth rim.
+// A square that faces the eye round each place: `normal` gives the corner. In it a disc with a smooth rim.
 constexpr char kDotVertexShader[] = R"(
 in vec3 position;
 in vec3 normal;

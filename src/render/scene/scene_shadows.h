@@ -9,23 +9,23 @@
 
 namespace icome::render {
 
-/// What shadow maps cover.
+/// The ball that shadow maps cover.
 struct ShadowRegion {
   base::Vector3 centre;  ///< m, world frame
   double radius = 1.0;   ///< m, > 0
 };
 
-/// What the camera can see of the visible things: the shadow maps' texels are spent on that.
+/// The part of the visible things that the camera can see: the shadow maps' texels are spent on that.
 std::optional<ShadowRegion> shadow_region(const base::Bounds& visible, const Camera& camera);
 
-/// One that has the region in it and stays the same while the region moves and grows a little; not larger
+/// A region that holds the given one and stays the same while that moves and grows a little; not larger
 /// than the whole.
 ShadowRegion steady_region(const ShadowRegion& region, const base::Bounds& whole);
 
-/// Shadow maps side by side in one texture, and what was drawn into them.
+/// Shadow maps side by side in one texture, and the blocks and lenses that they were drawn from.
 struct SceneShadowMaps {
   SceneCanvas canvas;
-  /// Of what is in them; keeps the scene's blocks, so that another cannot be taken for it.
+  /// Blocks of the scene in the maps; kept alive, so that other blocks cannot be taken for them.
   std::vector<std::shared_ptr<const RenderScene::Block>> blocks;
   std::vector<Camera> lenses;
 

@@ -85,7 +85,7 @@ AnovaStart started_anova(const CompleteCases& cases, SumsOfSquares type) {
 
 void complete_table(Anova& anova, std::span<const Factor> factors) {
   AnovaResidual& residual = anova.residual;
-  // Rounding of the projections, which would make an F of its own over an error of zero.
+  // Less than this is rounding of the projections, which would make an F of its own over an error of zero.
   const double nothing = 1e-26 * anova.total_ss;
   if (residual.ss < nothing) residual.ss = 0.0;
   for (AnovaTerm& term : anova.terms) {

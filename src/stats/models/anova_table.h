@@ -6,8 +6,8 @@
 
 namespace icome::stats {
 
-/// What factorial and one-way analysis begin with: n, cells, the sum of squares within them and in all. The
-/// means of the cells are left less the grand mean.
+/// The start of factorial and one-way analysis: n, the cells, and the sums of squares within them and in
+/// all. The means of the cells are less the grand mean.
 struct AnovaStart {
   Anova anova;
   Cells cells;
@@ -15,8 +15,8 @@ struct AnovaStart {
 };
 AnovaStart started_anova(const CompleteCases& cases, SumsOfSquares type);
 
-/// From the sums of squares and degrees of freedom of terms and residual: everything else in their rows, with
-/// warnings where F means nothing. Factors as they were given, for what is measured.
+/// Computes the rest of the rows from the sums of squares and degrees of freedom of terms and residual, and
+/// warns where F means nothing. `factors` tell which terms are measured.
 void complete_table(Anova& anova, std::span<const Factor> factors);
 
 }  // namespace icome::stats

@@ -9,8 +9,8 @@
 namespace icome::stats {
 namespace {
 
-/// The noncentrality at which f or less has the probability; it falls as noncentrality grows. NaN where the
-/// distribution cannot be computed.
+/// The noncentrality at which f or less has this probability, which falls as the noncentrality grows. NaN
+/// where the distribution cannot be computed.
 double noncentrality_at(double f, double df, double error_df, double probability) {
   const auto tail = [&](double noncentrality) { return noncentral_f_below(f, df, error_df, noncentrality); };
   if (tail(0.0) <= probability) return 0.0;

@@ -11,13 +11,13 @@
 namespace icome::stats {
 namespace {
 
-/// The model with the grand mean as its first term, or why it is too large.
+/// The terms of the model, the grand mean first. Fails without factors and when the model is too large.
 base::Result<std::vector<Term>> terms_of_model(std::span<const Factor> factors, int highest,
                                                std::size_t cells) {
   if (factors.empty()) return base::fail("there is no factor: give at least one");
   if (highest < 1)
     return base::fail("a term has at least one factor: let the highest interaction be 1 or more");
-  // Their number alone is 2^factors.
+  // The number of terms alone is 2^factors.
   if (factors.size() > 16) return base::fail("there are more than 16 factors: leave some out");
   std::vector<Term> terms = model_terms(static_cast<int>(factors.size()), highest);
   terms.insert(terms.begin(), Term{});
@@ -32,10 +32,10 @@ base::Result<std::vector<Term>> terms_of_model(std::span<const Factor> factors, 
   return terms;
 }
 
-/// Columns of terms and the response beside them, a row a cell, each times the square root of its number of
-/// observations.
+/// The columns of the terms with the response beside them: a row for each cell, times the square root of
+/// its number of observations.
 struct WeightedCells {
-  std::vector<Eigen::Index> first_columns;  // one a term, and where the response is
+  std::vector<Eigen::Index> first_columns;  // one for each term, then the response's
   Eigen::MatrixXd columns;
 };
 
@@ -58,9 +58,9 @@ Eigen::MatrixXd weighted_rows(std::span<const Factor> factors, std::span<const T
   return roots.asDiagonal() * rows;
 }
 
-/// Where there are more cells than columns, the triangular factor of a QR decomposition stands for them: the
-/// columns' lengths and angles are the same. Cells are taken in by blocks, so that their whole matrix never
-/// is in memory.
+/// The design of a model. With more cells than columns it is the triangular factor of a QR decomposition,
+/// which keeps the columns' lengths and angles. Cells are added in blocks, so that their whole matrix is
+/// never in memory.
 WeightedCells weighted_cells(std::span<const Factor> factors, std::span<const Term> terms,
                              std::span<const Cell> cells) {
   WeightedCells design{{0}, {}};
@@ -148,7 +148,7 @@ base::Result<Anova> factorial_anova(std::span<const double> values, std::span<co
   }
   anova.residual.df = static_cast<int>(anova.n) - static_cast<int>(model.all.size());
   anova.residual.ss = start.within_ss;
-  // What a model without the highest interactions leaves of the cell means.
+  // A model without the highest interactions leaves a part of the cell means unexplained.
   if (model.all.size() < response.size()) anova.residual.ss += model.all.without(response).squaredNorm();
   complete_table(anova, used);
   return anova;

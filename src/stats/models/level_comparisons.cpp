@@ -20,7 +20,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostTests = 10000.0;
 
-/// One of the factors of a table.
+/// The place of a factor in a table.
 struct Role {
   bool within = false;
   std::size_t place = 0;
@@ -30,7 +30,7 @@ const Factor& factor_at(const SubjectTable& table, Role role) {
   return role.within ? table.within[role.place] : table.between[role.place];
 }
 
-/// The levels of the within factors in a column, of which the last factor's run fastest.
+/// The levels of the within factors in a column; the last factor's run fastest over the columns.
 std::vector<int> levels_of_column(const SubjectTable& table, Eigen::Index column) {
   std::vector<int> levels(table.within.size());
   for (std::size_t i = levels.size(); i-- > 0;) {
@@ -72,8 +72,8 @@ class SlicedTable {
     return all;
   }
 
-  /// For each level of the factor the means of the people who are in the slice; of a within factor the same
-  /// people in the same order.
+  /// For each level of the factor, the means of the people who are in the slice; for a within factor the
+  /// same people in the same order.
   std::vector<std::vector<double>> samples(const std::vector<int>& at) const {
     std::vector<std::vector<double>> result(factor_at(table_, factor_).levels.size());
     for (std::size_t level = 0; level < result.size(); ++level) {
@@ -88,7 +88,7 @@ class SlicedTable {
     return result;
   }
 
-  /// Whether values differ by no more than their rounding.
+  /// Do the values differ by no more than their rounding?
   bool is_constant(const std::vector<double>& values) const {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     return values.empty() || *most - *least <= rounding_;

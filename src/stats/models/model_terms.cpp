@@ -9,7 +9,7 @@
 namespace icome::stats {
 namespace {
 
-/// Appends the terms that follow `begun` by `more` factors.
+/// Appends all terms that extend `begun` by `more` factors.
 void append_terms(Term& begun, int factors, int more, std::vector<Term>& terms) {
   if (more == 0) {
     terms.push_back(begun);
@@ -35,7 +35,7 @@ Eigen::RowVectorXd products(const Eigen::RowVectorXd& a, const Eigen::RowVectorX
   return result;
 }
 
-/// Whether a term of this type is adjusted for another one.
+/// Is a term adjusted for another one in this type of sums of squares?
 bool is_adjusted_for(std::size_t term, std::size_t other, std::span<const Term> terms, SumsOfSquares type) {
   if (term == other) return false;
   if (type == SumsOfSquares::TypeI) return other < term;
@@ -98,7 +98,7 @@ double column_count(std::span<const Factor> factors, const Term& term) {
 }
 
 Eigen::MatrixXd Directions::without(const Eigen::MatrixXd& columns) const {
-  // Twice: the first pass leaves rounding of the size of what it takes away.
+  // Twice, as the first pass leaves rounding in proportion to the part that it removes.
   Eigen::MatrixXd rest = columns - basis_ * (basis_.transpose() * columns);
   rest -= basis_ * (basis_.transpose() * rest);
   return rest;
@@ -109,7 +109,7 @@ int Directions::add(const Eigen::MatrixXd& columns) {
       [](double length) { return length > 0.0 ? length : 1.0; });
   Eigen::MatrixXd fresh = orthonormal_basis(without(columns * lengths.cwiseInverse().asDiagonal()));
   if (fresh.cols() == 0) return 0;
-  // What little was left of a column has been stretched, and rounding with it.
+  // The small rest of a column has been stretched, and its rounding with it.
   const Eigen::HouseholderQR<Eigen::MatrixXd> again(without(fresh));
   fresh = again.householderQ() * Eigen::MatrixXd::Identity(fresh.rows(), fresh.cols());
   Eigen::MatrixXd grown(basis_.rows(), basis_.cols() + fresh.cols());

@@ -11,11 +11,11 @@ namespace icome::stats {
 /// Factors that act together: indices, ascending. Empty: the grand mean.
 using Term = std::vector<int>;
 
-/// Every term of so many factors without the grand mean: single factors first, then pairs, ..., up to
-/// `highest` factors in one.
+/// All terms of that many factors without the grand mean: single factors first, then pairs, ..., up
+/// to `highest` factors in one.
 std::vector<Term> model_terms(int factors, int highest);
 
-/// Whether `whole` has every factor of `part`.
+/// Does `whole` have every factor of `part`?
 bool contains(const Term& whole, const Term& part);
 
 /// "wool:tension"; "1" for the grand mean.
@@ -25,37 +25,37 @@ std::string term_name(std::span<const Factor> factors, const Term& term);
 Eigen::MatrixXd term_columns(std::span<const Factor> factors, const Term& term,
                              std::span<const std::vector<int>> rows);
 
-/// How many columns a term has, as far as one need know: the product stops growing at 1e9.
+/// The number of columns of a term, at most 1e9: a larger number is cut.
 double column_count(std::span<const Factor> factors, const Term& term);
 
-/// Orthonormal directions that grow by what new columns add to them.
+/// An orthonormal basis that new columns extend.
 class Directions {
  public:
   explicit Directions(Eigen::Index rows) : basis_(rows, 0) {}
 
-  /// Adds what is new in the columns, at most 1e-8 of a column's length being rounding. Returns how many
-  /// directions that is: the columns' rank given what was there.
+  /// Adds the directions that are new in the columns; up to 1e-8 of a column's length counts as
+  /// rounding. Returns their number: the rank that the columns add.
   int add(const Eigen::MatrixXd& columns);
 
   Eigen::Index size() const { return basis_.cols(); }
   /// The last `count` directions.
   auto last(int count) const { return basis_.rightCols(count); }
-  /// What is left of the columns without their parts along the directions.
+  /// The columns without their parts along the directions.
   Eigen::MatrixXd without(const Eigen::MatrixXd& columns) const;
 
  private:
   Eigen::MatrixXd basis_;
 };
 
-/// Directions (columns, orthonormal) along which a term's effect lies after what it is adjusted for. Where
-/// the rows are not enough to tell it apart there are fewer than its columns, or none.
+/// The directions (orthonormal columns) of a term's effect, adjusted for other terms. Where the rows are
+/// not enough to tell it apart there are fewer directions than columns of the term, or none.
 struct TermDirections {
   Term term;
   Eigen::MatrixXd directions;
 };
 
-/// The directions of every term, and of all of them with the grand mean. `columns` go with `terms`, the first
-/// of which is the grand mean.
+/// The directions of every term, and those of all terms with the grand mean. `columns` belong to `terms`, the
+/// first of which is the grand mean.
 struct ModelDirections {
   std::vector<TermDirections> terms;
   Directions all;

@@ -9,8 +9,8 @@
 namespace icome::stats {
 namespace {
 
-// T <= t is Z + delta <= t u, with Z normal and u = s / sigma. Of the two, the one that makes the wider step
-// is averaged over last, so that the trapezoidal rule sees something smooth.
+// T <= t is Z + delta <= t u, with Z normal and u = s / sigma. One of the two is averaged in closed form
+// first, so that the trapezoidal rule over the other sees something smooth.
 double average_of_normal(double t, double df, double delta) {
   const double step = std::min(0.12, 0.3 / (1.0 + std::abs(delta)));
   return average_over_scale(df, step, [&](double u) { return normal_above(delta - t * u); });

@@ -34,7 +34,7 @@ std::optional<base::Error> design_complaint(const MeansToCompare& design, double
   return std::nullopt;
 }
 
-// What all groups together say of the variance within.
+// The means and counts of groups, with their pooled variance as the error. Fails where that is zero.
 base::Result<MeansToCompare> within_groups(std::string_view test,
                                            const std::vector<std::vector<double>>& groups) {
   if (auto error = complaint(test, groups, 1)) return tl::unexpected(*error);
@@ -50,7 +50,7 @@ base::Result<MeansToCompare> within_groups(std::string_view test,
   if (design.residual_df < 1.0)
     return base::fail(fmt::format("{}: each group has a single value; give more", test));
   design.residual_ms = squares / design.residual_df;
-  // Not more than rounding leaves of equal values.
+  // Equal values leave no more than this by rounding.
   constexpr double kRounding = 10.0 * std::numeric_limits<double>::epsilon();
   if (!std::isfinite(squares))
     return base::fail(
@@ -123,7 +123,7 @@ void adjust(std::vector<PairComparison>& pairs, Adjustment adjustment) {
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].p = adjusted[i];
 }
 
-// Places of the p values that are numbers, from the least.
+// The places of the p values that are not NaN, in ascending order of p.
 std::vector<std::size_t> ascending_places(std::span<const double> p_values) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < p_values.size(); ++i)

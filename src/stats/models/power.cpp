@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostNeeded = 10'000'000;
 
 std::optional<base::Error> alpha_complaint(double alpha) {
-  // Below that no digits are left of the limit that belongs to it.
+  // Below that the limit that belongs to alpha has no digits left.
   if (alpha >= 1e-9 && alpha < 1.0) return std::nullopt;
   return base::Error{
       fmt::format("power: an alpha of {} cannot be; give one between 0 and 1, such as 0.05", alpha)};
@@ -45,7 +45,7 @@ double t_power(double delta, double df, const PowerSettings& settings) {
   return settings.alternative == Alternative::Greater ? above : below;
 }
 
-// The smallest whole count from `least` on whose power, which grows with it, reaches the one asked for.
+// The smallest whole count from `least` on that reaches the power, which grows with the count.
 template <typename PowerOf>
 base::Result<std::size_t> count_reaching(double power, std::size_t least, PowerOf&& power_of) {
   const auto reaches = [&](std::size_t count) { return power_of(static_cast<double>(count)) >= power; };
@@ -63,7 +63,7 @@ base::Result<std::size_t> count_reaching(double power, std::size_t least, PowerO
   return enough;
 }
 
-// Where the non-central distribution is far beyond the limit its series is long and its answer certain.
+// Is the non-central distribution so far beyond the limit that its series is long and the answer certain?
 bool certain_to_exceed(double lambda, double limit) { return lambda > 1e5 && lambda > 50.0 * limit; }
 
 double f_power(double groups, double count, double f, double alpha) {

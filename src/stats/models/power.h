@@ -8,10 +8,10 @@
 namespace icome::stats {
 
 /// Power: the probability that a test finds an effect of a given size. Effects are standardised, without
-/// unit; all functions answer an error for sizes that cannot be (alpha outside [1e-9, 1), too few values, not
-/// finite), the needed counts also where more than 1e7 would be needed.
+/// unit. All functions fail for impossible sizes (alpha outside [1e-9, 1), too few values, not finite), and
+/// those for needed counts also where more than 1e7 would be needed.
 
-/// What a t-test compares.
+/// The samples that a t-test compares.
 enum class TDesign : std::uint8_t { OneSample, Paired, TwoSample };
 
 struct PowerSettings {
@@ -19,23 +19,23 @@ struct PowerSettings {
   Alternative alternative = Alternative::TwoSided;
 };
 
-/// Of a t-test with `count` values (pairs, or values a group), for Cohen's d (of pairs d_z). Two-sided, both
-/// tails count (power.t.test(strict = TRUE) in R). `count` need not be whole, but is at least 2.
+/// The power of a t-test with `count` values (pairs, or a group), for Cohen's d (of pairs d_z). Two-sided,
+/// both tails count (power.t.test(strict = TRUE) in R). `count` need not be whole, but is at least 2.
 base::Result<double> t_test_power(TDesign design, double count, double d, const PowerSettings& settings = {});
-/// Of a pooled t-test of two groups of unequal size.
+/// The power of a pooled t-test of two groups of unequal size.
 base::Result<double> t_test_power(double first_count, double second_count, double d,
                                   const PowerSettings& settings = {});
 /// The smallest whole count (pairs, or values a group) that reaches `power`, alpha < power < 1.
 base::Result<std::size_t> t_test_count(TDesign design, double d, double power,
                                        const PowerSettings& settings = {});
 
-/// Of a one-way ANOVA with `count` values in each group, for Cohen's f = sd of the group means (n in the
-/// denominator) over sd within the groups.
+/// The power of a one-way ANOVA with `count` values in each group, for Cohen's f = sd of the group means
+/// (n in the denominator) over sd within the groups.
 base::Result<double> anova_power(std::size_t groups, double count, double f, double alpha = 0.05);
-/// The smallest whole count a group that reaches `power`.
+/// The smallest whole count in each group that reaches `power`.
 base::Result<std::size_t> anova_count(std::size_t groups, double f, double power, double alpha = 0.05);
 
-/// Of a chi-squared test with `df` and `total` counts in all, for Cohen's w = sqrt(sum((p1 - p0)^2 / p0)).
+/// The power of a chi-squared test with `df` and `total` counts, for Cohen's w = sqrt(sum((p1 - p0)^2 / p0)).
 base::Result<double> chi_squared_power(double df, double total, double w, double alpha = 0.05);
 /// The smallest whole total that reaches `power`.
 base::Result<std::size_t> chi_squared_count(double df, double w, double power, double alpha = 0.05);

@@ -43,7 +43,7 @@ Eigen::MatrixXd within_contrasts(std::span<const Factor> within, const Term& ter
   return contrasts;
 }
 
-/// The between-subjects model with the grand mean, or why it cannot be fitted.
+/// The between-subjects model with the grand mean. Fails when it cannot be fitted.
 base::Result<ModelDirections> between_model(const SubjectTable& table, SumsOfSquares type) {
   const std::span<const Factor> between = table.between;
   if (between.size() > 16) return base::fail("there are more than 16 between factors: leave some out");
@@ -85,7 +85,7 @@ void warn_of_groups(RepeatedMeasures& result, const SubjectTable& table, const M
   }
 }
 
-/// Everything in a row that follows from its sums of squares and its error.
+/// Computes the numbers of a row that follow from its sums of squares and its error.
 void complete_repeated_row(RepeatedMeasuresTerm& row, double nothing) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (row.ss < nothing) row.ss = 0.0;
@@ -109,8 +109,8 @@ std::string repeated_term_name(const SubjectTable& table, const Term& between, c
   return fmt::format("{}:{}", term_name(table.between, between), term_name(table.within, within));
 }
 
-/// Appends the rows that share the error of one within term (none of them: of subjects) and returns that
-/// error.
+/// Appends the rows that share the error of one within term (of subjects, for the empty term) and
+/// returns that error.
 AnovaResidual append_stratum(RepeatedMeasures& result, const SubjectTable& table,
                              const ModelDirections& model, const Term& within) {
   const Eigen::MatrixXd scores = table.means * within_contrasts(table.within, within);
@@ -159,7 +159,7 @@ bool is_row_measured(const RepeatedMeasuresTerm& row, const SubjectTable& table)
   return any(row.within, table.within) || any(row.between, table.between);
 }
 
-/// With the errors of every stratum, subjects' among them.
+/// Adds generalised eta squared to the rows; `error_ss` sums the errors of all strata, subjects' among them.
 void add_generalised_etas(RepeatedMeasures& result, const SubjectTable& table, double error_ss) {
   double others = error_ss;
   for (const RepeatedMeasuresTerm& row : result.terms) {
@@ -172,9 +172,9 @@ void add_generalised_etas(RepeatedMeasures& result, const SubjectTable& table, d
   }
 }
 
-/// Shares of the variance of all cells, the differences between subjects included (Olejnik and Algina 2003).
-/// Partial omega as R's MOTE has it; with one within factor alone, omega is the same, and with several it is
-/// held against all of their variance in the same way.
+/// Adds shares of the variance of all cells, the differences between subjects included (Olejnik and Algina
+/// 2003). Partial omega follows R's MOTE; with one within factor alone omega is equal to it, and with
+/// several factors omega is compared with all of their variance in the same way.
 void add_shares_of_total(RepeatedMeasures& result, const SubjectTable& table) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   result.total_ss = (table.means.array() - table.means.mean()).matrix().squaredNorm();
@@ -182,7 +182,7 @@ void add_shares_of_total(RepeatedMeasures& result, const SubjectTable& table) {
   for (RepeatedMeasuresTerm& row : result.terms) {
     const bool has_share = row.df > 0 && result.total_ss > 0.0;
     const double excess = has_share ? row.ss - row.df * row.error_ms : kNone;
-    const double other_ss = row.within.empty() ? 0.0 : row.error_ss;  // subjects' is its error otherwise
+    const double other_ss = row.within.empty() ? 0.0 : row.error_ss;  // otherwise subjects' is its error
     row.eta_sq = has_share ? row.ss / result.total_ss : kNone;
     const double total = result.total_ss + subjects.ms;
     const double partial = row.ss + other_ss + subjects.ss + subjects.ms;

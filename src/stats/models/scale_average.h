@@ -4,8 +4,8 @@
 
 namespace icome::stats {
 
-/// x - (e^2x - 1) / 2, the exponent of the density of x = ln(s / sigma) per degree of freedom; digits kept
-/// near 0.
+/// x - (e^2x - 1) / 2, the exponent of the density of x = ln(s / sigma) per degree of freedom; keeps its
+/// digits near 0.
 inline double log_scale_exponent(double x) {
   if (std::abs(x) > 1e-3) return x - 0.5 * std::expm1(2.0 * x);
   return -x * x * (1.0 + x * (2.0 / 3.0 + x * (1.0 / 3.0 + x * (2.0 / 15.0 + x * (2.0 / 45.0)))));
@@ -13,8 +13,8 @@ inline double log_scale_exponent(double x) {
 
 /// The mean of `value(u)` where u = s / sigma, a standard deviation of `df` degrees of freedom over the true
 /// one. The trapezoidal rule over ln u: the density falls off like e^(df ln u) to the left and doubly
-/// exponentially to the right, so it converges exponentially (Trefethen and Weideman 2014). `widest_step` in
-/// ln u: for what changes over less than about 1. df may be infinite.
+/// exponentially to the right, so it converges exponentially (Trefethen and Weideman 2014). `widest_step`,
+/// in ln u, is for values that change over less than about 1. df may be infinite.
 template <typename Value>
 double average_over_scale(double df, double widest_step, Value&& value) {
   constexpr double kNegligible = -41.0;  // e^-41 < 2e-18

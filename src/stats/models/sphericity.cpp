@@ -9,8 +9,8 @@
 namespace icome::stats {
 namespace {
 
-/// The chance of W or less in d dimensions: -n rho log W is chi-squared to first order, with a term of the
-/// second (Box 1949; Anderson, An Introduction to Multivariate Statistical Analysis, 10.7.4).
+/// The probability of W or less in d dimensions: -n rho log W is chi-squared to first order, with a
+/// second-order term (Box 1949; Anderson, An Introduction to Multivariate Statistical Analysis, 10.7.4).
 double mauchly_p(double log_w, double d, double n) {
   const double df = d * (d + 1.0) / 2.0 - 1.0;
   const double rho = 1.0 - (2.0 * d * d + d + 2.0) / (6.0 * d * n);

@@ -14,9 +14,9 @@ namespace {
 
 enum class RangeTail : std::uint8_t { Below, Above };
 
-// The range of k standard normal values against w. The greatest is z, the others lie between z - w and z:
+// A tail of the range of k standard normal values at w. The greatest is z, the others lie from z - w to z:
 //   P(range <= w) = k integral of phi(z) (Phi(z) - Phi(z - w))^(k - 1),
-// and P(range > w) is what that lacks of k integral of phi(z) Phi(z)^(k - 1) = 1, taken inside so as to keep
+// and P(range > w) is the rest up to k integral of phi(z) Phi(z)^(k - 1) = 1, taken inside so as to keep
 // the digits of small tails. The trapezoidal rule converges exponentially: the integrand is analytic and
 // falls off like phi.
 double normal_range_tail(double w, double groups, RangeTail tail) {
@@ -45,7 +45,7 @@ double range_tail(double q, double groups, double df, RangeTail tail) {
     return std::numeric_limits<double>::quiet_NaN();
   if (q <= 0.0) return tail == RangeTail::Above ? 1.0 : 0.0;
   if (std::isinf(q)) return tail == RangeTail::Above ? 0.0 : 1.0;
-  // Of many means the range hardly varies, so that its tail falls steeply.
+  // The range of many means hardly varies, so that its tail falls steeply.
   const double step = groups <= 60.0 ? 0.08 : 0.04;
   const double share =
       average_over_scale(df, step, [&](double u) { return normal_range_tail(q * u, groups, tail); });

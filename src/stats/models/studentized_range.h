@@ -9,7 +9,7 @@ namespace icome::stats {
 double studentized_range_below(double q, double groups, double df);
 /// P(range > q), with its digits kept where it is small, to about 1e-17 absolute.
 double studentized_range_above(double q, double groups, double df);
-/// The q that the range stays below with this probability. NaN as above, and unless 0 <= probability < 1.
+/// The q below which the range lies with this probability. NaN as above, and unless 0 <= probability < 1.
 double studentized_range_quantile(double probability, double groups, double df);
 
 }  // namespace icome::stats

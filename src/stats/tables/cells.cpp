@@ -9,7 +9,7 @@
 namespace icome::stats {
 namespace {
 
-/// The combination as one number, or nothing where a level is missing: levels as digits, the last one lowest.
+/// The combination as one number, with levels as digits, the last one lowest; -1 where a level is missing.
 std::int64_t combination_number(std::span<const Factor> factors, std::size_t row) {
   std::int64_t number = 0;
   for (const Factor& factor : factors) {
@@ -75,7 +75,7 @@ Cells summed_to_cells(const CompleteCases& cases) {
   std::vector<std::vector<int>> combinations;
   const std::vector<int> cell_of = combined_levels(cases.factors, cases.values.size(), combinations);
   GroupedValues by_cell = grouped(cases.values, cell_of, combinations.size());
-  // Exact for values within a factor of two of the centre, which is where digits are short.
+  // Subtraction is exact for values within a factor of two of the centre, where digits are short.
   for (double& value : by_cell.values) value -= result.centre;
   for (std::size_t i = 0; i < combinations.size(); ++i) {
     const std::span<const double> values = by_cell.group(i);

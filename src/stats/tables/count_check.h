@@ -8,10 +8,10 @@
 
 namespace icome::stats {
 
-/// Of a count that is negative, fractional, not finite or above 1e15 (beyond which doubles skip whole
-/// numbers); `test` begins the sentence.
+/// An error for a count that is negative, fractional, not finite or above 1e15 (beyond which doubles skip
+/// whole numbers), otherwise nothing; `test` begins the sentence.
 std::optional<base::Error> count_complaint(std::string_view test, std::span<const double> counts);
-/// The same of a table, and of one that has fewer than 2 rows or columns, or rows of different lengths.
+/// As count_complaint() for a table, also for fewer than 2 rows or columns and for rows of different lengths.
 std::optional<base::Error> table_complaint(std::string_view test, const CountTable& counts);
 
 /// The sums of rows and columns of a table.

@@ -32,7 +32,7 @@ std::string list_of(const std::vector<Column>& columns) {
   return text;
 }
 
-/// Brings the names into ascending order of the numbers that they are, where all are numbers.
+/// Sorts the names by number, ascending, if all of them are numbers.
 void sort_by_number(Levels& levels) {
   std::vector<double> values;
   for (const std::string& name : levels.names) {
@@ -126,13 +126,13 @@ std::optional<double> DataTable::number(std::string_view cell) const {
   if (comma == std::string_view::npos) return parse_number(cell);
   std::string with_point(cell);
   with_point[comma] = '.';
-  return parse_number(with_point);  // a second comma, or a point beside it, is no number
+  return parse_number(with_point);  // text with a second comma, or a point beside it, is not a number
 }
 
 std::string quoted_cell(std::string_view text) {
   std::string shown = "\"";
   std::size_t end = std::min(text.size(), kLongestQuotedCell);
-  // No character is cut in two.
+  // Does not cut a character in two.
   while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
   for (const char c : base::as_utf8(text.substr(0, end))) {
     const bool control = static_cast<unsigned char>(c) < 0x20U || c == 0x7f;

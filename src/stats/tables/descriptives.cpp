@@ -74,7 +74,7 @@ void add_spread(Description& result, std::span<const double> values) {
   }
 }
 
-/// Of finite values that check_magnitudes() has passed, some at least.
+/// Describes finite values, at least one, that have passed check_magnitudes().
 Description described(std::vector<double> values, double confidence) {
   std::sort(values.begin(), values.end());
   Description result;

@@ -7,10 +7,10 @@
 
 namespace icome::stats {
 
-/// What a sample looks like (thesis 6.4.1). In the unit of the values, variance in its square. NaN where
-/// there are too few values, or where they do not vary and the statistic divides by their spread.
+/// The descriptive statistics of a sample (thesis 6.4.1), in the unit of the values, the variance in its
+/// square. NaN with too few values, or where values do not vary and the statistic divides by their spread.
 struct Description {
-  std::size_t n = 0;                // values that count
+  std::size_t n = 0;                // values that are not missing
   std::size_t missing = 0;          // NaN, left out
   double mean = 0.0;                // equation 6.1
   double median = 0.0;              // mean of the middle two of an even number
@@ -23,20 +23,20 @@ struct Description {
   double skewness = 0.0;                   // G1, adjusted Fisher-Pearson (Joanes and Gill 1998), n > 2
   double excess_kurtosis = 0.0;            // G2 of the same paper, 0 for the normal distribution, n > 3
   double standard_error = 0.0;             // of the mean
-  double confidence = 0.95;                // of the interval:
-  double mean_low = 0.0, mean_high = 0.0;  // of the mean, by Student's t
+  double confidence = 0.95;                // of the interval of the mean
+  double mean_low = 0.0, mean_high = 0.0;  // interval of the mean, by Student's t
 };
 
 /// Describes a sample. Fails when no value is left after the missing ones (NaN), when one is infinite or
 /// beyond 1e150, or when the confidence is not between 0 and 1.
 base::Result<Description> describe(std::span<const double> values, double confidence = 0.95);
 
-/// The value below which a share of the sample lies, 0 <= share <= 1: linear between the order statistics at
-/// share * (n - 1), which is type 7 of Hyndman and Fan (1996) and what R and NumPy take. At least one value,
-/// no NaN.
+/// The quantile of a sample at a share, 0 <= share <= 1: linear between the order statistics at
+/// share * (n - 1), which is type 7 of Hyndman and Fan (1996) and the default of R and NumPy. At least one
+/// value, no NaN.
 double quantile(std::span<const double> values, double share);
 
-/// How many standard deviations each value is from the mean (equation 6.3); NaN stays NaN. Fails as
+/// The distance of each value from the mean in standard deviations (equation 6.3); NaN stays NaN. Fails as
 /// describe() does, and when the values do not vary.
 base::Result<std::vector<double>> z_scores(std::span<const double> values);
 
@@ -44,19 +44,19 @@ base::Result<std::vector<double>> z_scores(std::span<const double> values);
 struct OutlierReport {
   double limit = 2.0;                  // standard deviations
   std::vector<std::size_t> outliers;   // indices of the values, ascending
-  Description with;                    // of all values
-  std::optional<Description> without;  // of the others; none when all or none are outliers
+  Description with;                    // description of all values
+  std::optional<Description> without;  // description of the others; none when all or none are outliers
 };
 
-/// Finds what lies more than `limit` standard deviations from the mean; once, not again on what is left.
+/// Finds the values more than `limit` standard deviations from the mean; the rest is not searched again.
 /// Values that do not vary have no outliers. Fails as describe() does, and when the limit is not above 0.
 base::Result<OutlierReport> describe_outliers(std::span<const double> values, double limit = 2.0,
                                               double confidence = 0.95);
 
 /// The description of the observations that share a level of every factor.
 struct CellDescription {
-  std::vector<int> levels;  // one a factor: an index of its `levels`
-  Description description;  // counts a value that is NaN as missing; n = 0 where only such ones are
+  std::vector<int> levels;  // one for each factor: an index of its `levels`
+  Description description;  // NaN counts as missing; n = 0 where all values are NaN
 };
 
 /// One description for every combination of levels that occurs, the last factor's levels running fastest.

@@ -12,7 +12,7 @@
 namespace icome::stats {
 namespace {
 
-/// The observations whose value and levels are all there.
+/// The rows of the observations that have a value and a level of every factor.
 std::vector<std::size_t> complete_rows(std::span<const double> values, std::span<const Factor> factors) {
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < values.size(); ++row) {

@@ -30,7 +30,7 @@ std::optional<base::Error> complaint(std::string_view test, const std::vector<st
 }
 
 std::optional<base::Error> confidence_complaint(std::string_view test, double confidence) {
-  // Closer to 1 no digits are left of what lacks.
+  // Closer to 1, no digits are left of 1 - confidence.
   if (confidence > 0.0 && confidence <= 1.0 - 1e-9) return std::nullopt;
   return base::Error{
       fmt::format("{}: a confidence of {} cannot be; give one above 0 and at most 1 - 1e-9, such as 0.95",

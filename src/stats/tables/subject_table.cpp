@@ -10,14 +10,14 @@
 namespace icome::stats {
 namespace {
 
-/// How many combinations the factors' levels have; stops growing at 1e9.
+/// The number of combinations of the factors' levels, at most 1e9.
 double within_cell_count(std::span<const Factor> within) {
   double count = 1.0;
   for (const Factor& factor : within) count *= static_cast<double>(factor.levels.size());
   return std::min(count, 1e9);
 }
 
-/// A level of the factor for each subject, or why there is none.
+/// The factor's level for each subject. Fails when a subject has two levels.
 base::Result<std::vector<int>> levels_by_subject(const Factor& factor, const Factor& subject) {
   std::vector<int> levels(subject.levels.size(), kNoLevel);
   for (std::size_t row = 0; row < subject.of.size(); ++row) {
@@ -35,7 +35,7 @@ base::Result<std::vector<int>> levels_by_subject(const Factor& factor, const Fac
   return levels;
 }
 
-/// Means by subject and within cell, and how many observations are in each.
+/// Means and numbers of observations, by subject and within cell.
 struct AveragedCells {
   Eigen::MatrixXd means;
   Eigen::MatrixXd counts;
@@ -55,7 +55,7 @@ AveragedCells averaged(const CompleteCases& cases, Eigen::Index subjects, Eigen:
   return result;
 }
 
-/// The rows of subjects that have an observation in every cell; the others are named.
+/// The rows of subjects that have an observation in every cell. Names the others in table.left_out and warns.
 std::vector<Eigen::Index> complete_subjects(const AveragedCells& cells, const Factor& subject,
                                             SubjectTable& table) {
   std::vector<Eigen::Index> rows;
@@ -126,7 +126,7 @@ base::Result<SubjectTable> subject_table(std::span<const double> values, const F
     group.of.clear();
     for (const Eigen::Index row : rows) group.of.push_back((*levels)[static_cast<std::size_t>(row)]);
   }
-  // Leaving out subjects may have left groups without any.
+  // Some groups may have lost all of their subjects.
   auto left = complete_cases(std::vector<double>(rows.size(), 0.0), groups);
   if (!left) return base::fail(left.error().message);
   table.between = std::move(left->factors);

@@ -18,9 +18,9 @@ struct SubjectTable {
 };
 
 /// Averages the observations of each subject in each within cell (the last factor's levels run fastest) and
-/// leaves out what is missing. Fails as complete_cases() does, without within factors, when a subject is in
-/// two groups, with more than 1,000 within cells or 5e7 cells in all, and when less than two subjects are
-/// left.
+/// leaves out missing values and incomplete subjects. Fails as complete_cases() does, without within
+/// factors, when a subject is in two groups, with more than 1,000 within cells or 5e7 cells in all, and when
+/// fewer than two subjects are left.
 base::Result<SubjectTable> subject_table(std::span<const double> values, const Factor& subject,
                                          std::span<const Factor> within, std::span<const Factor> between);
 

@@ -6,7 +6,7 @@
 namespace icome::stats {
 namespace {
 
-/// A sum and what rounding has taken from it so far.
+/// A sum with the rounding errors that it has lost so far.
 class CompensatedSum {
  public:
   void add(double value) {
@@ -33,7 +33,7 @@ double mean(std::span<const double> values) {
   assert(!values.empty());
   const auto count = static_cast<double>(values.size());
   const double first = sum(values) / count;
-  // What the division has rounded away shows in the deviations.
+  // The rounding error of the division shows in the deviations.
   CompensatedSum rest;
   for (const double value : values) rest.add(value - first);
   return first + rest.value() / count;

@@ -16,7 +16,7 @@ constexpr std::size_t kLargestCell = 1U << 20U;     // bytes
 constexpr std::size_t kLargestTable = 0xffff'ffff;  // bytes
 constexpr std::string_view kRowNames = "row";
 
-/// Takes one cell after the other off the text.
+/// Reads the text cell by cell.
 class CellScanner {
  public:
   enum class After { Cell, Row, Error };
@@ -24,14 +24,14 @@ class CellScanner {
   CellScanner(std::string_view text, char separator) : text_(text), separator_(separator) {}
 
   bool at_end() const { return at_ >= text_.size(); }
-  /// Of the cell that next() reads, or has read.
+  /// The line of the cell that next() reads or has read.
   std::size_t line() const { return line_; }
   std::string_view cell() const { return cell_; }
-  /// Whether the cell stood between quotes.
+  /// Did the cell stand between quotes?
   bool quoted() const { return quoted_; }
   const std::string& error() const { return error_; }
 
-  /// Reads a cell and says what it was followed by.
+  /// Reads a cell. Returns whether another cell or the row's end follows it, or an error.
   After next() {
     line_ = next_line_;
     quoted_ = false;
@@ -51,7 +51,7 @@ class CellScanner {
     return After::Error;
   }
 
-  /// What ends the cell: the separator, or the row's end in one of its three ways, or the text's.
+  /// Reads the end of the cell: the separator, the row's end in one of its three forms, or the text's end.
   After take_end() {
     if (at_ >= text_.size()) return After::Row;
     const char end = text_[at_++];
@@ -72,7 +72,7 @@ class CellScanner {
     return take_end();
   }
 
-  /// From behind the opening quote.
+  /// Reads a quoted cell from behind its opening quote.
   After quoted_cell() {
     quoted_ = true;
     unquoted_.clear();
@@ -128,7 +128,7 @@ const char* word_for(Separator separator) {
   return separator == Separator::Tab ? "tab" : separator == Separator::Semicolon ? "semicolon" : "comma";
 }
 
-/// What the first line has most of, outside of quotes; of equals the one that is rarer in text.
+/// The most frequent separator outside quotes in the first line; in a tie the one that is rarer in text.
 Separator separator_of(std::string_view text) {
   constexpr std::array kAll = {Separator::Tab, Separator::Semicolon, Separator::Comma};
   std::array<std::size_t, kAll.size()> counts{};
@@ -144,7 +144,7 @@ Separator separator_of(std::string_view text) {
   return *most == 0 ? Separator::Comma : kAll[static_cast<std::size_t>(most - counts.begin())];
 }
 
-/// Why these bytes are no table of text; empty where they may be one.
+/// The reason why these bytes are not a table of text; empty if they may be one.
 std::string not_text(std::string_view bytes) {
   if (bytes.size() >= kLargestTable) return "has 4 GiB or more; split it.";
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return "is UTF-16; save it as UTF-8.";
@@ -154,7 +154,7 @@ std::string not_text(std::string_view bytes) {
   return {};
 }
 
-/// Where the first byte stands that is no UTF-8; npos: nowhere.
+/// The place of the first byte that is not UTF-8; npos if there is none.
 std::size_t find_not_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const bool ascii = static_cast<unsigned char>(text[at]) < 0x80;
@@ -247,7 +247,7 @@ class TableFiller {
 
 constexpr std::string_view kNistBegin = "NIST/ITL StRD";
 
-/// Takes a line off the text, without its end.
+/// Removes the first line from the text and returns it without its line end.
 std::string_view take_line(std::string_view& text) {
   const std::size_t length = std::min(text.find('\n'), text.size());
   std::string_view line = text.substr(0, length);
@@ -273,7 +273,7 @@ struct LineRange {
   std::size_t first = 0, last = 0;
 };
 
-/// From "Data (lines 61 to 85)".
+/// The lines of the data, read from "Data (lines 61 to 85)"; nothing for any other line.
 std::optional<LineRange> data_lines(std::string_view line) {
   const std::vector<std::string_view> words = words_of(line);
   if (words.size() != 5 || words[0] != "Data" || words[1] != "(lines" || words[3] != "to")

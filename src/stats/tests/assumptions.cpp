@@ -103,7 +103,7 @@ std::vector<double> shapiro_weights(std::size_t count) {
   return weights;
 }
 
-// Royston's normalising transformations of 1 - W.
+// The p value by Royston's normalising transformations of `lack`, 1 - W.
 double shapiro_p(double lack, double n) {
   if (n == 3.0) {
     const double root = std::sqrt(std::max(0.0, 1.0 - lack));
@@ -112,7 +112,7 @@ double shapiro_p(double lack, double n) {
   double y = std::log(lack);
   if (n <= 11.0) {
     const double gamma = -2.273 + 0.459 * n;
-    if (y >= gamma) return 0.0;  // less normal than can be
+    if (y >= gamma) return 0.0;  // less normal than possible
     y = -std::log(gamma - y);
     const double centre = polynomial(std::array{0.544, -0.39978, 0.025054, -6.714e-4}, n);
     const double spread = std::exp(polynomial(std::array{1.3822, -0.77857, 0.062767, -0.0020322}, n));
@@ -167,7 +167,7 @@ base::Result<ShapiroWilk> shapiro_wilk(std::span<const double> values) {
         "Shapiro-Wilk test: all values are equal, so nothing can be tested; look at what was measured");
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  // From the mean and over the range, so that squares keep their digits.
+  // Deviations from the mean over half the range, so that squares keep their digits.
   const double range = 0.5 * sorted.back() - 0.5 * sorted.front();
   for (double& value : sorted) value /= range;
   const double centre = mean(sorted);
@@ -176,7 +176,7 @@ base::Result<ShapiroWilk> shapiro_wilk(std::span<const double> values) {
   std::vector<double> products(sorted.size()), rests(sorted.size());
   for (std::size_t i = 0; i < sorted.size(); ++i) products[i] = weights[i] * sorted[i];
   const double fitted = sum(products);
-  // 1 - W is what the line of slope `fitted` leaves over, which has digits when W is near 1.
+  // 1 - W is the rest that the line of slope `fitted` leaves, which has digits when W is near 1.
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const double rest = sorted[i] - fitted * weights[i];
     rests[i] = rest * rest;

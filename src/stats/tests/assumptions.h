@@ -6,7 +6,7 @@
 
 namespace icome::stats {
 
-/// A test that variances are equal. It speaks against that when p is small.
+/// A test of the hypothesis that variances are equal. A small p speaks against it.
 struct VarianceTest {
   double statistic = 0.0;  // F, or Bartlett's K squared
   double df = 0.0;         // groups less 1
@@ -17,9 +17,9 @@ struct VarianceTest {
 /// Analysis of variance of the distances from each group's mean (Levene 1960). At least two groups of two
 /// finite values, not all of the same distance.
 base::Result<VarianceTest> levene_test(const std::vector<std::vector<double>>& groups);
-/// The same from each group's median (Brown and Forsythe 1974): keeps its level for skewed data.
+/// Levene's test from each group's median (Brown and Forsythe 1974), which keeps its level for skewed data.
 base::Result<VarianceTest> brown_forsythe_test(const std::vector<std::vector<double>>& groups);
-/// Bartlett's (1937): for normal data only. Each group with some variance.
+/// Bartlett's test (1937), for normal data only. Each group must have some variance.
 base::Result<VarianceTest> bartlett_test(const std::vector<std::vector<double>>& groups);
 
 struct ShapiroWilk {

@@ -25,11 +25,11 @@ double share_at_least(const Binomial& binomial, double successes) {
   return successes > binomial.trials() ? 0.0 : cdf(complement(binomial, successes - 1.0));
 }
 
-// What is as likely as the outcome but for rounding counts as such: R's margin.
+// The margin for outcomes that are as likely but for rounding, as in R.
 constexpr double kAsLikely = 1.0 + 1e-7;
 
-// The probabilities fall on the far side of the mean, so where they become as small as `most` is found by
-// halving: the first of `begin`, begin + step, ... towards `end` with such a probability, or one beyond.
+// The first of `begin`, begin + step, ... towards `end` whose probability is at most `most`, or one
+// beyond. Found by halving, as the probabilities fall on the far side of the mean.
 double first_unlikely(const Binomial& binomial, double most, double begin, double end) {
   const double step = begin <= end ? 1.0 : -1.0;
   double below = 0.0, above = std::abs(end - begin) + 1.0;

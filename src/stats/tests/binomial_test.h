@@ -16,12 +16,12 @@ struct BinomialTestSettings {
   double confidence = 0.95;  // in (0, 1)
 };
 
-/// Is the probability of a success as said? Exact; two-sided: all outcomes that are no more likely than this
-/// one. Whole numbers, at least one trial and at most 1e9.
+/// Is `probability` the probability of a success? Exact; two-sided, p counts all outcomes that are no more
+/// likely than this one. Whole numbers, at least one trial and at most 1e9.
 base::Result<BinomialTest> binomial_test(double successes, double trials,
                                          const BinomialTestSettings& settings = {});
 
-/// The sign test: are as many better as worse? Those that are the same are not counted. Two-sided unless set.
+/// The sign test: are as many better as worse? Equal ones are not counted. Two-sided unless set.
 base::Result<BinomialTest> sign_test(double better, double worse, const BinomialTestSettings& settings = {});
 
 }  // namespace icome::stats

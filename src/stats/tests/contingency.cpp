@@ -21,7 +21,7 @@ std::string expected_warning(const CountTable& expected) {
   return fmt::format("an expected count is {:.3g}, below 5: p is in doubt, an exact test is better", least);
 }
 
-// Chi squared of counts whose expectation is known, each difference made smaller by up to `correction`.
+// Chi squared of counts whose expectation is known, each difference reduced by up to `correction`.
 double pearson_sum(const CountTable& counts, const CountTable& expected, double correction) {
   double sum = 0.0;
   for (std::size_t i = 0; i < counts.size(); ++i) {

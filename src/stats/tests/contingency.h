@@ -9,7 +9,7 @@
 
 namespace icome::stats {
 
-/// Counts: a row of cells a level of the one variable, a column a level of the other.
+/// Counts: a row for each level of one variable, a column for each level of the other.
 using CountTable = std::vector<std::vector<double>>;
 
 struct ChiSquared {
@@ -19,12 +19,12 @@ struct ChiSquared {
   CountTable expected;   // if the null hypothesis holds; one row for a goodness of fit
   CountTable residuals;  // (observed - expected) / sqrt(expected)
   double w = 0.0;        // Cohen's effect size w, without Yates's correction: sqrt(chi squared / N)
-  /// Says so when the approximation is in doubt: an expected count below 5. Otherwise empty.
+  /// A sentence if the approximation is in doubt because an expected count is below 5, otherwise empty.
   std::string warning;
 };
 
-/// Are counts spread as `probabilities` (thesis 6.4.2: evenly, when there are none)? At least two whole
-/// counts of 0 or more, and as many probabilities above 0 whose sum is 1.
+/// Are counts distributed as `probabilities` (thesis 6.4.2: evenly, when there are none)? At least two
+/// whole counts of 0 or more, and as many probabilities above 0 whose sum is 1.
 base::Result<ChiSquared> goodness_of_fit(std::span<const double> counts,
                                          std::span<const double> probabilities = {});
 
@@ -32,7 +32,7 @@ base::Result<ChiSquared> goodness_of_fit(std::span<const double> counts,
 enum class Yates : std::uint8_t { Off, On };
 
 struct Contingency : ChiSquared {
-  double cramers_v = 0.0;  // without Yates's correction; 0 for independent, 1 for one decides the other
+  double cramers_v = 0.0;  // without Yates's correction; 0 for independent, 1 if one decides the other
 };
 /// Are rows and columns independent? (Pearson 1900.) At least 2 x 2 whole counts of 0 or more, with
 /// no row and no column of zeros only.

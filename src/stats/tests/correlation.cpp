@@ -22,15 +22,15 @@ namespace {
 constexpr std::size_t kMostEnumerated = 9;
 constexpr std::size_t kMostBySeries = 1289;
 
-// Deviations from the mean over the largest of them, so that squares neither over- nor underflow.
+// Deviations from the mean, divided by the largest of them, so that squares neither over- nor underflow.
 std::vector<double> scaled_deviations(std::span<const double> values) {
   const double largest_value = std::abs(*std::max_element(
       values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   std::vector<double> deviations(values.begin(), values.end());
-  // By a power of two, which rounds nothing that small differences between large values would lose.
+  // Scaling by a power of two rounds nothing, so that small differences between large values are kept.
   for (double& value : deviations) value = std::scalbn(value, -std::ilogb(largest_value));
   double largest = 0.0;
-  for (int pass = 0; pass < 2; ++pass) {  // the second takes off what the first mean was rounded by
+  for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first mean
     const double centre = mean(deviations);
     largest = 0.0;
     for (double& value : deviations) largest = std::max(largest, std::abs(value -= centre));
@@ -45,7 +45,7 @@ double sum_of_products(std::span<const double> x, std::span<const double> y) {
   return sum(products);
 }
 
-// Equation 6.23 with the means taken off first, which keeps digits. Neither may be constant.
+// Equation 6.23 with the means subtracted first, which keeps digits. Neither may be constant.
 double product_moment(std::span<const double> x, std::span<const double> y) {
   const std::vector<double> a = scaled_deviations(x), b = scaled_deviations(y);
   const double r =
@@ -53,7 +53,7 @@ double product_moment(std::span<const double> x, std::span<const double> y) {
   return std::clamp(r, -1.0, 1.0);
 }
 
-// The t of a correlation; infinite for one of 1.
+// The t of a correlation; infinite for a correlation of 1.
 double correlation_t(double r, double df) { return r * std::sqrt(df / ((1.0 - r) * (1.0 + r))); }
 
 std::optional<base::Error> pairs_complaint(std::span<const double> x, std::span<const double> y) {
@@ -94,7 +94,7 @@ double spearman_series(double s, double n) {
 }
 
 struct SpearmanTails {
-  double positive = 1.0;  // P(S <= s): a correlation as great
+  double positive = 1.0;  // P(S <= s): a correlation at least as great
   double negative = 1.0;  // P(S >= s)
 };
 
@@ -112,7 +112,7 @@ bool has_ties(std::vector<double> values) {
   return std::adjacent_find(values.begin(), values.end()) != values.end();
 }
 
-// The columns' rows where both have a value.
+// The rows of two columns in which both have a value.
 std::array<std::vector<double>, 2> complete_pairs(std::span<const double> x, std::span<const double> y) {
   std::array<std::vector<double>, 2> pairs;
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -45,14 +45,14 @@ base::Result<SpearmanCorrelation> spearman(std::span<const double> x, std::span<
 
 enum class CorrelationKind : std::uint8_t { Pearson, Spearman };
 
-/// Each variable with each; symmetric.
+/// The correlations of all pairs of variables; symmetric.
 struct CorrelationMatrix {
   Eigen::MatrixXd r;       // 1 on the diagonal; NaN where there were too few pairs or a constant
   Eigen::MatrixXd p;       // two-sided, not adjusted; 0 on the diagonal, NaN where r is
   Eigen::MatrixXi counts;  // complete pairs
 };
-/// NaN in a column is a missing value: each pair of columns uses the rows where both have one. Columns of the
-/// same length.
+/// Correlates all pairs of columns. NaN is a missing value: each pair of columns uses the rows where both
+/// have a value. Columns of the same length.
 base::Result<CorrelationMatrix> correlation_matrix(const std::vector<std::vector<double>>& columns,
                                                    CorrelationKind kind = CorrelationKind::Pearson);
 

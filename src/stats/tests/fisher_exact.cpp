@@ -16,8 +16,8 @@ namespace {
 constexpr double kInfiniteOdds = std::numeric_limits<double>::infinity();
 constexpr double kLargestSupport = 1e6;
 
-// The first cell of a 2 x 2 table whose margins are given: Fisher's noncentral hypergeometric distribution,
-// which the log of the odds ratio shifts.
+// The distribution of the first cell of a 2 x 2 table with given margins: Fisher's noncentral
+// hypergeometric distribution, which the log of the odds ratio shifts.
 class FirstCell {
  public:
   FirstCell(const CountTable& counts, const Margins& margins)
@@ -61,7 +61,7 @@ class FirstCell {
   }
   double no_likelier_than_seen(double log_odds) const {
     const auto shares_now = shares(log_odds);
-    const double most = shares_now[index()] * (1.0 + 1e-7);  // R's margin for equal but for rounding
+    const double most = shares_now[index()] * (1.0 + 1e-7);  // R's margin for equality but for rounding
     double sum = 0.0;
     for (const double share : shares_now)
       if (share <= most) sum += share;
@@ -81,7 +81,7 @@ class FirstCell {
   std::vector<double> log_weights_;
 };
 
-// Where a function of the log odds that rises through zero does so.
+// The odds at which a rising function of the log odds is zero.
 template <typename Function>
 double odds_where_zero(Function&& rising) {
   double low = -1.0, high = 1.0;

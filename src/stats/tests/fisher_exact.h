@@ -18,14 +18,14 @@ struct FisherExact {
   ConfidenceInterval interval;  // of the odds ratio; one-sided as the test is
 };
 /// Fisher's exact test of 2 x 2 whole counts of 0 or more (Fisher 1935). A table with an empty row or column
-/// says nothing: p is 1, the odds ratio NaN, its interval 0 to infinity.
+/// has no information: p is 1, the odds ratio NaN, its interval 0 to infinity.
 base::Result<FisherExact> fisher_exact_2x2(const CountTable& counts,
                                            const FisherExactSettings& settings = {});
 
 /// The p value for any table (Freeman and Halton 1951): of tables with the same margins, the probability of
-/// those that are no more likely than this one. They are gathered column by column, with those whose
-/// remaining rows agree taken together (the network of Mehta and Patel 1983). Says when the table needs more
-/// than `most_nodes` of them (about 100 bytes each); then ask contingency_test.
+/// those that are no more likely than this one. They are built column by column, and those whose remaining
+/// rows agree share a node (the network of Mehta and Patel 1983). Fails when the table needs more than
+/// `most_nodes` nodes (about 100 bytes each); contingency_test() is the alternative then.
 base::Result<double> fisher_exact_p(const CountTable& counts, std::size_t most_nodes = 2'000'000);
 
 }  // namespace icome::stats

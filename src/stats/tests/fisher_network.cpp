@@ -15,10 +15,10 @@
 namespace icome::stats {
 namespace {
 
-using RowsLeft = std::vector<int>;  // what each row has yet to give to the columns to come, ascending
+using RowsLeft = std::vector<int>;  // each row's counts that are left for the columns to come, ascending
 
-// A node of the network: rows left, and the log weight of the columns so far, rounded so that what is equal
-// but for rounding meets in one node.
+// A node of the network: rows left, and the log weight of the columns so far, rounded so that weights that
+// are equal but for rounding meet in one node.
 struct NodeKey {
   RowsLeft rows;
   std::int64_t past = 0;
@@ -37,8 +37,8 @@ struct NodeHash {
 };
 
 struct Node {
-  double past = 0.0;   // log weight of one way here: -sum of ln(cell!)
-  double share = 0.0;  // probability of all tables that come by here with this past
+  double past = 0.0;   // log weight of one way to this node: -sum of ln(cell!)
+  double share = 0.0;  // probability of all tables that pass through this node
 };
 
 struct Extremes {
@@ -60,7 +60,7 @@ class FisherNetwork {
     extremes_.resize(columns_.size());
     for (const auto& row : counts)
       for (const double count : row) observed_ -= log_factorials_[static_cast<std::size_t>(count)];
-    // R's margin for what is as likely but for rounding.
+    // R's margin for tables that are as likely but for rounding.
     observed_ += 1e-7;
   }
 
@@ -102,7 +102,7 @@ class FisherNetwork {
     fill(left, 0, columns_[column], in_all, 0.0, visit);
   }
 
-  // `rest` is what the column yet needs, `later` what rows from this one on can give.
+  // `rest` is the count that the column still needs, `later` the counts left in the rows from this one on.
   void fill(RowsLeft& left, std::size_t row, int rest, int later, double log_weight,
             const std::function<void(const RowsLeft&, double)>& visit) {
     if (steps_left_ < 0) return;
@@ -121,7 +121,7 @@ class FisherNetwork {
     left[row] = had;
   }
 
-  // The longest and shortest path from here to the end.
+  // The greatest and least log weight of the ways from here to the end.
   Extremes extremes(const RowsLeft& rows, std::size_t column) {
     if (column == columns_.size()) return {};
     if (column + 1 == columns_.size()) {
@@ -141,7 +141,7 @@ class FisherNetwork {
     return found;
   }
 
-  // Follows all ways on from a node through one column. False when there are too many.
+  // Follows all ways from a node through one column. Returns false when there are too many.
   bool pass(const RowsLeft& rows, const Node& node, std::size_t column, Nodes& next, double& p) {
     const double all_ways = log_ways(rows, column);
     each_column(rows, column, [&](const RowsLeft& left, double log_weight) {
@@ -149,7 +149,7 @@ class FisherNetwork {
       const Extremes rest = extremes(left, column + 1);
       if (past + rest.least > observed_) return;  // all that follow are likelier
       const double share = node.share * std::exp(log_weight + log_ways(left, column + 1) - all_ways);
-      if (past + rest.greatest <= observed_) {  // none of those that follow is
+      if (past + rest.greatest <= observed_) {  // none that follows is likelier
         p += share;
         return;
       }
@@ -167,7 +167,7 @@ class FisherNetwork {
   }
 
   std::size_t most_nodes_;
-  std::int64_t steps_left_;  // ways through a column that may yet be tried: bounds the time
+  std::int64_t steps_left_;  // ways through a column that may still be tried: bounds the time
   std::vector<double> log_factorials_;
   RowsLeft start_;
   std::vector<int> columns_;

@@ -7,14 +7,14 @@
 namespace icome::stats {
 namespace {
 
-// Arguments are whole numbers that were computed: less than half a step off is rounding.
+// Arguments are computed whole numbers, of which less than half a step is rounding.
 constexpr double kRounding = 0.25;
 
 }  // namespace
 
 std::vector<double> rank_sum_distribution(int first_size, int second_size) {
-  // The greatest value of all belongs to the first group, of i, with probability i / (i + j), and exceeds all
-  // j of the second then (Mann and Whitney 1947). Only positive terms: nothing cancels.
+  // With probability i / (i + j) the greatest value of all is one of the i of the first group, and exceeds
+  // all j of the second then (Mann and Whitney 1947). Only positive terms: nothing cancels.
   std::vector<std::vector<double>> of_first(static_cast<std::size_t>(first_size) + 1, {1.0});
   for (int j = 1; j <= second_size; ++j) {
     for (int i = 1; i <= first_size; ++i) {

@@ -5,11 +5,11 @@ namespace icome::stats {
 
 /// Exact null distributions of rank statistics without ties, as probabilities of each value from 0.
 
-/// Of U for groups of these sizes: how many of the orders give each U from 0 to m n, over how many there are.
+/// The distribution of U for groups of these sizes: the share of the orders that give each U from 0 to m n.
 std::vector<double> rank_sum_distribution(int first_size, int second_size);
-/// Of the positive rank sum V of `count` differences, 0 to n (n + 1) / 2.
+/// The distribution of the positive rank sum V of `count` differences, 0 to n (n + 1) / 2.
 std::vector<double> signed_rank_distribution(int count);
-/// Of S, the sum of squared rank differences, at 0, 2, 4, ..., by going through all orders; count <= 9.
+/// The distribution of S, the sum of squared rank differences, at 0, 2, 4, ..., by enumeration; count <= 9.
 std::vector<double> spearman_distribution(int count);
 
 /// The sums of probabilities of places 0 to `value`, and from `value` on.

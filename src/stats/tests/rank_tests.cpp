@@ -47,7 +47,7 @@ double rank_sum_of(std::span<const double> all_ranks) {
   return std::accumulate(all_ranks.begin(), all_ranks.end(), 0.0);
 }
 
-// Exact or not, or why exact cannot be.
+// Is p to be exact? Fails when it is asked for but cannot be.
 base::Result<bool> takes_exact(RankMethod method, std::size_t largest, bool ties_or_zeros) {
   if (method == RankMethod::Approximate) return false;
   if (method == RankMethod::Automatic) return largest < kExactBelow && !ties_or_zeros;

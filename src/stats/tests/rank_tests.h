@@ -13,7 +13,7 @@ namespace icome::stats {
 /// values.
 std::vector<double> ranks(std::span<const double> values);
 
-/// How the p value of a rank test is found.
+/// The way to find the p value of a rank test.
 enum class RankMethod : std::uint8_t {
   Automatic,    // exact for fewer than 50 values (a group) without ties and zeros, else approximate: R's rule
   Exact,        // an error where there are ties or zeros, or more than 100 values (a group)
@@ -32,7 +32,7 @@ struct RankTest {
   double z = 0.0;          // of the normal approximation, continuity corrected if so set; 0 when exact
   double p = 1.0;
   bool exact = false;
-  /// The share of pairs for the first less that against it (Kerby 2014): -1 to 1, 0 for no difference.
+  /// The share of pairs in favour of the first less the share against it (Kerby 2014): -1 to 1, 0 if equal.
   double rank_biserial = 0.0;
   std::size_t ties = 0;   // values that are equal to another one
   std::size_t zeros = 0;  // signed ranks: differences of 0, which are left out (Wilcoxon's way)
@@ -47,7 +47,7 @@ base::Result<RankTest> rank_sum_test(std::span<const double> first, std::span<co
 /// other than that.
 base::Result<RankTest> signed_rank_test(std::span<const double> differences,
                                         const RankTestSettings& settings = {});
-/// The same of first less second, pair by pair.
+/// The signed rank test of first less second, pair by pair.
 base::Result<RankTest> signed_rank_test(std::span<const double> first, std::span<const double> second,
                                         const RankTestSettings& settings = {});
 
@@ -70,8 +70,8 @@ struct Friedman {
   std::vector<double> mean_ranks;
 };
 /// Does at least one of two or more treatments tend to greater values within a block? (Friedman 1937.)
-/// `blocks` holds a row a person, in each as many values as
-/// treatments; at least two of each, and not all of every row the same.
+/// `blocks` holds a row for each person with a value for each treatment; at least two of each, and not
+/// all of every row the same.
 base::Result<Friedman> friedman(const std::vector<std::vector<double>>& blocks);
 
 }  // namespace icome::stats

@@ -33,7 +33,7 @@ std::optional<base::Error> settings_complaint(const TTestSettings& settings) {
 std::optional<base::Error> spread_complaint(double standard_error, double largest_mean) {
   if (!std::isfinite(standard_error))
     return base::Error{"t-test: the values are too large to square; give them in a larger unit"};
-  // Differences that are nothing but the rounding of the values: R's rule.
+  // Differences this small are only the rounding of the values: R's rule.
   if (standard_error <= 10.0 * std::numeric_limits<double>::epsilon() * std::abs(largest_mean))
     return base::Error{
         "t-test: the values do not vary, or by too little to be squared; look at the means, or change the "
@@ -50,7 +50,7 @@ ConfidenceInterval difference_interval(const TTest& test, const TTestSettings& s
           settings.alternative == Alternative::Greater ? kInfinity : test.difference + reach};
 }
 
-// Fills in what follows from the difference, its standard error and the degrees of freedom.
+// Fills in the results that follow from the difference, its standard error and the degrees of freedom.
 void judge(TTest& test, const TTestSettings& settings) {
   test.t = (test.difference - settings.null_value) / test.standard_error;
   test.p = t_p(test.t, test.df, settings.alternative);

@@ -7,14 +7,14 @@
 
 namespace icome::stats {
 
-/// What a t-test asks.
+/// The null hypothesis, alternative and confidence of a t-test.
 struct TTestSettings {
   double null_value = 0.0;  // of the mean or the difference of means, in the unit of the values
   Alternative alternative = Alternative::TwoSided;
   double confidence = 0.95;  // of the intervals, in (0, 1)
 };
 
-/// What a standardised mean difference was divided by.
+/// The divisor of a standardised mean difference.
 enum class Standardiser : std::uint8_t {
   SampleSd,      // of the one sample
   PooledSd,      // of both samples, also beside Welch's test: Cohen's d_s
@@ -25,10 +25,10 @@ struct TTest {
   double t = 0.0;
   double df = 0.0;  // not whole for Welch's test
   double p = 1.0;
-  double difference = 0.0;      // mean, first mean less second mean, or mean of first less second
+  double difference = 0.0;      // the mean, first mean less second mean, or the mean of first less second
   double standard_error = 0.0;  // of the difference
   ConfidenceInterval interval;  // of the difference; one-sided as the test is
-  double d = 0.0;               // Cohen's d: difference less null_value, divided by what `standardiser` names
+  double d = 0.0;               // Cohen's d: difference less null_value, divided by the `standardiser`
   Standardiser standardiser = Standardiser::SampleSd;
   ConfidenceInterval d_interval;  // always two-sided, by the non-central t (Steiger and Fouladi 1997)
 };

@@ -3,8 +3,8 @@
 
 namespace icome::stats {
 
-/// Tail probabilities and quantiles that tests share: Boost.Math behind one door. Arguments are those that
-/// can be: df > 0, probabilities in (0, 1), effects not negative; anything else gives NaN.
+/// Tail probabilities and quantiles that tests share, by Boost.Math. Arguments are possible ones: df > 0,
+/// probabilities in (0, 1), effects not negative; anything else gives NaN.
 
 double normal_above(double z);
 double normal_quantile(double probability);
@@ -20,9 +20,9 @@ double noncentral_f_below(double f, double df, double error_df, double lambda);
 double noncentral_f_above(double f, double df, double error_df, double lambda);
 double noncentral_chi_squared_above(double x, double df, double lambda);
 
-/// P(T <= t) of the t with `df` whose numerator has the mean `delta`, to about 1e-13 whatever their size.
+/// P(T <= t) of the noncentral t with `df` and the noncentrality `delta`, to about 1e-13 whatever their size.
 double noncentral_t_below(double t, double df, double delta);
-/// The two deltas for which `t` is just at the end of what they make likely, each with (1 - confidence) / 2.
+/// The interval of delta for `t`: P(T > t) at `low`, and P(T <= t) at `high`, is (1 - confidence) / 2.
 ConfidenceInterval t_noncentrality_interval(double t, double df, double confidence);
 
 /// The p value of a statistic with a symmetric null distribution.

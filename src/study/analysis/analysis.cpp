@@ -6,7 +6,7 @@ namespace icome::study {
 
 namespace {
 
-/// A question of which a hypothesis holds two answers against each other has the test of the hypothesis.
+/// Gives a question the test of a hypothesis that compares two answers to it.
 void take_tests_of_hypotheses(const Study& study, Analysis& analysis) {
   for (QuestionSummary& question : analysis.questions) {
     if (question.dependent >= study.dependent.size()) continue;

@@ -17,7 +17,7 @@ std::vector<std::vector<std::size_t>> rows_by_group(const PersonTable& table) {
   return all;
 }
 
-/// What is left of values (a row a person) when the means of people and of columns are taken away; of two
+/// Adds the residuals of values (a row a person) after the means of people and of columns; of two
 /// columns, where both residuals of a person are opposite, the differences less their mean.
 void add_residuals(const std::vector<std::vector<double>>& rows, std::vector<double>& residuals) {
   const std::size_t columns = rows.front().size();

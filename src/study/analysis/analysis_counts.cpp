@@ -13,7 +13,7 @@
 namespace icome::study {
 namespace {
 
-/// Counts of answers (columns) by levels of a between factor (rows), without answers and levels of nobody.
+/// Counts of answers (columns) by levels of a between factor (rows), without those that nobody has.
 struct GroupCounts {
   stats::CountTable table;
   std::vector<std::string> levels, answers;
@@ -95,7 +95,7 @@ base::Result<TestResult> fisher_of(const stats::CountTable& counts) {
   return result;
 }
 
-/// Answers of the same people at two levels of a within factor.
+/// McNemar's test of answers of the same people at two levels of a within factor.
 base::Result<TestResult> mcnemar_of(const Question& question, const Item& item, const ItemPlace& place) {
   const auto levels = compared_levels(question);
   const std::vector<Crossing> conditions = crossings(question.data.study, false);
@@ -127,14 +127,14 @@ base::Result<TestResult> mcnemar_of(const Question& question, const Item& item, 
   return result;
 }
 
-/// How many people chose each of a question that was asked once.
+/// The number of people who gave each answer to a question that was asked once.
 std::vector<std::size_t> all_counts(const Question& question, const Item& item, const ItemPlace& place) {
   std::vector<std::string> texts;
   for (const GivenAnswer& answer : answers_to(question.data, place)) texts.push_back(answer.text);
   return counts_of(item, texts);
 }
 
-/// The sign test (Dixon and Mood 1946): who chose neither of the two is a tie, which is told and not counted.
+/// The sign test (Dixon and Mood 1946): people who chose neither answer are ties, reported but not counted.
 base::Result<TestResult> sign_test_of(const Question& question, const Item& item, const ItemPlace& place) {
   if (question.factor != nullptr)
     return base::fail("a binomial test compares two answers of a question; leave `factor` out.");
@@ -167,7 +167,7 @@ base::Result<TestResult> sign_test_of(const Question& question, const Item& item
   return result;
 }
 
-/// Of a question that was asked once, in groups of people or, without a factor, against equal shares.
+/// Tests answers to a question asked once, in groups of people or, without a factor, for equal shares.
 base::Result<TestResult> answers_given_once(const Question& question, const Item& item,
                                             const ItemPlace& place) {
   if (question.factor == nullptr) {
@@ -238,7 +238,7 @@ base::Result<TestResult> test_counts(const Question& question) {
     return base::fail("several answers could be chosen, so their counts depend on each other.");
   if (item.kind != ItemKind::Choice && item.kind != ItemKind::Rating)
     return base::fail("the question has no choices to count.");
-  // After the only condition there is, everybody answers once.
+  // With a single condition everybody answers once.
   const bool repeated =
       questionnaire.when == AskWhen::AfterCondition && crossings(question.data.study, false).size() > 1;
   if (question.test == Test::McNemar) return changes_of_answers(question, item, place, repeated);

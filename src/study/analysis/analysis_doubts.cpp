@@ -10,9 +10,9 @@
 namespace icome::study {
 namespace {
 
-constexpr double kDoubt = 0.05;  // an assumption whose p is less is told to fail
+constexpr double kDoubt = 0.05;  // an assumption with a smaller p is reported to fail
 
-/// Only the conditions, or people, of two levels; the factor keeps its place.
+/// Keeps only the conditions, or people, of two levels; the factor keeps its place.
 PersonTable only_levels(const PersonTable& table, const IndependentVariable& factor, std::size_t first,
                         std::size_t second) {
   const auto taken = [&](std::size_t level) { return level == first || level == second; };
@@ -57,8 +57,8 @@ void add_interactions(const Question& question, const PersonTable& table, std::v
   }
 }
 
-/// A t-test of two levels takes these to be normal: differences of the same people, or each group about its
-/// mean.
+/// The values that a t-test of two levels assumes to be normal: differences of the same people, or the
+/// deviations of each group from its mean.
 std::vector<double> pair_residuals(const PersonTable& table, const IndependentVariable& factor,
                                    std::size_t first, std::size_t second) {
   const auto levels = by_level(table, factor);
@@ -79,7 +79,7 @@ void add_normality(const std::vector<double>& residuals, const char* what, std::
     doubts.push_back(fmt::format("{} are not normal (Shapiro-Wilk {})", what, p_words(test->p)));
 }
 
-/// Doubts about an analysis of variance: that groups vary alike, and sphericity.
+/// Adds doubts about an analysis of variance: unequal variances of groups, or a lack of sphericity.
 void add_variances(const Question& question, const PersonTable& table, std::vector<std::string>& doubts) {
   if (question.factor->between) {
     const auto levene = stats::levene_test(means_by_group(table));

@@ -25,7 +25,7 @@ bool counts_answers(Test test) {
   return test == Test::ChiSquared || test == Test::Fisher || test == Test::McNemar || test == Test::Binomial;
 }
 
-/// Whether what the test found, means or ranks, has the direction that the hypothesis gives.
+/// Does the test's result have the direction that the hypothesis gives? Nothing if either is missing.
 std::optional<bool> as_expected(const Question& question, const Tested& test) {
   if (question.hypothesis.direction == Direction::Differ || !test.result) return {};
   const double difference = test.result->direction;
@@ -35,7 +35,7 @@ std::optional<bool> as_expected(const Question& question, const Tested& test) {
 Decision decide(const HypothesisResult& result, double alpha) {
   if (!result.p_holm) return Decision::NotComputed;
   if (*result.p_holm >= alpha || result.held_back) return Decision::NotShown;
-  // On one side nothing but what was expected can be found.
+  // A one-sided test can find nothing but the expected direction.
   return result.one_sided || result.as_expected.value_or(true) ? Decision::Shown : Decision::Opposite;
 }
 
@@ -64,9 +64,9 @@ HypothesisResult test_hypothesis(const StudyData& data, std::size_t index) {
   return result;
 }
 
-/// Holm's (1979) p of all hypotheses that were tested; where one is primary its own p is its adjusted one,
-/// and the others, adjusted among each other, are shown only after it (serial gatekeeping: Westfall and
-/// Krishen 2001). Either way the probability that any is shown for no reason stays below the level.
+/// Adjusts p after Holm (1979) over all hypotheses that were tested; if one is primary, its own p is its
+/// adjusted one, and the others, adjusted among each other, are shown only after it (serial gatekeeping:
+/// Westfall and Krishen 2001). Either way the probability that any is shown wrongly stays below the level.
 void adjust_p(const Study& study, std::vector<HypothesisResult>& results) {
   std::vector<double> p;
   bool open = true;

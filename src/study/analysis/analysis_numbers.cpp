@@ -121,8 +121,8 @@ base::Result<TestResult> variance_test(const Question& question, const PersonTab
   return result;
 }
 
-/// An expectation of two out of more levels: these two decide, as the test of all can be significant for the
-/// sake of the others. That one is told in a note.
+/// The test for an expectation about two of several levels: that of these two, as the test of all can be
+/// significant because of the others. The test of all is reported in a note.
 base::Result<TestResult> decided_by_pair(const Question& question, const PersonTable& table,
                                          base::Result<TestResult> all) {
   const bool two = question.factor->levels.size() == 2;

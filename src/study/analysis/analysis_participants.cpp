@@ -55,8 +55,8 @@ void count_trials(const StudyData& data, ParticipantSummary& summary) {
   }
 }
 
-/// Whether each condition came equally often at each place, of the people of each group who are through. A
-/// fixed order was never meant to be balanced.
+/// Did each condition come equally often at each place, among the people of each group who are through?
+/// True of a fixed order, which was never meant to be balanced.
 bool orders_balance(const StudyData& data) {
   if (data.study.order == OrderMethod::Fixed) return true;
   const std::size_t conditions = crossings(data.study, false).size();
@@ -81,8 +81,8 @@ std::size_t unpractised(const StudyData& data) {
   }));
 }
 
-/// A sentence for each thing that the study needs and simulated people did without: what differs by it in the
-/// study did not differ for them.
+/// Adds a sentence for each need of the study that was not met for simulated people: the differences that it
+/// makes in the study did not exist for them.
 void tell_what_was_not_there(const Study& study, std::vector<std::string>& warnings) {
   std::vector<std::string> told;
   const std::vector<UnmetNeed> unmet = unmet_needs(study);

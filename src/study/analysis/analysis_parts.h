@@ -19,7 +19,7 @@ std::vector<HypothesisResult> test_hypotheses(const StudyData& data);
 std::vector<AssumptionCheck> check_assumptions(const StudyData& data);
 std::vector<std::string> warnings_of(const StudyData& data, const ParticipantSummary& participants);
 
-/// The name in the study's first language, else the id.
+/// The name in the study's first language, or the id if there is none.
 template <typename Named>
 std::string plain_name(const Named& named) {
   return named.name.empty() || named.name.front().empty() ? named.id : named.name.front();
@@ -30,7 +30,7 @@ std::string crossing_title(const std::vector<const IndependentVariable*>& factor
 /// The main effect of a factor by an analysis of variance of all factors of the table with their
 /// interactions. Incomplete rows are left out.
 base::Result<TestResult> main_effect(const PersonTable& table, const IndependentVariable& factor);
-/// The same with what Mauchly's test says, of a within factor of more than two levels.
+/// A main effect with Mauchly's test, which is there for a within factor of more than two levels.
 struct MainEffect {
   TestResult result;
   std::optional<stats::Sphericity> sphericity;
@@ -38,30 +38,30 @@ struct MainEffect {
 base::Result<MainEffect> main_effect_with_sphericity(const PersonTable& table,
                                                      const IndependentVariable& factor);
 
-/// A term of that analysis in which the factor stands with others.
+/// An interaction of the factor with others in that analysis.
 struct Interaction {
   std::vector<std::string> factors;  // ids, the factor's among them
   TestResult result;
 };
-/// Those that can be computed; none of a table of one factor.
+/// The interactions that can be computed; none for a table of one factor.
 std::vector<Interaction> interactions_of(const PersonTable& table, const IndependentVariable& factor);
 
-/// Residuals that should be normal in that analysis: of pairs of conditions, the differences of each
-/// group less their mean; of more, what people and conditions leave; of groups, people's means less the
-/// group's.
+/// The residuals that should be normal in that analysis: of pairs of conditions, the differences of
+/// each group less their mean; of more conditions, the rest after people and conditions; of groups,
+/// people's means less the group's.
 std::vector<double> residuals_of(const PersonTable& table, const IndependentVariable& factor);
-/// People's means in each group of which there is anybody: of several factors, the crossings of their levels.
+/// People's means in each group that has people; with several factors, groups are crossings of their levels.
 std::vector<std::vector<double>> means_by_group(const PersonTable& table);
 
 /// All terms of that analysis.
 VarianceAnalysis analyse_variance(const Study& study, const PersonTable& table, std::size_t variable);
 
-/// Without an effect size.
+/// A result without an effect size.
 TestResult plain_result(std::string test, std::string statistic, double value, std::vector<double> df,
                         double p, std::size_t people);
 Tested tested(base::Result<TestResult> result);
 
-/// Friedman's test of people's values at the levels of a within factor; one row a person.
+/// Friedman's test of people's values at the levels of a within factor; each level has one value a person.
 base::Result<TestResult> friedman_of(const std::vector<std::vector<double>>& levels);
 /// Wilcoxon's signed rank test, pair by pair.
 base::Result<TestResult> signed_ranks_of(const std::vector<double>& first, const std::vector<double>& second,
@@ -69,12 +69,12 @@ base::Result<TestResult> signed_ranks_of(const std::vector<double>& first, const
 /// Are the answers spread evenly?
 base::Result<TestResult> even_shares(const std::vector<std::size_t>& counts);
 
-/// What the choices, or points of a rating, are called.
+/// The names of the choices, or points of a rating.
 std::vector<std::string> answer_names(const Item& item);
 
-/// How many people gave each choice, or point of a rating; of several choices each counts.
+/// The number of people who gave each choice, or point of a rating; of several choices each counts.
 std::vector<std::size_t> counts_of(const Item& item, const std::vector<std::string>& answers);
-/// The noncentral interval (Smithson 2003) of Cohen's w, 0.95, with n answers.
+/// The noncentral confidence interval (Smithson 2003) of Cohen's w, 0.95, with n answers.
 stats::ConfidenceInterval w_interval(double chi_squared, double df, double n);
 /// The ids of the choices in an answer, each once.
 std::vector<std::string> chosen_ids(const std::string& answer);

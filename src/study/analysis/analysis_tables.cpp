@@ -27,13 +27,13 @@ std::vector<std::size_t> usual_rows(const PersonTable& table, const IndependentV
   return rows;
 }
 
-/// Only the part of a table that a result table is about.
+/// The part of a table that a result table is about.
 PersonTable part_of(const StudyData& data, PersonTable table, const ResultTable& what) {
   if (!what.within_level) return table;
   return at_level(table, data.study.independent[what.within_level->first], what.within_level->second);
 }
 
-/// All pairs of levels: by paired t-tests of the same people, by Welch's of different ones.
+/// Compares all pairs of levels, by paired t-tests of the same people or by Welch's of different people.
 std::vector<LevelComparison> compare_levels(const std::vector<std::vector<double>>& levels, bool between) {
   std::vector<LevelComparison> pairs;
   if (levels.size() < 3) return pairs;
@@ -70,9 +70,9 @@ ResultRow mean_row(const StudyData& data, const ResultTable& what, std::size_t v
   return row;
 }
 
-/// The totals of counts of the same people. Nothing where the levels have not equally many trials, as of
-/// groups of unequal size: such totals say how many trials there were. Otherwise they are the means times a
-/// number, and the means' test is theirs.
+/// The row of totals of counts of the same people. Nothing if levels differ in their numbers of trials, as
+/// with groups of unequal size: such totals say how many trials there were. Otherwise the totals are the
+/// means times a number, and the test of the means is theirs.
 std::optional<ResultRow> total_row(const StudyData& data, const ResultTable& what, const ResultRow& means) {
   const IndependentVariable& factor = data.study.independent[what.factor];
   const DependentVariable& variable = data.study.dependent[means.variable];

@@ -16,7 +16,7 @@ namespace {
 constexpr double kShareConfidence = 0.90;  // of a share of variance: leaves out 0 just where p < .05
 constexpr double kConfidence = 0.95;
 
-/// A factor's level of each of some crossings, which have it at a place.
+/// A factor's level in each of some crossings, which have the factor at a place.
 stats::Factor factor_over(const IndependentVariable& factor, const std::vector<Crossing>& crossings,
                           std::size_t place) {
   stats::Factor column;
@@ -52,7 +52,7 @@ Observations observations_of(const PersonTable& table) {
   }
   for (std::size_t i = 0; i < table.within.size(); ++i)
     all.within.push_back(factor_over(*table.within[i], columns, i));
-  // A factor of which there are people of one level only so far says nothing yet.
+  // A factor with people of only one level so far says nothing yet.
   for (std::size_t i = 0; i < table.between.size(); ++i)
     if (stats::Factor factor = factor_over(*table.between[i], groups, i); varies(factor.of))
       all.between.push_back(std::move(factor));
@@ -102,7 +102,7 @@ base::Result<std::vector<Effect>> between_effects(const Observations& observatio
   return effects;
 }
 
-/// Both degrees of freedom are shrunk where p is that of these.
+/// Sets Greenhouse and Geisser's p, and shrinks both degrees of freedom to those that belong to it.
 void correct_for_sphericity(TestResult& result, const stats::RepeatedMeasuresTerm& term) {
   const double epsilon = term.sphericity->greenhouse_geisser;
   result.p = term.p_greenhouse_geisser;
@@ -135,7 +135,7 @@ base::Result<std::vector<Effect>> repeated_effects(const Observations& observati
   return effects;
 }
 
-/// All terms of a table, of the people who have a number in every condition.
+/// All terms of an analysis of variance, of the people who have a number in every condition.
 base::Result<std::vector<Effect>> effects_of(const Observations& observations) {
   return observations.within.empty() ? between_effects(observations) : repeated_effects(observations);
 }

@@ -6,7 +6,7 @@
 
 namespace icome::study {
 
-/// A level of each of several factors, as numbers of the levels; empty where there is no factor.
+/// One level of each of several factors, as numbers of the levels; empty where there is no factor.
 using Crossing = std::vector<std::size_t>;
 
 /// The factors of one kind, in the order of the study.
@@ -17,7 +17,7 @@ std::vector<const IndependentVariable*> factors_of(const Study& study, bool betw
 /// such factor.
 std::vector<Crossing> crossings(const Study& study, bool between);
 
-/// How many crossings() gives, up to `limit`; more than that count as `limit` + 1.
+/// The number of crossings() up to `limit`; more than that count as `limit` + 1.
 std::size_t crossing_count(const Study& study, bool between, std::size_t limit);
 
 /// "with, near": the ids of its levels; "all" for the empty crossing.

@@ -18,8 +18,8 @@ Order natural_order(std::size_t conditions) {
   return order;
 }
 
-/// Every order is one that begins with condition 0, with some number added to all: the additions make a
-/// Latin square of each such order.
+/// Every order is one that begins with condition 0, with a number added to all conditions: these
+/// additions make a Latin square of each such order.
 Order full_order(std::size_t conditions, std::size_t number) {
   Order order = natural_order(conditions);
   const std::size_t rounds = number / conditions;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostTold = 50;
 constexpr std::size_t kLongestId = 64;
 
-/// As the mistake is told: "a number".
+/// The kind in the words of a message: "a number".
 const char* kind_name(TomlNode::Kind kind) {
   switch (kind) {
     case TomlNode::Kind::Table:
@@ -152,7 +152,7 @@ Text KeyReader::text(const std::string& key, bool required) {
 double KeyReader::number(const std::string& key, double otherwise, double least, double most) {
   const TomlNode* const node = take(key, TomlNode::Kind::Number, "a number");
   if (node == nullptr) return otherwise;
-  if (node->number >= least && node->number <= most) return node->number;  // neither of NaN
+  if (node->number >= least && node->number <= most) return node->number;  // both false for NaN
   add_problem(node->place, key,
               fmt::format("is {}; choose a number from {} to {}", node->number, least, most));
   return otherwise;

@@ -11,12 +11,12 @@
 
 namespace icome::study {
 
-/// What is wrong with a study file, and where.
+/// The problems of a study file, with their places.
 class Problems {
  public:
   void add(Place place, std::string sentence) { all_.push_back({place, std::move(sentence)}); }
   bool none() const { return all_.empty(); }
-  /// "source:line:column: sentence" of each, a line each, in the order of the file; beyond 50 only how many.
+  /// A line "source:line:column: sentence" for each, in the order of the file; beyond 50 only their number.
   std::string text(const std::string& source) const;
 
  private:
@@ -27,15 +27,15 @@ class Problems {
   std::vector<Problem> all_;
 };
 
-/// Words that a key may have as value, and what they mean.
+/// Words that a key may have as value, with their meanings.
 template <typename Meaning>
 using Words = std::vector<std::pair<std::string_view, Meaning>>;
 
-/// Whether this can name a column of a log: letters, digits, - and _, at most 64.
+/// Can the text name a column of a log: is it letters, digits, - and _, at most 64?
 bool is_id(std::string_view text);
 
-/// Takes values out of one table of a study file by key. What is missing, of another type or out of its
-/// range is added to the problems, and something harmless returned. The tree outlives this.
+/// Reads values of one table of a study file by key. A value that is missing, of another type or out of
+/// its range is added to the problems, and something harmless returned. The tree must outlive this.
 class KeyReader {
  public:
   KeyReader(const TomlNode& table, std::string what, const std::vector<std::string>& languages,
@@ -45,14 +45,14 @@ class KeyReader {
   Place place() const { return table_.place; }
   Problems& problems() { return problems_; }
   bool has(std::string_view key) const;
-  /// Of the value of the key, else of the table.
+  /// The place of the key's value, or of the table if there is no such key.
   Place place_of(std::string_view key) const;
 
-  /// An id; "" where it is missing or none.
+  /// An id; "" if it is missing or invalid.
   std::string id(const std::string& key = "id");
-  /// The id of something else, or "" where the key is not there.
+  /// The id of something else; "" if there is no such key.
   std::string reference(const std::string& key);
-  /// In one language.
+  /// A text in one language.
   std::string plain(const std::string& key);
   Text text(const std::string& key, bool required);
   double number(const std::string& key, double otherwise, double least, double most);
@@ -60,16 +60,16 @@ class KeyReader {
   bool flag(const std::string& key, bool otherwise);
   std::vector<std::string> strings(const std::string& key);
   std::vector<double> rising_numbers(const std::string& key);
-  /// Three numbers, each at most `farthest` from 0; nothing where the key is not there.
+  /// Three numbers, each at most `farthest` from 0; nothing if there is no such key.
   std::optional<base::Vector3> point(const std::string& key, double farthest);
   /// The tables of an array.
   std::vector<KeyReader> tables(const std::string& key, const std::string& what);
-  /// The table of a key; null where it is not there.
+  /// The table of a key; null if there is no such key.
   const TomlNode* table(const std::string& key);
 
   template <typename Meaning>
   Meaning word(const std::string& key, const Words<Meaning>& words, Meaning otherwise);
-  /// The key must be there.
+  /// Adds a problem if the key is missing.
   void require(const std::string& key, const std::string& what_to_write);
 
   /// Adds a problem for every key that nothing asked for.

@@ -9,17 +9,17 @@
 
 namespace icome::study {
 
-/// What a study may need of the program and the lab.
+/// A capability of the program and the lab that a study may need.
 struct Capability {
   std::string_view id;
   std::string_view what;  // "a tracker of the head"
   bool available;         // in this program
 };
 
-/// All that a study may name.
+/// All capabilities that a study may name.
 std::span<const Capability> capabilities();
 
-/// A need of a study that is not met, and what has it: "the study", "level 'with'".
+/// A need of a study that is not met, and the part that has it: "the study", "level 'with'".
 struct UnmetNeed {
   std::string id;
   std::string what;
@@ -27,15 +27,15 @@ struct UnmetNeed {
   Place place;
 };
 
-/// In the order of the file.
+/// The needs of the study, of its levels and of its scenes, in this order, that are not met.
 std::vector<UnmetNeed> unmet_needs(const Study& study);
 
-/// The study without these needs and without the levels and scenes that have them: what is left can be run
-/// where they cannot be met, such as by the pointer alone. Its hash is another one, so that such data are
+/// The study without these needs and without the levels and scenes that have them: the rest can be run
+/// where they cannot be met, such as with the pointer alone. Its hash is different, so that its data are
 /// kept apart. Fails when nothing is left of a factor or of the scenes. Without needs it is the same study.
 base::Result<Study> without_needs(const Study& study, const std::vector<std::string>& needs);
 
-/// What the program measures in a trial: "time", "distance", ...; dependent variables may be `from` one.
+/// The quantities measured in a trial: "time", "distance", ...; dependent variables may be `from` one.
 std::span<const std::string_view> measured_quantities();
 
 }  // namespace icome::study

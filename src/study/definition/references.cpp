@@ -16,7 +16,7 @@ class IdSet {
  public:
   IdSet(std::string what, Problems& problems) : what_(std::move(what)), problems_(problems) {}
   void add(const std::string& id, Place place) {
-    if (id.empty()) return;  // told already
+    if (id.empty()) return;  // reported already
     if (!seen_.insert(id).second)
       problems_.add(place, fmt::format("{} '{}' is there twice; name them apart.", what_, id));
   }
@@ -71,7 +71,7 @@ void check_ids(const Study& study, Problems& problems) {
   }
 }
 
-/// The question that a variable is from; null: it is from none.
+/// The question that a variable is from; null if there is none.
 const Item* item_of(const Study& study, const std::string& dependent) {
   const auto variable = std::ranges::find(study.dependent, dependent, &DependentVariable::id);
   if (variable == study.dependent.end()) return nullptr;
@@ -81,7 +81,7 @@ const Item* item_of(const Study& study, const std::string& dependent) {
   return nullptr;
 }
 
-/// Checks what a hypothesis says of the answers that a binomial test compares.
+/// Checks the answers that a hypothesis names for a binomial test.
 void check_answers(const Study& study, const Hypothesis& hypothesis, Problems& problems) {
   const std::string of = fmt::format("hypothesis '{}': ", hypothesis.id);
   const auto add = [&](const char* what) { problems.add(hypothesis.place, of + what); };
@@ -101,7 +101,7 @@ void check_answers(const Study& study, const Hypothesis& hypothesis, Problems& p
     compared = {hypothesis.first, hypothesis.second};
   }
   const Item* const item = item_of(study, hypothesis.dependent);
-  if (item == nullptr || item->kind != ItemKind::Choice) return;  // which check_study() tells
+  if (item == nullptr || item->kind != ItemKind::Choice) return;  // reported by check_study()
   for (const std::string& answer : compared)
     check_named(answer, ids_of(item->choices), fmt::format("{}'{}' has no choice", of, item->id),
                 hypothesis.place, problems);
@@ -149,7 +149,7 @@ void check_source(const Study& study, const DependentVariable& variable, Problem
               variable.place, problems);
 }
 
-/// Names of things may hold trial variables only.
+/// Checks that names of things hold no variables other than trial variables.
 void check_task(const Study& study, const Task& task, Problems& problems) {
   std::vector<std::string> names = task.shown;
   names.push_back(task.target);

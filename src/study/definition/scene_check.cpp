@@ -17,7 +17,7 @@ constexpr std::size_t kMostThingsTold = 10;  // in a sentence
 
 bool is_practised(const Trials& trials) { return trials.practice > 0 || trials.criterion.has_value(); }
 
-/// The trial variables that change which things are meant: places in Trials::variables.
+/// The indices in Trials::variables of the trial variables that occur in the names of things.
 std::vector<std::size_t> variables_of_names(const Study& study) {
   std::set<std::string> ids;
   const auto add = [&](const std::string& name) {
@@ -32,8 +32,8 @@ std::vector<std::size_t> variables_of_names(const Study& study) {
   return places;
 }
 
-/// The values that may be drawn for a trial, one vector a draw, as far as they change which things are meant.
-/// Where there are too many, each value is there at least with some of the others.
+/// The values that may be drawn for a trial, one vector for each draw, as far as they change the names of
+/// things. If there are too many draws, each value occurs at least with some of the others.
 std::vector<std::vector<std::size_t>> possible_draws(const Study& study) {
   const auto& variables = study.trials.variables;
   const std::vector<std::size_t> changed = variables_of_names(study);
@@ -66,10 +66,10 @@ std::string listed(const std::set<std::string>& names) {
   return all;
 }
 
-/// As a sentence ends; messages that files and lines begin do not.
+/// The message with a full stop, which messages that begin with file and line lack.
 std::string ended(const std::string& message) { return message.ends_with('.') ? message : message + "."; }
 
-/// Goes through the scenes and the trials that may take place in each.
+/// Checks the scenes and the trials that may take place in each.
 class SceneChecker {
  public:
   SceneChecker(const Study& study, const std::filesystem::path& folder, StudyCheck& check)
@@ -84,7 +84,7 @@ class SceneChecker {
       plan.scene = i;
       if (is_there(trials.scenes[i])) look_into(trials.scenes[i], plan);
     }
-    // The practice scene goes into the data even where nobody practises.
+    // The practice scene must be there even if nobody practises, since it goes into the data.
     if (trials.practice_scene && is_there(*trials.practice_scene) && is_practised(trials)) {
       TrialPlan plan;
       plan.practice = true;
@@ -131,7 +131,7 @@ class SceneChecker {
     check_shown(scene, *world);
   }
 
-  /// Groups and conditions change how things are chosen, not which they are: any will do.
+  /// The goal for any group and condition: these change how things are chosen, but not which things.
   base::Result<TrialGoal> goal_of(const TrialPlan& plan) {
     const auto world = reader_.in_trial(plan);
     if (!world) return tl::unexpected(world.error());
@@ -157,7 +157,7 @@ class SceneChecker {
   }
 
   void check_wrong() {
-    // Where a target is missing the reasons say so, and what is wrong cannot be told.
+    // If a target is missing the reasons say so, and wrong things cannot be told.
     if (!study_.task || refused_ || !looked_) return;
     const std::string& wrong = study_.task->wrong;
     if (wrong.empty() || wrong == "*" || wrong_found_) return;
@@ -173,9 +173,9 @@ class SceneChecker {
   StudyCheck& check_;
   SceneReader reader_;
   std::vector<std::vector<std::size_t>> draws_;  // see possible_draws()
-  bool looked_ = false;                          // into a scene at least
-  bool refused_ = false;                         // one at least
-  bool wrong_found_ = false;                     // in any
+  bool looked_ = false;                          // a scene at least has been looked into
+  bool refused_ = false;                         // a scene at least has been refused
+  bool wrong_found_ = false;                     // a wrong thing, in any scene
 };
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 namespace icome::study {
 
-/// Adds to a check what only the scenes tell, which lie in `folder`, that of the study file.
+/// Adds findings about the scenes to a check. The scenes lie in `folder`, which holds the study file.
 ///
-/// Reasons: a scene's file is not there or cannot be read, or nothing in it is the target of a trial that may
-/// take place there, whatever is drawn for it. Warnings: what the task shows or takes for wrong is not there.
-/// Each scene is read once. Of trial variables only those count that names of things hold; where these have
+/// Reasons: a scene's file is missing or cannot be read, or no object in it is the target for some values
+/// that may be drawn for a trial there. Warnings: things that the task shows or takes for wrong are not
+/// there. Each scene is read once. Only trial variables that occur in names of things count; if these have
 /// more than some hundreds of combinations, not all are looked at. Scenes without a file are left out.
 void check_scenes(const Study& study, const std::filesystem::path& folder, StudyCheck& check);
 

@@ -9,22 +9,22 @@
 
 namespace icome::study {
 
-/// The scenes of a study, each read once. The study outlives it.
+/// The scenes of a study, each read once. The study must outlive it.
 class SceneReader {
  public:
-  /// `folder`: of the study file, which scenes lie beside.
+  /// `folder` is that of the study file, beside which the scenes lie.
   SceneReader(const Study& study, std::filesystem::path folder);
 
-  /// A scene as its file says it, in the stage frame. Fails as files::read_design() does.
+  /// A whole scene from its file, in the stage frame. Fails as files::read_design() does.
   const base::Result<world::World>& whole(const std::string& file);
-  /// What is there in a trial: its scene without hidden_things(). Fails also when the trial has no scene
+  /// The world of a trial: its scene without hidden_things(). Fails also when the trial has no scene
   /// file.
   base::Result<world::World> in_trial(const TrialPlan& plan);
 
  private:
   const Study& study_;
   std::filesystem::path folder_;
-  std::map<std::string, base::Result<world::World>> worlds_;  // those that cannot be read, too
+  std::map<std::string, base::Result<world::World>> worlds_;  // including those that cannot be read
 };
 
 }  // namespace icome::study

@@ -30,7 +30,7 @@ double answering_time(const Questionnaire& questionnaire) {
   return time;
 }
 
-/// Practice trials, or what a criterion asks for at least.
+/// The number of practice trials in a condition, at least the successes that a criterion requires.
 std::size_t practice_a_condition(const Trials& trials) {
   const int wanted = trials.criterion ? trials.criterion->successes : 0;
   return std::size_t(std::max(wanted, trials.practice));

@@ -3,10 +3,10 @@
 
 namespace icome::study {
 
-/// Trials that are measured in each condition.
+/// The number of measured trials in each condition.
 std::size_t trials_a_condition(const Trials& trials);
 
-/// What a session of one person takes about, in s; see check_study() for what is assumed.
+/// The approximate length of a session of one person, s; see check_study() for the assumptions.
 double session_length(const Study& study);
 
 }  // namespace icome::study

@@ -34,7 +34,7 @@ bool compares_counts(Test test) {
   return test == Test::ChiSquared || test == Test::Fisher || test == Test::McNemar || test == Test::Binomial;
 }
 
-/// Why a hypothesis's test does not suit its variables; empty where it does.
+/// The reason why a hypothesis's test does not suit its variables; empty if it does.
 std::string test_misfit(const Hypothesis& hypothesis, const DependentVariable& dependent,
                         const IndependentVariable* factor) {
   if (hypothesis.test == Test::None) return "has no test; write which one is to decide";
@@ -64,16 +64,16 @@ std::string test_misfit(const Hypothesis& hypothesis, const DependentVariable& d
   return {};
 }
 
-/// Whether a hypothesis that test_misfit() has something against is tested all the same.
+/// Is a hypothesis tested although test_misfit() objects to it?
 bool is_tested_anyway(const Hypothesis& hypothesis, const DependentVariable& dependent) {
   return dependent.scale == Scale::Ordinal && compares_means(hypothesis.test);
 }
 
-/// How many people in all the design needs; nothing where it is not simple to say.
+/// The power of a hypothesis's test and the people that it needs; nothing where it is not simple to say.
 std::optional<HypothesisPower> power_of(const Study& study, const Hypothesis& hypothesis) {
   const IndependentVariable* const factor = factor_named(study, hypothesis.factor);
   if (factor == nullptr || factor->levels.size() != 2 || !compares_means(hypothesis.test)) return {};
-  // An F-test of two levels is a t-test on both sides.
+  // An F-test of two levels is a two-sided t-test.
   const bool one_sided = hypothesis.test == Test::TTest && hypothesis.direction != Direction::Differ;
   stats::PowerSettings settings;
   settings.alpha = hypothesis.alpha;
@@ -89,7 +89,7 @@ std::optional<HypothesisPower> power_of(const Study& study, const Hypothesis& hy
   return power;
 }
 
-/// Looks at one thing after the other.
+/// Checks one part of a study after the other.
 class Checker {
  public:
   explicit Checker(const Study& study) : study_(study) {}
@@ -176,7 +176,7 @@ class Checker {
     }
   }
 
-  /// A few people who gave one of three answers are enough for shares to be unequal.
+  /// Warns that a few people who give one of three answers are enough for unequal shares.
   void advise_on_shares(const Hypothesis& hypothesis, const DependentVariable& dependent) {
     ItemPlace place;
     if (hypothesis.test != Test::ChiSquared || !hypothesis.factor.empty()) return;
@@ -206,7 +206,7 @@ class Checker {
       if (power.power < kWantedPower && is_first_of_its_power(power)) warn_of_power(power);
   }
 
-  /// Hypotheses about the same factor mostly have the same power, which is told once.
+  /// Hypotheses about the same factor mostly have the same power, which is reported once.
   bool is_first_of_its_power(const HypothesisPower& power) const {
     const auto first = std::ranges::find(result_.powers, power.needed, &HypothesisPower::needed);
     return &*first == &power;
@@ -239,7 +239,7 @@ class Checker {
            fmt::format("a session takes about {:.0f} minutes, which tires people.", result_.session / 60));
   }
 
-  /// Closed questions can be analysed, open ones explain what comes unexpected (thesis 6.3.4).
+  /// Closed questions can be analysed, open ones explain unexpected results (thesis 6.3.4).
   void check_questions() {
     bool open = false, closed = false;
     for (const Questionnaire& questionnaire : study_.questionnaires)

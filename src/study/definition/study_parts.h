@@ -16,17 +16,17 @@ std::vector<std::string> read_needs(KeyReader& keys);
 
 /// "independent", "dependent", "control" and "hypotheses".
 void read_variables(KeyReader& keys, Study& study);
-/// "trials", with what lies in it.
+/// "trials", with all that it holds.
 void read_trials(KeyReader& keys, const std::vector<std::string>& languages, Trials& trials);
-/// "task"; nothing where it is not there.
+/// "task"; nothing if it is missing.
 std::optional<Task> read_task(KeyReader& keys, const std::vector<std::string>& languages);
 /// "select": touch, click or push.
 Choosing read_choosing(KeyReader& keys, Choosing otherwise);
-/// "start": where the pointer starts; nothing where it is not there.
+/// "start": the start of the pointer; nothing if it is missing.
 std::optional<base::Vector3> read_start(KeyReader& keys);
 /// "questionnaires".
 void read_questionnaires(KeyReader& keys, Study& study);
-/// Adds a problem for every id that is there twice, every one that names nothing, and numbers that do not
+/// Adds a problem for every id that occurs twice, every id that names nothing, and numbers that do not
 /// fit together.
 void check_references(const Study& study, Problems& problems);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMostPeople = 100000.0;
 constexpr int kLargestSeed = 2147483647;
 
-/// "en", "nl", "pt-BR": what a language is called in BCP 47.
+/// Can the tag be that of a language in BCP 47, such as "en", "nl" or "pt-BR"?
 bool is_language(const std::string& tag) { return is_id(tag) && tag.size() >= 2 && tag.size() <= 35; }
 
 std::vector<std::string> read_languages(const TomlNode& root, Problems& problems) {

@@ -7,11 +7,11 @@
 
 namespace icome::study {
 
-/// What `icome study new` can begin with: "blank", "head-tracking", "menu".
+/// The templates that `icome study new` can begin with: "blank", "head-tracking", "menu".
 std::vector<std::string> template_names();
 
-/// The study file of a template, with `name` as the study's name where that is an id. Fails where there is no
-/// such template.
+/// The study file of a template, with `name` as the study's name if that is an id. Fails if there is no such
+/// template.
 base::Result<std::string> study_template(std::string_view template_name, const std::string& name);
 
 /// A design that a template's trials take place in.
@@ -20,7 +20,7 @@ struct TemplateScene {
   std::string_view text;
 };
 
-/// The scenes of a template; none where there is no such template.
+/// The scenes of a template; none if there is no such template.
 std::vector<TemplateScene> template_scenes(std::string_view template_name);
 
 }  // namespace icome::study

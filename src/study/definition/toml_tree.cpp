@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-// toml++ 3.3 asserts that a key begins behind every '[', where "[=" and "[[[" are only bad TOML, which it
-// tells of itself a few lines later; without assertions it even has the compiler rely on it.
+// toml++ 3.3 asserts that a key begins behind every '[', though "[=" and "[[[" are only bad TOML, which it
+// reports itself a few lines later; without assertions it even lets the compiler rely on that.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(expression) static_cast<void>(0)
@@ -31,7 +31,7 @@ void add_members(const toml::table& table, TomlNode& node) {
   });
 }
 
-/// The library bounds how deep values may lie in each other, and with it this recursion.
+/// The library limits how deep values may be nested, and thereby this recursion.
 TomlNode node_of(const toml::node& source) {
   TomlNode node;
   node.place = place_of(source.source());
@@ -56,7 +56,7 @@ TomlNode node_of(const toml::node& source) {
   return node;
 }
 
-/// Every value with its length before it, so that no two trees give the same bytes.
+/// Writes every value with its length before it, so that no two trees give the same bytes.
 void write_canonical(const TomlNode& node, std::string& out) {
   const auto write_text = [&](char mark, const std::string& text) {
     out += fmt::format("{}{}:{}", mark, text.size(), text);

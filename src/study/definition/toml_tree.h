@@ -10,7 +10,7 @@ namespace icome::study {
 
 struct TomlMember;
 
-/// A value of a TOML file and where it stands.
+/// A value of a TOML file, with its place.
 struct TomlNode {
   enum class Kind : std::uint8_t { Table, Array, String, Number, Boolean, Date };
   Kind kind = Kind::Table;
@@ -19,7 +19,7 @@ struct TomlNode {
   double number = 0.0;
   bool boolean = false;
   std::vector<TomlNode> elements;
-  std::vector<TomlMember> members;  // as they stand in the file
+  std::vector<TomlMember> members;  // in the order of the file
 };
 
 struct TomlMember {
@@ -28,11 +28,11 @@ struct TomlMember {
   TomlNode value;
 };
 
-/// Reads TOML 1.0. Fails with the source, line and column of what is no TOML.
+/// Reads TOML 1.0. Fails with the source, line and column of the text that is not TOML.
 base::Result<TomlNode> parse_toml(std::string_view text, const std::string& source);
 
-/// The same for files that say the same: comments, layout, the order of keys and how numbers are spelled do
-/// not count.
+/// A hash that is equal for files with the same contents: comments, layout, the order of keys and the
+/// spelling of numbers do not count.
 std::uint64_t toml_hash(const TomlNode& node);
 
 }  // namespace icome::study

@@ -17,7 +17,7 @@ double distance(const base::Bounds& bounds, const base::Vector3& point) {
   return bounds.exteriorDistance(point);
 }
 
-/// The names of an object and of all that it is part of, its own first.
+/// The names of an object and of the objects that it is part of, its own first.
 std::vector<std::string> names_of(const world::World& world, world::ObjectId id) {
   std::vector<std::string> names;
   for (const world::PhysicalObject* object = world.find(id); object != nullptr;
@@ -39,7 +39,7 @@ std::vector<world::ObjectId> shaped_objects(const world::World& world) {
   return shaped;
 }
 
-/// What the levels of a crossing change.
+/// Applies the changes that the levels of a crossing make.
 void apply_levels(const Study& study, bool between, std::size_t crossing, TrialGoal& goal) {
   const auto factors = factors_of(study, between);
   const Crossing levels = crossings(study, between)[crossing];

@@ -10,7 +10,7 @@
 namespace icome::study {
 namespace {
 
-/// Random numbers of one of the things that are drawn for a person, apart from all others'.
+/// The random numbers for one kind of draw for a person, independent of all others.
 base::Random random_of(const Study& study, const Participant& participant, std::uint64_t position,
                        std::uint64_t subject) {
   std::uint64_t seed = study.seed;
@@ -19,7 +19,7 @@ base::Random random_of(const Study& study, const Participant& participant, std::
   return base::Random(seed);
 }
 
-/// The `block`-th of the shuffles of 0 ... count - 1 that the random numbers give.
+/// The `block`-th shuffle of 0 ... count - 1 that the random numbers give.
 std::vector<std::size_t> shuffle(base::Random random, std::size_t count, std::size_t block) {
   std::vector<std::size_t> order(count);
   for (std::size_t turn = 0; turn <= block; ++turn) {
@@ -29,7 +29,7 @@ std::vector<std::size_t> shuffle(base::Random random, std::size_t count, std::si
   return order;
 }
 
-constexpr std::uint64_t kScenes = 0;            // what is drawn; trial variables follow
+constexpr std::uint64_t kScenes = 0;            // a subject of draws; trial variables follow
 constexpr std::uint64_t kPractice = 1U << 20U;  // practice trials are drawn apart
 
 std::size_t drawn_value(const TrialVariable& variable, base::Random random, std::size_t number) {

@@ -11,13 +11,13 @@
 namespace icome::study {
 namespace {
 
-// These follow what test_numbers() and test_counts() refuse (analysis_numbers.cpp, analysis_counts.cpp).
+// The cases that test_numbers() and test_counts() refuse (analysis_numbers.cpp, analysis_counts.cpp).
 
 /// A question, and whether each person answers it in several conditions.
 struct AskedItem {
   const Item& item;
-  bool in_conditions = false;  // it is asked after each, of which there may be but one
-  bool repeated = false;       // there are several
+  bool in_conditions = false;  // asked after each condition, of which there may be only one
+  bool repeated = false;       // asked after each of several conditions
 };
 
 std::string numbers_misfit(const AskedItem& asked, const IndependentVariable& factor) {

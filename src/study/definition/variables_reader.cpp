@@ -41,7 +41,7 @@ Scale read_scale(KeyReader& keys) {
   return keys.word<Scale>("type", kScales, Scale::Ratio);
 }
 
-/// Of what can be read for each table of an array.
+/// Reads the tables of an array as levels; `read_more` reads the keys that only some levels have.
 template <typename ReadMore>
 std::vector<Level> read_levels_with(KeyReader& keys, const std::string& key, const std::string& what,
                                     const ReadMore& read_more) {
@@ -59,7 +59,7 @@ std::vector<Level> read_levels_with(KeyReader& keys, const std::string& key, con
   return levels;
 }
 
-/// Levels of a factor say what they change in a trial.
+/// Reads the levels of a factor, which may change a trial.
 std::vector<Level> read_factor_levels(KeyReader& keys) {
   return read_levels_with(keys, "levels", "level", [](KeyReader& level_keys, Level& level) {
     if (level_keys.has("select")) level.choosing = read_choosing(level_keys, Choosing::Touch);
@@ -82,7 +82,7 @@ IndependentVariable read_independent(KeyReader& keys) {
   return factor;
 }
 
-/// What is asked of everything that is measured, of trials or of people.
+/// Reads the keys that all measured variables have, those of trials and those of people.
 template <typename Variable>
 void read_measured(KeyReader& keys, Variable& variable) {
   variable.place = keys.place();
@@ -123,7 +123,7 @@ ControlVariable read_control(KeyReader& keys) {
   return variable;
 }
 
-/// "a < b", "a > b" or "differ".
+/// Reads "a < b", "a > b" or "differ".
 void read_expected(KeyReader& keys, Hypothesis& hypothesis) {
   const std::string said = keys.plain("expected");
   if (said.empty() || said == "differ") return;

@@ -12,7 +12,7 @@
 namespace icome::study {
 namespace {
 
-/// Two groups may differ by this many people for the sake of balance; the last ones even it out.
+/// Two groups may differ by this many people for the sake of balance; the last people even it out.
 constexpr std::size_t kMostApart = 2;
 
 std::size_t spread(const std::vector<std::size_t>& counts) {
@@ -26,7 +26,7 @@ std::vector<std::size_t> group_sizes(std::size_t groups, const std::vector<Alloc
   return sizes;
 }
 
-/// For each factor how many people of the class that `person` has are in each group.
+/// For each factor, the number of people in each group who have the same class as `person`.
 std::vector<std::vector<std::size_t>> alike_counts(const AllocationPlan& plan,
                                                    const std::vector<Allocated>& already,
                                                    const Classes& person) {

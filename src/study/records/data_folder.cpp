@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a study's data may come there: nothing is in it, or what we have put there.
+/// Can the folder take a study's data: is it empty, or does it hold files that were put there for one?
 bool is_free(const StudyFolder& folder) {
   std::error_code error;
   return fs::is_empty(folder.path, error) || fs::exists(folder.lock_file(), error) ||
@@ -47,14 +47,14 @@ base::Result<void> check_same(const StudyFolder& folder, std::string_view descri
   return {};
 }
 
-/// The description comes last: without it the folder was never finished, and holds nobody.
+/// Writes the description last: without it the folder was never finished, and holds nobody.
 base::Result<void> write_first_files(const StudyFolder& folder) {
   if (auto wrote = write_whole(folder.people(), header_of(people_columns(folder))); !wrote) return wrote;
   if (auto synced = sync_folder(folder.path); !synced) return synced;
   return write_whole(folder.description(), description_text(folder));
 }
 
-/// What can be made again from the study; `anew`: in place of what is there.
+/// Writes the files that can be made again from the study; `anew`: in place of those that are there.
 base::Result<void> write_study_files(const StudyFolder& folder, std::string_view text, bool anew) {
   const std::vector<std::pair<fs::path, std::string>> files = {
       {folder.study_copy(), std::string(text)},
@@ -67,8 +67,8 @@ base::Result<void> write_study_files(const StudyFolder& folder, std::string_view
   return sync_folder(folder.path);
 }
 
-/// Where the copy of a scene is. Those that do not lie below the study file go by their name in a folder of
-/// their own, since names of different folders may be the same.
+/// The path of a scene's copy. Scenes that do not lie below the study file keep their file name, in a
+/// folder of their own, since file names from different folders may be the same.
 fs::path scene_copy(const StudyFolder& folder, const std::vector<SceneFile>& scenes, const SceneFile& scene) {
   const fs::path normal = fs::path(scene.file).lexically_normal();
   const bool below = normal.is_relative() && !normal.empty() && *normal.begin() != "..";
@@ -78,7 +78,7 @@ fs::path scene_copy(const StudyFolder& folder, const std::vector<SceneFile>& sce
          normal.filename();
 }
 
-/// Scenes are a part of what people are shown: they stay what they were, as the study does.
+/// Keeps a copy of a scene. Scenes are part of what people are shown: like the study, they must not change.
 base::Result<void> keep_scene(const StudyFolder& folder, const std::vector<SceneFile>& scenes,
                               const SceneFile& scene, bool anew) {
   const fs::path copy = scene_copy(folder, scenes, scene);
@@ -95,8 +95,8 @@ base::Result<void> keep_scene(const StudyFolder& folder, const std::vector<Scene
   return sync_folder(copy.parent_path());
 }
 
-/// Whether nobody has been enrolled: the folder can be begun anew, whatever it was to be. Fails where people
-/// are there without what says what their data are of.
+/// Has nobody been enrolled, so that the folder can be begun anew, for any study? Fails where there are
+/// people, but no description that says which study their data belong to.
 base::Result<bool> holds_nobody(const StudyFolder& folder, bool described) {
   const auto people = read_whole(folder.people());
   if (!people) return tl::unexpected(people.error());
@@ -106,7 +106,7 @@ base::Result<bool> holds_nobody(const StudyFolder& folder, bool described) {
                     ": is missing, which says what these data are of; put it back.");
 }
 
-/// Begins the folder, or looks whether it holds data of this study.
+/// Begins the folder, or checks that it holds data of this study.
 base::Result<void> prepare(const StudyFolder& folder, std::string_view text,
                            const std::vector<SceneFile>& scenes) {
   if (auto made = make_folder(folder.path); !made) return made;
@@ -120,7 +120,7 @@ base::Result<void> prepare(const StudyFolder& folder, std::string_view text,
   const auto nobody = holds_nobody(folder, description->has_value());
   if (!nobody) return tl::unexpected(nobody.error());
   const auto same = *description ? check_same(folder, **description) : base::Result<void>();
-  // A program that was killed while it began, or that enrolled nobody, binds to nothing.
+  // A folder that a killed program has begun, or in which nobody has been enrolled, may be begun anew.
   const bool is_ours = !*description || parse_description(**description, {});
   const bool anew = *nobody && is_ours && (!*description || !same);
   if (!same && !anew) return same;
@@ -132,7 +132,7 @@ base::Result<void> prepare(const StudyFolder& folder, std::string_view text,
   return sync_folder(folder.path);
 }
 
-/// The id as the folder has it: simulated people's say so.
+/// The id as the folder has it, with a prefix for simulated people. Fails if it is invalid.
 base::Result<std::string> checked_id(const StudyFolder& folder, const std::string& id) {
   const bool marked = id.starts_with(kSimulated);
   if (marked && !folder.simulated)
@@ -143,7 +143,7 @@ base::Result<std::string> checked_id(const StudyFolder& folder, const std::strin
                                 kLongestPerson - (folder.simulated ? kSimulated.size() : 0)));
 }
 
-/// As people mix them up: 7 and 007 are one, and so are p1 and P1.
+/// The id in a form in which those that people mix up are equal: 7 and 007, or p1 and P1.
 std::string spoken_id(const std::string& id) {
   std::string spoken = id.substr(std::min(id.find_first_not_of('0'), id.size()));
   for (char& letter : spoken)
@@ -151,7 +151,7 @@ std::string spoken_id(const std::string& id) {
   return spoken;
 }
 
-/// Who has that id, or one that is taken for it; none: nobody.
+/// The person with that id, or one that can be taken for it; null if there is none.
 const Participant* who_has(const std::vector<Participant>& people, const std::string& id) {
   const auto person =
       std::ranges::find(people, spoken_id(id), [](const Participant& one) { return spoken_id(one.id); });
@@ -170,7 +170,7 @@ std::string next_id(const StudyFolder& folder, const std::vector<Participant>& p
   }
 }
 
-/// Why somebody cannot be enrolled under an id that is used.
+/// The error for enrolling somebody under an id that is used.
 base::Error used_id(const StudyFolder& folder, const std::vector<Participant>& people,
                     const std::string& asked) {
   const Participant* const person = who_has(people, asked);
@@ -190,13 +190,13 @@ base::Error used_id(const StudyFolder& folder, const std::vector<Participant>& p
 
 std::size_t group_of(const Study& study, const std::vector<Participant>& people, const Classes& classes) {
   std::vector<Allocated> already;
-  // Their answers were looked at when they were read.
+  // The answers were checked when they were read.
   for (const Participant& person : people)
     already.push_back({classes_of(study, person.control).value(), person.group});
   return allocate(allocation_plan(study), already, classes);
 }
 
-/// The place in the study of who comes after those.
+/// Sets the group, number and order of a person who comes after those enrolled.
 void place(const Study& study, const std::vector<Participant>& people, const Classes& classes,
            Participant& person) {
   person.group = group_of(study, people, classes);
@@ -242,7 +242,7 @@ base::Result<DataFolder> DataFolder::open(const Study& study, std::string_view t
   if (auto prepared = prepare(open->folder, text, scenes); !prepared) return tl::unexpected(prepared.error());
   auto people = people_now(open->folder);
   if (!people) return tl::unexpected(people.error());
-  // A program that ended may not have come to it. What cannot be read is told to who opens that person.
+  // An earlier program may have ended before this. Records that cannot be read fail when they are opened.
   (void)update_phenotypes(*open);
   return DataFolder(std::make_unique<Parts>(Parts{std::move(open), std::move(*people)}));
 }

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartEnding = ".part";
 constexpr std::uint64_t kLargestFile = 1U << 28U;  // bytes; a session of a whole day has less
-constexpr mode_t kForAll = 0666;                   // less what the person's umask takes away
+constexpr mode_t kForAll = 0666;                   // less the bits of the person's umask
 
-/// Calls again what a signal interrupted.
+/// Repeats a call that a signal interrupted.
 template <typename Call>
 auto retry_on_eintr(Call&& call) {
   auto result = call();
@@ -40,12 +40,12 @@ tl::unexpected<base::Error> not_written(const fs::path& path, int why) {
 }
 
 Descriptor opened(const fs::path& path, int flags) {
-  // Opening must not wait for whoever is at the other end of a pipe.
+  // Opening must not wait for the other end of a pipe.
   return Descriptor(
       retry_on_eintr([&] { return ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, kForAll); }));
 }
 
-/// False, with errno, when not all could be written.
+/// Writes all bytes at the offset. Returns false, with errno, when not all could be written.
 bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t done =
@@ -179,7 +179,7 @@ bool AppendFile::cut_to_size() {
   return sync_file(file_.number());
 }
 
-/// Otherwise rows would go where nobody finds them.
+/// Checks that the path still names this file; otherwise rows would go where nobody finds them.
 base::Result<void> AppendFile::look_that_it_is_there() const {
   struct stat mine {
   }, there{};

@@ -9,7 +9,7 @@
 
 namespace icome::study {
 
-/// A file that the system has opened for us. Owns it; without one it is negative.
+/// A file descriptor of the system. Owns it; the number is negative if there is none.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -23,33 +23,33 @@ class Descriptor {
   int number_;
 };
 
-/// The bytes of a file; none where there is no such file. Fails when it is no ordinary file, larger than any
-/// that a study has, or cannot be read.
+/// The bytes of a file; none where there is no such file. Fails when it is not an ordinary file, larger than
+/// any file of a study, or cannot be read.
 base::Result<std::optional<std::string>> read_whole(const std::filesystem::path& path);
 
-/// What a file is called while it is written.
+/// The name of a file while it is being written.
 std::filesystem::path part_of(const std::filesystem::path& path);
 bool is_part(const std::filesystem::path& path);
 
-/// Puts a file there with all of its bytes, in place of the one that was, or changes nothing. The bytes are
-/// on the disk itself; that the file is there, only after sync_folder().
+/// Writes a whole file in place of the one that was there, or changes nothing. The bytes are on the disk
+/// itself; the file's name is only after sync_folder().
 base::Result<void> write_whole(const std::filesystem::path& path, std::string_view bytes);
 
-/// The same where there is no such file.
+/// Writes a whole file if there is no such file.
 base::Result<void> write_missing(const std::filesystem::path& path, std::string_view bytes);
 
-/// What came to a folder or went from it, on the disk itself.
+/// Brings the files that were added to a folder or removed from it to the disk itself.
 base::Result<void> sync_folder(const std::filesystem::path& folder);
 
-/// Makes a folder and those that it lies in, where there is none, on the disk itself.
+/// Makes a folder and its parents, where there are none, on the disk itself.
 base::Result<void> make_folder(const std::filesystem::path& folder);
 
-/// Holds a file against other programs and other holders in this one, until it ends.
+/// A lock on a file against other programs and other holders in this one, released at its end.
 class FileLock {
  public:
-  /// Waits until it is free; makes the file where there is none.
+  /// Waits until the lock is free; makes the file if there is none.
   static base::Result<FileLock> take(const std::filesystem::path& path);
-  /// None: another holds it.
+  /// Returns nothing if another holds the lock.
   static base::Result<std::optional<FileLock>> try_take(const std::filesystem::path& path);
 
  private:
@@ -60,10 +60,10 @@ class FileLock {
 /// A file that grows by rows.
 class AppendFile {
  public:
-  /// Of a file that is there, up to `size`; what lies after it (a row that was cut off) is taken away.
+  /// Opens an existing file up to `size`; anything after it (a row that was cut off) is removed.
   static base::Result<AppendFile> open(const std::filesystem::path& path, std::uint64_t size);
 
-  /// Adds a row, which is on the disk itself then. When that fails, the file is as it was before.
+  /// Adds a row, which is on the disk itself afterwards. On failure, the file is as it was before.
   base::Result<void> append(std::string_view row);
 
  private:
@@ -73,8 +73,8 @@ class AppendFile {
 
   std::filesystem::path path_;
   Descriptor file_;
-  std::uint64_t size_;   // of what is on record
-  bool longer_ = false;  // what failed could not be taken away yet
+  std::uint64_t size_;   // bytes on record
+  bool longer_ = false;  // bytes of a failed row could not be removed yet
 };
 
 }  // namespace icome::study

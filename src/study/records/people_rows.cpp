@@ -43,7 +43,7 @@ std::optional<double> finite_number(const std::string& text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Why this is no value of a variable of numbers; empty: it is one.
+/// The reason why this is not a value of a variable of numbers; empty if it is one.
 std::string why_no_number(const ControlVariable& variable, const std::string& answer) {
   const auto value = finite_number(answer);
   if (!value) return fmt::format("'{}' is a number, and '{}' is none.", variable.id, cell_of(answer));
@@ -54,7 +54,7 @@ std::string why_no_number(const ControlVariable& variable, const std::string& an
   return {};
 }
 
-/// Why this is no answer; empty: it is one.
+/// The reason why this is not an answer to the variable; empty if it is one.
 std::string why_no_control(const ControlVariable& variable, const std::string& answer) {
   const std::string by_level = base::suggestion(
       answer, variable.levels.empty() ? std::vector<std::string>() : level_ids(variable.levels));
@@ -70,7 +70,7 @@ std::string why_no_control(const ControlVariable& variable, const std::string& a
                            by_level.ends_with('?') ? "" : ".");
 }
 
-/// What a row says besides the id and the answers.
+/// Reads the cells of a row other than the id and the answers.
 void read_place(RowReader& row, const Study& study, const std::vector<std::string>& groups,
                 Participant& person) {
   person.number = row.whole() - 1;
@@ -107,10 +107,10 @@ base::Result<Participant> parse_person(const TsvRow& cells, const Columns& colum
   return person;
 }
 
-/// Ids come once, numbers rise: those of all people, and those in each group.
+/// Checks that ids are unique and that numbers rise, both those of all people and those in each group.
 class PeopleSequence {
  public:
-  /// Why this person cannot come next; empty: they can.
+  /// The reason why this person cannot come next; empty if they can.
   std::string why_not(const Participant& next) {
     if (!ids_.insert(next.id).second) return fmt::format("sub-{} is there twice.", next.id);
     const bool rises = next.number >= next_number_ && next.order_row >= next_of_group_[next.group];

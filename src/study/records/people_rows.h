@@ -15,20 +15,20 @@ Columns people_columns(const StudyFolder& folder);
 
 std::string person_row(const StudyFolder& folder, const Participant& participant);
 
-/// Who takes part.
+/// The people who take part, as read from participants.tsv.
 struct People {
   std::vector<Participant> participants;
-  std::size_t whole = 0;  // bytes of the rows that are whole; 0: not even the header is
-  bool torn = false;      // the last row is not
+  std::size_t whole = 0;  // bytes of the whole rows; 0: not even the header is whole
+  bool torn = false;      // the last row is not whole
 };
 
-/// Fails, naming the line, on what no participants.tsv of this study holds.
+/// Fails, naming the line, on anything that a participants.tsv of this study cannot hold.
 base::Result<People> parse_people(std::string_view text, const StudyFolder& folder);
-/// No file: nobody.
+/// Reads participants.tsv. Without the file there is nobody.
 base::Result<People> read_people(const StudyFolder& folder);
 
-/// What people answer about themselves, with "" where nothing was said; fails, naming the variable, on what
-/// is no level or number, and where groups are balanced by an answer that is not there.
+/// Checked answers to the control variables, "" where nothing was said. Fails, naming the variable, on an
+/// answer that is not a level or number, and on a missing one by which groups are balanced.
 base::Result<std::vector<std::string>> checked_control(const Study& study, std::vector<std::string> answers);
 
 }  // namespace icome::study

@@ -13,7 +13,7 @@
 namespace icome::study {
 namespace {
 
-/// Of answers after a condition; the empty crossing: of answers to what is asked once.
+/// The column of an item for answers after a condition; with the empty crossing, of an item asked once.
 Column item_column(const Study& study, const Item& item, const Crossing& condition) {
   Column column = {item.id, first_text(item.text), item.unit, column_levels(item.choices), true};
   if (item.kind == ItemKind::Rating)
@@ -32,7 +32,7 @@ bool is_after_conditions(const Questionnaire& questionnaire) {
   return questionnaire.when == AskWhen::AfterCondition;
 }
 
-/// Null: none. What is not asked after conditions is answered once, wherever that stands.
+/// A person's answer to an item; null if there is none. An item asked once may have it at any position.
 const std::string* find_answer(const StudyFolder& folder, const Questionnaire& questionnaire,
                                const Item& item, const Progress& progress, std::size_t position) {
   const std::string name = fmt::format("{}.{}", questionnaire.id, item.id);
@@ -43,13 +43,13 @@ const std::string* find_answer(const StudyFolder& folder, const Questionnaire& q
   return found;
 }
 
-/// What a questionnaire has columns for: its items once, or after each condition.
+/// The crossings that a questionnaire has columns for: the conditions, or the empty one if it is asked once.
 std::vector<Crossing> columns_of(const StudyFolder& folder, const Questionnaire& questionnaire) {
   if (!is_after_conditions(questionnaire)) return {{}};
   return crossings(folder.study, false);
 }
 
-/// Where a person has a condition in the order, from 0.
+/// The place of a condition in a person's order, from 0.
 std::size_t position_of(const StudyFolder& folder, const Participant& participant, std::size_t condition) {
   const auto order = order_of(folder.study, participant.group, participant.order_row);
   return std::size_t(std::find(order.begin(), order.end(), condition) - order.begin());

@@ -9,17 +9,17 @@
 
 namespace icome::study {
 
-/// The columns of the table of all answers to a questionnaire: a row a person, as BIDS wants it; a column an
-/// item and, where it is asked after each condition, a condition ("ease_near").
+/// The columns of the table of all answers to a questionnaire: a row for each person, as BIDS requires; a
+/// column for each item and, if it is asked after each condition, for each condition ("ease_near").
 Columns phenotype_columns(const StudyFolder& folder, const Questionnaire& questionnaire);
 
-/// What somebody has answered.
+/// The answers of a person.
 struct Answers {
   Participant participant;
   Progress progress;
 };
 
-/// Writes the tables of all questionnaires anew, where they have changed. The folder is locked.
+/// Writes the tables of all questionnaires anew if they have changed. The folder must be locked.
 base::Result<void> write_phenotypes(const StudyFolder& folder, const std::vector<Answers>& people);
 
 }  // namespace icome::study

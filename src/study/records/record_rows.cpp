@@ -38,7 +38,7 @@ const Questionnaire* questionnaire_of(const Study& study, const std::string& nam
   return nullptr;
 }
 
-/// Whether an event at position 0 has to do with the first condition, rather than with none.
+/// Does an event belong to a condition? At position 0 it may belong to the first condition or to none.
 bool is_of_a_condition(const Study& study, const EventRecord& event) {
   if (event.position > 0 || event.kind == EventKind::Unpractised || event.kind == EventKind::BrokenOff)
     return true;
@@ -75,7 +75,7 @@ TrialMeasures read_measures(RowReader& row) {
   return measures;
 }
 
-/// Reads the trials of a person, each with a look at those before.
+/// Reads the trials of a person, and checks each against those before.
 class TrialReader {
  public:
   TrialReader(const StudyFolder& folder, const Participant& participant)

@@ -8,7 +8,7 @@
 
 namespace icome::study {
 
-/// What a trial measured.
+/// The measures of a trial.
 struct TrialMeasures {
   double time = 0.0;           // s, from the start (the beep) to the end
   double approach_time = 0.0;  // s, until the pointer first came into the vicinity
@@ -36,7 +36,7 @@ enum class EventKind : std::uint8_t {
   Over,         // the session is complete
 };
 
-/// What else happened.
+/// An event other than a trial.
 struct EventRecord {
   EventKind kind = EventKind::Page;
   double onset = 0.0;        // s, since the person's session began
@@ -54,20 +54,20 @@ struct Progress {
 
 /// The pointer at one tick of the servo; stage frame.
 struct Sample {
-  double time = 0.0;                                            // s, since the start; before it negative
+  double time = 0.0;                                            // s, since the start; negative before it
   base::Vector3 tip = base::Vector3::Zero();                    // m
   base::Quaternion orientation = base::Quaternion::Identity();  // stage_from_stylus
-  base::Vector3 scp = base::Vector3::Zero();                    // m, the tip where nothing is touched
+  base::Vector3 scp = base::Vector3::Zero();                    // m, equal to the tip if nothing is touched
   base::Vector3 force = base::Vector3::Zero();                  // N, on the hand
   std::uint32_t buttons = 0;                                    // bit i: button i is down
-  int touched = -1;                                             // of SceneThings, or -1
+  int touched = -1;                                             // index of Trace::things, or -1
 };
 
-/// The six degrees of freedom of a whole trial.
+/// The movement of the pointer in six degrees of freedom, over a whole trial.
 struct Trace {
   double rate_hz = 1000.0;
   std::string device;               // its name
-  std::vector<std::string> things;  // names of what Sample::touched may be
+  std::vector<std::string> things;  // names of the things that Sample::touched may be
   std::vector<Sample> samples;
 };
 

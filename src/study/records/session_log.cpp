@@ -24,7 +24,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// Puts a person's files in the order in which a session can go on with them.
+/// Repairs a person's files so that a session can go on with them.
 class Repair {
  public:
   Repair(const StudyFolder& folder, const Participant& participant, std::vector<std::string>& notices)
@@ -43,13 +43,13 @@ class Repair {
 
  private:
   void remove_parts() const {
-    std::error_code ignored;  // one that stays is written over
+    std::error_code ignored;  // a part that stays is written over
     for (const fs::path& subfolder : {folder_.behaviour(id_), folder_.motion(id_)})
       for (const fs::path& file : files_in(subfolder))
         if (is_part(file)) fs::remove(file, ignored);
   }
 
-  /// A kill leaves one at most: of more the rows have been lost, and they are not for us to throw away.
+  /// A kill leaves at most one such trace. If there are more, rows were lost: the traces are kept.
   base::Result<void> remove_trace_without_row(const PersonRecord& record) {
     const std::size_t next = record.progress.trials.size() + 1;
     bool lost = record.trials_torn && record.trials_whole > 0;
@@ -61,7 +61,7 @@ class Repair {
             fmt::format("{}: is the trace of a trial that {} does not have. Put that file back as "
                         "it was, or move the traces of its last trials elsewhere.",
                         file.string(), folder_.trials(id_).string()));
-      std::error_code ignored;  // it is written over
+      std::error_code ignored;  // a trace that stays is written over
       fs::remove(file, ignored);
       lost = true;
     }
@@ -120,7 +120,7 @@ base::Result<FileLock> lock_person(const StudyFolder& folder, const std::string&
   return std::move(**lock);
 }
 
-/// The trace and what it is of; neither where one cannot be written.
+/// Writes the trace and the JSON file that describes it. After a failure one of them may be there.
 base::Result<void> write_trace(const StudyFolder& folder, const fs::path& path, const Trace& trace) {
   auto wrote = write_whole(path, trace_table(trace));
   if (wrote) wrote = write_whole(sidecar_of(path), trace_sidecar(folder, trace));
@@ -128,7 +128,7 @@ base::Result<void> write_trace(const StudyFolder& folder, const fs::path& path, 
 }
 
 void remove_trace(const fs::path& path) {
-  std::error_code ignored;  // nobody takes it for a trial without a row
+  std::error_code ignored;  // without a row it is not taken for a trial
   fs::remove(path, ignored);
   fs::remove(sidecar_of(path), ignored);
 }

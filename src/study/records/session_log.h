@@ -12,10 +12,10 @@
 
 namespace icome::study {
 
-/// What a folder that is open shares with the sessions in it.
+/// The state that an open folder shares with the sessions in it.
 struct OpenFolder {
   StudyFolder folder;
-  /// What those have answered whose sessions are over, so that it is read once. Used under the folder's lock.
+  /// The answers of people whose sessions are over, so that they are read once. Used under the folder's lock.
   std::unordered_map<std::string, Progress> over;
 };
 
@@ -30,7 +30,7 @@ struct SessionLog::Parts {
   Progress progress;
   std::vector<std::string> notices;
 
-  /// Opens what is on record, and puts right what an end of the program has left half done.
+  /// Opens a person's record, and repairs what an end of the program has left half done.
   static base::Result<std::unique_ptr<Parts>> create(std::shared_ptr<OpenFolder> open,
                                                      const Participant& participant);
 };

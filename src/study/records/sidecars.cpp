@@ -35,7 +35,7 @@ std::string data_text(Json json, bool simulated) {
   return text_of(json);
 }
 
-/// What a table's columns are. BIDS takes each member for a column or a term, and wants an object.
+/// The JSON file of a table's columns. BIDS takes each member for a column or a term, and wants an object.
 std::string table_text(Json columns, bool simulated) {
   columns["Escapes"]["Description"] = kEscapes;
   if (simulated) columns["Simulated"]["Description"] = kWarning;
@@ -53,7 +53,7 @@ Json columns_json(const Columns& columns) {
   return json;
 }
 
-/// Each column of all tables, once.
+/// The names of the columns of all tables, each once.
 Json measured_names(const StudyFolder& folder) {
   Json names = Json::array();
   std::set<std::string> seen;
@@ -69,14 +69,14 @@ Json measured_names(const StudyFolder& folder) {
   return names;
 }
 
-/// The member of that name where it is of the type that is wanted; null: it is not.
+/// The member of that name if it has the type that is wanted, otherwise null.
 template <typename Wanted>
 const Wanted* member_of(const Json& json, const char* name) {
   const auto found = json.find(name);
   return found == json.end() ? nullptr : found->get_ptr<const Wanted*>();
 }
 
-/// Samples a second as they were taken, by their own clock.
+/// The number of samples a second by their own clock; n/a if it cannot be computed.
 Json effective_rate_json(const Trace& trace) {
   if (trace.samples.size() < 2) return kNotAvailable;
   const double seconds = trace.samples.back().time - trace.samples.front().time;

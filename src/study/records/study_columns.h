@@ -7,17 +7,17 @@
 
 namespace icome::study {
 
-/// In the first language of the study; empty where there is none.
+/// The text in the first language of the study; empty if there is none.
 inline std::string first_text(const Text& text) { return text.empty() ? std::string() : text.front(); }
 
-/// What the levels of a variable are called in tables.
+/// The names of a variable's levels in tables.
 inline std::vector<std::string> level_ids(const std::vector<Level>& levels) {
   std::vector<std::string> ids;
   for (const Level& level : levels) ids.push_back(level.id);
   return ids;
 }
 
-/// With what they mean.
+/// The levels of a variable with their meanings.
 inline std::vector<ColumnLevel> column_levels(const std::vector<Level>& levels) {
   std::vector<ColumnLevel> result;
   for (const Level& level : levels) result.push_back({level.id, first_text(level.name)});

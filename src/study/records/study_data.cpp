@@ -60,7 +60,7 @@ base::Result<StudyData::Person> read_person(const StudyFolder& folder, Participa
     if (const fs::path trace = folder.trace(id, run); !fs::exists(trace, ignored))
       notices.push_back(fmt::format("{}: is missing, the trace of a trial.", trace.string()));
   const bool complete = has_event(record->progress, EventKind::Over);
-  // Who is through has done all trials: what is not there was taken away since.
+  // A person who is through has done all trials: missing ones were removed since.
   const std::size_t all =
       conditions_of(folder.study, participant).size() * trials_a_condition(folder.study.trials);
   const auto done = std::size_t(std::ranges::count_if(
@@ -72,7 +72,7 @@ base::Result<StudyData::Person> read_person(const StudyFolder& folder, Participa
   return StudyData::Person{std::move(participant), std::move(record->progress), complete};
 }
 
-/// People's folders that no row of participants.tsv tells of.
+/// Notes folders of people who have no row in participants.tsv.
 void note_strangers(const StudyFolder& folder, const std::vector<Participant>& people,
                     std::vector<std::string>& notices) {
   std::error_code failed;

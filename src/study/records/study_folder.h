@@ -8,8 +8,8 @@
 
 namespace icome::study {
 
-/// Which study a folder holds the data of, and what is where in it (BIDS 1.9: "Common principles",
-/// "Behavioral experiments", "Motion", "Phenotypic and assessment data").
+/// The study whose data a folder holds, and the paths in the folder (BIDS 1.9: "Common
+/// principles", "Behavioral experiments", "Motion", "Phenotypic and assessment data").
 struct StudyFolder {
   std::filesystem::path path;
   Study study;
@@ -31,20 +31,20 @@ struct StudyFolder {
   std::filesystem::path trials(const std::string& id) const;
   std::filesystem::path events(const std::string& id) const;
   std::filesystem::path channels(const std::string& id) const;
-  /// Of the `run`-th trial, counted from 1; as the person's table of trials names it.
+  /// The name of the trace of the `run`-th trial, counted from 1, as in the person's table of trials.
   std::string trace_name(const std::string& id, std::size_t run) const;
   std::filesystem::path trace(const std::string& id, std::size_t run) const;
-  /// The trial whose trace, or JSON file of it, has this name; 0: it is of none.
+  /// The trial whose trace, or its JSON file, has this name; 0 if there is none.
   std::size_t run_of(const std::string& id, const std::string& file_name) const;
 };
 
-/// The JSON file that says what a table holds.
+/// The path of the JSON file that describes a table.
 std::filesystem::path sidecar_of(std::filesystem::path table);
 
-/// The study's name of letters and digits only, as BIDS has labels.
+/// The letters and digits of the study's name, as BIDS labels require; "study" if there are none.
 std::string task_label(const Study& study);
 
-/// Letters and digits, at most kLongestPerson.
+/// Has the id letters and digits only, at most kLongestPerson of them?
 bool is_person_id(const std::string& id);
 constexpr std::size_t kLongestPerson = 32;
 

@@ -16,7 +16,7 @@ struct Channel {
   const char* name;
   const char* component;
   const char* type;
-  const char* point;  // that is tracked
+  const char* point;  // tracked point
   const char* unit;
 };
 
@@ -39,12 +39,12 @@ constexpr std::array<Channel, 16> kChannels = {{
     {"touched", "n/a", "MISC", "n/a", "n/a"},
 }};
 
-/// Digits that no device has are noise that fills disks: 0.1 um, 0.1 uN and 0.1 us are told apart.
+/// Digits that no device has are noise that fills disks, so steps are 0.1 um, 0.1 uN and 0.1 us.
 constexpr double kStepsAUnit = 1e7;
 
 double rounded(double number) { return std::round(number * kStepsAUnit) / kStepsAUnit; }
 
-/// The sixteen numbers of a row.
+/// Adds a row with the sixteen numbers of a sample.
 void add_sample(const Sample& sample, fmt::memory_buffer& table) {
   const base::Quaternion& q = sample.orientation;
   const std::array<double, 14> numbers = {sample.time,

@@ -20,7 +20,7 @@ bool is_time(const std::string& quantity) {
   return quantity == "time" || quantity == "approach-time" || quantity == "homing-time";
 }
 
-/// SI; NaN for the time of a trial that never came to its end.
+/// A measure of a trial, in SI units; NaN for the time of a trial that never came to its end.
 double measured_value(const TrialMeasures& measures, const std::string& quantity) {
   if (is_time(quantity) && !measures.completed) return kNone;
   if (quantity == "time") return measures.time;
@@ -30,7 +30,7 @@ double measured_value(const TrialMeasures& measures, const std::string& quantity
   return measures.errors;
 }
 
-/// A row for each person, with nothing in it.
+/// A table with a row for each person, and no values in it.
 PersonTable empty_table(const StudyData& data, bool by_condition) {
   PersonTable table;
   table.between = factors_of(data.study, true);
@@ -50,7 +50,7 @@ PersonTable empty_table(const StudyData& data, bool by_condition) {
   return table;
 }
 
-/// The measured trials of a person in a condition that count; none unless all of the condition are there.
+/// The chosen measured trials of a person in a condition; none unless all trials of the condition are there.
 std::vector<const TrialRecord*> trials_of(const StudyData& data, const Progress& progress,
                                           std::size_t condition, TrialChoice choice) {
   const std::size_t count = trials_a_condition(data.study.trials);
@@ -63,13 +63,13 @@ std::vector<const TrialRecord*> trials_of(const StudyData& data, const Progress&
   return trials;
 }
 
-/// Where a factor stands among those of a table; their number where it does not.
+/// The place of a factor among those of a table; their number if it is not among them.
 std::size_t place_of(const std::vector<const IndependentVariable*>& factors,
                      const IndependentVariable& factor) {
   return std::size_t(std::ranges::find(factors, &factor) - factors.begin());
 }
 
-/// The number or points that were answered; NaN where they cannot be an answer to the question.
+/// The number or points that were answered; NaN if they cannot be an answer to the question.
 double answered_number(const Item& item, const std::string& text) {
   const std::optional<double> number = stats::parse_number(text);
   if (!number || !std::isfinite(*number)) return kNone;

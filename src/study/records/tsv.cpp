@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostQuoted = 40;  // bytes of a cell that a message repeats
 
 constexpr std::string_view kMarkColumn = "data";
-/// What the JSON file of a table has beside its columns.
+/// Members of a table's JSON file other than its columns.
 constexpr std::array<std::string_view, 3> kOtherMembers = {"Escapes", "Simulated", "MeasurementToolMetadata"};
 
 bool marks_simulated(const Column& column) { return column.name == kMarkColumn && !column.of_study; }
@@ -46,7 +46,7 @@ bool is_escaped(char byte) {
   return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7f || byte == '\\' || byte == '"';
 }
 
-/// Takes what follows a backslash; false: nothing that is written so.
+/// Reads an escape behind its backslash. Returns false if there is no such escape.
 bool take_escaped(std::string_view& rest, std::string& text) {
   if (rest.empty()) return false;
   const char kind = rest.front();

@@ -72,7 +72,7 @@ std::string why_no_answer(const Item& item, const std::string& answer) {
 PageText page_text(const Study& study, const Participant& participant, const Step& step) {
   const std::string title = text_for(study.title, participant);
   if (step.page == PageKind::Consent) return {title, text_for(study.consent, participant)};
-  // What the conditions are called would tell what is being compared.
+  // The names of the conditions would reveal what is being compared.
   if (step.page != PageKind::Instructions) return {title, {}};
   const std::string goal = text_for(study.goal, participant);
   const std::string instructions = text_for(study.instructions, participant);
@@ -103,7 +103,7 @@ base::Result<SessionRun> SessionRun::begin(const Study& study, SessionLog log, C
   return run;
 }
 
-/// What began with the step and is over now.
+/// Records an event that began with the step and is over now.
 base::Result<void> SessionRun::add(EventRecord event) {
   event.onset = step_began_;
   event.duration = in_ticks(clock_() - step_began_);
@@ -122,8 +122,8 @@ base::Result<void> SessionRun::note_unpractised(std::size_t position) {
   return add(std::move(event));
 }
 
-/// What comes next, when what was done is on record. What follows from the record is noted here, so that a
-/// kill or a full disk between the two costs nothing.
+/// Goes on to the next step, once the last one is on record. Events that follow from the record are noted
+/// here, so that a kill or a full disk between the two costs nothing.
 base::Result<void> SessionRun::go_on() {
   const Step next = next_step(study(), participant(), progress());
   const bool practice_is_over = next.kind == Step::Kind::Page && next.page == PageKind::Measured;
@@ -162,7 +162,7 @@ base::Result<void> SessionRun::answered(const std::vector<std::string>& answers)
     event.name = fmt::format("{}.{}", questionnaire.id, questionnaire.items[i].id);
     event.position = step_.position;
     event.value = answers[i];
-    // After an interruption some are on record already.
+    // After an interruption some answers are on record already.
     if (answer_of(progress(), event.name, event.position) != nullptr) continue;
     if (const auto added = add(std::move(event)); !added) return added;
   }
@@ -170,7 +170,7 @@ base::Result<void> SessionRun::answered(const std::vector<std::string>& answers)
 }
 
 base::Result<void> SessionRun::trial_done(const TrialMeasures& measures, const Trace& trace) {
-  if (!trial_over_) trial_over_ = clock_();  // at the first attempt to have it on record
+  if (!trial_over_) trial_over_ = clock_();  // at the first attempt to record it
   const bool recorded = !progress().trials.empty() && progress().trials.back().plan == step_.trial;
   if (!recorded) {
     TrialRecord record;

@@ -9,18 +9,18 @@
 
 namespace icome::study {
 
-/// What the study itself says on a page, in the person's language.
+/// The text of the study itself for a page, in the person's language.
 struct PageText {
   std::string title;
-  std::string body;  // paragraphs, parted by empty lines; may be empty
+  std::string body;  // paragraphs, separated by empty lines; may be empty
 };
 PageText page_text(const Study& study, const Participant& participant, const Step& step);
 
-/// One person's session: what is next, and what was done, which is on disk before the next begins. The study
-/// outlives it.
+/// One person's session: the next step, and the record of those that were done, which is on disk before the
+/// next one begins. The study must outlive it.
 class SessionRun {
  public:
-  /// Seconds since the person's session began, by whatever clock it runs.
+  /// Seconds since the person's session began, by any clock.
   using Clock = std::function<double()>;
   /// Begins the session or goes on with it; `now` is the date and time, ISO 8601. Fails as SessionLog::add().
   static base::Result<SessionRun> begin(const Study& study, SessionLog log, Clock clock,
@@ -31,17 +31,17 @@ class SessionRun {
   const Progress& progress() const { return log_.progress(); }
   const std::vector<std::string>& notices() const { return log_.notices(); }
   const Step& step() const { return step_; }
-  /// In [0, 1].
+  /// The share of the session that is done, in [0, 1].
   double share() const { return share_done(study(), participant(), progress()); }
 
-  // What was done of the step, which is of that kind; then step() is the next one. Fail as SessionLog::add(),
-  // and the step stays.
+  // Each of these records a step of its kind as done; step() is the next one then. On failure, as of
+  // SessionLog::add(), the step stays.
   base::Result<void> page_read();
   /// One answer for each item of the questionnaire, in their order; "" for none. Fails, naming the question,
-  /// on an answer that is none of its choices, no number in its range, or missing where it is required.
+  /// on an answer that is not one of its choices, not a number in its range, or missing although required.
   base::Result<void> answered(const std::vector<std::string>& answers);
   base::Result<void> trial_done(const TrialMeasures& measures, const Trace& trace);
-  /// Notes that the trial was given up, and why; it stays the step.
+  /// Notes that the trial was given up, and why; the step stays.
   base::Result<void> trial_broken_off(const std::string& why);
   /// The person does not agree to take part: the session has ended, and begin() refuses it from now on.
   base::Result<void> declined();
@@ -56,11 +56,11 @@ class SessionRun {
   SessionLog log_;
   Clock clock_;
   double step_began_ = 0.0;                // s
-  std::optional<double> trial_over_ = {};  // s, of a trial that is not on record yet
+  std::optional<double> trial_over_ = {};  // s, the end of a trial that is not on record yet
   Step step_;
 };
 
-/// Why this is no answer to the question; empty: it is one.
+/// The reason why this is not an answer to the question; empty if it is one.
 std::string why_no_answer(const Item& item, const std::string& answer);
 
 }  // namespace icome::study

@@ -24,7 +24,7 @@ std::size_t wanted_practice(const Trials& trials) {
   return std::size_t(std::max(trials.practice, trials.criterion ? trials.criterion->successes : 0));
 }
 
-/// Practice is over: it was enough, or there are no attempts left.
+/// Is practice over: was it enough, or are no attempts left?
 bool practice_is_over(const Study& study, const Progress& progress, std::size_t position) {
   const std::size_t done = count_trials(progress, position, true);
   if (done < std::size_t(study.trials.practice)) return false;
@@ -52,7 +52,7 @@ class Protocol {
 
   std::size_t last_position() const { return conditions_of(study_, participant_).size() - 1; }
 
-  // Each is true, and step_ set, when it is what comes next.
+  // Each returns true, with step_ set, if the next step is one of its own.
 
   bool page(PageKind kind, std::size_t position) {
     const std::string_view name = page_name(kind);

@@ -18,7 +18,7 @@ using session::SessionEvent;
 const charts::Colour kStartColour{0.10, 0.45, 0.95};
 constexpr double kStartRadius = 0.006;           // m
 const base::Vector3 kTowardEye(0.0, 0.25, 1.0);  // from the front, a little above
-constexpr double kHeldApart = 0.002;             // m, as far as the mouse's hand is let go astray
+constexpr double kHeldApart = 0.002;             // m from the start, beyond which a mouse's hand is put back
 
 double seconds(std::int64_t nanoseconds) { return double(nanoseconds) * 1e-9; }
 
@@ -35,7 +35,7 @@ struct TrialStage::Parts {
 
   State state = State::Idle;
   TrialPlan plan;
-  std::filesystem::path loaded;  // what is on the stage; empty: nothing of ours
+  std::filesystem::path loaded;  // the scene on the stage; empty: none of ours
   std::filesystem::path loading;
   std::vector<SessionEvent> events;
   session::DisplayWish look;
@@ -44,7 +44,7 @@ struct TrialStage::Parts {
   std::int64_t began = 0;  // ns, the first tick
   std::uint64_t lost_before = 0;
   bool beep = false;
-  bool hides = false;  // things are tried to be away
+  bool hides = false;  // things are hidden by try_out()
   TrialMeasures measures;
   Trace trace;
   std::string why;
@@ -81,7 +81,7 @@ void TrialStage::set_look(const session::DisplayWish& look) {
 }
 
 void TrialStage::begin(const TrialPlan& plan) {
-  stop();  // with the things of the trial before back, which nobody is to see
+  stop();  // brings back the things of the trial before, unseen
   parts_->plan = plan;
   parts_->load();
 }
@@ -92,7 +92,7 @@ void TrialStage::stop() {
   parts_->state = State::Idle;
 }
 
-/// What a trial has changed of the session is as before.
+/// Undoes the changes that a trial has made to the session, apart from hidden things.
 void TrialStage::Parts::leave() {
   session.hands().trace(false);
   session.hands().hold_pointer({});
@@ -150,7 +150,7 @@ void TrialStage::Parts::begin_seeking() {
   session.view().set(interaction::fitted(session.view().now(), all, kTowardEye, base::Vector3::UnitY(),
                                          session.view().aspect()));
   watch.emplace(std::move(*goal));
-  session.hands().take_trace();  // what is left of another trial
+  session.hands().take_trace();  // the rest of another trial
   lost_before = session.hands().take_trace().lost;
   session.hands().trace(true);
   began = 0;
@@ -170,7 +170,7 @@ void TrialStage::Parts::bring_back() {
   if (std::exchange(hides, false)) (void)session.history().take_back();
 }
 
-/// A ball at the start while it is sought.
+/// Shows a ball at the start while it is sought.
 void TrialStage::Parts::show_start() {
   session::DisplayWish wish = look;
   if (state == State::Seeking && watch)
@@ -195,7 +195,7 @@ TrialStage::State TrialStage::update() {
 
 void TrialStage::Parts::take_ticks() {
   const session::SessionHands::Ticks taken = session.hands().take_trace();
-  // What is lost before the pointer is caught is not kept anyway.
+  // Ticks that are lost before the pointer is caught would not be kept anyway.
   if (watch->state() == TrialWatch::State::Seeking) lost_before = taken.lost;
   if (taken.lost > lost_before)
     return fail("The computer was too busy to keep every movement: the trial has to be done again.");
@@ -208,7 +208,7 @@ void TrialStage::Parts::take_ticks() {
 }
 
 void TrialStage::Parts::take_tick(const session::PointerView& tick, const session::TouchedNames& names) {
-  if (tick.status == devices::DeviceStatus::Lost) return;  // update() hears of it
+  if (tick.status == devices::DeviceStatus::Lost) return;  // update() gets the event
   if (began == 0) began = tick.time;
   Sample sample;
   sample.time = seconds(tick.time - began);
@@ -234,8 +234,8 @@ void TrialStage::Parts::take_tick(const session::PointerView& tick, const sessio
   show_start();
 }
 
-/// A mouse does not find a place in three dimensions, and its hand would pull stronger than a device may: it
-/// is put there, and back, also where a new view has carried it away.
+/// Puts a mouse's hand at the start, and back there, also after a new view has moved it: a mouse cannot find
+/// a place in three dimensions, and its hand would pull stronger than a device may.
 void TrialStage::Parts::hold() {
   const base::Vector3& start = watch->goal().start;
   if (session.hands().is_mouse_driven() && (session.hands().pointer(0).tip - start).norm() > kHeldApart)
@@ -244,7 +244,7 @@ void TrialStage::Parts::hold() {
 
 void TrialStage::Parts::release() {
   if (state == State::Running) return;  // the tick that starts it is still to come
-  // Springs hold the pointer in all conditions alike; what the condition has of forces begins now.
+  // Springs hold the pointer in all conditions alike; the condition's setting of forces begins now.
   session.hands().hold_pointer({});
   session.hands().give_forces(watch->goal().forces);
   watch->release();

@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kCatch = 0.01;  // m
 constexpr double kLose = 0.02;   // m
-/// Who loses a thing for less than this and touches it again touches it once: hands bounce.
+/// Losing a thing for less than this and touching it again is a single touch: hands bounce.
 constexpr double kBounce = 0.25;  // s
 
-/// What is less than a microsecond or a micrometre is noise of adding up.
+/// Rounds to a microsecond or a micrometre: anything less is noise of summation.
 double in_millionths(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace
@@ -27,7 +27,7 @@ TrialWatch::State TrialWatch::step(const Sample& tick) {
     state_ = State::Holding;
     caught_ = now_;
   }
-  // Springs are only so strong: who pulls the pointer away brings it back.
+  // Springs are only so strong: a person who pulls the pointer away has to bring it back.
   if (state_ == State::Holding && !released_ && (tick.tip - goal_.start).norm() > kLose) {
     state_ = State::Seeking;
     samples_.clear();
@@ -74,7 +74,7 @@ void TrialWatch::end(bool completed, double time) {
   measures_.distance = in_millionths(measures_.distance);
 }
 
-/// What is chosen in this tick; -1: nothing.
+/// The thing chosen in this tick; -1: none.
 int TrialWatch::chosen(const Sample& tick) {
   const bool pressed = (tick.buttons & ~buttons_ & 1U) != 0;
   if (goal_.choosing == Choosing::Click) {
@@ -87,7 +87,7 @@ int TrialWatch::chosen(const Sample& tick) {
   return pushed(tick);
 }
 
-/// Parts of the same thing, which have its name, are one: the first of them.
+/// The thing that a part belongs to: things with the same name are one, for which the first of them stands.
 std::size_t TrialWatch::whole_of(int part) const {
   const std::string& name = goal_.things[std::size_t(part)].name;
   if (name.empty()) return std::size_t(part);
@@ -98,7 +98,7 @@ bool TrialWatch::is_same(int one, int other) const {
   return one == other || (one >= 0 && other >= 0 && whole_of(one) == whole_of(other));
 }
 
-/// What is touched that was not touched just now.
+/// The thing that is touched and was not touched just before; -1: none.
 int TrialWatch::touched_anew(const Sample& tick) {
   const int before = std::exchange(in_contact_, tick.touched);
   if (!is_same(before, tick.touched)) pushed_ = false;
@@ -108,7 +108,7 @@ int TrialWatch::touched_anew(const Sample& tick) {
   return anew ? tick.touched : -1;
 }
 
-/// Each contact is one push at most.
+/// The thing pushed in this tick; -1: none. Each contact is one push at most.
 int TrialWatch::pushed(const Sample& tick) {
   if (tick.touched < 0 || pushed_ || (tick.tip - tick.scp).norm() < goal_.depth) return -1;
   pushed_ = true;

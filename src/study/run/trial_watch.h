@@ -4,8 +4,8 @@
 
 namespace icome::study {
 
-/// Watches a trial tick by tick: when the pointer is at the start, how long it is held there, what it does
-/// then, and when it is over (thesis 6.5.1 and 6.6.1).
+/// Watches a trial tick by tick: the arrival of the pointer at the start, the time that it is held there,
+/// its movement afterwards, and the end (thesis 6.5.1 and 6.6.1).
 class TrialWatch {
  public:
   enum class State : std::uint8_t { Seeking, Holding, Running, Over };
@@ -13,23 +13,23 @@ class TrialWatch {
   explicit TrialWatch(TrialGoal goal)
       : goal_(std::move(goal)), touched_at_(goal_.things.size(), kNeverTouched) {}
 
-  /// The next tick; its time counts from anywhere, s, and never goes back. What is touched is the number of
-  /// one of the goal's things, or -1. The pointer is caught within 1 cm of the start.
+  /// Takes the next tick; its time counts from any origin, s, and never goes back. The touched thing is an
+  /// index of the goal's things, or -1. The pointer is caught within 1 cm of the start.
   State step(const Sample& tick);
-  /// It has been held for so long, and is to be let go.
+  /// Has the pointer been held long enough, so that it is to be released?
   bool is_due() const { return state_ == State::Holding && now_ - caught_ >= goal_.hold; }
-  /// It is let go: the next tick is the start.
+  /// Releases the pointer: the next tick is the start.
   void release() { released_ = true; }
 
   State state() const { return state_; }
   const TrialGoal& goal() const { return goal_; }
-  /// Until it is released, s; of Holding.
+  /// The time until the pointer is released, s; 0 unless Holding.
   double hold_left() const;
-  /// What would be chosen now, to be lit up; -1: nothing.
+  /// The thing that would be chosen now, to be lit up; -1: none.
   int lit() const { return lit_; }
-  /// Of what is over.
+  /// The measures of a trial that is over.
   const TrialMeasures& measures() const { return measures_; }
-  /// Since it was caught, times counted from the start on.
+  /// The samples since the pointer was caught, with times counted from the start.
   const std::vector<Sample>& samples() const { return samples_; }
 
  private:
@@ -51,7 +51,7 @@ class TrialWatch {
   bool released_ = false;
   bool approached_ = false;
   int lit_ = -1;
-  // At the last tick or before.
+  // The state at the last tick or before.
   base::Vector3 tip_ = base::Vector3::Zero();
   std::uint32_t buttons_ = 0;
   std::vector<double> touched_at_;  // s, when each thing was touched last

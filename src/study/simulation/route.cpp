@@ -32,7 +32,7 @@ bool crosses(const base::Vector3& from, const base::Vector3& to, const base::Bou
   return enter < leave;
 }
 
-/// Places and which of them see each other.
+/// Places between which the way may go, and a test whether they see each other.
 class Map {
  public:
   Map(const base::Vector3& from, const base::Vector3& to, const std::vector<base::Bounds>& boxes,
@@ -49,7 +49,7 @@ class Map {
     for (const base::Bounds& box : boxes_) add_places_round(grown(box, (kCornerMargin - 1.0) * clearance));
   }
 
-  /// Dijkstra's way from the first place to the second.
+  /// The shortest way from the first place to the second, by Dijkstra's algorithm; straight if none is free.
   std::vector<base::Vector3> shortest() const {
     const std::size_t count = places_.size();
     std::vector<double> length(count, std::numeric_limits<double>::infinity());
@@ -82,7 +82,7 @@ class Map {
       places_.push_back(place);
   }
 
-  /// The corners of a box, and on each edge where the straight way passes nearest.
+  /// Adds the corners of a box, and the point of each edge that the straight way passes nearest.
   void add_places_round(const base::Bounds& box) {
     for (int number = 0; number < 8; ++number) {
       const base::Vector3 corner = box.corner(base::Bounds::CornerType(number));

@@ -18,11 +18,11 @@ namespace {
 using base::Vector3;
 
 constexpr double kRate = 1000.0;         // Hz
-constexpr double kClearance = 0.010;     // m, kept from what is not to be touched
+constexpr double kClearance = 0.010;     // m, kept from things that are not to be touched
 constexpr double kWayTolerance = 0.006;  // m, at corners of the way
-constexpr double kHover = 0.008;         // m, before what is to be touched
-constexpr double kTouchDepth = 0.010;    // m, that a touch aims behind the surface
-constexpr double kRestDepth = 0.001;     // m, that a click rests on it
+constexpr double kHover = 0.008;         // m, before the thing that is to be touched
+constexpr double kTouchDepth = 0.010;    // m, behind the surface, aimed at by a touch
+constexpr double kRestDepth = 0.001;     // m, behind the surface, where a click rests
 constexpr double kTouchTime = 0.25;      // s, of the last bit of a touch
 constexpr double kPushTime = 0.6;        // s, of a push
 constexpr double kPushSurplus = 6.0;     // times the depth: surfaces push back
@@ -64,7 +64,7 @@ std::string any_answer(const Item& item, base::Random& random) {
   return "SIMULATED";
 }
 
-/// A trial under way. Time passes in ticks of the servo; what the hand wants to do is written as it goes.
+/// A trial under way. Time passes in ticks of the servo; the code gives the hand's intentions in sequence.
 class SimulatedTrialRun {
  public:
   SimulatedTrialRun(const interaction::PersonModel& model, const TrialGoal& goal, const FeltScene& where,
@@ -119,7 +119,7 @@ class SimulatedTrialRun {
     return settings;
   }
 
-  /// The face of the target that is turned to the start.
+  /// Finds the face of the target that is turned to the start.
   void find_goal() {
     const TrialGoal& goal = watch_.goal();
     base::Bounds target;
@@ -171,7 +171,7 @@ class SimulatedTrialRun {
     return found == numbers_.end() ? -1 : found->second;
   }
 
-  /// Time goes on while the hand goes from one place to another, or stays; less where the trial ends.
+  /// Lets time pass while the hand moves to a place, or stays; less time if the trial ends.
   void pass(double duration, const Vector3& to) {
     const Vector3 from = at_;
     const int ticks = std::max(1, int(std::lround(duration * kRate)));
@@ -183,7 +183,7 @@ class SimulatedTrialRun {
 
   void rest(double duration) { pass(duration, at_); }
 
-  /// One movement; its end is off by noise, and a goal's depth is not seen sharply.
+  /// Makes one movement; its end is off by noise, and a goal's depth is not seen sharply.
   void move(const Vector3& corner, bool last) {
     Vector3 seen = corner;
     const double blur = model_.stereo_acuity * kEyeDistance * kEyeDistance / model_.eye_distance;
@@ -234,7 +234,7 @@ class SimulatedTrialRun {
   haptics::Servo servo_;
   std::map<world::ObjectId, int> numbers_;
   std::vector<base::Bounds> obstacles_;
-  Vector3 at_;  // where the hand wants to be, without its tremor; m, stage frame
+  Vector3 at_;  // the intended place of the hand, without its tremor; m, stage frame
   Vector3 outward_, surface_, hover_;
   double tolerance_ = kWayTolerance;
   Vector3 phase_, frequency_;  // rad, Hz: of the tremor, by axis

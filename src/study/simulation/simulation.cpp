@@ -10,11 +10,11 @@
 namespace icome::study {
 namespace {
 
-constexpr double kPageTime = 5.0;                       // s, that a simulated person reads a page
+constexpr double kPageTime = 5.0;                       // s, for a page that a simulated person reads
 constexpr double kQuestionTime = 4.0;                   // s, a question
 constexpr const char* kBegan = "2000-01-01T00:00:00Z";  // any date would do
 
-/// When the last thing on record was over, s.
+/// The time at which the last thing on record was over, s.
 double time_so_far(const Progress& progress) {
   double time = 0.0;
   for (const EventRecord& event : progress.events) time = std::max(time, event.onset + event.duration);
@@ -22,7 +22,7 @@ double time_so_far(const Progress& progress) {
   return time;
 }
 
-/// One person's session, from where it is to its end; false: told to end early.
+/// One person's session, from its present step to its end; go() returns false if told to end early.
 class SimulatedSession {
  public:
   SimulatedSession(const Study& study, SceneReader& scenes, const std::function<bool(double)>& tell)

@@ -23,7 +23,7 @@ void collect_shapes(const world::World& world, ObjectId root, std::vector<Object
   }
 }
 
-/// Has it letters that were typed into it, and may be taken back or typed once more?
+/// Is there typing in the widget that can be undone or redone?
 bool has_typing(const QObject& widget) {
   if (const auto* line = qobject_cast<const QLineEdit*>(&widget))
     return line->isUndoAvailable() || line->isRedoAvailable();
@@ -34,8 +34,8 @@ bool has_typing(const QObject& widget) {
   return line && has_typing(*line);
 }
 
-/// Leaves the keys of undo and redo to the design, unless what has the keyboard has typing of its own to take
-/// back: fields would claim them always.
+/// Leaves the keys of undo and redo to the design, unless the widget with the keyboard focus has typing of
+/// its own to undo: fields would always claim these keys.
 class UndoKeys final : public QObject {
  public:
   using QObject::QObject;
@@ -116,7 +116,7 @@ void EditActions::fill_duplicate_as() {
 }
 
 void EditActions::refresh() {
-  // Actions of recovered work are called what a file says.
+  // Names of recovered actions come from a file and can be of any length.
   const auto name = [](QAction& action, const QString& what, const std::string& undone) {
     constexpr qsizetype kMost = 80;
     const QString line = shortened((what + ' ' + one_line(undone)).trimmed(), kMost);

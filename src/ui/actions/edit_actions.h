@@ -7,18 +7,18 @@
 
 namespace icome::ui {
 
-/// Every object that has a shape, of the scene that is shown.
+/// Selects every object with a shape in the shown scene.
 void select_all(session::Session& session);
 
-/// The edit menu: its actions know what there is to undo and whether something is selected. Session and
-/// window outlive it.
+/// The edit menu. Its actions are named and enabled by the undo history and the selection. Session and window
+/// outlive it.
 class EditActions {
  public:
   struct Hooks {
-    std::function<bool()> begin;                      // before the world is touched from here; false: do not
-    std::function<void(const std::string&)> refused;  // why something was not done
-    std::function<void()> rename;                     // of the selected object, in the tree
-    std::function<void()> search;                     // in the tree
+    std::function<bool()> begin;                      // asked before the world is edited; false: do not
+    std::function<void(const std::string&)> refused;  // tells why something was not done
+    std::function<void()> rename;                     // renames the selected object, in the tree
+    std::function<void()> search;                     // starts a search in the tree
   };
   EditActions(session::Session& session, Hooks hooks);
   EditActions(const EditActions&) = delete;
@@ -30,7 +30,7 @@ class EditActions {
   QAction* duplicate() const { return duplicate_; }
   QAction* delete_objects() const { return delete_; }
 
-  /// Brings names and states up to date.
+  /// Brings names and states of the actions up to date.
   void refresh();
 
  private:

@@ -28,7 +28,7 @@ QString text_of_some(const std::vector<std::string>& sentences) {
 
 FileActions::FileActions(session::Session& session, QSettings& settings, QWidget& window)
     : session_(session), window_(window), recent_(settings) {
-  // Who goes on with this design does not want it replaced when another has been read.
+  // An edit of this design cancels the reading of another, which would replace it.
   session_.on_change([this](const world::Changes* changes) {
     if (!changes || !session_.files().opening()) return;
     session_.files().cancel_open();
@@ -54,7 +54,7 @@ void FileActions::fill_recent() {
   recent_menu_->clear();
   const QStringList labels = recent_.labels();
   for (int i = 0; i < labels.size(); ++i) {
-    // An ampersand in a file's name is none of a shortcut.
+    // An ampersand in a file's name must not become a mnemonic.
     const QString name = QString(labels[i]).replace('&', "&&");
     QAction* action = recent_menu_->addAction(i < 9 ? QString("&%1  %2").arg(i + 1).arg(name) : name);
     action->setStatusTip(recent_.paths()[i]);
@@ -230,14 +230,14 @@ void FileActions::ask(const std::function<void()>& then) {
       then();
     } else if (answer == QMessageBox::Save) {
       then_ = then;
-      // The same format would leave out the same again.
+      // Saving in the same format would leave out the same things again.
       session_.files().left_out().empty() ? save() : save_as();
     }
   });
   box->open();
 }
 
-/// A person decides about what another program wrote, or what a damaged file still holds.
+/// Asks whether to replace a file that another program has changed, or a damaged one.
 void FileActions::ask_to_replace(const SessionEvent& event) {
   auto* box = new QMessageBox(QMessageBox::Warning, "Replace the File?", QString::fromStdString(event.text),
                               QMessageBox::Cancel, &window_);
@@ -260,7 +260,7 @@ void FileActions::ask_to_replace(const SessionEvent& event) {
   box->open();
 }
 
-/// A design that is not there any more is not offered again.
+/// Takes a design that no longer exists off the list of recent files.
 void FileActions::forget_missing() {
   std::error_code error;
   const bool there = opened_.empty() || std::filesystem::exists(opened_, error);
@@ -269,7 +269,7 @@ void FileActions::forget_missing() {
   if (recent_menu_) recent_menu_->setEnabled(!recent_.paths().isEmpty());
 }
 
-/// A person who gave it up without knowing gets it back with one click.
+/// The note on a cancelled reading; where an edit cancelled it, the note offers to open the file again.
 Note FileActions::hear_of_cancelled(const SessionEvent& event) {
   const std::filesystem::path design = std::exchange(opened_, {});
   const auto work = std::exchange(recovered_, std::nullopt);
@@ -306,7 +306,7 @@ Note FileActions::hear(const SessionEvent& event) {
     default:
       break;
   }
-  // Asks again if the work has gone on meanwhile. What waits to be written comes first.
+  // Asks again if the design was edited meanwhile. A save that is still pending is waited for.
   const bool written =
       event.kind == SessionEvent::Kind::Saved || event.kind == SessionEvent::Kind::SavedInPart;
   if (written && then_ && !session_.files().saving()) when_safe(std::exchange(then_, nullptr));

@@ -11,45 +11,45 @@
 
 namespace icome::ui {
 
-/// The design as a file: new, open, save, and what to ask before work would be lost. Dialogs belong to the
-/// window; nothing here waits for one. Session and window outlive it.
+/// The file menu: new, open and save, and the question before unsaved work is lost. Dialogs are children of
+/// the window, and nothing here waits for one. Session and window outlive it.
 class FileActions {
  public:
   FileActions(session::Session& session, QSettings& settings, QWidget& window);
   FileActions(const FileActions&) = delete;
   FileActions& operator=(const FileActions&) = delete;
 
-  /// Puts them into the menu.
+  /// Adds the actions to the menu.
   void fill(QMenu& menu);
   QAction* open_design() const { return open_; }
   QAction* save_design() const { return save_; }
 
-  /// What else is to happen before the design is touched from here, such as ending a drag; false: what is
-  /// asked for here is not to happen.
+  /// Sets a hook that is called before an action here touches the design, for example to end a drag. Where it
+  /// returns false, the action does not take place.
   void on_begin(std::function<bool()> begin) { begin_ = std::move(begin); }
 
-  /// What else is to happen when the design is written, and before it is left.
+  /// Sets hooks that are called when the design is written, and before it is left.
   void on_save(std::function<void()> saving) { saving_ = std::move(saving); }
   void on_leave(std::function<void()> leaving) { leaving_ = std::move(leaving); }
 
-  /// Opens it, once what would be lost is saved or given up.
+  /// Opens the design, once unsaved work is saved or given up.
   void open(const std::filesystem::path& design);
   void recover(const std::filesystem::path& journal);
-  /// The file as it was saved last, instead of what is there.
+  /// Goes back to the file as it was last saved; to a new design where there is no file.
   void revert();
   void choose_and_open();
   void save();
   void save_again();
   void save_as();
-  /// Calls `then` when nothing would be lost any more: at once, after saving, or after a person has given it
-  /// up; not at all when the person thinks better of it.
+  /// Calls `then` when no work would be lost any more: at once, after saving, or after a person has given the
+  /// work up; not at all when the person cancels.
   void when_safe(const std::function<void()>& then);
 
-  /// What happened to the session; gives what to say of it.
+  /// Handles an event of the session; returns the note that tells of it.
   Note hear(const session::SessionEvent& event);
-  /// The name of the design as people know it.
+  /// Name of the design for people: its file name, or "Untitled".
   QString design_name() const;
-  /// What is being read or written, for people; null when nothing is.
+  /// Tells people which file is being read or written; null when none is.
   QString doing() const;
 
  private:
@@ -69,18 +69,18 @@ class FileActions {
   QAction *open_ = nullptr, *save_ = nullptr;
   std::function<bool()> begin_ = [] { return true; };
   std::function<void()> saving_ = [] {}, leaving_ = [] {};
-  std::function<void()> then_ = {};                         // waits for the work to be saved
-  std::filesystem::path opened_ = {};                       // is being read
-  std::filesystem::path saved_ = {};                        // was, or is being, written
-  std::optional<session::RecoverableWork> recovered_ = {};  // the last
-  bool given_up_ = false;                                   // reading, as a person went on with the design
+  std::function<void()> then_ = {};                         // called once the work is saved
+  std::filesystem::path opened_ = {};                       // the file being read
+  std::filesystem::path saved_ = {};                        // the file that was, or is being, written
+  std::optional<session::RecoverableWork> recovered_ = {};  // the recovery asked for last
+  bool given_up_ = false;                                   // reading, cancelled by an edit of the design
   bool asking_ = false;
 };
 
-/// For a file dialog: all formats together, then each; and those that can be written.
+/// Filters of file dialogs: all formats together, then each, to open; the writable formats, to save.
 QStringList open_filters();
 QStringList save_filters();
-/// The ending of a filter's first format, without the dot: "wrl" for "VRML 2.0 (*.wrl *.vrml)".
+/// The first file extension of a filter, without the dot: "wrl" for "VRML 2.0 (*.wrl *.vrml)".
 QString ending_of(const QString& filter);
 
 }  // namespace icome::ui

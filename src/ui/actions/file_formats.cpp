@@ -9,7 +9,7 @@ struct Format {
   bool written;
 };
 
-// What `files` reads and writes, in the words of people.
+// The formats that `files` reads and writes, with their names for people.
 constexpr Format kFormats[] = {
     {"ICOME", "*.icome", true},
     {"VRML 2.0", "*.wrl *.vrml", true},

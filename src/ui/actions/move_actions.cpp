@@ -56,7 +56,7 @@ const NumberEntry kNumbers[] = {
      [](GrabSettings& it) -> double& { return it.weight; }},
 };
 
-/// NaN is not within.
+/// Is the value allowed? False for NaN.
 bool in_range(const NumberEntry& entry, double value) { return value >= entry.least && value <= entry.most; }
 
 std::string range_of(const NumberEntry& entry) {

@@ -7,15 +7,15 @@
 
 namespace icome::ui {
 
-/// How things move: whether they stop at surfaces, what they snap to, and what the hand feels of that; kept
-/// in the settings. Session and settings outlive it.
+/// The menu of moving objects: whether they stop at surfaces, what they snap to, and the forces that the hand
+/// feels then; kept in the settings. Session and settings outlive it.
 class MoveActions {
  public:
   MoveActions(session::Session& session, QSettings& settings);
   MoveActions(const MoveActions&) = delete;
   MoveActions& operator=(const MoveActions&) = delete;
 
-  /// `window` is that of the dialog with distances and forces.
+  /// `window` is the parent of the dialog with distances and forces.
   void fill(QMenu& menu, QWidget& window);
 
  private:

@@ -29,7 +29,7 @@ void add_duplicates(QMenu& menu, session::Session& session, const ObjectMenu& en
   ways->setToolTipsVisible(true);
   const bool all = has_children(session);
   for (const DuplicateChoice& choice : duplicate_choices()) {
-    // Without children there are but two ways.
+    // Without children only two of the ways differ.
     const bool simple = choice.how == Duplicate::CopyObject || choice.how == Duplicate::CloneObject;
     if (!all && !simple) continue;
     QAction* action = ways->addAction(choice.text);
@@ -66,7 +66,7 @@ base::Result<void> duplicate_selected(session::Session& session, Duplicate how) 
   if (models.empty()) return {};
   world::EditGroup group;
   std::vector<ObjectId> made;
-  // Each becomes the last below its parent, as of now: the last is made first.
+  // Each is put at the present end of its parent's children; so the last comes first, to keep their order.
   for (const ObjectId model : models | std::views::reverse) {
     const ObjectId parent = session.world().find(model)->parent;
     auto duplication = world::duplicate(session.world(), model, how, parent, session.ids());

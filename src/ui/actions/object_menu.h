@@ -8,15 +8,15 @@
 
 namespace icome::ui {
 
-// What menus, keys and tool bars do to the selected objects: each is one action to undo. What comes about is
-// selected then. Nothing happens without a selection.
+// Edits of the selected objects, for menus, keys and tool bars. Each is one action to undo, and selects the
+// objects that it creates. Without a selection they do nothing.
 
 base::Result<void> delete_selected(session::Session& session);
 base::Result<void> group_selected(session::Session& session);
-/// Each beside its model, under the same parent.
+/// Places each duplicate beside its model, under the same parent.
 base::Result<void> duplicate_selected(session::Session& session, world::Duplicate how);
 
-/// The six ways to duplicate as people choose them, the most wanted first.
+/// A way to duplicate, as it is offered to people. There are six, the most wanted first.
 struct DuplicateChoice {
   world::Duplicate how;
   const char* text;
@@ -24,14 +24,14 @@ struct DuplicateChoice {
 };
 const std::vector<DuplicateChoice>& duplicate_choices();
 
-/// What a menu of the selected objects needs from the place where it opens.
+/// Callbacks of the place where a menu of the selected objects opens.
 struct ObjectMenu {
   std::function<void()> zoom = {};     // none: not offered
   std::function<void()> rename = {};   // none: not offered
-  std::function<void()> picture = {};  // that is to lie on them, to be chosen; none: not offered
+  std::function<void()> picture = {};  // lets a person choose a picture for them; none: not offered
   std::function<void(const std::string&)> refused = {};
 };
-/// Adds the actions that suit the selection; none without one.
+/// Adds the actions that suit the selection; none where nothing is selected.
 void fill_object_menu(QMenu& menu, session::Session& session, const ObjectMenu& entries);
 
 }  // namespace icome::ui

@@ -14,7 +14,7 @@ using interaction::Operation;
 
 namespace {
 
-/// The text with its first letter that no other entry has to be reached by it.
+/// The text with a mnemonic: its first letter that is not taken yet, if there is one.
 QString with_letter(QString text, QString& taken) {
   text.replace('&', "&&");
   for (qsizetype i = 0; i < text.size(); ++i) {
@@ -37,7 +37,7 @@ void OperationActions::fill(QMenu& menu, const QMenu& edit) {
     hooks_.find();
   })->setIcon(icon(Icon::Search));
   menu.addSeparator();
-  std::map<std::string, std::pair<QMenu*, QString>> groups;  // and the letters that are taken there
+  std::map<std::string, std::pair<QMenu*, QString>> groups;  // submenus, and the mnemonics taken in each
   for (const Operation& operation : interaction::operations()) {
     const QString twin = QString("edit.%1").arg(QString::fromStdString(operation.name));
     if (!operation.plan || edit.findChild<QAction*>(twin)) continue;

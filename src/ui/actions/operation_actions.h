@@ -9,22 +9,22 @@
 
 namespace icome::ui {
 
-/// The model menu: every operation that is not in the edit menu, each group as a menu of its own. What asks
-/// for nothing but objects is performed at once on what is selected. Session and window outlive it.
+/// The model menu: every operation that is not in the edit menu, with a submenu for each group. Operations
+/// that ask only for objects are performed at once on the selection. Session and window outlive it.
 class OperationActions {
  public:
   struct Hooks {
-    std::function<bool()> begin;                             // before the world is touched; false: do not
-    std::function<void(const std::string&)> refused;         // why something was not done
-    std::function<void(const std::string&)> told;            // what people should know of what was done
-    std::function<void(const interaction::Operation&)> ask;  // for what there is to be said
-    std::function<void()> find;                              // one of all commands by its name
+    std::function<bool()> begin;                             // asked before an edit; false: do not edit
+    std::function<void(const std::string&)> refused;         // tells why something was not done
+    std::function<void(const std::string&)> told;            // tells a remark on what was done
+    std::function<void(const interaction::Operation&)> ask;  // opens the form for the operation's arguments
+    std::function<void()> find;                              // opens the search among all commands
   };
   OperationActions(session::Session& session, Hooks hooks);
   OperationActions(const OperationActions&) = delete;
   OperationActions& operator=(const OperationActions&) = delete;
 
-  /// `edit` is filled: it has "edit.delete", say, for the operation "delete".
+  /// `edit` must be filled already: an operation such as "delete" is left out where it has "edit.delete".
   void fill(QMenu& menu, const QMenu& edit);
 
  private:

@@ -25,7 +25,7 @@ QStringList picture_filters() { return {"Pictures (*.png *.jpg *.jpeg *.gif)", "
 
 PictureActions::PictureActions(session::Session& session, Hooks hooks, QWidget& window)
     : session_(session), hooks_(std::move(hooks)), window_(window) {
-  // In another design other objects may go by the same ids.
+  // In another design the same ids may belong to other objects.
   session_.on_change([this](const world::Changes* changes) {
     if (!changes) reading_.reset();
   });

@@ -15,30 +15,30 @@ namespace icome::ui {
 /// Does the name of the file say that it is a picture, of any kind?
 bool is_named_as_picture(const std::filesystem::path& file);
 
-/// For a file dialog.
+/// Filters of a file dialog for pictures.
 QStringList picture_filters();
 
-/// Pictures that are brought in by hand: chosen in a dialog for what is selected, or dropped on an object.
-/// They are read on a thread of their own. Session and window outlive it.
+/// Puts pictures on objects by hand: on the selection, chosen in a dialog, or on an object that a file is
+/// dropped on. Pictures are read on a thread of their own. Session and window outlive it.
 class PictureActions {
  public:
   struct Hooks {
-    std::function<bool()> begin;                      // before the world is touched from here; false: do not
-    std::function<void(const std::string&)> refused;  // why something was not done
+    std::function<bool()> begin;                      // asked before the world is edited; false: do not
+    std::function<void(const std::string&)> refused;  // tells why something was not done
   };
   PictureActions(session::Session& session, Hooks hooks, QWidget& window);
   PictureActions(const PictureActions&) = delete;
   PictureActions& operator=(const PictureActions&) = delete;
 
-  /// Puts the entry into the menu.
+  /// Adds the action to the menu.
   void fill(QMenu& menu);
-  /// Asks for the file of a picture that is to lie on what is selected.
+  /// Asks for the file of a picture to put on the selected objects.
   void choose();
-  /// Lays the picture on the objects and all below the groups among them, as soon as it has been read: as one
-  /// action.
+  /// Puts the picture on the objects, and on all below the groups among them, as soon as it has been read; as
+  /// one action.
   void put(const std::filesystem::path& file, const std::vector<world::ObjectId>& objects);
 
-  /// Once for each update of the session.
+  /// To be called once for each update of the session.
   void tick();
 
  private:
@@ -53,7 +53,7 @@ class PictureActions {
   session::Session& session_;
   Hooks hooks_;
   QWidget& window_;
-  QString folder_ = {};  // where the last one was
+  QString folder_ = {};  // of the last picture
   std::unique_ptr<Reading> reading_ = {};
 };
 

@@ -18,7 +18,7 @@ class RecentFiles {
   void add(const std::filesystem::path& design);
   void remove(const std::filesystem::path& design);
   void clear();
-  /// What to call them in a menu: the file's name, with its folder where two have the same.
+  /// Labels for a menu: the file names, each with its folder where two are equal.
   QStringList labels() const;
 
  private:
@@ -28,7 +28,7 @@ class RecentFiles {
   QStringList paths_;
 };
 
-/// Between the two ways to write a path, whatever the locale.
+/// Conversions between the two types of a path, whatever the locale.
 QString text_of(const std::filesystem::path& path);
 std::filesystem::path path_of(const QString& text);
 

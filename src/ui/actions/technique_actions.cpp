@@ -24,7 +24,7 @@ constexpr const char* kTopic = "recording";
 
 struct SelectingEntry {
   Selecting selecting;
-  Holding suits;  // how one holds what is selected so, unless another way is chosen
+  Holding suits;  // the holding that goes with it, unless another is chosen
   const char* name;
   const char* text;
   const char* hint;
@@ -86,7 +86,7 @@ TechniqueActions::TechniqueActions(session::Session& session, QSettings& setting
                                    std::function<void(const Note&)> tell)
     : session_(session), settings_(settings), window_(window), tell_(std::move(tell)) {}
 
-/// What was recorded was done by the technique there was.
+/// Ends a recording first, as it is one of the technique before.
 void TechniqueActions::choose(const char* key, std::string_view name) {
   end_recording();
   settings_.setValue(key, QString::fromUtf8(name.data(), qsizetype(name.size())));
@@ -94,7 +94,7 @@ void TechniqueActions::choose(const char* key, std::string_view name) {
   chosen_();
 }
 
-/// Sizes are those that suit the device and the view as they are now.
+/// Applies the chosen technique, in sizes that suit the device and the view as they are now.
 void TechniqueActions::apply() {
   const auto* selecting =
       chosen_entry(kSelectingEntries, &SelectingEntry::selecting, settings_, kSelectingKey);
@@ -108,7 +108,7 @@ void TechniqueActions::apply() {
       chosen_entry(kTravellingEntries, &TravellingEntry::travelling, settings_, kTravellingKey);
   const double reach =
       session_.hands().pointers() > 0 ? session_.hands().pointer_info(0).workspace_radius : 0.1;
-  // Sizes for a desk are sizes that can be.
+  // This cannot fail: sizes for a desk are valid.
   (void)session_.techniques().set(session::desk_technique(
       selecting->selecting, holding ? holding->holding : selecting->suits,
       travelling ? travelling->travelling : Travelling::None, reach, session_.view().now().distance));

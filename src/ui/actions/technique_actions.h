@@ -10,9 +10,9 @@
 
 namespace icome::ui {
 
-/// The menu of interaction techniques (thesis chapter 2): by which one the hands select, hold and travel,
-/// kept in the settings; and recording what is done by it. Session, settings and the window, which dialogs
-/// belong to, outlive it.
+/// The menu of interaction techniques (thesis chapter 2): the ways in which the hands select, hold and
+/// travel, kept in the settings; and the recording of what is done with them. Session, settings and the
+/// window, which is the parent of dialogs, outlive it.
 class TechniqueActions {
  public:
   TechniqueActions(session::Session& session, QSettings& settings, QWidget& window,
@@ -20,18 +20,18 @@ class TechniqueActions {
   TechniqueActions(const TechniqueActions&) = delete;
   TechniqueActions& operator=(const TechniqueActions&) = delete;
 
-  /// Adds the menu; the session works by what was chosen last from then on.
+  /// Adds the menu; from then on the session uses the technique that was chosen last.
   void fill(QMenu& menu);
 
-  /// Calls `chosen` whenever another way was chosen.
+  /// Calls `chosen` whenever a person has chosen another technique.
   void on_choice(std::function<void()> chosen) { chosen_ = std::move(chosen); }
-  /// Of the technique that is at work: its name, and what mouse and wheel do by it; empty: it is by touch.
+  /// Name of the technique in use, and its use of mouse and wheel as a hint; both empty for touch.
   QString name() const;
   QString hint() const;
 
-  /// Records into this file from now on; what is refused is told.
+  /// Records into this file from now on; tells of an error in a note.
   void begin_recording(const std::filesystem::path& path);
-  /// Writes what was recorded, and tells where it is. Without effect while nothing is.
+  /// Writes the recording, and tells where it is. Without effect while nothing is recorded.
   void end_recording();
 
  private:

@@ -26,7 +26,7 @@ constexpr DirectionEntry kDirections[] = {
     {"iso", "view.iso", "&Isometric", "0"},
 };
 
-/// A name from a design, as an entry of a menu.
+/// A name from a design as text of a menu entry; `otherwise` where the name is empty.
 QString entry_of(const std::string& name, const char* otherwise) {
   const QString line = shortened(one_line(name));
   return line.isEmpty() ? QString(otherwise) : QString(line).replace('&', "&&");

@@ -11,8 +11,8 @@
 
 namespace icome::ui {
 
-/// The view menu: where one looks from and how the scene looks, kept in the settings. Session, tools and
-/// settings outlive it.
+/// The view menu: directions and viewpoints to look from, and the look of the scene, kept in the settings.
+/// Session, tools and settings outlive it.
 class ViewActions {
  public:
   ViewActions(session::Session& session, SceneTools& tools, QSettings& settings);
@@ -31,7 +31,7 @@ class ViewActions {
   bool shadows() const { return shadows_->isChecked(); }
   /// Calls `changed` when grid or shadows are switched.
   void on_look(std::function<void()> changed) { look_changed_ = std::move(changed); }
-  /// Brings states up to date.
+  /// Brings the states of the actions up to date.
   void refresh();
 
  private:

@@ -7,16 +7,16 @@
 
 namespace icome::ui {
 
-/// A colour of the world, as it is drawn on the screen. A click chooses another.
+/// A button that shows a colour of the world as the screen shows it. A click opens a dialog for another.
 class ColourButton final : public QAbstractButton {
  public:
-  /// `what`: whose colour it is, for the title of the dialog and for screen readers.
+  /// `what` names the colour, for the title of the dialog and for screen readers.
   ColourButton(const QString& what, QWidget* parent);
 
   void on_choice(std::function<void(const world::Colour&)> choose) { choose_ = std::move(choose); }
-  /// Nothing: several objects, several colours.
+  /// Shows a colour; none where several objects have several colours.
   void show_colour(std::optional<world::Colour> colour);
-  /// What stands there where there is no colour to be shown.
+  /// Sets the text that is shown in place of a colour; "mixed" unless it is set.
   void set_none(const QString& none) { none_ = none; }
 
   QSize sizeHint() const override;
@@ -33,7 +33,7 @@ class ColourButton final : public QAbstractButton {
   std::optional<world::Colour> colour_ = {};
 };
 
-/// Both are as displays show them.
+/// Conversions between the two types of colours, both as displays show them.
 QColor screen_colour(const world::Colour& colour);
 world::Colour world_colour(const QColor& colour);
 

@@ -3,7 +3,7 @@
 
 namespace icome::ui {
 
-/// A line of plain text that takes no more room than there is: what does not fit is left out at its end.
+/// A line of plain text that is elided at its end where it does not fit, rather than asking for more room.
 class ElidedLabel final : public QLabel {
  public:
   explicit ElidedLabel(QWidget* parent);

@@ -15,14 +15,14 @@ using world::ObjectId;
 
 namespace {
 
-/// What names an object and no other: its name, or else its number.
+/// Text that means this object and no other: its name, or else its number.
 QString telling_name(const world::World& world, ObjectId id) {
   const std::string& name = world.find(id)->name;
   const auto found = interaction::named_object(world, name);
   return found && *found == id ? QString::fromStdString(name) : QString("#%1").arg(qulonglong(id.value));
 }
 
-/// The text in front of what is being typed: names that are complete already.
+/// The text before the name that is being typed: names that are complete already.
 QString complete_part(const QString& text) {
   const qsizetype comma = text.lastIndexOf(',');
   return comma < 0 ? QString() : text.left(comma) + ", ";
@@ -41,7 +41,7 @@ ObjectField::ObjectField(const interaction::Parameter& parameter, std::function<
   auto* completer = new QCompleter(offers_, this);
   completer->setCompletionMode(QCompleter::UnfilteredPopupCompletion);
   setCompleter(completer);
-  // Before the completer hears of it, so that it offers what suits the text.
+  // Connected before the completer, so that it offers names that suit the text.
   connect(this, &QLineEdit::textEdited, this, [this](const QString& text) { type(text); });
   connect(completer, qOverload<const QString&>(&QCompleter::activated), this,
           [this](const QString& text) { type(text); });
@@ -71,7 +71,7 @@ void ObjectField::type(const QString& text) {
   changed_();
 }
 
-/// Objects whose name begins as, or else holds, what is being typed.
+/// Offers objects with names that begin with, or else contain, the text that is being typed.
 void ObjectField::offer(const QString& text) {
   constexpr qsizetype kMost = 12;
   const QString before = parameter_.kind == ParameterKind::Objects ? complete_part(text) : QString();

@@ -10,18 +10,18 @@ class QStringListModel;
 
 namespace icome::ui {
 
-/// Which object an operation is for, or which ones: those that are selected, as long as nobody types others.
-/// Emptied, it follows the selection again.
+/// A field for the object, or the objects, that an operation takes: the selection, unless a person types
+/// names. Emptied, it follows the selection again.
 class ObjectField final : public QLineEdit {
  public:
-  /// `world` is what objects are named of.
+  /// `world` gives the world in which names of objects are looked up.
   ObjectField(const interaction::Parameter& parameter, std::function<const world::World&()> world,
               QWidget* parent);
 
   void on_change(std::function<void()> changed) { changed_ = std::move(changed); }
-  /// What the selection says for it.
+  /// Takes the selected objects, which are the value as long as nothing is typed.
   void follow(const std::vector<world::ObjectId>& objects);
-  /// As operations take it; null: nothing.
+  /// The value as operations take it; null: no object.
   interaction::Value value() const;
 
  private:

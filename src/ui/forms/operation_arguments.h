@@ -7,36 +7,36 @@
 
 namespace icome::ui {
 
-/// Is it the objects alone that an operation asks for? Then it is performed at once.
+/// Does the operation ask for nothing but objects? Then it is performed at once.
 bool asks_only_for_objects(const interaction::Operation& operation);
 
-/// Which of the selected objects each parameter stands for unless something else is said: an `Object` takes
-/// the next one, `Objects` all that are left. Only those that must be said take any. As many as there are
+/// The selected objects that each parameter takes by default: an `Object` takes the next one,
+/// `Objects` all that are left. Only required parameters take any. There are as many entries as
 /// parameters.
 std::vector<std::vector<world::ObjectId>> shares_of(const std::vector<interaction::Parameter>& parameters,
                                                     const std::vector<world::ObjectId>& selection);
 
-/// Names objects so that they are found whatever others are called; null for none.
+/// Refers to objects by number, so that they are found whatever others are called; null for none.
 interaction::Value value_of(const interaction::Parameter& parameter,
                             const std::vector<world::ObjectId>& objects);
 
-/// What is to be said where all is selected that an operation asks for; nothing where too few or too many
-/// objects are.
+/// The fields of an operation where the selection gives all that it asks for; nothing where too few or too
+/// many objects are selected.
 std::optional<interaction::Value::Fields> selected_fields(const interaction::Operation& operation,
                                                           const std::vector<world::ObjectId>& selection);
 
-/// Is something said for the parameter while the operation's first, a choice, is set so?
+/// Is the parameter used while the operation's first parameter, a choice, has this value?
 bool is_asked(const interaction::Parameter& parameter, const std::string& choice);
 
-/// Holds one value to its parameter. Fails in the words of the operation.
+/// Checks one value against its parameter. Fails with the error that the operation would give.
 base::Result<void> check_value(const interaction::Parameter& parameter, const interaction::Value& value,
                                const world::World& world);
 
-/// Reads pictures for operations; a relative name counts from the folder of the design.
+/// A reader of pictures for operations; relative names start at the folder of the design.
 interaction::PictureReader picture_reader(const session::Session& session);
 
-/// Performs the operation as one action called by its title, selects what was made or changed, and gives what
-/// people should know of it, if anything. A failed one changes nothing.
+/// Performs the operation as one action with its title, selects the objects that were made or changed, and
+/// returns a remark for people, or an empty one. On failure nothing changes.
 base::Result<std::string> perform_operation(session::Session& session,
                                             const interaction::Operation& operation,
                                             const interaction::Value::Fields& fields);

@@ -22,7 +22,7 @@ struct OperationForm::Row {
   std::unique_ptr<ParameterField> field = nullptr;
   PanelSection::Row shown = {};
   QLabel* explanation = nullptr;  // may be null
-  PanelNote* note = nullptr;      // why it is refused
+  PanelNote* note = nullptr;      // the reason why it is refused
   bool asked = true;
 };
 
@@ -42,7 +42,7 @@ OperationForm::OperationForm(const Operation& operation, session::Session& sessi
 }
 
 OperationForm::~OperationForm() {
-  hide();  // what is being typed is given up while the fields are there to hear of it
+  hide();  // commits what is being typed, while the fields still exist
 }
 
 void OperationForm::add_row(const Parameter& parameter, PanelSection& section) {
@@ -70,7 +70,7 @@ void OperationForm::change(Row& row) {
   changed_();
 }
 
-/// Empty: nothing is wrong with it.
+/// Shows why a row's value is refused; empty: it is not.
 void OperationForm::explain_at(const Row& row, const std::string& why) {
   row.field->mark(!why.empty());
   row.note->keep(QString::fromStdString(why));
@@ -155,7 +155,7 @@ void OperationForm::follow_selection() {
 }
 
 QWidget* OperationForm::first_field() const {
-  // What the selection says needs no typing.
+  // Fields that the selection fills need no typing.
   for (const auto& row : rows_) {
     const bool followed = row->parameter.required && (row->parameter.kind == ParameterKind::Object ||
                                                       row->parameter.kind == ParameterKind::Objects);

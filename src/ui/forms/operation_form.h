@@ -9,7 +9,7 @@
 
 namespace icome::ui {
 
-/// All that an operation asks, a row for each parameter. Objects follow the selection until others are named.
+/// A form with a row for each parameter of an operation. Objects follow the selection until others are named.
 /// Operation and session outlive it.
 class OperationForm final : public QWidget {
  public:
@@ -17,26 +17,26 @@ class OperationForm final : public QWidget {
   ~OperationForm() override;
 
   const interaction::Operation& operation() const { return operation_; }
-  /// Calls `changed` when something else is said, also when it is still being typed.
+  /// Calls `changed` when a field changes, also while it is still being typed in.
   void on_change(std::function<void()> changed) { changed_ = std::move(changed); }
-  /// Holds what is said to another world than the session's.
+  /// Checks the fields against this world instead of the session's.
   void plan_on(std::function<const world::World&()> world) { world_ = std::move(world); }
-  /// What has been said, as plan_operation() takes it; what is said by itself is left out. Fails for what is
-  /// no value of its parameter; what is missing is for the operation to tell.
+  /// The fields that differ from their defaults, as plan_operation() takes them. Fails for an entry that is
+  /// no value of its parameter; missing values are for the operation to report.
   base::Result<interaction::Value::Fields> given() const;
-  /// The same; fields that are wrong are marked, and why stands beneath them.
+  /// Returns given(), and marks each wrong field, with the reason beneath it.
   base::Result<interaction::Value::Fields> fields();
-  /// Is there nothing yet where something must be said?
+  /// Is a required field still empty?
   bool is_incomplete() const;
-  /// Puts what an operation has refused beneath the field that it names; false: it names none.
+  /// Shows an operation's error beneath the field that it names; false: it names none.
   bool explain(const std::string& why);
-  /// The first explanation that stands beneath a field; null where all is well.
+  /// The first error that stands beneath a field; null where there is none.
   QWidget* first_explanation() const;
-  /// Takes what is being typed as said.
+  /// Commits the text that is being typed.
   void finish_typing();
-  /// Shows what is selected now where nothing else is named.
+  /// Shows the selection in the object fields in which nothing is typed.
   void follow_selection();
-  /// Where typing begins.
+  /// The first field to type in; null: the form has no fields.
   QWidget* first_field() const;
 
  private:

@@ -23,9 +23,9 @@ namespace icome::ui {
 
 namespace {
 
-constexpr int kUpdate = 16;  // ms: one preview at most in so long
-constexpr int kSlow = 100;   // ms, which would disturb typing
-constexpr int kPause = 400;  // ms in which nobody goes on typing
+constexpr int kUpdate = 16;  // ms from a change to its preview
+constexpr int kSlow = 100;   // ms, beyond which previews would disturb typing
+constexpr int kPause = 400;  // ms without typing before a slow preview or an error is shown
 
 constexpr const char* kStays = "It stays, as you went on with it. Change something here to do it once more.";
 
@@ -63,8 +63,8 @@ struct OperationPanel::Parts {
   QPushButton* close;
   OperationPreview preview;
   QTimer due;                                                  // runs until the next preview
-  QElapsedTimer since_change;                                  // of what is said; invalid: none yet
-  bool awake = false;                                          // what is said is wanted to be seen
+  QElapsedTimer since_change;                                  // of a field; invalid: none yet
+  bool awake = false;                                          // a preview of the fields is wanted
   bool slow = false;                                           // the last preview was
   std::shared_ptr<bool> alive = std::make_shared<bool>(true);  // listeners may outlive us
 };
@@ -150,26 +150,26 @@ void OperationPanel::Parts::listen() {
   session.on_change([this, guard](const world::Changes* changes) {
     if (guard.expired()) return;
     forget_remark();
-    if (!changes || !changes->objects.empty()) follow();  // names may be others
+    if (!changes || !changes->objects.empty()) follow();  // names may have changed
   });
 }
 
-/// Whoever goes on with something else has done with what was told of the last that was applied.
+/// Clears the remark on the operation that was applied last, as the person goes on with something else.
 void OperationPanel::Parts::forget_remark() {
   if (!awake && !preview.busy() && note->text() != kStays) note->clear();
 }
 
-/// Takes in what the selection says now.
+/// Takes over the present selection.
 void OperationPanel::Parts::follow() {
   if (!form || preview.busy()) return;
-  // What is there only by the preview is nothing to do anything with.
+  // Objects that exist only in the preview cannot be arguments.
   const auto is_there = [this](world::ObjectId id) { return preview.world().find(id) != nullptr; };
   if (!std::ranges::all_of(session.selection(), is_there)) return;
   form->follow_selection();
   schedule();
 }
 
-/// Something else is said.
+/// Schedules a preview, after a field has changed.
 void OperationPanel::Parts::change() {
   note->clear();
   awake = true;
@@ -186,14 +186,14 @@ void OperationPanel::Parts::schedule() {
   }
 }
 
-/// Is something being dragged, or held? It would be changed under the hand.
+/// Is something being dragged, or held? A preview would change it under the hand.
 bool OperationPanel::Parts::is_hand_busy() const {
   bool holds = QGuiApplication::mouseButtons() != Qt::NoButton;
   for (std::size_t i = 0; i < session.hands().pointers(); ++i) holds = holds || session.hands().holds(i);
   return holds;
 }
 
-/// Shows what is said now. What cannot be done may only not be typed to its end yet.
+/// Shows the preview of the fields. An error is shown after a pause only, as typing may not be at its end.
 void OperationPanel::Parts::refresh() {
   if (!form || !awake) return;
   if (is_hand_busy()) return due.start(kUpdate);
@@ -210,7 +210,7 @@ void OperationPanel::Parts::refresh() {
 }
 
 base::Result<void> OperationPanel::Parts::show(const interaction::Value::Fields& fields) {
-  // What is being done elsewhere is done; it may have been built on what was shown.
+  // Ends what is being done elsewhere; it may have been built on the preview.
   if (!hooks.begin()) rest();
   if (!awake) return {};
   QElapsedTimer time;
@@ -218,7 +218,7 @@ base::Result<void> OperationPanel::Parts::show(const interaction::Value::Fields&
   const auto shown = preview.show(form->operation(), fields);
   slow = time.elapsed() > kSlow;
   if (!shown) return tl::unexpected(shown.error());
-  (void)form->fields();  // what stood at them is over
+  (void)form->fields();  // clears the errors at the fields
   note->remark(QString::fromStdString(*shown));
   return {};
 }
@@ -233,13 +233,13 @@ void OperationPanel::Parts::refuse(bool wrong_field, const std::string& why) {
   }
 }
 
-/// Something else was done meanwhile.
+/// The preview has ended, as something else was done.
 void OperationPanel::Parts::end(OperationPreview::End how) {
   rest();
   if (how == OperationPreview::End::Kept) note->remark(kStays);
 }
 
-/// Shows nothing more until something else is said.
+/// Stops updates of the preview until a field changes.
 void OperationPanel::Parts::rest() {
   if (form) form->finish_typing();
   due.stop();
@@ -273,7 +273,7 @@ OperationPanel::OperationPanel(session::Session& session, Hooks hooks, QWidget* 
 }
 
 OperationPanel::~OperationPanel() {
-  delete parts_->scroll->takeWidget();  // it tells what was being typed
+  delete parts_->scroll->takeWidget();  // its fields report what was being typed
 }
 
 void OperationPanel::ask(const interaction::Operation& operation) {
@@ -308,7 +308,7 @@ void OperationPanel::apply() {
   Parts& parts = *parts_;
   const bool was_shown = parts.preview.shown();
   if (!parts.form || !parts.hooks.begin()) return;
-  if (was_shown && !parts.preview.shown()) return;  // it stays already
+  if (was_shown && !parts.preview.shown()) return;  // it is kept already
   parts.rest();
   const auto fields = parts.form->fields();
   const auto done = fields ? parts.preview.show(parts.form->operation(), *fields)

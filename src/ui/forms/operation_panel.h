@@ -10,33 +10,33 @@
 
 namespace icome::ui {
 
-/// Where an operation is told what it asks, and performed: its summary, a form, and why it was refused. While
-/// all that is said can be done, it is seen and felt at once (OperationPreview), and follows what is said; it
-/// is done when it is applied, and taken back when the form is left. Changes go through the session, which
-/// outlives it.
+/// The panel in which an operation gets its arguments and is performed: its summary, a form, and the reason
+/// for a refusal. While the arguments are valid, the result is seen and felt at once (OperationPreview), and
+/// follows them; it becomes an action when it is applied, and is taken back when the form is left. Changes go
+/// through the session, which outlives it.
 class OperationPanel final : public QWidget {
  public:
   struct Hooks {
-    std::function<bool()> begin;   // before the world is touched from here; false: do not
-    std::function<void()> closed;  // it is wanted no longer
+    std::function<bool()> begin;   // asked before the world is edited; false: do not
+    std::function<void()> closed;  // called when a person closes the panel
   };
   OperationPanel(session::Session& session, Hooks hooks, QWidget* parent);
   ~OperationPanel() override;
 
-  /// Asks for another operation. The keyboard is for who shows the panel to move.
+  /// Shows the form of another operation. The caller moves the keyboard focus.
   void ask(const interaction::Operation& operation);
-  /// Where typing begins; null: nothing is asked.
+  /// The widget to take the focus; null: there is no form.
   QWidget* first_field() const;
-  /// What is to be known of what is shown, or was done last until anything else is done or selected; or
-  /// empty.
+  /// The remark on the preview, or on the operation that was applied last until anything else is done or
+  /// selected; or empty.
   QString remark() const;
-  /// Something else is gone on with: what was remarked on what is done already is over.
+  /// Clears the remark on an applied operation, as the person goes on with something else.
   void forget_remark();
-  /// Performs what has been said, as one action; a failed one changes nothing and is told on the panel.
+  /// Performs the operation, as one action; on failure nothing changes, and the panel tells why.
   void apply();
-  /// What is shown is in a file now: it stays.
+  /// Keeps the preview as an action, as it has been written to a file.
   void keep();
-  /// Takes back what is only shown; nothing is shown until something else is said.
+  /// Takes the preview back; there is none until a field changes.
   void leave();
 
  protected:

@@ -12,7 +12,7 @@ using interaction::Value;
 
 namespace {
 
-/// True as long as it lives.
+/// Sets a flag for as long as it lives.
 class Busy {
  public:
   explicit Busy(bool& busy) : busy_(busy) { busy_ = true; }
@@ -33,7 +33,7 @@ OperationPreview::OperationPreview(session::Session& session, std::function<void
     const std::shared_ptr<State> state = kept.lock();
     if (!state || state->busy || !state->shown) return;
     const Shown shown = *std::exchange(state->shown, std::nullopt);
-    // Nothing can be redone after anything else.
+    // Redo is possible only right after an undo.
     const bool undone = changes && session.history().actions().can_redo();
     if (undone) restore_selection(session, shown);
     ended(!changes ? End::Gone : undone ? End::Undone : End::Kept);
@@ -69,7 +69,7 @@ base::Result<std::string> OperationPreview::show(const Operation& operation, con
   return shown->note;
 }
 
-/// Unless something else was selected meanwhile.
+/// Selects again what was selected before, unless something else was selected meanwhile.
 void OperationPreview::restore_selection(session::Session& session, const Shown& shown) {
   if (session.selection() == shown.selected_then) session.select(shown.selected_before);
 }

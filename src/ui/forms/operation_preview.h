@@ -8,43 +8,43 @@
 
 namespace icome::ui {
 
-/// What an operation would do, seen and felt at once: it is performed, as an action that is only tried out
-/// (SessionHistory::try_out), and then kept or taken back. When anything else changes the world meanwhile, it
-/// has been built on and stays, unless it is just this that was undone. The session outlives it.
+/// Makes the result of an operation seen and felt at once: the operation is performed as an action on trial
+/// (Session::try_out), and then kept or taken back. When anything else changes the world meanwhile, the
+/// action has been built on and stays, unless that change was its undoing. The session outlives it.
 class OperationPreview {
  public:
   enum class End : std::uint8_t {
     Kept,    // something else was done after it
-    Undone,  // it was undone by itself
-    Gone,    // with its design
+    Undone,  // it alone was undone
+    Gone,    // its design was replaced
   };
-  /// `ended` hears of what nobody here has asked for.
+  /// `ended` is called when the preview ends without a call from here.
   OperationPreview(session::Session& session, std::function<void(End)> ended);
-  /// Takes back what is shown.
+  /// Takes the preview back.
   ~OperationPreview();
   OperationPreview(const OperationPreview&) = delete;
   OperationPreview& operator=(const OperationPreview&) = delete;
 
   bool shown() const { return state_->shown.has_value(); }
-  /// Without what is shown: what operations are planned on, and arguments mean.
+  /// The world without the preview: operations are planned on it, and arguments refer to it.
   const world::World& world() const;
-  /// Are world or selection being changed from here just now?
+  /// Is the preview itself changing world or selection just now?
   bool busy() const { return state_->busy; }
 
-  /// Shows this operation in place of what is shown, and gives its note. One that is refused changes nothing;
-  /// at worst nothing is shown then.
+  /// Shows the result of this operation in place of the present one, and returns its note. A refused
+  /// operation changes nothing; at worst no preview is left.
   base::Result<std::string> show(const interaction::Operation& operation,
                                  const interaction::Value::Fields& fields);
-  /// Leaves world, history and selection (unless another was made) as they were before it.
+  /// Puts world, history and selection (unless another was made) back as they were before the preview.
   void take_back();
-  /// It is an action like any other from now on, and what it made or changed is selected.
+  /// Turns the preview into an action like any other, and selects the objects that it made or changed.
   void keep();
 
  private:
   struct Shown {
     world::World without;  // the world before
     std::vector<world::ObjectId> selected_before = {}, selected_then = {};
-    const interaction::Operation* operation = nullptr;  // never null when it is there
+    const interaction::Operation* operation = nullptr;  // null only until the operation has been tried
     interaction::Value::Fields fields = {};
     std::vector<world::ObjectId> objects = {};
     std::string note = {};

@@ -12,7 +12,7 @@ namespace {
 
 QString meaning_text(const Parameter& parameter) { return QString::fromStdString(parameter.meaning); }
 
-/// Numbers that a field of its own is for, so that its unit can be another than that of scripts.
+/// Does it have number fields of its own? Their unit can be another than that of scripts.
 bool is_measured(const Parameter& parameter) {
   return parameter.kind == ParameterKind::Number || parameter.kind == ParameterKind::Vector;
 }
@@ -35,7 +35,7 @@ QString words_of(const std::string& name) {
 Quantity quantity_of(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::Count) return Quantity::Whole;
   if (!is_measured(parameter)) return Quantity::Plain;
-  // A unit is a word of its own: no part of "N/m" or "from".
+  // A unit must be a word of its own: not a part of "N/m" or "from".
   static const QRegularExpression kMetres(R"((?:^|[\s,(])m(?:$|[\s,;:.)]))");
   static const QRegularExpression kDegrees(R"(\bdegrees?\b|°)");
   static const QRegularExpression kRadians(R"(\brad(?:ians?)?\b)");

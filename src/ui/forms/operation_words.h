@@ -6,32 +6,32 @@
 
 namespace icome::ui {
 
-// How people read what an operation asks. Whatever stands in the table of operations can be asked so.
+// Texts of forms, made from the table of operations; any operation in it can be shown so.
 
 /// "Along tangent" for "along-tangent".
 QString words_of(const std::string& name);
 
-/// What the numbers of a parameter are, as its meaning says ("how far, m", "in degrees"), and so in which
-/// unit they are shown and typed.
+/// The quantity of a parameter's numbers, from its meaning ("how far, m", "in degrees"). It sets the unit in
+/// which they are shown and typed.
 Quantity quantity_of(const interaction::Parameter& parameter);
 
-/// The name in front of its field, with the shown unit: "Size, mm".
+/// Label of its field, with the shown unit: "Size, mm".
 QString label_of(const interaction::Parameter& parameter);
 
-/// What is meant where nothing is said: "its shape" of "what it is called; else its shape". Empty where the
-/// meaning does not tell.
+/// The default, from a parameter's meaning: "its shape" of "what it is called; else its shape". Empty where
+/// the meaning does not tell.
 QString otherwise_of(const interaction::Parameter& parameter);
 
-/// The meaning as a sentence, for tooltips; of records also what their values are.
+/// The meaning as a sentence, for tooltips; for records also the meanings of their fields.
 QString meaning_of(const interaction::Parameter& parameter);
 
-/// What text of a list looks like: "[[x, y, z], …]", "[{"by": [x, y, z]}, …]".
+/// The form of a list's text: "[[x, y, z], …]", "[{"by": [x, y, z]}, …]".
 QString example_of(const interaction::Parameter& parameter);
 
-/// Is it said as JSON text?
+/// Is the parameter typed as JSON text?
 bool is_text_of_json(const interaction::Parameter& parameter);
 
-/// Does its field not tell by itself what is to be put there?
+/// Does its field need an explanation of what to type?
 bool needs_explaining(const interaction::Parameter& parameter);
 
 }  // namespace icome::ui

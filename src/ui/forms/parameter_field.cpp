@@ -46,7 +46,7 @@ QLineEdit* line_edit(const Parameter& parameter, const ParameterField::Place& pl
   return line;
 }
 
-/// One number: typed with a unit, held to the range as soon as it is complete.
+/// A field for one number: typed with a unit, checked against the range when it is committed.
 QuantityField* number_box(const Parameter& parameter, const ParameterField::Place& place,
                           std::optional<double> fallback) {
   Parameter number = parameter;
@@ -57,7 +57,7 @@ QuantityField* number_box(const Parameter& parameter, const ParameterField::Plac
   field->on_commit([number, world = place.world](std::optional<double> value, bool) {
     return value ? check_value(number, *value, world()) : Result<void>();
   });
-  field->on_refusal([changed = place.changed](const QString&) { changed(); });  // of what is fine, too
+  field->on_refusal([changed = place.changed](const QString&) { changed(); });  // also on success
   field->show_value(fallback);
   return field;
 }
@@ -112,7 +112,7 @@ class VectorField final : public ParameterField {
   }
 
  private:
-  /// What the parts are that nobody says beside others: 0, or 1 for what can only be larger than 0.
+  /// Value of the components that are left empty beside others: 0, or 1 where it must be larger than 0.
   double neutral() const { return parameter_.least > 0.0 ? 1.0 : 0.0; }
 
   const Parameter& parameter_;
@@ -137,7 +137,7 @@ class TextLine : public ParameterField {
   QLineEdit* line_;
 };
 
-/// The name of a picture's file, with a sign in it that looks for one.
+/// A field for the name of a picture's file, with an icon that opens a file dialog.
 class PictureField final : public TextLine {
  public:
   PictureField(const Parameter& parameter, const Place& place) : TextLine(parameter, place) {
@@ -158,7 +158,7 @@ class PictureField final : public TextLine {
   }
 };
 
-/// Its name or "#rrggbb", and a button that shows it and chooses another.
+/// A field for a colour's name or "#rrggbb", with a button that shows the colour and chooses another.
 class ColourField final : public ParameterField {
  public:
   ColourField(const Parameter& parameter, const Place& place)
@@ -224,7 +224,7 @@ class FlagField final : public ParameterField {
 
  private:
   QCheckBox* box_;
-  bool unsaid_;  // where it is not checked
+  bool unsaid_;  // no value where it is not checked
 };
 
 class ObjectsField final : public ParameterField {
@@ -245,7 +245,7 @@ class ObjectsField final : public ParameterField {
   ObjectField* field_;
 };
 
-/// JSON from text; a list of numbers may be typed without its brackets.
+/// The value of JSON text; a list of numbers may be typed without its brackets.
 Result<Value> value_from_text(const QString& text, bool flat) {
   const QString json = text.trimmed();
   if (json.isEmpty()) return Value();
@@ -253,7 +253,7 @@ Result<Value> value_from_text(const QString& text, bool flat) {
   return interaction::value_from_json((bare ? '[' + json + ']' : json).toStdString());
 }
 
-/// A list of numbers, in one line.
+/// A field for a list of numbers, on one line.
 class ListLine final : public ParameterField {
  public:
   ListLine(const Parameter& parameter, const Place& place) : line_(line_edit(parameter, place)) {
@@ -269,7 +269,7 @@ class ListLine final : public ParameterField {
   QLineEdit* line_;
 };
 
-/// Points and records, on several lines.
+/// A field for points or records, on several lines.
 class ListText final : public ParameterField {
  public:
   ListText(const Parameter& parameter, const Place& place) : text_(new QPlainTextEdit(place.parent)) {

@@ -9,14 +9,14 @@
 
 namespace icome::ui {
 
-/// Where one parameter of an operation is said. Its widgets belong to the widget that they are put on; they,
-/// the session and the parameter outlive it.
+/// The field for one parameter of an operation. Its widgets are owned by their parent widget; they, the
+/// session and the parameter outlive it.
 class ParameterField {
  public:
   struct Place {
-    std::function<const world::World&()> world;  // that objects are named of
+    std::function<const world::World&()> world;  // in which names of objects are looked up
     QWidget* parent;
-    std::function<void()> changed;  // something else has been said, maybe not to its end
+    std::function<void()> changed;  // called when the field changes, also while typing
   };
 
   ParameterField() = default;
@@ -24,21 +24,21 @@ class ParameterField {
   ParameterField(const ParameterField&) = delete;
   ParameterField& operator=(const ParameterField&) = delete;
 
-  /// What stands beside the label, from left to right.
+  /// The widgets beside the label, from left to right.
   virtual std::vector<QWidget*> widgets() const = 0;
-  /// What is said, also where it is still being typed; null: nothing. Fails for what is no such value.
+  /// The value in the field, also while it is still being typed; null: none. Fails for text that is none.
   virtual base::Result<interaction::Value> value() const = 0;
-  /// Takes what is being typed as said, where that makes a difference.
+  /// Commits the text that is being typed, where that makes a difference.
   virtual void finish_typing() {}
-  /// Shows why it was refused, in its own way.
+  /// Marks the field as refused, or as not.
   virtual void mark(bool refused);
-  /// What the selection says for it.
+  /// Takes the selected objects, in fields for objects.
   virtual void follow(const std::vector<world::ObjectId>& /*objects*/) {}
-  /// Said with text that is better checked while it is typed.
+  /// Is the text to be checked while it is being typed?
   virtual bool is_checked_at_once() const { return false; }
 };
 
-/// A field that suits the kind of the parameter.
+/// Makes a field that suits the kind of the parameter.
 std::unique_ptr<ParameterField> make_parameter_field(const interaction::Parameter& parameter,
                                                      const ParameterField::Place& place);
 

@@ -31,7 +31,7 @@ void QuantityField::allow_none(const QString& meaning) {
 void QuantityField::show_value(std::optional<double> value) {
   value_ = value;
   mixed_ = false;
-  if (edited_ && hasFocus()) return;  // what is being typed is not taken away
+  if (edited_ && hasFocus()) return;  // keeps what is being typed
   restore();
 }
 
@@ -48,15 +48,15 @@ void QuantityField::restore() {
   setPlaceholderText(mixed_ ? QString("mixed") : none_.value_or(QString()));
   const QString text = value_ ? fitting_text(*value_) : QString();
   shown_ = text;
-  // What was typed to get here is not to be taken back letter by letter: setting the text forgets it.
+  // Setting the text clears its undo history: typing that was committed is not undone letter by letter.
   if (text == this->text() && !isUndoAvailable() && !isRedoAvailable()) return;
   setText(text);
   setCursorPosition(0);
   if (hasFocus()) selectAll();
 }
 
-/// All digits for who edits them; else as many decimals as there is room for. Where even none fit, it is seen
-/// that digits are missing.
+/// Text with all digits while the field has the focus; else with as many decimals as there is room for. Where
+/// not even the whole number fits, it is elided.
 QString QuantityField::fitting_text(double value) const {
   QString text = number_text(value, quantity_);
   if (hasFocus()) return text;
@@ -73,7 +73,7 @@ QString QuantityField::fitting_text(double value) const {
   return fontMetrics().elidedText(text, Qt::ElideRight, room);
 }
 
-/// There is more to the number than is shown.
+/// Is the number shown without some of its digits?
 bool QuantityField::shortened() const {
   return value_ && !edited_ && text() != number_text(*value_, quantity_);
 }
@@ -120,7 +120,7 @@ bool QuantityField::finish() {
 void QuantityField::commit(std::optional<double> value, bool more) {
   if (!commit_) return;
   const bool typed = edited_;
-  edited_ = false;  // so that what comes back is shown
+  edited_ = false;  // so that show_value() takes effect
   const QString text = this->text();
   const auto done = commit_(value, more);
   if (done) {

@@ -8,30 +8,30 @@
 
 namespace icome::ui {
 
-/// A number with a unit to be typed, or stepped by the arrow keys (with Shift ten times as far, with Ctrl a
-/// tenth) and, with the keyboard's focus, by the wheel.
+/// A field for a number with a unit, which is typed, or stepped by the arrow keys (with Shift ten times as
+/// far, with Ctrl a tenth) and, with the keyboard's focus, by the wheel.
 class QuantityField final : public QLineEdit {
  public:
-  /// A value to be set; `more` for further steps of the same turn, which are one action to undo. What is
-  /// refused stays in the field, marked, until it is put right or given up with Escape.
+  /// Sets a value; `more` is true for further steps of the same turn, which are one action to undo. A refused
+  /// value stays in the field, marked, until it is put right or given up with Escape.
   using Commit = std::function<base::Result<void>(std::optional<double> value, bool more)>;
 
   QuantityField(Quantity quantity, QWidget* parent);
 
   void on_commit(Commit commit) { commit_ = std::move(commit); }
-  /// Hears why something was refused, and nothing (empty) when the next value is fine.
+  /// `hear` gets the reason why a value was refused, and an empty text when the next one is accepted.
   void on_refusal(std::function<void(const QString&)> hear) { refused_ = std::move(hear); }
-  /// Hears of what is typed before it is committed.
+  /// `typing` is called when the text changes before it is committed.
   void on_typing(std::function<void()> typing) { typing_ = std::move(typing); }
-  /// The value with what is typed and not committed yet. Fails for what is none.
+  /// The value, including text that is not committed yet. Fails for text that is no value.
   base::Result<std::optional<double>> typed_value() const;
-  /// Allows nothing as a value, and says what that means: "device's best".
+  /// Allows an empty field, and shows the meaning of that: "device's best".
   void allow_none(const QString& meaning);
-  /// Nothing is what allow_none() says.
+  /// Shows a value; without one, the meaning that allow_none() has set.
   void show_value(std::optional<double> value);
-  /// Several objects, several values.
+  /// Shows that several objects have several values.
   void show_mixed();
-  /// Commits what is being typed; false: it was refused, and is still there.
+  /// Commits the text that is being typed; false: it was refused, and is still in the field.
   bool finish();
 
  protected:
@@ -59,9 +59,9 @@ class QuantityField final : public QLineEdit {
   std::optional<QString> none_ = {};
   std::optional<double> value_ = {};
   bool mixed_ = false;
-  QString shown_ = {};     // of the value, before anything is typed
+  QString shown_ = {};     // text of the value, before anything is typed
   bool edited_ = false;    // typed, and not committed yet
-  bool stepping_ = false;  // the last step was of this turn
+  bool stepping_ = false;  // a next step belongs to the same turn
   double wheel_ = 0.0;     // eighths of degrees turned, less than a step
 };
 

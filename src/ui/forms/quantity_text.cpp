@@ -9,13 +9,13 @@
 namespace icome::ui {
 namespace {
 
-/// A unit that may be typed, and how much of the SI unit it is.
+/// A unit that may be typed, and its size in the unit in which values are kept.
 struct Typed {
   const char* name;
   double size;
 };
 constexpr double kDegree = std::numbers::pi / 180.0;
-// The first of each is the one that is shown.
+// The first of each is the shown unit.
 constexpr Typed kLengths[] = {{"mm", 1e-3},     {"µm", 1e-6},   {"um", 1e-6},   {"cm", 1e-2},
                               {"dm", 1e-1},     {"m", 1.0},     {"km", 1e3},    {"in", 0.0254},
                               {"inch", 0.0254}, {"\"", 0.0254}, {"ft", 0.3048}, {"'", 0.3048}};
@@ -89,7 +89,7 @@ base::Result<double> read_quantity(const QString& text, Quantity quantity) {
       });
   if (!good || found == units.end()) return base::fail(hint(quantity));
   const double value = number * found->size;
-  constexpr double kMost = 1e9;  // SI: nothing that anybody touches is larger
+  constexpr double kMost = 1e9;  // SI; nothing that anybody touches is larger
   if (!std::isfinite(value) || std::abs(value) > kMost)
     return base::fail("That is too large. " + hint(quantity));
   if (quantity == Quantity::Whole && value != std::round(value)) return base::fail(hint(quantity));

@@ -5,8 +5,8 @@
 
 namespace icome::ui {
 
-/// Wheels scroll the panel, and do not change what they happen to be over; with the keyboard's focus they
-/// choose. Letters choose an item, whatever else they are keys for. Long items do not widen the panel.
+/// A combo box that the wheel changes only while it has the keyboard's focus; otherwise the wheel scrolls the
+/// panel. Letters choose an item, even where they are shortcuts. Long items do not widen the panel.
 class QuietComboBox final : public QComboBox {
  public:
   explicit QuietComboBox(QWidget* parent) : QComboBox(parent) {

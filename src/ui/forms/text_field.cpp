@@ -25,7 +25,7 @@ void TextField::restore() {
   mark(false);
   setPlaceholderText(text_ ? QString() : QString("mixed"));
   const QString shown = QString::fromStdString(text_.value_or(""));
-  // What was typed to get here is not to be taken back letter by letter: setting the text forgets it.
+  // Setting the text clears its undo history: typing that was committed is not undone letter by letter.
   if (shown == text() && !isUndoAvailable() && !isRedoAvailable()) return;
   setText(shown);
   setCursorPosition(0);

@@ -8,7 +8,7 @@
 
 namespace icome::ui {
 
-/// A line of text that is set with Enter or by leaving it; Escape gives it up.
+/// A field for a line of text, which is committed with Enter or by leaving it; Escape gives it up.
 class TextField final : public QLineEdit {
  public:
   explicit TextField(QWidget* parent);
@@ -16,11 +16,11 @@ class TextField final : public QLineEdit {
   void on_commit(std::function<base::Result<void>(const std::string&)> commit) {
     commit_ = std::move(commit);
   }
-  /// Hears why something was refused, and nothing (empty) when the next text is fine.
+  /// `hear` gets the reason why a text was refused, and an empty text when the next one is accepted.
   void on_refusal(std::function<void(const QString&)> hear) { refused_ = std::move(hear); }
-  /// Nothing: several objects, several texts.
+  /// Shows a text; none where several objects have several texts.
   void show_text(std::optional<std::string> text);
-  /// Commits what is being typed; false: it was refused, and is still there.
+  /// Commits the text that is being typed; false: it was refused, and is still in the field.
   bool finish();
 
  protected:

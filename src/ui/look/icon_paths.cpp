@@ -16,7 +16,7 @@ void add_line(QPainterPath& path, std::initializer_list<QPointF> points, bool cl
 
 void add_oval(QPainterPath& path, QPointF centre, double x, double y) { path.addEllipse(centre, x, y); }
 
-/// Part of an oval, degrees counterclockwise from the right.
+/// Adds a part of an oval; angles in degrees, counterclockwise from the right.
 void add_arc(QPainterPath& path, QPointF centre, double x, double y, double from, double span) {
   const QRectF around(centre.x() - x, centre.y() - y, 2.0 * x, 2.0 * y);
   path.arcMoveTo(around, from);
@@ -84,7 +84,7 @@ IconPaths save() {
   return it;
 }
 
-/// An arrow that goes back; mirrored it goes on.
+/// The arrow of undo; mirrored, that of redo.
 IconPaths turn_back(bool mirrored) {
   IconPaths it;
   add_line(it.ink, {{7.0, 3.5}, {3.0, 7.5}, {7.0, 11.5}});
@@ -119,7 +119,7 @@ IconPaths touch() {
   return it;
 }
 
-/// A ball with a way around it.
+/// A ball with a path around it.
 IconPaths orbit() {
   IconPaths it;
   add_oval(it.ink, {10.0, 10.0}, 3.2, 3.2);

@@ -5,8 +5,8 @@
 
 namespace icome::ui {
 
-/// An icon on a square of 20 by 20: lines in ink, lines in the accent's colour, and places that are filled
-/// lightly.
+/// The paths of an icon on a square of 20 by 20: lines in ink, lines in the accent's colour, and lightly
+/// filled areas.
 struct IconPaths {
   QPainterPath ink = {};
   QPainterPath accent = {};

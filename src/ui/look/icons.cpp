@@ -11,9 +11,9 @@
 namespace icome::ui {
 namespace {
 
-constexpr double kSquare = 20.0;  // that paths_of draws on
+constexpr double kSquare = 20.0;  // side of the square of paths_of()
 
-/// Draws when asked, so that nothing goes stale when the theme changes.
+/// An icon that is drawn whenever it is needed, so that it follows a change of theme.
 class DrawnIcon : public QIconEngine {
  public:
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
@@ -24,7 +24,7 @@ class DrawnIcon : public QIconEngine {
     return picture;
   }
   QPixmap scaledPixmap(const QSize& size, QIcon::Mode mode, QIcon::State state, qreal /*scale*/) override {
-    return pixmap(size, mode, state);  // the size counts the screen's own pixels
+    return pixmap(size, mode, state);  // the size is in physical pixels
   }
 };
 
@@ -109,7 +109,7 @@ void paint_icon(QPainter& painter, const QRectF& square, Icon which, const QColo
   QColor wash = ink;
   wash.setAlphaF(wash.alphaF() * 0.18F);
   painter.fillPath(paths.wash, wash);
-  // Never thinner than a pixel and a bit, or small icons look pale.
+  // Lines are at least 1.2 pixels wide, or small icons would look pale.
   const double width = std::max(1.5, 1.2 * kSquare / side);
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(ink, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));

@@ -4,7 +4,7 @@
 
 namespace icome::ui {
 
-/// Drawn by us, in one stroke; see icon_paths.cpp.
+/// The program's icons, drawn by icon_paths.cpp with one kind of stroke.
 enum class Icon : std::uint8_t {
   New,
   Open,
@@ -36,7 +36,7 @@ enum class Icon : std::uint8_t {
   Csg,
   Loop,
   Implicit,
-  Shape,  // of a kind that we do not know
+  Shape,  // of an unknown kind
   Light,
   Viewpoint,
   Inert,
@@ -45,13 +45,13 @@ enum class Icon : std::uint8_t {
   Count,
 };
 
-/// Sharp at any size, and in the colours of the theme that is on when it is drawn.
+/// An icon that is sharp at any size, in the colours of the theme at the time of drawing.
 QIcon icon(Icon which);
 
-/// The program's own.
+/// The icon of the program.
 QIcon app_icon();
 
-/// Draws an icon into a square in the given colour; what it stresses is in the accent's.
+/// Draws an icon into a square: its lines in `ink`, its stressed parts in `accent`.
 void paint_icon(QPainter& painter, const QRectF& square, Icon which, const QColor& ink, const QColor& accent);
 
 }  // namespace icome::ui

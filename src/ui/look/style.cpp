@@ -29,7 +29,7 @@ void draw_panel(QPainter& painter, const QRect& rect, const QColor& fill, const 
   painter.restore();
 }
 
-/// What one types into: the focus shows as an edge in the accent's colour, a refused value as a red one.
+/// Draws a field for typing: the focus shows as an edge in the accent's colour, a refused value as a red one.
 void draw_field(QPainter& painter, const QStyleOption& option, const QWidget* widget) {
   const ThemeColours& theme = colours();
   const bool focus = enabled(option) && (option.state & QStyle::State_HasFocus);

@@ -21,13 +21,13 @@ namespace {
 
 const ThemeColours* applied = &colours_of_light();
 
-/// Is there a session bus at all? Asking without one would start a program to make one.
+/// Is there a session bus? Asking without one would start a program to make one.
 bool has_session_bus() {
   return qEnvironmentVariableIsSet("DBUS_SESSION_BUS_ADDRESS") ||
          QFile::exists(QString("/run/user/%1/bus").arg(getuid()));
 }
 
-/// What the desktop says that its users like; nothing where it has no opinion.
+/// Does the desktop prefer dark colours? Nothing where it has no preference.
 std::optional<bool> desktop_prefers_dark() {
   if (!has_session_bus()) return std::nullopt;
   QDBusInterface portal("org.freedesktop.portal.Desktop", "/org/freedesktop/portal/desktop",
@@ -48,7 +48,7 @@ bool palette_is_dark(const QPalette& palette) {
   return palette.color(QPalette::WindowText).lightness() > palette.color(QPalette::Window).lightness();
 }
 
-/// The platform's palette as it was before we put ours on.
+/// The platform's palette, as it was before a theme was applied.
 const QPalette& platform_palette() {
   static const QPalette kPalette = QApplication::palette();
   return kPalette;
@@ -93,7 +93,7 @@ QFont panel_font() {
   return font;
 }
 
-/// A channel of sRGB as light, and the light of a colour (WCAG 2.1).
+/// Relative luminance of a colour (WCAG 2.1).
 double luminance(const QColor& colour) {
   return 0.2126 * base::linear_from_srgb(colour.redF()) + 0.7152 * base::linear_from_srgb(colour.greenF()) +
          0.0722 * base::linear_from_srgb(colour.blueF());

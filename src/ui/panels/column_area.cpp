@@ -21,7 +21,7 @@ QSize ColumnArea::minimumSizeHint() const {
   return {std::max(kNarrowest, within + verticalScrollBar()->sizeHint().width()), own.height()};
 }
 
-/// Takes another least width when the widget in it becomes wider or narrower.
+/// Updates the least width when the widget in it becomes wider or narrower.
 bool ColumnArea::eventFilter(QObject* watched, QEvent* event) {
   if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
   return QScrollArea::eventFilter(watched, event);

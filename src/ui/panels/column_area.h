@@ -3,7 +3,7 @@
 
 namespace icome::ui {
 
-/// Scrolls what is too long, and is never narrower than what is in it beside its scroll bar.
+/// A scroll area for a column of widgets; never narrower than its content and its scroll bar together.
 class ColumnArea final : public QScrollArea {
  public:
   explicit ColumnArea(QWidget* parent);

@@ -17,8 +17,8 @@ const Kind* fixture(const World& world, ObjectId id) {
   return std::get_if<Kind>(world.find(id)->fixture.get());
 }
 
-/// `read` gives a value of a light, or nothing where its kind has no such thing; `write` puts one in, or says
-/// why not.
+/// `read` gives a value of a light, or nothing where its kind has no such value; `write` sets one, or returns
+/// the reason why it cannot.
 template <typename Value, typename Read, typename Write>
 Property<Value> light_property(const Read& read, const Write& write) {
   return {[read](const World& world, ObjectId id) -> std::optional<Value> {
@@ -107,7 +107,7 @@ Property<double> field_of_view() {
 
 namespace {
 
-/// `write` gives the changed effect, or says why not.
+/// `write` returns the changed effect, or an error.
 template <typename Value, typename Write>
 Property<Value> effect_property(Value world::ForceEffect::*member, const Write& write) {
   return {[member](const World& world, ObjectId id) -> std::optional<Value> {
@@ -143,7 +143,7 @@ Property<double> effect_number(const interaction::EffectDial& dial) {
           }};
 }
 
-/// Also of an effect whose text this program does not know: that is kept.
+/// Works also for an effect with a text that this program does not know: the text is kept.
 Property<bool> effect_on() {
   return effect_property(&world::ForceEffect::on,
                          [](const world::ForceEffect& it, bool on) -> Result<world::FixturePointer> {

@@ -65,7 +65,7 @@ void MatchModel::remove_lost() {
   if (found_.size() != before) number_rows();
 }
 
-/// What is found now comes behind what was found before.
+/// Appends the objects that match now to those found before.
 void MatchModel::add_found(const world::Changes& changes) {
   std::vector<ObjectId> fresh;
   for (const ObjectId id : changes.objects) {
@@ -93,7 +93,7 @@ QVariant MatchModel::data(const QModelIndex& index, int role) const {
   if (role != PathRole) return ObjectModel::data(index, role);
   const world::PhysicalObject* it = index.isValid() ? world().find(object(index)) : nullptr;
   QStringList names;
-  constexpr qsizetype kMost = 4;  // of the nearest: the rest would not fit anyway
+  constexpr qsizetype kMost = 4;  // the nearest; more would not fit
   for (; it && it->parent && names.size() < kMost; it = world().find(it->parent))
     names.prepend(shown_name(world(), it->parent));
   return names.join(QStringLiteral(" › "));

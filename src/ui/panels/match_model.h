@@ -6,13 +6,13 @@
 
 namespace icome::ui {
 
-/// The objects whose name holds what is searched for, upper or lower case, as a list that follows edits.
-/// Unnamed objects are found by what they are shown as.
+/// The list of objects with names that contain the text of a search, in upper or lower case; it follows
+/// edits. Unnamed objects are found by the names that they are shown with.
 class MatchModel final : public ObjectModel {
  public:
   MatchModel(session::Session& session, QObject* parent) : ObjectModel(session, parent) {}
 
-  /// In the order of the tree; nothing for empty text.
+  /// Lists the objects that match, in the order of the tree; none for an empty text.
   void search(const QString& text);
   std::size_t size() const { return found_.size(); }
 

@@ -15,7 +15,7 @@ using world::World;
 
 namespace {
 
-/// `read` gives a value out of a material; `write` puts one in, or says why not.
+/// `read` gives a value of a material; `write` sets one, or returns the reason why it cannot.
 template <typename Value, typename Read, typename Write>
 Property<Value> material_property(const Read& read, const Write& write) {
   return {[read](const World& world, ObjectId id) -> std::optional<Value> {

@@ -7,10 +7,10 @@
 
 namespace icome::ui {
 
-// Of an object's material; objects without one have none of these. Setting changes the material for all
-// that share it.
+// Properties of an object's material; objects without a material have none of them. Setting one changes the
+// material for all objects that share it.
 
-/// A nullopt within is "the device's best".
+/// A number of a material; a nullopt within is "the device's best".
 using MaybeNumber = std::optional<double>;
 
 Property<std::string> material_name();
@@ -25,7 +25,7 @@ Property<MaybeNumber> damping();
 Property<double> static_friction();
 Property<double> dynamic_friction();
 Property<std::string> haptic_texture();
-/// A text that haptic_texture() has or takes, for people: "Bumps, 0.3 mm deep every 3 mm".
+/// Words for a text of haptic_texture(), for people: "Bumps, 0.3 mm deep every 3 mm".
 QString haptic_texture_words(const std::string& text);
 
 }  // namespace icome::ui

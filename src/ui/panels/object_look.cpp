@@ -87,7 +87,7 @@ QString description(const world::World& world, world::ObjectId object) {
 
 QString one_line(const std::string& text) {
   constexpr qsizetype kMost = 200;
-  // Cut first: a name of a megabyte costs no more than one that can be read.
+  // Cut first: a name of a megabyte then costs no more than a short one.
   QString line = QString::fromUtf8(text.data(), qsizetype(std::min<std::size_t>(text.size(), 4 * kMost)));
   for (QChar& letter : line) {
     if (!letter.isPrint() && !letter.isSurrogate()) letter = ' ';
@@ -98,7 +98,7 @@ QString one_line(const std::string& text) {
 QString shortened(const QString& line, qsizetype most) {
   if (line.size() <= most) return line;
   QString begin = line.left(most - 1);
-  if (begin.back().isHighSurrogate()) begin.chop(1);  // no half of a letter
+  if (begin.back().isHighSurrogate()) begin.chop(1);  // no half of a surrogate pair
   return begin + QStringLiteral("…");
 }
 

@@ -11,7 +11,7 @@
 namespace icome::ui {
 namespace {
 
-/// Objects on their way by drag and drop: this program's number, then theirs.
+/// MIME type of dragged objects: this process's id, then the ids of the objects.
 const char* const kObjects = "application/x-icome-objects";
 
 const QIcon& kept_icon(Icon which) {

@@ -6,20 +6,20 @@
 
 namespace icome::ui {
 
-/// What the tree of the world and the list of what was found have in common: an item is an object. Renames
-/// and moves objects through the session, which outlives it.
+/// The common part of the world's tree and the list of found objects: an item is an object. Renames and moves
+/// objects through the session, which outlives it.
 class ObjectModel : public QAbstractItemModel {
  public:
-  enum Role { PathRole = Qt::UserRole };  // names of the objects above it, for items of a list
+  enum Role { PathRole = Qt::UserRole };  // names of its ancestors, for items of a list
 
   ObjectModel(session::Session& session, QObject* parent) : QAbstractItemModel(parent), session_(session) {}
 
   static world::ObjectId object(const QModelIndex& index) { return {std::uint64_t(index.internalId())}; }
-  /// Where the object is; invalid where it is not shown.
+  /// Index of the object; invalid where it is not shown.
   virtual QModelIndex index_of(world::ObjectId object) = 0;
-  /// The world has been through changes; null: it is another world.
+  /// To be called when the world has changed; null: it is another world.
   virtual void follow(const world::Changes* changes) = 0;
-  /// Hears why something was refused.
+  /// `hear` gets the reason why an edit was refused.
   void on_refusal(std::function<void(const QString&)> hear) { refused_ = std::move(hear); }
 
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -34,7 +34,7 @@ class ObjectModel : public QAbstractItemModel {
   session::Session& session() const { return session_; }
   const world::World& world() const { return session_.world(); }
   void refuse(const std::string& why) const;
-  /// The objects that mimeData() packed; none of another program's.
+  /// The objects that mimeData() has packed; none for data of another program.
   static std::vector<world::ObjectId> objects_of(const QMimeData& data);
 
  private:

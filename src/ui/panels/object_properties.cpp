@@ -26,7 +26,7 @@ Matrix3 turn_of(const Vector3& angles) {
 
 Vector3 angles_from(const Matrix3& turn) {
   const double y = std::asin(std::clamp(-turn(2, 0), -1.0, 1.0));
-  // Straight up or down, x and z turn about the same line: all of it is given to z.
+  // Straight up or down, x and z turn about the same line: z takes all of the turn.
   if (std::abs(turn(2, 0)) > 1.0 - 1e-12) return {0.0, y, std::atan2(-turn(0, 1), turn(1, 1))};
   return {std::atan2(turn(2, 1), turn(2, 2)), y, std::atan2(turn(1, 0), turn(0, 0))};
 }
@@ -124,7 +124,7 @@ const Bounds& PlaceProperties::bounds_of(const world::GeometryPointer& shape) co
   return known.bounds;
 }
 
-/// Of what is below the object, along its axes and before its own place stretches it.
+/// Extents of the object with all below it, in its own frame; zero without bounds or with too many parts.
 Vector3 PlaceProperties::extents(const World& world, ObjectId id) const {
   constexpr std::size_t kMostParts = 2000;
   struct Due {

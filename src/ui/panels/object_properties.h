@@ -6,18 +6,18 @@
 
 namespace icome::ui {
 
-/// Where objects are and how large, in people's terms. Remembers angles as they were typed, as a turn has
-/// more than one way to be written. Give the functions no longer than the object lives.
+/// Places and sizes of objects as people set them. Remembers angles as they were typed, since a rotation can
+/// be written in more than one way. The properties must not be used longer than this object lives.
 class PlaceProperties {
  public:
-  /// m, with respect to the parent.
+  /// Position, m, in the parent's frame.
   Property<double> position(int axis);
-  /// rad, about the parent's x, then y, then z.
+  /// Rotation, rad, about the parent's x, then y, then z.
   Property<double> turn(int axis);
-  /// m, along the object's own axes, of all that is below it; not of what has no bounds or very many parts.
+  /// Size with all below, m, along the object's own axes; none without bounds or with very many parts.
   Property<double> size(int axis);
 
-  /// Another selection: nothing needs to be remembered any more.
+  /// Forgets the typed angles; to be called for another selection.
   void forget();
 
  private:
@@ -29,7 +29,7 @@ class PlaceProperties {
     std::weak_ptr<const world::Geometry> shape;
     base::Bounds bounds;
   };
-  mutable std::unordered_map<const world::Geometry*, KnownBounds> bounds_;  // those of a mesh take time
+  mutable std::unordered_map<const world::Geometry*, KnownBounds> bounds_;  // cached, as a mesh's take time
   std::unordered_map<world::ObjectId, base::Vector3> typed_;                // rad
 };
 

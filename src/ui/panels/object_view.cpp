@@ -15,7 +15,7 @@ using world::ObjectId;
 
 namespace {
 
-/// Rows of an even height; those of a list say where the object is.
+/// Draws rows of an even height; in a list also the path to the object.
 class ObjectDelegate final : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
@@ -71,7 +71,7 @@ void ObjectView::finish_editing() {
   closeEditor(editor, QAbstractItemDelegate::NoHint);
 }
 
-/// Keeps the order of selecting: what was selected before comes first.
+/// Selects the view's objects in the session, in the order of selecting: those selected before come first.
 void ObjectView::select_in_session() {
   if (busy_) return;
   std::vector<ObjectId> now;
@@ -92,7 +92,7 @@ void ObjectView::select_in_session() {
   session_.select(std::move(ordered));
 }
 
-/// Rows side by side become one range: a selection of very many ranges is slow.
+/// The selection of the objects; adjacent rows are one range, as a selection of very many ranges is slow.
 QItemSelection ObjectView::selection_of(const std::vector<ObjectId>& objects) {
   std::map<ObjectId, std::vector<int>> rows;  // by parent
   std::map<ObjectId, QModelIndex> parents;

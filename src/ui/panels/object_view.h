@@ -7,17 +7,17 @@
 
 namespace icome::ui {
 
-/// A view of an ObjectModel whose selection is a session's. Does not own either.
+/// A view of an ObjectModel that shares its selection with a session. Owns neither.
 class ObjectView final : public QTreeView {
  public:
   ObjectView(session::Session& session, ObjectModel& objects, QWidget* parent);
 
-  /// The session has selected something else, or rows have come and gone.
+  /// Shows the session's selection; to be called when that has changed, or rows have come and gone.
   void show_selection();
-  /// Selects nothing else in the session while the world's changes are followed; what is selected then is for
-  /// show_selection() to show.
+  /// Follows changes of the world, without selecting anything in the session meanwhile; showing the selection
+  /// is left to show_selection().
   void follow(const world::Changes* changes);
-  /// Renames the object whose name is being typed.
+  /// Commits the name that is being typed.
   void finish_editing();
 
  private:

@@ -4,16 +4,16 @@
 
 namespace icome::ui {
 
-/// A line on a panel that says why something was refused, or what else is to be known of it, near where it
-/// was asked for. It takes no room while it has nothing to say, and goes by itself after some time.
+/// A line on a panel that tells why something was refused, or a remark, near the place where it was asked
+/// for. It takes no room while it is empty. A text of say() disappears after some time.
 class PanelNote final : public QLabel {
  public:
   explicit PanelNote(QWidget* parent);
 
   void say(const QString& why);
-  /// The same until something else is said: for what is to be put right before anything can go on.
+  /// Shows a refusal until another text is set: for errors that must be put right before going on.
   void keep(const QString& why);
-  /// What is no refusal, until something else is said.
+  /// Shows a remark that is no refusal, until another text is set.
   void remark(const QString& what);
   void clear();
 

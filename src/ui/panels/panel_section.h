@@ -9,7 +9,7 @@
 
 namespace icome::ui {
 
-/// A part of a panel under a heading that folds it away: rows of a label and what belongs to it, and a note.
+/// A part of a panel under a heading that folds it: rows, each of a label with its fields, and a note.
 /// Without a title it has no heading.
 class PanelSection final : public QWidget {
  public:
@@ -22,9 +22,9 @@ class PanelSection final : public QWidget {
     void set_visible(bool visible) const;
   };
   Row add_row(const QString& label, const QString& tip, std::vector<QWidget*> fields);
-  /// Something as wide as the section.
+  /// Adds a widget as wide as the section.
   void add_wide(QWidget* widget);
-  /// Something as wide as the fields, under those of the last row.
+  /// Adds a widget as wide as the fields, under those of the last row.
   void add_below(QWidget* widget);
 
   QWidget* body() const { return body_; }

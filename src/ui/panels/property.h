@@ -8,20 +8,20 @@
 
 namespace icome::ui {
 
-/// Something of an object that people see and change.
+/// A property of an object, which people see and change.
 template <typename Value>
 struct Property {
   using Get = std::function<std::optional<Value>(const world::World&, world::ObjectId)>;
   using Set = std::function<base::Result<world::Edit>(const world::World&, world::ObjectId, const Value&)>;
 
-  Get get;  // nothing: the object has no such thing
-  Set set;  // of an object that has
+  Get get;  // nothing: the object has no such property
+  Set set;  // for objects that have it
 };
 
-/// What several objects have in common.
+/// The value of a property that several objects have in common.
 template <typename Value>
 struct Common {
-  bool shared_by_all = false;    // all have such a thing
+  bool shared_by_all = false;    // all have the property
   std::optional<Value> value{};  // the same for all; none: mixed
 };
 
@@ -39,7 +39,7 @@ Common<Value> common(const world::World& world, const std::vector<world::ObjectI
   return result;
 }
 
-/// Sets it for all of them.
+/// The edit that sets the value for all objects; fails where one of them refuses it.
 template <typename Value>
 base::Result<world::Edit> edit_all(const world::World& world, const std::vector<world::ObjectId>& objects,
                                    const Property<Value>& property, const Value& value) {
@@ -52,8 +52,8 @@ base::Result<world::Edit> edit_all(const world::World& world, const std::vector<
   return world::Edit(std::move(group));
 }
 
-/// The selected objects as what they are made of: one object stands for all that share a shape or a material,
-/// so that what is shared is changed once.
+/// The selected objects by the parts that they consist of: one object stands for all that share a shape or a
+/// material, so that a shared part is changed once.
 struct Subjects {
   std::vector<world::ObjectId> objects = {};
   std::vector<world::ObjectId> dressed = {};    // all that have a shape or a material
@@ -62,7 +62,7 @@ struct Subjects {
   std::vector<world::ObjectId> lights = {};
   std::vector<world::ObjectId> viewpoints = {};
   std::vector<world::ObjectId> effects = {};
-  bool all_have_materials = false;  // of the dressed
+  bool all_have_materials = false;  // of those with a shape
 };
 Subjects subjects_of(const world::World& world, const std::vector<world::ObjectId>& selection);
 

@@ -36,7 +36,7 @@ QString noun_of(PropertyBinder::Of of) {
   return "objects";
 }
 
-/// Those that are told to a note beside the field.
+/// A function that shows refusals in the section's note.
 auto told_to(const PanelSection& section) {
   return [&note = section.note()](const QString& why) { note.say(why); };
 }
@@ -77,7 +77,7 @@ void PropertyBinder::refresh() {
 template <typename Value>
 Result<void> PropertyBinder::set(const void* control, const Row& row, const Property<Value>& property,
                                  const Value& value, bool more) {
-  subjects_ = subjects_of(session_.world(), session_.selection());  // never an older one
+  subjects_ = subjects_of(session_.world(), session_.selection());  // brings them up to date
   const std::vector<ObjectId>& objects = list(row.of);
   const Common<Value> now = common(session_.world(), objects, property);
   if (!now.shared_by_all) return base::fail("What is selected now has no such value.");

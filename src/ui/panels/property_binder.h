@@ -10,13 +10,13 @@
 
 namespace icome::ui {
 
-/// Makes rows of a panel that show what the selected objects have in common and change all of them. A row is
-/// seen while all have such a thing. The session and the sections outlive it.
+/// Makes rows of a panel that show the values that the selected objects have in common, and change all of
+/// them. A row is visible while all have the property. The session and the sections outlive it.
 class PropertyBinder {
  public:
-  /// What a change is made to, and named after.
+  /// The things that a change applies to, and is named after.
   enum class Of : std::uint8_t { Objects, Shapes, Materials, Lights, Viewpoints, Effects };
-  /// How a row is called, what it means, and how changing it is called: "Move", "Change radius of".
+  /// A row's label, its tooltip, and the verb that names its change: "Move", "Change radius of".
   struct Row {
     QString label = {};
     QString tip = {};
@@ -27,30 +27,30 @@ class PropertyBinder {
   explicit PropertyBinder(session::Session& session) : session_(session), run_(session) {}
 
   void number(PanelSection& section, const Row& row, Quantity quantity, const Property<double>& property);
-  /// A number with a slider beside it, from `least` to `most`: what is dragged is felt and seen at once, and
-  /// is one action to undo.
+  /// A number with a slider beside it, from `least` to `most`: dragging is felt and seen at once, and is one
+  /// action to undo.
   void slider(PanelSection& section, const Row& row, Quantity quantity, const Property<double>& property,
               double least, double most);
   void triple(PanelSection& section, const Row& row, Quantity quantity,
               const std::array<Property<double>, 3>& properties);
-  /// `none`: what is meant where no number is set.
+  /// A number that may be missing; `none` tells what that means.
   void maybe_number(PanelSection& section, const Row& row, Quantity quantity,
                     const Property<std::optional<double>>& property, const QString& none);
   void text(PanelSection& section, const Row& row, const Property<std::string>& property);
   void colour(PanelSection& section, const Row& row, const Property<world::Colour>& property);
   void check(PanelSection& section, const Row& row, const Property<bool>& property);
   void choice(PanelSection& section, const Row& row, const Property<int>& property, const QStringList& items);
-  /// One of the texts, shown in these words; so is another text that an object has.
+  /// A choice of the texts, shown in these words; any other text that an object has is shown, too.
   void text_choice(PanelSection& section, const Row& row, const Property<std::string>& property,
                    const std::vector<std::string>& texts, QString (*words)(const std::string& text));
-  /// Anything else that follows the selection.
+  /// Calls `refresh` whenever the rows are refreshed, for anything else that follows the selection.
   void follow(std::function<void()> refresh) { refreshers_.push_back(std::move(refresh)); }
 
-  /// Shows what is selected now.
+  /// Shows the present selection in all rows.
   void refresh();
   const Subjects& subjects() const { return subjects_; }
   session::Session& session() const { return session_; }
-  /// "Change colour of Beech", "Move 3 objects".
+  /// Name of an action: "Change colour of Beech", "Move 3 objects".
   std::string action(const QString& verb, Of of) const;
   base::Result<void> perform(const void* control, const world::Edit& edit, const std::string& name,
                              bool more = false) {

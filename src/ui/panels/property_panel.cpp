@@ -30,7 +30,7 @@ namespace {
 
 constexpr int kSoftnessEvery = 250;  // ms
 
-/// How a number of an effect is shown.
+/// The quantity of an effect's number that has this unit.
 Quantity quantity_in(const std::string& unit) {
   if (unit == "m") return Quantity::Length;
   if (unit == "N") return Quantity::Force;
@@ -39,7 +39,7 @@ Quantity quantity_in(const std::string& unit) {
   return Quantity::Plain;
 }
 
-/// Plain words on several lines. A name without a space in it does not widen the panel.
+/// Lets a label show plain text on several lines. A name without a space in it does not widen the panel.
 void wrap(QLabel& label) {
   label.setTextFormat(Qt::PlainText);
   label.setWordWrap(true);
@@ -48,7 +48,7 @@ void wrap(QLabel& label) {
   label.setSizePolicy(policy);
 }
 
-/// What is said where there is nothing to change.
+/// Adds a label for a remark, where there is nothing to change.
 QLabel* remark(PanelSection& section) {
   auto* label = new QLabel(section.body());
   wrap(*label);
@@ -61,7 +61,7 @@ void say(QLabel& label, const QString& text) {
   label.setVisible(!text.isEmpty());
 }
 
-/// Who else has it; nothing where that is nobody.
+/// Text on the sharing of a shape or material, or on several selected ones; empty where none is shared.
 template <typename AnyId>
 QString shared_words(const world::World& world, const std::vector<ObjectId>& representatives,
                      AnyId world::PhysicalObject::*member, const char* several) {
@@ -373,7 +373,7 @@ void PropertyPanel::Parts::build_effect() {
   }
   QLabel* trouble = remark(section);
   binder.follow([this, trouble] { say(*trouble, effect_trouble()); });
-  // The servo says what it makes of an effect some time after that is changed.
+  // The servo reports on an effect some time after the effect was changed.
   auto* later = new QTimer(trouble);
   QObject::connect(later, &QTimer::timeout, trouble, [this, trouble] {
     if (trouble->parentWidget()->isVisible()) say(*trouble, effect_trouble());
@@ -381,7 +381,7 @@ void PropertyPanel::Parts::build_effect() {
   later->start(kSoftnessEvery);
 }
 
-/// What keeps the first of the selected effects from being felt as its text says; nothing where nothing does.
+/// Why the first of the selected effects is not felt as its text says; empty where it is.
 QString PropertyPanel::Parts::effect_trouble() const {
   const std::vector<ObjectId>& effects = binder.subjects().effects;
   const world::PhysicalObject* object =
@@ -430,7 +430,7 @@ PropertyPanel::PropertyPanel(session::Session& session, QWidget* parent)
 PropertyPanel::~PropertyPanel() = default;
 
 bool PropertyPanel::finish_typing() {
-  // The window remembers who has the keyboard there, also while another window has it.
+  // The window remembers its focus widget, also while another window is active.
   QWidget* const focus = window()->focusWidget();
   if (!focus || !isAncestorOf(focus)) return true;
   if (auto* number = dynamic_cast<QuantityField*>(focus)) return number->finish();

@@ -6,14 +6,14 @@
 
 namespace icome::ui {
 
-/// What the selected objects are, look and feel like, to be read and changed. Of several it shows what they
-/// have in common, and changes all. Changes go through the session, which outlives it.
+/// The panel to read and change what the selected objects are, look and feel like. For several objects it
+/// shows common values, and changes all. Changes go through the session, which outlives it.
 class PropertyPanel final : public QWidget {
  public:
   PropertyPanel(session::Session& session, QWidget* parent);
   ~PropertyPanel() override;
 
-  /// Commits what is being typed in a field; false: it was refused, which is shown.
+  /// Commits the text that is being typed in a field; false: it was refused, and the panel tells why.
   bool finish_typing();
 
  protected:

@@ -23,7 +23,7 @@ const Kind* shape_as(const World& world, ObjectId id) {
   return dynamic_cast<const Kind*>(shape_of(world, id));
 }
 
-/// A property of one kind of primitive. `number` gives the number in it, to be read or written.
+/// A size of one kind of primitive. `number` reads it, and first sets it where a value is given.
 template <typename Kind, typename Number>
 Property<double> size_property(const Number& number) {
   return {[number](const World& world, ObjectId id) -> std::optional<double> {
@@ -56,7 +56,7 @@ ShapeSize size_of(const char* label, double Kind::*member) {
           })};
 }
 
-/// A box stands along z or y as others do: people see the axes of the object.
+/// A box stands along z or y, as other primitives do; `axis` is an axis of the object.
 ShapeSize box_size(const char* label, int axis) {
   return {label, size_property<geometry::Box>(
                      [axis](geometry::Box& it, world::Axis stands, std::optional<double> value) {

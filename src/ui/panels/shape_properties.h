@@ -6,18 +6,18 @@
 
 namespace icome::ui {
 
-/// A size of a primitive, which other shapes do not have.
+/// A size of one kind of primitive, which other shapes do not have.
 struct ShapeSize {
   const char* label;  // "Radius"
   Property<double> property;
 };
-/// Of all kinds of primitives; an object has those of its own kind.
+/// The sizes of all kinds of primitives; an object has those of its own kind.
 std::vector<ShapeSize> shape_sizes();
 
-/// Of implicit surfaces. What cannot be read is refused, naming the column.
+/// The formula of an implicit surface. Setting one that cannot be read fails, naming the column.
 Property<std::string> formula_property();
 
-/// Figures of shapes that have no sizes to change: "1,200 triangles, 602 vertices".
+/// Figures of a shape that has no sizes to change: "1,200 triangles, 602 vertices"; else empty.
 QString figures_of(const world::Geometry& shape);
 
 }  // namespace icome::ui

@@ -11,7 +11,7 @@ using world::PhysicalObject;
 
 namespace {
 
-/// The selected objects by what they have.
+/// The selected objects, grouped by their shape or material.
 template <typename AnyId>
 std::map<AnyId, std::vector<ObjectId>> users_by(const session::Session& session,
                                                 AnyId PhysicalObject::*member) {

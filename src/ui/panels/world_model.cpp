@@ -32,7 +32,7 @@ WorldModel::Node& WorldModel::add_node(ObjectId object, ObjectId parent) {
   Node& node = nodes_[object];
   node = Node{};
   node.parent = parent;
-  node.fetched = children_of(object).empty();  // what comes later is news
+  node.fetched = children_of(object).empty();  // later children are announced
   return node;
 }
 
@@ -42,7 +42,7 @@ int WorldModel::row_of(ObjectId object) const {
   return int(node.hint);
 }
 
-/// Of an object that has a row.
+/// Index of an object that has a row.
 QModelIndex WorldModel::known_index(ObjectId object) const {
   return object ? createIndex(row_of(object), 0, quintptr(object.value)) : QModelIndex();
 }
@@ -52,7 +52,7 @@ QModelIndex WorldModel::index_of(ObjectId object) {
   if (!it) return {};
   std::vector<ObjectId> above;
   for (; it->parent; it = world().find(it->parent)) above.push_back(it->parent);
-  // From the top down: what has a row by now can be fetched.
+  // From the top down: children of an object can be fetched once it has a row.
   fetch({});
   for (; !above.empty(); above.pop_back()) fetch(above.back());
   return nodes_.contains(object) ? known_index(object) : QModelIndex();

@@ -6,8 +6,8 @@
 
 namespace icome::ui {
 
-/// The hierarchy of a world as rows. It mirrors only what views have asked for, and after an edit changes
-/// only the rows that are different: views keep what is open, selected and scrolled to.
+/// The hierarchy of a world as rows. It mirrors only the parts that views have asked for, and after an edit
+/// it changes only the rows that differ: views keep their open items, selection and scroll position.
 class WorldModel final : public ObjectModel {
  public:
   WorldModel(session::Session& session, QObject* parent);
@@ -33,7 +33,7 @@ class WorldModel final : public ObjectModel {
     world::ObjectId parent = {};
     std::vector<world::ObjectId> children = {};  // none before they are fetched
     bool fetched = false;
-    mutable std::uint32_t hint = 0;  // about where it is among its siblings
+    mutable std::uint32_t hint = 0;  // likely place among its siblings
   };
 
   const std::vector<world::ObjectId>& children_of(world::ObjectId object) const;

@@ -6,8 +6,8 @@
 #include "ui/panels/world_model.h"
 #include "world/row.h"
 
-// How the rows of a WorldModel come to be those of a world that has changed. The world is there already; the
-// rows go there in steps, and views look at them between any two.
+// The steps by which the rows of a WorldModel follow a world that has changed. The world is there already;
+// the rows follow in steps, and views look at them between any two.
 
 namespace icome::ui {
 
@@ -21,8 +21,8 @@ std::size_t depth_of(const world::World& world, ObjectId object) {
   return depth;
 }
 
-/// Calls `run(first, last)` for rows that lie side by side, from the last run to the first: what is done to a
-/// run leaves the rows of those before it what they are.
+/// Calls `run(first, last)` for each run of adjacent rows, from the last run to the first: changing a run
+/// leaves the numbers of the rows before it as they are.
 template <typename Run>
 void for_runs(std::vector<int>& rows, const Run& run) {
   std::sort(rows.begin(), rows.end());
@@ -49,10 +49,10 @@ void WorldModel::follow(const world::Changes* changes) {
   announce(*changes);
 }
 
-/// Moves the rows that have gone to another parent with rows, and gives those that have no place any more.
+/// Moves rows to their new parents where these have rows; returns the objects that have no row any more.
 std::vector<ObjectId> WorldModel::take_moves(const world::Changes& changes) {
   std::vector<ObjectId> gone;
-  std::vector<std::pair<std::size_t, ObjectId>> moved;  // with how deep they are
+  std::vector<std::pair<std::size_t, ObjectId>> moved;  // with their depths
   for (const ObjectId id : changes.objects) {
     const auto node = nodes_.find(id);
     if (!id || node == nodes_.end()) continue;
@@ -63,7 +63,7 @@ std::vector<ObjectId> WorldModel::take_moves(const world::Changes& changes) {
       moved.emplace_back(depth_of(world(), id), id);
     }
   }
-  // From the top: where something goes to, what is above is right already.
+  // From the top down: when a row moves, the rows above its target are right already.
   std::sort(moved.begin(), moved.end());
   for (const auto& [depth, id] : moved) {
     const ObjectId parent = world().find(id)->parent;
@@ -83,7 +83,7 @@ bool WorldModel::is_shown_within(ObjectId object, ObjectId ancestor) const {
   return object == ancestor;
 }
 
-/// Behind the next sibling before it that is there; arrange() sees to the rest.
+/// Puts the row behind the nearest sibling before it that has a row; arrange() sees to the rest.
 void WorldModel::move_row(ObjectId object, ObjectId parent) {
   const std::vector<ObjectId>& wanted = children_of(parent);
   const world::PhysicalObject& it = *world().find(object);
@@ -115,7 +115,7 @@ void WorldModel::remove_rows(const std::vector<ObjectId>& gone) {
   }
   for (auto& [parent, of_parent] : rows) {
     const ObjectId from = parent;
-    if (!nodes_.contains(from)) continue;  // went with one above it
+    if (!nodes_.contains(from)) continue;  // removed with an ancestor
     for_runs(of_parent, [&](int first, int last) { remove_run(from, first, last); });
   }
 }
@@ -140,7 +140,7 @@ void WorldModel::forget(ObjectId object) {
   }
 }
 
-/// Those with rows that are not what they should be any more.
+/// Parents with fetched rows that do not match their children any more.
 std::vector<ObjectId> WorldModel::parents_to_arrange(const world::Changes& changes) const {
   std::vector<ObjectId> parents;
   for (const ObjectId id : changes.objects) {
@@ -159,7 +159,7 @@ std::vector<ObjectId> WorldModel::parents_to_arrange(const world::Changes& chang
   return parents;
 }
 
-/// Inserts and moves rows until they are the object's children.
+/// Inserts and moves rows until they are the parent's children, in their order.
 void WorldModel::arrange(ObjectId parent) {
   const std::vector<ObjectId>& wanted = children_of(parent);
   for (std::size_t i = 0; i < wanted.size();) {
@@ -181,7 +181,7 @@ void WorldModel::arrange(ObjectId parent) {
   }
 }
 
-/// Inserts rows for what has none, from place `first` on; gives the place behind them.
+/// Inserts rows for the children without one, from place `first` on; returns the place behind them.
 std::size_t WorldModel::insert_run(ObjectId parent, std::size_t first) {
   const std::vector<ObjectId>& wanted = children_of(parent);
   std::size_t end = first;
@@ -195,7 +195,7 @@ std::size_t WorldModel::insert_run(ObjectId parent, std::size_t first) {
   return end;
 }
 
-/// What had children that no view asked for may have lost them all; views learn that from the layout only.
+/// Marks objects that have lost children before these were fetched; views learn that from the layout only.
 void WorldModel::note_childless() {
   bool found = false;
   for (auto& [id, node] : nodes_) {
@@ -208,7 +208,7 @@ void WorldModel::note_childless() {
   emit layoutChanged();
 }
 
-/// Tells views what looks different.
+/// Tells views which rows look different.
 void WorldModel::announce(const world::Changes& changes) {
   std::map<ObjectId, std::vector<int>> rows;  // by parent
   for (const ObjectId id : changes.objects) {

@@ -26,7 +26,7 @@ using world::ObjectId;
 
 namespace {
 
-/// What is unfolded to begin with: as many levels as there is room for at a glance.
+/// Most rows that are unfolded at first, level by level: as many as can be seen at a glance.
 constexpr int kAtAGlance = 24;
 
 }  // namespace
@@ -136,7 +136,7 @@ void WorldTree::Parts::connect_view(ObjectView& it) {
 void WorldTree::Parts::follow(const world::Changes* changes) {
   tree->follow(changes);
   list->follow(changes);
-  // The view that is not seen is told when it is.
+  // The hidden view takes over the selection when it is shown.
   if (!changes || !changes->objects.empty()) view().show_selection();
   if (!changes) unfold();
   if (!changes || !changes->scenes.empty()) show_scenes();
@@ -192,7 +192,7 @@ void WorldTree::Parts::show_scenes() {
     scene->addItem(icon(Icon::Scene), name.isEmpty() ? QString("Scene without a name") : name);
     if (id == session.stage().shown_scene()) scene->setCurrentIndex(scene->count() - 1);
   }
-  // One scene of all there is would be no choice.
+  // A single scene that is the whole world would be no choice.
   const bool all =
       scenes.size() == 1 && session.world().find(scenes.front())->roots == session.world().roots();
   scene->setVisible(!scenes.empty() && !all);

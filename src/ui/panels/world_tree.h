@@ -7,20 +7,20 @@
 
 namespace icome::ui {
 
-/// The objects of the world as a tree, with a box to search them by name; selects what the session has
-/// selected and the other way round. Changes go through the session, which outlives it.
+/// The objects of the world as a tree, with a box to search them by name; its selection is the session's.
+/// Changes go through the session, which outlives it.
 class WorldTree final : public QWidget {
  public:
   WorldTree(session::Session& session, QWidget* parent);
   ~WorldTree() override;
 
-  /// What "Zoom to" in the context menu and a double click on an object do, once it is selected.
+  /// Sets the action of "Zoom to" in the context menu and of a double click, which select the object first.
   void on_zoom_to(std::function<void()> zoom);
   /// Edits the name of the current object in place.
   void rename();
-  /// Commits the name that is being typed; false: it was refused, which is shown.
+  /// Commits the name that is being typed; false: it was refused, and the panel tells why.
   bool finish_typing();
-  /// Puts the keyboard into the search box.
+  /// Puts the keyboard's focus into the search box.
   void search();
 
  private:

@@ -11,10 +11,10 @@ namespace icome::ui {
 namespace {
 
 constexpr std::int64_t kSpan = 5'000'000'000;                // ns that are shown
-constexpr std::int64_t kGap = 250'000'000;                   // ns: what lies further apart is no curve
-constexpr std::size_t kMostSamples = std::size_t(1) << 15U;  // whatever the session gives
+constexpr std::int64_t kGap = 250'000'000;                   // ns: samples further apart are not joined
+constexpr std::size_t kMostSamples = std::size_t(1) << 15U;  // however many the session gives
 
-/// 1, 2 or 5 times a power of ten, not below `force`.
+/// The least of 1, 2 and 5 times a power of ten that is not below `force`.
 double nice_above(double force) {
   const double power = std::pow(10.0, std::floor(std::log10(force)));
   for (const double step : {1.0, 2.0, 5.0}) {
@@ -97,7 +97,7 @@ void ForcePlot::paint_scale(QPainter& painter, const QRectF& area) const {
   painter.drawText(words, Qt::AlignLeft | Qt::AlignBottom, "5 s ago");
 }
 
-/// Of several samples in a pixel the largest: a knock of a few milliseconds must show.
+/// The largest of several samples within a pixel is drawn: a knock of a few milliseconds must show.
 void ForcePlot::paint_curve(QPainter& painter, const QRectF& area) const {
   const double pixel = 1.0 / std::max(1.0, painter.device()->devicePixelRatioF());
   const double scale = area.height() / top();

@@ -7,13 +7,13 @@
 
 namespace icome::ui {
 
-/// The force on the hand over the last seconds; where something is touched, the ground is shaded.
+/// A plot of the force on the hand over the last seconds; shaded while something is touched.
 class ForcePlot final : public PlotPanel {
  public:
   explicit ForcePlot(QWidget* parent);
 
-  /// `now` in ns on the steady clock; `reach` in N: what the device can do, which is always in sight; 0 for
-  /// one without force.
+  /// Adds samples. `now` in ns on the steady clock; `reach` in N is the most that the device can do, and is
+  /// always in sight; 0 for a device without force.
   void add(const std::vector<session::ForceSample>& samples, std::int64_t now, double reach);
 
  protected:

@@ -9,7 +9,7 @@
 namespace icome::ui {
 namespace {
 
-/// What bars mean: all is well, little room is left, ticks come too late.
+/// Colour of a bar by its load: all is well, little room is left, or ticks come too late.
 const QColor& bar_colour(std::size_t bin) {
   constexpr std::size_t kLittleRoom = 70, kTooMuch = 95;
   if (bin >= kTooMuch) return colours().bad;

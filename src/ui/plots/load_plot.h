@@ -4,7 +4,7 @@
 
 namespace icome::ui {
 
-/// Haptic load: which share of its time the servo needs, as a histogram of its ticks.
+/// A plot of the haptic load, the share of its time that the servo needs, as a histogram of its ticks.
 class LoadPlot final : public PlotPanel {
  public:
   explicit LoadPlot(QWidget* parent);

@@ -7,7 +7,7 @@
 namespace icome::ui {
 
 void LoadWindow::add(std::int64_t time, const LoadCounts& counts) {
-  constexpr std::int64_t kApart = 200'000'000;  // ns: samples closer than that are not worth their memory
+  constexpr std::int64_t kApart = 200'000'000;  // ns: closer samples are not worth their memory
   if (!samples_.empty()) {
     const LoadCounts& before = samples_.back().counts;
     const bool grown = std::equal(before.begin(), before.end(), counts.begin(), std::less_equal<>());

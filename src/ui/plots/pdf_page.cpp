@@ -24,34 +24,34 @@ namespace {
 
 constexpr int kDotsPerInch = 300;
 constexpr double kMarginMm = 20.0;
-constexpr double kFootMm = 8.0;     // of the margin below the text, where its foot stands
+constexpr double kFootMm = 8.0;     // from the text to its foot, in the margin below
 constexpr double kTopMm = 1.0;      // above the first line of each page
 constexpr double kFootGapMm = 6.0;  // between the foot's words and the page number
 constexpr double kMmPerInch = 25.4;
 
 double dots(double mm) { return mm / kMmPerInch * kDotsPerInch; }
 
-/// A page is drawn in memory: which platform there is must not matter.
+/// An application that draws in memory, so that it does not depend on the platform.
 std::unique_ptr<QGuiApplication> offscreen_application() {
   static int argc = 1;
   static char name[] = "icome";
   static char* argv[] = {name, nullptr};
   qputenv("QT_QPA_PLATFORM", "offscreen");
-  // What it has to say of a machine without a desktop is of no use here.
+  // Messages about a machine without a desktop are of no use here.
   qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
   return std::make_unique<QGuiApplication>(argc, argv);
 }
 
 bool is_in_table(const QTextBlock& block) { return QTextCursor(block).currentTable() != nullptr; }
 
-/// A heading, the caption above a table, or a picture above its caption.
+/// Is the block a heading, the caption above a table, or a picture above its caption?
 bool stays_with_next(const QTextBlock& block) {
   if (!block.next().isValid() || is_in_table(block)) return false;
   const bool picture = block.text() == QString(QChar::ObjectReplacementCharacter);
   return picture || block.blockFormat().headingLevel() > 0 || is_in_table(block.next());
 }
 
-/// Where the text that what comes before must stay with begins: of a table its first row below the head.
+/// The part of a block that must stay with the blocks before it: of a table, its first row below the head.
 QTextBlock held(const QTextBlock& block) {
   const QTextTable* const table = QTextCursor(block).currentTable();
   if (table == nullptr) return block;
@@ -60,7 +60,7 @@ QTextBlock held(const QTextBlock& block) {
 
 int page_at(const QTextDocument& document, double y) { return int(y / document.pageSize().height()); }
 
-/// Begins a page where otherwise a heading or a caption would be left behind at the end of one.
+/// Inserts a page break where otherwise a heading or a caption would be the last thing on a page.
 void keep_together(QTextDocument& document) {
   const QAbstractTextDocumentLayout& layout = *document.documentLayout();
   for (QTextBlock block = document.begin(); block.isValid();) {
@@ -80,7 +80,7 @@ void keep_together(QTextDocument& document) {
   }
 }
 
-/// A line without what only steers a terminal or breaks a line.
+/// The text as one line, without control characters.
 QString clean_line(const std::string& text) {
   QString line = QString::fromStdString(text);
   for (QChar& letter : line)
@@ -136,7 +136,7 @@ QByteArray pdf_bytes(const std::string& html, const PdfTitle& title) {
   document.setDefaultFont(font);
   document.setDocumentMargin(0.0);
   document.setHtml(QString::fromStdString(html));
-  // A little lower than the page, so that a viewer's clipping by whole pixels shows nothing of the next one.
+  // Text begins a little lower, so that a viewer that clips to whole pixels shows none of the next page.
   QTextFrameFormat frame = document.rootFrame()->frameFormat();
   frame.setTopMargin(dots(kTopMm));
   document.rootFrame()->setFrameFormat(frame);
@@ -151,7 +151,7 @@ QByteArray pdf_bytes(const std::string& html, const PdfTitle& title) {
 
 base::Result<void> write_pdf(const std::string& html, const PdfTitle& title,
                              const std::filesystem::path& out) {
-  // What Qt lacks of a desktop does not matter to a file.
+  // Qt's messages about a missing desktop do not matter for a file.
   const QtMessageHandler usual =
       qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
   const auto application = offscreen_application();

@@ -3,7 +3,7 @@
 
 namespace icome::ui {
 
-/// A small plot with a caption and its figures in words above: what the plots of the strip have in common.
+/// A small plot with a caption and its figures in words above it: the base of the plots of the strip.
 class PlotPanel : public QWidget {
  public:
   PlotPanel(const QString& caption, QWidget* parent);
@@ -12,13 +12,13 @@ class PlotPanel : public QWidget {
   QSize minimumSizeHint() const override;
 
  protected:
-  /// The figures beside the caption. Also what screen readers say.
+  /// Sets the figures beside the caption, which screen readers say, too.
   void set_figures(const QString& figures);
-  /// Draws into the plot's own area, which is clipped to it.
+  /// Draws the plot into `area`, to which it is clipped.
   virtual void paint_plot(QPainter& painter, const QRectF& area) = 0;
   void paintEvent(QPaintEvent* event) override;
 
-  /// Letters of axes.
+  /// The font of axis labels.
   static QFont small(const QFont& font);
 
  private:

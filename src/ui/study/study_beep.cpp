@@ -16,14 +16,14 @@ namespace {
 constexpr unsigned kSampleRate = 48000;    // Hz
 constexpr unsigned kSoundBuffer = 200000;  // us: the whole tone fits in, so it cannot run dry
 
-/// ALSA would write its own account of every failure to standard error.
+/// Keeps ALSA from writing its own account of every failure to standard error.
 void hush(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*format*/,
           ...) {}
 
 base::Result<snd_pcm_t*> open_sound() {
   snd_lib_error_set_handler(hush);
   snd_pcm_t* sound = nullptr;
-  // Not blocking: an output that another program has for itself is not waited for.
+  // Not blocking: does not wait for an output that another program has for itself.
   int error = snd_pcm_open(&sound, "default", SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
   if (error == 0) {
     snd_pcm_nonblock(sound, 0);
@@ -69,12 +69,12 @@ struct StudyBeep::Parts {
   void play_tone();
 };
 
-/// What fails here is not heard, and the next time may be.
+/// Plays the tone. After a failure this one is not heard, but the next may be.
 void StudyBeep::Parts::play_tone() {
   snd_pcm_drop(sound);
   if (snd_pcm_prepare(sound) < 0) return;
   if (snd_pcm_writei(sound, tone.data(), tone.size()) < 0) return;
-  snd_pcm_drain(sound);  // which starts what has not begun by itself
+  snd_pcm_drain(sound);  // starts a tone that has not begun by itself
 }
 
 void StudyBeep::Parts::run(const std::stop_token& end) {

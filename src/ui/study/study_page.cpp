@@ -31,7 +31,7 @@ QLabel* text_label(const QString& text, double size, QWidget* parent) {
   return label;
 }
 
-/// A widget in the middle of a row, no wider than a line that is good to read.
+/// A row with the widget in its middle, no wider than a line that is good to read.
 QLayout* centred(QWidget* widget) {
   auto* row = new QHBoxLayout;
   row->setContentsMargins(12 * kGrid, 0, 12 * kGrid, 0);
@@ -186,7 +186,7 @@ void StudyRestPage::end_wait() {
   timer_->stop();
   left_->clear();
   main_button()->setEnabled(true);
-  if (isVisible()) take_keyboard();  // not from what covers it
+  if (isVisible()) take_keyboard();  // not from a page that covers it
 }
 
 void StudyRestPage::count_down() {

@@ -10,14 +10,14 @@ class QVBoxLayout;
 
 namespace icome::ui {
 
-/// A button as large as the type of studies; the main one of a page is filled with the accent's colour.
+/// A button as large as the text of studies; the main one of a page is filled with the accent's colour.
 class StudyButton final : public QPushButton {
  public:
   StudyButton(const QString& text, bool main, QWidget* parent);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
-  /// The second click of a double one was not meant for the page that the first one brought.
+  /// Does nothing: the second click was not meant for the page that the first one may have opened.
   void mouseDoubleClickEvent(QMouseEvent* /*event*/) override {}
 
  private:
@@ -25,27 +25,27 @@ class StudyButton final : public QPushButton {
 };
 
 /// A page of a study: a column of text or fields in the middle, which scrolls where it is long, and buttons
-/// below. Enter presses the button that has the keyboard, or else the main one.
+/// below. Enter presses the button that has the keyboard's focus, or else the main one.
 class StudyPage : public QWidget {
  public:
   StudyPage(const QString& title, QWidget* parent);
 
-  /// Paragraphs are parted by empty lines; a single line break is one.
+  /// Adds text. Empty lines separate paragraphs; a single line break stays one.
   void add_text(const QString& text);
-  /// A button that is not the main one.
+  /// Adds a button that is not the main one.
   void add_button(const QString& text, std::function<void()> pressed);
   void add_main_button(const QString& text, std::function<void()> pressed);
-  /// In small letters below the buttons.
+  /// Shows a text in small letters below the buttons.
   void show_hint(const QString& text);
-  /// The keyboard goes to what it is for.
+  /// Gives the keyboard's focus to the widget that is used first.
   virtual void take_keyboard();
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
-  /// What Enter does where no button has the keyboard.
+  /// Called for Enter where no button has the keyboard's focus.
   virtual void enter();
   void add_field(QWidget* field);
-  /// Scrolls until it is seen.
+  /// Scrolls until the field is visible.
   void show_field(QWidget* field);
   StudyButton* main_button() const { return main_; }
 
@@ -62,11 +62,11 @@ class StudyPage : public QWidget {
 /// A page that cannot be left before some time has passed.
 class StudyRestPage final : public StudyPage {
  public:
-  /// `left` says how long it still takes, with %1 for the time. Make the main button next, then wait.
+  /// `left` tells the remaining time, which replaces %1. Add the main button before calling wait().
   StudyRestPage(const QString& title, QString left, QWidget* parent);
 
   void wait(double seconds);
-  /// It may be left now.
+  /// Lets the person leave the page now.
   void end_wait();
 
  private:

@@ -22,9 +22,9 @@ using study::ItemKind;
 
 namespace {
 
-constexpr int kMostButtons = 11;  // of a rating: more of them would not be told apart
+constexpr int kMostButtons = 11;  // of a rating: more could not be told apart
 
-/// Several lines; Tab leaves it, and Ctrl+Enter is for the page.
+/// A field for several lines of text; Tab leaves it, and Ctrl+Enter is left to the page.
 class AnswerText final : public QPlainTextEdit {
  public:
   explicit AnswerText(QWidget* parent) : QPlainTextEdit(parent) {
@@ -40,7 +40,7 @@ class AnswerText final : public QPlainTextEdit {
   }
 };
 
-/// "1,5" is a number as well; "1,000" and "1.000" are two, of which nobody knows which is meant.
+/// "1,5" is a number as well; "1,000" and "1.000" are made invalid, as each may mean two numbers.
 std::string typed_number(const QString& text) {
   static const QRegularExpression kThousands("^[+-]?[1-9][0-9]{0,2}([.,][0-9]{3})+$");
   const QString number = text.trimmed();
@@ -50,7 +50,7 @@ std::string typed_number(const QString& text) {
 
 QString shown_number(double number) { return QString::number(number, 'g', 10); }
 
-/// Buttons do not break their lines by themselves, and what does not fit cannot be read.
+/// The text broken into lines: buttons do not break lines themselves, and would cut the text off.
 QString in_lines(const QString& text) {
   constexpr qsizetype kLongestLine = 64;  // letters, which fit into any window that people read in
   QString lines;
@@ -136,7 +136,7 @@ void StudyQuestion::add_choices(bool several) {
   answer_ = [this] { return chosen(); };
 }
 
-/// Their ids, with a comma between several.
+/// Ids of the chosen answers, with a comma between several.
 std::string StudyQuestion::chosen() const {
   std::string ids;
   for (std::size_t i = 0; i < item_.choices.size(); ++i) {
@@ -165,7 +165,7 @@ void StudyQuestion::add_rating() {
   };
 }
 
-/// Its place counts only once it was chosen: where it stands before is nobody's answer.
+/// The slider counts only once it was moved or released: its first place is nobody's answer.
 void StudyQuestion::add_slider() {
   auto* slider = new QSlider(Qt::Horizontal, this);
   slider->setRange(1, item_.points);
@@ -188,7 +188,7 @@ void StudyQuestion::add_slider() {
   };
 }
 
-/// What the ends of a rating scale mean.
+/// Adds the meanings of the two ends of a rating scale.
 void StudyQuestion::add_ends() {
   auto* row = new QHBoxLayout;
   QLabel* const low = note_label(study_text(item_.low, language_), this);
@@ -231,7 +231,7 @@ QString StudyQuestion::why_no_number() const {
   return words_(StudyWord::NumberMissing);
 }
 
-/// In the person's language; empty: the answer can be taken.
+/// The reason why the answer cannot be taken, in the person's language; empty: it can.
 QString StudyQuestion::why() const {
   const std::string its = answer();
   if (study::why_no_answer(item_, its).empty()) return {};

@@ -12,21 +12,21 @@ class QVBoxLayout;
 
 namespace icome::ui {
 
-/// One question of a questionnaire, with what it is answered by. The item outlives it.
+/// One question of a questionnaire, with the widgets for its answer. The item outlives it.
 class StudyQuestion final : public QWidget {
  public:
   StudyQuestion(const study::Item& item, std::size_t language, const StudyWords& words, QWidget* parent);
 
-  /// As SessionRun::answered() takes it; empty: none.
+  /// The answer as SessionRun::answered() takes it; empty: none.
   std::string answer() const { return answer_(); }
-  /// Says below the question why its answer cannot be taken, until another is given; false: it can.
+  /// Shows why the answer cannot be taken, below the question, until another is given; false: it can.
   bool refuse();
   bool needs_answer() const { return item_.required && answer().empty(); }
-  /// The keyboard goes to what it is answered by.
+  /// Gives the keyboard's focus to the widgets for the answer.
   void take_keyboard();
 
  protected:
-  /// Digits choose.
+  /// Digits choose an answer.
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
@@ -47,7 +47,7 @@ class StudyQuestion final : public QWidget {
   QVBoxLayout* rows_;
   QLabel* complaint_;
   QButtonGroup* buttons_ = nullptr;  // of choices and points, in their order; null: there are none
-  QWidget* first_ = nullptr;         // that can have the keyboard
+  QWidget* first_ = nullptr;         // the first widget that takes the focus
   std::function<std::string()> answer_;
 };
 

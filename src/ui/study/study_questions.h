@@ -8,8 +8,8 @@
 
 namespace icome::ui {
 
-/// A questionnaire, all of it on one page. Enter goes to the next question that needs an answer and has none,
-/// and on when there is none. The questionnaire outlives it.
+/// A questionnaire on one page. Enter goes to the next question that needs an answer and has none; where
+/// there is no such question, it finishes the page. The questionnaire outlives it.
 class StudyQuestions final : public StudyPage {
  public:
   /// `done` gets an answer for each item, in their order, when all can be taken.
@@ -27,7 +27,7 @@ class StudyQuestions final : public StudyPage {
   void go_to(StudyQuestion& question);
 
   Done done_;
-  std::vector<StudyQuestion*> questions_;  // the page's
+  std::vector<StudyQuestion*> questions_;  // owned by the page
 };
 
 }  // namespace icome::ui

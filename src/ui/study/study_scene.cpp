@@ -15,7 +15,7 @@ using State = study::TrialStage::State;
 
 namespace {
 
-constexpr int kFlash = 700;  // ms, that the start is to be seen
+constexpr int kFlash = 700;  // ms; time for which the start is shown
 
 }  // namespace
 
@@ -57,7 +57,7 @@ StudyScene::StudyScene(session::Session& session, const StudyWords& words, QWidg
 }
 
 StudyScene::~StudyScene() {
-  // The scene's window hands events to the tools, which go before the widgets would go by themselves.
+  // The scene's window hands events to the tools, which are destroyed before child widgets would be.
   delete view_;
 }
 
@@ -84,14 +84,14 @@ void StudyScene::show_stage(const study::TrialStage& stage) {
   const bool is_new = stage.state() != std::exchange(state_, stage.state());
   if (is_new && state_ == State::Running) started_.start();
   if (is_new && session_.hands().is_mouse_driven()) {
-    // There is room for the mouse on all sides then, and its way begins with the hand's.
+    // So the mouse has room on all sides when the trial starts, and begins where the hand does.
     if (state_ == State::Seeking || state_ == State::Holding) put_mouse(stage.start());
     tools_.touch_tool().go_freely(state_ == State::Running ? std::optional(stage.start()) : std::nullopt);
   }
   say_what_to_do(stage.hold_left());
 }
 
-/// Where the display lets nobody move the mouse, it stays where it is.
+/// Moves the mouse to where `place` is seen; without effect where the display does not allow it.
 void StudyScene::put_mouse(const base::Vector3& place) {
   SceneWindow& window = view_->window_of_scene();
   const QSizeF size(std::max(1, window.width()), std::max(1, window.height()));

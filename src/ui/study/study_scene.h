@@ -11,21 +11,21 @@ class QLabel;
 
 namespace icome::ui {
 
-/// The scene that trials take place in, under a line that says what to do. Mouse, pen and keys drive the
-/// hand, and only while a trial runs. The session outlives it.
+/// The scene of the trials, under a line that tells what to do. Mouse, pen and keys drive the hand, and only
+/// while a trial runs. The session outlives it.
 class StudyScene final : public QWidget {
  public:
   StudyScene(session::Session& session, const StudyWords& words, QWidget* parent);
   ~StudyScene() override;
 
-  /// Which trial it is: "Trial 3 of 15".
+  /// Shows which trial it is: "Trial 3 of 15".
   void show_trial(const QString& which) const;
-  /// What to do, as the stage is now.
+  /// Shows what to do at this stage.
   void show_stage(const study::TrialStage& stage);
   /// Is there a picture?
   bool is_drawn() { return !view_->window_of_scene().renderer().isEmpty(); }
 
-  /// Once for each update of the session: before it, and after.
+  /// To be called once for each update of the session: move_hand() before it, tick() after it.
   void move_hand();
   void tick() { view_->tick(); }
   void take_keyboard() { view_->take_keyboard(); }
@@ -43,7 +43,7 @@ class StudyScene final : public QWidget {
   QLabel* trial_;
   SceneView* view_;
   study::TrialStage::State state_ = study::TrialStage::State::Idle;
-  QElapsedTimer started_;  // invalid: the start is not to be seen any more
+  QElapsedTimer started_;  // since the start of the trial; invalid before the first
 };
 
 }  // namespace icome::ui

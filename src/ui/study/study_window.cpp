@@ -32,7 +32,7 @@ constexpr int kThrough = 0;
 constexpr int kUnfinished = 3;
 constexpr double kLetters = 15.0;  // points: readable at arm's length
 
-/// A thin line that says how much is done.
+/// A thin line that shows how much is done.
 class ShareLine final : public QWidget {
  public:
   explicit ShareLine(QWidget* parent) : QWidget(parent) {
@@ -104,12 +104,12 @@ class StudyWindow final : public QWidget {
   QStackedWidget* stack_;
   StudyScene* scene_;
   StudyPage* page_ = nullptr;       // of the step; null: it is a trial
-  std::vector<StudyPage*> covers_;  // what is asked or told meanwhile; the last is seen
+  std::vector<StudyPage*> covers_;  // questions and messages over it; the last is seen
   bool trial_begun_ = false;
   bool asking_ = false;   // whether to interrupt
   bool leaving_ = false;  // nothing is left to do but to close
   int code_ = kUnfinished;
-  std::string lost_;  // what is said of a device while it is lost
+  std::string lost_;  // message on the lost device; empty: none is lost
   std::size_t events_told_ = 0;
   QTimer timer_;
 };
@@ -152,7 +152,7 @@ StudyWindow::StudyWindow(study::SessionRun& run, session::Session& session, stud
   timer_.start(16);
 }
 
-/// The scene as on the desktop, without what is of use for editing only.
+/// Gives the scene the look that it has on the desktop, without the parts that serve editing only.
 void StudyWindow::show_look() {
   const SceneColours its = scene_colours();
   session::DisplayWish wish;
@@ -172,7 +172,7 @@ void StudyWindow::add_keys() {
     connect(shortcut, &QShortcut::activated, this, what);
   };
   add(Qt::Key_Escape, [this] { ask_to_interrupt(); });
-  // The experimenter's, against the rest of a break.
+  // For the experimenter: ends a break early.
   add(Qt::CTRL | Qt::SHIFT | Qt::Key_N, [this] {
     if (auto* rest = dynamic_cast<StudyRestPage*>(page_); rest && covers_.empty()) rest->end_wait();
   });
@@ -187,7 +187,7 @@ void StudyWindow::tick() {
   if (in_trial()) follow_trial(state);
 }
 
-/// Words are for the experimenter, but for what stops trials.
+/// Prints messages for the experimenter, and remembers a lost device, which stops trials.
 void StudyWindow::hear(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::DeviceLost) lost_ = event.text;
   if (event.kind == SessionEvent::Kind::DeviceBack) lost_.clear();
@@ -211,7 +211,7 @@ void StudyWindow::show_step() {
   }
 }
 
-/// What the study says itself, or else the program.
+/// Title and text of the page: the study's own, or else the program's.
 study::PageText StudyWindow::text_of_page() const {
   const Step& step = run_.step();
   const auto said = [this](StudyWord title, StudyWord body) {
@@ -292,11 +292,11 @@ void StudyWindow::decline() {
   cover(make_end(words_(StudyWord::DeclinedTitle), words_(StudyWord::Declined), kUnfinished));
 }
 
-/// The page of the step; null: the scene.
+/// Shows the page of the step; null: the scene.
 void StudyWindow::set_page(StudyPage* page) {
   if (page_) {
     stack_->removeWidget(page_);
-    page_->deleteLater();  // one of its buttons is why we are here
+    page_->deleteLater();  // we may have been called by one of its buttons
   }
   page_ = page;
   if (page_) stack_->addWidget(page_);
@@ -326,7 +326,7 @@ void StudyWindow::uncover() {
   show_on_top();
 }
 
-/// Takes what was done on record, or tells why that failed, until it succeeds.
+/// Records what was done; on failure tells why, and can be tried again until it succeeds.
 void StudyWindow::attempt(const Act& act) {
   const auto done = act();
   if (done) return show_step();
@@ -356,14 +356,14 @@ void StudyWindow::follow_trial(State state) {
   }
 }
 
-/// What the pointer had done by then cannot be undone: that it was begun is on record.
+/// Records that the trial was broken off: it was begun, which cannot be undone.
 void StudyWindow::note_broken_off(const std::string& why) {
   trial_begun_ = false;
   if (const auto noted = run_.trial_broken_off(why); !noted)
     std::fprintf(stderr, "icome: %s\n", base::terminal_text(noted.error().message).c_str());
 }
 
-/// It begins again when the scene is next seen.
+/// Breaks off a trial that was begun; it begins again when the scene is next seen.
 void StudyWindow::break_off_trial(const std::string& why) {
   if (!trial_begun_) return;
   note_broken_off(why);
@@ -399,7 +399,7 @@ void StudyWindow::tell_trouble(const std::string& what, const std::function<void
   cover(page);
 }
 
-/// Who did not learn the task is told to the experimenter, not to the person.
+/// Tells the experimenter, and not the person, of a practice criterion that was not met.
 void StudyWindow::tell_unpractised() {
   const auto& events = run_.progress().events;
   for (; events_told_ < events.size(); ++events_told_) {
@@ -443,7 +443,7 @@ int run_study_window(int argc, char** argv, const StudyWindowOptions& options,
     std::fprintf(stderr, "icome: %s\n", base::terminal_text(error.message).c_str());
     return 1;
   };
-  settings.autosave_folder.clear();  // what people do in trials is no design of anybody
+  settings.autosave_folder.clear();  // trials are nobody's design
   auto session = session::Session::create(std::move(settings));
   if (!session) return fail(session.error());
   auto run = begin();

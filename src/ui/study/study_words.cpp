@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kLanguageCount = std::size(kStudyLanguages);
 using StudyWordRow = std::array<const char*, kLanguageCount>;
 
-// A row for each enumerator, in their order; in it the languages in theirs.
+// A row for each enumerator and in it a text for each language, in the orders of their declarations.
 constexpr StudyWordRow kStudyWordTable[] = {
     {"Go on", "Verder", "Weiter", "Continuer"},
     {"I agree", "Ik stem toe", "Ich bin einverstanden", "J\u2019accepte"},

@@ -7,7 +7,7 @@
 
 namespace icome::ui {
 
-/// What the program itself says to somebody who takes part in a study. %1 and %2 stand for numbers.
+/// A text that the program itself shows to a participant of a study. %1 and %2 stand for numbers.
 enum class StudyWord : std::uint8_t {
   GoOn,
   Agree,
@@ -54,13 +54,13 @@ enum class StudyWord : std::uint8_t {
 };
 inline constexpr int kStudyWordCount = int(StudyWord::Close) + 1;
 
-/// The languages that there are words in: "en" first, which stands in for all others.
+/// The languages of these texts: "en" first, which stands in for all others.
 inline constexpr std::string_view kStudyLanguages[] = {"en", "nl", "de", "fr"};
 
 /// The program's words in one language.
 class StudyWords {
  public:
-  /// "nl", or "nl-BE" for any Dutch.
+  /// `language` is "nl", say, or "nl-BE" for any Dutch.
   explicit StudyWords(std::string_view language);
 
   QString operator()(StudyWord word) const;

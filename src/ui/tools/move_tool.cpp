@@ -56,7 +56,7 @@ void MoveTool::select(const Press& press) {
 void MoveTool::begin_drag() {
   if (!press_->picked) return;
   const std::vector<ObjectId>& selected = session_.selection();
-  // A part of a selected whole takes the whole along.
+  // Grasping a part of a selected object takes the whole object along.
   const bool grasped = std::any_of(selected.begin(), selected.end(), [&](ObjectId id) {
     return is_within(session_.world(), press_->picked->object, id);
   });
@@ -79,7 +79,7 @@ void MoveTool::tick() {
   if (drag_ && due_) step();
 }
 
-/// To where things may go by what has been found out since.
+/// Moves objects on as far as they may go by the work that has been completed since.
 void MoveTool::go_on() {
   session::ObjectDrag* const drag = drag_ ? &drag_->objects : let_go_ ? &*let_go_ : nullptr;
   if (!drag) return;

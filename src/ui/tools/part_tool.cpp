@@ -36,7 +36,7 @@ void PartTool::begin_drag() {
   aim_drag();
 }
 
-/// By the axis that is kept to now.
+/// Directs the drag by the axis that it is kept to now.
 void PartTool::aim_drag() {
   if (!drag_) return;
   const auto along = axis_ ? std::optional<Vector3>(Vector3::Unit(*axis_)) : std::nullopt;
@@ -64,7 +64,7 @@ void PartTool::tick() {
   if (drag_ && due_) step();
 }
 
-/// Of the world, from where the part was; nothing where the mouse says nothing.
+/// The part's motion in the world, from where it was; nothing where the mouse gives none.
 std::optional<Affine3> PartTool::motion(const SceneInput& input) const {
   const interaction::Ray ray = input.ray(session_.view().now());
   Affine3 motion = Affine3::Identity();
@@ -96,7 +96,7 @@ void PartTool::step() {
 bool PartTool::hover(const std::optional<SceneInput>& input) {
   if (busy()) return false;
   hovered_.reset();
-  // What a hand drags is its to point out until it lets go.
+  // A part that a hand drags stays the marked one until the hand lets go.
   if (const auto& marked = session_.stage().marked_part(); marked && marked->motion) return false;
   const auto picked = input ? session_.stage().pick_part(input->ray(session_.view().now())) : std::nullopt;
   if (picked) hovered_ = picked->part;

@@ -11,35 +11,35 @@
 namespace icome::ui {
 
 /// Drags operands of solids and projectors of pictures by their outlines, which are seen while their object
-/// is selected; with Ctrl it turns them. One action to undo, whatever its steps. The session outlives it.
+/// is selected; with Ctrl it turns them. A drag is one action to undo. The session outlives it.
 class PartTool {
  public:
-  /// `refused` hears why something could not be dragged.
+  /// `refused` gets the reason why something could not be dragged.
   PartTool(session::Session& session, std::function<void(const std::string&)> refused)
       : session_(session), refused_(std::move(refused)) {}
 
-  /// False: there is none of them under the mouse.
+  /// Takes hold of the part under the mouse; false: there is none.
   bool press(const SceneInput& input);
   void follow(const SceneInput& input);
-  /// The press that was a mere click, and so is for who selects.
+  /// Ends the press; returns it if it was a mere click, which is to select something.
   std::optional<SceneInput> release(const SceneInput& input);
-  /// Brings what is held to where the mouse went since the last call.
+  /// Moves the held part to where the mouse went since the last call.
   void tick();
-  /// Points out what is under the mouse while nothing is held, by no hand either; none: it is elsewhere.
-  /// True: there is something.
+  /// Marks the part under the mouse while nothing is held, by no hand either; without input, the mouse is
+  /// elsewhere. True: there is a part.
   bool hover(const std::optional<SceneInput>& input);
-  /// What was dragged goes back to where it was.
+  /// Ends the drag, and puts the part back to where it was.
   void cancel();
-  /// What was dragged stays where it is; somebody else changes the world now.
+  /// Ends the drag, and leaves the part where it is: something else changes the world now.
   void finish();
-  /// There is another world, or what was dragged is gone.
+  /// Forgets the drag: there is another world, or the dragged part is gone.
   void drop();
   bool busy() const { return press_.has_value(); }
   bool dragging() const { return drag_.has_value(); }
-  /// What is under the mouse and what a drag of it does; or empty.
+  /// Text on the part under the mouse and what a drag of it does; or empty.
   std::string words() const;
 
-  /// Movement keeps to the stage's x, y or z (0, 1, 2) from now on, or turns are about it; or it is free.
+  /// Keeps movement to the stage's x, y or z (0, 1, 2) from now on, or turns to that axis; nothing: free.
   void keep_to(std::optional<int> axis);
 
  private:

@@ -11,8 +11,8 @@ namespace icome::ui {
 /// The mouse or pen over the scene.
 struct SceneInput {
   QPointF at = {};              // device-independent pixels, from the scene's upper left corner
-  QSizeF size = {1.0, 1.0};     // of the scene, the same
-  Qt::MouseButton button = {};  // that was pressed or released; none: it moved
+  QSizeF size = {1.0, 1.0};     // of the scene, in the same unit
+  Qt::MouseButton button = {};  // the one pressed or released; none: it moved
   Qt::KeyboardModifiers modifiers = {};
 
   double aspect() const { return size.width() / size.height(); }

@@ -12,20 +12,20 @@
 
 namespace icome::ui {
 
-/// What the left button does.
+/// The tool of the left mouse button.
 enum class Tool : std::uint8_t { Select, Touch, View, Shape };
 constexpr int kToolCount = 4;
 
-/// Turns what mouse, pen and keyboard do over the scene into what the session does. The left button is the
-/// chosen tool's; right turns and middle (or Shift and right) shifts the view, the wheel zooms. The session
-/// outlives it.
+/// Turns input of mouse, pen and keyboard over the scene into actions of the session. The left button is the
+/// chosen tool's; the right one turns the view, the middle one (or Shift and right) shifts it, and the wheel
+/// zooms. The session outlives it.
 class SceneTools {
  public:
   struct Listener {
     std::function<void(Tool)> chosen = [](Tool) {};
     std::function<void(const std::string&)> refused = [](const std::string&) {
     };                                                    // why something was not done
-    std::function<void(QPointF)> asked = [](QPointF) {};  // for the menu of what is there: a right click
+    std::function<void(QPointF)> asked = [](QPointF) {};  // a right click, for the menu there
   };
   SceneTools(session::Session& session, Listener listener);
   SceneTools(const SceneTools&) = delete;
@@ -33,37 +33,37 @@ class SceneTools {
 
   Tool tool() const { return tool_; }
   void choose(Tool tool);
-  /// Chooses it for good: from now on nothing chooses another, or moves the view.
+  /// Chooses the tool for good: nothing chooses another, or moves the view, from now on.
   void stay_with(Tool tool);
 
-  // What happens over the scene. Those that return bool: was it of use?
+  // Events over the scene. Those that return bool tell whether the event was used.
   void press(const SceneInput& input);
   void move(const SceneInput& input);
   void release(const SceneInput& input);
   void double_click(const SceneInput& input);
   void wheel(const SceneInput& input, double notches);
-  /// A pen at the tablet, which presses that hard, in [0, 1]. Only Touch wants to know; to the others it is
-  /// a mouse.
+  /// A pen at the tablet, with its pressure in [0, 1]. Only Touch uses it; for the other tools it acts as a
+  /// mouse.
   bool pen(const SceneInput& input, double pressure);
   bool key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats);
   bool key_release(int key);
-  /// The keyboard goes elsewhere: nobody will hear of keys that are let go.
+  /// The keyboard's focus goes elsewhere: releases of keys will not be reported.
   void forget_keys();
   /// The mouse has left the scene.
   void leave();
   void resize(const QSizeF& size);
 
-  /// Once for each update of the session, before it.
+  /// To be called once for each update of the session, before it.
   void tick();
-  /// Ends what the mouse is doing where it is: something else is about to change the world.
+  /// Ends what the mouse is doing, where it is: something else is about to change the world.
   void finish();
 
-  /// What the mouse is over, as of the last tick; nothing while it does something.
+  /// The object under the mouse, as of the last tick (with Touch, under the hand); nothing while it drags.
   std::optional<world::ObjectId> hovered() const { return hovered_; }
   bool dragging() const { return move_tool_.dragging() || part_tool_.dragging() || shape_tool_.dragging(); }
   ShapeTool& shape_tool() { return shape_tool_; }
-  /// What has stopped what is dragged, or what it snaps to, or what can be dragged of what is selected; or
-  /// empty.
+  /// Text on what has stopped the dragged objects, what they snap to, or which part of the selection can be
+  /// dragged; or empty.
   std::string drag_words() const;
   TouchTool& touch_tool() { return touch_tool_; }
   bool turning() const { return view_drag_.active(); }
@@ -84,9 +84,9 @@ class SceneTools {
   TouchTool touch_tool_;
   ShapeTool shape_tool_;
   ViewDrag view_drag_;
-  Qt::MouseButton view_button_ = {};  // what the view is dragged with
+  Qt::MouseButton view_button_ = {};  // the button that drags the view
   Tool tool_ = Tool::Select;
-  bool stays_ = false;  // with it
+  bool stays_ = false;  // the tool stays chosen
   QSizeF size_ = {1.0, 1.0};
   std::optional<SceneInput> mouse_ = {};
   std::optional<world::ObjectId> hovered_ = {};

@@ -39,7 +39,7 @@ ShapeOptions::ShapeOptions(session::Session& session, ShapeTool& tool, QWidget* 
 void ShapeOptions::make_fields() {
   target_->setObjectName("shape.target");
   target_->setAccessibleName("What is dragged");
-  target_->addItems({"Vertex", "Edge", "Face", "Lattice"});  // as ShapingTarget has them
+  target_->addItems({"Vertex", "Edge", "Face", "Lattice"});  // in ShapingTarget's order
   connect(target_, &QComboBox::currentIndexChanged, this, [this](int index) {
     ShapingSettings settings = tool_.settings();
     settings.target = ShapingTarget(index);

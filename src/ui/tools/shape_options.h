@@ -12,15 +12,15 @@ namespace icome::ui {
 
 class QuantityField;
 
-/// One row that says what the Shape tool drags: what, how far round it others follow, or how many cells the
+/// A row of options of the Shape tool: what it drags, how far round it others follow, or how many cells the
 /// lattice has; and why there is none. The tool outlives it.
 class ShapeOptions final : public QWidget {
  public:
   ShapeOptions(session::Session& session, ShapeTool& tool, QWidget* parent);
 
-  /// Says what is in the way of a lattice; once for each update.
+  /// Shows what is in the way of a lattice; to be called once for each update.
   void tick();
-  /// Commits what is being typed; false: it was refused.
+  /// Commits the text that is being typed; false: it was refused.
   bool finish_typing();
 
  private:

@@ -11,7 +11,7 @@ using base::Vector3;
 
 namespace {
 
-constexpr double kPointAtPixels = 9.0;          // so near the mouse must be
+constexpr double kPointAtPixels = 9.0;          // reach of the mouse
 constexpr std::size_t kMostShapedObjects = 64;  // of the selection
 
 }  // namespace
@@ -35,7 +35,7 @@ void ShapeTool::leave() {
   hear(session_.hands().set_shaping(std::nullopt));
 }
 
-/// Of the selection and of what is under the mouse; points of a lattice also through what is before them.
+/// The handle under the mouse, of the selection or the object there; lattice points also through surfaces.
 std::optional<interaction::ShapingHandle> ShapeTool::find(const SceneInput& input) const {
   if (!session_.hands().shaping()) return std::nullopt;
   const interaction::View& view = session_.view().now();
@@ -86,7 +86,7 @@ void ShapeTool::release(const SceneInput& input) {
   finish();
 }
 
-/// What was clicked on, as every tool that has no other use for it.
+/// Selects the clicked object, as every tool does that has no other use for a click.
 void ShapeTool::select() const {
   const bool toggles = press_->modifiers & Qt::ControlModifier, adds = press_->modifiers & Qt::ShiftModifier;
   std::vector<world::ObjectId> chosen;

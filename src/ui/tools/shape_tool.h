@@ -10,37 +10,37 @@
 namespace icome::ui {
 
 /// Drags vertices, edges and faces of meshes, or the points of a lattice round the selection: one action to
-/// undo, whatever its steps. A click where there is none of them selects. The session outlives it.
+/// undo, whatever its steps. A click selects the object under the mouse. The session outlives it.
 class ShapeTool {
  public:
-  /// `refused` hears why something could not be dragged.
+  /// `refused` gets the reason why something could not be dragged.
   ShapeTool(session::Session& session, std::function<void(const std::string&)> refused)
       : session_(session), refused_(std::move(refused)) {}
 
-  /// What is dragged, from now on or when the tool is taken up.
+  /// Sets what is dragged, from now on or when the tool is taken up.
   void set(const interaction::ShapingSettings& settings);
   const interaction::ShapingSettings& settings() const { return settings_; }
-  /// The tool is taken up: points are shown, and hands take hold of them too.
+  /// Takes the tool up: points are shown, and hands can take hold of them, too.
   void enter();
   void leave();
 
   void press(const SceneInput& input);
   void follow(const SceneInput& input);
   void release(const SceneInput& input);
-  /// Brings what is held to where the mouse went since the last call, or looks for what the mouse is over.
+  /// Moves the held points to where the mouse went since the last call, or looks for points under the mouse.
   void tick();
-  /// What was dragged goes back to where it was.
+  /// Ends the drag, and puts the points back to where they were.
   void cancel();
-  /// What was dragged stays where it is; somebody else changes the world now.
+  /// Ends the drag, and leaves the points where they are: something else changes the world now.
   void finish();
-  /// There is another world, or what was dragged is gone.
+  /// Forgets the drag: there is another world, or the dragged points are gone.
   void drop();
   bool busy() const { return press_.has_value(); }
   bool dragging() const { return drag_.has_value(); }
   /// The mouse has left the scene.
   void forget_mouse();
 
-  /// Movement keeps to the stage's x, y or z (0, 1, 2) from now on, or is free.
+  /// Keeps movement to the stage's x, y or z (0, 1, 2) from now on; nothing: it is free.
   void keep_to(std::optional<int> axis);
   std::optional<int> axis() const { return axis_; }
 

@@ -39,7 +39,7 @@ bool TouchTool::step(int key, bool fine) {
   return true;
 }
 
-/// m along the ray, where the hand has to be to be at what is under the mouse; nothing: anywhere.
+/// Distance along the ray, m, at which the hand meets what is under the mouse; nothing: any will do.
 std::optional<double> TouchTool::depth_under(const session::TechniqueHand& hand,
                                              const interaction::Ray& ray) const {
   const interaction::Technique& technique = hand.technique();
@@ -62,7 +62,7 @@ std::optional<double> TouchTool::depth_under(const session::TechniqueHand& hand,
          interaction::go_go_distance(technique.selecting_settings.go_go, picked->place.distance / scale);
 }
 
-/// While the button is down the hand stays as far from the eye, but for the wheel.
+/// While the button is down, the hand keeps its distance from the eye, except for the wheel.
 void TouchTool::tick_technique(const session::TechniqueHand& hand) {
   constexpr double kReach = 0.6;  // of the view's distance, where any will do
   constexpr double kNotch = 0.05;
@@ -85,7 +85,7 @@ void TouchTool::go_freely(const std::optional<base::Vector3>& from) {
   if (from) free_ = Free{*from};
 }
 
-/// The mouse counts from where it was at first, so that the hand does not leap to it.
+/// The mouse counts from its first place, so that the hand does not leap to it.
 void TouchTool::tick_freely() {
   constexpr double kNotch = 0.005;  // m
   session_.hands().hold_buttons(take_press() ? 1U : 0U);
@@ -123,7 +123,7 @@ void TouchTool::tick() {
   wheel_ = 0.0;
   const base::Vector3 target = hand_.target(input);
   if (!target.allFinite()) return;
-  // Without the button the hand is a pen in the air: nothing that it passes behind holds it back.
+  // Without the button the hand is a pen in the air: surfaces on its way do not hold it back.
   if (pressing()) {
     session_.hands().aim(target);
   } else {

@@ -104,7 +104,7 @@ void look_from(session::Session& session, const render::RenderViewpoint& viewpoi
   view.world_from_eye.linear() << up.cross(back), up, back;
   view.world_from_eye.translation() = place.translation();
   view.field = std::clamp(viewpoint.field_of_view, 0.05, 2.5);
-  // What orbiting turns about: as far away as the middle of the design is, if that lies ahead.
+  // Orbiting then turns about a point as far away as the middle of the design, if that lies ahead.
   const base::Bounds& bounds = session.view().drawn()->bounds();
   if (!bounds.isEmpty()) {
     const double ahead = -back.dot(bounds.center() - place.translation());

@@ -6,7 +6,7 @@
 
 namespace icome::ui {
 
-/// How the mouse moves the view while a button is down.
+/// A way to move the view with the mouse while a button is down.
 enum class ViewMove : std::uint8_t { Orbit, Pan, Look };
 
 /// Moves the view of a session, which outlives it, with the mouse.
@@ -15,7 +15,7 @@ class ViewDrag {
   explicit ViewDrag(session::Session& session) : session_(session) {}
 
   void begin(ViewMove how, const SceneInput& input);
-  /// The mouse went on.
+  /// Moves the view by the motion of the mouse.
   void follow(const SceneInput& input);
   void end() { how_.reset(); }
   bool active() const { return how_.has_value(); }
@@ -29,26 +29,26 @@ class ViewDrag {
   bool moved_ = false;
 };
 
-/// As many pixels as a hand moves the mouse without meaning to.
+/// The most pixels that a hand moves the mouse without meaning to.
 inline constexpr double kClickSlack = 4.0;
 
-/// Notches of the wheel: nearer to, or farther from, what is under the mouse.
+/// Zooms by notches of the wheel: nearer to, or farther from, what is under the mouse.
 void zoom_at(session::Session& session, const SceneInput& input, double notches);
 
-/// The same in the middle of the picture.
+/// Zooms by notches in the middle of the picture.
 void zoom_in_middle(session::Session& session, double notches);
 
-/// One step by the arrow keys; Pan moves what is seen that way. False: it is another key.
+/// Moves the view by one step of the arrow keys; Pan moves what is seen that way. False: it is another key.
 bool step_view(session::Session& session, int key, ViewMove how);
 
-/// On the way to the object, or to all that is selected (all, without a selection), from the same side.
+/// Flies to the object, or to all that is selected (all, without a selection), seen from the same side.
 void zoom_to(session::Session& session, world::ObjectId object, double aspect);
 void zoom_to_selection(session::Session& session, double aspect);
 
-/// On the way to where all is seen from that direction.
+/// Flies to where all is seen from that direction.
 void look_from(session::Session& session, const base::Vector3& toward_eye, const base::Vector3& up,
                double aspect);
-/// On the way to a viewpoint of the design.
+/// Flies to a viewpoint of the design.
 void look_from(session::Session& session, const render::RenderViewpoint& viewpoint);
 
 }  // namespace icome::ui

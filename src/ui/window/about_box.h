@@ -3,8 +3,8 @@
 
 namespace icome::ui {
 
-/// What the program is, its version and licence, and what it runs on. `renderer` is what OpenGL calls itself
-/// on this machine; empty: not known.
+/// The about box: the program with its version and licence, and the system that it runs on. `renderer` is the
+/// name that OpenGL gives itself on this machine; empty: not known.
 class AboutBox final : public QDialog {
  public:
   AboutBox(const QString& renderer, QWidget* parent);

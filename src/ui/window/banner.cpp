@@ -10,7 +10,7 @@
 namespace icome::ui {
 namespace {
 
-constexpr std::size_t kMostRows = 3;  // that are seen
+constexpr std::size_t kMostRows = 3;  // that are visible
 constexpr std::size_t kMostKept = 50;
 constexpr int kPassing = 5000;  // ms
 
@@ -65,7 +65,7 @@ void Banner::arrange() {
 
 void Banner::show_progress(const QString& text, std::optional<double> part,
                            const std::function<void()>& cancel) {
-  // What goes on may have become something else, such as reading after saving.
+  // The work may have become another, such as reading after saving.
   if (progress_ && progress_->can_be_cancelled() != bool(cancel)) hide_progress();
   if (!progress_) {
     progress_ = new ProgressRow(cancel, this);

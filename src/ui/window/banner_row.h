@@ -42,7 +42,7 @@ class BannerRow final : public BannerStrip {
   std::function<void(Note::Remedy)> remedy_ = [](Note::Remedy) {};
 };
 
-/// Something that is going on.
+/// A row with the progress of some work.
 class ProgressRow final : public BannerStrip {
  public:
   ProgressRow(const std::function<void()>& cancel, QWidget* parent);

@@ -17,7 +17,7 @@
 namespace icome::ui {
 namespace {
 
-/// The text of an action without the marks of letters and of a dialog to come.
+/// Title of an action, without the marks of a mnemonic and of a dialog to come.
 QString title_of(const QAction& action) {
   const QString kept("\x01");
   QString text = action.text();
@@ -26,7 +26,7 @@ QString title_of(const QAction& action) {
   return text;
 }
 
-/// "move" for "model.move".
+/// Short name of an action: "move" for "model.move".
 QString name_of(const QAction& action) {
   const QString name = action.objectName();
   return name.mid(name.indexOf('.') + 1);
@@ -72,7 +72,7 @@ std::vector<Command> commands_of(const QMenuBar& bar) {
 }
 
 std::optional<int> rank_of(const Command& command, const QString& typed) {
-  // Before what only begins so: several do.
+  // A title equal to the words comes before titles that only begin with them: there are several.
   if (command.title.compare(typed.simplified(), Qt::CaseInsensitive) == 0) return 0;
   int worst = 1;
   for (const QString& word : typed.split(' ', Qt::SkipEmptyParts)) {
@@ -160,7 +160,7 @@ void CommandPalette::choose() {
   if (action) action->trigger();
 }
 
-/// What goes through the list goes on where the words are typed.
+/// Keys that move through the list reach it from the field, which keeps the keyboard's focus.
 bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
   if (watched == field_ && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();

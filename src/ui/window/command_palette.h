@@ -13,23 +13,23 @@ class QTreeWidgetItem;
 
 namespace icome::ui {
 
-/// Something that can be chosen in a menu, as people look for it.
+/// An entry of a menu, as people search for it.
 struct Command {
   QPointer<QAction> action;  // null: its menu has changed since
   QString title;             // "Move", as in the menu
   QString where;             // "Model › Arrange"
-  QString name;              // "move", as scripts call it, or how tests do
+  QString name;              // "move", its name in scripts, or else in tests
   QString summary;           // a sentence, or nothing
 };
 
 /// All commands of the menus, in their order.
 std::vector<Command> commands_of(const QMenuBar& bar);
 
-/// How well a command is meant by what somebody types: all its words are in title, name, place or summary;
-/// 0 is best. Nothing: not at all.
+/// Rank of a command for the words that somebody types, which must all be in title, name, place or summary; 0
+/// is best. Nothing: it does not match.
 std::optional<int> rank_of(const Command& command, const QString& typed);
 
-/// Finds a command by a few letters of its title, its name or what it does, and does it.
+/// A dialog that finds a command by a few letters of its title, its name or what it does, and performs it.
 class CommandPalette final : public QDialog {
  public:
   CommandPalette(std::vector<Command> commands, QWidget* parent);

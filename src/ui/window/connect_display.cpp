@@ -15,7 +15,7 @@ void say_no_display(const char* why) {
   std::fprintf(stderr, "icome: %s, so there is no window to open. %s\n", why, ways_without_display);
 }
 
-/// Is there anything that names a display?
+/// Does the environment name a display?
 bool display_named() {
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}) {
     if (const char* value = std::getenv(name); value && *value) return true;
@@ -23,8 +23,8 @@ bool display_named() {
   return false;
 }
 
-/// Qt ends the program with abort() when it cannot reach the display: this is the place to say so in our own
-/// words, before.
+/// Qt ends the program with abort() when it cannot reach the display: this handler prints the program's own
+/// message first, and ends it.
 void hear_qt_while_connecting(QtMsgType type, const QMessageLogContext&, const QString&) {
   if (type != QtFatalMsg) return;
   say_no_display("The display cannot be reached");

@@ -7,13 +7,13 @@
 namespace icome::ui {
 
 struct DesktopOptions {
-  std::filesystem::path design = {};  // to open; empty: what was left unsaved by a crash, or an empty design
+  std::filesystem::path design = {};  // to open; empty: work left unsaved by a crash, or an empty design
   std::string theme = {};             // "dark", "light"; empty: as chosen before, or as the system has it
 };
 
-/// Opens the window on a session of these settings (apps chooses the devices) and runs until it is closed;
-/// gives the program's exit code. Where there is no display it says so on standard error, names `icome touch`
-/// and `icome shot` as the way on, and gives 1.
+/// Opens the window on a session with these settings (apps chooses the devices) and runs until it is closed;
+/// returns the program's exit code. Where there is no display, it prints an error to standard error that
+/// names `icome touch` and `icome shot` as the way on, and returns 1.
 int run_desktop(int argc, char** argv, const DesktopOptions& options, session::SessionSettings settings);
 
 }  // namespace icome::ui

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long a change may wait to be seen while nothing else is drawn.
+// Longest delay of a change while nothing else is drawn.
 constexpr auto kLook = std::chrono::milliseconds(4);
 
 std::string needed() {
@@ -43,8 +43,8 @@ QSurfaceFormat scene_format() {
   return format;
 }
 
-/// What both threads use. Main says under the lock whether there is a window to draw into, since it must not
-/// take the window's surface away under a frame; all else goes through the feed.
+/// State that both threads use. Main sets under the lock whether there is a window to draw into, since it
+/// must not take the window's surface away during a frame; all else goes through the feed.
 struct DisplayThread::Parts {
   Parts(QWindow& shown, session::DisplayFeed& source) : window(shown), feed(source) {}
 
@@ -57,7 +57,7 @@ struct DisplayThread::Parts {
   std::mutex lock;
   std::condition_variable changed;
   bool seen = false;
-  bool lost = false;  // what was drawn, or the size: draw also without news
+  bool lost = false;  // the picture, or the size: draw also without news
   bool ending = false;
   bool drawing = false;
   int width = 0, height = 0;
@@ -71,7 +71,7 @@ struct DisplayThread::Parts {
   void run();
 };
 
-/// Waits until there is something to draw and the window is seen; false: it is over.
+/// Waits until there is something to draw and the window is visible; false: the thread must end.
 bool DisplayThread::Parts::wait_for_turn(Clock::time_point last) {
   std::unique_lock hold(lock);
   changed.wait_until(hold, last + shortest_frame, [this] { return ending || lost; });
@@ -128,7 +128,7 @@ void DisplayThread::Parts::run() {
     trouble.publish(drawn.error().message);
     break;
   }
-  // Without the context its things on the card cannot be given back; they go along with it.
+  // Without the context, OpenGL objects cannot be freed; they go along with the context.
   if (renderer && !context->makeCurrent(&window)) static_cast<void>(renderer.release());
   renderer.reset();
   context->doneCurrent();

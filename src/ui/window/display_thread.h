@@ -11,8 +11,8 @@ class QWindow;
 
 namespace icome::ui {
 
-/// What a window's surface and context must be: OpenGL 3.3 with the built-in matrices of OpenGL 2, which
-/// CSG solids are drawn with.
+/// The format of a window's surface and context: OpenGL 3.3 with the built-in matrices of OpenGL 2, which the
+/// drawing of CSG solids needs.
 QSurfaceFormat scene_format();
 
 /// The thread that draws a session into a window, with a context of its own. It sleeps while there is nothing
@@ -20,18 +20,18 @@ QSurfaceFormat scene_format();
 /// not own the window or the feed, which outlive it.
 class DisplayThread {
  public:
-  /// The window has its native surface. Fails with what to do where there is no such OpenGL.
+  /// The window must have its native surface. Fails with what to do where there is no such OpenGL.
   static base::Result<std::unique_ptr<DisplayThread>> create(QWindow& window, session::DisplayFeed& feed);
   /// Waits for the frame that is being drawn.
   ~DisplayThread();
 
-  /// The window is seen, this many pixels of the device large, or it has grown, or lost what was drawn.
+  /// The window is visible, with this size in device pixels, or that has changed, or the picture was lost.
   void show(int width, int height);
-  /// The window is not seen: when this returns, nothing is drawn any more.
+  /// The window is not visible: when this returns, nothing is drawn any more.
   void hide();
-  /// What draws, in the driver's words; empty until the first frame.
+  /// Name of the renderer, in the driver's words; empty until the first frame.
   std::string renderer();
-  /// Why it draws no more, once; nothing while all is well.
+  /// The reason why it has stopped drawing, once; nothing while all is well.
   std::optional<std::string> trouble();
 
  private:

@@ -25,7 +25,7 @@ struct ToolEntry {
   const char* name;
   const char* text;
   const char* keys;
-  const char* hint;  // what mouse and keyboard do
+  const char* hint;  // the use of mouse and keyboard
 };
 constexpr ToolEntry kTools[] = {
     {Tool::Select, Icon::Select, "tool.select", "&Select and Move", "S",
@@ -38,7 +38,7 @@ constexpr ToolEntry kTools[] = {
      "Drag vertices, edges, faces or a lattice's points (hold X, Y or Z to keep to an axis)"},
 };
 
-/// What is no action of a menu.
+/// Uses of mouse and keys that are not actions of a menu.
 ShortcutSheet::Part mouse_part() {
   return {"In the scene",
           {{"Turn the view", "Right drag"},
@@ -61,7 +61,7 @@ ShortcutSheet::Part mouse_part() {
            {"Back out", "Esc"}}};
 }
 
-/// The first that Tab would reach there; null: nothing.
+/// The first widget within `part` that Tab would reach; null: none.
 QWidget* first_stop(const QWidget& part) {
   if (QWidget* proxy = part.focusProxy(); proxy && proxy->isVisible()) return proxy;
   for (QWidget* it = part.nextInFocusChain(); it != &part; it = it->nextInFocusChain()) {
@@ -71,7 +71,7 @@ QWidget* first_stop(const QWidget& part) {
   return nullptr;
 }
 
-/// The scene's own window gives the keyboard back, and a dock behind others comes to the front.
+/// Moves the focus there, away from the scene's own window; a dock behind others comes to the front.
 void go_to(QWidget& stop) {
   for (QWidget* it = &stop; it; it = it->parentWidget()) {
     if (auto* dock = qobject_cast<QDockWidget*>(it)) dock->raise();
@@ -252,7 +252,7 @@ void MainWindow::next_part() {
   const QWidget* const focus = QApplication::focusWidget();
   auto found = std::find_if(parts.begin(), parts.end(),
                             [&](const QWidget* it) { return focus && it->isAncestorOf(focus); });
-  // A widget that has the keyboard has it even where the scene's own window has not let go of it yet.
+  // A widget with the focus has the keyboard even if the scene's own window has not let go of it yet.
   if (found == parts.end() && scene_->has_keyboard()) found = parts.begin();
   // From nowhere it goes to the scene.
   const auto now = std::size_t((found == parts.end() ? parts.end() - 1 : found) - parts.begin());

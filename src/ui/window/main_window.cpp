@@ -88,7 +88,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
   tree_->on_zoom_to([this] { zoom_to_selection(session_, tools_.aspect()); });
   session_.on_change([this](const world::Changes*) { is_stale_ = true; });
   session_.on_selection([this] {
-    edits_.refresh();  // a key that is pressed at once after it finds its action
+    edits_.refresh();  // so that a key that is pressed right after it finds its action
     is_stale_ = true;
   });
   show_tool(tools_.tool());
@@ -99,7 +99,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
 }
 
 MainWindow::~MainWindow() {
-  // The scene's window hands events to the tools, which go before the widgets would go by themselves.
+  // The scene's window hands events to the tools, which are destroyed before child widgets would be.
   delete takeCentralWidget();
 }
 
@@ -157,7 +157,7 @@ void MainWindow::restore_layout() {
 
 void MainWindow::begin(const std::filesystem::path& design) {
   auto works = session_.files().recoverable();
-  // The work on what is asked for, or else the newest.
+  // The newest work on the design; without a design, the newest of all.
   std::stable_sort(works.begin(), works.end(),
                    [](const auto& a, const auto& b) { return a.changed > b.changed; });
   const auto wanted = std::find_if(works.begin(), works.end(), [&](const session::RecoverableWork& it) {
@@ -201,7 +201,7 @@ void MainWindow::tick() {
 void MainWindow::hear(const session::SessionEvent& event) {
   using Kind = session::SessionEvent::Kind;
   tell(files_.hear(event));
-  // What came last is seen, and nothing that was said of the one before is of use.
+  // The new design is seen whole, and notes on edits of the one before are of no use.
   if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
     banner_->forget("edit");
     session_.view().home();
@@ -257,7 +257,7 @@ void MainWindow::show_progress() {
     return;
   }
   if (!busy_since_.isValid()) busy_since_.start();
-  constexpr int kPatience = 300;  // ms, that nobody needs to be told about
+  constexpr int kPatience = 300;  // ms, shorter work needs no progress bar
   if (busy_since_.elapsed() < kPatience) return;
   const auto part = session_.files().opening();
   banner_->show_progress(doing, part,
@@ -270,7 +270,7 @@ void MainWindow::show_title() {
   setWindowModified(session_.files().modified());
 }
 
-/// What has its name written above it.
+/// The object that has its name written above it; nothing: none has.
 std::optional<world::ObjectId> MainWindow::wanted_label() const {
   if (tools_.hovered()) return tools_.hovered();
   const std::vector<world::ObjectId>& selected = session_.selection();
@@ -298,7 +298,7 @@ void MainWindow::show_look() {
   session_.view().set_look(wish);
 }
 
-/// Ends what the mouse is doing, and commits what is being typed: it counts as done. False: that was refused.
+/// Ends what the mouse is doing, and commits what is being typed. False: the text was refused.
 bool MainWindow::finish_work() {
   tools_.finish();
   return shaping_->finish_typing() && properties_->finish_typing() && tree_->finish_typing();
@@ -346,7 +346,7 @@ bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
   }
   const SceneInput input{.at = drop.position(), .size = scene_->size()};
   if (!dropped) {
-    if (over_scene) tools_.move(input);  // what it would fall on is named
+    if (over_scene) tools_.move(input);  // names the object that it would fall on
   } else if (over_scene) {
     drop_picture(file, input);
   } else {

@@ -27,8 +27,8 @@ class QLabel;
 
 namespace icome::ui {
 
-/// The desktop's one window: the scene in the middle, messages above it, the world's tree and the properties
-/// beside it, and how the hand is doing below. Session and settings outlive it.
+/// The only window of the desktop: the scene in the middle, messages above it, the world's tree and the
+/// properties beside it, and the state of the hand below. Session and settings outlive it.
 class MainWindow final : public QMainWindow {
  public:
   struct Options {
@@ -38,7 +38,7 @@ class MainWindow final : public QMainWindow {
   MainWindow(session::Session& session, QSettings& settings, const Options& options);
   ~MainWindow() override;
 
-  /// Opens the design or what was left of it by a crash; without one, what was left of any other.
+  /// Opens the design, or recovers work on it after a crash; without a design, recovers the newest work.
   void begin(const std::filesystem::path& design);
 
  protected:
@@ -96,14 +96,14 @@ class MainWindow final : public QMainWindow {
   WorldTree* tree_ = nullptr;
   PropertyPanel* properties_ = nullptr;
   OperationPanel* operation_ = nullptr;
-  QDockWidget* operation_dock_ = nullptr;  // closed while nothing is asked
+  QDockWidget* operation_dock_ = nullptr;  // hidden while there is no operation in it
   QWidget* hand_ = nullptr;
   QLabel* hint_ = nullptr;
-  QLabel* technique_ = nullptr;  // by which the hands work, where that is not touch
+  QLabel* technique_ = nullptr;  // the technique in use; hidden for touch
   QLabel* count_ = nullptr;
   QAction* tool_actions_[kToolCount] = {};
   QTimer timer_;
-  bool is_stale_ = true;  // what is said and drawn of the selection
+  bool is_stale_ = true;  // hint and look must be refreshed
   SceneLabel label_;
   SceneWords spared_sign_;
   std::optional<world::ObjectId> labelled_ = {};
@@ -112,8 +112,8 @@ class MainWindow final : public QMainWindow {
   QString technique_hint_;    // as shown
   double pixel_ratio_ = 0.0;  // as shown; another screen may have another
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
-  bool agreed_ = false;       // to close
-  bool closing_ = false;      // within the event
+  bool agreed_ = false;       // a person has agreed to close
+  bool closing_ = false;      // closeEvent() runs
 };
 
 }  // namespace icome::ui

@@ -49,7 +49,7 @@ const char* label(Remedy remedy) {
 
 Note note_of(const SessionEvent& event) {
   Note note{.text = event.text, .details = event.details};
-  // What is about a file goes when the next file is opened or saved.
+  // Notes on a file share a topic: they go when the next file is opened or saved.
   switch (event.kind) {
     case SessionEvent::Kind::Opened:
       note.topic = "file";

@@ -7,10 +7,10 @@
 
 namespace icome::ui {
 
-/// Words as a picture for the scene, kept for as long as they are the same. Main's.
+/// A text as a picture for the scene, kept for as long as text and look are the same. Used on main only.
 class SceneWords {
  public:
-  /// Sharp on a screen of that many pixels to a device-independent one, in the colours of the theme.
+  /// The picture in the colours of the theme, sharp at this ratio of screen to device-independent pixels.
   const std::shared_ptr<const charts::Image>& picture(const QString& text, double pixel_ratio);
 
  private:
@@ -21,14 +21,14 @@ class SceneWords {
     bool operator==(const Look&) const = default;
   };
   Look drawn_ = {};
-  std::shared_ptr<const charts::Image> picture_ = nullptr;  // of that
+  std::shared_ptr<const charts::Image> picture_ = nullptr;  // of that look
 };
 
-/// The name of an object, written above it in the scene. Main's.
+/// The name of an object, written above it in the scene. Used on main only.
 class SceneLabel {
  public:
-  /// The panel for this object as it is now, sharp on a screen of that many pixels to a device-independent
-  /// one; nothing for an object that has no place or no name.
+  /// The panel for this object in its present state, sharp at this ratio of screen to device-independent
+  /// pixels; nothing for an object that has no place or no name.
   std::optional<render::SceneOverlay::Panel> panel(const session::Session& session, world::ObjectId object,
                                                    double pixel_ratio);
 

@@ -83,7 +83,7 @@ void SceneView::show_cursor() {
 bool SceneView::eventFilter(QObject* of, QEvent* event) {
   const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
   if (!key || of != window() || !has_keyboard()) return QWidget::eventFilter(of, event);
-  // The window manager gives the keyboard to the whole window when it was the scene that had it before.
+  // The window manager gives the keyboard to the whole window if the scene had it before.
   QCoreApplication::sendEvent(scene_, event);
   return event->isAccepted();
 }
@@ -93,7 +93,7 @@ void SceneView::showEvent(QShowEvent* event) {
   window()->installEventFilter(this);
 }
 
-/// In the theme's colours, and as sharp as the screen.
+/// Draws the warning sign in the theme's colours, as sharp as the screen.
 void SceneView::draw_sign() { sign_->setPixmap(icon(Icon::Warning).pixmap(12 * kGrid, 12 * kGrid)); }
 
 void SceneView::changeEvent(QEvent* event) {

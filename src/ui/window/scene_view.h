@@ -9,15 +9,15 @@ class QStackedLayout;
 
 namespace icome::ui {
 
-/// The scene in the middle of the window or, where it cannot be drawn, the reason and what to do. Session and
+/// The scene in the middle of the window or, where it cannot be drawn, the reason and a remedy. Session and
 /// tools outlive it.
 class SceneView final : public QWidget {
  public:
   SceneView(session::Session& session, SceneTools& tools, QWidget* parent);
 
-  /// Once for each update of the session.
+  /// To be called once for each update of the session.
   void tick();
-  /// The keyboard goes to the scene or, where it cannot be drawn, to what can be done about it.
+  /// Gives the keyboard's focus to the scene or, where it cannot be drawn, to the button that tries again.
   void take_keyboard();
   bool has_keyboard() const;
   SceneWindow& window_of_scene() { return *scene_; }
@@ -33,7 +33,7 @@ class SceneView final : public QWidget {
   void draw_sign();
 
   SceneTools& tools_;
-  SceneWindow* scene_;  // the container's
+  SceneWindow* scene_;  // owned by the container
   QWidget* container_;
   QStackedLayout* stack_;
   QLabel* sign_ = nullptr;

@@ -112,7 +112,7 @@ void SceneWindow::wheelEvent(QWheelEvent* event) {
 void SceneWindow::tabletEvent(QTabletEvent* event) {
   const bool pen = event->pointerType() == QPointingDevice::PointerType::Pen;
   const bool up = event->type() == QEvent::TabletRelease;
-  // What the tools do not take comes again, as the mouse.
+  // Events that the tools do not take come again, as mouse events.
   event->setAccepted(pen && tools_.pen(input(*event), up ? 0.0 : event->pressure()));
 }
 

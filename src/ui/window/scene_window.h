@@ -12,20 +12,20 @@
 
 namespace icome::ui {
 
-/// The part of the screen that the scene is drawn on, by a thread of its own; hands mouse, pen and keyboard
-/// to the tools. Tools and feed outlive it.
+/// The native window in which a thread of its own draws the scene; passes mouse, pen and keyboard on to the
+/// tools. Tools and feed outlive it.
 class SceneWindow final : public QWindow {
  public:
   SceneWindow(SceneTools& tools, session::DisplayFeed& feed);
   ~SceneWindow() override;
 
-  /// Why there is no picture, once; nothing while there is one.
+  /// The reason why there is no picture, once; nothing while there is one.
   std::optional<std::string> trouble();
   /// Tries again to draw.
   void retry();
-  /// What draws, in the driver's words; empty until the first frame.
+  /// Name of the renderer, in the driver's words; empty until the first frame.
   QString renderer();
-  /// Who gets what is dragged and dropped here; true: it was of use.
+  /// `offered` gets the events of drag and drop over the scene; true: the event was used.
   void on_drop(std::function<bool(QDropEvent&)> offered) { offered_ = std::move(offered); }
 
  protected:
@@ -50,7 +50,7 @@ class SceneWindow final : public QWindow {
   session::DisplayFeed& feed_;
   std::unique_ptr<DisplayThread> display_ = nullptr;  // null: not seen yet, or it cannot be
   std::optional<std::string> trouble_ = {};
-  bool refused_ = false;  // there is no use in trying again by itself
+  bool refused_ = false;  // it does not try again by itself
   std::function<bool(QDropEvent&)> offered_ = [](QDropEvent&) { return false; };
 };
 

@@ -8,10 +8,10 @@
 
 namespace icome::ui {
 
-/// What keys and mouse do, as a table.
+/// A table of the uses of keys and mouse.
 class ShortcutSheet final : public QDialog {
  public:
-  /// A heading, and what stands under it: what is done, and by which keys.
+  /// A heading, and the rows under it: what is done, and by which keys.
   struct Part {
     QString heading;
     std::vector<std::pair<QString, QString>> rows;

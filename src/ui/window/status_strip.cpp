@@ -24,7 +24,7 @@ namespace {
 constexpr int kEvery = 66;  // ms
 constexpr const char* kTouchedTip = "The object under the hand";
 
-/// A lamp that says how the device is.
+/// A lamp that shows the state of the device.
 class StateDot final : public QWidget {
  public:
   explicit StateDot(QWidget* parent) : QWidget(parent) { setFixedSize(3 * kGrid, 3 * kGrid); }
@@ -113,7 +113,7 @@ QString sparing_words(const devices::DeviceInfo& device) {
       .arg(device.continuous_force);
 }
 
-/// Of the first few, what they are called and what they are felt as.
+/// Text on the first few effects: their names, and what they are felt as.
 QString capped_words(const world::World& world, const std::vector<haptics::CappedEffect>& effects) {
   constexpr std::size_t kMostTold = 6;
   QStringList lines{"Together with what else acts, this device renders less than was asked for:"};

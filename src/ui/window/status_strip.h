@@ -6,8 +6,8 @@
 
 namespace icome::ui {
 
-/// How hand and servo are doing, live: pointer device, servo rate, haptic load, lateness and force over time.
-/// Looks at the session, which outlives it, some 15 times a second while it is visible.
+/// The live state of hand and servo: pointer device, servo rate, haptic load, lateness and force over time.
+/// Reads the session, which outlives it, some 15 times a second while it is visible.
 class StatusStrip final : public QWidget {
  public:
   StatusStrip(session::Session& session, QWidget* parent);

@@ -10,7 +10,7 @@ namespace {
 using base::Bounds;
 using base::Vector3;
 
-/// Half the surface of a box: how likely others are to meet it.
+/// Half the surface area of a box: the measure of how likely others are to meet it.
 double half_surface(const Bounds& box) {
   const Vector3 s = box.sizes();
   return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
@@ -31,14 +31,14 @@ std::uint32_t BoundsTree::take_node() {
   return node;
 }
 
-/// The node that the box should stand beside.
+/// The node that becomes the sibling of a new box.
 std::uint32_t BoundsTree::sibling_for(const Bounds& box) const {
   std::uint32_t at = root_;
   while (nodes_[at].children[0] != kNone) {
     const Node& node = nodes_[at];
     const double here = merged_surface(node.box, box);
     const double beside = 2.0 * here;
-    // Everything below a node pays for what the node grows by.
+    // The growth of a node is charged to every place below it.
     const double growth = 2.0 * (here - half_surface(node.box));
     double costs[2];
     for (int i = 0; i < 2; ++i) {
@@ -108,8 +108,8 @@ void BoundsTree::mend(std::uint32_t index) {
   node.height = 1 + std::max(one.height, other.height);
 }
 
-/// Where one child is more than one higher than the other, it comes up and takes the node's place, giving it
-/// its own lower child. Gives what stands there then.
+/// Rotates where one child is more than one level higher than the other: the higher child takes the node's
+/// place and gives it its own lower child. Returns the node that then stands there.
 std::uint32_t BoundsTree::balance(std::uint32_t index) {
   const Node& node = nodes_[index];
   const int lean = nodes_[node.children[1]].height - nodes_[node.children[0]].height;

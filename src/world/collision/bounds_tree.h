@@ -35,7 +35,7 @@ class BoundsTree {
     }
   }
 
-  /// Around all boxes; empty when there are none.
+  /// Bounds of all boxes; empty when there are none.
   base::Bounds bounds() const { return root_ == kNone ? base::Bounds() : nodes_[root_].box; }
   std::size_t bytes() const { return nodes_.capacity() * sizeof(Node) + free_.capacity() * sizeof(Leaf); }
 
@@ -43,9 +43,9 @@ class BoundsTree {
   struct Node {
     base::Bounds box;
     std::uint32_t parent = kNone;
-    std::uint32_t children[2] = {kNone, kNone};  // both or, of a leaf, none
+    std::uint32_t children[2] = {kNone, kNone};  // kNone in a leaf
     std::uint32_t number = 0;                    // of a leaf
-    int height = 0;                              // of a leaf 0
+    int height = 0;                              // 0 in a leaf
   };
 
   std::uint32_t take_node();

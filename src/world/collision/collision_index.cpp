@@ -1,4 +1,4 @@
-// How the bounds of a CollisionIndex are kept true.
+// Upkeep of a CollisionIndex: its bounds and shapes follow the edits of the world.
 #include <algorithm>
 #include <utility>
 
@@ -14,7 +14,7 @@ CollisionIndex::CollisionIndex(const World& world) : nodes_(1) {
 }
 
 void CollisionIndex::follow(const World& world, const Changes& changes) {
-  std::vector<Slot> shrunk;  // what something has left
+  std::vector<Slot> shrunk;  // slots that lost a child
   std::vector<Slot> stale;
   for (const ObjectId id : changes.objects) {
     const PhysicalObject* object = world.find(id);
@@ -23,7 +23,7 @@ void CollisionIndex::follow(const World& world, const Changes& changes) {
     link(slot, object->parent ? reach(world, object->parent) : kWorld, shrunk);
     stale.push_back(slot);
   }
-  // By now all that was below these and lives on has gone elsewhere.
+  // Surviving objects below the deleted ones have been linked to other parents by now.
   drop_missing(world, changes.objects, shrunk);
   for (const GeometryId id : changes.geometries) {
     const auto found = shapes_.find(id);
@@ -37,7 +37,7 @@ void CollisionIndex::follow(const World& world, const Changes& changes) {
   }
 }
 
-/// From above: a subtree is gone through once, however many of it are stale.
+/// Uppermost slots first: a subtree is traversed once, however many of its slots are stale.
 void CollisionIndex::renew_all(const World& world, const std::vector<Slot>& stale) {
   std::vector<std::pair<std::size_t, Slot>> by_depth;
   for (const Slot slot : stale) {
@@ -52,7 +52,7 @@ void CollisionIndex::renew_all(const World& world, const std::vector<Slot>& stal
   }
 }
 
-/// The object's slot; it gets one if it has none.
+/// The object's slot, made if it has none.
 CollisionIndex::Slot CollisionIndex::reach(const World& world, ObjectId id) {
   const auto [found, fresh] = slots_.try_emplace(id);
   if (!fresh) return found->second;
@@ -143,7 +143,7 @@ void CollisionIndex::choose_shape(const World& world, Slot slot, GeometryId geom
   if (found->second.shape.unlimited()) unlimited_.push_back(slot);
 }
 
-/// Places and bounds of a subtree, and the bounds of what is above it.
+/// Renews the places and bounds of a subtree, and the bounds of all nodes above it.
 void CollisionIndex::renew(const World& world, Slot top) {
   std::vector<Slot> order{top};
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -167,7 +167,7 @@ void CollisionIndex::renew_place(const World& world, Slot slot) {
     node.own = shape.bounds().transformed(node.world_from_object);
 }
 
-/// Returns whether they, or what knows of them, have changed.
+/// Returns whether the bounds, or their entry in the parent's tree, had to change.
 bool CollisionIndex::renew_bounds(Slot slot) {
   Node& node = nodes_[slot];
   const Bounds all = node.own.merged(node.children.bounds());

@@ -21,7 +21,7 @@ using geometry::Corners;
 using geometry::TriangleMesh;
 
 constexpr double kRounding = 1e-10;          // of the largest coordinate
-constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
+constexpr double kLargestCoordinate = 1e70;  // limit of what mesh repair can take
 
 double largest_coordinate(const Bounds& box) {
   return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
@@ -29,7 +29,7 @@ double largest_coordinate(const Bounds& box) {
 
 bool finite(const Bounds& box) { return box.min().allFinite() && box.max().allFinite(); }
 
-/// By how much a map stretches all directions alike; nothing if it does not.
+/// Factor by which a map stretches all directions alike; nothing if they differ.
 std::optional<double> even_stretch(const base::Matrix3& linear) {
   const base::Matrix3 metric = linear.transpose() * linear;
   const double square = metric.trace() / 3.0;
@@ -51,8 +51,8 @@ TriangleMesh box_mesh(const Bounds& box) {
 
 using Hit = CollisionShape::Hit;
 
-/// The unit normal of the triangle hit on a way of this step. The place is rounded as the way is long, also
-/// where it is near the origin.
+/// The unit normal of the triangle that was hit on the way `step`. The hit point is rounded in proportion
+/// to the length of the way, even near the origin.
 Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& hit, const Vector3& step) {
   Vector3 normal = Vector3::Zero();
   const double rounding = kRounding * std::max(hit.point.norm(), step.norm());
@@ -65,7 +65,7 @@ Vector3 normal_at(const geometry::TriangleTree& tree, const geometry::MeshHit& h
   return normal;
 }
 
-/// Who goes out of the shape first goes in later.
+/// The first hit that leads into a closed mesh, or through an open one; ways out are passed over.
 std::optional<Hit> hit_of_mesh(const geometry::TriangleTree& tree, bool closed, const Vector3& a,
                                const Vector3& b) {
   constexpr int kMostPassages = 8;
@@ -84,7 +84,7 @@ std::optional<Hit> hit_of_mesh(const geometry::TriangleTree& tree, bool closed, 
   return std::nullopt;
 }
 
-/// How a length, by which a surface is higher than what it may meet, is to be understood.
+/// The meeting that the gap between two surfaces means; a negative gap is an overlap.
 Meeting by_gap(double gap, double rounding) {
   return gap > rounding ? Meeting::Apart : gap < -rounding ? Meeting::Overlapping : Meeting::Touching;
 }
@@ -164,7 +164,7 @@ std::optional<CollisionShape::Hit> CollisionShape::hit_of_sphere(const Vector3& 
 std::uint64_t effort_to_look_into(const Geometry& shape) {
   constexpr std::uint64_t kPrimitive = 2'000;   // some hundred triangles
   constexpr std::uint64_t kATriangle = 20;      // repaired, sorted, and looked through for parts
-  constexpr std::uint64_t kSolid = 20'000'000;  // meshed first: nobody waits for that
+  constexpr std::uint64_t kSolid = 20'000'000;  // meshed first: far too slow to wait for
   return visit_geometry(
       shape, [](const PrimitiveGeometry&) { return kPrimitive; },
       [](const MeshGeometry& it) { return kATriangle * it.mesh.triangles.size(); },
@@ -205,7 +205,7 @@ void CollisionShape::Solid::find_probes(const TriangleMesh& mesh) {
     const Vector3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
     probes.push_back(middle);
     if (!closed) continue;
-    // Half way to the wall behind.
+    // The probe lies half way to the opposite wall.
     const Vector3 inwards = -cross(t).normalized();
     const auto wall = tree->first_hit(middle + 1e-9 * size * inwards, middle + 2.0 * size * inwards);
     if (wall) probes.back() = 0.5 * (middle + wall->point);
@@ -226,7 +226,7 @@ std::optional<CollisionShape::HalfSpace> CollisionShape::half_space(const Affine
                    (linear.inverse().transpose() * Vector3::UnitZ()).normalized()};
 }
 
-/// The question for two placed shapes, neither of which is nothing.
+/// The query whether two placed shapes meet; neither is of the kind Nothing.
 class CollisionShape::Pair {
  public:
   Pair(const Placed& one, const Placed& other, Effort* effort) : one_(one), other_(other), effort_(effort) {
@@ -256,7 +256,7 @@ class CollisionShape::Pair {
     const auto height = [&](const Vector3& point) { return plane.normal.dot(point - plane.foot); };
     if (other.shape.unlimited()) {
       const HalfSpace facing = *other.shape.half_space(other.world_from_shape);
-      // Only those that face away from each other can be apart.
+      // Only half-spaces with opposite normals can be apart.
       const bool parallel = (plane.normal + facing.normal).cwiseAbs().maxCoeff() < 1e-12;
       return parallel ? by_gap(height(facing.foot), rounding_) : Meeting::Overlapping;
     }
@@ -279,7 +279,7 @@ class CollisionShape::Pair {
     return {frame * corners[0], frame * corners[1], frame * corners[2]};
   }
 
-  /// The map stretches no length by more.
+  /// Upper bound of the factor by which the map stretches lengths.
   static double most_stretch(const Affine3& map) { return map.linear().norm(); }
 
   Meeting of_ball(const Ball& ball, const Placed& other) const {
@@ -297,7 +297,7 @@ class CollisionShape::Pair {
     return by_gap(gap, rounding_);
   }
 
-  /// The triangles of the one that has fewer are looked for in the other.
+  /// Looks for the triangles of the shape that has fewer in the other shape.
   Meeting of_triangles() const {
     const bool other_has_fewer = other_.shape.solid().tree->size() < one_.shape.solid().tree->size();
     return other_has_fewer ? Pair(other_, one_, effort_).surfaces_and_insides() : surfaces_and_insides();
@@ -312,7 +312,7 @@ class CollisionShape::Pair {
 
   bool may_go_on(std::uint64_t units = 1) const { return !effort_ || effort_->spend(units); }
 
-  /// Every triangle of one, that is near the other's box, against the other's around it.
+  /// Tests every triangle of `one` near the other's box against the other's triangles around it.
   Meeting of_surfaces() const {
     const Solid& one = one_.shape.solid();
     const Solid& other = other_.shape.solid();
@@ -364,8 +364,8 @@ class CollisionShape::Pair {
     return result;
   }
 
-  /// Does a connected part of `part` lie in `whole`? Looked at when no surfaces cross: then one place of it
-  /// tells.
+  /// Does a connected part of `part` lie in `whole`? Asked when no surfaces cross: then one point of each
+  /// part decides.
   bool holds_part(const Placed& whole, const Placed& part) const {
     const Solid& solid = whole.shape.solid();
     if (!solid.closed) return false;
@@ -382,7 +382,7 @@ class CollisionShape::Pair {
 
   const Placed& one_;
   const Placed& other_;
-  Effort* effort_;  // null: as much as it takes
+  Effort* effort_;  // null: unlimited
   double extent_ = 0.0;
   double rounding_ = 0.0;
 };

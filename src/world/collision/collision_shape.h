@@ -10,27 +10,27 @@
 
 namespace icome::world {
 
-/// How two shapes lie to each other.
+/// Relation of two shapes in space.
 enum class Meeting : std::uint8_t {
   Apart,
-  Touching,     // they share places of their surfaces, but nothing of what is inside
+  Touching,     // they share points of their surfaces, but none of their insides
   Overlapping,  // one goes through the other, or lies inside it
 };
 
-/// What it takes, about, to make a shape ready to be looked into by its triangles.
+/// Approximate effort of preparing a shape for queries on its triangles.
 std::uint64_t effort_to_look_into(const Geometry& shape);
 
-/// A shape made ready for the question whether it meets others. Spheres (that are not stretched) and
-/// half-spaces are asked as what they are, meshes and boxes by their triangles, all other shapes by triangles
-/// of theirs, which are off them by deviation() at most (or sampled at 100 places along their longest side);
-/// first_hit() alone asks these as what they are. A shape of which there are no triangles counts as its box,
-/// or, without an end, as nothing.
+/// A shape prepared for the question whether it meets others. Spheres (unless stretched unevenly) and
+/// half-spaces are queried exactly, meshes and boxes by their triangles, all other shapes by a triangulation
+/// that is off them by deviation() at most (or sampled at 100 places along their longest side); first_hit()
+/// alone queries these exactly. A shape that has no triangles counts as its box, or, where it is unlimited,
+/// as nothing.
 class CollisionShape {
  public:
   /// The shape is shared. Triangles are made when they are first asked for.
   explicit CollisionShape(GeometryPointer shape);
 
-  /// Own frame; infinite for a half-space, empty for what can meet nothing.
+  /// In the shape's frame; infinite for a half-space, empty for a shape that can meet nothing.
   const Bounds& bounds() const { return bounds_; }
   bool unlimited() const { return kind_ == Kind::HalfSpace; }
   bool nothing() const { return kind_ == Kind::Nothing; }
@@ -39,63 +39,63 @@ class CollisionShape {
     Vector3 centre;
     double radius;  // m
   };
-  /// The placed shape as a ball, where it is asked as one.
+  /// The placed shape as a ball; nothing where it is not queried as one.
   std::optional<Ball> ball(const Affine3& world_from_shape) const;
 
   struct HalfSpace {
     Vector3 foot;    // on its surface
-    Vector3 normal;  // unit, out of it
+    Vector3 normal;  // unit, outwards
   };
   /// The placed shape as a half-space; nothing for other shapes.
   std::optional<HalfSpace> half_space(const Affine3& world_from_shape) const;
 
-  /// Its triangles, in its own frame, made when they are first asked for. Of a shape that is neither nothing
+  /// Its triangles, in its own frame, made when they are first asked for. The shape must be neither nothing
   /// nor a half-space.
   const geometry::TriangleTree& triangle_tree() { return *solid().tree; }
 
-  /// How far its triangles may be off what it is itself where it is placed so, m, world frame; 0 where it is
-  /// asked as what it is, or is nothing else than triangles.
+  /// Largest distance of its triangles from the exact shape in this placement, m, world frame; 0 where it is
+  /// queried exactly, or consists of triangles only.
   double deviation(const Affine3& world_from_shape) const;
 
-  /// Where a straight way leads into the shape from outside, or through a sheet.
+  /// The point at which a straight way enters the shape from outside, or passes through a sheet.
   struct Hit {
     double share;    // of the way, 0 to 1
     Vector3 normal;  // of the surface there, against the way; own frame, unit
   };
-  /// The first such place on the way from `a` to `b` (m, own frame), by what the shape is itself.
+  /// The first hit on the way from `a` to `b` (m, own frame), with the exact shape.
   std::optional<Hit> first_hit(const Vector3& a, const Vector3& b);
 
-  /// The surface as what it is, where triangles are only near it; else null.
+  /// The exact surface, where triangles are only near it; else null.
   const geometry::SmoothSurface* surface() {
     return kind_ == Kind::Triangles ? solid().exact.get() : nullptr;
   }
 
-  /// What it takes to make the triangles, if they are needed; 0 when they are there.
+  /// Effort of making the triangles, if they are needed; 0 when they are there already.
   std::uint64_t effort_to_make() const;
 
   struct Placed {
     CollisionShape& shape;
     const Affine3& world_from_shape;
   };
-  /// Solids count as what is inside them, also a mesh that is closed; other meshes as their surface. Lengths
-  /// up to 1e-10 of the largest coordinate count as none, as in contact: a box that stands on another
-  /// touches it, whatever rounding made of where it stands. Where the effort is spent (null: there is no end
-  /// to it), nothing is known, and they count as overlapping.
+  /// Solids, also closed meshes, include their inside; other meshes are their surface alone. Lengths up to
+  /// 1e-10 of the largest coordinate count as zero, as in contact: a box that stands on another touches it,
+  /// however its place was rounded. When the effort is spent (null: unlimited), the answer is unknown and
+  /// they count as overlapping.
   friend Meeting meeting(const Placed& one, const Placed& other, Effort* effort);
 
  private:
   enum class Kind : std::uint8_t { Nothing, HalfSpace, Sphere, Triangles };
   class Pair;
 
-  /// Triangles with what it takes to look into them.
+  /// Triangles with the data for queries on them.
   struct Solid {
     Solid(geometry::TriangleMesh mesh, std::shared_ptr<const geometry::SmoothSurface> surface);
     void find_probes(const geometry::TriangleMesh& mesh);
 
     bool closed = false;
     std::optional<geometry::TriangleTree> tree;
-    std::vector<Vector3> probes;  // a place in each connected part: inside where it is closed
-    std::shared_ptr<const geometry::SmoothSurface> exact;  // what the triangles stand for; null: themselves
+    std::vector<Vector3> probes;  // a point of each connected part: inside where it is closed
+    std::shared_ptr<const geometry::SmoothSurface> exact;  // the surface they approximate; null: none
   };
 
   const Solid& solid();

@@ -1,4 +1,4 @@
-// What is asked of a CollisionIndex.
+// Queries of a CollisionIndex.
 #include "world/collision/collisions.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace icome::world {
 namespace {
 
-// Boxes this much of their coordinates apart may still touch: twice what shapes allow.
+// Gap, as a share of their coordinates, at which boxes may still touch: twice that of shapes.
 constexpr double kBoxRounding = 2e-10;
 
 Bounds with_slack(const Bounds& box) {
@@ -18,7 +18,7 @@ Bounds with_slack(const Bounds& box) {
 
 }  // namespace
 
-/// A walk through pairs of subtrees whose bounds meet. Those on the first side may stand elsewhere.
+/// A walk through pairs of subtrees whose bounds meet. The subtree on the first side may be moved.
 class CollisionIndex::Query {
  public:
   /// Returns whether to go on.
@@ -26,7 +26,7 @@ class CollisionIndex::Query {
 
   Query(CollisionIndex& index, Visitor visitor) : index_(index), visitor_(std::move(visitor)) {}
 
-  /// The subtree, moved by that in the world's frame, against all outside of it.
+  /// Compares the subtree, moved by `moved` in the world's frame, with all outside of it.
   void against_world(Slot root, const std::optional<Affine3>& moved) {
     root_ = root;
     moved_ = moved;
@@ -45,7 +45,7 @@ class CollisionIndex::Query {
     walk();
   }
 
-  /// The objects of the subtree against each other.
+  /// Compares the objects of the subtree with each other.
   void within(Slot root) {
     std::vector<Slot> below{root};
     while (!below.empty() && going_) {
@@ -96,7 +96,7 @@ class CollisionIndex::Query {
     stack_.clear();
   }
 
-  /// A subtree that the first side is a part of has nothing to do with it until it is taken apart.
+  /// Does the subtree contain the first side's root? Then it must be split before it is compared.
   bool holds_root(const Side& side) const { return root_ != kNone && index_.is_below(root_, side.slot); }
   bool larger(const Side& one, const Side& other) const {
     return box(one).diagonal().squaredNorm() > box(other).diagonal().squaredNorm();

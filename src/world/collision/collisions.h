@@ -17,11 +17,11 @@ struct Collision {
   auto operator<=>(const Collision&) const = default;
 };
 
-/// Which objects of a world meet (thesis 2.4.1: "collision detection [...] on the top level"): it descends
-/// into subtrees only where bounds meet, and looks at shapes only where the bounds of objects do. It keeps
-/// the bounds of every subtree in the world's frame. Bounds stay true by follow(), which takes time by the
-/// objects that an edit took to another place or shape, and by the depth of the hierarchy above them. One
-/// thread owns it; shapes are made ready when they are first asked for.
+/// Finds the objects of a world that meet (thesis 2.4.1: "collision detection [...] on the top level"): it
+/// descends into subtrees only where bounds meet, and examines shapes only where the bounds of objects do.
+/// It keeps the bounds of every subtree in the world's frame; follow() updates them, in time in proportion
+/// to the objects that an edit gave another place or shape, and to the depth of the hierarchy above them.
+/// One thread owns it; shapes are prepared when they are first asked for.
 class CollisionIndex {
  public:
   explicit CollisionIndex(const World& world);
@@ -29,17 +29,17 @@ class CollisionIndex {
   /// Follows an edit (or several) that the world has been through since the last call.
   void follow(const World& world, const Changes& changes);
 
-  /// What the objects of the subtree (`one` of each pair) meet outside of it, in the order of ids. With a
-  /// place (its frame in the world's), as if the subtree stood there; nothing is changed. Ids that the world
-  /// does not hold meet nothing.
+  /// The collisions of the subtree's objects (`one` of each pair) with those outside of it, in the order of
+  /// ids. With a place (its frame in the world's), as if the subtree stood there; nothing is changed. Ids
+  /// that the world does not hold meet nothing.
   std::vector<Collision> collisions(ObjectId root, const std::optional<Affine3>& place = std::nullopt);
-  /// Does it go through anything there? Ends with the first; touching is not counted.
+  /// Does it overlap anything there? Ends with the first overlap; touching is not counted.
   bool overlaps(ObjectId root, const std::optional<Affine3>& place = std::nullopt);
 
-  /// Which objects of the subtree meet each other: `one` has the smaller id. No id: of the whole world.
+  /// The collisions among the subtree's objects: `one` has the smaller id. No id: of the whole world.
   std::vector<Collision> collisions_within(ObjectId root = {});
 
-  /// An object that has a shape, as it stands; its shape until the next follow().
+  /// A placed object that has a shape; the pointer is valid until the next follow().
   struct Standing {
     ObjectId id;
     CollisionShape* shape;  // never null
@@ -47,13 +47,13 @@ class CollisionIndex {
   };
   /// The objects of a subtree that can meet others, in the order of ids. No id: of the whole world.
   std::vector<Standing> standing(ObjectId root = {});
-  /// Those of the world whose boxes meet `box`, and all without an end, in the order of ids.
+  /// The objects of the world whose boxes meet `box`, and all unlimited ones, in the order of ids.
   std::vector<Standing> standing_in(const Bounds& box);
 
-  /// Around the shapes of a subtree as it stands; those without an end are left out.
+  /// Bounds of the placed shapes of a subtree; unlimited shapes are left out.
   Bounds bounds(ObjectId root) const;
 
-  /// What the queries since the beginning have looked into.
+  /// The work that the queries have done since the beginning.
   struct Work {
     std::size_t entered = 0;  // subtrees
     std::size_t shapes = 0;   // pairs of shapes
@@ -62,7 +62,7 @@ class CollisionIndex {
 
  private:
   using Slot = std::uint32_t;
-  static constexpr Slot kWorld = 0;  // what the roots hang from
+  static constexpr Slot kWorld = 0;  // parent of the roots
   static constexpr Slot kNone = 0xffffffff;
 
   struct Node {
@@ -71,10 +71,10 @@ class CollisionIndex {
     Affine3 world_from_object = Affine3::Identity();
     GeometryId geometry = {};  // none: no shape
     std::size_t user = 0;      // place among the users of the shape
-    Bounds own;                // around the object's own shape; empty without one or where it has no end
-    Bounds all;                // around the subtree's
-    BoundsTree children;       // those whose `all` is not empty
-    BoundsTree::Leaf leaf = BoundsTree::kNone;  // in the parent's
+    Bounds own;                // of the object's own shape; empty without one or if it is unlimited
+    Bounds all;                // of the whole subtree
+    BoundsTree children;       // children whose `all` is not empty
+    BoundsTree::Leaf leaf = BoundsTree::kNone;  // in the parent's tree
     bool stale = false;                         // place or shape have changed
   };
   struct Shape {

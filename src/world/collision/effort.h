@@ -5,19 +5,19 @@
 
 namespace icome::world {
 
-/// How much may be looked at before an answer is due, counted and not timed, so that the same question gets
-/// the same answer on any machine. One unit is about what two triangles take, some 100 ns. One thread uses
+/// A budget of work for an answer, counted and not timed, so that the same question gets the same
+/// answer on any machine. One unit is about the work for two triangles, some 100 ns. One thread uses
 /// it.
 class Effort {
  public:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-  /// `given_up`: set by another thread that does not want the answer any more; may be null, and outlives
-  /// this.
+  /// `given_up`: set by another thread that does not want the answer any more; may be null, and must
+  /// outlive this object.
   explicit Effort(std::uint64_t most, const std::atomic<bool>* given_up = nullptr)
       : most_(most), left_(most), given_up_(given_up) {}
 
-  /// False when there is none left: then what is found out is worth nothing.
+  /// False when none is left: the results of the query are then worthless.
   bool spend(std::uint64_t units = 1) {
     if (given_up_ && given_up_->load(std::memory_order_relaxed)) left_ = 0;
     if (units >= left_) {

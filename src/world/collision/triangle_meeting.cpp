@@ -1,4 +1,4 @@
-// After Moeller (1997): where each triangle cuts the other's plane, on the line that the planes share.
+// After Moeller (1997): compares the ranges that the triangles cut out of the line that their planes share.
 #include "world/collision/triangle_meeting.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ Vector3 unit_normal(const Corners& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
 }
 
-/// The heights of a triangle's corners over a plane; what is rounding is zero.
+/// The heights of a triangle's corners over a plane; heights within the rounding are zero.
 struct Heights {
   std::array<double, 3> of;
   bool above = false, below = false;
@@ -34,7 +34,7 @@ struct Heights {
   bool on_both_sides() const { return above && below; }
 };
 
-/// From where to where a triangle lies in the plane: a segment, or a point twice.
+/// The segment in which a triangle cuts the plane; one point twice where it only touches.
 std::array<Vector3, 2> cut(const Corners& corners, const Heights& heights) {
   std::array<Vector3, 6> points;
   std::size_t count = 0;
@@ -58,7 +58,7 @@ struct Range {
   }
 };
 
-/// How far two ranges overlap; negative when they are apart.
+/// Length by which two ranges overlap; negative when they are apart.
 double overlap(const Range& a, const Range& b) { return std::min(a.high, b.high) - std::max(a.low, b.low); }
 
 Range range_of(const Corners& corners, const Vector3& axis, const Vector3& origin) {
@@ -67,7 +67,7 @@ Range range_of(const Corners& corners, const Vector3& axis, const Vector3& origi
   return range;
 }
 
-/// In one plane: by the directions across their edges.
+/// Triangles in one plane: the overlap along the directions across their edges.
 TriangleMeeting meeting_flat(const Corners& one, const Corners& other, const Vector3& normal,
                              const Vector3& other_normal, double rounding) {
   double least = std::numeric_limits<double>::infinity();

@@ -21,7 +21,7 @@ tl::unexpected<base::Error> bad_frame() {
   return fail("An object's place must be a finite transform that does not flatten it.");
 }
 
-/// "table" or, for one without a name, "object 12".
+/// The object in messages: its name in quotes or, for one without a name, "object 12".
 std::string called(const PhysicalObject& object, ObjectId id) {
   return object.name.empty() ? fmt::format("object {}", id.value & IdSource::kNumberMask)
                              : fmt::format("\"{}\"", object.name);
@@ -32,7 +32,7 @@ std::string called(const PhysicalObject& object, ObjectId id) {
 /// Applies edits to a world; each function gives the inverse.
 class EditApplier {
  public:
-  /// `alone`: nobody else looks at the world and at shapes that only it has.
+  /// `alone`: nobody else reads the world or the shapes that only it holds.
   EditApplier(World& world, bool alone, Permit permit = {})
       : world_(world), alone_(alone), permit_(std::move(permit)) {}
 

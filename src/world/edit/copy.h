@@ -14,7 +14,7 @@ enum class Duplicate {
   CloneObjectCopyChildren,
 };
 
-/// What duplicating does, ready to be applied, and the object that will be the duplicate.
+/// The edit that makes a duplicate, ready to be applied, and the id of the duplicate.
 struct Duplication {
   Edit edit;
   ObjectId object;

@@ -12,7 +12,7 @@ namespace icome::world {
 
 struct Edit;
 
-/// Makes an object without children. Ids of what is made come from an IdSource.
+/// Creates an object without children. The ids of new things come from an IdSource.
 struct CreateObject {
   ObjectId id;
   std::size_t place = 0;  // among its siblings-to-be
@@ -22,7 +22,7 @@ struct CreateObject {
 struct DeleteObject {
   ObjectId id;
 };
-/// Puts a subtree under another parent, or among the roots, and says where it is there.
+/// Puts a subtree under another parent, or among the roots, at a new place.
 struct MoveObject {
   ObjectId id;
   ObjectId parent;
@@ -37,7 +37,7 @@ struct RenameObject {
   ObjectId id;
   std::string name;
 };
-/// Makes the object of another shape that is there, or of none.
+/// Gives the object another shape of the world, or none.
 struct ChooseGeometry {
   ObjectId id;
   GeometryId geometry;
@@ -62,12 +62,12 @@ struct CreateGeometry {
   GeometryId id;
   GeometryPointer shape;
 };
-/// Makes a shape that equals another, but goes its own way: one can change without the other.
+/// Makes a shape that equals another but is separate from it: either can change alone.
 struct CopyGeometry {
   GeometryId id;
   GeometryId model;
 };
-/// Of a shape that no object has.
+/// Deletes a shape that no object uses.
 struct DeleteGeometry {
   GeometryId id;
 };
@@ -77,11 +77,11 @@ struct ReplaceGeometry {
   GeometryPointer shape;
 };
 /// Moves vertices of a mesh or of a control mesh, for all objects that share it. A mesh loses its recipe;
-/// what takes that back is a ReplaceGeometry.
+/// the inverse is then a ReplaceGeometry.
 struct MoveVertices {
   GeometryId id;
   std::vector<std::uint32_t> vertices;
-  std::vector<Vector3> positions;  // m, the shape's frame; as many
+  std::vector<Vector3> positions;  // m, the shape's frame; one per vertex
 };
 
 struct CreateMaterial {
@@ -107,7 +107,7 @@ struct CreateScene {
   SceneId id;
   std::string name;
 };
-/// Of a scene without objects.
+/// Deletes a scene without objects.
 struct DeleteScene {
   SceneId id;
 };
@@ -126,8 +126,8 @@ struct LeaveScene {
   ObjectId object;
 };
 
-/// Keeps an author's numbers up to `last` from being given again, as what had them is gone. Nothing takes
-/// that back.
+/// Reserves an author's numbers up to `last`, because whatever had them is gone, so that they are not
+/// given again. This cannot be taken back.
 struct ReserveIds {
   std::uint32_t author = 0;
   std::uint64_t last = 0;
@@ -155,19 +155,19 @@ struct Edit {
   What what;
 };
 
-/// May an object stand so: is the transform finite, and flattens it nothing?
+/// May an object be placed so? The transform must be finite and must not flatten.
 bool can_be_placed(const Affine3& frame);
 
 /// Changes the world and gives the edit that takes it back. A refused edit changes nothing, and the error
-/// says why in terms of what people see.
+/// says why in the user's terms.
 base::Result<Edit> apply(World& world, const Edit& edit);
 
-/// The same for one edit of many that make a world which nobody looks at yet: shapes that are the world's
-/// alone may change where they are, and there is no way back.
+/// Applies one edit of many that build a world which nobody reads yet: shapes that this world alone holds
+/// may change in place, and there is no inverse.
 base::Result<void> replay(World& world, const Edit& edit);
 
-/// The edit that deletes an object with all below it, and the shapes that nothing is made of then. The
-/// object is in the world.
+/// The edit that deletes an object with all below it, and the shapes that nobody uses after that. The
+/// object must be in the world.
 Edit delete_subtree(const World& world, ObjectId root);
 
 }  // namespace icome::world

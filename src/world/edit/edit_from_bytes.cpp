@@ -11,10 +11,10 @@
 namespace icome::world {
 namespace {
 
-// A table and the offset that leads to it: what bytes can hold of them at most.
+// Least size of an edit: a table and the offset to it. It limits how many edits the bytes can hold.
 constexpr std::size_t kFewestBytesOfEdit = 8;
-// Tables within each other: two of each group, the edit in the innermost and what it has. Four times as
-// many groups as there may be still get the error that says so.
+// Depth of nested tables: two for each group, and those of the innermost edit. Four times the allowed
+// number of groups still fits, so that the error can name the reason.
 constexpr int kMostTablesDeep = 2 * 4 * kMostNestedGroups + 4;
 
 Affine3 frame_from(const flat::Frame& from) {
@@ -298,7 +298,7 @@ class EditReader {
   FlatReader& reader_;
   const GeometryFactory& factory_;
   const Permit& permit_;
-  int groups_ = 0;  // that the edit being read lies within
+  int groups_ = 0;  // levels of groups around the edit that is being read
 };
 
 }  // namespace

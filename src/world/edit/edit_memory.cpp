@@ -12,7 +12,7 @@ std::size_t memory_of_fixture(const FixturePointer& fixture) {
 
 std::size_t memory_of_motion(const MotionPointer& motion) { return motion ? bytes_of(*motion) : 0; }
 
-/// What an edit holds beside itself.
+/// Memory that an edit holds outside of itself, bytes.
 struct HeldMemory {
   std::size_t operator()(const CreateObject& it) const {
     return it.object.name.size() + memory_of_fixture(it.object.fixture) + memory_of_motion(it.object.motion);

@@ -5,8 +5,8 @@
 
 namespace icome::world {
 
-/// About the bytes of memory that keeping an edit may take: its texts, numbers, shapes and pictures. What it
-/// shares with others counts in full.
+/// About the bytes of memory that keeping an edit may take: its texts, numbers, shapes and pictures. Shared
+/// parts count in full.
 std::size_t memory_of(const Edit& edit);
 
 }  // namespace icome::world

@@ -6,9 +6,9 @@
 
 namespace icome::world {
 
-/// Where edits go: performs one and gives the edit that takes it back, or refuses it with no change, as
-/// `apply` does. A world is one by itself; a journal or a network of colleagues stand before theirs. Refers
-/// to what it was made of.
+/// The receiver of edits: performs one and gives the edit that takes it back, or refuses it with no change,
+/// as `apply` does. A world is a sink by itself; a journal or a network of colleagues stands before theirs.
+/// Refers to what it was made of.
 class EditSink {
  public:
   using Perform = std::function<base::Result<Edit>(const Edit&)>;

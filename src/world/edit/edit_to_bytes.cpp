@@ -34,7 +34,7 @@ flatbuffers::Optional<Number> flat_optional(const std::optional<Number>& value) 
   return value ? flatbuffers::Optional<Number>(*value) : flatbuffers::nullopt;
 }
 
-/// Which table of the union was written, and where.
+/// The table of the union that was written: its kind and offset.
 struct WrittenEdit {
   flat::What kind;
   Offset<void> table;
@@ -45,8 +45,8 @@ WrittenEdit as_edit(Offset<Table> table) {
   return {flat::WhatTraits<Table>::enum_value, table.Union()};
 }
 
-/// Writes edits, each kind by its own function. The first thing that goes wrong is remembered; no edit is
-/// put together after it.
+/// Writes edits, each kind by its own function. The first fault is remembered; no edit is put together
+/// after it.
 class EditWriter {
  public:
   base::Result<std::string> write(const Edit& edit) {
@@ -173,7 +173,7 @@ class EditWriter {
 
  private:
   Offset<flat::Edit> add(const Edit& edit) {
-    constexpr std::size_t kMostOfTables = 1024;  // what one edit needs beside texts, numbers and shapes
+    constexpr std::size_t kMostOfTables = 1024;  // the need of one edit beside texts, numbers and shapes
     const WrittenEdit written = std::visit(*this, edit.what);
     if (!has_room(kMostOfTables) || !fault_.empty()) return {};
     return flat::CreateEdit(builder_, written.kind, written.table);
@@ -194,7 +194,7 @@ class EditWriter {
 
   Offset<flatbuffers::Vector<std::uint8_t>> bytes(const std::string& bytes) {
     const bool fits = has_room(bytes.size());
-    // So that the numbers of a shape can be read where they are.
+    // Aligned, so that the numbers of a shape can be read in place.
     builder_.ForceVectorAlignment(fits ? bytes.size() : 0, 1, sizeof(double));
     return builder_.CreateVector(reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                  fits ? bytes.size() : 0);
@@ -273,7 +273,7 @@ class EditWriter {
   }
 
   FlatBufferBuilder builder_;
-  int groups_ = 0;  // that the edit being written lies within
+  int groups_ = 0;  // levels of groups around the edit that is being written
   std::string fault_;
 };
 

@@ -7,7 +7,7 @@
 namespace icome::world {
 namespace {
 
-/// Tables keep no order: here it is that of the keys.
+/// Visits a table in the order of its keys, as tables keep no order.
 template <typename Key, typename Value, typename Take>
 void each(const std::unordered_map<Key, Value>& table, Take&& take) {
   std::vector<Key> keys;

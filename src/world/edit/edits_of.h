@@ -5,7 +5,7 @@
 
 namespace icome::world {
 
-/// The edits that make an equal world of an empty one: the same ids, orders and scenes, and no number is
+/// The edits that turn an empty world into an equal one: the same ids, orders and scenes, and no number is
 /// given twice. None is a group, and the same world gives the same edits. They share the world's shapes, and
 /// make copies that nobody has changed as copies again.
 std::vector<Edit> edits_of(const World& world);

@@ -11,7 +11,7 @@ bool readable_at(const char* place) { return reinterpret_cast<std::uintptr_t>(pl
 
 FlatReader::FlatReader(std::string_view bytes) : bytes_(bytes), left_(bytes.size()) {
   if (readable_at(bytes.data())) return;
-  // A short string lies within itself, where numbers may not be readable: let it be a long one.
+  // A short string lies within itself, where numbers may be misaligned: makes it a long one.
   copy_.reserve(bytes.size() + 64);
   copy_ = bytes;
   bytes_ = copy_;

@@ -12,7 +12,7 @@
 namespace icome::world {
 namespace {
 
-/// Those of a group, or the edit itself.
+/// The edits of a group, or the edit itself.
 std::span<const Edit> steps_of(const Edit& edit) {
   const auto* group = std::get_if<EditGroup>(&edit.what);
   return group ? std::span(group->edits) : std::span(&edit, 1);
@@ -33,7 +33,7 @@ bool covers(const Edit& older, const Edit& newer) {
   return vertices && moved && vertices->id == moved->id && vertices->vertices == moved->vertices;
 }
 
-/// The same for the steps of a drag of one thing or many.
+/// Does the older inverse undo both for every step of a drag of one thing or many?
 bool covers_both(const Edit& older, const Edit& newer) {
   return std::ranges::equal(steps_of(older), steps_of(newer), covers);
 }
@@ -113,7 +113,7 @@ base::Result<Edit> History::turn(const EditSink& sink, std::vector<Action>& from
                                  const char* nothing) {
   if (from.empty()) return base::fail(nothing);
   const Action& action = from.back();
-  // A single edit is no group: groups would lie within groups after every undo and redo.
+  // A single edit is kept without a group: else every undo and redo would nest the groups deeper.
   Edit edit = action.inverses.size() == 1
                   ? action.inverses.front()
                   : Edit(EditGroup{{action.inverses.rbegin(), action.inverses.rend()}});

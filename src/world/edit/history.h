@@ -7,9 +7,9 @@
 
 namespace icome::world {
 
-/// What a person did and can take back: one entry for each action, whatever edits it took. Owns the
-/// inverses; knows the world, or whatever performs its edits, only while it is called. Where they take more
-/// memory than they may, the oldest actions cannot be taken back any more; the last one always can.
+/// The actions that a person did and can take back: one entry for each action, whatever edits it took. Owns
+/// the inverses; knows the world, or whatever performs its edits, only during a call. When they take more
+/// memory than allowed, the oldest actions can no longer be taken back; the last one always can.
 class History {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{256}
@@ -18,18 +18,18 @@ class History {
   History() = default;
   explicit History(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Performs what an action called `name` ("Move leg") does. What was undone can then not be redone.
+  /// Performs the edit of an action called `name` ("Move leg"). Undone actions can then not be redone.
   base::Result<void> perform(const EditSink& sink, const Edit& edit, const std::string& name);
-  /// The same for more of the last action, such as the next step of a drag, which must not be undone.
+  /// Adds an edit to the last action, such as the next step of a drag; that must not be undone.
   base::Result<void> extend(const EditSink& sink, const Edit& edit);
 
   /// Performs an action that is only tried out: as long as nothing else is done, take_back() leaves no trace
   /// of it. Precondition: not trying().
   base::Result<void> try_out(const EditSink& sink, const Edit& edit, const std::string& name);
   /// Precondition: trying(). Fails, changing nothing, when somebody else's edits are in its way; it is then
-  /// an action like any other.
+  /// an ordinary action.
   base::Result<void> take_back(const EditSink& sink);
-  /// Makes what is tried out an action like any other. So does whatever else is done.
+  /// Makes what is tried out an ordinary action. Any other action does so, too.
   void keep() { aside_.reset(); }
   bool trying() const { return aside_.has_value(); }
 
@@ -39,7 +39,7 @@ class History {
   std::string undo_name() const { return done_.empty() ? "" : done_.back().name; }
   std::string redo_name() const { return undone_.empty() ? "" : undone_.back().name; }
 
-  /// Gives the edit that was performed. Fails, changing nothing, when
+  /// Returns the edit that was performed. Fails, changing nothing, when
   /// there is nothing to take back or somebody else's edits are in its way.
   base::Result<Edit> undo(const EditSink& sink);
   base::Result<Edit> redo(const EditSink& sink);
@@ -47,7 +47,7 @@ class History {
  private:
   struct Action {
     std::string name;
-    std::vector<Edit> inverses;  // the last one first to be applied
+    std::vector<Edit> inverses;  // in the order they were made: applied from the last
     std::size_t bytes = 0;
   };
   static Action action_of(const std::string& name, Edit inverse);
@@ -57,7 +57,7 @@ class History {
 
   std::size_t most_bytes_ = kMostBytes;
   std::vector<Action> done_, undone_;
-  std::optional<std::vector<Action>> aside_;  // what can be redone once what is tried out was taken back
+  std::optional<std::vector<Action>> aside_;  // redoable actions to bring back after take_back()
 };
 
 }  // namespace icome::world

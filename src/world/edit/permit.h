@@ -6,11 +6,11 @@
 
 namespace icome::world {
 
-/// May work on bytes of a stranger go on, and take so many bytes of memory more? Asked before memory is taken
-/// that few bytes may stand for, and with few now and then. Empty: it may.
+/// May work on bytes of a stranger go on, and take so many more bytes of memory? Asked before allocations
+/// that few bytes may stand for, and now and then with small sizes. Empty: always allowed.
 using Permit = std::function<bool(std::size_t bytes)>;
 
-/// As replay() (edit.h), but each single edit of `edit` waits for the permit.
+/// Replays as replay() in edit.h, but each single edit of `edit` waits for the permit.
 base::Result<void> replay(World& world, const Edit& edit, const Permit& permit);
 
 }  // namespace icome::world

@@ -13,17 +13,17 @@ namespace {
 using geometry::CsgLeafSurfaces;
 using geometry::CsgTree;
 
-constexpr double kSameRounding = 1e-6;  // of how far is looked: surfaces that coincide are equally far
-constexpr double kSameChord = 0.05;     // of how far off them a chord is, which uneven stretches change
+constexpr double kSameRounding = 1e-6;  // of the search reach: surfaces that coincide are equally far
+constexpr double kSameChord = 0.05;     // of a chord's distance from them, which uneven stretches change
 
 Colour colour_or_none(const std::optional<CsgTree::Colour>& own) {
   if (!own) return kMaterialsColour;
   return {(*own)[0], (*own)[1], (*own)[2]};
 }
 
-/// Of the operand whose surface is nearest to the place, within `reach` (m); where surfaces coincide, the
-/// first leaf has it. On flat faces a place is on one of them up to rounding, and triangles are large: what
-/// lies a little under it is another.
+/// Colour of the operand whose surface is nearest to the place, within `reach` (m); where surfaces
+/// coincide, that of the first leaf. On flat faces a place lies on a surface up to rounding, and triangles
+/// are large: a surface a little below it is another one.
 Colour colour_at(const CsgTree& tree, const CsgLeafSurfaces& surfaces, const Vector3& place, double reach) {
   const CsgLeafSurfaces::Leaf* nearest = nullptr;
   double distance = reach;

@@ -20,7 +20,7 @@ bool is_round(const geometry::Primitive& it) {
   return !std::holds_alternative<geometry::Plane>(it) && !std::holds_alternative<geometry::Box>(it);
 }
 
-/// Subdivision surfaces may be sheets, or inside out.
+/// Can it be hit from its front only? Subdivision surfaces may be sheets, or inside out.
 bool has_front_only(const SmoothSurface& surface) {
   return dynamic_cast<const geometry::LoopSurface*>(&surface) == nullptr;
 }
@@ -54,8 +54,8 @@ std::shared_ptr<const SmoothSurface> exact_surface(const Geometry& shape) {
       [](const Geometry&) -> Surface { return nullptr; });
 }
 
-/// Each piece is asked about the part of the way in its box alone, which begins well before the piece: so the
-/// side on which it begins is in no doubt, and what is near is found with the most digits.
+/// Each piece is queried with the part of the way in its box alone, which begins well before the piece: so
+/// the side on which it begins is in no doubt, and near hits are found with the most digits.
 std::optional<SurfaceHit> way_into(const SmoothSurface& surface, const Vector3& a, const Vector3& b) {
   constexpr double kSlackOfExtent = 1e-12;
   constexpr double kClear = 8.0;  // slacks

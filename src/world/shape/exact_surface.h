@@ -11,11 +11,11 @@ namespace icome::world {
 /// subdivision surface, a formula, something round?
 bool has_exact_surface(const Geometry& shape);
 
-/// The surface of such a shape as what it is (a formula at time 0), own frame; null where there is none.
+/// The exact surface of such a shape (a formula at time 0), own frame; null where there is none.
 std::shared_ptr<const geometry::SmoothSurface> exact_surface(const Geometry& shape);
 
-/// Where the way from `a` to `b` (m, the surface's frame) first leads in through the surface, or through a
-/// sheet, whose normal is then turned against the way.
+/// The first hit at which the way from `a` to `b` (m, the surface's frame) leads in through the surface,
+/// or through a sheet, whose normal is then turned against the way.
 std::optional<geometry::SurfaceHit> way_into(const geometry::SmoothSurface& surface,
                                              const geometry::Vector3& a, const geometry::Vector3& b);
 

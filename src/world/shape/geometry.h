@@ -15,7 +15,7 @@ using base::Vector3;
 
 struct MeshGeometry;
 
-/// What an object is made of, in the object's own frame (m). Immutable, so that threads, undo and copies
+/// The shape of an object, in the object's own frame (m). Immutable, so that threads, undo and copies
 /// share it; an edit puts another in its place. Derive from it to add a kind of shape (thesis 5.6.2).
 class Geometry {
  public:
@@ -24,11 +24,11 @@ class Geometry {
   /// The kind's name in files and reports: "mesh", "primitive", "loop", "csg", "implicit" or one's own.
   virtual std::string_view kind() const = 0;
 
-  /// The kinds that everybody knows, which visit_geometry() tells apart.
+  /// The built-in kinds, which visit_geometry() tells apart.
   enum class Kind : std::uint8_t { Mesh, Primitive, Loop, Csg, Implicit, OnesOwn };
   virtual Kind which() const { return Kind::OnesOwn; }
 
-  /// Around the shape; empty for one that holds nothing.
+  /// Bounds of the shape; empty for one that holds nothing.
   virtual Bounds bounds() const = 0;
 
   /// A number that is equal for shapes equal to the last bit and almost surely different for others.
@@ -37,14 +37,14 @@ class Geometry {
   /// Memory held, in bytes.
   virtual std::size_t bytes() const = 0;
 
-  /// The shape's surface as triangles, for eyes, other programs' files and sizes that cannot be touched as
-  /// they are; within `tolerance` (m, > 0) of it where the kind can tell. Fails, saying why, where that
-  /// cannot be done: endless shapes, more than kMostTriangles.
+  /// The shape's surface as triangles, for display, other programs' files and sizes that cannot be touched
+  /// as they are; within `tolerance` (m, > 0) of it where the kind can tell. Fails, saying why, where that
+  /// cannot be done: unlimited shapes, more than kMostTriangles.
   virtual base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const = 0;
   static constexpr std::size_t kMostTriangles = 20'000'000;
 
-  /// What the reader of this kind (GeometryFactory) makes an equal shape of. Fails, saying why, where it
-  /// could not: what is written can be read.
+  /// The bytes from which the reader of this kind (GeometryFactory) makes an equal shape. Fails, saying
+  /// why, where it could not: whatever is written can be read.
   virtual base::Result<std::string> write() const = 0;
 };
 

@@ -108,7 +108,7 @@ class CsgWriter {
 
 constexpr std::size_t kFewestBytesOfTable = 8;  // with the offset that leads to it
 
-/// The table at the root of the bytes if all in it lies within them, else null.
+/// The table at the root of the bytes if all parts of it lie within them, else null.
 template <typename Table>
 const Table* root(FlatReader& reader) {
   if (reader.size() <= kMostReadBytes) {
@@ -120,7 +120,7 @@ const Table* root(FlatReader& reader) {
   return nullptr;
 }
 
-/// A shape that was read, if nothing is wrong with the bytes or with it.
+/// A shape that was read, unless the bytes or the shape are faulty.
 template <typename Shape>
 Result<GeometryPointer> checked(const FlatReader& reader, Shape shape) {
   if (!reader.fault().empty()) return fail(reader.fault());
@@ -137,7 +137,7 @@ geometry::TriangleMesh mesh_of(FlatReader& reader, const flat::Mesh& from) {
 
 geometry::Primitive primitive_of(FlatReader& reader, const flatbuffers::String* from) {
   const std::string text = reader.text(from);
-  constexpr std::size_t kLongest = 200;  // three numbers, and no novel in the error
+  constexpr std::size_t kLongest = 200;  // three numbers, and errors of a readable length
   if (text.size() <= kLongest) {
     const auto primitive = geometry::parse_primitive(text);
     if (primitive) return *primitive;
@@ -147,7 +147,7 @@ geometry::Primitive primitive_of(FlatReader& reader, const flatbuffers::String* 
   return geometry::Plane{};
 }
 
-/// Reads a tree; each function is asked no more once there is a fault.
+/// Reads a tree; no further function is called once there is a fault.
 class CsgReader {
  public:
   explicit CsgReader(std::string_view bytes) : reader_(bytes) {}
@@ -172,7 +172,7 @@ class CsgReader {
  private:
   void add(const flat::Mesh& from) {
     geometry::TriangleMesh mesh = mesh_of(reader_, from);
-    // Before its tree is built, which relies on it.
+    // Checked before its tree is built, which relies on it.
     reader_.refuse(complaint(mesh));
     if (mesh.triangles.empty()) reader_.refuse("A mesh in a CSG tree needs triangles.");
     if (reader_.fault().empty())

@@ -6,8 +6,8 @@
 
 namespace icome::world {
 
-// Shapes of the built-in kinds out of what their `write` gave (geometry.fbs), for GeometryFactory. All
-// fail with a sentence on bytes that are damaged, or that no such shape can have been written to.
+// Shapes of the built-in kinds, read from the bytes of their `write` (geometry.fbs), for GeometryFactory.
+// All fail with a sentence on bytes that are damaged, or to which no such shape can have been written.
 base::Result<GeometryPointer> read_mesh(std::string_view bytes);
 base::Result<GeometryPointer> read_loop(std::string_view bytes);
 base::Result<GeometryPointer> read_primitive(std::string_view bytes);

@@ -82,7 +82,7 @@ std::string complaint(const LoopGeometry& shape) {
   return complaint(shape.control.mesh);
 }
 
-/// Sizes as parse_primitive accepts them are what all functions on primitives ask for.
+/// Functions on primitives require the sizes that parse_primitive accepts.
 std::string complaint(const geometry::Primitive& primitive) {
   const auto same = geometry::parse_primitive(geometry::name(primitive));
   return same ? std::string() : same.error().message;

@@ -7,15 +7,15 @@
 
 namespace icome::world {
 
-// What every function on shapes relies on: asked before a shape is written and after it is read, so that
-// what is written can be read. Answers say what is wrong; empty when all is well.
+// The conditions that every function on shapes relies on: checked before a shape is written and after it
+// is read, so that what is written can be read. The answer describes the fault; empty when all is well.
 
 std::string complaint(const geometry::TriangleMesh& mesh);
 std::string complaint(const MeshGeometry& shape);
 std::string complaint(const LoopGeometry& shape);
 std::string complaint(const geometry::Primitive& primitive);
 
-/// Looks at the nodes of a CSG tree one after the other, from the first.
+/// Checks the nodes of a CSG tree one after the other, from the first.
 class CsgNodeCheck {
  public:
   explicit CsgNodeCheck(std::size_t nodes) : used_(nodes, false) {}

@@ -22,7 +22,7 @@ base::Result<void> GeometryFactory::add(const std::string& kind, const Reader& r
 base::Result<GeometryPointer> GeometryFactory::read(std::string_view kind, std::string_view bytes) const {
   const auto found = readers_.find(kind);
   if (found == readers_.end()) {
-    // The name may be anything: enough of it to recognise.
+    // The name may be anything: it is cut to a recognisable length.
     return base::fail(
         fmt::format("No kind of shape is called \"{}\" here: add it to the GeometryFactory, or "
                     "use a newer version.",

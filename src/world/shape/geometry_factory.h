@@ -9,17 +9,17 @@
 
 namespace icome::world {
 
-/// Makes shapes of bytes by the name of their kind (the object factory of thesis 5.6.2). Knows the built-in
-/// kinds, and those of one's own that are added. A plain value.
+/// Makes shapes from bytes by the name of their kind (the object factory of thesis 5.6.2). Knows the
+/// built-in kinds, and any kinds added to it. A plain value.
 class GeometryFactory {
  public:
-  /// Makes a shape of what Geometry::write gave, which may come from a stranger or a broken disk: it checks
-  /// everything, and fails with a sentence.
+  /// Makes a shape from the bytes of Geometry::write, which may come from a stranger or a broken disk: it
+  /// checks everything, and fails with a sentence.
   using Reader = std::function<base::Result<GeometryPointer>(std::string_view bytes)>;
 
   GeometryFactory();
 
-  /// Fails when there is such a kind already.
+  /// Fails when this kind is known already.
   base::Result<void> add(const std::string& kind, const Reader& reader);
   /// Fails for a kind that nobody has added, and as the reader does.
   base::Result<GeometryPointer> read(std::string_view kind, std::string_view bytes) const;

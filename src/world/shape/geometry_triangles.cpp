@@ -1,4 +1,4 @@
-// What every built-in kind of shape looks like as triangles.
+// Triangulations of every built-in kind of shape.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace {
 
 using Triangles = std::shared_ptr<const MeshGeometry>;
 
-// A solid that is sampled takes time by its volume: a finer tolerance is not kept.
+// Sampling a solid takes time by its volume: tolerances finer than this are not kept.
 constexpr double kMostCellsAcross = 256.0;
 
-/// Dual contouring is off by far less than a cell, but by most of one where a ridge pokes through a side.
+/// Dual contouring errs by far less than a cell, but by most of one where a ridge pokes through a side.
 double cell_for(double tolerance, const Bounds& bounds) {
   return std::max(tolerance, bounds.sizes().maxCoeff() / kMostCellsAcross);
 }
@@ -29,7 +29,7 @@ geometry::ContourOptions options_for(double tolerance, const Bounds& bounds) {
   return {.cell = cell_for(tolerance, bounds), .max_triangles = Geometry::kMostTriangles, .measures = false};
 }
 
-/// Halving edges brings a smooth surface's facets four times nearer to it.
+/// Each level halves the edges and brings the facets four times nearer.
 int level_for(const geometry::TriangleMesh& control, double tolerance) {
   constexpr int kFinest = 6;
   double longest = 0.0;
@@ -43,8 +43,8 @@ int level_for(const geometry::TriangleMesh& control, double tolerance) {
   return std::clamp(level, 1, kFinest);
 }
 
-/// From where geometry's rings begin to where pictures do: a row of corners from pole to pole lies where a
-/// picture's sides meet, so that no triangle lies across, and a sphere's poles are those of its picture.
+/// The turn from the start of geometry's rings to that of pictures: a row of corners from pole to pole lies
+/// on a picture's seam, so that no triangle lies across it, and a sphere's poles are those of its picture.
 base::Matrix3 shape_from_rings(const PrimitiveGeometry& shape) {
   base::Matrix3 turn;
   if (std::holds_alternative<geometry::Sphere>(shape.primitive)) {
@@ -123,7 +123,7 @@ base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
   return std::move(made->mesh);
 }
 
-/// Thin parts may slip between the points of the grid: then a finer one is tried, as far as there is one.
+/// Thin parts may slip between the points of the grid: then finer grids are tried, as far as possible.
 base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
   for (double finer = tolerance;; finer *= 0.5) {
     auto made = triangles_at(0.0, finer);

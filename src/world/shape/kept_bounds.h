@@ -5,7 +5,7 @@
 
 namespace icome::world {
 
-/// The bounds of a mesh, looked for when they are first asked for: who shows or moves large shapes asks many
+/// The bounds of a mesh, computed when first asked for, as displaying or moving large shapes asks many
 /// times. Any thread may ask. A copy, which is made to be changed, starts without.
 class KeptBounds {
  public:
@@ -19,7 +19,7 @@ class KeptBounds {
     known_ = true;
     return bounds_;
   }
-  /// The mesh has changed. Nobody else may be looking at it.
+  /// To be called after the mesh has changed. Nobody else may be reading it.
   void forget() { known_ = false; }
 
  private:

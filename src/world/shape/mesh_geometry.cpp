@@ -62,7 +62,7 @@ std::uint64_t MeshGeometry::hash() const {
       for (const float part : corner) hasher.add(double(part));
     }
   }
-  // Shapes made by hand keep the number that they had before there were recipes.
+  // Shapes made by hand keep the hash that they had before there were recipes.
   if (!recipe.empty()) hasher.add(std::string_view(recipe));
   return hasher.value();
 }

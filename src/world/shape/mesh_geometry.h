@@ -37,7 +37,7 @@ struct MeshGeometry final : public Geometry, public std::enable_shared_from_this
   std::size_t bytes() const override;
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
-  /// After the positions have been changed in place.
+  /// To be called after the positions have been changed in place.
   void forget_bounds() { bounds_.forget(); }
 
  private:
@@ -52,25 +52,25 @@ struct LoopGeometry final : public Geometry {
 
   std::string_view kind() const override { return "loop"; }
   Kind which() const override { return Kind::Loop; }
-  /// Of the control mesh, within whose convex hull the surface lies.
+  /// Bounds of the control mesh, within whose convex hull the surface lies.
   Bounds bounds() const override { return bounds_.of(control.mesh); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
-  /// After the positions have been changed in place.
+  /// To be called after the positions have been changed in place.
   void forget_bounds() { bounds_.forget(); }
 
  private:
   KeptBounds bounds_;
 };
 
-/// The recipe of a mesh; empty for shapes of other kinds. Valid as long as the shape is there and stays.
+/// The recipe of a mesh; empty for shapes of other kinds. Valid until the shape is deleted or changed.
 std::string_view recipe_of(const Geometry& shape);
 
-/// The shape with some vertices elsewhere, and where they were. Fails for shapes without vertices, for
-/// vertices that are not there or named twice, and for positions that are not finite. Corner normals stay:
-/// who bends a shape replaces them with it. A recipe is dropped, as it would make another shape.
+/// The shape with some vertices moved, and their former positions. Fails for shapes without vertices, for
+/// vertices that do not exist or are named twice, and for positions that are not finite. Corner normals
+/// stay: bending a shape should replace them with it. A recipe is dropped, as it would make another shape.
 struct MovedVertices {
   GeometryPointer shape;
   std::vector<Vector3> before;  // m, in the order asked for
@@ -78,7 +78,7 @@ struct MovedVertices {
 base::Result<MovedVertices> move_vertices(const Geometry& shape, std::span<const std::uint32_t> vertices,
                                           std::span<const Vector3> positions);
 
-/// The same where the shape is, which nobody else may be looking at: gives where the vertices were.
+/// Moves the vertices in place, while nobody else reads the shape: returns their former positions.
 base::Result<std::vector<Vector3>> move_vertices_of(Geometry& shape, std::span<const std::uint32_t> vertices,
                                                     std::span<const Vector3> positions);
 

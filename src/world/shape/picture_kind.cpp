@@ -4,7 +4,7 @@ namespace icome::world {
 namespace {
 
 constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n";
-constexpr std::size_t kPngColourType = 25;  // where it stands in the file
+constexpr std::size_t kPngColourType = 25;  // its offset in the file
 constexpr unsigned char kPngColour = 2, kPngPalette = 3, kPngAlpha = 4;
 
 unsigned char byte_at(std::string_view bytes, std::size_t place) {
@@ -17,7 +17,7 @@ int jpeg_components(std::string_view bytes) {
   std::size_t at = 2;
   while (at + 4 <= bytes.size() && byte_at(bytes, at) == 0xff) {
     const unsigned char marker = byte_at(bytes, at + 1);
-    if (marker == 0xff) {  // fills up
+    if (marker == 0xff) {  // padding
       ++at;
       continue;
     }

@@ -21,13 +21,13 @@ Vector2 place_on_box(const Vector3& p, const Vector3& half, const Vector3& norma
   return {positive ? q.x() : 1.0 - q.x(), q.y()};
 }
 
-/// Counter-clockwise as seen from above, from the back.
+/// Angle round the axis in turns, 0 ... 1, counter-clockwise as seen from above, from the back.
 double round_the_axis(const Vector3& p) {
   const double share = std::atan2(-p.x(), -p.z()) / (2.0 * std::numbers::pi);
   return share < 0.0 ? share + 1.0 : share;
 }
 
-/// One that straddles the back goes on beyond 1, and one at a pole lies between its neighbours.
+/// A triangle across the back goes on beyond 1; a corner at a pole lies between its neighbours.
 Places wrapped_round(const Corners& corners, const std::array<double, 3>& heights) {
   Places places;
   const double size = corners[0].norm() + corners[1].norm() + corners[2].norm();
@@ -49,7 +49,7 @@ Places wrapped_round(const Corners& corners, const std::array<double, 3>& height
   return places;
 }
 
-/// Upright discs, the upper tilted towards the viewer in front, the lower towards one behind.
+/// Upright where the top is tilted to the front, or the bottom to the back.
 Places on_cap(const Corners& corners, double radius, bool top) {
   Places places;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -68,7 +68,7 @@ Places round_bar(const Corners& corners, const Vector3& normal, double height, d
   return wrapped_round(corners, heights);
 }
 
-/// What each primitive does with a triangle, y up.
+/// Lays the picture on a triangle of each kind of primitive, y up.
 struct PlaceTriangle {
   const Corners& corners;
   Vector3 normal;
@@ -101,7 +101,7 @@ std::vector<std::array<Vector2, 3>> picture_places(const PrimitiveGeometry& shap
                      std::holds_alternative<geometry::Cone>(shape.primitive);
   std::vector<Places> places;
   if (!known) return places;
-  // VRML stands primitives along y, geometry along z. A sphere stands along nothing: its poles are along y.
+  // VRML stands primitives along y, geometry along z. A sphere has no axis: its poles are along y.
   base::Matrix3 upright_from_primitive;
   upright_from_primitive << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   base::Matrix3 turn = upright_from_primitive * shape.shape_from_primitive().transpose();

@@ -8,8 +8,8 @@
 
 namespace icome::world {
 
-/// Where the corners of a primitive's triangles lie in a picture, as VRML 2.0 (6.6, 6.10, 6.11, 6.42) wraps
-/// it round boxes, cones, cylinders and spheres; `mesh` is in the shape's frame. Empty for other primitives.
+/// The places in a picture of the corners of a primitive's triangles, as VRML 2.0 (6.6, 6.10, 6.11, 6.42)
+/// wraps it round boxes, cones, cylinders and spheres; `mesh` is in the shape's frame. Empty for others.
 std::vector<std::array<Vector2, 3>> picture_places(const PrimitiveGeometry& shape,
                                                    const geometry::TriangleMesh& mesh);
 

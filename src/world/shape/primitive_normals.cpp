@@ -8,7 +8,7 @@ namespace icome::world {
 namespace {
 
 /// The normal at a place of a triangle, both in the primitive's own frame. Where a place has no normal of its
-/// own, that of the triangle's middle counts.
+/// own, that of the triangle's middle is used.
 struct NormalAt {
   const Vector3& place;
   const Vector3& middle;
@@ -32,7 +32,7 @@ struct NormalAt {
  private:
   static Vector3 off_axis(const Vector3& at) { return {at.x(), at.y(), 0.0}; }
 
-  /// Round an axis, with a flat top and bottom; `slope`: how much it gets narrower on its way up.
+  /// For a body round an axis, flat at top and bottom; `slope`: its narrowing per height.
   Vector3 side(double slope) const {
     const bool is_cap = off_axis(facing).norm() < 1e-9;
     if (is_cap) return facing;

@@ -7,8 +7,8 @@
 
 namespace icome::world {
 
-/// The unit normals of a primitive's surface at the corners of triangles of it, which lie in the shape's
-/// frame: on rims those of the side that the triangle is a part of, at the tip of a cone that of its middle.
+/// The unit normals of a primitive's surface at the corners of its triangles, which are in the shape's
+/// frame: on rims those of the side that the triangle belongs to, at the tip of a cone that of its middle.
 std::vector<std::array<Vector3, 3>> primitive_normals(const PrimitiveGeometry& shape,
                                                       const geometry::TriangleMesh& mesh);
 

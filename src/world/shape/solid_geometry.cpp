@@ -8,7 +8,7 @@
 namespace icome::world {
 namespace {
 
-/// Adds what a shape of a leaf is.
+/// Adds the shape of a leaf to the hash.
 struct AddShape {
   Hasher& hasher;
 
@@ -77,7 +77,7 @@ base::Matrix3 PrimitiveGeometry::shape_from_primitive() const {
 Bounds PrimitiveGeometry::bounds() const {
   const Bounds own = geometry::bounds(primitive);
   if (axis == Axis::Z) return own;
-  // Corner by corner: a plane's bounds are infinite, and 0 times that would be no number.
+  // Corner by corner: a plane's bounds are infinite, and 0 times infinity would be no number.
   const Vector3 low = own.min(), high = own.max();
   return {Vector3(low.x(), low.z(), -high.y()), Vector3(high.x(), high.z(), -low.y())};
 }

@@ -13,8 +13,8 @@ namespace icome::world {
 /// The axis that a primitive stands along; its positive end is the top.
 enum class Axis : std::uint8_t { Z, Y };
 
-/// A box, sphere, cylinder, cone, torus, capsule or half-space by its sizes. Along z it is what
-/// geometry::Primitive says, along y that turned about x so that its z becomes y: how VRML 2.0 stands
+/// A box, sphere, cylinder, cone, torus, capsule or half-space by its sizes. Along z it is as defined
+/// by geometry::Primitive, along y that turned about x so that its z becomes y, as VRML 2.0 stands
 /// cylinders and cones.
 struct PrimitiveGeometry final : public Geometry {
   explicit PrimitiveGeometry(const geometry::Primitive& shape, Axis stands_along = Axis::Z)
@@ -49,16 +49,16 @@ struct CsgGeometry final : public Geometry {
   std::string_view kind() const override { return "csg"; }
   Kind which() const override { return Kind::Csg; }
   Bounds bounds() const override { return geometry::bounds(tree); }
-  /// Primitives of one's own count by name and box, operands that are meshes by their vertices.
+  /// Custom primitives are hashed by name and box, operands that are meshes by their vertices.
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
-  /// With what could be made of the solid, and a place that is missing there (m), if any.
+  /// The surface as far as it could be made, and a place that is missing there (m), if any.
   struct Surface {
     std::shared_ptr<const MeshGeometry> mesh;  // never null
     std::optional<Vector3> lost;
   };
   base::Result<Surface> surface(double tolerance) const;
-  /// Fails, too, where a part of the solid would be lost.
+  /// Fails also where a part of the solid would be lost.
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 };
@@ -72,7 +72,7 @@ class ImplicitGeometry final : public Geometry {
 
   const std::string& formula() const { return formula_; }
   const std::shared_ptr<const geometry::ImplicitSurface>& surface() const { return surface_; }
-  /// As triangles() at a time (s), for a surface that changes; see Geometry::triangles.
+  /// The triangles at a time (s), for a surface that changes; see Geometry::triangles.
   base::Result<std::shared_ptr<const MeshGeometry>> triangles_at(double time, double tolerance) const;
 
   std::string_view kind() const override { return "implicit"; }

@@ -7,8 +7,8 @@
 namespace icome::world {
 
 /// Calls the one of `cases` that takes the shape's kind, such as [](const MeshGeometry& it) { ... }, and
-/// returns what it does; all return the same type. A case of `const Geometry&` takes the kinds that have none
-/// of their own. That everybody's own kinds have a case, by that one, is checked as it is compiled.
+/// returns its result; all return the same type. A case of `const Geometry&` takes all kinds without a case
+/// of their own. The compiler checks that custom kinds are taken, too, which takes such a case.
 template <typename... Cases>
 decltype(auto) visit_geometry(const Geometry& shape, Cases&&... cases) {
   struct All : Cases... {

@@ -64,7 +64,7 @@ class FaceTaker {
     }
     std::vector<std::uint32_t>& slots = taken_.slots;
     const std::size_t first = slots.size();
-    // A corner that is there twice in a row is one.
+    // Equal corners in a row count as one.
     while (end > begin + 1 && list_[end - 1] == list_[begin]) --end;
     for (std::size_t i = begin; i < end; ++i) {
       if (i == begin || list_[i] != list_[i - 1]) slots.push_back(std::uint32_t(i));
@@ -79,7 +79,7 @@ class FaceTaker {
     taken_.numbers.push_back(number);
   }
 
-  /// Lets vertices go that no face uses.
+  /// Drops vertices that no face uses.
   void number_vertices() {
     constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> numbers(is_there_.size(), kUnused);
@@ -100,7 +100,7 @@ class FaceTaker {
   const std::vector<float>& positions_;
   const std::vector<std::int32_t>& list_;
   bool ccw_;
-  std::vector<bool> is_there_;  // each vertex
+  std::vector<bool> is_there_;  // vertex by vertex: is it finite?
   TakenFaces taken_;
   std::size_t short_ = 0, wrong_ = 0, large_ = 0;
 };

@@ -9,17 +9,17 @@
 
 namespace icome::files {
 
-/// The faces of a list of indices that can be used, and where in the list they stood.
+/// The usable faces of a list of indices, with their places in the list.
 struct TakenFaces {
   PolygonMesh mesh;                     // with the vertices that faces use, in the order of the file
-  std::vector<std::uint32_t> slots;     // of each corner in the list
-  std::vector<std::uint32_t> vertices;  // of each corner among the positions that were given
-  std::vector<std::uint32_t> numbers;   // of each polygon among all faces of the list
+  std::vector<std::uint32_t> slots;     // places in the list of indices, by corner
+  std::vector<std::uint32_t> vertices;  // by corner, among the positions that were given
+  std::vector<std::uint32_t> numbers;   // by polygon, among all faces of the list
 };
 
-/// Looks for polygons, which -1 ends, over `positions` (three numbers each), and turns them round if
-/// their fronts are not counter-clockwise (`ccw`). Those that name vertices which are not there, have fewer
-/// than three corners or too many are left out; `findings` hears of that under `name`.
+/// Gathers polygons, which -1 ends, over `positions` (three numbers each), and turns them round if their
+/// fronts are not counter-clockwise (`ccw`). Those that name missing vertices, have fewer than three
+/// corners or too many are left out; `findings` gets that under `name`.
 TakenFaces take_faces(const std::vector<float>& positions, const std::vector<std::int32_t>& polygons,
                       bool ccw, const std::string& name, Findings& findings);
 

@@ -39,7 +39,7 @@ VrmlBroker::Reply VrmlBroker::fetch(int from, std::string_view urls) {
       return {VrmlFrame::Refused, 0, fmt::format("only {} urls of a design are followed", kFetchLimit)};
     auto reply = fetch_one(from, urls.substr(begin, end - begin));
     if (reply) return std::move(*reply);
-    // What the first url says is most likely what its author meant.
+    // The message for the first url is most likely about the file that its author meant.
     if (begin == 0) refused.bytes = reply.error().message;
     begin = end + 1;
   }
@@ -72,7 +72,7 @@ base::Result<void> VrmlBroker::check_content(const std::filesystem::path& path,
                                              std::string_view bytes) const {
   const auto header = find_vrml_header(bytes);
   if (header) return {};
-  // Nothing is said about what is in a file that may be someone else's.
+  // No details of a file that may be someone else's.
   if (!io::is_below(folder_, path)) return base::fail(path.string() + " is not fetched: it is not VRML 2.0");
   if (begins_like_vrml(bytes)) return {};
   return base::fail(path.string() + " " + header.error().message);

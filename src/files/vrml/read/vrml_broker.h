@@ -23,11 +23,11 @@ class VrmlBroker {
   struct Reply {
     VrmlFrame kind = VrmlFrame::Refused;  // or Known, or File with its name
     int file = 0;
-    std::string bytes = {};  // the content, or why there is none
+    std::string bytes = {};  // the content, or the reason why there is none
   };
-  /// Answers one Fetch, by the first url that gives something.
+  /// Answers one Fetch with the first url that leads to a file.
   Reply fetch(int from, std::string_view urls);
-  /// By number.
+  /// The files by their numbers; the design is 0.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:

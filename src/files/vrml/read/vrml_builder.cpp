@@ -35,7 +35,7 @@ constexpr FindingKind kNoMember = {"Scenes name objects that are not there", "sc
 constexpr std::size_t kMostNotes = 1000;
 constexpr std::size_t kLongestNote = 1000;
 
-/// The scene in the bytes if all in it lies within them, else null.
+/// The scene in the bytes if all parts of it lie within them, else null.
 const flat::Scene* verified(const world::FlatReader& reader) {
   constexpr std::size_t kFewestBytesOfOneTable = 8;  // with the offset that leads to it
   constexpr int kDeepest = 16;
@@ -45,7 +45,7 @@ const flat::Scene* verified(const world::FlatReader& reader) {
   return flat::VerifySceneBuffer(verifier) ? flat::GetScene(reader.data()) : nullptr;
 }
 
-/// The memory that the shape of a geometry takes at most, with all that its triangles may have.
+/// Upper bound of the memory for the shape of a geometry, with all data of its triangles.
 std::uint64_t most_bytes_of(const flat::Geometry& geometry) {
   constexpr std::uint64_t kBytesOfTriangle =
       sizeof(geometry::TriangleMesh::Triangle) +
@@ -88,7 +88,7 @@ class VrmlBuilder {
   }
 
  private:
-  /// What is known of an appearance before it is used.
+  /// Properties of an appearance that are known before it is used.
   struct AppearancePlan {
     bool has_picture = false;
     std::optional<MaterialId> material = {};  // once it is used
@@ -135,7 +135,7 @@ class VrmlBuilder {
     }
   }
 
-  /// Whether a geometry is seen with a picture has to be known before its shape is made.
+  /// Marks geometries that are seen with a picture, before their shapes are made.
   void find_pictured() {
     if (scene_.geometries()) geometries_.resize(scene_.geometries()->size());
     for (const VrmlNode& node : nodes_) {
@@ -189,7 +189,7 @@ class VrmlBuilder {
     return design_.add(std::move(object));
   }
 
-  /// Gives the object a motion, and puts it where that is at rest, to the last bit.
+  /// Gives the object a motion, and places it at the motion's rest, to the last bit.
   void set_going(std::size_t index, world::PhysicalObject& object) {
     if (motions_.empty()) motions_.resize(scene_.motions()->size());
     world::MotionPointer& motion = motions_[index];
@@ -198,7 +198,7 @@ class VrmlBuilder {
     if (motion) object.parent_from_object = world::affine(motion->rest);
   }
 
-  /// Is it at the top and nothing but its fixture? The group of such a light is everything.
+  /// Is it a root and nothing but its fixture? A scoped light shines on everything then.
   bool stands_alone(const VrmlNode& node) const {
     return node.parent < 0 && node.shape_from < 0 && node.appearance_from < 0 &&
            !with_children_[std::size_t(&node - nodes_.data())];
@@ -264,7 +264,7 @@ class VrmlBuilder {
     std::optional<world::Texture> made = from.urls() ? texture_of_file(from) : texture_of_pixels(from);
     if (!made) return {};
     made->repeats = {from.repeat_s(), from.repeat_t()};
-    // The same file is one texture, unless it goes on differently beyond its edges.
+    // One file is one texture, unless its repetition differs.
     const auto [known, unknown] = known_textures_.try_emplace({made->bytes.get(), made->repeats});
     if (unknown) known->second = design_.add(std::move(*made));
     place->second = known->second;
@@ -308,7 +308,7 @@ class VrmlBuilder {
     }
   }
 
-  /// Of each DEF name the node that has it itself rather than through USE.
+  /// By DEF name, the node with the name itself rather than through USE.
   std::unordered_map<std::string, ObjectId> objects_by_def() const {
     std::unordered_map<std::string, ObjectId> result;
     for (const bool reused : {false, true}) {

@@ -24,11 +24,11 @@ namespace {
 
 constexpr const char* kWorkerName = "icome-vrml-worker";
 constexpr const char* kWorkerVariable = "ICOME_VRML_WORKER";
-/// So that megabytes need few turns.
+/// Large, so that megabytes need few turns.
 constexpr int kSocketBuffer = 1 << 20;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool kShowsErrors = true;  // the sanitizer writes what it found
+constexpr bool kShowsErrors = true;  // the sanitizer writes its findings
 #else
 constexpr bool kShowsErrors = false;
 #endif
@@ -39,8 +39,8 @@ std::filesystem::path worker_path() {
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / kWorkerName;
 }
 
-/// Nothing of the user's environment changes how a file is parsed; only what finds libraries and tells
-/// sanitizers what to do goes on.
+/// The environment without the user's settings, so that none changes how a file is parsed; only the
+/// variables for finding libraries and for sanitizers are kept.
 std::vector<std::string> worker_environment() {
   std::vector<std::string> kept = {"LC_ALL=C"};
   for (char** entry = environ; entry && *entry; ++entry) {
@@ -51,7 +51,7 @@ std::vector<std::string> worker_environment() {
   return kept;
 }
 
-/// What posix_spawn() needs to give the child nothing but its socket.
+/// Settings for posix_spawn() that give the child nothing but its socket.
 class SpawnPlan {
  public:
   explicit SpawnPlan(int socket) {
@@ -117,7 +117,7 @@ VrmlChild::~VrmlChild() {
 
 int VrmlChild::end() {
   int status = -1;
-  // Changes nothing for a process that has ended and was not waited for.
+  // Does nothing to a process that has ended and was not waited for.
   ::kill(process_, SIGKILL);
   while (::waitpid(process_, &status, 0) < 0)
     if (errno != EINTR) {

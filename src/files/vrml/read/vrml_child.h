@@ -7,7 +7,7 @@
 namespace icome::files {
 
 /// A running icome-vrml-worker and the socket that is its standard input and output. Ended and waited for
-/// when it goes.
+/// on destruction.
 class VrmlChild {
  public:
   static base::Result<VrmlChild> start();
@@ -16,11 +16,11 @@ class VrmlChild {
   VrmlChild& operator=(VrmlChild&&) = delete;
   ~VrmlChild();
 
-  /// Does not block.
+  /// A non-blocking socket.
   int socket() const { return socket_; }
   int process() const { return process_; }
-  /// Ends the process if it has not ended by itself; gives what waitpid() told, -1 where someone else has
-  /// waited for it.
+  /// Ends the process if it has not ended by itself; returns the status of waitpid(), -1 where someone
+  /// else has waited for it.
   int end();
 
  private:

@@ -20,14 +20,14 @@
 namespace icome::files {
 namespace {
 
-/// Coin reads nodes in nodes by recursion. Linux leaves at least 128 MiB of addresses below the stack.
+/// Coin reads nested nodes by recursion. Linux leaves at least 128 MiB of addresses below the stack.
 constexpr rlim_t kStackBytes = 120ULL << 20U;
-/// How far from the end of the stack a fault still means that the stack was used up.
+/// Largest distance of a fault from the end of the stack that still means a used-up stack.
 constexpr std::size_t kStackMargin = 1U << 20U;
-/// Where so much is not to be had, a fault is one of too little memory.
+/// If so much cannot be mapped, a fault is one of too little memory.
 constexpr std::size_t kLittleMemory = 32U << 20U;
 
-[[maybe_unused]] std::uintptr_t stack_end = 0;  // not by builds with a sanitizer
+[[maybe_unused]] std::uintptr_t stack_end = 0;  // unused in builds with a sanitizer
 [[maybe_unused]] char signal_stack[1U << 16U];
 
 void limit(__rlimit_resource resource, rlim_t most) {
@@ -38,7 +38,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
   ::setrlimit(resource, &now);
 }
 
-/// Programs and libraries, which no file has asked for.
+/// Address space of programs and libraries, which no file has asked for, bytes.
 [[maybe_unused]] std::uint64_t mapped_bytes() {
   constexpr std::uint64_t kAboutAsMuch = 256ULL << 20U;
   unsigned long pages = 0;
@@ -48,7 +48,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
   return known ? pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : kAboutAsMuch;
 }
 
-/// The reader raises it when it sends further files; nobody here can.
+/// The reader raises this limit when it sends further files; nobody here can.
 [[maybe_unused]] void limit_memory(std::uint64_t bytes) {
   rlimit now{};
   ::getrlimit(RLIMIT_AS, &now);
@@ -63,7 +63,7 @@ void on_fault(int number, siginfo_t* info, void*) {
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
   if (number == SIGSEGV && address >= stack_end - kStackMargin && address < stack_end + kStackMargin)
     ::_exit(kVrmlTooDeep);
-  // Parts of Coin do not ask whether they got the memory that they wanted.
+  // Parts of Coin do not check whether they got the memory that they asked for.
   if (::mmap(nullptr, kLittleMemory, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED)
     out_of_memory();
   ::signal(number, SIG_DFL);
@@ -85,10 +85,10 @@ constexpr std::uint32_t kProcessor = AUDIT_ARCH_X86_64;
 #elif defined(__aarch64__)
 constexpr std::uint32_t kProcessor = AUDIT_ARCH_AARCH64;
 #else
-constexpr std::uint32_t kProcessor = 0;  // calls have other numbers there
+constexpr std::uint32_t kProcessor = 0;  // system calls have other numbers there
 #endif
 
-/// What parsing needs of the system, and what its libraries ask without harm.
+/// System calls that parsing needs, and harmless ones of its libraries.
 constexpr long kHarmlessCalls[] = {
     SYS_read,          SYS_write,          SYS_close,        SYS_lseek,
     SYS_fstat,         SYS_munmap,         SYS_mremap,       SYS_madvise,
@@ -98,7 +98,7 @@ constexpr long kHarmlessCalls[] = {
     SYS_clock_gettime, SYS_gettimeofday,   SYS_nanosleep,    SYS_clock_nanosleep,
     SYS_sched_yield,   SYS_getrandom,      SYS_sysinfo,      SYS_uname};
 
-/// The program of the kernel's filter: one call after the other is compared.
+/// The program of the kernel's filter: compares one call after the other.
 class CallFilter {
  public:
   CallFilter() {
@@ -115,7 +115,7 @@ class CallFilter {
     for (const long call : {SYS_mmap, SYS_mprotect}) allow_if(call, 2, BPF_JSET, PROT_EXEC, false);
     // A fault may end this process, and no other.
     allow_if(SYS_tgkill, 0, BPF_JEQ, std::uint32_t(::getpid()), true);
-    // Limits may be looked at.
+    // Limits may be read.
     allow_if(SYS_prlimit64, 2, BPF_JEQ, 0, true);
     refuse();
   }
@@ -136,7 +136,7 @@ class CallFilter {
   void allow() { code_.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)); }
   void refuse() { code_.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM)); }
 
-  /// By one of the call's arguments, of which the low half tells.
+  /// Allows a call by one of its arguments, of which only the low half is tested.
   void allow_if(long call, int argument, std::uint16_t test, std::uint32_t value, bool wanted) {
     skip_unless_equal(std::uint32_t(call), 4);
     load(offsetof(seccomp_data, args) + std::size_t(argument) * sizeof(std::uint64_t));
@@ -158,7 +158,7 @@ void confine(const VrmlLimits& limits) {
   std::set_new_handler(out_of_memory);
   limit(RLIMIT_STACK, kStackBytes);
 #ifndef __SANITIZE_ADDRESS__
-  // The address sanitizer takes terabytes of addresses, and tells of faults itself.
+  // The address sanitizer takes terabytes of addresses, and reports faults itself.
   limit_memory(limits.memory);
   stack_end = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) - kStackBytes;
   tell_faults_apart();

@@ -25,7 +25,7 @@ constexpr FindingKind kBrightColours = {"Colours of vertices and faces are cut o
 
 using Triple = std::array<std::uint32_t, 3>;
 
-/// Makes a triangle mesh of faces; values of theirs are looked up by corner.
+/// Makes a triangle mesh of faces; their values are looked up by corner.
 class FaceMesh {
  public:
   FaceMesh(const VrmlFaceSet& from, Findings& findings)
@@ -74,13 +74,13 @@ class FaceMesh {
     return true;
   }
 
-  /// Where a hole is joined to the rim, a triangle may have a vertex twice.
+  /// A triangle may have a vertex twice where a hole is joined to the rim; it is left out.
   void add_triangle(const Triple& corners) {
     const auto [a, b, c] = of_corners(corners, taken_.mesh.corners);
     if (a != b && b != c && c != a) triangles_.push_back(corners);
   }
 
-  /// Which of `count` values each corner has; none when that does not fit.
+  /// Index of each corner's value among `count` values; empty when an index is out of range.
   std::vector<std::uint32_t> values(const std::vector<std::int32_t>& list, bool per_vertex,
                                     std::size_t count) const {
     std::vector<std::uint32_t> result(taken_.slots.size());
@@ -106,7 +106,7 @@ class FaceMesh {
     for (const Triple& corners : triangles_) mesh.normals.push_back(of_corners(corners, normals));
   }
 
-  /// Of each corner; none when there are none that fit.
+  /// Normals by corner; empty when there are no fitting ones.
   std::vector<Vector3> given_normals() {
     const std::size_t count = from_.normals.size() / 3;
     if (count == 0) return {};
@@ -164,7 +164,7 @@ class FaceMesh {
       mesh.texture_coordinates.push_back(of_corners(corners, coordinates));
   }
 
-  /// Of each corner; none when there are none that fit.
+  /// Texture coordinates by corner; empty when there are no fitting ones.
   std::vector<Vector2> given_coordinates() {
     const std::size_t count = from_.texture_coordinates.size() / 2;
     if (count == 0) return {};
@@ -179,8 +179,8 @@ class FaceMesh {
     return result;
   }
 
-  /// The picture goes once over the longest side of the box around the shape, and as far as it reaches then
-  /// over the next longest (VRML 2.0, 6.23); of sides as long as each other, x comes before y and y before z.
+  /// The picture spans the longest side of the bounds once, and continues at that scale along the next
+  /// longest side (VRML 2.0, 6.23); of sides of equal length, x comes before y and y before z.
   std::vector<Vector2> default_coordinates() const {
     base::Bounds box;
     for (const Vector3& position : taken_.mesh.positions) box.extend(position);

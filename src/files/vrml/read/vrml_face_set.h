@@ -29,10 +29,10 @@ struct VrmlFaceSet {
   double crease_angle = 0.0;  // rad
 };
 
-/// The triangles of the faces. Faces that name vertices which are not there, or have fewer than three
-/// corners, are left out, as are normals, colours and texture coordinates that do not fit; all that is
-/// found wrong goes to `findings`. Where a picture is shown, texture coordinates are made where there are
-/// none. Null when no triangle is left, or when the time budget ends.
+/// The triangles of the faces. Faces that name missing vertices, or have fewer than three corners, are
+/// left out, as are normals, colours and texture coordinates that do not fit; all faults go to
+/// `findings`. Where a picture is shown, missing texture coordinates are made. Null when no triangle is
+/// left, or when the time budget ends.
 std::shared_ptr<world::MeshGeometry> mesh_of_faces(const VrmlFaceSet& faces, bool shows_picture,
                                                    Findings& findings, io::TimeBudget& time_budget);
 

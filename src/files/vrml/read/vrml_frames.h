@@ -3,9 +3,9 @@
 
 namespace icome::files {
 
-/// What goes between the reader of designs and the process that parses VRML (icome-vrml-worker), over its
+/// Messages between the reader of designs and the process that parses VRML (icome-vrml-worker), over its
 /// standard input and output: frames, each a head and then `size` bytes. Both run on one machine and come
-/// from one build, so that numbers stand as they lie in memory.
+/// from one build, so that numbers are sent as they are in memory.
 enum class VrmlFrame : std::uint32_t {
   Limits,   // to the worker, first: a VrmlLimits
   Name,     // to the worker: the path of file `file`; then follows File
@@ -23,12 +23,12 @@ struct VrmlFrameHead {
 };
 
 struct VrmlLimits {
-  std::uint64_t memory = 0;  // bytes, beside what the program itself takes
+  std::uint64_t memory = 0;  // bytes, beside those of the program itself
   double seconds = 0.0;
   std::int64_t parent = 0;  // process id of the reader: the worker ends with it
 };
 
-/// How the worker ends where it cannot answer any more.
+/// Exit codes of a worker that cannot answer any more.
 inline constexpr int kVrmlOutOfMemory = 101;
 inline constexpr int kVrmlTooDeep = 102;
 inline constexpr int kVrmlBadFrame = 103;

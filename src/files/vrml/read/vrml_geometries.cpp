@@ -32,7 +32,7 @@ constexpr FindingKind kEmpty = {"Shapes without triangles are left out", "shapes
 constexpr FindingKind kWrongEdges = {"Creases and corners at vertices that are not there are left out",
                                      "Loop surfaces"};
 
-constexpr std::size_t kLongestPrimitive = 200;  // letters: three numbers, and no novel in the error
+constexpr std::size_t kLongestPrimitive = 200;  // letters: three numbers, and errors of a readable length
 
 VrmlFaceSet faces_of(const flat::Geometry& geometry, world::FlatReader& reader) {
   VrmlFaceSet faces;
@@ -58,7 +58,7 @@ Result<GeometryPointer> checked(const geometry::Primitive& primitive, world::Axi
   return GeometryPointer(std::make_shared<world::PrimitiveGeometry>(primitive, axis));
 }
 
-/// One of the primitives of VRML; sizes as they are.
+/// One of the primitives of VRML; sizes are those of its fields.
 Result<GeometryPointer> vrml_primitive(flat::GeometryKind kind, const std::vector<double>& sizes) {
   const std::size_t count = kind == flat::GeometryKind::Box ? 3 : kind == flat::GeometryKind::Sphere ? 1 : 2;
   if (sizes.size() != count) return base::fail("has too few sizes");
@@ -93,7 +93,7 @@ Result<GeometryPointer> csg_of(const std::string& text) {
   return GeometryPointer(std::make_shared<world::CsgGeometry>(std::move(*tree)));
 }
 
-/// Makes the control mesh of a Loop surface, whose vertices keep their numbers.
+/// Makes the control mesh of a Loop surface, whose vertices keep their order.
 class LoopMaker {
  public:
   LoopMaker(const VrmlFaceSet& faces, Findings& findings) : faces_(faces), findings_(findings) {
@@ -131,7 +131,7 @@ class LoopMaker {
     return true;
   }
 
-  /// The number of a vertex among those that are left, from 1; 0: it is not there.
+  /// The number of a vertex among those that are left, from 1; 0: it is missing.
   std::uint32_t number(std::int32_t vertex) const {
     return vertex >= 0 && std::size_t(vertex) < numbers_.size() ? numbers_[std::size_t(vertex)] : 0;
   }

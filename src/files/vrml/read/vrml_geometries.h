@@ -11,9 +11,9 @@ namespace flat {
 struct Geometry;
 }
 
-/// The shape of a geometry; null where it cannot be made, which `findings` tells. `shows_picture`: is it seen
-/// with one? Takes what it reads out of `reader`. Pieces of ICOME's own kinds that cannot be made become
-/// their triangles.
+/// The shape of a geometry; null where it cannot be made, which is added to `findings`. `shows_picture`: is
+/// it seen with one? Takes the data out of `reader`. Geometries of ICOME's own kinds that cannot be made
+/// become their triangles.
 world::GeometryPointer shape_of(const flat::Geometry& geometry, world::FlatReader& reader, bool shows_picture,
                                 Findings& findings, io::TimeBudget& time_budget);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kHeader = "#VRML V2.0 utf8";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// ISO/IEC 14772-1, clause 6, in order.
+/// The nodes of ISO/IEC 14772-1, clause 6, in order.
 constexpr std::array<std::string_view, 54> kNodes = {"Anchor",
                                                      "Appearance",
                                                      "AudioClip",
@@ -72,7 +72,7 @@ std::string_view without_mark(std::string_view bytes) {
   return bytes.substr(bytes.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
 }
 
-/// What may stand between two words.
+/// The text without the space, commas and comments in front of the next word.
 std::string_view after_space(std::string_view text) {
   while (!text.empty() && (is_vrml_space(text[0]) || text[0] == ',' || text[0] == '#')) {
     const std::size_t end = text[0] == '#' ? text.find_first_of("\r\n") : 1;
@@ -81,7 +81,7 @@ std::string_view after_space(std::string_view text) {
   return text;
 }
 
-/// The first line of a file, as much of it as a sentence can bear.
+/// The first line of a file, cut to a length for a sentence.
 std::string first_line(std::string_view text) {
   std::string line(text.substr(0, std::min<std::size_t>(text.find_first_of("\r\n"), 40)));
   for (char& c : line)

@@ -17,7 +17,7 @@ constexpr FindingKind kWrongTouch = {
 constexpr FindingKind kLowFriction = {"Static friction is raised to the dynamic friction", "materials"};
 constexpr FindingKind kWrongTransform = {"Texture transforms that make no sense are left out", "materials"};
 
-/// Puts numbers of a material right and remembers whether that was needed.
+/// Repairs numbers of a material and remembers whether that was needed.
 class MaterialNumbers {
  public:
   float part(float value) {
@@ -28,7 +28,7 @@ class MaterialNumbers {
   world::Colour colour(const flat::Rgb* value, const world::Colour& otherwise) {
     return value ? world::Colour{part(value->r()), part(value->g()), part(value->b())} : otherwise;
   }
-  /// None when it is no good.
+  /// None when it is negative or not finite.
   std::optional<double> touch(double value) {
     if (std::isfinite(value) && value >= 0.0) return value;
     wrong_touch_ = true;

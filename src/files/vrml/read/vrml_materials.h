@@ -10,11 +10,11 @@ struct Appearance;
 }
 
 /// The material of an appearance, without its texture. One without a Material is unlit in VRML, which shows
-/// no form: here it is white and lit. What is out of range is put right, which `findings` tells.
+/// no form: here it is white and lit. Numbers out of range are repaired and added to `findings`.
 world::Material material_of(const flat::Appearance& appearance, world::FlatReader& reader,
                             Findings& findings);
 
-/// How an appearance lays its picture; as it lies where the numbers make no sense.
+/// The placement of an appearance's picture; the identity where the numbers are invalid.
 world::PictureFrame picture_frame_of(const flat::Appearance& appearance, world::FlatReader& reader,
                                      Findings& findings);
 

@@ -9,12 +9,12 @@
 namespace icome::files {
 namespace {
 
-constexpr std::size_t kMostMeshUrls = 20;  // that are tried for a mesh
+constexpr std::size_t kMostMeshUrls = 20;  // tried for a mesh
 constexpr std::size_t kMostFiles = 1000;   // of a design
 constexpr std::size_t kLongestName = 100;  // of a package
 constexpr double kSmallestUnit = 1e-9, kLargestUnit = 1e6;
 
-/// A design may say what it wants; a name that can be no package's is not repeated.
+/// Is it a possible name of a package? A design may contain anything; other names are not repeated.
 bool is_package_name(const std::string& name) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789+-.";
   return !name.empty() && name.size() <= kLongestName && kLetters.substr(0, 36).find(name[0]) < 36 &&
@@ -37,7 +37,7 @@ world::GeometryPointer VrmlMeshes::shape_of(const VrmlMeshNode& node) {
     for (std::size_t i = 0; i < node.urls.size() && i < kMostMeshUrls; ++i) {
       auto shape = fetch(node, node.urls[i]);
       if (shape) return *shape;
-      // What the first url says is most likely what its author meant.
+      // The message for the first url is most likely about the file that its author meant.
       if (i == 0) why = std::move(shape.error().message);
     }
   }
@@ -60,10 +60,10 @@ base::Result<VrmlMeshes::Shape> VrmlMeshes::fetch(const VrmlMeshNode& node, cons
 
 base::Result<VrmlMeshes::Shape> VrmlMeshes::read(const FoundMesh& file, double unit) {
   const std::string name = file.path.string();
-  // How far a mesh is says nothing of how far the design is.
+  // The progress of a mesh is not that of the design: only the end of the budget is passed on.
   io::TimeBudget time_budget([this](double) { return time_budget_.lasts_now(); });
   auto mesh = read_mesh_shape(file.path, unit, left_, time_budget, memory_);
-  // An error repeats what stands in the file, which may be someone else's.
+  // The error would repeat parts of the file, which may be someone else's.
   if (!mesh && !file.is_public) return base::fail(name + ": is not a mesh that can be read");
   if (!mesh) return tl::unexpected(mesh.error());
   if (mesh->shape->mesh.triangles.empty()) return base::fail(name + ": has no triangles");

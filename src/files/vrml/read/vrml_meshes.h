@@ -15,25 +15,25 @@ namespace icome::files {
 /// A file that a design names as a mesh.
 struct FoundMesh {
   std::filesystem::path path = {};  // with links resolved
-  bool is_public = false;  // came with the design or with a package: what is wrong in it may be repeated
+  bool is_public = false;  // came with the design or with a package: errors about it may quote its content
 };
 
-/// The mesh file that `url` means in the file `base`.
+/// Finds the mesh file that `url` means in the file `base`.
 using FindMesh = std::function<base::Result<FoundMesh>(const std::string& base, const std::string& url)>;
 
 /// The fields of an IcomeMesh, none of them checked.
 struct VrmlMeshNode {
   std::string name = {};  // of the shape, for findings
-  std::string base = {};  // the file that urls count from
+  std::string base = {};  // the file that urls are relative to
   std::vector<std::string> urls = {};
   double unit = 1.0;         // metres per unit of the mesh file
-  std::string package = {};  // of Debian, that has it; or empty
+  std::string package = {};  // name of the Debian package with the mesh; or empty
 };
 
-/// Reads the mesh files that a design names, each once. Refers to what it is made of.
+/// Reads the mesh files that a design names, each once. Refers to its arguments.
 class VrmlMeshes {
  public:
-  /// All files together may have `limit` bytes, and so may what they take in memory. When the time budget
+  /// All files together may have `limit` bytes, and so may their content in memory. When the time budget
   /// ends, no more is read.
   VrmlMeshes(const FindMesh& find, std::uint64_t limit, Findings& findings, io::TimeBudget& time_budget,
              io::MemoryBudget& memory)

@@ -11,12 +11,12 @@ struct Motion;
 struct Scene;
 }  // namespace flat
 
-/// A motion of an answer. Null where it makes no sense, which is refused with the reader, or takes more
+/// A motion of an answer. Null where it is invalid, which the reader is told as a fault, or takes more
 /// memory than there is.
 world::MotionPointer motion_of(const flat::Motion& motion, world::FlatReader& reader,
                                io::MemoryBudget& memory);
 
-/// What the motions of an answer were made of.
+/// The sources of the motions in an answer.
 VrmlMoving what_moves(const flat::Scene& scene, world::FlatReader& reader);
 
 }  // namespace icome::files

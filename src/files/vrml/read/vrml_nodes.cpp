@@ -14,7 +14,7 @@
 namespace icome::files {
 namespace {
 
-/// Hierarchies are walked from child to parent, again and again.
+/// Limits the depth, as hierarchies are walked from child to parent many times.
 constexpr std::uint32_t kMostGenerations = 4 * kMostNestedVrml;
 
 bool keeps_volume(const base::Affine3& frame) {
@@ -97,7 +97,7 @@ class NodeReader {
 
   bool is_bare(const VrmlNode& node) const {
     if (node.parent == VrmlNode::kNone) return false;
-    // A viewpoint may say for viewers what its object is called.
+    // A viewpoint may have a name for viewers that differs from its object's.
     const bool says_more = !node.name.empty() && node.name != nodes_[std::size_t(node.parent)].name;
     return node.is_object && !says_more && node.def.empty() && node.children == 0 &&
            node.parent_from_node.matrix().isIdentity(0.0);
@@ -124,7 +124,7 @@ class NodeReader {
                          parent.fixture_from == VrmlNode::kNone;
         if (node.is_merged) parent.fixture_from = self;
       } else if (node.appearance != VrmlNode::kNone) {
-        node.is_merged = true;  // a Shape of nothing
+        node.is_merged = true;  // a Shape without geometry
         if (parent.appearance_from == VrmlNode::kNone) parent.appearance_from = self;
       }
     }

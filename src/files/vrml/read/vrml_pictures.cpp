@@ -7,7 +7,7 @@
 namespace icome::files {
 namespace {
 
-constexpr std::size_t kMostUrls = 20;  // that are tried for a picture
+constexpr std::size_t kMostUrls = 20;  // tried for a picture
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::optional<world::Texture> VrmlPictures::from_pixels(const PixelPicture& pict
   auto png = png_of(picture);
   auto bytes = png ? keep(std::move(*png)) : base::Result<Bytes>(tl::unexpected(png.error()));
   if (bytes) return world::Texture{"PixelTexture", "image/png", *bytes};
-  // What has no pixels is how VRML says that there is no picture.
+  // VRML expresses that there is no picture by one without pixels.
   if (picture.width != 0 && picture.height != 0)
     findings_.tell(fmt::format("A PixelTexture is left out: {}.", bytes.error().message));
   return std::nullopt;

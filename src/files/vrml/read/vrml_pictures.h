@@ -16,12 +16,12 @@
 
 namespace icome::files {
 
-/// The content of the file that `url` means in the file `base`, if it has no more than `limit` bytes.
+/// Gets the content of the file that `url` means in the file `base`, if it has at most `limit` bytes.
 using FetchPicture = std::function<base::Result<std::string>(const std::string& base, const std::string& url,
                                                              std::uint64_t limit)>;
 
-/// Finds the pictures of a design, each file once. Only what begins like a picture is taken, so that no
-/// other file of the reader's machine gets into a design. Refers to what it is made of.
+/// Finds the pictures of a design, each file once. Only files that begin like a picture are taken, so
+/// that no other file of the reader's machine gets into a design. Refers to its arguments.
 class VrmlPictures {
  public:
   /// All pictures together may have `limit` bytes.
@@ -30,7 +30,7 @@ class VrmlPictures {
 
   /// The first of the urls that leads to a picture; none, with a finding, when none does.
   std::optional<world::Texture> from_file(const std::string& base, const std::vector<std::string>& urls);
-  /// None, with a finding, when it is no good.
+  /// None, with a finding, when it is invalid.
   std::optional<world::Texture> from_pixels(const PixelPicture& picture);
 
  private:

@@ -24,13 +24,13 @@
 namespace icome::files {
 namespace {
 
-/// FlatBuffers can number no more bytes.
+/// FlatBuffers cannot count more bytes.
 constexpr std::uint64_t kAnswerLimit = (1ULL << 31U) - 1;
 constexpr std::uint64_t kUrlsLimit = 1U << 20U;
 constexpr std::size_t kPartSize = 1U << 20U;
-/// How long a caller waits for a sign of progress at most.
+/// Longest time between two calls for progress, s.
 constexpr double kProgressPeriod = 0.05;
-/// What a worker parses in a second, about; for the progress that people see.
+/// Approximate speed of a worker's parser, bytes/s; for the progress that people see.
 constexpr double kExpectedSpeed = 30e6;
 
 double seconds_since(std::int64_t start) {
@@ -45,7 +45,7 @@ std::string bytes_of(const Plain& plain) {
 /// Frames on their way to the worker.
 class Outbox {
  public:
-  /// `bytes` stay where they are until they are sent.
+  /// `bytes` must stay in place until they are sent.
   void put(VrmlFrame kind, int file, std::string_view bytes) {
     parts_.push_back({bytes_of(VrmlFrameHead{kind, file, bytes.size()}), {}});
     parts_.push_back({{}, bytes});
@@ -58,7 +58,7 @@ class Outbox {
   bool empty() const { return parts_.empty(); }
   std::size_t left() const { return left_; }
 
-  /// As much as the socket takes now. A worker that takes no more is found out when it is listened to.
+  /// Sends as much as the socket takes now. A worker that takes no more is detected when reading.
   void send_to(int socket) {
     while (!parts_.empty()) {
       const Part& part = parts_.front();
@@ -107,7 +107,7 @@ class Inbox {
       if (in_head && head_filled_ == sizeof head_ && !is_sensible()) return State::Nonsense;
     }
   }
-  /// How many bytes an answer may have.
+  /// Limits the bytes of an answer.
   void limit(std::uint64_t bytes) { limit_ = std::min(bytes, kAnswerLimit); }
   const VrmlFrameHead& head() const { return head_; }
   /// Takes the whole frame's content and begins the next.
@@ -130,7 +130,7 @@ class Inbox {
   std::size_t filled_ = 0;
 };
 
-/// One file's talk with its worker.
+/// The dialogue with the worker for one file.
 class Talk {
  public:
   Talk(VrmlChild child, const std::filesystem::path& path, const DesignReadOptions& options)
@@ -188,7 +188,7 @@ class Talk {
     outbox_.put_copy(reply.kind, reply.file, std::move(reply.bytes));
   }
 
-  /// The worker cannot raise its limit itself: it may be in the hands of a file.
+  /// Raises the worker's limit, which it cannot do itself: a file may control it.
   void allow_for_file(std::uint64_t bytes) {
     const std::uint64_t before = memory_.allowed();
     inlined_bytes_ += bytes;
@@ -201,7 +201,7 @@ class Talk {
     ::prlimit(child_.process(), RLIMIT_AS, &limit, nullptr);
   }
 
-  /// A guess that never goes back and reaches 1 only with the answer.
+  /// A guess that never decreases and reaches 1 only with the answer.
   double part_done() const {
     const double sent =
         1.0 - static_cast<double>(outbox_.left()) / static_cast<double>(size_ + outbox_.left() + 1);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kReadPart = 0.1;        // of the whole work, done when the file is read
+constexpr double kReadPart = 0.1;        // share of the whole work, done when the file is read
 constexpr double kVrmlParsedPart = 0.6;  // and parsed
 
 base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, bool& packed,
@@ -30,7 +30,7 @@ base::Result<std::string> read_text(const fs::path& path, std::uint64_t limit, b
   return packed ? io::unpack_gzip(*bytes, limit, path.string(), memory) : std::move(bytes);
 }
 
-/// What the process that parses VRML may ask for and tells of its progress.
+/// Options for the process that parses VRML, with its progress as a part of the whole.
 DesignReadOptions options_of_worker(const DesignReadOptions& options, bool& stopped) {
   DesignReadOptions result = options;
   if (options.progress) {
@@ -47,7 +47,7 @@ VrmlTaken taken_of(const VrmlMoving& moving, const std::string& file) {
   return found == moving.end() ? VrmlTaken() : found->second;
 }
 
-/// Remarks on the design itself, but for what was taken after all.
+/// Remarks on the design itself, except on parts that were used after all.
 std::vector<Remark> remarks_on(const std::string& text, const fs::path& path, const VrmlTaken& taken,
                                std::vector<Remark> before) {
   if (taken.routes.empty()) return before;
@@ -55,7 +55,7 @@ std::vector<Remark> remarks_on(const std::string& text, const fs::path& path, co
   return left_out ? std::move(left_out->remarks) : std::move(before);
 }
 
-/// Remarks on the files that are inlined, which were good enough for the parser.
+/// Remarks on the inlined files, which were good enough for the parser.
 void add_remarks_of_others(const std::vector<fs::path>& files, const DesignReadOptions& options,
                            const VrmlMoving& moving, std::vector<Remark>& remarks) {
   for (std::size_t i = 1; i < files.size(); ++i) {
@@ -68,7 +68,7 @@ void add_remarks_of_others(const std::vector<fs::path>& files, const DesignReadO
   }
 }
 
-/// Fetches what lies beside a file that was read, and only such: the answer cannot name others.
+/// Fetches files beside those that were read, and no others: the answer cannot name more.
 FetchPicture beside(const fs::path& path, const std::vector<fs::path>& files, io::UrlReach& reach) {
   return [path, files, &reach](const std::string& base, const std::string& url,
                                std::uint64_t limit) -> base::Result<std::string> {
@@ -79,7 +79,7 @@ FetchPicture beside(const fs::path& path, const std::vector<fs::path>& files, io
   };
 }
 
-/// Finds meshes beside a file that was read, and among what packages have installed.
+/// Finds meshes beside a file that was read, and in installed packages.
 FindMesh mesh_finder(const fs::path& path, const std::vector<fs::path>& files, io::UrlReach& reach) {
   std::error_code error;
   const fs::path folder = fs::weakly_canonical(path, error).parent_path();
@@ -110,7 +110,7 @@ base::Result<LoadedDesign> read_vrml(const fs::path& path, const DesignReadOptio
   const auto answer = ask_vrml_worker(*text, path, options_of_worker(options, stopped));
   if (stopped) return base::fail("interrupted");
   if (!answer) return tl::unexpected(answer.error());
-  // Where nothing can move, it is needed no more.
+  // Without routes nothing can move, and the text is not needed any more.
   if (text->find("ROUTE") == std::string::npos) {
     memory.give_back(text->size());
     text->clear();

@@ -75,7 +75,7 @@ class VrmlScan {
 
   VrmlLeftOut take(const std::string& of) { return {std::move(scripts_), tallies_.remarks(of)}; }
 
-  /// Where it is.
+  /// Line of the current position, from 1.
   int line() {
     const char* const counted_to = text_.data() + counted_to_;
     line_ += static_cast<int>(std::count(counted_to, at_, line_end_));
@@ -84,7 +84,7 @@ class VrmlScan {
   }
 
  private:
-  /// What an open brace or bracket is for.
+  /// Kind of an open brace or bracket.
   enum class Frame : unsigned char { Plain, Proto, Script };
 
   std::size_t position() const { return static_cast<std::size_t>(at_ - text_.data()); }
@@ -137,14 +137,14 @@ class VrmlScan {
   void close() {
     ++at_;
     forget_words();
-    if (frames_.empty()) return;  // the parser will say
+    if (frames_.empty()) return;  // the parser reports that
     const Frame frame = frames_.back();
     frames_.pop_back();
     if (frame == Frame::Proto) --protos_around_;
     if (frame == Frame::Script && --scripts_around_ == 0) end_script();
   }
 
-  /// Takes note of the type before a brace.
+  /// Counts the type before a brace.
   Frame node() {
     const std::string_view type = words_[0];
     if (type == "Script") return Frame::Script;
@@ -182,10 +182,10 @@ class VrmlScan {
 
   std::string_view text_;
   bool tells_unknown_;
-  VrmlTaken taken_;  // and not met yet
+  VrmlTaken taken_;  // those still to be met
   char line_end_;
   const char* at_ = nullptr;
-  std::array<std::string_view, 3> words_;  // that lie side by side before here, the last one first
+  std::array<std::string_view, 3> words_;  // adjacent words before here, the last one first
   std::vector<Frame> frames_;
   std::unordered_set<std::string_view> protos_;
   int protos_around_ = 0;
@@ -197,7 +197,7 @@ class VrmlScan {
   std::vector<VrmlScript> scripts_;
   VrmlTallies tallies_;
   std::size_t counted_to_ = 0;
-  int line_ = 1;  // there
+  int line_ = 1;  // at counted_to_
 };
 
 }  // namespace

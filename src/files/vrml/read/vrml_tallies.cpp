@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostLinesNamed = 8;
 constexpr std::size_t kMostTypesNamed = 200;
-constexpr std::string_view kOtherType = "?";  // stands for all types beyond; none is called that
+constexpr std::string_view kOtherType = "?";  // stands for all further types; no type has this name
 
 const std::map<std::string_view, VrmlFate>& fates() {
   using enum VrmlFate;
@@ -53,7 +53,7 @@ std::string how_many_are(std::string_view type, std::size_t count) {
   return fmt::format("{} {} is", vowel ? "An" : "A", type);
 }
 
-/// ", at lines 3, 5 and 8"; nothing for one, whose line the remark has itself.
+/// ", at lines 3, 5 and 8"; nothing for a single one, whose line the remark has itself.
 std::string at_lines(const std::vector<int>& lines, std::size_t count) {
   if (count < 2) return {};
   std::string text = ", at lines ";

@@ -10,26 +10,26 @@
 
 namespace icome::files {
 
-/// What becomes of a node of a VRML file.
+/// Treatment of a node of a VRML file.
 enum class VrmlFate {
-  Taken,        // it means something here
-  Group,        // its children are taken, what it would do with them is not
-  Finest,       // of its levels of detail the first is taken
-  LeftOut,      // it is known, and does nothing here
+  Taken,        // it has a meaning here
+  Group,        // its children are taken, its effect on them is not
+  Finest,       // the first of its levels of detail is taken
+  LeftOut,      // it is known, and has no effect here
   Unknown,      // to VRML 2.0
   Route,        // of events
   Kept,         // a script that is kept and does not run
-  BoundScript,  // that names what is around it, and cannot be kept alone
-  ProtoScript,  // that belongs to a PROTO
+  BoundScript,  // refers to things around it, and cannot be kept alone
+  ProtoScript,  // belongs to a PROTO
 };
 
-/// Of a type of VRML 2.0 or any other; scripts are not told apart.
+/// The treatment of a type of VRML 2.0 or any other; scripts are not distinguished.
 VrmlFate fate_of(std::string_view type);
 
-/// Counts what is left out of a text by type, and remembers the first few lines of each.
+/// Counts the left-out parts of a text by type, and remembers the first few lines of each.
 class VrmlTallies {
  public:
-  /// The types must outlive this.
+  /// The types must outlive this object.
   void add(std::string_view type, VrmlFate fate, int line);
   /// One for each type, in the order of their first lines; `of` names the file.
   std::vector<Remark> remarks(const std::string& of) const;

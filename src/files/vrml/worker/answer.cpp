@@ -9,7 +9,7 @@ namespace {
 
 using flatbuffers::Offset;
 
-/// FlatBuffers number their bytes with 31 bits; some are for what is not counted here.
+/// FlatBuffers count bytes with 31 bits; some are for data that is not counted here.
 constexpr std::size_t kWrittenLimit = 1'900'000'000;
 constexpr std::size_t kNoteLimit = 2000;
 constexpr std::size_t kTextLimit = 1U << 20U;
@@ -22,7 +22,7 @@ flat::Rgb flat_rgb(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
 struct Answer::Parts {
   explicit Parts(std::size_t expected) : builder(std::clamp<std::size_t>(expected, 1024, kWrittenLimit)) {}
 
-  /// Before anything is written.
+  /// To be called before anything is written; throws Refusal when it does not fit.
   void claim(std::size_t bytes) {
     if (bytes > kWrittenLimit - std::min<std::size_t>(builder.GetSize(), kWrittenLimit))
       throw Refusal{"holds more than can be read at once: split it into several files"};

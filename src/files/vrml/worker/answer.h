@@ -26,7 +26,7 @@ enum class PartKind : std::uint8_t {
   Mesh
 };
 
-/// A Piece of vrml_answer.fbs, which tells what each means; the numbers are copied from where they lie.
+/// A Geometry of vrml_answer.fbs, which describes each field; the numbers are copied from these spans.
 struct GeometryParts {
   std::string name = {};
   PartKind kind = PartKind::Faces;
@@ -148,26 +148,26 @@ struct NodeParts {
   int motion = -1;
 };
 
-/// Puts the answer together, each thing as it is found. Throws Refusal when it becomes larger than an answer
-/// may be.
+/// Assembles the answer, each thing as it is found. Throws Refusal when it becomes larger than an answer may
+/// be.
 class Answer {
  public:
-  /// `expected` bytes are taken at once.
+  /// `expected` bytes are allocated at once.
   explicit Answer(std::size_t expected);
   Answer(const Answer&) = delete;
   Answer& operator=(const Answer&) = delete;
   ~Answer();
 
-  /// Each gives the number by which others name what was added.
+  /// Each returns the number by which others refer to what was added.
   int add(const GeometryParts& geometry);
   int add(const PictureParts& picture);
   int add(const AppearanceParts& appearance);
   int add(const MotionParts& motion);
   int add(const NodeParts& node);
   void add(const MovingParts& moving);
-  /// After some thousand notes no more are kept. `file` is empty for the design itself.
+  /// Drops notes after some thousand. `file` is empty for the design itself.
   void note(const std::string& file, int line, const std::string& text);
-  /// The whole answer, with an error if it could not be read. Lives as long as this does; call once.
+  /// The whole answer, with an error if the file could not be read. Valid as long as this; call once.
   std::string_view finish(const std::string& error);
 
  private:

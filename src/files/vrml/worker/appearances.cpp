@@ -31,7 +31,7 @@ std::string string_in(const SoNode& node, const char* name) {
   return field ? static_cast<const SoSFString*>(field)->getValue().getString() : "";
 }
 
-/// What IcomeMaterial says besides what a Material says.
+/// Reads the fields that IcomeMaterial has in addition to those of a Material.
 void fill_touch(const SoNode& instance, AppearanceParts& parts) {
   if (std::string name = string_in(instance, "name"); !name.empty()) parts.name = std::move(name);
   if (const double stiffness = number_in(instance, "stiffness", -1.0); stiffness >= 0.0)
@@ -42,7 +42,7 @@ void fill_touch(const SoNode& instance, AppearanceParts& parts) {
   parts.haptic_texture = string_in(instance, "hapticTexture");
 }
 
-/// Tc' = -C S R C T Tc (ISO/IEC 14772-1, 6.49), as 3 x 3 numbers; none: as it is.
+/// Tc' = -C S R C T Tc (ISO/IEC 14772-1, 6.49), as 3 x 3 numbers; none: identity.
 std::vector<double> transform_of(const SoVRMLTextureTransform& node) {
   const auto vector = [](const SbVec2f& v) { return base::Vector2(as_written(v[0]), as_written(v[1])); };
   const base::Vector2 centre = vector(node.center.getValue());

@@ -14,7 +14,7 @@ class Appearances {
   Appearances(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
       : files_(files), answer_(answer), wrapping_(wrapping) {}
 
-  /// The number of what an Appearance says; -1: there is none.
+  /// The number of an Appearance's entry in the answer; -1: it has none.
   int number_of(const Unwrapped& appearance);
 
  private:

@@ -14,8 +14,8 @@ using base::Vector3;
 /// A direction, or zero where there is none.
 Vector3 direction(const Vector3& v) { return v.isZero(0.0) ? v : v.stableNormalized(); }
 
-/// Fills what has no direction from the nearest before it, or else from the first that has one. False: none
-/// has one.
+/// Gives each zero direction that of the nearest before it with one, or else of the first with one. False:
+/// none has one.
 bool fill_gaps(std::vector<Vector3>& directions) {
   const auto has = [](const Vector3& v) { return !v.isZero(0.0); };
   const auto first = std::find_if(directions.begin(), directions.end(), has);
@@ -39,7 +39,7 @@ std::vector<Matrix3> section_planes(const std::vector<Vector3>& spine, bool is_c
     const Vector3 forth = direction(after - spine[i]);
     const Vector3 back = direction(before - spine[i]);
     const Vector3 normal = forth.cross(back);
-    // What rounding leaves of a straight line is no plane.
+    // A straight line has no plane, only a normal left by rounding.
     if ((!is_end || is_closed) && normal.norm() > 1e-6)
       across[i] = direction(normal);
     else

@@ -8,7 +8,7 @@
 namespace icome::files {
 namespace {
 
-/// Looks at the bits: that is quicker for millions, and the same.
+/// Tests the bits: that is quicker for millions, with the same result.
 bool all_finite(std::span<const float> numbers) {
   std::uint32_t found = 0;
   for (const float number : numbers) {
@@ -19,7 +19,7 @@ bool all_finite(std::span<const float> numbers) {
   return found == 0;
 }
 
-/// Goes through the faces of a list: `visit(begin, end)` gets where each one's indices lie.
+/// Calls `visit(begin, end)` with the range of indices of each face of a list.
 template <typename Visit>
 void for_each_face(std::span<const int> polygons, Visit visit) {
   for (std::size_t begin = 0; begin < polygons.size();) {
@@ -30,7 +30,7 @@ void for_each_face(std::span<const int> polygons, Visit visit) {
   }
 }
 
-/// Puts the faces of a list right.
+/// Repairs the faces of a list.
 class FaceChecker {
  public:
   FaceChecker(const FaceFields& fields, CheckedFaces& checked) : fields_(fields), checked_(checked) {}
@@ -100,7 +100,7 @@ class FaceChecker {
                                            [&](int index) { return is_vertex(index); });
   }
 
-  /// Drops values, and the list that leads to them, unless they fit; cuts what is too much of the list.
+  /// Drops values, and their list of indices, unless they fit; cuts surplus off the list.
   void fit(std::span<const float>& values, std::size_t width, std::span<const int>& list, bool per_vertex,
            const char* what) {
     const std::size_t count = values.size() / width;
@@ -128,7 +128,7 @@ class FaceChecker {
     return index >= 0 && static_cast<std::size_t>(index) < count;
   }
 
-  /// Why a list of the same build as the polygons is not; null: it is.
+  /// Reason why a list does not have the faces of the polygons; null: it has.
   const char* misfit(std::span<const int> list, std::size_t count) const {
     const std::span<const int> polygons = fields_.polygons;
     // The last -1 may be missing from either.

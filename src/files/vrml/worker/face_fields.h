@@ -5,7 +5,7 @@
 
 namespace icome::files {
 
-/// The fields of an IndexedFaceSet, or of what is turned into one; they lie elsewhere.
+/// The fields of an IndexedFaceSet, or of a node that is turned into one; the data are elsewhere.
 struct FaceFields {
   std::span<const float> positions = {};  // three of each
   std::span<const int> polygons = {};
@@ -23,7 +23,7 @@ struct FaceFields {
 struct CheckedFaces {
   FaceFields fields = {};
   std::vector<std::string> remarks = {};  // half sentences on what was left out
-  // What had to be written anew.
+  // Data that had to be rewritten.
   std::vector<float> new_positions = {};
   std::vector<int> new_polygons = {};
   std::vector<int> new_texture_polygons = {};
@@ -31,8 +31,8 @@ struct CheckedFaces {
   std::vector<int> new_colour_polygons = {};
 };
 
-/// Leaves out faces with fewer than three corners or with corners that are not there, and each of the
-/// other lists that does not fit. `checked` is empty before.
+/// Leaves out faces with fewer than three corners or with missing corners, and each of the other
+/// lists that does not fit. `checked` must be empty before.
 void check_faces(const FaceFields& fields, CheckedFaces& checked);
 
 }  // namespace icome::files

@@ -11,7 +11,7 @@ class SoNode;
 namespace icome::files {
 
 using io::as_written;
-/// The numbers that the file has: 0.1, where the float is 0.100000001.
+/// The decimal numbers of the file: 0.1, where the float is 0.100000001.
 std::array<double, 3> as_written(const SbVec3f& vector);
 
 std::array<float, 3> as_array(const SbColor& colour);

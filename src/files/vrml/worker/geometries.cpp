@@ -26,7 +26,7 @@
 namespace icome::files {
 namespace {
 
-/// "VRMLText" is Text to the world.
+/// The name of a node's type in VRML: Coin's "VRMLText" is "Text".
 std::string type_name(const SoNode& node) {
   const std::string name = node.getTypeId().getName().getString();
   return name.starts_with("VRML") ? name.substr(4) : name;
@@ -70,7 +70,7 @@ std::optional<int> Geometries::add(const Unwrapped& it, GeometryParts& parts) {
   return add_solid(it, parts);
 }
 
-/// Round shapes without some of their parts are faces.
+/// Round shapes without some of their parts become faces.
 std::optional<int> Geometries::add_solid(const Unwrapped& it, GeometryParts& parts) {
   RoundParts round;
   if (const auto* box = geometry_as<SoVRMLBox>(it)) {
@@ -96,7 +96,7 @@ std::optional<int> Geometries::add_solid(const Unwrapped& it, GeometryParts& par
              bool(cylinder->top.getValue()),
              bool(cylinder->bottom.getValue())};
   } else {
-    // Lines, points and what is no geometry at all: the reader lists these from the text.
+    // Lines, points and other nodes than geometry: the reader lists these from the text.
     return std::nullopt;
   }
   if (!are_sizes(parts.sizes)) return leave_out(it, "it has no size");

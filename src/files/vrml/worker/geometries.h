@@ -22,12 +22,12 @@ class Geometries {
   Geometries(const SceneFiles& files, Answer& answer, Wrapping& wrapping)
       : files_(files), answer_(answer), wrapping_(wrapping) {}
 
-  /// The number in the answer of what a geometry node makes. None, with a note where one helps: it makes
-  /// none.
+  /// The number of a geometry node's entry in the answer. None, with a note where one helps: it has no
+  /// entry.
   std::optional<int> number_of(const Unwrapped& geometry);
 
  private:
-  /// Each gives the number in the answer; none: there is none, and that is told.
+  /// Each returns the number in the answer; none, with a note: there is no entry.
   std::optional<int> add(const Unwrapped& it, GeometryParts& parts);
   std::optional<int> add(const Unwrapped& it, const SoVRMLIndexedFaceSet& node, GeometryParts& parts);
   std::optional<int> add(const Unwrapped& it, const SoVRMLElevationGrid& node, GeometryParts& parts);
@@ -36,7 +36,7 @@ class Geometries {
   std::optional<int> add_solid(const Unwrapped& it, GeometryParts& parts);
   std::optional<int> add_faces(const Unwrapped& it, const FaceFields& fields, GeometryParts& parts);
   std::optional<int> add_made(const Unwrapped& it, const MadeFaces& made, GeometryParts& parts);
-  /// A shape of ICOME's own, which PROTOs stand for; none: this is no such, and to be read as what it shows.
+  /// A shape of ICOME's own, expressed by a PROTO; none: it is read as the node inside.
   std::optional<int> add_own(const Unwrapped& it, GeometryParts& parts);
   std::optional<int> leave_out(const Unwrapped& it, const std::string& why);
   void fill_attributes(const Unwrapped& it, const SoSFNode& texture, const SoSFNode& normal,

@@ -21,7 +21,7 @@ int FaceMaker::vertex(const std::array<double, 3>& position) {
   Bits bits{};
   std::array<float, 3> rounded{};
   for (std::size_t i = 0; i < 3; ++i) {
-    rounded[i] = static_cast<float>(position[i]) + 0.0F;  // there is one zero
+    rounded[i] = static_cast<float>(position[i]) + 0.0F;  // drops the sign of -0
     bits[i] = std::bit_cast<std::uint32_t>(rounded[i]);
   }
   const auto [known, is_new] = vertices_.try_emplace(bits, static_cast<int>(faces_.positions.size() / 3));
@@ -49,13 +49,13 @@ void FaceMaker::face(std::span<const Corner> corners) {
   faces_.texture_polygons.push_back(-1);
 }
 
-/// As ISO/IEC 14772-1 lays textures on Cylinders and Cones: the seam is at the back, and from there a picture
-/// goes round as the sun does not, seen from above.
+/// Textures as ISO/IEC 14772-1 lays them on Cylinders and Cones: the seam is at the back, and from there a
+/// picture goes round counter-clockwise, seen from above.
 MadeFaces make_round(const RoundParts& parts) {
   FaceMaker maker;
   using Corner = FaceMaker::Corner;
   struct Ring {
-    std::vector<int> vertices, around, within;  // around: textures of the side; within: of the cap
+    std::vector<int> vertices, around, within;  // around: texture of the side; within: of the cap
   };
   const auto ring = [&](double radius, double y, double v) {
     Ring made;

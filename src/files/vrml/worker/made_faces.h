@@ -8,7 +8,7 @@
 
 namespace icome::files {
 
-/// Faces that are made here from what a node says, in the form of an IndexedFaceSet.
+/// Faces made from the fields of a node, in the form of an IndexedFaceSet.
 struct MadeFaces {
   std::vector<float> positions = {};
   std::vector<int> polygons = {};
@@ -16,7 +16,7 @@ struct MadeFaces {
   std::vector<int> texture_polygons = {};
 };
 
-/// Puts faces together. Corners at the same place are one vertex, and what is no face then is left out.
+/// Builds faces. Corners at the same place become one vertex; degenerate faces are left out.
 class FaceMaker {
  public:
   struct Corner {
@@ -40,7 +40,7 @@ class FaceMaker {
   std::vector<Corner> kept_ = {};
 };
 
-/// The parts of a Cylinder, or of a Cone (`top_radius` 0), that are there; its axis is y.
+/// The existing parts of a Cylinder, or of a Cone (`top_radius` 0); its axis is y.
 struct RoundParts {
   double radius = 1.0;
   double top_radius = 1.0;
@@ -50,7 +50,7 @@ struct RoundParts {
   bool bottom = true;
 };
 MadeFaces make_round(const RoundParts& parts);
-/// Between faces of make_round() that stand for one curved surface, at least.
+/// Crease angle (rad) that smooths the faces of one curved surface from make_round().
 inline constexpr float kRoundCrease = 0.3F;
 
 }  // namespace icome::files

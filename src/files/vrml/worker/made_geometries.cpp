@@ -19,7 +19,7 @@
 namespace icome::files {
 namespace {
 
-/// Few numbers of an Extrusion make many vertices.
+/// Limits the vertices, as few numbers of an Extrusion make many.
 constexpr std::int64_t kMadeVertexLimit = 5'000'000;
 constexpr std::size_t kLetterLimit = 10'000;
 
@@ -49,8 +49,8 @@ ExtrusionFields fields_of(const SoVRMLExtrusion& node) {
   return fields;
 }
 
-/// Coin's triangles of a Text, put together. Coin says of all their corners that they lie at one place of a
-/// picture; VRML 2.0 (6.47) lays it from the text's origin on, once for each height of a letter.
+/// Coin's triangles of a Text, collected. Coin gives all their corners the same texture coordinates; by
+/// VRML 2.0 (6.47) the picture starts at the text's origin and repeats with each height of a letter.
 struct TextFaces {
   float height = 1.0F;
   FaceMaker maker = {};
@@ -68,7 +68,7 @@ struct TextFaces {
   }
 };
 
-/// Of a Text's letters; that of one without a FontStyle where it has none that is of use.
+/// Height of a Text's letters; the default one where the FontStyle has no usable size.
 float letter_height(const SoNode* style) {
   const SoVRMLFontStyle* font = style && style->isOfType(SoVRMLFontStyle::getClassTypeId())
                                     ? static_cast<const SoVRMLFontStyle*>(style)

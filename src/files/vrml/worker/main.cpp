@@ -1,5 +1,5 @@
-// The process that parses VRML for a reader of designs; see files/vrml_process.h. What it may do is told by
-// confine(), what it says by vrml_answer.fbs.
+// The process that parses VRML for a reader of designs; see files/vrml/read/vrml_process.h. Its rights are
+// limited by confine(), its answer is defined by vrml_answer.fbs.
 #include <unistd.h>
 
 #include <cstring>
@@ -45,6 +45,6 @@ int main() {
   SceneFiles::prepare_coin();
   confine(limits);
   parse(channel);
-  // Coin's nodes need not be given back one by one.
+  // Coin's nodes need not be freed one by one.
   ::_exit(0);
 }

@@ -29,7 +29,7 @@ bool sets(std::string_view event, std::string_view field) {
   return event == field;
 }
 
-/// The clock that drives an interpolator, and the route by which; null: none does.
+/// The route from the clock that drives an interpolator; null: it has no clock.
 const NodeRoute* clock_route(const SceneFiles& files, const SoNode& interpolator) {
   for (const NodeRoute& route : files.routes_to(interpolator)) {
     const bool drives = route.in == "set_fraction" && route.out == "fraction_changed";
@@ -49,7 +49,7 @@ std::vector<double> ways(const SoMFVec3f& field) {
   return values;
 }
 
-/// Finding the numbers of the file takes its time: of very many, what Coin keeps must do.
+/// Recovering the file's numbers takes time: very many turns are taken as Coin keeps them.
 std::vector<double> turns(const SoMFRotation& field) {
   constexpr int kMostAsWritten = 10'000;
   std::vector<double> values;
@@ -63,7 +63,7 @@ std::vector<double> turns(const SoMFRotation& field) {
   return values;
 }
 
-/// The same size along all axes.
+/// The scalars as sizes that are equal along all axes.
 std::vector<double> sizes(const SoMFFloat& field) {
   std::vector<double> values;
   values.reserve(3 * static_cast<std::size_t>(field.getNum()));

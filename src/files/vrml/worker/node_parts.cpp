@@ -21,7 +21,7 @@ struct AxisAngle {
   double angle = 0.0;
 };
 
-/// Is this what the file said, as far as Coin kept it?
+/// Does the turn give Coin's rotation exactly?
 bool is_kept(const AxisAngle& turn, const SbRotation& rotation) {
   const SbVec3f axis(static_cast<float>(turn.axis[0]), static_cast<float>(turn.axis[1]),
                      static_cast<float>(turn.axis[2]));
@@ -29,11 +29,11 @@ bool is_kept(const AxisAngle& turn, const SbRotation& rotation) {
 }
 
 /// Coin keeps a rotation as a quaternion in single precision. The numbers of the file are the roundest that
-/// give this one, or a multiple of 15 degrees, which is then meant whatever digits the file has of it; where
-/// there are none, the file had too many digits to be kept.
+/// give this one, or a multiple of 15 degrees, which is then meant whatever digits of it the file has;
+/// without such numbers, the file had too many digits to be kept.
 AxisAngle axis_angle(const SbRotation& rotation) {
   const float* const kept = rotation.getValue();
-  // Not as Coin does it, from the cosine, which hardly tells small angles.
+  // Not by the cosine, as Coin does it, which hardly distinguishes small angles.
   const base::Vector3 sine(kept[0], kept[1], kept[2]);
   const double length = sine.norm();
   if (!(length > 0.0)) return {};
@@ -43,7 +43,7 @@ AxisAngle axis_angle(const SbRotation& rotation) {
   const double step = std::round(angle / kStep) * kStep;
   const auto round_to = [](double number, double unit) { return std::round(number * unit) / unit; };
   for (double unit = 10.0; unit < 1e8; unit *= 10.0) {
-    // The axis in the file may be longer or shorter than one by what its decimals leave out.
+    // The length of the axis in the file may differ from one by the decimals that it lacks.
     for (const double off : {0.0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
       const base::Vector3 scaled = axis * (1.0 + off / unit);
       AxisAngle round = {{round_to(scaled[0], unit), round_to(scaled[1], unit), round_to(scaled[2], unit)},
@@ -84,7 +84,7 @@ std::array<double, 12> matrix_of(const SoVRMLTransform& transform) {
   const base::Vector3 scale = vector(transform.scale.getValue());
   base::Matrix3 linear = rotation(transform.rotation);
   if (scale.isOnes(0.0)) {
-    // Whatever its orientation.
+    // Its orientation has no effect.
   } else if (scale.x() == scale.y() && scale.y() == scale.z()) {
     linear *= scale.x();
   } else {
@@ -126,7 +126,7 @@ bool fill_light_or_viewpoint(const SoNode& node, NodeParts& parts) {
                                      turn.axis, turn.angle};
     // Coin's own default is the origin, against the standard.
     if (!view.position.isDefault()) parts.viewpoint->position = as_written(view.position.getValue());
-    // What viewers show in their menus.
+    // The text that viewers show in their menus.
     if (view.description.getValue().getLength() > 0) parts.name = view.description.getValue().getString();
     return true;
   }

@@ -9,14 +9,14 @@ class SoVRMLTransform;
 
 namespace icome::files {
 
-/// T C R SR S -SR -C of a Transform, in double: a 3 x 4 matrix, row after row. Where a number is not finite
-/// the Transform does nothing.
+/// T C R SR S -SR -C of a Transform, in double: a 3 x 4 matrix, row after row. A Transform with a number
+/// that is not finite does nothing.
 std::array<double, 12> matrix_of(const SoVRMLTransform& transform);
 
-/// The same field by field, as MotionParts has it.
+/// The fields of a Transform one after the other, in the order of MotionParts::rest.
 std::array<double, 17> rest_of(const SoVRMLTransform& transform);
 
-/// A turn as the file has it, x, y, z, w: Coin keeps it in single precision.
+/// A turn by the numbers in the file, as x, y, z, w: Coin keeps it in single precision.
 std::array<double, 4> turn_as_written(const SbRotation& turn);
 
 /// False: the node is neither a light nor a Viewpoint.

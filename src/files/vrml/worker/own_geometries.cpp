@@ -27,7 +27,7 @@ std::span<const int> indices_in(const SoNode& instance, const char* name) {
   return field ? indices(*static_cast<const SoMFInt32*>(field)) : std::span<const int>();
 }
 
-/// Urls count from where the instance stands, and not from where its PROTO does.
+/// Urls are relative to the file of the instance, not to that of its PROTO.
 void fill_mesh(const SceneFiles& files, const Wrapping& wrapping, const SoProtoInstance& instance,
                GeometryParts& parts) {
   const SoField* urls = find_field(instance, "url", "MFString");

@@ -22,15 +22,15 @@ namespace {
 constexpr int kDepthLimit = kMostNestedVrml;
 constexpr std::size_t kLongName = 200;
 constexpr std::size_t kLongString = 4000;
-/// Of what is no name of a node: types, fields and PROTOs.
+/// Longest word that is no name of a node: types, fields and PROTOs.
 constexpr std::size_t kWordLimit = 1000;
 constexpr std::size_t kTextNoteLimit = 1000;
-/// Of the rows and columns of a PixelTexture: Coin keeps them in 16 bits.
+/// Limit of the rows and columns of a PixelTexture: Coin keeps them in 16 bits.
 constexpr std::uint64_t kImageSideLimit = 32767;
 constexpr std::size_t kRouteLimit = 1'000'000;
 constexpr const char* kHeaderLine = "#VRML V2.0 utf8\n";
 
-/// What one field type of VRML 2.0 is when nothing is said.
+/// The default value of a field type of VRML 2.0.
 const char* default_value(std::string_view type) {
   if (type.starts_with("MF")) return "[]";
   if (type == "SFNode") return "NULL";
@@ -46,7 +46,7 @@ std::string too_deep() { return "nests nodes more than " + std::to_string(kDepth
 
 bool is_value_word(std::string_view word) { return word == "TRUE" || word == "FALSE" || word == "NULL"; }
 
-/// Does Coin keep a node name as it is? (It also cuts `+3` from the end of names, which it adds itself.)
+/// Does Coin keep a node name unchanged? (It also cuts `+3` from the end of names, which it adds itself.)
 bool is_plain_name(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto is_plain = [&](char c) {
@@ -56,14 +56,14 @@ bool is_plain_name(std::string_view name) {
          !name.starts_with(kChangedName);
 }
 
-/// What is put in the place of a part of the text.
+/// The replacement of a part of the text.
 struct Change {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::string text;
 };
 
-/// Follows the grammar of VRML 2.0 (ISO/IEC 14772-1, annex A) through a text, remembering what to change.
+/// Parses the grammar of VRML 2.0 (ISO/IEC 14772-1, annex A) in a text and records changes.
 class TextReader {
  public:
   TextReader(std::string_view text, bool tells_strange_nodes,
@@ -79,7 +79,7 @@ class TextReader {
     try {
       statements(Kind::End);
     } catch (const Unclear&) {
-      // Coin tells what is wrong there, but must not go too deep for it.
+      // Coin reports the error there, but must not recurse too deep before it.
       if (tokens_.deepest() > kDepthLimit) ready.error = too_deep();
     } catch (const Refusal& refusal) {
       ready.error = refusal.why;
@@ -91,7 +91,7 @@ class TextReader {
     std::size_t copied = 0;
     for (const Change& change : changes_) {
       ready.text.append(text_, copied, change.begin - copied).append(change.text);
-      // Lines keep their numbers.
+      // Keeps the line numbers of what follows.
       ready.text.append(
           static_cast<std::size_t>(std::count(text_.begin() + static_cast<long>(change.begin),
                                               text_.begin() + static_cast<long>(change.end), '\n')),
@@ -105,7 +105,7 @@ class TextReader {
   using Kind = Token::Kind;
   using Fields = std::unordered_set<std::string>;
   using SharedFields = std::shared_ptr<const Fields>;
-  /// What has a name in a file or in the definition of a PROTO.
+  /// The names in a file or in the definition of a PROTO.
   struct Scope {
     std::unordered_set<std::string> nodes;
     std::unordered_map<std::string, SharedFields> protos;
@@ -113,7 +113,7 @@ class TextReader {
   struct Unclear {};
   enum class Outcome { Kept, Dropped };
 
-  /// One level further in, while it lives.
+  /// A level of nesting, for the lifetime of this object.
   class Level {
    public:
     explicit Level(int& depth) : depth_(depth) {
@@ -141,7 +141,7 @@ class TextReader {
     return token;
   }
   void note(std::size_t place, std::string text) {
-    // What a Script asks for changes nothing, since no Script runs.
+    // The needs of a Script have no effect, since no Script runs.
     if (!in_script_ && notes_.size() < kTextNoteLimit)
       notes_.push_back({tokens_.line(place), std::move(text)});
   }
@@ -153,7 +153,7 @@ class TextReader {
   void replace(std::size_t begin, std::size_t end, std::string text) {
     changes_.push_back({begin, end, std::move(text)});
   }
-  /// From here to what was read last.
+  /// Drops the text from here to the end of the last token.
   void drop(std::size_t begin) { replace(begin, tokens_.place(), " "); }
 
   void statements(Kind last);
@@ -189,7 +189,7 @@ class TextReader {
   std::unordered_map<std::string, std::string> changed_;
 };
 
-/// The statements of a file or of a PROTO.
+/// Reads the statements of a file or of a PROTO.
 void TextReader::statements(Kind last) {
   while (tokens_.peek().kind != last) {
     const Token first = expect(Kind::Word);
@@ -221,7 +221,7 @@ void TextReader::keep_route(int line, const Token& from, const Token& to) {
                      line});
 }
 
-/// As change_name() has it.
+/// The name after change_name().
 std::string TextReader::name_for_coin(std::string_view name) const {
   const auto changed = changed_.find(std::string(name));
   return changed == changed_.end() ? std::string(name) : changed->second;
@@ -266,8 +266,8 @@ TextReader::Fields TextReader::interface(bool is_extern, std::string& stand_in) 
   }
 }
 
-/// Reads the value of a field, which its first word tells the kind of. Dropped: it is a node that is
-/// nothing; the caller takes it out.
+/// Reads the value of a field, whose kind its first word tells. Dropped: it is a node that is to be
+/// left out; the caller removes it.
 TextReader::Outcome TextReader::value() {
   const Token first = tokens_.next();
   if (first.kind == Kind::String) {
@@ -336,7 +336,7 @@ TextReader::Outcome TextReader::node(Token first) {
   return Outcome::Kept;
 }
 
-/// What stands between the braces of a node, which is an instance of a PROTO if there are `proto_fields`.
+/// Reads the content between the braces of a node, an instance of a PROTO if there are `proto_fields`.
 void TextReader::body(const std::string& type, const SharedFields& proto_fields) {
   const Level level(depth_);
   while (true) {
@@ -355,7 +355,7 @@ void TextReader::body(const std::string& type, const SharedFields& proto_fields)
       if (value() == Outcome::Dropped) drop(first.begin);
       continue;
     }
-    // An event that a PROTO passes on has no value to be lost.
+    // An event that a PROTO passes on has no value to lose.
     if (word(tokens_.peek()) != "IS")
       note(first.begin, "The field " + quoted(first) + " is left out: " + type + " has none of this name.");
     skip_value();
@@ -363,8 +363,8 @@ void TextReader::body(const std::string& type, const SharedFields& proto_fields)
   }
 }
 
-/// Reads the image of a PixelTexture. It becomes an empty one where its pixels are not those that its size
-/// asks for, since Coin gives up the whole file for that.
+/// Reads the image of a PixelTexture. It becomes an empty one where its pixels do not fit its size, since
+/// Coin gives up the whole file for that.
 void TextReader::image() {
   const std::size_t begin = tokens_.peek().begin;
   std::array<std::string, 3> size;  // width, height, components
@@ -391,7 +391,7 @@ void TextReader::image() {
   replace(begin, tokens_.place(), "0 0 0");
 }
 
-/// A Script has fields of its own. Nothing here runs it.
+/// Reads a field that a Script declares for itself. Nothing here runs the Script.
 bool TextReader::script_field(const Token& access) {
   const bool has_value = word(access) == "field";
   if (!has_value && word(access) != "eventIn" && word(access) != "eventOut" && word(access) != "exposedField")
@@ -458,7 +458,7 @@ ReadyText make_ready(std::string_view file,
   ReadyText ready;
   ready.text = kHeaderLine;
   if (const auto header = find_vrml_header(file)) {
-    // What else stands in the first line belongs to the program that wrote it.
+    // The rest of the first line belongs to the program that wrote it.
     file.remove_prefix(std::min(file.find_first_of("\r\n", *header), file.size()));
     ready.text.pop_back();
   } else if (begins_like_vrml(file)) {

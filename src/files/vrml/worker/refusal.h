@@ -3,7 +3,7 @@
 
 namespace icome::files {
 
-/// Why the whole file is refused; thrown.
+/// The reason why the whole file is refused; thrown.
 struct Refusal {
   std::string why;
 };

@@ -21,7 +21,7 @@
 namespace icome::files {
 namespace {
 
-/// The fields of each node of VRML 2.0 as Coin has them.
+/// Does Coin's node of this type have this field?
 bool coin_has_field(const std::string& node, const std::string& field) {
   static std::unordered_map<std::string, std::unordered_set<std::string>> known;
   const auto [fields, is_new] = known.try_emplace(node);
@@ -56,7 +56,7 @@ TextNote told_by_coin(const SbString& message) {
   if (text.starts_with(kStart)) text.remove_prefix(kStart.size());
   text = text.substr(0, text.find('\n'));
   note.text = text;
-  // Coin's own names of nodes.
+  // Removes the prefix of Coin's node names.
   for (std::size_t at = 0; (at = note.text.find("VRML", at)) != std::string::npos;)
     if (at + 4 < note.text.size() && note.text[at + 4] >= 'A' && note.text[at + 4] <= 'Z')
       note.text.erase(at, 4);
@@ -74,7 +74,7 @@ std::string joined(const std::vector<std::string>& urls) {
 
 }  // namespace
 
-/// A file while Coin reads it; Coin hands it back to the callbacks.
+/// A file while Coin reads it; Coin passes it to the callbacks.
 struct SceneFiles::Reading : SoInput {
   Reading(SceneFile& of, ReadyText text) : file(of), ready(std::move(text)) {
     setBuffer(ready.text.data(), ready.text.size());
@@ -85,7 +85,7 @@ struct SceneFiles::Reading : SoInput {
   std::vector<TextNote> errors = {};
 };
 
-/// What Coin calls while it reads.
+/// Functions that Coin calls while it reads.
 struct SceneFiles::Callbacks {
   static void note_error(const SoError* error, void* closure) {
     auto& files = *static_cast<SceneFiles*>(closure);
@@ -93,7 +93,7 @@ struct SceneFiles::Callbacks {
     Reading& reading = *files.reading_.back();
     TextNote note = told_by_coin(error->getDebugString());
     note.line = std::max(0, note.line - reading.ready.added_lines);
-    // Textures are not read here, and that an outer node fails with an inner one is no news.
+    // Textures are not read here, and an outer node always fails with an inner one.
     if (note.text.starts_with("Could not read texture file")) return;
     if (note.text.starts_with("Couldn't read value for field") && !reading.errors.empty() &&
         reading.errors.back().line == note.line)
@@ -209,7 +209,7 @@ const std::vector<NodeRoute>& SceneFiles::routes_to(const SoNode& node) const {
   return found == routes_.end() ? kNone : found->second;
 }
 
-/// Of several nodes of one name the last one counts, as Coin has it.
+/// The last one of several nodes of one name counts, as in Coin.
 void SceneFiles::keep_routes(const Reading& reading) {
   const auto named = [&](const std::string& name) -> const SoNode* {
     const SoBase* const found = reading.findReference(SbName(name.c_str()));
@@ -224,7 +224,7 @@ void SceneFiles::keep_routes(const Reading& reading) {
   }
 }
 
-/// Reads node by node, so that what comes before a mistake is there.
+/// Reads node by node, so that all nodes before a mistake are kept.
 void SceneFiles::read(SceneFile& file, std::string_view bytes) {
   ReadyText ready = make_ready(
       bytes, [](const std::string& node, const std::string& field) { return coin_has_field(node, field); },

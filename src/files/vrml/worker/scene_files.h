@@ -17,7 +17,7 @@ namespace icome::files {
 
 struct SceneFile;
 
-/// A ROUTE between nodes that are there.
+/// A ROUTE between existing nodes.
 struct NodeRoute {
   const SoNode* from = nullptr;  // never null
   std::string out = {};
@@ -28,32 +28,32 @@ struct NodeRoute {
 
 /// A file as Coin read it. Its nodes live as long as the process.
 struct SceneFile {
-  int number = 0;  // by which the reader knows it
+  int number = 0;  // its number for the reader
   std::string path = {};
-  std::string told = {};  // what notes call it: nothing for the design itself
+  std::string told = {};  // its name in notes: empty for the design itself
   std::vector<SoNode*> roots = {};
   bool is_being_read = false;
-  int inlined = 0;  // how many Inlines of it are being walked through
+  int inlined = 0;  // number of its Inlines that are being walked through
 };
 
-/// The design's file and those it inlines, each fetched and read once. Coin is used from here and by who
-/// walks through its nodes; both from one thread.
+/// The design's file and those it inlines, each fetched and read once. Coin is used from here and by the
+/// walk through its nodes; both from one thread.
 class SceneFiles {
  public:
   SceneFiles(Channel& channel, Answer& answer);
   SceneFiles(const SceneFiles&) = delete;
   SceneFiles& operator=(const SceneFiles&) = delete;
 
-  /// What Coin needs from the system, before that is out of reach.
+  /// Gets all that Coin needs from the system, before that is out of reach.
   static void prepare_coin();
 
-  /// The design. Throws Refusal when nothing of it can be read.
+  /// Reads the design. Throws Refusal when nothing of it can be read.
   SceneFile& read_design(const std::string& path, std::string_view bytes);
-  /// The first of the urls in `from` that can be had; null, with a note: none.
+  /// The first of the urls in `from` that can be fetched; null, with a note: none.
   SceneFile* fetch(const SceneFile& from, const std::vector<std::string>& urls, const char* who);
-  /// The file that an EXTERNPROTO was taken from; null: it is none.
+  /// The file that an EXTERNPROTO was taken from; null: it is no EXTERNPROTO.
   const SceneFile* home(const SoProto* proto) const;
-  /// What a node was called in its file, or what a string was.
+  /// The original text of a node's name or of a string in its file.
   std::string original(const char* text) const;
   std::string original_name(const SbName& name) const;
   std::vector<std::string> strings(const SoMFString& field) const;
@@ -71,7 +71,7 @@ class SceneFiles {
   Answer& answer_;
   std::unordered_map<int, std::unique_ptr<SceneFile>> files_;
   std::unordered_map<const SoProto*, const SceneFile*> homes_;
-  std::unordered_map<const SoNode*, std::vector<NodeRoute>> routes_;  // by where they lead
+  std::unordered_map<const SoNode*, std::vector<NodeRoute>> routes_;  // by their targets
   std::vector<std::string> changed_names_;
   std::vector<Reading*> reading_;  // innermost last
 };

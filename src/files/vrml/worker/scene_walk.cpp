@@ -30,7 +30,7 @@ const Node* as(const SoNode* node) {
   return node->isOfType(Node::getClassTypeId()) ? static_cast<const Node*>(node) : nullptr;
 }
 
-/// The title of a WorldInfo among the children of a group names it.
+/// The title of a WorldInfo among the children of a group, which names the group.
 std::string title_among(const SceneFiles& files, const SoMFNode& children, int first, int last) {
   for (int i = first; i < last; ++i)
     if (const SoNode* child = children[i])
@@ -136,7 +136,7 @@ void SceneWalk::visit_inline(const SoVRMLInline& it, NodeParts& parts, const Pla
   }
   within.file = file;
   ++file->inlined;
-  // A file that is inlined twice is read once; its nodes are not there through USE.
+  // A file that is inlined twice is read once; its nodes do not count as reused by USE.
   auto met = std::exchange(met_, {});
   for (SoNode* root : file->roots) visit(root, within);
   met_ = std::move(met);
@@ -166,7 +166,7 @@ bool SceneWalk::visit_scene(const Unwrapped& it, NodeParts& parts) {
   return true;
 }
 
-/// IcomeEffect stands for a group that is empty.
+/// IcomeEffect is a group without children.
 bool SceneWalk::visit_effect(const Unwrapped& it, NodeParts& parts) {
   if (!it.instance || it.instance->getProtoName() != "IcomeEffect") return false;
   const SoField* text = find_field(*it.instance, "effect", "SFString");

@@ -16,16 +16,16 @@ class SoVRMLShape;
 
 namespace icome::files {
 
-/// Goes once through the nodes of a design and puts them into the answer.
+/// Walks once through the nodes of a design and puts them into the answer.
 class SceneWalk {
  public:
   SceneWalk(SceneFiles& files, Answer& answer);
 
-  /// Throws Refusal when there is more than the limits allow.
+  /// Throws Refusal when the design exceeds the limits.
   void walk(SceneFile& design);
 
  private:
-  /// Where the walk is.
+  /// The position of the walk.
   struct Place {
     const SceneFile* file = nullptr;
     int parent = -1;

@@ -6,7 +6,7 @@
 namespace icome::files {
 namespace {
 
-// What words and numbers are made of is even.
+// The classes of characters in words and numbers are even.
 constexpr unsigned char kOther = 0;
 constexpr unsigned char kSpace = 1;
 constexpr unsigned char kNumeric = 2;

@@ -11,26 +11,26 @@ struct Token {
   std::size_t end = 0;
 };
 
-/// Cuts VRML 2.0 into words, numbers, strings and brackets. Never fails: a string without an end is one that
-/// ends with the text.
+/// Cuts VRML 2.0 into words, numbers, strings and brackets. Never fails: a string without an end ends with
+/// the text.
 class Tokens {
  public:
   explicit Tokens(std::string_view text) : text_(text) {}
 
   Token next();
   Token peek();
-  /// Behind what was read last.
+  /// Offset behind the last token that was read.
   std::size_t place() const { return place_; }
-  /// Passes all numbers that stand here; quickly, since most of a file is numbers.
+  /// Skips all numbers at this place; quickly, since most of a file is numbers.
   void skip_numbers();
-  /// Passes what belongs to a bracket that was just read, its partner included. False: it has none.
+  /// Skips the content of a bracket that was just read, with its partner. False: it has none.
   bool skip_to_partner();
-  /// How deep the brackets of all that is left go.
+  /// Largest depth of brackets in the rest of the text, which is consumed.
   int deepest();
   std::string_view word(const Token& token) const {
     return text_.substr(token.begin, token.end - token.begin);
   }
-  /// The line of a place, from 1. Quick when the places rise.
+  /// The line of a place, from 1. Quick for rising places.
   int line(std::size_t place);
 
  private:

@@ -9,7 +9,7 @@
 namespace icome::files {
 namespace {
 
-/// PROTOs in PROTOs, values handed from one to the next.
+/// Limits PROTOs within PROTOs, and values passed from one to the next.
 constexpr int kWrappingLimit = 1000;
 
 /// Coin puts the nodes of a PROTO that has several into a group of its own; the first one counts.

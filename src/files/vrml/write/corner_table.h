@@ -7,7 +7,7 @@
 
 namespace icome::files {
 
-/// Finds out which corners of a mesh carry the same `kParts` numbers, so that a file names each once. In the
+/// Finds corners of a mesh with the same `kParts` numbers, so that a file names each value once. In the
 /// order of first appearance.
 template <std::size_t kParts>
 class CornerTable {
@@ -16,7 +16,7 @@ class CornerTable {
 
   explicit CornerTable(std::size_t corners) { slots_.resize(std::bit_ceil(2 * corners + 1), kFree); }
 
-  /// The number of the value.
+  /// The number of the value, from 0.
   std::uint32_t add(Value value) {
     for (float& part : value) part += 0.0F;  // -0 is 0
     const std::size_t mask = slots_.size() - 1;
@@ -29,7 +29,7 @@ class CornerTable {
     }
   }
 
-  /// The values by their numbers. The last call.
+  /// The values by their numbers. Must be the last call.
   std::vector<Value> take() { return std::move(values_); }
 
  private:

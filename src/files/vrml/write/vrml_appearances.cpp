@@ -69,7 +69,7 @@ std::optional<VrmlTextureTransform> vrml_texture_transform(const world::PictureF
   const base::Vector2 across(std::sin(it.rotation), std::cos(it.rotation));
   it.scale = {rows.x(), linear.row(1).dot(across)};
   it.translation = linear.inverse() * base::Vector2(frame[2], frame[5]);
-  // What arithmetic leaves of nothing.
+  // Rounding errors become zero.
   for (double& part : it.translation)
     part = std::abs(part) < kRounding * (1.0 + it.translation.norm()) ? 0.0 : part;
   if (!it.translation.allFinite()) return {};
@@ -79,7 +79,7 @@ std::optional<VrmlTextureTransform> vrml_texture_transform(const world::PictureF
 }  // namespace
 
 void VrmlAppearances::name(const std::vector<MaterialId>& materials) {
-  // Those that can be called what they are called come first.
+  // Materials whose names are valid DEF names come first.
   for (const MaterialId id : materials) {
     const std::string& own = world_.find(id)->name;
     if (names_.take(own)) material_names_[id] = own;

@@ -15,7 +15,7 @@
 
 namespace icome::files {
 
-/// Writes materials with their textures as Appearance nodes, each once. Refers to what it was made of.
+/// Writes materials with their textures as Appearance nodes, each once. Refers to its arguments.
 class VrmlAppearances {
  public:
   VrmlAppearances(const std::filesystem::path& design, const world::World& world, VrmlNames& names,
@@ -24,14 +24,14 @@ class VrmlAppearances {
     names_.take(kNoMaterial);
   }
 
-  /// Gives the DEF names, in this order; asked for all before the first is written.
+  /// Gives the DEF names, in this order; to be called for all before the first is written.
   void name(const std::vector<world::MaterialId>& materials);
-  /// Does one of them need the PROTO for what VRML 2.0 has no fields for?
+  /// Does one of them need the PROTO for properties without fields in VRML 2.0?
   bool need_proto() const;
 
-  /// The field `appearance` of a Shape; without a material, what the default one looks like.
+  /// Writes the field `appearance` of a Shape; without a material, the look of the default one.
   base::Result<void> write(world::MaterialId id);
-  /// What of the written ones VRML 2.0 could not say.
+  /// Remarks on properties of the written ones that VRML 2.0 cannot express.
   std::vector<Remark> losses() const { return losses_.remarks(); }
 
  private:

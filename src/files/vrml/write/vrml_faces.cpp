@@ -38,8 +38,8 @@ bool looks_flat(const MeshGeometry& shape) {
   return true;
 }
 
-/// Will readers find no edge between faces that is a crease, and take the mesh for a smooth one? So does one
-/// with a single face: it looks alike both ways.
+/// Will readers find no crease between the faces, and take the mesh for a smooth one? True also for a single
+/// face, which looks alike both ways.
 bool has_no_creases(const TriangleMesh& mesh) {
   PolygonMesh faces;
   faces.positions.reserve(mesh.positions.size());
@@ -55,8 +55,8 @@ bool has_no_creases(const TriangleMesh& mesh) {
 std::array<float, 2> parts(const Vector2& value) {
   return {io::to_single(value.x()), io::to_single(value.y())};
 }
-/// Readers may make it one long again, and it would be another one to write: this one stays. All parts are
-/// rounded to the same decimal, or small ones would be moved each time.
+/// Readers may make the normal a unit vector again, which would be written differently: this one stays.
+/// All parts are rounded to the same decimal, or small ones would change each time.
 std::array<float, 3> parts(const Vector3& normal) {
   constexpr double kDecimals = 1e7;
   constexpr int kMostRounds = 16;
@@ -91,7 +91,7 @@ Corners<kParts> gather(const std::vector<std::array<Value, 3>>& corners) {
   return result;
 }
 
-/// Fields such as "normal Normal { vector [ ... ] }" and "normalIndex [ ... ]".
+/// Writes fields such as "normal Normal { vector [ ... ] }" and "normalIndex [ ... ]".
 template <std::size_t kParts>
 void write_corners(const Corners<kParts>& corners, std::string_view node, std::string_view list,
                    std::string_view index, VrmlText& text) {
@@ -109,7 +109,7 @@ void write_normals(const MeshGeometry& shape, VrmlText& text) {
   const bool flat = !shape.normals.empty() && looks_flat(shape);
   if (shape.normals.empty() || (flat && has_no_creases(shape.mesh)))
     return write_crease_angle(VrmlEdges::Smooth, text);
-  if (flat) return;  // as VRML shows it when nothing is said
+  if (flat) return;  // VRML's default
   write_corners(gather<3>(shape.normals), "normal Normal", "vector", "normalIndex", text);
 }
 

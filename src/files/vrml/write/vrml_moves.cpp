@@ -15,7 +15,7 @@ namespace {
 using world::KeyFrames;
 using world::Motion;
 
-/// As all Transforms have their turns: the numbers last.
+/// Rounded as the turns of all Transforms, with the angle last.
 std::array<float, 4> vrml_turn(const base::Quaternion& turn) {
   const VrmlTurn it = vrml_place(base::Affine3(turn)).rotation;
   return {it.axis.x(), it.axis.y(), it.axis.z(), it.angle};

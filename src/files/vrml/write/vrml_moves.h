@@ -11,18 +11,18 @@
 
 namespace icome::files {
 
-/// Writes what moves objects, as TimeSensors, interpolators and ROUTEs behind all objects. Refers to text and
-/// names.
+/// Writes the motions of objects, as TimeSensors, interpolators and ROUTEs behind all objects. Refers to text
+/// and names.
 class VrmlMoves {
  public:
   VrmlMoves(VrmlText& text, VrmlNames& names) : text_(text), names_(names) {}
 
-  /// The motion of an object, from where it stands now; null: it has none, or one that cannot be written,
-  /// which is told.
+  /// The motion of an object, from its present place; null: it has none, or one that cannot be written,
+  /// which a remark tells.
   const world::Motion* motion_of(const world::PhysicalObject& object);
-  /// Writes the fields of the Transform `def`, which moves so.
+  /// Writes the fields of the Transform `def`, which has this motion.
   void write_rest(const world::Motion& motion, const std::string& def);
-  /// Writes what moves the Transforms, which stand before.
+  /// Writes the nodes that move the Transforms, which come before.
   void write();
   std::vector<Remark> remarks() const;
 
@@ -39,8 +39,8 @@ class VrmlMoves {
   VrmlText& text_;
   VrmlNames& names_;
   std::vector<Moving> moving_;
-  std::map<std::pair<double, bool>, std::string> clocks_;  // by cycle, and whether it begins anew
-  world::Motion moved_;                                    // of the object asked for last
+  std::map<std::pair<double, bool>, std::string> clocks_;  // by cycle, and whether it loops
+  world::Motion moved_;                                    // of the last object asked for
   std::size_t bent_ = 0, lost_ = 0;
 };
 

@@ -17,15 +17,15 @@ using base::Affine3;
 using base::Matrix3;
 using base::Vector3;
 
-// What single precision does not tell from nothing beside one.
+// Numbers below this have no effect beside one in single precision.
 constexpr double kNothing = std::numeric_limits<float>::epsilon() / 4.0;
-// By how much one of several ways to say the same must be better than those before it, so that rounding
-// does not decide.
+// Least advantage by which one of several equivalent forms must be better than those before it, so that
+// rounding does not decide.
 constexpr double kClearly = 1e-5;
 
 constexpr double kStep = std::numbers::pi / 12.0;  // 15 degrees
 
-/// Parts of a turn by 15 degrees are meant where single precision cannot tell an angle from them.
+/// The exact multiple of 15 degrees where single precision cannot distinguish the angle from it.
 double meant_angle(float angle) {
   const double step = std::round(angle / kStep) * kStep;
   return float(step) == angle ? step : io::from_single(angle);
@@ -35,19 +35,19 @@ Vector3 decimals(const Eigen::Vector3f& value) {
   return {io::from_single(value.x()), io::from_single(value.y()), io::from_single(value.z())};
 }
 
-/// As Coin and others keep it: in quaternions of single precision, more decimals would come back as others.
-/// Parts of a turn by 15 degrees are told by more, whose meaning is known.
+/// Rounded to the precision of Coin and others, who keep quaternions in single precision: more decimals
+/// would be read back differently. Multiples of 15 degrees get more, as their exact value is known.
 float lasting_angle(double angle) {
   constexpr double kDecimals = 1e6;
-  // Half a turn is as far as it goes: rounding must not lead past it and back by the other way.
+  // Half a turn is the limit: rounding must not go past it and back by the other way.
   if (std::fabs(angle) > std::numbers::pi - 1.0 / kDecimals) return std::numbers::pi_v<float>;
   const double step = std::round(angle / kStep) * kStep;
   if (std::fabs(angle - step) < 0.5 / kDecimals) return float(step);
   return float(std::round(angle * kDecimals) / kDecimals);
 }
 
-/// All parts to the same decimal: rounded each by itself, readers that make the axis one long again would
-/// move the small ones, and another axis would be written each time.
+/// Rounded to the same decimal in all parts: readers that normalise the axis would otherwise change the
+/// small ones, and another axis would be written each time.
 Eigen::Vector3f lasting_axis(const Vector3& axis) {
   constexpr double kDecimals = 1e6;
   return ((axis * kDecimals).array().round() / kDecimals).cast<float>();
@@ -60,7 +60,7 @@ VrmlTurn turn_of(const Matrix3& rotation) {
   if (sine == 0.0) return {};
   Vector3 axis = turn.vec() / sine;
   double angle = 2.0 * std::atan2(sine, turn.w());
-  // The same turn about the opposite axis reads worse.
+  // The equivalent turn about the opposite axis is less readable.
   constexpr double kMuch = 0.4;
   int first = 0;
   while (first < 2 && std::fabs(axis[first]) < kMuch) ++first;
@@ -82,10 +82,10 @@ struct Stretch {
   Matrix3 rotation;
   Vector3 scale;
   Matrix3 orientation = Matrix3::Identity();
-  int axis = -1;  // the only one that is told from the others; -1: all three are
+  int axis = -1;  // the only one that differs from the others; -1: all three differ
 };
 
-/// Where stretches are equal their axes may lie anywhere: puts them where they turn least. True when so.
+/// Equal stretches leave their axes free: chooses those that turn least. False where none are equal.
 bool settle_equal(Stretch& stretch) {
   constexpr double kEqual = 2.0 * std::numeric_limits<float>::epsilon();
   const Vector3 scale = stretch.scale;  // sorted
@@ -177,7 +177,7 @@ VrmlPlace rounded(const Affine3& parent_from_object) {
   const Stretch stretch = stretch_of(matrix / size);
   for (int i = 0; i < 3; ++i) {
     frame.translation[i] = io::to_single(parent_from_object.translation()[i]);
-    // What was not flat must not become so.
+    // A frame that was not flat must not become so.
     const double scale = stretch.scale[i] * size;
     constexpr double kLeast = std::numeric_limits<float>::min();
     frame.scale[i] = io::to_single(std::copysign(std::max(std::fabs(scale), kLeast), scale));
@@ -191,7 +191,7 @@ VrmlPlace rounded(const Affine3& parent_from_object) {
 }  // namespace
 
 VrmlPlace vrml_place(const Affine3& parent_from_object) {
-  // Rounded axes are not quite of unit length, and rounded again they may be others: go on until they stay.
+  // Rounded axes are not quite of unit length, and may round differently again: repeats until they stay.
   constexpr int kMostRounds = 16;
   VrmlPlace frame = rounded(parent_from_object);
   for (int i = 0; i < kMostRounds; ++i) {

@@ -27,7 +27,7 @@ using world::MeshGeometry;
 using world::PrimitiveGeometry;
 using world::Vector3;
 
-/// Has VRML 2.0 a node for the primitive as it stands?
+/// Has VRML 2.0 a node for the primitive with its axis?
 bool is_native(const PrimitiveGeometry& shape) {
   if (const auto* cone = std::get_if<geometry::Cone>(&shape.primitive))
     return shape.axis == Axis::Y && cone->top_radius == 0.0;
@@ -144,7 +144,7 @@ class VrmlShapes::ByKind {
  private:
   void open(const char* node) { text_.open(head_ + node); }
 
-  /// The fields for other programs, and the end of the node.
+  /// Writes the fields for other programs, and the end of the node.
   void show(const Geometry& shape, VrmlEdges edges) {
     static const geometry::TriangleMesh kNothing;
     const auto triangles = shown_triangles(shape);

@@ -9,7 +9,7 @@
 
 namespace icome::files {
 
-/// Writes shapes as VRML 2.0 nodes: those that it has, the PROTOs of vrml_protos.h with triangles for other
+/// Writes shapes as VRML 2.0 nodes: its own nodes, the PROTOs of vrml_protos.h with triangles for other
 /// programs, or triangles alone.
 class VrmlShapes {
  public:

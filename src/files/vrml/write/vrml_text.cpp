@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFlushAt = 1U << 20U;
 constexpr std::size_t kSpacesPerLevel = 2;
-// Deeper down lines begin in the same column: a chain of objects must not make a file of spaces.
+// Deeper lines begin in the same column: a chain of objects must not make a file of spaces.
 constexpr int kMostLevels = 32;
 
 }  // namespace

@@ -15,10 +15,10 @@ class VrmlText {
  public:
   explicit VrmlText(io::NewFile& file) : file_(file) {}
 
-  /// VRML as it stands, of one line or several.
+  /// Adds finished VRML, of one line or several.
   void add(std::string_view vrml);
 
-  /// `head` is what stands before the brace: "geometry DEF wheel Cylinder".
+  /// `head` is the text before the brace: "geometry DEF wheel Cylinder".
   void open(std::string_view head);
   void close();
   /// A field of many values, such as children and rows.
@@ -39,9 +39,9 @@ class VrmlText {
   void polygon(std::span<const std::uint32_t> indices);
   void indices(std::span<const std::uint32_t> values);
 
-  /// Hands what is left to the file.
+  /// Writes the rest of the buffer to the file.
   void finish();
-  /// Was a number too large for single precision? It stands as the largest there is.
+  /// Was a number too large for single precision? The largest finite one is written for it.
   bool clipped() const { return clipped_; }
 
  private:
@@ -55,7 +55,7 @@ class VrmlText {
   io::NewFile& file_;
   std::string buffer_;
   int depth_ = 0;
-  bool empty_ = false;  // nothing stands yet in what was opened last
+  bool empty_ = false;  // nothing is written yet in the innermost node or list
   bool clipped_ = false;
 };
 

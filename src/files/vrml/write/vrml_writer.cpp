@@ -39,7 +39,7 @@ std::vector<world::Id<Named>> in_order(const World::Table<Named>& table) {
   return ids;
 }
 
-/// The DEF name of a script that can be written as it stands; nothing for what ICOME would not read again.
+/// The DEF name of a script that can be written unchanged; nothing for one that ICOME could not read again.
 std::optional<std::string> script_name(const world::Inert& inert) {
   const auto found = scan_vrml("#VRML V2.0 utf8\n" + inert.source, "a script");
   if (!found || found->scripts.size() != 1 || found->scripts[0].source != inert.source) return std::nullopt;
@@ -50,21 +50,21 @@ const world::ForceEffect* effect_of(const PhysicalObject& object) {
   return object.fixture ? std::get_if<world::ForceEffect>(&*object.fixture) : nullptr;
 }
 
-/// Is the object nothing but its fixture?
+/// Is the object a root that is nothing but its fixture?
 bool is_bare(const PhysicalObject& object) {
   return !object.parent && object.children.empty() && !object.geometry && !object.material &&
          !object.motion && object.parent_from_object.matrix() == base::Affine3::Identity().matrix();
 }
 
 base::Vector3 in_single_precision(const base::Vector3& direction) {
-  constexpr double kLeastPart = 1e-7;  // single precision makes something else of less at each saving
+  constexpr double kLeastPart = 1e-7;  // single precision changes smaller parts at each saving
   const auto part = [](double it) { return std::abs(it) < kLeastPart ? 0.0 : io::as_written(float(it)); };
   return {part(direction.x()), part(direction.y()), part(direction.z())};
 }
 
-/// In single precision, and such that whoever reads it, makes it a unit vector and writes it again writes the
-/// same: a design that is opened and saved is the same file. Rounding leads there in a step or two, or now
-/// and then round a small circle, of which the least is taken.
+/// In single precision, and stable against reading, normalising and writing again: a design that is opened
+/// and saved is the same file. Rounding becomes stable in a step or two, or now and then runs in a small
+/// cycle, of which the least is taken.
 base::Vector3 written_direction(const base::Vector3& unit) {
   constexpr int kMostSteps = 16;
   base::Vector3 direction = in_single_precision(unit);
@@ -79,8 +79,8 @@ base::Vector3 written_direction(const base::Vector3& unit) {
   return least;
 }
 
-/// The direction of a DirectionalLight that says all of the object but its name; none for others. Only in its
-/// group itself does it shine on that in other programs.
+/// The direction of a DirectionalLight that expresses all of the object but its name; none for others. In
+/// other programs it shines on its group only if it is in the group itself.
 std::optional<base::Vector3> direction_alone(const PhysicalObject& object) {
   const auto* const light = object.fixture ? std::get_if<Light>(&*object.fixture) : nullptr;
   if (light == nullptr || light->kind != Light::Kind::Directional || object.geometry || object.material ||
@@ -106,7 +106,7 @@ std::vector<ObjectId> all_objects(const World& world) {
   return order;
 }
 
-// Each object takes a brace and a bracket, what is in the last one a few more.
+// Each object takes a brace and a bracket, the content of the last one a few more.
 constexpr std::size_t kMostObjectsAbove = kMostNestedVrml / 2 - 5;
 
 tl::unexpected<base::Error> objects_too_deep() {
@@ -146,7 +146,7 @@ class VrmlWriter {
   struct Open {
     ObjectId id;
     std::size_t next_child = 0;
-    bool has_children = false;  // is there a field of them?
+    bool has_children = false;  // does it have the field?
   };
 
   void look_at_scripts();
@@ -170,7 +170,7 @@ class VrmlWriter {
     const auto found = object_names_.find(id);
     return found == object_names_.end() ? "" : found->second;
   }
-  /// Is its real name told beside its DEF name?
+  /// Is its real name written beside its DEF name?
   bool has_title(ObjectId id) const {
     const std::string& name = world_.find(id)->name;
     return !name.empty() && name != name_of(id);
@@ -214,7 +214,7 @@ void VrmlWriter::look_at_scripts() {
 }
 
 void VrmlWriter::give_names() {
-  // Those that can be called what they are called come first.
+  // Objects whose names are valid DEF names come first.
   for (const ObjectId id : objects_) {
     const std::string& name = world_.find(id)->name;
     if (!scripts_.contains(id) && names_.take(name)) object_names_[id] = name;
@@ -379,7 +379,7 @@ void VrmlWriter::write_fixture(ObjectId id, const PhysicalObject& object) {
   if (with_script_.contains(id)) text_.add(std::get<world::Inert>(*object.fixture).source);
 }
 
-/// Leaves its node open.
+/// Writes a light and leaves its node open.
 void VrmlWriter::write_light(const Light& light, const std::string& def, const base::Vector3& direction) {
   const Light usual;
   const bool directional = light.kind == Light::Kind::Directional;
@@ -396,7 +396,7 @@ void VrmlWriter::write_light(const Light& light, const std::string& def, const b
     if (light.attenuation != usual.attenuation) text_.field("attenuation", light.attenuation);
     if (light.radius != usual.radius) text_.field("radius", light.radius);
   }
-  if (spot) {  // programs do not agree on the last decimal of what is usual
+  if (spot) {  // programs differ in the last decimal of the default
     text_.field("cutOffAngle", light.cut_off_angle);
     text_.field("beamWidth", light.beam_width);
   }

@@ -8,9 +8,9 @@
 
 namespace icome::files {
 
-/// Writes a design as VRML 2.0 (docs/file-formats.md tells how); what was there is replaced when all is
-/// written, and stays if not. Pictures are put into a folder beside it, where no other file is changed.
-/// Fails when the file cannot be written or could not be read again; tells what it could not hold.
+/// Writes a design as VRML 2.0 (docs/file-formats.md describes it); an existing file is replaced when all
+/// is written, and stays if not. Pictures are put into a folder beside it, where no other file is changed.
+/// Fails when the file cannot be written or could not be read again; remarks on what it could not hold.
 base::Result<std::vector<Remark>> write_vrml(const std::filesystem::path& path, const world::World& world);
 
 }  // namespace icome::files
