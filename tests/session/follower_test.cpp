@@ -120,14 +120,14 @@ TEST(Follower, ReplicasEqualTheWorldAfterRandomEditsAndUndos) {
   std::vector<world::Edit> undo;
   for (int i = 0; i < 3000; ++i) {
     if (!undo.empty() && random.index(4) == 0) {
-      ASSERT_TRUE(main.history().perform(undo.back()));
+      ASSERT_TRUE(main.perform(undo.back()));
       undo.pop_back();
       continue;
     }
     world::Edit inverse = world::EditGroup{};
-    if (main.history().perform(edits.next(main.world), &inverse)) undo.push_back(std::move(inverse));
+    if (main.perform(edits.next(main.world), &inverse)) undo.push_back(std::move(inverse));
     if (i == 1500) {
-      main.files().open(World(main.world));
+      main.open(World(main.world));
       undo.clear();
     }
     if (i % 500 == 499) {
@@ -153,11 +153,11 @@ TEST(Follower, TakesTogetherWhatQueuedUpWhileItWasHeldUp) {
   const Closing closing{main.queue};
   world::IdSource ids;
   const auto first = ids.next<world::ObjectId>();
-  ASSERT_TRUE(main.history().perform(world::CreateObject{first, 0, {}}));
+  ASSERT_TRUE(main.perform(world::CreateObject{first, 0, {}}));
   entered.acquire();
   // More than the queue holds; that this goes on at all shows that nobody waits for the slow one.
   for (int i = 1; i <= 3000; ++i)
-    ASSERT_TRUE(main.history().perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
+    ASSERT_TRUE(main.perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
   wait_for(quick, main.queue);
   EXPECT_EQ(free.hashes.back(), world::hash(main.world));
   EXPECT_EQ(slow.followed(), 0U);
@@ -178,13 +178,13 @@ TEST(Follower, ShowsTheSceneThatWasAskedForLast) {
   const Closing closing{main.queue};
   world::IdSource ids;
   const auto scene = ids.next<world::SceneId>();
-  ASSERT_TRUE(main.history().perform(world::CreateScene{scene, "scene"}));
+  ASSERT_TRUE(main.perform(world::CreateScene{scene, "scene"}));
   Edited edited;
   edited.shown = scene;
   main.queue.post(edited);
   wait_for(follower, main.queue);
   EXPECT_EQ(diary.scenes.back(), scene);
-  main.files().open({});
+  main.open({});
   wait_for(follower, main.queue);
   EXPECT_EQ(diary.scenes.back(), world::SceneId{});
 }
@@ -196,10 +196,10 @@ TEST(Follower, LeavesWhatIsLeftWhenItIsGivenUp) {
   {
     Follower follower(main.queue, std::make_unique<HeldUp>(diary, entered, go_on), "slow");
     world::IdSource ids;
-    ASSERT_TRUE(main.history().perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
+    ASSERT_TRUE(main.perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
     entered.acquire();
     for (int i = 0; i < 100; ++i)
-      ASSERT_TRUE(main.history().perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
+      ASSERT_TRUE(main.perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
     follower.give_up();
     main.queue.close();
     go_on.release();
@@ -232,11 +232,11 @@ TEST(Follower, GoesOnWhenTheRepresentationThrows) {
   const Closing closing{main.queue};
   world::IdSource ids;
   const auto grow = [&] {
-    EXPECT_TRUE(main.history().perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
+    EXPECT_TRUE(main.perform(world::CreateObject{ids.next<world::ObjectId>(), 0, {}}));
     wait_for(follower, main.queue);
   };
   EXPECT_FALSE(follower.news());
-  main.files().open({});
+  main.open({});
   wait_for(follower, main.queue);
   const auto told = follower.news();
   ASSERT_TRUE(told);
