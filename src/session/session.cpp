@@ -84,7 +84,7 @@ void Session::Parts::start_followers() {
   followers.push_back(std::make_unique<Follower>(
       queue, std::make_unique<HapticFollower>(felt_settings(settings.servo), hands.servos(), felt),
       "felt world"));
-  // A tip with a radius feels what changes as it is at t = 0, and so it is seen.
+  // A tip with a radius feels changing shapes as they are at t = 0, and so they are seen.
   const bool shapes_change = !(settings.servo.scp.tip_radius > 0.0);
   auto eye = std::make_unique<RenderFollower>(display, seen, session_seconds, shapes_change);
   followers.push_back(std::make_unique<Follower>(queue, std::move(eye), "seen world"));
@@ -102,7 +102,7 @@ void Session::Parts::tell(SessionEvent::Kind kind, std::string text, std::vector
   events.push_back({kind, std::move(text), std::move(details)});
 }
 
-/// What other threads have brought. Pointers first: the names of what they touch are never older then.
+/// Takes in the news of other threads. Pointers first: the names of touched things are never older then.
 void Session::Parts::take_in() {
   queue.pump();
   take_files();
@@ -114,7 +114,7 @@ void Session::Parts::take_in() {
   notice_devices();
 }
 
-/// Each sentence once for a design.
+/// Tells each sentence once for a design.
 void Session::Parts::tell_what_is_not_as_it_is() {
   std::vector<std::string> news;
   const auto take = [&](const std::vector<std::string>& sentences) {
@@ -144,7 +144,7 @@ void Session::Parts::notice_devices() {
     if (pointer.time == 0) continue;  // no tick yet
     const bool is_lost = pointer.status == devices::DeviceStatus::Lost;
     const std::string& name = hands.info(i).name;
-    // One that was lost and came back in between is told of, too.
+    // A device that was lost and came back in between is reported, too.
     if (pointer.losses > std::exchange(losses[i], pointer.losses) && !lost[i]) {
       lost[i] = true;
       tell(SessionEvent::Kind::DeviceLost,
@@ -184,7 +184,7 @@ void Session::move_held_by_touch() {
     const bool held_part = parts_->part_grabs[i].holds();
     auto feel = parts_->part_grabs[i].update(*this, i, parts_->revisions, refused);
     const bool holds_part = parts_->part_grabs[i].holds();
-    // Who has lost a part presses for nothing else.
+    // A press that has lost a part takes hold of nothing else.
     if (held_part && !holds_part) parts_->ungrabbed[i] = true;
     if (!held_part && !holds_part) feel = parts_->grabs[i].update(*this, i, parts_->revisions, refused);
     if (feel) parts_->hands.grip(i, *feel);
@@ -243,11 +243,11 @@ base::Result<void> Session::set_shaping(const std::optional<interaction::Shaping
     interaction::Shaping fresh;
     if (const auto good = fresh.set(*settings); !good) return good;
     if (!parts_->shaping) parts_->shaping = std::move(fresh);
-    (void)parts_->shaping->set(*settings);  // what it knows of shapes it keeps
+    (void)parts_->shaping->set(*settings);  // it keeps its knowledge of shapes
   } else {
     parts_->shaping.reset();
   }
-  // What is held is let go: it may not be there to be held any more.
+  // Held things are let go: they may not be there to be held any more.
   for (std::size_t i = 0; i < pointers(); ++i) {
     if (holds(i)) parts_->hands.grip(i, {});
     parts_->grabs[i] = {};

@@ -22,7 +22,7 @@ std::string shown_name(const std::filesystem::path& design) {
 
 }  // namespace
 
-/// Takes in a design that was read, or why there is none.
+/// Takes in a design that was read, or the reason why there is none.
 void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
   const std::shared_ptr<ClaimedWork> work = std::exchange(recovering, nullptr);
   const std::string name = shown_name(outcome.design);
@@ -78,7 +78,7 @@ void Session::Parts::take_saved(DesignSaver::Outcome& outcome) {
   for (const files::Remark& it : *outcome.result)
     if (it.loses) missing.push_back(files::sentence(it, outcome.design.filename().string()));
   tell_of_saved(outcome, missing);
-  // Of a design that is not open any more.
+  // It is of a design that is not open any more.
   if (outcome.number < opened_number) return;
   path = outcome.design;
   left_out = std::move(missing);
@@ -98,7 +98,7 @@ void Session::Parts::take_files() {
          news->text);
 }
 
-/// So that what has been written by now is not kept against crashes, too.
+/// Ends all saving, so that work that is written by now is not kept against crashes, too.
 void Session::Parts::finish_saving() {
   while (saver.busy()) {
     saver.wait();
@@ -167,7 +167,7 @@ void Session::recover(const RecoverableWork& work) {
 }
 
 void Session::discard(const RecoverableWork& work) {
-  // What another program has claimed in the meantime is its own to keep.
+  // Work that another program has claimed in the meantime is left to it.
   if (const auto claimed = ClaimedWork::claim(work)) (*claimed)->discard();
 }
 

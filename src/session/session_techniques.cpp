@@ -10,7 +10,7 @@ namespace {
 using base::Pose;
 using base::Vector3;
 
-/// There, looking from the eye through it, as upright as the eye is: what the mouse points at is under it.
+/// A hand at the place that points away from the eye, as upright as the eye is: it points as the mouse does.
 Pose pointing_from_eye(const Pose& eye, const Vector3& place) {
   const Vector3 back = eye.translation() - place;
   Pose hand = eye;
@@ -32,7 +32,7 @@ bool Session::Parts::is_hand_there(std::size_t pointer) const {
          view.device_from_stylus.matrix().allFinite();
 }
 
-/// With its workspace where the user now is, which the servo gets to softly.
+/// The hand's pose with its workspace where the user now is, which the servo gets to softly.
 Pose Session::Parts::stage_from_hand(std::size_t pointer) const {
   const Pose hand = user.stage_from_device() * hands.view(pointer).device_from_stylus;
   if (!mouse_hand || pointer != 0) return hand;
@@ -57,7 +57,7 @@ void Session::Parts::carry_user(const Pose& by) {
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
 }
 
-/// A hand that holds something is held back by nothing.
+/// Sets the feel of a hand that holds something: nothing holds it back.
 void Session::Parts::feel_held(bool held) {
   haptics::GripFeel feel;
   feel.holds = held;
@@ -80,7 +80,7 @@ void Session::Parts::hold_by_technique(Session& session) {
   if (!refused.empty()) tell(SessionEvent::Kind::Notice, refused);
 }
 
-/// What is drawn of the technique, where it is something else than before.
+/// Renews the drawing of the technique, where it has changed.
 void Session::Parts::renew_marks(const Session& session) {
   std::optional<base::Affine3> copy;
   std::uint64_t now = 0;

@@ -18,7 +18,7 @@ constexpr charts::Colour kMarkedHandleColour{1.0, 0.55, 0.10};
 constexpr std::size_t kMostHandledObjects = 32;
 constexpr double kSymbolSlack = 0.01;  // of the field of view: some 6 pixels of 600
 
-/// Bit by bit: places that are not finite equal themselves.
+/// Compares bit by bit: places that are not finite equal themselves.
 bool same_bits(const std::vector<base::Vector3>& one, const std::vector<base::Vector3>& other) {
   return one.size() == other.size() &&
          (one.empty() || std::memcmp(one.data(), other.data(), one.size() * sizeof(base::Vector3)) == 0);
@@ -29,7 +29,7 @@ bool same_handles(const interaction::ShapingPicture& one, const interaction::Sha
          same_bits(one.marked_dots, other.marked_dots) && same_bits(one.marked_lines, other.marked_lines);
 }
 
-/// `line`: how many pixels thick.
+/// `line`: the thickness in pixels.
 void add_handles(const interaction::ShapingPicture& handles, double line, render::SceneOverlay& overlay) {
   overlay.lines.push_back({handles.lines, kHandleLineColour, 0.75 * line});
   overlay.lines.push_back({handles.marked_lines, kMarkedHandleColour, 1.5 * line});
@@ -61,7 +61,7 @@ void Session::Parts::move_user() {
 void Session::Parts::aim(const base::Vector3& position) {
   if (!mouse_hand) return;
   hand_is_aimed = true;
-  // It is taken up where it lies.
+  // A hand that lies aside is taken up where it lies.
   if (parked_at) mouse_hand->put(*std::exchange(parked_at, std::nullopt));
   mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
 }
@@ -71,7 +71,7 @@ void Session::Parts::put(const base::Vector3& position) {
   if (mouse_hand) mouse_hand->put(hands.stage_from_device(0).inverse() * position);
 }
 
-/// Put, not led: something may stand in the way.
+/// Puts the hand at the eye instead of leading it there: something may stand in the way.
 void Session::Parts::park() {
   if (!mouse_hand) return;
   const base::Vector3 eye = hands.stage_from_device(0).inverse() * user.view().world_from_eye.translation();
@@ -81,7 +81,7 @@ void Session::Parts::park() {
   mouse_hand->park(eye);
 }
 
-/// A group has no shape of its own: what is selected shows by all that moves along with it.
+/// A group has no shape of its own: the selection shows by all that moves along with it.
 void Session::Parts::renew_outline() {
   if (!std::exchange(outline_is_new, false)) return;
   std::vector<world::ObjectId> all;
@@ -94,7 +94,7 @@ void Session::Parts::renew_outline() {
   look_is_new = true;
 }
 
-/// What shapes can be dragged by, where it is now.
+/// Renews the handles by which shapes can be dragged, at their present places.
 void Session::Parts::renew_handles() {
   interaction::ShapingPicture now;
   if (shaping) {
@@ -111,14 +111,14 @@ void Session::Parts::renew_handles() {
   look_is_new = true;
 }
 
-/// What effects are seen as, where they are now.
+/// Renews the symbols of effects, at their present places.
 void Session::Parts::renew_symbols() {
   if (!std::exchange(symbols_are_new, false)) return;
   symbols = effects.overlay(world, shown_scene);
   look_is_new = true;
 }
 
-/// The operands and projectors of what is selected, where they are now.
+/// Renews the operands and projectors of the selection, at their present places.
 void Session::Parts::renew_parts() {
   if (!std::exchange(parts_are_new, false)) return;
   const bool had_parts = !part_outlines.empty();

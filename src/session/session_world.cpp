@@ -25,7 +25,7 @@ Edited one_after_the_other(const Edited& first, const Edited& then) {
 
 }  // namespace
 
-/// Performs on main's world, and keeps what is to be posted.
+/// Performs on main's world, and keeps the edit that is to be posted.
 world::EditSink Session::Parts::sink() {
   return world::EditSink([this](const world::Edit& edit) -> base::Result<world::Edit> {
     if (!queue.has_room())
@@ -39,7 +39,7 @@ world::EditSink Session::Parts::sink() {
   });
 }
 
-/// Posts what was performed, and tells of it.
+/// Posts the edit that was performed, and tells of it.
 base::Result<void> Session::Parts::done(base::Result<void> result) {
   if (!result) return result;
   const std::shared_ptr<const world::Edit> edit = performed->edit;
@@ -137,7 +137,7 @@ base::Result<void> Session::extend(const world::Edit& edit) {
   return parts_->done(extended);
 }
 
-/// Takes back what is being tried out, without posting it yet.
+/// Takes back the tried action, without posting it yet.
 base::Result<void> Session::Parts::take_back() {
   const auto taken = history.take_back(sink());
   if (taken) revisions.took_back();
