@@ -35,7 +35,7 @@ Vector3 MouseHand::target(const Input& input) {
   return last_;
 }
 
-// As a share of the view's distance it survives zooming.
+// The depth is a share of the view's distance, so that it survives zooming.
 Vector3 MouseHand::over_nothing(const Input& input, double wheel) {
   depth_ = std::clamp(depth_ * std::pow(kFree, wheel), 1e-3, 1e3);
   return input.ray.origin + depth_ * input.distance * input.ray.direction;
@@ -45,7 +45,7 @@ Vector3 MouseHand::over(const PickedPoint& picked, const Input& input, double wh
   depth_ = std::clamp(picked.distance / input.distance, 1e-3, 1e3);
   extra_ = std::clamp(extra_ + wheel, -kMostNotches, kMostNotches);
   const double width = input.view_width * picked.distance;
-  // Above a surface that is seen askew: off it, but still nearly under the mouse.
+  // Halfway between normal and sight: off a surface seen askew, but still nearly under the mouse.
   const Vector3 above = (picked.normal - input.ray.direction).stableNormalized();
   const Vector3 hover = picked.point + settings_.hover * width * above;
   const double pressure = unit_range(input.pressure) + kNotch * extra_;
@@ -56,11 +56,11 @@ Vector3 MouseHand::over(const PickedPoint& picked, const Input& input, double wh
   return hover + share * (pressed - hover);
 }
 
-/// Who presses deep at a rounded place slides off it, is lifted, and comes back to press and slide again: so
-/// the press of a mouse that rests is only eased, and slowly enough for the hand to follow.
+/// The share of the press to apply, in [0, 1]. A deep press at a rounded place slides off, is lifted, comes
+/// back and slides again: so while the mouse rests it is only eased, slowly enough for the hand to follow.
 double MouseHand::share_of_press(const PickedPoint& picked, double arrived, double deepest, bool turned) {
   constexpr double kRests = 0.25;  // of `deepest`: the mouse has not been moved
-  constexpr double kEase = 0.03;   // a picture
+  constexpr double kEase = 0.03;   // per picture
   if (!pressing_ || (picked.point - rests_at_).norm() > kRests * deepest) share_ = 0.0;
   if (share_ == 0.0) {
     rests_at_ = picked.point;
@@ -75,8 +75,8 @@ double MouseHand::share_of_press(const PickedPoint& picked, double arrived, doub
   return share_;
 }
 
-/// 1 where the hand may press with all its strength, 0 where it is elsewhere still. It may lag as far as it
-/// would press: that is what friction holds back.
+/// 1 where the hand may press with all its strength, 0 where it has not arrived yet. It may lag as far as
+/// it would press: friction holds it back so far.
 double MouseHand::arrived(const PickedPoint& picked, const Input& input, double width) const {
   if (!input.hand || !input.hand->allFinite()) return 1.0;
   const double lag = (*input.hand - picked.point).norm() / (settings_.deepest * width);
@@ -100,17 +100,17 @@ std::optional<Vector3> DragPlane::moved_in_plane(const Ray& ray, double reach) c
   return ray.origin + t * ray.direction - start_;
 }
 
-/// To the place of the line that the ray comes nearest to.
+/// The movement to the point of the line that is nearest to the ray.
 std::optional<Vector3> DragPlane::moved_along(const Vector3& line, const Ray& ray, double reach) const {
   const Vector3 back = start_ - ray.origin;
   const double both = line.dot(ray.direction);
-  const Vector3 across = ray.direction - both * line;  // of the ray, square to the line
+  const Vector3 across = ray.direction - both * line;  // the ray's part square to the line
   const double t = back.dot(across) / across.squaredNorm();
   if (!(t > 0.0 && t <= reach)) return std::nullopt;
   return line.dot(ray.origin + t * ray.direction - start_) * line;
 }
 
-/// Unit, from the centre to where the ray meets the plane.
+/// Unit vector from the centre to the point where the ray meets the plane.
 std::optional<Vector3> DragTurn::way_to(const Ray& ray) const {
   constexpr double kFlat = 1e-3;  // sine: rays that lie flatter meet the plane anywhere
   const double climb = axis_.dot(ray.direction);

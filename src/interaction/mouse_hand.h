@@ -5,27 +5,27 @@
 
 namespace icome::interaction {
 
-/// What lies under the mouse; world frame.
+/// The point of a surface that lies under the mouse; world frame.
 struct PickedPoint {
   Vector3 point = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  // unit, towards the eye's side
   double distance = 0.0;              // m, along the ray
 };
 
-/// Settings of a mouse or pen that acts as a pointer device. Lengths as shares of the view's width at the
-/// depth of what is touched, so that it feels the same at every zoom.
+/// Settings of a mouse or pen that acts as a pointer device. Lengths are shares of the view's width at
+/// the depth of the touched surface, so that it feels the same at every zoom.
 struct MouseHandSettings {
   double hover = 0.01;    // share, above the surface while no button is down; usually 0.005 to 0.05
   double deepest = 0.03;  // share, below the surface at full pressure; usually 0.01 to 0.1
 };
 
-/// Turns a mouse or a pen into the hand of a pointer device: it hovers over what is under the mouse and
-/// presses into it while the button is down, the deeper the harder a pen is pressed or the further the wheel
+/// Turns a mouse or a pen into the hand of a pointer device: it hovers over the surface under the mouse and
+/// presses into it while the button is down, deeper the harder a pen is pressed or the further the wheel
 /// was turned. It presses straight down, so that the surface contact point stays under the mouse, and only
-/// where the hand has arrived: on its way to somewhere else it is lifted, and so gets over what stands in
-/// between. While the mouse rests, what has slid away under the press is only ever eased, until it stays.
-/// Over nothing it stays as far from the eye as it was last. One thread owns it; the same inputs give the
-/// same targets.
+/// where the hand has arrived: on its way to somewhere else it is lifted, and so gets over obstacles in
+/// between. While the mouse rests, a press that slides away is only ever eased, until it stays. Over
+/// nothing it keeps its last distance from the eye. One thread owns it; the same inputs give the same
+/// targets.
 class MouseHand {
  public:
   explicit MouseHand(const MouseHandSettings& settings = {}) : settings_(settings) {}
@@ -39,7 +39,7 @@ class MouseHand {
     double wheel = 0.0;  // notches turned since the last input: presses deeper (away from the eye)
     std::optional<Vector3> hand = {};  // m, where its surface contact point is; nothing: where it should be
   };
-  /// Where the hand wants to be, m; where it wanted to be last, when the input is of no numbers.
+  /// The point that the hand aims at, m; the last one, where the input is not finite.
   Vector3 target(const Input& input);
 
  private:
@@ -64,8 +64,8 @@ class DragPlane {
   DragPlane(const Vector3& grasped, const Vector3& normal) : start_(grasped), normal_(normal) {}
   /// Keeps the movement on the line through the grasped point along this direction; nothing: in the plane.
   void keep_to(const std::optional<Vector3>& direction) { along_ = direction; }
-  /// How far it has moved, m; nothing where the ray does not meet the plane before the eye, or only a
-  /// thousand times as far away as what was grasped; with a line, where it comes near it, likewise.
+  /// Displacement since the grasp, m; nothing where the ray does not meet the plane in front of the eye, or
+  /// only beyond a thousand times the grasped point's distance; likewise for the place nearest to a line.
   std::optional<Vector3> moved(const Ray& ray) const;
 
  private:
@@ -83,8 +83,8 @@ class DragTurn {
   /// About the unit axis through the centre (m), from where the ray met the plane across it.
   DragTurn(const Vector3& centre, const Vector3& axis, const Ray& grasped)
       : centre_(centre), axis_(axis), from_(way_to(grasped)) {}
-  /// How far it has turned, right-handed, rad in (-pi, pi]; nothing where a ray does not meet that plane
-  /// before the eye, or in the centre.
+  /// Angle turned since the grasp, right-handed, rad in (-pi, pi]; nothing where a ray does not meet
+  /// that plane before the eye, or meets it in the centre.
   std::optional<double> turned(const Ray& ray) const;
 
  private:

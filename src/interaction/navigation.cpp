@@ -11,18 +11,18 @@ using base::Matrix3;
 using base::Quaternion;
 using std::numbers::pi;
 
-// The nearest and the farthest that is looked at, m: from a part of the smallest primitive to the Moon.
+// The least and the greatest distance of view, m: from a part of the smallest primitive to the Moon.
 constexpr double kNearest = 1e-10;
 constexpr double kFarthest = 1e9;
 
-/// The value within its range; for no number, another.
+/// The value clamped to its range; `otherwise` where it is not finite.
 double within(double value, double least, double most, double otherwise) {
   return std::isfinite(value) ? std::clamp(value, least, most) : otherwise;
 }
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
-/// The same angle (rad) within a half turn either way; 0 for no number.
+/// The angle (rad) wrapped to half a turn either way; 0 where it is not finite.
 double wrapped(double angle) { return std::isfinite(angle) ? std::remainder(angle, 2.0 * pi) : 0.0; }
 
 double sane_aspect(double aspect) { return within(aspect, 1e-3, 1e3, 1.0); }
@@ -36,13 +36,13 @@ Matrix3 about_y(double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY()
 
 Matrix3 about_x(double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitX()).toRotationMatrix(); }
 
-/// Rounding must not add up over the many turns of a day.
+/// The nearest rotation, so that rounding does not add up over the many turns of a day.
 Matrix3 rigid(const Matrix3& rotation) { return Quaternion(rotation).normalized().toRotationMatrix(); }
 
-/// How high above what is looked at the eye stands, rad: beyond a quarter turn it is upside down.
+/// Elevation of the eye above the point looked at, rad: beyond a quarter turn it is upside down.
 double elevation(const Matrix3& rotation) { return std::atan2(rotation(1, 2), rotation(1, 1)); }
 
-/// The way the picture's right points, rad from +x about +y.
+/// Direction of the picture's right, rad from +x about +y.
 double heading(const Matrix3& rotation) { return std::atan2(-rotation(2, 0), rotation(0, 0)); }
 
 /// Is the picture's right on the horizon, and its up not down?
@@ -51,8 +51,8 @@ bool is_level(const Matrix3& rotation) {
   return std::abs(rotation(1, 0)) < kRounding && rotation(1, 1) > -kRounding;
 }
 
-/// Turned to the left about the vertical, and so that the eye would rise. Never over a pole; who is over one
-/// already can only come back.
+/// The rotation turned to the left about the vertical, and so that the eye would rise. Never over a pole; an
+/// eye that is over one already can only come back.
 Matrix3 turned(const Matrix3& rotation, double left, double rise) {
   const double now = elevation(rotation);
   const double limit = std::max(0.5 * pi, std::abs(now));
@@ -62,7 +62,7 @@ Matrix3 turned(const Matrix3& rotation, double left, double rise) {
   return rigid(about_y(sense * wrapped(left)) * rotation * about_x(now - then));
 }
 
-/// The view elsewhere, or the same where that cannot be.
+/// The view moved there, or unchanged where that is out of reach.
 View placed(const View& view, const Matrix3& rotation, const Vector3& eye, double distance) {
   if (!reachable(eye, distance)) return view;
   View result = view;
@@ -89,7 +89,7 @@ Matrix3 eye_axes(const Vector3& toward_eye, const Vector3& up, const Vector3& ri
   return axes;
 }
 
-/// From how far (m) an eye that looks at the box's centre sees all its corners.
+/// Distance (m) from which an eye that looks at the box's centre sees all its corners.
 double fit_distance(const Vector3& sizes, const Matrix3& axes, const Eigen::Vector2d& half_picture) {
   double distance = 0.0, nearest = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -147,7 +147,7 @@ View orbited(const View& view, double right, double up) {
 
 View looked_around(const View& view, double right, double up) {
   const View from = usable(view);
-  // Who looks up lowers the place that an eye going round would take.
+  // Looking up lowers the place that an eye going round would take.
   const Matrix3 rotation = turned(from.world_from_eye.linear(), -right, -up);
   return placed(from, rotation, from.world_from_eye.translation(), from.distance);
 }
@@ -202,14 +202,14 @@ ViewFlight::ViewFlight(const View& from, const View& to, double seconds)
       to_(usable(to)),
       seconds_(seconds > 0.0 && std::isfinite(seconds) ? seconds : 0.0) {}
 
-// The path of equal optical speed, with the paper's names: u the way along, w the width of what is seen; both
-// as a distance at which the picture is that wide.
+// The path of equal optical speed, with the paper's names: u the way along, w the width of the view; both as
+// a distance at which the picture is that wide.
 ViewFlight::Stage ViewFlight::stage(double progress) const {
   const double w0 = from_.distance;
   const double w1 = to_.distance;
   const double width = 2.0 * std::tan(0.5 * std::min(from_.field, to_.field));
   const double u1 = (looked_at(to_) - looked_at(from_)).norm() / width;
-  constexpr double kRho = 1.4;  // how much rather one steps back than goes sideways
+  constexpr double kRho = 1.4;  // preference for stepping back over going sideways
   constexpr double kRho2 = kRho * kRho;
   constexpr double kStraight = 1e-6;  // sideways so little that the formulas would lose their digits
   if (u1 < kStraight * std::min(w0, w1)) return {progress, w0 * std::pow(w1 / w0, progress)};

@@ -8,14 +8,14 @@ using base::Bounds;
 using base::Pose;
 using base::Vector3;
 
-/// Where one looks from. The eye looks along its -z, y up; world frame, y up.
+/// The viewpoint. The eye looks along its -z, y up; world frame, y up.
 struct View {
   Pose world_from_eye = Pose(Eigen::Translation3d(0.0, 0.0, 1.0));
   double field = 0.6;     // rad, of the shorter side of the picture; 0.05 to 2.5
-  double distance = 1.0;  // m, from the eye to what is looked at: what orbiting turns about; > 0
+  double distance = 1.0;  // m, from the eye to the point looked at, about which orbiting turns; > 0
 };
 
-/// What moving the navigation device moves (thesis 2.4.2).
+/// The thing that the navigation device moves (thesis 2.4.2).
 enum class NavigationMode : std::uint8_t { Camera, Hand };
 
 /// A straight line that starts somewhere; world frame.
@@ -33,43 +33,43 @@ Ray ray_through(const View& view, double x, double y, double aspect);
 /// The point at `distance` straight ahead of the eye.
 Vector3 looked_at(const View& view);
 
-/// The view with what no view can have (not a number, out of range, not rigid) put right.
+/// The view with impossible values (not a number, out of range, not rigid) put right.
 View usable(const View& view);
 
 // Movements of a view. Each is a pure function; all keep the horizon level unless the view was tilted
-// already, and never turn over the poles. The view they give is usable, whatever they are given: what leads
-// nowhere is no movement.
+// already, and never turn over the poles. The view they give is usable, whatever they are given: an
+// impossible movement is left out.
 
 /// The eye goes round the point at `distance`: rad to the right and up.
 View orbited(const View& view, double right, double up);
 /// The view turned where it is: rad to the right and up.
 View looked_around(const View& view, double right, double up);
-/// Sideways, so that what is at `distance` follows the mouse: shares of the picture's shorter side.
+/// Moved sideways, so that things at `distance` follow the mouse: shares of the picture's shorter side.
 View panned(const View& view, double right, double up);
 /// Nearer (factor < 1) or farther; `towards` stays in its place in the picture.
 View zoomed(const View& view, double factor, const Vector3& towards);
-/// As the navigation device says, for dt seconds: pushed by up to one `distance` a second, turned by up to a
-/// quarter turn a second. What tilts the horizon is left out.
+/// Moved as the navigation device says, for dt seconds: pushed by up to one `distance` a second, turned by
+/// up to a quarter turn a second. Turns that tilt the horizon are left out.
 View flown(const View& view, const devices::NavigationState& state, double dt);
-/// Looks at the centre of the bounds from the direction (to the eye), as near as that goes with all of them
-/// in the picture and a little room around. Bounds that are empty or without end are taken as a ball of 0.1 m
-/// around the origin; a point is looked at from where it is.
+/// Looks at the centre of the bounds from the direction (to the eye), as near as possible with all of them in
+/// the picture and a little room around. Bounds that are empty or without end are taken as a ball of 0.1 m
+/// around the origin; a point is looked at from the view's distance.
 View fitted(const View& view, const Bounds& bounds, const Vector3& toward_eye, const Vector3& up,
             double aspect);
 
-/// A view on its way to another: starts and ends softly and turns the short way. What the views look at
-/// stays in the middle of the picture; to get far it steps back first, so that one sees where one goes (van
-/// Wijk and Nuij, Smooth and Efficient Zooming and Panning, 2003).
+/// A view on its way to another: starts and ends softly and turns the short way. The point looked at stays
+/// in the middle of the picture; to get far it steps back first, so that one sees the way (van Wijk and
+/// Nuij, Smooth and Efficient Zooming and Panning, 2003).
 class ViewFlight {
  public:
   /// Over at once when `seconds` is no positive number.
   ViewFlight(const View& from, const View& to, double seconds);
-  /// Where it is after that time (s); `to` from the end on.
+  /// The view after that time (s); `to` from the end on.
   View at(double time) const;
   bool over(double time) const { return !(time < seconds_); }
 
  private:
-  /// How far along to what is looked at, in [0, 1], and how far away the eye is, m.
+  /// Progress of the point looked at, in [0, 1], and the eye's distance from it, m.
   struct Stage {
     double along, distance;
   };

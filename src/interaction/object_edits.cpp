@@ -23,7 +23,7 @@ Affine3 place_of_frame(const World& world, ObjectId frame) {
   return frame ? world::world_from_object(world, frame) : Affine3::Identity();
 }
 
-/// Parents within parents may shrink space to nothing, though no place by itself does.
+/// The inverse. Fails where parents within parents shrink space to nothing, though no place by itself does.
 Result<Affine3> inverse_of(const Affine3& world_from_frame) {
   const Affine3 inverse = world_from_frame.inverse();
   if (inverse.matrix().allFinite()) return inverse;
@@ -36,7 +36,7 @@ std::size_t place_among(const World& world, const std::vector<ObjectId>& sibling
   return world::place_near(siblings, id, world.find(id)->place_hint);
 }
 
-/// Moves all edits of a group but those that delete shapes, and counts who lets go of which shape.
+/// Collects the edits that delete a subtree but not its shapes, and counts the users that each shape loses.
 void take_subtree(const World& world, ObjectId root, std::vector<world::Edit>& edits,
                   std::map<world::GeometryId, std::uint32_t>& let_go) {
   world::Edit subtree = world::delete_subtree(world, root);

@@ -6,18 +6,18 @@
 namespace icome::interaction {
 
 // Edits that people make of several objects at once. Objects below another of them go along with it; those
-// that are not there (any more) are left out.
+// that do not exist (any more) are left out.
 
-/// Deletes the objects with all below them, and the shapes that nothing is made of then.
+/// Deletes the objects with all below them, and the shapes that no object uses then.
 world::Edit delete_objects(const world::World& world, std::span<const world::ObjectId> objects);
 
 /// Puts the objects under `parent` (none: among the roots), one after the other, before the sibling-to-be
 /// that is at `place` now; they stay where they are in the world. Fails where the parent is one of them or
-/// below one, or is not there.
+/// below one, or does not exist.
 base::Result<world::Edit> put_under(const world::World& world, std::span<const world::ObjectId> objects,
                                     world::ObjectId parent, std::size_t place);
 
-/// What grouping does, ready to be applied, and the object that will be the group.
+/// The edit that groups objects, ready to be applied, and the object that will be the group.
 struct Grouping {
   world::Edit edit;
   world::ObjectId group;

@@ -7,22 +7,22 @@
 
 namespace icome::interaction {
 
-/// Those of the objects that are there and not below another of them, each once and in the same order: what
-/// is done to them is done to all.
+/// The objects that exist and are not below another of them, each once and in the given order: a change of
+/// these carries all others along.
 std::vector<world::ObjectId> topmost(const world::World& world, std::span<const world::ObjectId> objects);
 
-/// Objects that are moved together: where they stood when that began, so that the last of many steps leaves
-/// them where the hand is, without the rounding of those before it.
+/// Objects that are moved together. Keeps their places at the start, so that the last of many steps leaves
+/// them where the hand is, without the rounding of earlier steps.
 class ObjectMove {
  public:
-  /// An object that is selected along with one above it moves once. Where parents within parents shrink space
-  /// to nothing, there is nowhere to go.
+  /// An object that is selected along with one above it moves once. An object whose parents shrink space to
+  /// nothing is left out.
   ObjectMove(const world::World& world, std::span<const world::ObjectId> objects);
 
-  /// There is nothing to move.
+  /// Is there nothing to move?
   bool empty() const { return starts_.empty(); }
   const std::vector<world::ObjectId>& objects() const { return objects_; }
-  /// Puts all of them where they stood, moved by that much (m, world frame).
+  /// Moves all of them by the offset (m, world frame) from where they stood at the start.
   world::Edit by(const base::Vector3& offset) const;
 
  private:

@@ -12,8 +12,8 @@
 
 namespace icome::session {
 
-/// One piece of work on a thread of its own, which whoever began it asks now and then whether it is done.
-/// Owns the thread.
+/// One piece of work on a thread of its own, which is asked now and then whether it is done. Owns the
+/// thread.
 template <typename T>
 class BackgroundTask {
  public:
@@ -31,10 +31,10 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// From then on take() does not wait.
+  /// Is the work done? take() does not wait then.
   bool is_done() const { return done_.load(std::memory_order_acquire); }
   void wait() const { done_.wait(false, std::memory_order_acquire); }
-  /// Waits for the work and gives what came of it. Once.
+  /// Waits for the work and gives its result. Once.
   base::Result<T> take() {
     if (thread_.joinable()) thread_.join();
     return std::move(*result_);

@@ -20,12 +20,12 @@ std::uint64_t memory_of_edits(const Edited& edited) {
 
 bool EditedQueue::Reader::wait() {
   for (;;) {
-    // Asked before looking: what was kept is the reader's once it is closed.
+    // Read before looking: kept posts are the reader's once the queue is closed.
     const bool closed = closed_.load(std::memory_order_acquire);
     if (look()) return true;
     if (closed) return false;
     news_.acquire();
-    // One look finds all that is there, however often it was told.
+    // One look finds everything, however often it was signalled.
     while (news_.try_acquire()) {
     }
   }
@@ -57,7 +57,7 @@ bool EditedQueue::Reader::look() {
   return next_.has_value();
 }
 
-/// The posting thread: moves what was kept into the pipe as far as there is room.
+/// Moves kept posts into the pipe as far as there is room. The posting thread calls it.
 void EditedQueue::Reader::hand_on() {
   bool some = false;
   while (!kept_.empty() && pipe_.try_push(std::move(kept_.front()))) {

@@ -32,7 +32,7 @@ void Follower::run() {
     } catch (...) {
       note("for no known reason");
     }
-    // They are in the replica, which is opened where this was not to be followed.
+    // The edits are in the replica, which is opened anew where they could not be followed.
     whole_.reset();
     edits_.clear();
     other_scene_ = other_play_ = false;
@@ -41,14 +41,14 @@ void Follower::run() {
   }
 }
 
-/// For posts, or until the representation goes on by itself; false when there will be no more.
+/// Waits for posts, or until the representation goes on by itself; false when there will be no more.
 bool Follower::wait() {
   const auto pause = lost_ || half_way_ ? std::nullopt : representation_->pause(replica_);
   return pause ? reader_.wait_for(*pause) : reader_.wait();
 }
 
 void Follower::take_all() {
-  // Who edits without a pause shall see something in between.
+  // Caps the batch, so that continuous edits are still shown in between.
   constexpr int kMostAtOnce = 4096;
   for (int i = 0; i < kMostAtOnce; ++i) {
     auto edited = reader_.take();
@@ -69,7 +69,7 @@ void Follower::take(Edited& edited) {
     lost_ = false;
   }
   if (edited.for_replicas && !lost_) {
-    // Held until the representation has followed: names of what has changed are read off them.
+    // Edits are held until the representation has followed: names of changed things are read off them.
     lost_ = true;
     edits_.push_back(std::move(edited.for_replicas));
     [[maybe_unused]] const auto done = world::apply(replica_, *edits_.back());

@@ -14,27 +14,27 @@
 namespace icome::session {
 
 /// Keeps a representation up to date on a thread of its own: a replica of the world goes through the same
-/// edits as main's, those that have queued up meanwhile in one go. What the representation throws, such as
-/// for want of memory, is told of, and it is opened anew with the next post. Owns replica, representation and
-/// thread.
+/// edits as main's, through those that have queued up meanwhile in one go. Exceptions of the representation,
+/// such as for want of memory, are reported, and it is opened anew with the next post. Owns replica,
+/// representation and thread.
 class Follower {
  public:
-  /// Starts with an empty world. `name` ("felt world") is what people are told of, and the thread's, of which
-  /// debuggers show 15 letters. The queue outlives this.
+  /// Starts with an empty world. `name` ("felt world") is used in what people are told and for the thread, of
+  /// which debuggers show 15 letters. The queue outlives this.
   Follower(EditedQueue& queue, std::unique_ptr<Representation> representation, std::string name);
-  /// Waits for what the representation is making; what is in the queue behind that is left there. The queue
-  /// has been closed.
+  /// Waits for the representation to end what it is making; later posts are left in the queue.
+  /// Precondition: the queue has been closed.
   ~Follower();
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
-  /// The number of the last post that the representation shows, or could not. Any thread.
+  /// The number of the last post that the representation shows, or failed to show. Any thread.
   std::uint64_t followed() const { return followed_.load(std::memory_order_acquire); }
-  /// How often the representation was brought up to date: less often than there were posts, where making took
-  /// long. Any thread.
+  /// Number of times that the representation was brought up to date: fewer than there were posts, where
+  /// making took long. Any thread.
   std::uint64_t rounds() const { return rounds_.load(std::memory_order_relaxed); }
 
-  /// The queue's readers end without taking what is left. Before the queue is closed.
+  /// Lets the reader end without taking what is left. To be called before the queue is closed.
   void give_up() { given_up_.store(true, std::memory_order_relaxed); }
 
   /// A sentence or two when the representation has fallen behind, or follows again, since the last call.
@@ -42,7 +42,7 @@ class Follower {
   std::optional<std::string> news();
 
  private:
-  /// Why the representation does not follow; empty: it does. Takes no memory, of which there may be none.
+  /// The reason why the representation does not follow; empty: it does. Takes no memory: there may be none.
   using Trouble = std::array<char, 128>;
 
   void run();
@@ -57,7 +57,7 @@ class Follower {
   std::unique_ptr<Representation> representation_;
   world::World replica_;
   world::SceneId shown_ = {};
-  // Since the representation was brought up to date.
+  // Taken since the representation was brought up to date.
   std::shared_ptr<const world::World> whole_;
   std::vector<std::shared_ptr<const world::Edit>> edits_;
   bool other_scene_ = false;

@@ -5,15 +5,15 @@
 
 namespace icome::session {
 
-/// Knows which of its states a world with a history is in, so that one that was undone back to what was saved
-/// is not modified. Told of all that is done to the history.
+/// Numbers the states of a world with a history, so that a world that was undone back to its saved state is
+/// not modified. To be told of everything that is done to the history.
 class Revisions {
  public:
   void performed() {
     undone_.clear();
     done_.push_back(++last_);
   }
-  /// What is tried out, and what becomes of it when nothing else was done before it is taken back.
+  /// An action is tried out, and taken back when nothing else has been done since.
   void tried() {
     aside_ = std::exchange(undone_, {});
     done_.push_back(++last_);
@@ -32,7 +32,7 @@ class Revisions {
     undone_.pop_back();
   }
 
-  /// Another one in each state, also of other histories.
+  /// The number of the present state, another one in each, also of other histories.
   std::uint64_t now() const { return done_.empty() ? first_ : done_.back(); }
   /// Begins anew, with another world.
   void restart() {

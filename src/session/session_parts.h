@@ -26,23 +26,21 @@
 
 namespace icome::session {
 
-/// The time of what moves and changes in sessions: the same for hand, eye and main. Any thread.
+/// The clock of all motions and changes in sessions, s: the same for hand, eye and main. Any thread.
 inline double session_seconds() {
   static const std::int64_t kStart = base::steady_nanoseconds();
   return 1e-9 * double(base::steady_nanoseconds() - kStart);
 }
 
-/// What a session is made of. All of it is main's, but for what threads of its own have.
-struct SessionParts {
-  SessionParts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
-               devices::SimulatedDevice* mouse_hand);
-  ~SessionParts();
-
-  // session_history.cpp
-  base::Result<void> take_back();
+/// The parts of a session. All of them are main's, but for those of the session's other threads.
+struct Session::Parts {
+  Parts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
+        devices::SimulatedDevice* mouse_hand);
+  ~Parts();
 
   // session_world.cpp
   base::Result<void> done(base::Result<void> result);
+  base::Result<void> take_back();
   void open_world(world::World opened, const std::filesystem::path& design,
                   const std::shared_ptr<ClaimedWork>& recovered = nullptr);
   void tell_change(const world::Changes* changes);
@@ -68,7 +66,6 @@ struct SessionParts {
   void renew_symbols();
   void renew_parts();
   void renew_handles();
-  void mark_part(const std::optional<MarkedPart>& marked);
   void publish_wish();
 
   // session_techniques.cpp
@@ -105,7 +102,7 @@ struct SessionParts {
   world::SceneId shown_scene = {};
   std::optional<double> played_since;  // s, of session_seconds; none: motions are not played
   std::vector<world::ObjectId> selection;
-  // A listener may let another one in while it is called.
+  // A listener may add another one while it is called.
   std::deque<std::function<void(const world::Changes*)>> change_listeners;
   std::deque<std::function<void()>> selection_listeners;
   std::vector<SessionEvent> events;  // that update() has not given yet
@@ -116,7 +113,7 @@ struct SessionParts {
   std::vector<world::ObjectId> outlined;           // the selection, and all below it
   bool outline_is_new = false;                     // it may be
   std::optional<render::SceneOverlay> marks = {};  // of the technique
-  std::uint64_t marks_of = 0;                      // what they show
+  std::uint64_t marks_of = 0;                      // hash of what they show
   std::optional<base::Affine3> miniature = {};     // of the technique, from the stage
   UserInteraction user;
   std::int64_t technique_since = 0;  // ns, when the technique was chosen
@@ -124,7 +121,7 @@ struct SessionParts {
   interaction::View drawn_view;
   double aspect = 1.5;         // of the picture
   bool hand_is_aimed = false;  // by the mouse
-  /// Where the mouse's hand lies aside, m, in its device's frame; none while it is aimed.
+  /// The place where the mouse's hand lies aside, m, in its device's frame; none while it is aimed.
   std::optional<base::Vector3> parked_at = base::Vector3(base::Vector3::Zero());
 
   EditedQueue queue;
@@ -134,7 +131,7 @@ struct SessionParts {
   std::vector<HandGrab> grabs;       // of each pointer
   std::vector<PartGrab> part_grabs;  // likewise
   GrabSettings grab_settings;
-  std::optional<interaction::Shaping> shaping;           // nothing: objects are what is dragged
+  std::optional<interaction::Shaping> shaping;           // nothing: objects are dragged
   std::vector<PointGrab> point_grabs;                    // of each pointer
   std::optional<interaction::MarkedHandle> mouse_marks;  // as the mouse's tool says
   interaction::ShapingPicture handles;                   // as they are drawn
@@ -142,7 +139,7 @@ struct SessionParts {
   bool symbols_are_new = false;  // they may be
   render::SceneOverlay symbols;  // of the effects, as they are drawn
   PartOutlines part_outlines;
-  std::optional<MarkedPart> marked_part;  // as the mouse's tool or who drags it says
+  std::optional<MarkedPart> marked_part;  // as the mouse's tool says, or the hand that drags it
   bool parts_are_new = false;             // outlines may be others
   std::shared_ptr<TargetMaker> target_maker = std::make_shared<TargetMaker>();
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
@@ -151,8 +148,8 @@ struct SessionParts {
   std::vector<std::uint64_t> losses;         // that a person was told of
   realtime::LatestValue<FeltVersion> felt;
   realtime::LatestValue<render::RenderScenePointer> seen;
-  std::set<std::string> told;  // of what is not as it is, since the design was opened
-  // What was looked at for it, as of the design before.
+  std::set<std::string> told;  // of differences from the design, since it was opened
+  // The versions whose remarks have been read.
   render::RenderScenePointer looked_at;
   std::shared_ptr<const std::vector<std::string>> listened_to;
   DesignLoader loader;

@@ -10,7 +10,7 @@ using world::EditGroup;
 using world::MoveVertices;
 using world::World;
 
-/// Does it make shapes of those that are there?
+/// Does the edit make new shapes of those that are there?
 bool makes_shapes(const Edit& edit) {
   if (const auto* group = std::get_if<EditGroup>(&edit.what))
     return std::any_of(group->edits.begin(), group->edits.end(), makes_shapes);

@@ -9,8 +9,8 @@ struct SharedEdit {
   world::Edit for_replicas;  // does the same to another copy of the world, without making shapes anew
 };
 
-/// Performs an edit as world::apply does, and also gives what makes replicas equal again: shapes that took
-/// work to make are in it.
+/// Performs an edit as world::apply does, and also gives the edit that makes replicas equal again: it
+/// holds the shapes that took work to make.
 base::Result<SharedEdit> perform_shared(world::World& world, const world::Edit& edit);
 
 }  // namespace icome::session

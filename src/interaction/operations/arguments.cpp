@@ -21,12 +21,12 @@ using base::fail;
 using base::Result;
 using Check = Result<void>;
 
-/// Whole numbers beyond are no count of anything.
+/// The largest whole number that is taken as a count.
 constexpr double kLargestCount = 9007199254740992.0;  // 2^53
 
 bool is_whole(double number) { return number == std::floor(number) && std::abs(number) <= kLargestCount; }
 
-/// "3 numbers", for what was wanted of a value.
+/// The values that a parameter takes, in words: "a whole number".
 std::string wanted(const Parameter& parameter) {
   switch (parameter.kind) {
     case ParameterKind::Flag:
@@ -112,13 +112,13 @@ Check check_colour(const Parameter& parameter, const Value& value) {
                                                                              : not_wanted(parameter);
 }
 
-/// Finds many objects by name: to look at all of them for every name would take the product.
+/// Finds many objects by name, without a search through all objects for each of them.
 class ObjectNames {
  public:
   explicit ObjectNames(const world::World& world) : world_(world) {
     for (const auto& [id, object] : world.objects()) {
       const auto [found, fresh] = by_name_.try_emplace(object.name, id);
-      if (!fresh) found->second = {};  // of several
+      if (!fresh) found->second = {};  // several have it
     }
   }
 
@@ -199,7 +199,7 @@ const Parameter* parameter_named(const std::vector<Parameter>& parameters, std::
   return found == parameters.end() ? nullptr : &*found;
 }
 
-/// What the first parameter, which others may depend on, is set to; empty where it is no choice.
+/// The choice made for the first parameter, on which others may depend; empty where it is no Choice.
 std::string chosen(const std::vector<Parameter>& parameters, const Value::Fields& said) {
   if (parameters.empty() || parameters.front().kind != ParameterKind::Choice) return {};
   const Value* value = field(said, parameters.front().name);
@@ -244,7 +244,7 @@ std::string some_paths(const world::World& world, const std::vector<world::Objec
   return fmt::format("{}{}", fmt::join(paths, ", "), objects.size() > kMostNames ? " and others" : "");
 }
 
-/// Objects that are named as the end of the path, among those that are named as the rest of it above them.
+/// Does the path name the object, by its own name at the end and the names of those above it before that?
 bool ends_path(const world::World& world, const world::PhysicalObject& object, std::string_view path) {
   if (object.name == path) return true;
   if (object.name.empty() || !path.ends_with(object.name)) return false;
@@ -320,7 +320,7 @@ std::vector<double> Arguments::numbers(std::string_view name) const {
 std::vector<std::uint32_t> Arguments::counts(std::string_view name) const {
   std::vector<std::uint32_t> counts;
   for (const Value& item : *at(name).list()) {
-    // What is too large for an index names nothing: the operation then says so.
+    // Numbers too large for an index become the largest, which names nothing: the operation says so.
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     counts.push_back(std::uint32_t(std::min(*item.number(), kMost)));
   }

@@ -15,20 +15,20 @@ namespace icome::interaction {
 using base::Vector2;
 using base::Vector3;
 
-/// Reads the file of a picture: what it is called, its kind and its bytes. Fails with a sentence that names
-/// the file. Without a function no files are read.
+/// Reads the file of a picture: its name, its kind and its bytes. Fails with a sentence that names the
+/// file. Without a function no files are read.
 using PictureReader = std::function<base::Result<world::Texture>(const std::string& file)>;
 
-/// What an operation was told, held to its parameters: every value is there or has none to fall back to, and
-/// is of its kind and in range. Refers to the parameters and to the world.
+/// The values given to an operation, checked against its parameters: the required ones are there, and each
+/// is of its kind and in range. Refers to the parameters, the fields and the world.
 class Arguments {
  public:
-  /// Fails with a sentence that names the parameter: one that nobody knows (and what may have been meant),
-  /// that is missing, of another kind, out of range, or names an object that is not there or not alone.
+  /// Fails with a sentence that names the parameter: one that is unknown (with a suggestion), missing, of
+  /// another kind, out of range, or that names an object that does not exist or shares its name.
   static base::Result<Arguments> check(const std::vector<Parameter>& parameters, const Value::Fields& fields,
                                        const world::World& world, PictureReader pictures = {});
 
-  /// Has something been said, or is there something to fall back to?
+  /// Has a value been given, or is there a fallback?
   bool has(std::string_view name) const { return find(name) != nullptr; }
 
   // Precondition of all: there is such a parameter of that kind, and has(name).
@@ -48,7 +48,7 @@ class Arguments {
   /// Reads its file. Fails as the reader does.
   base::Result<world::Texture> picture(std::string_view name) const;
 
-  /// All values that have been said, for recipes (MeshGeometry::recipe) and reports.
+  /// All values that have been given, for recipes (MeshGeometry::recipe) and reports.
   const Value::Fields& given() const { return *given_; }
 
  private:

@@ -8,19 +8,19 @@
 
 namespace icome::interaction {
 
-/// What an operation would do, ready to be performed.
+/// The effect of an operation, ready to be performed.
 struct Plan {
   world::Edit edit;
-  std::vector<world::ObjectId> objects = {};  // that were made or changed: what is to be selected then
-  std::string note = {};                      // what people should know: "4 objects use this shape"
+  std::vector<world::ObjectId> objects = {};  // made or changed, to be selected afterwards
+  std::string note = {};                      // a remark for people: "4 objects use this shape"
 };
 
-/// A tool by its name: the same in menus, scripts, the undo list and speech. All that it does is in the plan,
-/// which it makes of the world as it is, and of nothing else.
+/// A named tool, the same in menus, scripts, the undo list and speech. All that it does is in the plan, which
+/// it makes from the world as it is and its arguments alone.
 struct Operation {
   std::string name;     // "extrude", in scripts
   std::string title;    // "Extrude", in menus and in the undo list
-  std::string group;    // "Shape", what it stands with in menus and help
+  std::string group;    // "Shape", its heading in menus and help
   std::string summary;  // a sentence
   std::vector<Parameter> parameters;
   base::Result<Plan> (*plan)(const world::World& world, const Arguments& arguments,
@@ -33,10 +33,10 @@ const std::vector<Operation>& operations();
 /// The operation of that name; fails with the names that come near.
 base::Result<const Operation*> find_operation(std::string_view name);
 
-/// What kind of thing is to be said for a parameter, for people: "[x, y, z]".
+/// The form of a parameter's values, for people: "[x, y, z]".
 std::string kind_of(const Parameter& parameter);
 
-/// What people read of an operation: its summary, and a line or more for every parameter.
+/// The help text of an operation: its summary, and a line or more for every parameter.
 std::string help_of(const Operation& operation);
 
 // The groups that make up operations(), one source file each.

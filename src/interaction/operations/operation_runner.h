@@ -7,11 +7,11 @@
 
 namespace icome::interaction {
 
-/// What performing an operation came to.
+/// The outcome of a performed operation.
 struct Performed {
   const Operation* operation;
-  std::vector<world::ObjectId> objects;  // that were made or changed, and are there
-  std::string note = {};                 // what people should know of it
+  std::vector<world::ObjectId> objects;  // made or changed, and still there
+  std::string note = {};                 // a remark for people
 };
 
 /// Performs operations on a world that it owns, one action each, as a person at the desktop would: `icome
@@ -36,8 +36,8 @@ class OperationRunner {
   PictureReader pictures_;
 };
 
-/// The edit that an operation of that name and these arguments makes of a world, for who performs it
-/// elsewhere (a session, a colleague's world). Fails for undo and redo, which are no edits.
+/// The edit that an operation makes of a world with these arguments, to be performed elsewhere (a
+/// session, a colleague's world). Fails for undo and redo, which are no edits.
 base::Result<Plan> plan_operation(const Operation& operation, const Value::Fields& fields,
                                   const world::World& world, world::IdSource& ids,
                                   const PictureReader& pictures = {});

@@ -9,7 +9,7 @@
 
 namespace icome::interaction {
 
-/// What may be said for a parameter.
+/// The kinds of values that a parameter may have.
 enum class ParameterKind : std::uint8_t {
   Flag,     ///< true or false
   Number,   ///< finite
@@ -27,20 +27,20 @@ enum class ParameterKind : std::uint8_t {
   Records   ///< a list of named values again, each as `fields` say
 };
 
-/// One parameter of an operation, as people are told of it and as what they say is held to it. Text in SI:
-/// metres, radians where `unit` does not say degrees.
+/// One parameter of an operation: its description for people, and the limits that given values must keep.
+/// Text in SI: metres, radians where `meaning` does not say degrees.
 struct Parameter {
   std::string name;
   ParameterKind kind = ParameterKind::Number;
   std::string meaning = {};  // a phrase, its unit in it: "how far it reaches, m"
-  bool required = false;     // must be said
-  Value fallback = {};       // where nothing is said; null: left to the operation, which has() tells
+  bool required = false;     // must be given
+  Value fallback = {};       // where none is given; null: left to the operation, which asks has()
   double least = -std::numeric_limits<double>::infinity();  // of every number in it
   double most = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};
   std::size_t components = 3;          // of Points
   std::vector<Parameter> fields = {};  // of Records
-  /// Only where the operation's first parameter, a Choice, is one of these; empty: always.
+  /// Taken only where the operation's first parameter, a Choice, is one of these; empty: always.
   std::vector<std::string> only_for = {};
 };
 

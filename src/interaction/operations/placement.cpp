@@ -24,7 +24,7 @@ struct SineAndCosine {
   double sine, cosine;
 };
 
-/// Of degrees; quarter turns give 0, 1 and -1 and nothing near them.
+/// Sine and cosine of an angle in degrees; quarter turns give exactly 0, 1 and -1.
 SineAndCosine of_degrees(double degrees) {
   constexpr double kRadians = 0.017453292519943295;
   int quarters = 0;
@@ -51,13 +51,13 @@ Parameter vector_within(std::string name, std::string meaning, double most) {
           .most = most};
 }
 
-/// "stair" and 2 of "stair 2"; the whole name and 1 where it ends in no such number.
+/// A name in two parts: "stair" and 2 of "stair 2"; the whole name and 1 where it ends in no such number.
 struct NumberedName {
   std::string stem;
   std::uint64_t number = 1;
 };
 
-/// The number that these digits are; none for other letters, and for what is written with zeros before it.
+/// The number that these digits spell; none for other characters, and for leading zeros.
 std::optional<std::uint64_t> number_of(std::string_view digits) {
   std::uint64_t number = 0;
   const char* const last = digits.data() + digits.size();
@@ -69,7 +69,7 @@ std::optional<std::uint64_t> number_of(std::string_view digits) {
 NumberedName numbered_name(const std::string& name) {
   const std::size_t space = name.rfind(' ');
   if (space == std::string::npos || space == 0) return {name};
-  constexpr std::uint64_t kMost = 999'999'999;  // what is longer is a code of its own, not a count
+  constexpr std::uint64_t kMost = 999'999'999;  // longer ones are codes, not counts
   const auto number = number_of(std::string_view(name).substr(space + 1));
   if (!number || *number > kMost) return {name};
   return {name.substr(0, space), *number};
@@ -202,7 +202,7 @@ std::vector<std::string> unused_names(const world::World& world, const std::stri
   if (count > 0 && std::ranges::none_of(world.objects(), has_it)) names.push_back(wanted);
   const auto [stem, number] = numbered_name(wanted);
   const std::vector<std::uint64_t> numbers = numbers_behind(world, stem);
-  // Among so many numbers behind that of the name there are enough that nobody has.
+  // Among this many numbers behind that of the name, enough are unused.
   const std::uint64_t room = numbers.size() + count;
   std::vector<bool> taken(room + 1);
   for (const std::uint64_t it : numbers)

@@ -9,7 +9,7 @@
 
 namespace icome::interaction {
 
-/// What a parameter of an operation is set to: what JSON can say. A plain value.
+/// The value of a parameter of an operation: anything that JSON can say. A plain value.
 class Value {
  public:
   using List = std::vector<Value>;
@@ -42,12 +42,12 @@ class Value {
 /// The longest text that is read as one value, bytes: a lattice or a selection of a million vertices.
 inline constexpr std::size_t kLongestValue = 64U << 20U;
 
-/// Reads one JSON document. Fails with the place for text that is none or too long, that nests more than a
+/// Reads one JSON document. Fails with the place for text that is no JSON or too long, that nests more than a
 /// hundred deep, names a field twice or more than 256 in one object, or has numbers that do not fit a double.
 base::Result<Value> value_from_json(std::string_view text);
 
-/// In one line. Numbers come back to the last bit, bytes that are no UTF-8 as a replacement character;
-/// numbers that are not finite, which JSON does not know, as null.
+/// One line of JSON. Numbers come back to the last bit, bytes that are no UTF-8 as a replacement
+/// character; numbers that are not finite, which JSON does not know, as null.
 std::string json_from_value(const Value& value);
 
 /// The field of that name; null where there is none.

@@ -20,7 +20,7 @@ using base::Result;
 using geometry::FfdLattice;
 using geometry::TriangleMesh;
 
-/// A shape that is to be deformed, as it stands.
+/// A shape to be deformed, and its place.
 struct CagedShape {
   world::ObjectId object;
   world::GeometryId geometry;
@@ -41,7 +41,7 @@ Result<CagedShape> caged_shape(const world::World& world, world::ObjectId id) {
   return it;
 }
 
-/// Each shape once.
+/// The shapes of the objects and of all below them, each once.
 Result<std::vector<CagedShape>> all_caged(const world::World& world,
                                           std::span<const world::ObjectId> objects) {
   std::vector<CagedShape> all;

@@ -12,29 +12,29 @@ namespace icome::interaction {
 
 /// A lattice of control points round objects, which deform when its points are dragged (free-form
 /// deformation, Sederberg and Parry; thesis 2.4.3): meshes by their vertices, Loop surfaces by those of their
-/// control meshes. Round one object it stands as that does, round several along the world's axes. A shape
-/// that several objects share deforms as the first of them is placed. Owns its numbers: some 100 bytes a
-/// vertex.
+/// control meshes. Round one object it is aligned with that object, round several with the world's axes. A
+/// shape that several objects share deforms as the first of them is placed. Owns its numbers: some 100 bytes
+/// a vertex.
 class LatticeCage {
  public:
-  /// At rest; `cells` along its axes. Takes in all objects below those that are named. Fails, saying what to
-  /// do, where there is nothing to deform or something of another kind, and as make_ffd_lattice does.
+  /// A lattice at rest round the objects and all below them, with `cells` along its axes. Fails, saying what
+  /// to do, where there is nothing to deform or something of another kind, and as make_ffd_lattice does.
   static base::Result<LatticeCage> create(const world::World& world, std::span<const world::ObjectId> objects,
                                           const std::array<int, 3>& cells);
 
-  /// With its points where they are now; world frame.
+  /// The lattice with its points where they are now; world frame.
   const geometry::FfdLattice& lattice() const { return lattice_; }
   /// The control point that the probe meets best.
   std::optional<std::size_t> find(const PartProbe& probe) const;
   /// Takes hold of a control point, which must be one of the lattice's.
   PointDrag drag(std::size_t point) const;
-  /// Puts a point there (m, world frame), as it is dragged.
+  /// Puts a point at `place` (m, world frame), as it is dragged.
   void put(std::size_t point, const Vector3& place) { lattice_.points[point] = place; }
-  /// The world as it is belongs to the lattice as it is: call it after each step of a drag.
+  /// Takes the world as it is for the lattice as it is: to be called after each step of a drag.
   void accept(const world::World& world);
-  /// Is the world what accept() saw last, as far as it concerns what is deformed?
+  /// Is the world what accept() saw last, as far as it concerns the deformed objects?
   bool is_current(const world::World& world) const;
-  /// The lattice's lines, one after the other; places that are not finite part them. World frame, m.
+  /// The lattice's lines, one after the other, separated by points that are not finite. World frame, m.
   std::vector<Vector3> lines() const;
 
  private:

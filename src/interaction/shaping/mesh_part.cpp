@@ -21,7 +21,7 @@ using base::Result;
 using geometry::Corners;
 using geometry::TriangleMesh;
 
-/// So far behind a surface, in radii, something still counts as on it: surfaces are seen askew.
+/// Distance behind a surface, in radii, within which things count as on it: surfaces are seen askew.
 constexpr double kBehind = 4.0;
 /// A probe that meets more triangles is too coarse to tell them apart.
 constexpr std::size_t kMostMet = 1U << 18U;
@@ -50,7 +50,7 @@ SegmentPoints nearest_points(const Vector3& p, const Vector3& p_way, const Vecto
   return {p + s * p_way, q + t * q_way, s};
 }
 
-/// Where along the segment it crosses the triangle; nothing where it does not.
+/// Share of the segment at which it crosses the triangle; nothing where it does not.
 std::optional<double> crossing_share(const Vector3& start, const Vector3& way, const Corners& corners) {
   const Vector3 one = corners[1] - corners[0], other = corners[2] - corners[0];
   const Vector3 across = way.cross(other);
@@ -72,7 +72,7 @@ std::optional<PartMeeting> meeting_at(const PartProbe& probe, double distance, d
   return met.cost <= 1.0 ? std::optional(met) : std::nullopt;
 }
 
-/// A probe that ends behind all that is looked at, and what it has found so far.
+/// A probe that ends behind everything it looks at, and the best part found so far.
 class PartSearch {
  public:
   PartSearch(PartKind kind, const PartProbe& probe, double reach)
@@ -135,7 +135,7 @@ class PartSearch {
   std::optional<MeshPart> best_ = {};
 };
 
-/// How far along the line there may be something of what is in the box, m.
+/// Distance along the line up to which anything in the box may be found, m.
 double reach_to(const PartProbe& probe, const base::Bounds& box) {
   double reach = 0.0;
   for (int corner = 0; corner < 8; ++corner)

@@ -16,47 +16,47 @@
 namespace icome::interaction {
 
 /// A part of an object that has a place of its own, though it is no object: an operand of its solid, or the
-/// projector that the picture on its mesh was thrown with.
+/// projector that threw the picture on its mesh.
 struct PlacedPart {
   world::ObjectId object = {};
   std::optional<geometry::CsgTree::Index> operand = {};  // a leaf of the solid; none: the projector
   bool operator==(const PlacedPart&) const = default;
 };
 
-/// Those of these objects and of all below them; the first `most`, and none of solids with more than 10,000
-/// nodes.
+/// The placed parts of these objects and of all below them; the first `most`, and none of solids with more
+/// than 10,000 nodes.
 std::vector<PlacedPart> placed_parts(const world::World& world, std::span<const world::ObjectId> objects,
                                      std::size_t most);
 
-/// The solid, and the projector, that a part is of; nothing where it is gone.
+/// The solid that an operand belongs to, and the projector that a part is; nothing where it is gone.
 const geometry::CsgTree* solid_of_part(const world::World& world, const PlacedPart& part);
 std::optional<geometry::TextureProjector> projector_of_part(const world::World& world,
                                                             const PlacedPart& part);
 
-/// From the part's own frame, that of the operand's shape or of the projector, to the world's; nothing where
-/// it is gone or stands nowhere.
+/// The part's own frame, that of the operand's shape or of the projector, in the world's; nothing where it
+/// is gone or not finite.
 std::optional<base::Affine3> world_from_part(const world::World& world, const PlacedPart& part);
 
 /// "operand 1 of plate", as `move-operand` counts them, or "projector of plate".
 std::string name_of(const world::World& world, const PlacedPart& part);
 
-/// A part that is dragged, and where it was when that began, so that the last of many steps leaves it where
-/// the hand is, without the rounding of those before it. All objects that share the shape change with it
-/// (thesis 2.4.1).
+/// A part that is dragged, and its place at the start, so that the last of many steps leaves it where the
+/// hand is, without the rounding of earlier steps. All objects that share the shape change with it (thesis
+/// 2.4.1).
 class PartDrag {
  public:
   /// Fails for parts that are gone.
   static base::Result<PartDrag> take(const world::World& world, const PlacedPart& part);
 
   const PlacedPart& part() const { return part_; }
-  /// Of the action: "Move operand 1 of plate".
+  /// The action's name: "Move operand 1 of plate".
   const std::string& name() const { return name_; }
-  /// What it turns about, m, world frame: the middle of the operand's shape, or the projector's.
+  /// The centre of its turns, m, world frame: the middle of the operand's shape, or the projector's.
   const base::Vector3& centre() const { return centre_; }
-  /// Can by() be made at every step? Pictures on large meshes are thrown once, at the end.
+  /// Is by() quick enough for every step? Pictures on large meshes are thrown once, at the end.
   bool is_live() const;
-  /// The edit that puts it where it was, carried along by a motion of the world. Fails where there is nowhere
-  /// to go.
+  /// The edit that carries it from its place at the start along with a motion of the world. Fails where there
+  /// is nowhere to go.
   base::Result<world::Edit> by(const base::Affine3& motion) const;
 
  private:

@@ -18,7 +18,7 @@ using base::Result;
 using geometry::SoftWeight;
 using geometry::TriangleMesh;
 
-/// Corner normals of more triangles bend when all is over.
+/// Corner normals of meshes with more triangles are bent in the last step only.
 constexpr std::size_t kMostBentLive = 10'000;
 
 const world::MeshGeometry* with_normals(const world::Geometry& shape) {
@@ -43,7 +43,7 @@ world::Edit moved_vertices(const PointDrag::Followers& it, const Vector3& offset
   return world::MoveVertices{it.geometry, it.vertices, moved_places(it, offset)};
 }
 
-/// The shape must have normals. Places that are not finite bend nothing; the world refuses them.
+/// Moves and bends a shape with normals. Places that are not finite bend nothing; the world refuses them.
 world::Edit bent_shape(const PointDrag::Followers& it, const Vector3& offset) {
   const std::vector<Vector3> places = moved_places(it, offset);
   if (!std::ranges::all_of(places, [](const Vector3& place) { return place.allFinite(); }))
@@ -59,7 +59,7 @@ world::Edit as_one_edit(std::vector<world::Edit> edits) {
   return world::EditGroup{std::move(edits)};
 }
 
-/// With all others that stand in the same places.
+/// The seeds and all other vertices that stand in the same places.
 std::vector<std::uint32_t> with_doubles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& seeds) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
@@ -74,7 +74,7 @@ Result<std::vector<SoftWeight>> part_weights(const TriangleMesh& mesh,
                                              const Affine3& world_from_shape,
                                              const geometry::SoftSelection& soft) {
   if (soft.radius == 0.0) return geometry::soft_weights(mesh, seeds, soft);
-  TriangleMesh in_world = mesh;  // as far as it looks, also where the object is stretched
+  TriangleMesh in_world = mesh;  // distances as they look, also where the object is stretched
   for (Vector3& position : in_world.positions) position = world_from_shape * position;
   return geometry::soft_weights(in_world, seeds, soft);
 }

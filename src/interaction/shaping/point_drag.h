@@ -11,18 +11,18 @@
 
 namespace icome::interaction {
 
-/// Vertices that are dragged together, of one shape or of several, and where they were when that began: so
-/// the last of many steps leaves them where the hand is, without the rounding of those before it. All objects
-/// that share a shape change with it (thesis 2.4.1).
+/// Vertices that are dragged together, of one shape or of several, and their places at the start, so that the
+/// last of many steps leaves them where the hand is, without the rounding of earlier steps. All objects that
+/// share a shape change with it (thesis 2.4.1).
 class PointDrag {
  public:
-  /// Those of one shape.
+  /// The dragged vertices of one shape.
   struct Followers {
     world::GeometryId geometry = {};
     world::GeometryPointer before = {};
     std::vector<std::uint32_t> vertices = {};
     std::vector<Vector3> starts = {};                            // m, shape frame; as many
-    std::vector<double> weights = {};                            // how much of the way they go along; as many
+    std::vector<double> weights = {};                            // their shares of the way; as many
     base::Matrix3 shape_from_world = base::Matrix3::Identity();  // of directions
   };
   /// `name`: of the action, as in "Drag vertex of leg".
@@ -31,10 +31,10 @@ class PointDrag {
 
   const std::string& name() const { return name_; }
   const std::vector<Followers>& followers() const { return followers_; }
-  /// Puts all of them where they were, moved by their share of that much (m, world frame).
+  /// Moves all of them from their places at the start by their shares of the offset (m, world frame).
   world::Edit by(const Vector3& offset) const;
-  /// For meshes that are too big for it at every step: the same, but their corner normals bend with the
-  /// surface. It is the last step then; nothing where by() has done all.
+  /// The last step, for meshes that are too big to bend their corner normals with the surface at every
+  /// step: by() with bent normals. Nothing where by() has done all.
   std::optional<world::Edit> last(const Vector3& offset) const;
 
  private:
@@ -44,8 +44,8 @@ class PointDrag {
 
 /// Takes hold of a vertex, an edge or a face. Others within the soft selection's radius, which is measured in
 /// the world's frame (m) whatever the object's size, follow; and vertices at one place stay together, so that
-/// no crack opens. Takes time by the size of the mesh. Fails for what is not there, radii that are not finite
-/// or negative, and objects that are squashed flat.
+/// no crack opens. Takes time by the size of the mesh. Fails for missing objects and vertices, radii that are
+/// not finite or negative, and objects that are squashed flat.
 base::Result<PointDrag> drag_part(const world::World& world, world::ObjectId object, const MeshPart& part,
                                   const geometry::SoftSelection& soft);
 

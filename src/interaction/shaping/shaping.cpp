@@ -26,7 +26,7 @@ void add_line(std::vector<Vector3>& lines, std::initializer_list<Vector3> points
   lines.push_back(Vector3::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
-/// The mesh that an object's vertices are dragged of; null: none.
+/// The mesh of an object whose vertices can be dragged; null: none.
 const TriangleMesh* mesh_of_object(const world::World& world, world::ObjectId id) {
   const world::PhysicalObject* object = world.find(id);
   const world::GeometryObject* geometry = object ? world.find(object->geometry) : nullptr;
@@ -142,7 +142,7 @@ ShapingPicture Shaping::picture(const world::World& world, std::span<const world
   return picture;
 }
 
-/// All of a mesh that has few vertices, and the edges of a control mesh, which are not seen otherwise.
+/// Shows all vertices of a mesh that has few, and the edges of a control mesh, which are not seen otherwise.
 void Shaping::show_mesh(const world::World& world, world::ObjectId id, ShapingPicture& picture) const {
   const TriangleMesh* mesh = mesh_of_object(world, id);
   if (!mesh || mesh->positions.size() > kMostDots) return;
@@ -173,7 +173,7 @@ void Shaping::show_marked(const world::World& world, const MarkedHandle& marked,
   if (mesh->positions.size() > kMostDots) show_around(world, marked, picture);
 }
 
-/// What follows, of a mesh of which not all is shown.
+/// Shows the vertices that follow, of a mesh that is too large to be shown whole.
 void Shaping::show_around(const world::World& world, const MarkedHandle& marked,
                           ShapingPicture& picture) const {
   const ShapingHandle& handle = marked.handle;

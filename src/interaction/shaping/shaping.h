@@ -11,7 +11,7 @@
 
 namespace icome::interaction {
 
-/// What people drag to change a shape by hand.
+/// The things that people drag to change a shape by hand.
 enum class ShapingTarget : std::uint8_t { Vertex, Edge, Face, Lattice };
 
 struct ShapingSettings {
@@ -30,45 +30,45 @@ struct ShapingHandle {
 };
 bool same_handle(const ShapingHandle& one, const ShapingHandle& other);
 
-/// A handle that is to be pointed out, with the drag of it under way.
+/// A handle to be marked, and the drag of it that is under way.
 struct MarkedHandle {
   ShapingHandle handle = {};
   std::shared_ptr<const PointDrag> drag = {};  // null: it is only hovered over
 };
 
-/// What is drawn of handles; world frame, m. In lines, places that are not finite part one from the next.
+/// The drawing of handles; world frame, m. Lines are separated by places that are not finite.
 struct ShapingPicture {
   std::vector<Vector3> dots = {}, lines = {};
   std::vector<Vector3> marked_dots = {}, marked_lines = {};
 };
 
-/// Finds and takes hold of what shapes are dragged by: vertices, edges and faces of meshes and control
-/// meshes, or the points of a lattice round the selection. Keeps what it knows of a few shapes and the
-/// lattice; knows the world only while it is called. One thread owns it.
+/// Finds and takes hold of the handles of shapes: vertices, edges and faces of meshes and control
+/// meshes, or the points of a lattice round the selection. Keeps finders of a few shapes and the
+/// lattice; uses the world only while it is called. One thread owns it.
 class Shaping {
  public:
   /// Fails for a radius that is not finite or negative, and for numbers of cells out of range.
   base::Result<void> set(const ShapingSettings& settings);
   const ShapingSettings& settings() const { return settings_; }
 
-  /// Where there is to be a lattice, puts it round the selection as soon as that, or what is deformed, is
-  /// another: at rest then. Call it once for each update.
+  /// With the lattice as target, puts one at rest round the selection as soon as that, or a deformed
+  /// shape, is another. To be called once for each update.
   void follow(const world::World& world, std::span<const world::ObjectId> selection);
-  /// Why there is no lattice, in a sentence that says what to do; else empty.
+  /// The reason why there is no lattice, in a sentence that says what to do; else empty.
   const std::string& complaint() const { return complaint_; }
   const std::optional<LatticeCage>& cage() const { return cage_; }
 
-  /// What the probe meets best: of these objects' meshes (others are passed over), or of the lattice.
+  /// The handle that the probe meets best: of these objects' meshes (others are skipped), or of the lattice.
   std::optional<ShapingHandle> find(const world::World& world, std::span<const world::ObjectId> objects,
                                     const PartProbe& probe);
   /// Fails as drag_part() does, for handles of a lattice that is gone, and for points of one that move
   /// nothing.
   base::Result<PointDrag> take(const world::World& world, const ShapingHandle& handle) const;
-  /// A step of the drag of a handle has been performed, or has been taken back (zero).
+  /// To be called when a step of a handle's drag has been performed, or taken back (zero).
   void moved(const world::World& world, const ShapingHandle& handle, const Vector3& offset);
 
-  /// Of these objects' meshes and those with something marked, where they are small enough, and round what is
-  /// marked.
+  /// The handles of these objects' meshes and of those with something marked, where they are small enough,
+  /// and those round the marks.
   ShapingPicture picture(const world::World& world, std::span<const world::ObjectId> objects,
                          std::span<const MarkedHandle> marked) const;
 
@@ -85,7 +85,7 @@ class Shaping {
   std::string complaint_;
 };
 
-/// The objects below those, and they themselves, of which vertices can be dragged; the first `most`.
+/// Objects whose vertices can be dragged, among the given ones and all below them; the first `most`.
 std::vector<world::ObjectId> draggable_objects(const world::World& world,
                                                std::span<const world::ObjectId> objects, std::size_t most);
 

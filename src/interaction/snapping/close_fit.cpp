@@ -12,10 +12,10 @@ namespace {
 using Pair = MovingObjects::Pair;
 
 constexpr double kSearched = 3.0;  // deviations: how far what may meet is looked for
-constexpr double kMostOff = 2.5;   // deviations: how far things are put off
+constexpr double kMostOff = 2.5;   // deviations: the farthest correction
 constexpr double kAgainstWay = 1e-6;
 
-/// A place where two shapes are next to each other, and what keeps them apart there.
+/// A place where two shapes are next to each other, and the gap that keeps them apart there.
 struct NarrowPlace {
   std::size_t pair;  // number
   Vector3 place;     // m, world frame
@@ -34,7 +34,7 @@ double least_side(const Passing& passing) {
   return least;
 }
 
-/// All that is next to objects at a place, as the shapes are themselves.
+/// All shapes that are next to objects at a place, exact and not as triangles.
 class Neighbourhood {
  public:
   Neighbourhood(const MovingObjects& objects, const Vector3& at, double tolerance)
@@ -50,13 +50,13 @@ class Neighbourhood {
     }
   }
 
-  /// The triangles of what is next to each other are off by that, m.
+  /// The deviation of the triangles of neighbouring shapes, m.
   double deviation() const { return deviation_; }
-  /// None where triangles tell as much.
+  /// The narrow places; none where triangles tell as much.
   const std::vector<NarrowPlace>& places() const { return places_; }
   const Pair& pair(const NarrowPlace& it) const { return pairs_[it.pair]; }
 
-  /// Looks at the narrow places again for objects that are at `at`.
+  /// Measures the narrow places again for objects that are at `at`.
   void look(const Vector3& at) {
     const double reach = looked_ ? 0.25 : 1.0;
     for (NarrowPlace& it : places_) {
@@ -78,7 +78,7 @@ class Neighbourhood {
     return least;
   }
 
-  /// Does it overlap there what triangles tell all of?
+  /// Do the objects at `at` overlap shapes that triangles describe exactly?
   bool goes_into_plain(const Vector3& at) const {
     return std::any_of(places_.begin(), places_.end(), [&](const NarrowPlace& place) {
       const Pair& it = pair(place);
@@ -93,7 +93,7 @@ class Neighbourhood {
   static constexpr double kReach = 0.03;  // of the size: about an edge of the triangles
   static constexpr std::size_t kMostPlaces = 12;
 
-  /// Where triangles touch when the shape goes a little along some axis.
+  /// The places where triangles touch when the shape goes a little along some axis.
   std::vector<NarrowPlace> touches_of(std::size_t number) const {
     constexpr double kFacing = 0.57;  // cosine: each normal faces one of the axes as much
     std::vector<NarrowPlace> found;
@@ -145,8 +145,8 @@ class Neighbourhood {
   bool looked_ = false;
 };
 
-/// The step next to a wanted one by which each gap stays, or becomes, `margin` at least: by Hildreth's method
-/// (1957). Where there is none, a long one.
+/// The step nearest to a wanted one by which each gap stays, or becomes, `margin` at least: by Hildreth's
+/// method (1957). Where there is none, a long one.
 Vector3 step_next_to(const Vector3& wanted, const std::vector<NarrowPlace>& places, double margin) {
   constexpr int kMostSweeps = 300;
   std::vector<double> pushes(places.size(), 0.0);
@@ -165,7 +165,7 @@ Vector3 step_next_to(const Vector3& wanted, const std::vector<NarrowPlace>& plac
   return step;
 }
 
-/// The same straight along the way to a wanted one (or back).
+/// The step straight along the way to a wanted one (or back) that keeps these gaps; nothing where none does.
 std::optional<Vector3> step_along(const Vector3& wanted, const Vector3& direction,
                                   const std::vector<NarrowPlace>& places, double margin) {
   constexpr double kAlong = 1e-3;  // cosine
@@ -209,7 +209,7 @@ class Fitting {
     return step_along(onwards, line.normalized(), near_.places(), margin());
   }
 
-  /// The place next to where it stopped that it fits, as far on as it comes.
+  /// The place next to the stop where the objects fit, as far on as they come.
   std::optional<Vector3> settle() {
     constexpr int kMostRounds = 8;
     Vector3 at = way_.at;
@@ -217,7 +217,7 @@ class Fitting {
     for (int round = 0; round < kMostRounds; ++round) {
       const auto found = step(onwards);
       if (!found || objects_.is_spent()) return std::nullopt;
-      // What rests is left alone.
+      // Objects that rest are left alone.
       if (fits(near_) && (round > 0 || found->norm() <= way_.tolerance))
         return near_.goes_into_plain(at) ? std::nullopt : std::optional(at);
       const bool arrives = (at + *found - way_.wanted).norm() < 1e-3 * way_.tolerance;
@@ -229,7 +229,7 @@ class Fitting {
     return std::nullopt;
   }
 
-  /// Where it fits on the way back.
+  /// The place on the way back where the objects fit.
   Vector3 back() const {
     constexpr int kLooks = 6;
     const Vector3 all = way_.from - way_.at;

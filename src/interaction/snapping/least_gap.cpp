@@ -1,6 +1,6 @@
-// A bundle method (Lemarechal 1975; Kiwiel 1985) in two dimensions: each line that is looked at gives a plane
+// A bundle method (Lemarechal 1975; Kiwiel 1985) in two dimensions: each line that is tried gives a plane
 // through its gap, and the next is where the largest of these is least, within a distance that shrinks where
-// that turns out to be too good. So ridges, rims and corners are found as well as what is round.
+// that proves too optimistic. So ridges, rims and corners are found as well as round places.
 #include "interaction/snapping/least_gap.h"
 
 #include <Eigen/LU>
@@ -39,8 +39,8 @@ class GapModel {
     return most;
   }
 
-  /// Where that is least: at a corner of the square, where two planes meet on a side of it, or where three
-  /// do.
+  /// The place where value() is least: at a corner of the square, where two planes meet on a side of it,
+  /// or where three planes meet.
   Vector2 lowest() {
     for (const double u : {-half_, half_}) {
       for (const double v : {-half_, half_}) consider(centre_ + Vector2(u, v));
@@ -95,7 +95,7 @@ class GapModel {
 };
 
 /// Keeps the planes that tell something about the gap within `reach` of the lowest line: none may be above
-/// the gap there, as one of a surface that bends in can be.
+/// the gap there, as that of a concave surface can be.
 void tidy(std::vector<GapPlane>& planes, const GapPlane& lowest, double reach) {
   std::erase_if(planes, [&](const GapPlane& it) { return (it.at - lowest.at).norm() > 4.0 * reach; });
   for (GapPlane& it : planes) it.gap -= std::max(0.0, it.value(lowest.at) - lowest.gap);
@@ -152,7 +152,7 @@ std::optional<GapLines::Gap> GapLines::within(const Vector3& middle, double wind
   return Gap{upper->height - lower->height, slope, middle + lower->height * direction_, lower->normal};
 }
 
-/// First close to the place: farther off, other walls of the two may be.
+/// Tries close to the place first: farther off there may be other walls of the two.
 std::optional<GapLines::Gap> GapLines::at(const Vector2& beside) const {
   const Vector3 middle = place_ + across_ * beside;
   const auto found = within(middle, 0.25 * window_);
@@ -191,7 +191,7 @@ std::optional<LeastGap> least_gap(const GapLines& lines, double reach, double pr
     if (kept > 0.5) half = std::min(2.0 * half, reach);
     tidy(planes, lowest, half);
   }
-  // Where it is round, the surface says which way is out; at a rim or corner only the direction is sure.
+  // At a round place the surface says which way is out; at a rim or corner only the direction is sure.
   const Vector3 normal = lowest.slope.norm() < kLevel ? found.normal : lines.direction();
   return LeastGap{lowest.gap * normal.dot(lines.direction()), found.place, normal};
 }

@@ -5,8 +5,8 @@
 
 namespace icome::interaction {
 
-/// Two placed shapes next to a place, looked at along a direction that leads from the other to the moved one
-/// there: how far they are apart along lines, by what they are themselves.
+/// The gaps between two placed shapes along parallel lines near a place, by the exact shapes. The lines'
+/// direction leads from the other to the moved one there.
 class GapLines {
  public:
   /// `direction` is unit, world frame; the lines are looked at within `window` (m) of the place. The shapes
@@ -19,7 +19,7 @@ class GapLines {
     Vector3 place;        // m, world frame: where the line leads into the other
     Vector3 normal;       // unit, of the other there; world frame
   };
-  /// Along the line so far beside the place, m; nothing where it misses one of the two.
+  /// The gap along the line that is so far beside the place (m); nothing where it misses one of the two.
   std::optional<Gap> at(const base::Vector2& beside) const;
 
   const Vector3& direction() const { return direction_; }
@@ -43,14 +43,14 @@ class GapLines {
   world::Effort* effort_;  // may be null
 };
 
-/// Where they are least apart, downhill from the place.
+/// The least gap between the two, downhill from the place.
 struct LeastGap {
   double gap;      // m
   Vector3 place;   // m, world frame: where that line leads into the other
-  Vector3 normal;  // unit, world frame: the gap opens by what the moved shape goes along it, and the quickest
+  Vector3 normal;  // unit, world frame: a move along it opens the gap by as much, and the quickest
 };
-/// `reach` (m) is about how far it lies off; `precision`, of the gap, m. Nothing where the line through the
-/// place, and those next to it, miss one of the two.
+/// `reach` (m) is about its distance from the place; `precision` (m) is that of the gap. Nothing where the
+/// line through the place, and those next to it, miss one of the two.
 std::optional<LeastGap> least_gap(const GapLines& lines, double reach, double precision);
 
 }  // namespace icome::interaction

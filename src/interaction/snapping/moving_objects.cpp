@@ -78,7 +78,7 @@ double MovingObjects::free_share(const Vector3& at, const Vector3& step, double 
     if (const auto found = stop(it.passing, share, fit_tolerance(it.passing, tolerance)))
       share = std::min(share, *found);
   }
-  // Between touches nothing changes, but one is known to within rounding only.
+  // Nothing changes between touches, but a touch is known to within rounding only.
   double back = tolerance / step.norm();
   const auto comes_in = [&](const Pair& it) {
     return overlap_at(it.passing, share) && !overlap_at(it.passing, 0.0);

@@ -11,7 +11,7 @@ using world::Meeting;
 constexpr std::size_t kTouchesAtOnce = 32;
 constexpr int kMostLooks = 1000;  // of so many touches: more than solids that can be told apart have
 
-/// How long a way is, in shares of the step, that the moved shape has surely left the other behind after.
+/// Length of a way, in shares of the step, after which the moved shape has surely left the other behind.
 double share_beyond(const Passing& passing) {
   const base::Bounds moved = passing.moved->bounds().transformed(passing.world_from_moved);
   const base::Bounds other = passing.other->bounds().transformed(passing.world_from_other);
@@ -30,7 +30,7 @@ double last_free(const Passing& passing, double free, double taken, double apart
 
 double share_of(const Passing& passing, double tolerance) { return tolerance / passing.step.norm(); }
 
-/// Out of a half-space the way is known.
+/// Does the way lead out of the half-space that one of the two is, or along it?
 bool leads_out_of_half_space(const Passing& passing) {
   constexpr double kAlong = 1e-12;
   const double length = passing.step.norm();
@@ -78,7 +78,7 @@ std::optional<double> first_contact(const Passing& passing, double from, double 
     if (touches.size() == kTouchesAtOnce) continue;
     const double middle = 0.5 * (begin + until);
     if (overlap_at(passing, middle)) return found();
-    // So slowly that half way it is within rounding.
+    // It goes in so slowly that half way it is within rounding.
     if (overlap_at(passing, until))
       return std::max(from, last_free(passing, middle, until, 0.5 * apart) - 0.25 * apart);
     return std::nullopt;
@@ -86,8 +86,8 @@ std::optional<double> first_contact(const Passing& passing, double from, double 
   return free;
 }
 
-/// Looked for at places that lie farther apart the farther on they are: to tell the ways ahead and back
-/// apart, each is known well enough.
+/// Tries places that lie farther apart the farther on they are: that is exact enough to compare the
+/// ways ahead and back.
 std::optional<double> way_out(const Passing& passing, double until, double tolerance) {
   constexpr double kGrowth = 1.25;
   const double apart = share_of(passing, tolerance);

@@ -26,7 +26,7 @@ struct Held {
   double left;  // m
 };
 
-/// What the contacts leave of a push against them; all of it where one of them would have to pull.
+/// The part of a push that the contacts do not bear, m; all of it where one of them would have to pull.
 double left_of(std::span<const Contact> contacts, const std::vector<std::size_t>& which,
                const Vector3& against) {
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, Eigen::Index(which.size()));
@@ -36,7 +36,7 @@ double left_of(std::span<const Contact> contacts, const std::vector<std::size_t>
   return (against - normals * shares).norm();
 }
 
-/// Adds contacts behind the last one, as long as more of them leave less.
+/// Tries all sets that add contacts behind the last one, and keeps the best of each size.
 void try_all(std::span<const Contact> contacts, std::vector<std::size_t>& which, const Vector3& against,
              std::vector<Held>& best) {
   for (std::size_t i = which.empty() ? 0 : which.back() + 1; i < contacts.size(); ++i) {

@@ -29,7 +29,7 @@ std::vector<ObjectId> all_of(CollisionIndex& index, std::span<const ObjectId> ro
   return result;
 }
 
-/// Those that lie furthest in 26 directions.
+/// The points that lie furthest in 26 directions.
 std::vector<Vector3> outermost(const std::vector<Vector3>& points) {
   std::vector<std::size_t> found;
   for (int x = -1; x <= 1; ++x) {
@@ -173,7 +173,7 @@ std::uint64_t SnapFinder::effort_to_make(const World& world, const Standing& sta
   return standing.shape->effort_to_make() + (is_made ? 0 : world::effort_to_look_into(*shape));
 }
 
-/// Is there effort enough to make all ready that is there?
+/// Is there effort enough to prepare all shapes in the box?
 bool SnapFinder::may_look(const World& world, CollisionIndex& index, const base::Bounds& around,
                           world::Effort& effort) const {
   std::uint64_t units = 0;

@@ -11,12 +11,12 @@
 
 namespace icome::interaction {
 
-/// What a point can snap to, the stronger the earlier.
+/// The kinds of places that a point can snap to, the strongest first.
 enum class SnapKind : std::uint8_t { Vertex, Middle, Edge, Face, Grid };
 /// "a corner", "the grid", for people.
 std::string_view name_of(SnapKind kind);
 
-/// What people snap to. Of what is switched on, a stronger kind wins over a nearer place.
+/// The snaps that are switched on. A stronger kind wins over a nearer place.
 struct SnapSettings {
   double radius = 0.01;  // m, world frame, of the snap; usually 2 mm to 5 cm
   bool vertices = true;
@@ -33,7 +33,7 @@ struct SnapSettings {
   bool any() const { return vertices || middles || edges || faces || grid; }
 };
 
-/// Where a point snaps to; world frame.
+/// The place that a point snaps to; world frame.
 struct Snap {
   SnapKind kind = SnapKind::Grid;
   Vector3 point = Vector3::Zero();      // m
@@ -44,7 +44,7 @@ struct Snap {
   double distance = 0.0;        // m, from the point that snaps
 };
 
-/// Which points of objects that are moved may snap.
+/// The points of moved objects that may snap.
 struct SnapHandles {
   bool origins = true;   // of the objects' own frames
   bool box = true;       // corners and middle of the box around them
@@ -54,41 +54,41 @@ struct SnapHandles {
 /// A snap of objects that are moved.
 struct ObjectSnap {
   Snap snap;
-  Vector3 handle;                                         // m: what of them snaps, where it is now
-  Vector3 offset() const { return snap.point - handle; }  // m: what they must go by
+  Vector3 handle;                                         // m: the point of them that snaps, where it is now
+  Vector3 offset() const { return snap.point - handle; }  // m: the move that snaps
 };
 
-/// Finds what there is to snap to. Keeps what it has found of shapes: the first question takes time by the
-/// size of the shapes that are near, later ones by the logarithm of it. One thread owns it. The world and
-/// the index that are asked about must be at the same edit.
+/// Finds places to snap to. Keeps the prepared shapes: the first query takes time by the size of the
+/// shapes that are near, later ones by the logarithm of it. One thread owns it. The world and the index
+/// of a query must be at the same edit.
 class SnapFinder {
  public:
   static constexpr double kSharpAngle = 0.17453292519943295;  // rad, 10 degrees
 
-  /// `sharp_angle` (rad) is that at which meshes have edges: what bends less is smooth.
+  /// `sharp_angle` (rad): where meshes bend by as much they have edges; less is smooth.
   explicit SnapFinder(double sharp_angle = kSharpAngle) : sharp_angle_(sharp_angle) {}
 
   /// Forgets shapes that changed or are gone.
   void follow(const world::Changes& changes);
 
-  /// The best for a point (m, world frame); nothing where there is none or where numbers are not finite.
-  /// `left_out` and all below them are not snapped to.
+  /// The best snap of a point (m, world frame); nothing where there is none or where numbers are not
+  /// finite. `left_out` and all below them are not snapped to.
   std::optional<Snap> nearest(const world::World& world, world::CollisionIndex& index, const Vector3& point,
                               const SnapSettings& settings, std::span<const world::ObjectId> left_out = {});
 
-  /// The best for every handle of objects that are moved by `offset` (m, world frame) off where they stand,
-  /// best first; they do not snap to themselves. None where the effort (null: there is no end to it) is
+  /// The best snap of every handle of objects that are moved by `offset` (m, world frame) off where they
+  /// stand, best first; they do not snap to themselves. None where the effort (null: unlimited) is
   /// spent.
   std::vector<ObjectSnap> of_objects(const world::World& world, world::CollisionIndex& index,
                                      std::span<const world::ObjectId> objects, const Vector3& offset,
                                      const SnapSettings& settings, const SnapHandles& handles = {},
                                      world::Effort* effort = nullptr);
 
-  /// The handles themselves, where objects stand; world frame.
+  /// The handles of objects, where these stand; m, world frame.
   std::vector<Vector3> handles_of(const world::World& world, world::CollisionIndex& index,
                                   std::span<const world::ObjectId> objects, const SnapHandles& handles = {});
 
-  /// Shapes that are kept.
+  /// Number of shapes that are kept.
   std::size_t kept() const { return shapes_.size(); }
 
  private:

@@ -24,7 +24,7 @@ using Place = SnapShape::Place;
 
 constexpr double kMostCoordinate = 1e70;  // what repairing a mesh can take
 
-/// By how much a map stretches all directions alike; nothing if it does not.
+/// The factor by which a map stretches all directions alike; nothing if it does not.
 std::optional<double> alike_stretch(const Affine3& map) {
   const base::Matrix3 metric = map.linear().transpose() * map.linear();
   const double square = metric.trace() / 3.0;
@@ -33,7 +33,7 @@ std::optional<double> alike_stretch(const Affine3& map) {
   return std::sqrt(square);
 }
 
-/// The map shrinks no length by more than this.
+/// A bound of the factor by which the map shrinks lengths.
 double most_shrink(const Affine3& map) {
   if (const auto stretch = alike_stretch(map)) return (1.0 + 1e-11) / *stretch;
   return map.linear().inverse().norm();
@@ -50,8 +50,8 @@ Vector3 out_of(const Affine3& frame, const Vector3& normal) {
   return (frame.linear().inverse().transpose() * normal).normalized();
 }
 
-/// The angle at which an ellipse (as in SnapShape::Rim) is nearest: the best of many, made better by halving
-/// the step around it.
+/// The angle at which an ellipse (as in SnapShape::Rim) is nearest to the point: the best of many, refined
+/// by halving the step around it.
 double nearest_angle(const Vector3& centre, const Vector3& one, const Vector3& other, const Vector3& point) {
   constexpr int kTries = 64;
   const auto square = [&](double angle) {
@@ -62,7 +62,7 @@ double nearest_angle(const Vector3& centre, const Vector3& one, const Vector3& o
   for (int i = 0; i < kTries; ++i) {
     if (square(i * step) < least) least = square(best = i * step);
   }
-  // Of a smooth valley the derivative tells more than the height does.
+  // In a smooth valley the derivative tells more than the height does.
   const auto slope = [&](double angle) {
     const Vector3 there = centre + std::cos(angle) * one + std::sin(angle) * other;
     return (there - point).dot(std::cos(angle) * other - std::sin(angle) * one);
@@ -83,7 +83,7 @@ std::optional<Place> nearest_of(const PlaceTree& tree, const Affine3& world_from
   const double shrink = most_shrink(world_from_shape);
   if (!std::isfinite(shrink)) return std::nullopt;
   std::optional<Place> best;
-  // Of equally near ones the first: the order in the tree must not matter.
+  // The first of equally near ones wins: the order in the tree must not matter.
   std::uint32_t number_of_best = 0;
   const double rounding = 1.0 + 1e-9;
   tree.nearest(world_from_shape.inverse() * point, reach * shrink * rounding, [&](std::uint32_t number) {
@@ -105,7 +105,7 @@ class PlacedSurface {
   PlacedSurface(const geometry::Primitive& primitive, const Affine3& world_from_it)
       : primitive_(primitive), world_from_it_(world_from_it), it_from_world_(world_from_it.inverse()) {}
 
-  /// A place of it next to `point`: the nearest as the primitive sees it.
+  /// A place of it next to `point`: the nearest in the primitive's own frame.
   geometry::SurfacePoint near(const Vector3& point) const {
     const Vector3 own = it_from_world_ * point;
     const geometry::SurfacePoint found = geometry::inside(primitive_, own)
@@ -115,7 +115,7 @@ class PlacedSurface {
   }
 
   /// The nearest place, downhill from the one next to `start`: by Newton's method along the surface, whose
-  /// bend is measured a little beside where it is.
+  /// curvature is measured a little beside the place.
   geometry::SurfacePoint nearest(const Vector3& point, const Vector3& start) const {
     geometry::SurfacePoint best = near(start);
     for (int i = 0; i < kMostSteps; ++i) {
@@ -148,7 +148,7 @@ class PlacedSurface {
     return step.x() * one + step.y() * other;
   }
 
-  /// By as much of the step as leads nearer; false where none does.
+  /// Goes as much of the step as leads nearer; false where none does.
   bool go_on(const Vector3& point, const Vector3& step, geometry::SurfacePoint& best) const {
     if (!step.allFinite()) return false;
     for (double share = 1.0; share > 1e-6; share *= 0.5) {
@@ -170,7 +170,7 @@ std::optional<Place> nearest_triangle(const Affine3& world_from_shape, const Vec
   const Vector3 own = world_from_shape.inverse() * point;
   const auto hit = tree.nearest(own, reach * shrink);
   if (!hit) return std::nullopt;
-  // Where space is stretched, another may be nearer; what is as near as the nearest is among those visited.
+  // In stretched space another may be nearer; all that are as near as the nearest are among those visited.
   constexpr double kAbove = 1.0 + 1e-9;
   const double limit = std::min(reach, (world_from_shape * hit->point - point).norm()) * kAbove;
   std::optional<std::uint32_t> best;
@@ -194,8 +194,8 @@ std::optional<Place> nearest_triangle(const Affine3& world_from_shape, const Vec
   return place;
 }
 
-/// The place of what triangles stand for next to the nearest of the triangles: across them, or, where they
-/// end beyond it, on the way on; and where space is not stretched unevenly the nearest one.
+/// The place of the surface that triangles stand for, next to the nearest triangle: across it, or, where
+/// they end beyond it, on the line from the point; the nearest where space is not stretched unevenly.
 Place on_surface(const Affine3& world_from_shape, const Vector3& point, const Place& near, double deviation,
                  const geometry::SmoothSurface& surface) {
   const Affine3 shape_from_world = world_from_shape.inverse();
@@ -217,7 +217,7 @@ Place on_surface(const Affine3& world_from_shape, const Vector3& point, const Pl
   return {world_from_shape * best.point, out_of(world_from_shape, best.normal)};
 }
 
-/// Straight lines to snap to, of a mesh.
+/// The straight edges and the corners of a mesh to snap to.
 struct MeshEdges {
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<bool> corner;  // by vertex
@@ -306,7 +306,7 @@ void SnapShape::add_box(const Vector3& half) {
   }
 }
 
-/// Of a cone that ends in a tip, that is a corner.
+/// Adds a rim; one without a radius, the tip of a cone, is a corner.
 void SnapShape::add_rim(double radius, double height) {
   if (radius > 0.0)
     rims_.push_back({{0.0, 0.0, height}, radius * Vector3::UnitX(), radius * Vector3::UnitY()});
@@ -380,7 +380,7 @@ std::optional<Place> SnapShape::face(const Affine3& world_from_shape, const Vect
     world_from_primitive.linear() *= primitive->shape_from_primitive();
     const PlacedSurface surface(primitive->primitive, world_from_primitive);
     auto found = surface.nearest(point, point);
-    // Where space is stretched, the nearest place may be on another face: the triangles know on which.
+    // In stretched space the nearest place may be on another face: the triangles know on which.
     std::optional<Place> hint;
     if (!alike_stretch(world_from_shape))
       hint = nearest_triangle(world_from_shape, point, std::numeric_limits<double>::infinity(),
@@ -390,7 +390,7 @@ std::optional<Place> SnapShape::face(const Affine3& world_from_shape, const Vect
       if ((other.point - point).norm() < (found.point - point).norm()) found = other;
     }
     const double distance = (found.point - point).norm();
-    // A rim has no one normal that could lead there.
+    // A rim has no single normal that could lead there.
     const auto rim = edge(world_from_shape, point, std::min(reach, (1.0 - 1e-9) * distance));
     if (rim) return Place{rim->point, (point - rim->point).normalized()};
     if (!(distance <= reach)) return std::nullopt;

@@ -32,9 +32,9 @@ class PlaceTree {
   geometry::BoxTree boxes_;
 };
 
-/// What there is of a shape to snap to. Corners and edges are those that the shape really has: of boxes,
-/// cones and cylinders all, of meshes those at which the surface bends by an angle or ends, of what is round
-/// or sampled none, whatever triangles are drawn of it. Immutable.
+/// The places of a shape to snap to. Corners and edges are those that the shape really has: of boxes, cones
+/// and cylinders all, of meshes those at which the surface bends by an angle or ends, of round or sampled
+/// shapes none, whatever triangles are drawn of them. Immutable.
 class SnapShape {
  public:
   /// `sharp_angle` in radians: what bends less is smooth.
@@ -52,13 +52,13 @@ class SnapShape {
   std::optional<Place> corner(const Affine3& world_from_shape, const Vector3& point, double reach) const;
   std::optional<Place> middle(const Affine3& world_from_shape, const Vector3& point, double reach) const;
   std::optional<Place> edge(const Affine3& world_from_shape, const Vector3& point, double reach) const;
-  /// `triangles` is the same shape, made ready for collisions. Exact for primitives and meshes, of round
-  /// primitives that are stretched unevenly but for where several places are as near as their triangles can
-  /// tell; other shapes as near as their triangles are.
+  /// `triangles` is the same shape, prepared for collisions. Exact for primitives and meshes, but for
+  /// unevenly stretched round primitives where several places are as near as their triangles can tell;
+  /// other shapes as near as their triangles are.
   std::optional<Place> face(const Affine3& world_from_shape, const Vector3& point, double reach,
                             world::CollisionShape& triangles) const;
 
-  /// In the shape's frame, m.
+  /// The corners, in the shape's frame, m.
   const std::vector<Vector3>& corners() const { return corners_; }
 
  private:

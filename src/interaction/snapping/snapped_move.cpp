@@ -8,12 +8,12 @@ namespace {
 
 using world::ObjectId;
 
-constexpr std::size_t kMostTries = 8;  // of snaps that something is in the way of
+constexpr std::size_t kMostTries = 8;  // snaps, where something is in the way
 constexpr double kOffLine = 1e-12;     // of the objects' size: rounding
 
 Vector3 part_along(const Vector3& axis, const Vector3& way) { return axis.dot(way) * axis; }
 
-/// On the line, what they must go by to snap: to where it meets a face, or next to anything else.
+/// The move along the line that snaps: to where it meets a face, or next to anything else.
 std::optional<Vector3> snap_along(const Vector3& axis, const ObjectSnap& found, double radius) {
   constexpr double kFlat = 0.1;  // sine: lines that lie flatter meet a face nowhere near
   Vector3 way = part_along(axis, found.offset());
@@ -26,7 +26,7 @@ std::optional<Vector3> snap_along(const Vector3& axis, const ObjectSnap& found, 
   return way;
 }
 
-/// One question to snapped_from().
+/// The arguments of a call of snapped_from().
 struct SnapQuestion {
   const world::World& world;
   world::CollisionIndex& index;
@@ -44,7 +44,7 @@ struct SnapQuestion {
   }
 };
 
-/// From where surfaces let them go on to what is near there and can be reached; false where nothing is.
+/// Goes on from where surfaces let them go to the best snap that can be reached; false where none can.
 bool snap_to_things(const SnapQuestion& question, const MovingObjects& moving, const StopSettings& stops,
                     SnappedMove& move) {
   SnapSettings things = question.rules.snaps;
@@ -62,8 +62,8 @@ bool snap_to_things(const SnapQuestion& question, const MovingObjects& moving, c
   return false;
 }
 
-/// The grid says where they are to go, and surfaces how far they come on the way there: so what is in the way
-/// of the grid's place stops them short of it, and does not send them to another one beside.
+/// The grid gives the place to go to, and surfaces how far they come on the way there: so an obstacle stops
+/// them short of the grid's place, and does not send them to another one beside it.
 base::Result<void> snap_to_grid_place(const SnapQuestion& question, const MovingObjects& moving,
                                       const Vector3& from, const Vector3& wanted, const StopSettings& stops,
                                       SnappedMove& move) {
@@ -86,7 +86,7 @@ base::Result<void> snap_to_grid_place(const SnapQuestion& question, const Moving
   return {};
 }
 
-/// As snapped_move, of objects that are `from` off where they stand.
+/// The move of snapped_move(), for objects that are `from` (m) off where they stand.
 base::Result<SnappedMove> snapped_from(const SnapQuestion& question, const Vector3& from,
                                        const Vector3& wanted) {
   const MovingObjects moving(question.index, question.objects, question.effort);
@@ -141,7 +141,7 @@ base::Result<StoppedDrag::Found> StoppedDrag::find(const world::World& world, wo
   return Found{std::move(*move), wanted, there, is_spent()};
 }
 
-/// From wherever they were dragged before they were to keep to a line.
+/// The move back to the line, from wherever they were dragged before they were to keep to it.
 base::Result<StoppedMove> StoppedDrag::back_to_line(const MovingObjects& moving,
                                                     const DragRules& rules) const {
   const Vector3 back = part_along(*rules.axis, offset_) - offset_;
@@ -155,7 +155,7 @@ world::Edit StoppedDrag::take(const Found& found) {
   wanted_ = found.wanted;
   free_ = offset_ + move.free;
   offset_ += move.move.offset;
-  // What gets where it is wanted is there to the last bit: each edit counts from the beginning.
+  // Objects that arrive are there to the last bit: each edit counts from the beginning.
   if (arrives) offset_ = free_ = found.there;
   contacts_ = move.contacts;
   snap_ = move.snap;

@@ -8,7 +8,7 @@
 
 namespace icome::interaction {
 
-/// How objects that are moved keep to what is around them.
+/// Rules for moved objects among those around them.
 struct DragRules {
   StopSettings stops = {};
   SnapSettings snaps = {};
@@ -24,10 +24,10 @@ struct SnappedMove {
   std::vector<Contact> contacts = {};   // what keeps them from going on, at `free`
 };
 
-/// As stopped_move, and then on to the best snap that is near there and can be reached without going through
-/// anything. With an axis the objects stand on the line; on it they snap to where it meets a face, or comes
-/// nearest to anything else. The grid comes before surfaces: objects go towards the grid's place that is
-/// nearest to where they are wanted, and what is in the way stops them short of it.
+/// The move of stopped_move(), and then on to the best snap that is near there and can be reached without
+/// going through anything. With an axis the objects stand on the line; on it they snap to where it meets a
+/// face, or comes nearest to anything else. The grid comes before surfaces: objects go towards the grid's
+/// place that is nearest to where they are wanted, and obstacles stop them short of it.
 base::Result<SnappedMove> snapped_move(const world::World& world, world::CollisionIndex& index,
                                        SnapFinder& finder, std::span<const world::ObjectId> objects,
                                        const Vector3& wanted, const DragRules& rules = {});
@@ -45,15 +45,15 @@ class StoppedDrag {
 
   bool empty() const { return move_.empty(); }
 
-  /// The next edit, to be applied and followed by index and finder before the one after it, of a hand that
-  /// is `wanted` (m, world frame) off where it took the objects. Fails as stopped_move does: nothing has
-  /// changed.
+  /// The next edit, to be applied and followed by index and finder before the one after it, for a hand
+  /// that is `wanted` (m, world frame) off where it took the objects. Fails as stopped_move does: nothing
+  /// has changed then.
   base::Result<world::Edit> to(const world::World& world, world::CollisionIndex& index, SnapFinder& finder,
                                const Vector3& wanted, const DragRules& rules = {});
 
-  /// In two parts: where that edit would put them, of which a part may take more effort (null: there is no
-  /// end to it) than there is, and then the edit itself. What is found holds while neither the world nor this
-  /// has changed. The world is only asked where things may snap.
+  /// to() in two parts: the move, which may take more effort (null: unlimited) than there is, and then the
+  /// edit that makes it. A found move holds while neither the world nor this has changed. The world is only
+  /// asked where things may snap.
   struct Found {
     SnappedMove move = {};
     Vector3 wanted = Vector3::Zero(), there = Vector3::Zero();  // where the hand is, and that on the line
@@ -64,13 +64,13 @@ class StoppedDrag {
   world::Edit take(const Found& found);
 
   const std::vector<world::ObjectId>& objects() const { return move_.objects(); }
-  // All m, in the world's frame, off where the hand took them.
+  // Offsets, m, in the world's frame, from where the hand took them.
   const Vector3& wanted() const { return wanted_; }  // where the hand was last
   const Vector3& free() const { return free_; }      // how far surfaces let them go
   const Vector3& offset() const { return offset_; }  // where they are, snapped
-  /// What keeps them from where the hand is.
+  /// The contacts that keep them from where the hand is.
   const std::vector<Contact>& contacts() const { return contacts_; }
-  /// What they have snapped to.
+  /// The snap that they have reached; nothing: none.
   const std::optional<ObjectSnap>& snap() const { return snap_; }
 
  private:

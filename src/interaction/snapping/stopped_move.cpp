@@ -44,7 +44,7 @@ class Corner {
  private:
   static constexpr double kTrial = 10.0;  // tolerances: shorter ways are not worth a turn
 
-  /// A normal from where edges end may be that of no surface: trying tells.
+  /// Does the way lead on? A normal where edges end may be that of no surface: only trying tells.
   bool leads_on(const Vector3& way) const {
     return objects_.free_share(at_, kTrial * tolerance_ * way.normalized(), 0.1 * tolerance_) > 0.5;
   }
@@ -54,9 +54,9 @@ class Corner {
   double tolerance_;  // m
 };
 
-/// Next to where things go into others by little, as what was put somewhere by its numbers does, and surfaces
-/// that are asked by their triangles: the nearest place, along one of six ways, where they do not. None where
-/// it is more than that.
+/// For objects that go into others by little, as those do that were placed by numbers, and surfaces that are
+/// known by their triangles: the nearest place, along one of six ways, where they do not. None where they go
+/// in by more than that.
 std::optional<Vector3> lifted(const MovingObjects& moving, const Vector3& from, double tolerance) {
   double taken = 0.0;  // share of their size
   for (const double share : {1e-6, 1e-5, 1e-4, 1e-3, 4e-3, 0.012, 0.03}) {
@@ -77,8 +77,8 @@ std::optional<Vector3> lifted(const MovingObjects& moving, const Vector3& from, 
   return std::nullopt;
 }
 
-/// Where it goes into others by no more than what triangles may be off them: back along its way to where it
-/// does not; else where it is.
+/// For objects that go into others by no more than the deviation of triangles: the place back along their
+/// way where they do not; else the place where they are.
 Vector3 drawn_back(const MovingObjects& moving, const Vector3& from, const Vector3& direction,
                    double tolerance) {
   const double most = 2.0 * moving.deviation(from);
@@ -98,7 +98,7 @@ Vector3 drawn_back(const MovingObjects& moving, const Vector3& from, const Vecto
   return from;
 }
 
-/// Where the way begins by triangles.
+/// The beginning of the way, which is free by triangles where such a place is near.
 Vector3 where_it_begins(const MovingObjects& moving, const Vector3& from, const Vector3& way, bool slide,
                         double tolerance) {
   if (!moving.overlap(from)) return from;
@@ -118,7 +118,7 @@ base::Result<void> check_way(const MovingObjects& objects, const Vector3& way) {
   return {};
 }
 
-/// As far as triangles let them go.
+/// The move as far as triangles let them go.
 StoppedMove stopped_by_triangles(const MovingObjects& moving, const Vector3& from, const Vector3& wanted,
                                  const StopSettings& settings) {
   const double tolerance = settings.tolerance * moving.size();
@@ -159,11 +159,11 @@ base::Result<StoppedMove> stopped_move(const MovingObjects& moving, const Vector
     if (!fit->contacts.empty()) result.contacts = fit->contacts;
   }
   result.spent = moving.is_spent();
-  // What triangles are off by is known too late then.
+  // The effort was spent before the stop could be fitted to the exact shapes.
   if (result.spent && moving.deviation(at) > 0.0) at = from;
   if (result.spent) result.contacts.clear();
   result.stopped = (wanted - at).norm() > tolerance;
-  // What rests at a surface does not creep up to it.
+  // Objects that rest at a surface do not creep up to it.
   if (result.stopped && (at - from).norm() <= tolerance) at = from;
   return result;
 }

@@ -24,7 +24,7 @@ constexpr std::uint64_t kCornersAUnit = 8;  // triangles whose corners are looke
 
 double largest_of(const Vector3& vector) { return vector.cwiseAbs().maxCoeff(); }
 
-/// The map stretches no length by more.
+/// A bound of the factor by which the map stretches lengths.
 double stretch_of(const Affine3& map) { return map.linear().norm(); }
 
 Corners placed_corners(const Affine3& frame, const Corners& corners) {
@@ -83,7 +83,7 @@ class TouchSearch {
     Vector3 step;
   };
 
-  /// What stands is taken to go past what is moved: touches are found in the frame of that.
+  /// Lets the standing shape go past the moved one: touches are then found in the frame of the moved one.
   const Side& turned(const Side& standing) {
     frame_step_ = passing_.step;
     return standing;
@@ -102,7 +102,7 @@ class TouchSearch {
     cross_plane(other.normal.dot(one.foot - other.foot), other.normal, passing_.step, one.foot);
   }
 
-  /// A place, that is `height` above a plane, goes by `step`.
+  /// Adds the touch of a point that is `height` (m) above a plane and goes by `step`.
   void cross_plane(double height, const Vector3& normal, const Vector3& step, const Vector3& place) {
     const double speed = normal.dot(step), share = -height / speed;
     if (std::abs(speed) > rounding_) add(share, normal, place + share * step);
@@ -135,7 +135,7 @@ class TouchSearch {
     cross_sphere(point, step, centre, one.radius + other.radius, other.radius);
   }
 
-  /// What they touch at is `inner` off the centre.
+  /// Adds the touches of a point with a sphere; their places are `inner` (m) off the centre.
   void cross_sphere(const Vector3& point, const Vector3& step, const Vector3& centre, double radius,
                     double inner) {
     const Vector3 offset = point - centre;
@@ -188,7 +188,7 @@ class TouchSearch {
     }
   }
 
-  /// Around a box on the part of its way that is looked at.
+  /// The bounds of a box on the part of its way that is searched.
   Bounds on_its_way(const Bounds& box, const Vector3& step) const {
     return box.translated(from_ * step).merged(box.translated(until_ * step));
   }
@@ -243,7 +243,7 @@ class TouchSearch {
     }
   }
 
-  /// `seen`: how the points go in the frame in which touches are found.
+  /// `seen`: the step of the points in the frame in which touches are found.
   void corners_through(const Corners& points, const Vector3& step, const Corners& face, const Vector3& seen) {
     const Vector3 normal = (face[1] - face[0]).cross(face[2] - face[0]).normalized();
     const double speed = normal.dot(step);
@@ -255,7 +255,7 @@ class TouchSearch {
     }
   }
 
-  /// Not where one of them ends: that is a corner's touch.
+  /// Adds the touch of two edges, but not where one of them ends: that is a corner's touch.
   void edges_cross(const Vector3& from, const Vector3& to, const Vector3& step, const Vector3& other_from,
                    const Vector3& other_to) {
     const Vector3 u = to - from, v = other_to - other_from;
@@ -274,8 +274,8 @@ class TouchSearch {
       add(share, normal / norm, other_from + r * v);
   }
 
-  /// How far a place may be off that is reached when something goes through a plane at that speed: slowly,
-  /// the time is known less well.
+  /// Error (m) of the place where something goes through a plane at that speed: the slower, the less well
+  /// the time is known.
   double slack(const Vector3& step, double speed) const {
     return 2.0 * rounding_ + 4.0 * arithmetic_ * step.norm() / std::abs(speed);
   }
@@ -292,7 +292,7 @@ class TouchSearch {
   double from_, until_;
   base::FunctionRef<double(const Touch&)> visit_;
   double rounding_, arithmetic_;          // m
-  Vector3 frame_step_ = Vector3::Zero();  // m: by so much what stands in for the world goes on the way
+  Vector3 frame_step_ = Vector3::Zero();  // m: step of the frame in which touches are found
 };
 
 /// Keeps the first touches in their order.

@@ -28,7 +28,7 @@ double go_go_slope(const GoGoSettings& settings, double distance) {
 
 double go_go_distance(const GoGoSettings& settings, double reach) {
   const double further = beyond_near(settings, reach);
-  // Of k x^2 + x = further, without losing digits where k is small.
+  // The root of k x^2 + x = further, without losing digits where k is small.
   return reach - further + 2.0 * further / (1.0 + std::sqrt(1.0 + 4.0 * settings.gain * further));
 }
 

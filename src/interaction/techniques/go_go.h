@@ -3,9 +3,9 @@
 
 namespace icome::interaction {
 
-/// The Go-Go mapping of the hand (Poupyrev, Billinghurst, Weghorst and Ichikawa, UIST 1996): as it is near
-/// the body, farther and farther away beyond D. The paper has k = 1/6 for lengths in cm and D = 2/3 of the
-/// arm's length; k is 1/cm, so 100/6 for metres.
+/// The Go-Go mapping of the hand (Poupyrev, Billinghurst, Weghorst and Ichikawa, UIST 1996): unchanged
+/// near the body, farther and farther away beyond D. The paper has k = 1/6 for lengths in cm and D = 2/3
+/// of the arm's length; k is 1/cm, so 100/6 for metres.
 struct GoGoSettings {
   double arm = 0.7;                // m, from the chest to the hand of the stretched arm; 0.4 to 1
   double near_share = 2.0 / 3.0;   // of the arm: D
@@ -13,18 +13,18 @@ struct GoGoSettings {
   double chest_below_eyes = 0.25;  // m, where distances are measured from; 0.2 to 0.4
 };
 
-/// How far from the chest the virtual hand is when the hand is at `distance` (m, >= 0):
+/// Distance of the virtual hand from the chest when the hand is at `distance` (m, >= 0):
 /// r below D, r + k (r - D)^2 beyond.
 double go_go_reach(const GoGoSettings& settings, double distance);
-/// How many times as fast the virtual hand moves outwards there: 1 up to D, and continuous.
+/// Speed of the virtual hand outwards there, in that of the hand: 1 up to D, and continuous.
 double go_go_slope(const GoGoSettings& settings, double distance);
-/// Where the hand is when the virtual hand is at `reach` (m, >= 0).
+/// Distance of the hand from the chest when the virtual hand is at `reach` (m, >= 0).
 double go_go_distance(const GoGoSettings& settings, double reach);
 
 /// The virtual hand: in the hand's direction from the chest, turned as the hand. Room frame.
 base::Pose go_go_hand(const GoGoSettings& settings, const base::Vector3& room_chest,
                       const base::Pose& room_from_hand);
-/// Where the hand must be for the virtual hand to be at a point. Room frame.
+/// The place of the hand that puts the virtual hand at a point. Room frame.
 base::Vector3 go_go_hand_for(const GoGoSettings& settings, const base::Vector3& room_chest,
                              const base::Vector3& room_point);
 /// The chest of a person whose eyes are there.

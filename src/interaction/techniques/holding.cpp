@@ -43,7 +43,7 @@ Pose Hold::hand(const HoldingMoment& now, std::size_t which) const {
   return carried_by(now.world_from_room, room_from_hand);
 }
 
-/// From the world to what the hand moves: the world itself, or the miniature.
+/// The map from the world to the thing that the hand moves in: the world itself, or the miniature.
 base::Affine3 Hold::shown_from_world(const HoldingMoment& now) const {
   if (holding_ != Holding::Miniature) return base::Affine3::Identity();
   return copy_from_world(now.sizes.miniature, now.world_bounds, now.input, now.world_from_room);
@@ -91,7 +91,7 @@ base::Affine3 Hold::follow(const HoldingMoment& now, const base::Affine3& world_
                          now.settings.nearest, now.settings.farthest);
   }
   const base::Affine3 shown = shown_from_world(now);
-  // Who travels meanwhile may see the copy at another scale: what is held is as large as it was.
+  // Travelling meanwhile may change the scale of the copy: the held object stays as large as it was.
   const double same_size = scale_of(shown) / shown_scale_;
   return shown.inverse() * hand(now, which) * slid() * hand_from_target_ * Eigen::Scaling(same_size);
 }

@@ -7,7 +7,7 @@
 
 namespace icome::interaction {
 
-/// How what was selected is moved (thesis 2.2, 2.3.1).
+/// Ways to move a selected object (thesis 2.2, 2.3.1).
 enum class Holding : std::uint8_t {
   Hand,         // goes with the hand in all six degrees of freedom
   GoGo,         // goes with the virtual hand of an arm that grows
@@ -21,13 +21,13 @@ inline constexpr std::array kAllHolding = {Holding::Hand,      Holding::GoGo,   
 std::string_view name_of(Holding holding);
 
 struct HoldingSettings {
-  double reel_speed = 1.5;   // 1/s: by this power of e what hangs on a ray goes away in a second; 0.5 to 3
+  double reel_speed = 1.5;   // 1/s: an object on a ray goes away by this power of e in a second; 0.5 to 3
   double nearest = 0.05;     // m, to which it can be pulled
   double farthest = 1000.0;  // m, to which it can be pushed; to so far from the eyes anything can be moved
   TwoHandSettings two_hands = {};
 };
 
-/// What holding reads of one moment.
+/// The inputs of holding at one moment.
 struct HoldingMoment {
   const TechniqueInput& input;
   const SelectingSettings& sizes;
@@ -41,11 +41,11 @@ struct HoldingMoment {
 /// again, holding begins anew from where the object is then, so nothing jumps.
 class Hold {
  public:
-  /// Which of the hands may hold: one for most ways, both for TwoHands.
+  /// Hand 0 holds; with TwoHands both may.
   Hold(Holding holding, const PointedAt& grasped);
 
   TargetId id() const { return id_; }
-  /// Where the object is now, from where it was at the last step; both in the world's frame.
+  /// The object's place now, from its place at the last step; both in the world's frame.
   base::Affine3 follow(const HoldingMoment& now, const base::Affine3& world_from_target);
 
  private:
@@ -69,8 +69,8 @@ class Hold {
   base::Affine3 start_ = base::Affine3::Identity();
 };
 
-/// By how much the room must grow about the eyes for what is grasped to come to the hand's distance, as if
-/// the world shrank (Mine, Brooks and Sequin 1997); within 1/1000 and 1000.
+/// Factor by which the room must grow about the eyes for the grasped point to come to the hand's distance,
+/// as if the world shrank (Mine, Brooks and Sequin 1997); within 1/1000 and 1000.
 double growth_to_reach(const Vector3& eyes, const Vector3& hand, const Vector3& grasped);
 
 }  // namespace icome::interaction

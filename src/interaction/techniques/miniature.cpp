@@ -7,7 +7,7 @@
 namespace icome::interaction {
 namespace {
 
-/// Straight ahead of the eyes and level; where they look straight up or down, where the head's top points.
+/// The level direction ahead of the eyes; where they look straight up or down, that of the head's top.
 Vector3 level_ahead(const Pose& room_from_head) {
   Vector3 ahead = -room_from_head.linear().col(2);
   if (std::hypot(ahead.x(), ahead.z()) < 1e-6) ahead = room_from_head.linear().col(1);
@@ -15,7 +15,7 @@ Vector3 level_ahead(const Pose& room_from_head) {
   return ahead.normalized();
 }
 
-/// Where the copy floats, in the room.
+/// The place where the copy floats, in the room.
 Vector3 floating_place(const MiniatureSettings& settings, const Pose& room_from_head) {
   const bool level = !settings.keeps_in_sight;
   const Vector3 ahead = level ? level_ahead(room_from_head) : Vector3(-room_from_head.linear().col(2));

@@ -12,12 +12,12 @@ struct MiniatureSettings {
   double above_hand = 0.05;     // m, from the other hand to its floor
   double before = 0.45;         // m, ahead of the eyes, while no hand holds it
   double below = 0.25;          // m, under the eyes, likewise
-  bool keeps_in_sight = false;  // its middle is ahead and under as the eyes look, not its floor as is level
+  bool keeps_in_sight = false;  // its middle is placed by the eyes' own axes, not its floor by level ones
   base::Bounds shown = {};      // m, of the world; empty: all that there is
 };
 
-/// Takes a place of the world to that of its copy; both in the world's frame. `all` is around the world;
-/// where that is empty and the settings say nothing, a box of 1 m around the origin is shown.
+/// The map from a place of the world to its copy; both in the world's frame. `all` is the box around the
+/// world; where that is empty and the settings say nothing, a box of 1 m around the origin is shown.
 base::Affine3 copy_from_world(const MiniatureSettings& settings, const base::Bounds& all,
                               const TechniqueInput& input, const base::Affine3& world_from_room);
 

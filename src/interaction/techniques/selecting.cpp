@@ -29,7 +29,7 @@ PointedAt shone_upon(const TechniqueScene& scene, const Pose& pointer, double re
   return result;
 }
 
-/// The centre of what is meant, or a point ahead.
+/// The target with its centre, or nothing with a point ahead.
 PointedAt centred(const TechniqueScene& scene, const Pose& pointer, TargetId id, double reach) {
   return {id, id != 0 ? centre_of(scene, id) : Vector3(pointer * Vector3(0.0, 0.0, -reach)), pointer};
 }
@@ -40,7 +40,7 @@ PointedAt spotlighted(const TechniqueScene& scene, const Pose& pointer, const Se
   return centred(scene, pointer, disambiguated(scene.lit_by(cone), settings.same_angle), reach);
 }
 
-/// What the look goes through, else what it passes by nearest.
+/// The target that the look goes through, else the one that it passes nearest.
 PointedAt looked_upon(const TechniqueScene& scene, const Pose& eyes, const SelectingSettings& settings,
                       double reach) {
   const PointedAt straight = shone_upon(scene, eyes, reach);

@@ -29,7 +29,7 @@ bool axis_meets_triangle(const SelectionCone& cone, const std::array<Vector3, 3>
   const Vector3 other = corners[2] - corners[0];
   const Vector3 across = cone.direction.cross(other);
   const double volume = one.dot(across);
-  if (volume == 0.0) return false;  // its edges then say all
+  if (volume == 0.0) return false;  // its edges then decide
   const Vector3 from = cone.apex - corners[0];
   const double u = from.dot(across) / volume;
   const Vector3 turned_from = from.cross(one);

@@ -5,10 +5,10 @@
 
 namespace icome::interaction {
 
-// Transforms that turn, move and scale alike in all directions: where the tracked room stands in the world
+// Transforms that turn, move and scale alike in all directions: the place of the tracked room in the world
 // (which automatic scaling makes larger or smaller) and the miniature of a world.
 
-/// How many times longer lengths become; the linear part's determinant must be > 0.
+/// The factor by which lengths grow; the linear part's determinant must be > 0.
 inline double scale_of(const base::Affine3& similarity) {
   return std::cbrt(similarity.linear().determinant());
 }

@@ -11,7 +11,7 @@
 namespace icome::interaction {
 namespace {
 
-/// A pause of the devices must not carry anybody far.
+/// The longest time that one step counts: a pause of the devices must not carry anybody far.
 constexpr double kLongestStep = 0.1;  // s
 
 void grow_room(TechniqueState& state, const TechniqueInput& input, double growth) {
@@ -40,7 +40,7 @@ bool still_held(const Technique& technique, const TechniqueInput& input) {
   return input.hands[0].grab || (technique.holding == Holding::TwoHands && input.hands[1].grab);
 }
 
-/// A hand that is mapped to a larger one must not lead anything to where numbers end, drag by drag.
+/// Is the place in reach? A magnified hand must not lead anything to where numbers end, drag by drag.
 bool is_in_reach(const base::Affine3& place, const base::Affine3& before, const Vector3& eyes,
                  double farthest) {
   const double away = (place.translation() - eyes).norm();

@@ -17,7 +17,7 @@ struct Technique {
   TravelSettings travel_settings = {};
 };
 
-/// Sizes that can be. The error says which is not.
+/// Checks that all sizes are possible. The error names the one that is not.
 base::Result<void> check(const Technique& technique);
 
 /// All that a technique remembers from one step to the next. A plain value.
@@ -32,28 +32,28 @@ struct TechniqueState {
   Travel travel{};
 };
 
-/// The sizes that the next step goes by. While something is held, the miniature shows what it did when that
-/// was taken: else it would shrink with each step that leads outwards, and what is held would grow.
+/// The sizes for the next step. While something is held, the miniature shows what it showed when that was
+/// taken: else it would shrink with each step that leads outwards, and the held object would grow.
 SelectingSettings sizes_now(const Technique& technique, const TechniqueState& state);
 
 /// The state before the first step.
 TechniqueState begun(const Technique& technique);
 
-/// An object that is elsewhere after a step.
+/// An object that a step has moved.
 struct MovedTarget {
   TargetId id = 0;
   base::Affine3 world_from_target = base::Affine3::Identity();
 };
 
-/// What a step shows.
+/// The outcome of a step.
 struct TechniqueOutcome {
   bool ignored = false;    // the input made no sense, or time went back: nothing has changed
-  PointedAt pointed = {};  // what is meant, and highlighted; what is held, while something is
+  PointedAt pointed = {};  // the highlighted target; the held one, while something is held
   TargetId selected = 0;   // 0: nothing
   bool picked = false;     // the button went down at this step
   std::optional<MovedTarget> moved = {};
   base::Affine3 world_from_room = base::Affine3::Identity();
-  std::optional<Pose> destination = {};  // of the eyes, where one would travel to
+  std::optional<Pose> destination = {};  // of the eyes, to which one would travel
 };
 
 struct TechniqueStep {
@@ -61,21 +61,21 @@ struct TechniqueStep {
   TechniqueOutcome outcome;
 };
 
-/// One step: a pure function. Who calls it puts what was moved there, in the scene and (as an edit) in the
-/// world.
+/// One step: a pure function. The caller puts the moved object at its place, in the scene and (as an edit)
+/// in the world.
 TechniqueStep step(const Technique& technique, const TechniqueState& state, const TechniqueInput& input,
                    const TechniqueScene& scene);
 
-/// Lets go of what is held, as if the buttons had come up: to hold something again, they have to be pressed
-/// anew. `input` is that of the last step.
+/// Lets go of the held object, as if the buttons had come up: to hold something again, they have to be
+/// pressed anew. `input` is that of the last step.
 TechniqueState let_go(TechniqueState state, const TechniqueInput& input);
 
-/// All steps of a recorded session from the beginning; what is moved is moved in the scene. The same stream
+/// The outcomes of all steps of a recorded session; moved objects are moved in the scene. The same stream
 /// and scene give the same outcomes to the last bit.
 std::vector<TechniqueOutcome> replay(const Technique& technique, std::span<const TechniqueInput> stream,
                                      TechniqueScene& scene);
 
-/// Equal for outcomes that are equal to the last bit, and almost surely different for others.
+/// A hash that is equal for outcomes equal to the last bit, and almost surely different for others.
 std::uint64_t hash(std::span<const TechniqueOutcome> outcomes);
 
 }  // namespace icome::interaction

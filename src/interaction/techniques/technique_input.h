@@ -17,16 +17,16 @@ struct HandInput {
   double reel = 0.0;    // [-1, 1]; > 0 pushes what is held on a ray away
 };
 
-/// What all devices say at one moment: all that a technique reads beside the scene. Poses are in the room's
-/// frame (m, y up), which stands somewhere in the world: that place, and with it the hands, is what
-/// travelling moves.
+/// The state of all devices at one moment: all that a technique reads besides the scene. Poses are in the
+/// room's frame (m, y up), which stands somewhere in the world: travelling moves that place, and the hands
+/// with it.
 struct TechniqueInput {
   double time = 0.0;  // s, rises from step to step
   Pose room_from_head = Pose::Identity();
   std::array<HandInput, 2> hands = {};  // the one that points first, then the other
 };
 
-/// Numbers only, poses that are rigid and within 1e6 m: anything else a technique leaves alone.
+/// Are all numbers finite, and poses rigid and within 1e6 m? A technique ignores any other input.
 bool makes_sense(const TechniqueInput& input);
 
 }  // namespace icome::interaction

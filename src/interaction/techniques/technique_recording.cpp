@@ -55,7 +55,7 @@ std::optional<std::string_view> take_line(std::string_view& text) {
   return line;
 }
 
-/// So many numbers with a space between each two, all finite but where `any` may be anything.
+/// Takes a line of kCount numbers with a space between each two; the first `finite` of them must be finite.
 template <std::size_t kCount>
 std::optional<std::array<double, kCount>> take_numbers(std::string_view& text, std::size_t finite = kCount) {
   const auto line = take_line(text);

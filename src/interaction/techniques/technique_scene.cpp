@@ -17,7 +17,7 @@ bool is_target_place(const base::Affine3& place) {
 
 double longest_stretch(const base::Affine3& place) { return base::singular_values(place.linear()).values[0]; }
 
-/// How far along the ray the ball is met: at its far side from within it.
+/// Distance along the ray at which it meets the ball, m: at its far side from within it.
 std::optional<double> ball_hit(const TargetBall& ball, const Ray& ray) {
   const Vector3 way = ball.centre - ray.origin;
   const double along = way.dot(ray.direction);

@@ -15,15 +15,15 @@ namespace icome::interaction {
 /// Names a target for techniques; 0 names none.
 using TargetId = std::uint64_t;
 
-/// What a target is made of, in a frame of its own (m). Answers in the world's frame are exact.
+/// The shape of a target, in a frame of its own (m). Answers in the world's frame are exact.
 class TargetShape {
  public:
   virtual ~TargetShape() = default;
-  /// From the point to the nearest of the surface, m; 0 or less inside a solid. May be anything >= `limit`
-  /// where it is not less.
+  /// Distance from the point to the surface, m; 0 or less inside a solid. May be anything >= `limit` where
+  /// it is not less.
   virtual double distance(const base::Affine3& world_from_target, const Vector3& point,
                           double limit) const = 0;
-  /// How far along the ray the surface is first met, m.
+  /// Distance along the ray to the first hit of the surface, m.
   virtual std::optional<double> first_hit(const base::Affine3& world_from_target, const Ray& ray) const = 0;
   virtual bool meets(const base::Affine3& world_from_target, const SelectionCone& cone) const = 0;
 };
@@ -38,42 +38,42 @@ struct SceneTarget {
   std::shared_ptr<const TargetShape> shape = nullptr;
 };
 
-/// The ball around a target in the world's frame: of the target itself, where it is one and not stretched.
+/// The ball around a target in the world's frame; the target itself, if it is a ball and not stretched.
 struct TargetBall {
   Vector3 centre;  // m
   double radius;   // m
 };
 TargetBall ball_of(const SceneTarget& target);
 
-/// The world as techniques see it: what can be pointed at, and where it is. A plain value that owns its
-/// targets and shares their shapes; the same targets, added in the same order, give the same answers to the
-/// last bit. Queries look at every ball, and at the shapes of those that are met.
+/// The world as techniques see it: the targets and their places. A plain value that owns its targets and
+/// shares their shapes; the same targets, added in the same order, give the same answers to the last bit.
+/// Queries look at every ball, and at the shapes of those that are met.
 class TechniqueScene {
  public:
-  /// Fails for an id that is 0 or there already, and for sizes and places that cannot be.
+  /// Fails for an id that is 0 or there already, and for impossible sizes and places.
   base::Result<void> add(const SceneTarget& target);
-  /// False, and nothing changes, where there is no such target or its place would be none.
+  /// False, and nothing changes, where there is no such target or the place is impossible.
   bool move(TargetId id, const base::Affine3& world_from_target);
 
-  /// Null where there is none. Valid until the next change.
+  /// The target of that id; null where there is none. Valid until the next change.
   const SceneTarget* find(TargetId id) const;
   const std::vector<SceneTarget>& targets() const { return targets_; }
-  /// Of the target at a place in targets().
+  /// The ball of the target at a place in targets().
   const TargetBall& ball(std::size_t place) const { return balls_[place]; }
-  /// Around all balls; empty when there is none.
+  /// The bounds of all balls; empty when there is none.
   base::Bounds bounds() const;
 
-  /// A target and how far away it is, m.
+  /// A target and its distance, m.
   struct Found {
     TargetId id;
     double distance;
   };
-  /// The one whose surface is nearest, or which the point is deepest within; the first added of several.
+  /// The target whose surface is nearest, or which the point is deepest within; the first added of several.
   std::optional<Found> nearest(const Vector3& point,
                                double limit = std::numeric_limits<double>::infinity()) const;
   std::optional<Found> first_hit(const Ray& ray) const;
 
-  /// Something in the light of a spotlight.
+  /// A target in the light of a spotlight.
   struct Lit {
     TargetId id;
     double off_axis;  // rad, of its ball's centre

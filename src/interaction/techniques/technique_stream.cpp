@@ -45,7 +45,7 @@ HandInput hand_of(const double* numbers) {
   return hand;
 }
 
-/// The numbers of a line, which one space divides; nothing where there are others, more or fewer.
+/// The numbers of a line, divided by single spaces; nothing where there are others, more or fewer.
 std::optional<StepNumbers> numbers_of(std::string_view line) {
   StepNumbers numbers;
   const char* at = line.data();

@@ -71,7 +71,7 @@ std::optional<Vector3> teleport_place(const TechniqueScene& scene, const Ray& ra
   return place;
 }
 
-/// Two hands turn the world about what is in its middle, so the person goes round it the other way.
+/// Two hands turn the world about its middle or the selected target, so the person goes the other way.
 base::Affine3 Travel::orbit(const TravelMoment& now, const base::Affine3& world_from_room) {
   const auto& hands = now.input.hands;
   if (!hands[0].tracked || !hands[1].tracked || !hands[0].travel || !hands[1].travel) {
@@ -79,7 +79,7 @@ base::Affine3 Travel::orbit(const TravelMoment& now, const base::Affine3& world_
     return world_from_room;
   }
   const std::array<Pose, 2> poses = {hands[0].room_from_hand, hands[1].room_from_hand};
-  // What is held may make the room larger or smaller; then it begins anew.
+  // A held object may make the room larger or smaller; then orbiting begins anew.
   constexpr double kSameScale = 1e-9;
   const bool resized =
       orbit_ && std::abs(scale_of(world_from_room) / scale_of(orbit_->world_from_room) - 1.0) > kSameScale;
@@ -99,7 +99,7 @@ base::Affine3 Travel::orbit(const TravelMoment& now, const base::Affine3& world_
   return Eigen::Translation3d((orbit_->grip.growth() - 1.0) * away) * turned_room;
 }
 
-/// The eyes fly; how large the room is, which what is held may change on the way, is left as it is.
+/// The eyes fly; the room keeps its present size, which a held object may change on the way.
 base::Affine3 Travel::arrive(const TravelMoment& now, const base::Affine3& world_from_room) {
   const Arrival arrival = *arrival_;
   const ViewFlight flight(arrival.from, arrival.to, arrival.seconds);
@@ -109,7 +109,7 @@ base::Affine3 Travel::arrive(const TravelMoment& now, const base::Affine3& world
          base::Affine3(arrival.room_from_head.inverse());
 }
 
-/// While the button is down: where would one teleport to?
+/// Sets the destination of a teleport while the button is down.
 void Travel::aim(const TravelMoment& now, const base::Affine3& world_from_room) {
   destination_.reset();
   const auto place = teleport_place(now.scene, pointing_ray(now.input, world_from_room), now.settings);

@@ -7,8 +7,8 @@
 
 namespace icome::interaction {
 
-/// How people move themselves (thesis 2.2.2, 2.3.1, 2.4.3), while the travel button is down. What moves is
-/// the room, so that hands and pointers come along with the view.
+/// Ways to travel (thesis 2.2.2, 2.3.1, 2.4.3) while the travel button is down. The room moves, so that
+/// hands and pointers come along with the view.
 enum class Travelling : std::uint8_t {
   None,
   Orbit,      // two hands turn the person about what is selected; their distance sets how far away it is
@@ -29,7 +29,7 @@ struct TravelSettings {
   double likeness_radius = 0.05;  // m in the room's scale: from there the hand takes the likeness
 };
 
-/// What travelling reads of one moment.
+/// The inputs of travelling at one moment.
 struct TravelMoment {
   const TechniqueInput& input;
   const SelectingSettings& sizes;
@@ -39,16 +39,16 @@ struct TravelMoment {
   double seconds;  // since the last step
 };
 
-/// A person on the way. A plain value; where the room stands is passed through.
+/// A person on the way. A plain value; the room's place is passed through.
 class Travel {
  public:
   explicit Travel(Travelling travelling = Travelling::None) : travelling_(travelling) {}
 
-  /// Where the room stands in the world after the step.
+  /// The room's place in the world after the step.
   base::Affine3 follow(const TravelMoment& now, const base::Affine3& world_from_room);
-  /// On an animated way to somewhere: buttons for travelling are not heard.
+  /// Is an animated way to somewhere under way? Buttons for travelling are ignored then.
   bool arriving() const { return arrival_.has_value(); }
-  /// Where a teleport or the likeness in the miniature leads when the button comes up: the eyes' place.
+  /// The eyes' place to which a teleport or the likeness in the miniature leads when the button comes up.
   const std::optional<Pose>& destination() const { return destination_; }
 
  private:
@@ -78,8 +78,8 @@ class Travel {
   std::optional<Arrival> arrival_;
 };
 
-/// Where a person stands who teleports along the ray: on the floor, or on it before the thing that the ray
-/// meets first; nothing where it leads nowhere near enough.
+/// The place where a person stands who teleports along the ray: on the floor, or on it before the thing
+/// that the ray meets first; nothing where it leads nowhere near enough.
 std::optional<Vector3> teleport_place(const TechniqueScene& scene, const Ray& ray,
                                       const TravelSettings& settings);
 

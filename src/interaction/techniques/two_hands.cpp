@@ -14,7 +14,7 @@ using base::Vector3;
 
 Vector3 between(const std::array<Pose, 2>& hands) { return hands[1].translation() - hands[0].translation(); }
 
-/// By how much a turn goes about the axis (unit), rad, in (-pi, pi].
+/// Angle of a turn about the axis (unit), rad, in (-pi, pi].
 double twist_about(const Quaternion& turn, const Vector3& axis) {
   const double angle = 2.0 * std::atan2(turn.vec().dot(axis), turn.w());
   return std::remainder(angle, 2.0 * EIGEN_PI);

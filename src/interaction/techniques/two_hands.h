@@ -5,7 +5,7 @@
 
 namespace icome::interaction {
 
-/// What two hands that hold a thing change of it (thesis 2.3.1).
+/// The changes that two hands make to a thing that they hold (thesis 2.3.1).
 struct TwoHandSettings {
   bool moves = true;
   bool turns = true;
@@ -13,21 +13,21 @@ struct TwoHandSettings {
   double closest = 0.03;  // m: hands that are nearer to each other neither turn nor scale; 0.01 to 0.1
 };
 
-/// Two hands that hold something: what is half way between them moves along, it turns with the line between
-/// them and, about that line, by the mean of how the hands turn, and grows as they part. A plain value. Hands
+/// Two hands that hold something: it moves with the point half way between them, turns with the line between
+/// them and, about that line, by the mean turn of the hands, and grows as they part. A plain value. Hands
 /// that both move as one rigid thing take it along as that thing.
 class TwoHandGrip {
  public:
   /// `pivot` stays where it is if the grip does not move things.
   TwoHandGrip(const TwoHandSettings& settings, const std::array<base::Pose, 2>& hands,
               const base::Vector3& pivot);
-  /// The hands are there now. Turning is followed from step to step.
+  /// Takes the hands' new poses. Turning is followed from step to step.
   void follow(const std::array<base::Pose, 2>& hands);
-  /// From where everything was when the grip began to where it is now; identity at the beginning.
+  /// The map from places at the beginning of the grip to places now; identity at the beginning.
   base::Affine3 moved() const;
   /// The turn since the beginning.
   const base::Quaternion& turn() const { return turn_; }
-  /// How many times as far apart the hands are as at the beginning.
+  /// The hands' distance, in that at the beginning.
   double growth() const;
 
  private:

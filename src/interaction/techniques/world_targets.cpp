@@ -16,7 +16,7 @@
 namespace icome::interaction {
 namespace {
 
-/// Triangles, asked in the frame that they are in. Closed ones are solid.
+/// A target of triangles, searched in their own frame. Closed ones are solid.
 class MeshTarget final : public TargetShape {
  public:
   explicit MeshTarget(geometry::TriangleMesh mesh)
@@ -37,7 +37,7 @@ class MeshTarget final : public TargetShape {
   geometry::TriangleTree tree_;
 };
 
-/// How much shorter the frame makes lengths at most: lengths in the world are at least that of its own.
+/// The least stretch of a frame: lengths in the world are at least that times its own.
 double least_stretch(const base::Affine3& frame) { return base::singular_values(frame.linear()).values[2]; }
 
 double MeshTarget::distance(const base::Affine3& world_from_target, const Vector3& point,
@@ -165,12 +165,12 @@ void WorldTargets::read(const world::World& world) {
     target.centre = box.center();
     target.radius = 0.5 * box.sizes().norm();
     target.shape = made->second;
-    // What a parent has squeezed to nothing cannot be pointed at.
+    // Objects that a parent has squeezed to nothing cannot be pointed at.
     if (const auto added = scene_.add(target); !added) continue;
   }
 }
 
-/// False where more than places is another.
+/// Follows moved objects; false where more than places has changed.
 bool WorldTargets::follow(const world::World& world) {
   for (const world::ObjectId root : moved_) {
     if (!world.find(root)) return false;

@@ -8,28 +8,28 @@
 
 namespace icome::interaction {
 
-/// The objects of a world that are made of something, in the order of their ids, which are the targets'
-/// numbers. They are met as the triangles of their shapes, as near as world::usual_tolerance says where these
-/// are exact solids; objects of one shape share them. Shapes without an end, such as planes, and those of
-/// which there are no triangles are left out.
+/// The objects of a world that have a shape, in the order of their ids, which are the targets' numbers. They
+/// are met as the triangles of their shapes, as near as world::usual_tolerance says where these are exact
+/// solids; objects of one shape share them. Shapes without an end, such as planes, and those without
+/// triangles are left out.
 TechniqueScene targets_of(const world::World& world);
 
-/// Makes the target that techniques meet of a shape; null: there is nothing to meet. Any thread.
+/// The target that techniques meet for a shape; null: there is nothing to meet. Any thread.
 std::shared_ptr<const TargetShape> target_shape(const world::Geometry& shape);
 
-/// The targets of a world that changes: what targets_of gives, to the last bit, at the cost of what has
-/// changed. Owns the shapes.
+/// The targets of a world that changes: those of targets_of(), to the last bit, at the cost of the
+/// changes only. Owns the shapes.
 class WorldTargets {
  public:
-  /// Of the world as it is. It is the same at each call, but for changes that changed() was told of.
+  /// The targets of the world: the one of the last call, but for changes that changed() was told of.
   const TechniqueScene& of(const world::World& world);
-  /// Null: it is another world.
+  /// To be told of changes of the world; null: it is another world.
   void changed(const world::Changes* changes);
 
   /// The shapes that of() would have to make into targets first, and that take long: solids under union,
   /// intersection and difference, subdivision surfaces, formulas, meshes of many triangles. Each once.
   std::vector<world::GeometryPointer> slow_shapes(const world::World& world) const;
-  /// Takes what target_shape() gave for a shape of the world, so that of() does not make it again.
+  /// Keeps the result of target_shape() for a shape of the world, so that of() does not make it again.
   void keep(const world::GeometryPointer& shape, std::shared_ptr<const TargetShape> made);
 
  private:
@@ -41,7 +41,7 @@ class WorldTargets {
   // Null: there is nothing to meet.
   std::unordered_map<world::GeometryPointer, std::shared_ptr<const TargetShape>> shapes_;
   std::unordered_map<world::ObjectId, world::GeometryId> made_of_;  // those objects that have a shape
-  std::vector<world::ObjectId> moved_;                              // or otherwise another
+  std::vector<world::ObjectId> moved_;                              // or changed otherwise
   bool is_stale_ = true;
 };
 

@@ -5,7 +5,7 @@
 namespace icome::interaction {
 namespace {
 
-// What a hand that only presses a button moves and turns.
+// The most that a hand moves and turns while it only presses a button.
 constexpr double kStillWay = 0.001;   // m in the room
 constexpr double kStillTurn = 0.005;  // rad
 
@@ -42,7 +42,7 @@ void WorldTechnique::let_go() {
   performed_ = false;
 }
 
-/// Has the hand moved since it took what is held, or the person with it? Once it has, it is moving.
+/// Has the hand moved since it took the held object, or the person with it? Once it has, it is moving.
 bool WorldTechnique::has_moved(const TechniqueInput& input) {
   if (!taken_) return true;
   const auto& [before, room] = *taken_;

@@ -7,8 +7,8 @@
 
 namespace icome::interaction {
 
-/// A technique at work on a world: what a session does at every update, and what replays a recording of it.
-/// It changes nothing by itself but says which edit would. The same inputs on the same world, each edit
+/// A technique at work on a world, for a session at every update and for the replay of a recording. It
+/// changes nothing by itself but gives the edit that would. The same inputs on the same world, each edit
 /// performed before the next step, give the same edits to the last bit. Owns its targets.
 class WorldTechnique {
  public:
@@ -18,23 +18,23 @@ class WorldTechnique {
 
   struct Step {
     TechniqueOutcome outcome;
-    /// Puts what is held where it is now. A press without a way only selects: there is none until the hand
-    /// has moved.
+    /// Puts the held object at its place now. A press without movement only selects: there is no edit
+    /// until the hand has moved.
     std::optional<world::Edit> edit = {};
-    bool is_first = false;  // edit of what is held: another action than those before
-    std::string refused;    // why what is held cannot go there; it was let go
+    bool is_first = false;  // of the held object: begins another action
+    std::string refused;    // the reason why the held object cannot go there; it was let go
   };
   Step step(const world::World& world, const TechniqueInput& input);
 
-  /// Lets go of what is held, until the button is pressed anew.
+  /// Lets go of the held object, until the button is pressed anew.
   void let_go();
-  /// The world was changed, by a step or otherwise; null: it is another one.
+  /// To be told of changes of the world, by a step or otherwise; null: it is another one.
   void changed(const world::Changes* changes) { targets_.changed(changes); }
-  /// Everything as before the first step, but for where the room stands.
+  /// Resets everything to before the first step, but for the room's place.
   void begin_anew();
-  /// The room stands there from now on. What is held would go along: place it while resting().
+  /// Puts the room there from now on. A held object would go along: to be called while resting().
   void place_room(const base::Affine3& world_from_room) { state_.world_from_room = world_from_room; }
-  /// Nothing is held, and nobody is on the way.
+  /// Is nothing held, and nobody on the way?
   bool resting() const;
 
   const Technique& technique() const { return technique_; }
@@ -47,7 +47,7 @@ class WorldTechnique {
   void keep(const world::GeometryPointer& shape, std::shared_ptr<const TargetShape> made) {
     targets_.keep(shape, std::move(made));
   }
-  /// Of the world as it is.
+  /// The targets of the world as it is.
   const TechniqueScene& scene(const world::World& world) { return targets_.of(world); }
 
  private:

@@ -35,7 +35,7 @@ bool same_grid(const render::SceneLook& a, const render::SceneLook& b) {
          same(a.z_axis, b.z_axis);
 }
 
-/// Does it give the same picture, but for what is drawn over it?
+/// Do both give the same picture, but for what is drawn over it?
 bool same_picture(const DisplayWish& a, const DisplayWish& b) {
   const render::SceneLook &one = a.look, &other = b.look;
   return a.view.world_from_eye.matrix() == b.view.world_from_eye.matrix() && a.view.field == b.view.field &&
@@ -114,7 +114,7 @@ bool DisplayFeed::is_shown(const PointerView& pointer) const {
          pointer.tip.allFinite() && pointer.scp.allFinite() && pointer.force.allFinite();
 }
 
-/// By so much that it can be seen?
+/// Has the pointer moved by so much that it can be seen?
 bool DisplayFeed::has_moved(const PointerView& before, const PointerView& now) const {
   if (is_shown(before) != is_shown(now)) return true;
   if (!is_shown(now)) return false;
@@ -128,7 +128,7 @@ bool DisplayFeed::has_moved(const PointerView& before, const PointerView& now) c
   return moved > kSeenMove * pixel;
 }
 
-/// What is looked at by whoever looks along -z there.
+/// The camera at the eye, which looks along -z.
 render::Camera DisplayFeed::camera(double aspect) const {
   const base::Pose& world_from_eye = shown_.view.world_from_eye;
   render::Camera camera;

@@ -13,27 +13,27 @@
 
 namespace icome::session {
 
-/// How the main thread wants the world to be shown.
+/// The main thread's wish for the display of the world.
 struct DisplayWish {
   interaction::View view = {};
-  render::SceneLook look = {};  // its passes: how many a view at rest is refined to
+  render::SceneLook look = {};  // its passes: the number that a view at rest is refined to
   bool pointers = true;         // tips, surface contact points and forces are shown
-  /// From the scene to a copy of it that is drawn over it, when there is one.
+  /// The map from the scene to a copy of it that is drawn over it, when there is one.
   std::optional<base::Affine3> miniature = {};
-  /// Written beside a hand whose force is held down, as the motors would become too warm; null: nothing is.
+  /// The sign beside a hand whose force is held down, as the motors would become too warm; null: none.
   std::shared_ptr<const charts::Image> spared_sign = nullptr;
   double marker_size = 0.004;  // share of the distance to the eye: radius of the tip's ball
 };
 
-/// What brings the world to the eye: the display thread asks it what to draw, and never waits for anybody.
-/// Knows no window; whoever has an OpenGL context draws with it (a window's thread, an off-screen one).
+/// Brings the world to the eye: the display thread asks it for the things to draw, and never waits for
+/// anybody. Knows no window; any thread with an OpenGL context draws with it (a window's, an off-screen one).
 class DisplayFeed {
  public:
   explicit DisplayFeed(std::size_t pointers);
 
   // The main thread.
   void wish(const DisplayWish& wish) { wish_.publish(wish); }
-  /// The frames drawn so far: how long each took, and when.
+  /// The frames drawn so far: their durations and times.
   const realtime::LoopRecorder& recorder() const { return recorder_; }
   std::uint64_t frames() const { return frames_.load(std::memory_order_acquire); }
 
@@ -49,7 +49,7 @@ class DisplayFeed {
   bool is_due();
   /// Draws the newest of all, or refines the last frame where there is no news, into the target.
   base::Result<void> draw(render::SceneRenderer& renderer, const render::SceneTarget& target);
-  /// What is drawn next.
+  /// The scene that is drawn next.
   const render::RenderScenePointer& scene() const { return scene_.read(); }
 
  private:
@@ -75,7 +75,7 @@ class DisplayFeed {
   // The display thread's.
   DisplayWish shown_ = {};                           // the newest wish
   bool is_new_ = true;                               // another picture: what was refined is of no use
-  bool has_moved_ = false;                           // only what is drawn over the picture is another
+  bool has_moved_ = false;                           // only the overlay of the picture is another
   int passes_ = 0;                                   // of this picture, so far
   render::SceneTarget target_ = {};                  // the last
   render::Matrix4 lens_ = render::Matrix4::Zero();   // of the last frame

@@ -23,14 +23,14 @@ using world::World;
 
 constexpr std::size_t kMostSymbols = 256;
 constexpr Colour kSymbolColour{0.05, 0.55, 0.50};
-constexpr double kFaint = 0.35;      // of the colour of what is off
+constexpr double kFaint = 0.35;      // of the colour of effects that are off
 constexpr double kSmall = 0.008;     // m, of what has no size of its own
 constexpr double kLong = 0.08;       // m, what is seen of a line or plane without an end
 constexpr double kPerNewton = 0.02;  // m, of an arrow
 constexpr double kThin = SymbolPen::kThin;
 constexpr int kAround = SymbolPen::kAround;
 
-/// The numbers of a text, three at a time where they are a place or a way.
+/// The numbers of an effect's text, three at a time where they are a place or a way.
 class Numbers {
  public:
   explicit Numbers(std::string_view text) : numbers_(haptics::effect_numbers(text)) {}
@@ -99,7 +99,7 @@ void draw_inertia(const Numbers& /*n*/, SymbolPen& pen) {
   pen.circle(Vector3::Zero(), Vector3::UnitY(), 1.3 * kSmall);
 }
 
-/// The sphere that it reaches, and how it pulls inwards.
+/// The sphere that the well reaches, and arrows of its pull inwards.
 void draw_well(const Numbers& n, SymbolPen& pen) {
   const Vector3 centre = n.vector(0);
   const double radius = n[3];
@@ -205,7 +205,7 @@ void EffectSymbols::follow(const World& world, const world::Changes* changes) {
   for (const ObjectId id : changes->objects) note(world, id);
 }
 
-/// Those that have a symbol.
+/// The effects that have a symbol.
 std::vector<ObjectId> EffectSymbols::seen(const World& world, world::SceneId shown) const {
   std::vector<ObjectId> ids;
   for (const ObjectId id : effects_) {

@@ -9,18 +9,18 @@
 
 namespace icome::session {
 
-/// What effects are seen as: lines in space where they act, a symbol for each kind. Springs show where they
-/// hold, wells and recesses how far they reach, forces where they push; what acts everywhere is a small thing
-/// where its object stands. One that is off is faint. Main's.
+/// The visible symbols of effects: lines in space where they act, a symbol for each kind. Springs show where
+/// they hold, wells and recesses how far they reach, forces where they push; effects that act everywhere are
+/// a small thing where their object stands. Effects that are off are faint. Main's.
 class EffectSymbols {
  public:
   /// Follows an edit; null: another world.
   void follow(const world::World& world, const world::Changes* changes);
 
-  /// Those of the scene, or of the whole world where there is none, the first 256. World frame.
+  /// The symbols of the scene, or of the whole world where there is none, the first 256. World frame.
   render::SceneOverlay overlay(const world::World& world, world::SceneId shown) const;
 
-  /// Around them, world frame.
+  /// The bounds of the symbols, world frame.
   base::Bounds bounds(const world::World& world, world::SceneId shown) const;
 
   struct Picked {

@@ -73,7 +73,7 @@ Vector3 normal_of_triangle(const geometry::TriangleMesh& mesh, std::size_t t) {
   return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).normalized();
 }
 
-/// Edges at which the mesh bends; its box where there is none to be seen.
+/// Draws the edges at which the mesh bends; its box where there is none to be seen.
 void draw_mesh(const geometry::TriangleMesh& mesh, SymbolPen& pen) {
   std::size_t seen = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vector3> normals;  // of the triangle on one side
@@ -98,14 +98,14 @@ struct DrawShape {
   void operator()(const std::shared_ptr<const geometry::CsgPrimitive>& it) const { pen.box(it->bounds()); }
 };
 
-/// The picture's place, an arrow head at its upper side, and the way along which it is thrown.
+/// Draws the picture's place, an arrow head at its upper side, and the way along which it is thrown.
 void draw_picture_place(SymbolPen& pen) {
   pen.line({{0.5, 0.5, 0}, {-0.5, 0.5, 0}, {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}});
   pen.line({{-0.08, 0.5, 0}, {0, 0.6, 0}, {0.08, 0.5, 0}});
   pen.line({{0, 0, -0.5}, {0, 0, 0.5}});
 }
 
-/// What is round, with its seam, where the picture begins and ends.
+/// Draws a sphere or a cylinder, with the seam where the picture begins and ends.
 void draw_round_place(bool sphere, SymbolPen& pen) {
   if (sphere) {
     pen.sphere(Vector3::Zero(), 0.5);
@@ -125,7 +125,7 @@ void draw_projector(TextureProjection projection, SymbolPen& pen) {
   pen.line({{-0.08, 0, 0.5}, {0, 0, 0.6}, {0.08, 0, 0.5}});
 }
 
-/// One line of all of them, which is drawn at once; places that are not finite part it.
+/// Joins all lines to one, which is drawn at once; places that are not finite separate them.
 void join_lines(render::SceneOverlay& strokes) {
   if (strokes.lines.empty()) return;
   render::SceneOverlay::Line joined{{}, strokes.lines.front().colour, strokes.lines.front().width};

@@ -23,14 +23,14 @@ double farthest_corner(const Bounds& bounds, const Vector3& from) {
   return (from - bounds.min()).cwiseAbs().cwiseMax((from - bounds.max()).cwiseAbs()).norm();
 }
 
-/// An object's part of the ray, in the frame of its shape.
+/// The part of the ray near an object, in the frame of its shape.
 struct Candidate {
   std::uint32_t object = 0;
   double first = 0.0;  // m, along the ray
   Vector3 start = Vector3::Zero(), step = Vector3::Zero();
 };
 
-/// Where the ray is near the object; nothing where it is not.
+/// The part of the ray near the object; nothing where there is none.
 std::optional<Candidate> candidate(const haptics::HapticScene& scene, std::uint32_t object, const Ray& ray,
                                    double elapsed) {
   const Pose object_from_world = scene.pose(object, elapsed).inverse();
@@ -43,7 +43,7 @@ std::optional<Candidate> candidate(const haptics::HapticScene& scene, std::uint3
     return Candidate{object, 0.0, start, std::max(reach, kHorizon * start.norm()) * direction};
   }
   const Vector3 step = 2.0 * farthest_corner(bounds, start) * direction;
-  // Beginning near the object, what follows keeps its digits however far off the eye is.
+  // From a start near the object, all results keep their digits however far off the eye is.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * start.cwiseAbs().maxCoeff();
   const double margin = 1e-9 * bounds.diagonal().norm() + rounding;
   const auto part = geometry::part_within(bounds, start, step, margin);
@@ -52,7 +52,7 @@ std::optional<Candidate> candidate(const haptics::HapticScene& scene, std::uint3
   return Candidate{object, first * step.norm(), start + first * step, (last - first) * step};
 }
 
-/// Nearest first.
+/// The candidates along the ray, nearest first.
 std::vector<Candidate> candidates(const haptics::HapticScene& scene, const Ray& ray, double elapsed) {
   const double reach = scene.bounds().isEmpty() ? 0.0 : 2.0 * farthest_corner(scene.bounds(), ray.origin);
   std::vector<Candidate> found;

@@ -6,16 +6,16 @@
 
 namespace icome::session {
 
-/// What a ray meets first.
+/// The first thing that a ray meets.
 struct PickedThing {
   base::ObjectId object;           // in the haptic scene
   interaction::PickedPoint place;  // world frame of the scene
 };
 
-/// The first surface that the ray meets of what can be touched, seen from its front or its back, where
-/// objects are `elapsed` seconds after the moment of their poses; nothing where there is none. Uses the trees
-/// that the servo uses, and asks each shape itself: a surface is met as what it is, not as what is drawn of
-/// it. What has no end, such as a plane, is met up to a thousand times as far as its origin.
+/// The first touchable surface that the ray meets, from its front or its back, with objects as they are
+/// `elapsed` seconds after the moment of their poses; nothing where there is none. Uses the trees that the
+/// servo uses, and the shapes themselves: a surface is met as it is, not as it is drawn. Shapes without an
+/// end, such as planes, are met up to a thousand times as far as their origin.
 std::optional<PickedThing> pick(const haptics::HapticScene& scene, const interaction::Ray& ray,
                                 double elapsed = 0.0);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kShortestPause = 1.0 / 30.0;        // s
 constexpr double kShortestMotionPause = 1.0 / 60.0;  // s, while objects move
-/// What changes is made anew for at most a quarter of the time of one core.
+/// Pause after work: changing things are made anew for at most a quarter of the time of one core.
 constexpr double kPauseOfWork = 3.0;
 
 }  // namespace

@@ -10,11 +10,11 @@
 
 namespace icome::session {
 
-/// Keeps the world before the eye: brings each version of what is drawn to the display, and to main.
+/// Keeps the drawn world up to date: brings each version of its scene to the display, and to main.
 class RenderFollower final : public Representation {
  public:
-  /// The feed and the box outlive this; it alone publishes scenes to them. `clock` tells the time (s) of what
-  /// moves and, where `shapes_change`, of shapes; else these are drawn as at t = 0.
+  /// The feed and the box outlive this; it alone publishes scenes to them. `clock` tells the time (s) of
+  /// motions and, where `shapes_change`, of shapes; else these are drawn as at t = 0.
   RenderFollower(DisplayFeed& display, realtime::LatestValue<render::RenderScenePointer>& newest,
                  std::function<double()> clock, bool shapes_change)
       : display_(display), newest_(newest), clock_(std::move(clock)), shapes_change_(shapes_change) {}
@@ -36,7 +36,7 @@ class RenderFollower final : public Representation {
   bool shapes_change_;
   Playback playback_;
   double played_since_ = 0.0;  // s on the clock
-  double due_ = 0.0;           // s on the clock: when what changes is to be drawn anew
+  double due_ = 0.0;           // s on the clock: when changing things are to be drawn anew
 };
 
 }  // namespace icome::session

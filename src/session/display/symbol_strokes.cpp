@@ -11,7 +11,7 @@ namespace {
 
 using base::Vector3;
 
-/// What a symbol is drawn of: straight pieces with a radius.
+/// Calls `visit` with all strokes of a symbol: straight pieces with a radius.
 template <typename Visit>
 void for_each_stroke(const render::SceneOverlay& symbol, Visit&& visit) {
   for (const auto& line : symbol.lines)
@@ -20,7 +20,7 @@ void for_each_stroke(const render::SceneOverlay& symbol, Visit&& visit) {
   for (const auto& ball : symbol.balls) visit(ball.centre, ball.centre, ball.radius);
 }
 
-/// Nothing where the piece is behind the ray's origin.
+/// The place where the ray passes a piece; nothing where that is behind the ray's origin.
 std::optional<PassedStroke> passed(const interaction::Ray& ray, const Vector3& from, const Vector3& to,
                                    double radius) {
   const auto across = [&](const Vector3& way) -> Vector3 {

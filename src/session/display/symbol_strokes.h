@@ -8,7 +8,7 @@
 
 namespace icome::session {
 
-/// Draws symbols of what has no surface in lines, in a frame of their own. The overlay outlives it.
+/// Draws symbols of things without a surface in lines, in a frame of their own. The overlay outlives it.
 class SymbolPen {
  public:
   static constexpr double kThin = 0.0006;  // m, radius of an arrow's shaft
@@ -21,7 +21,7 @@ class SymbolPen {
   void line(std::vector<base::Vector3> points);
   void circle(const base::Vector3& centre, const base::Vector3& axis, double radius);
   void sphere(const base::Vector3& centre, double radius);
-  /// Its twelve edges.
+  /// Draws the twelve edges of the box.
   void box(const base::Bounds& box);
   void cross(const base::Vector3& centre, double size);
   void arrow(const base::Vector3& from, const base::Vector3& way);
@@ -33,20 +33,20 @@ class SymbolPen {
   render::SceneOverlay& overlay_;
 };
 
-/// Where a ray passes a stroke of a symbol.
+/// The place where a ray passes a stroke of a symbol.
 struct PassedStroke {
   interaction::PickedPoint place;  // world frame, towards the ray's origin
-  double off = 0.0;                // rad, small: how far beside it
+  double off = 0.0;                // rad, small: the angle beside it
 };
 
-/// Where it passes nearest to what lines, arrows and balls are drawn; nothing where all of them are behind
-/// its origin. The ray's direction is unit.
+/// The place where the ray passes nearest to the drawn lines, arrows and balls; nothing where all of them
+/// are behind its origin. The ray's direction is unit.
 std::optional<PassedStroke> passed_strokes(const render::SceneOverlay& symbol, const interaction::Ray& ray);
 
-/// How far a place is from what is drawn, m; infinite where nothing is.
+/// Distance of a place from the strokes, m; infinite where there are none.
 double distance_to_strokes(const render::SceneOverlay& symbol, const base::Vector3& place);
 
-/// Is the object in what is shown: in that scene, or in the world where there is no such scene?
+/// Is the object shown: in that scene, or in the world where there is no such scene?
 bool is_shown_in(const world::World& world, world::SceneId scene, world::ObjectId id);
 
 }  // namespace icome::session

@@ -22,7 +22,7 @@ constexpr charts::Colour kConeColour{0.16, 0.47, 0.90, 0.5};
 constexpr charts::Colour kMeantColour{1.0, 0.62, 0.08};
 constexpr charts::Colour kGoalColour{0.20, 0.66, 0.33};
 
-/// The twelve edges of what is meant.
+/// Adds the twelve edges of the target's box.
 void add_box(render::SceneOverlay& overlay, const world::World& world, interaction::TargetId target) {
   const world::ObjectId id{target};
   const world::PhysicalObject* object = world.find(id);
@@ -58,7 +58,7 @@ void add_cone(render::SceneOverlay& overlay, const TechniqueOutcome& outcome, do
   overlay.lines.push_back({rim, kConeColour, 1.0});
 }
 
-/// The hand where it is mapped to, and the way from the hand itself.
+/// Adds the virtual hand, and the line to it from the hand itself.
 void add_mapped_hand(render::SceneOverlay& overlay, const TechniqueHand& hand, double radius) {
   const Vector3 mapped = hand.outcome().pointed.world_from_pointer.translation();
   const Vector3 own = hand.stage_from_room() * Vector3(hand.input().hands[0].room_from_hand.translation());
@@ -89,7 +89,7 @@ void add_pointer(render::SceneOverlay& overlay, const TechniqueHand& hand) {
   }
 }
 
-/// Somebody who stands there, as tall as from the floor to the eyes.
+/// Adds a person who stands there, as tall as from the floor to the eyes.
 void add_person(render::SceneOverlay& overlay, const Affine3& copy, const Pose& eye, double floor,
                 double size) {
   const Vector3 head = eye.translation();

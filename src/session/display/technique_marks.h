@@ -4,10 +4,10 @@
 
 namespace icome::session {
 
-/// What is drawn over the scene of a technique at work: the line of a ray to what it meets, the cone of a
-/// spotlight, the virtual hand where it is not the pointer itself, a box around what is pointed at, where one
-/// would travel to, and the person's likeness in the miniature. Stage frame. The miniature itself is a copy
-/// of the scene, and not of these.
+/// The marks of a technique at work, drawn over the scene: the line of a ray to its hit, the cone of a
+/// spotlight, the virtual hand where it is not the pointer itself, a box around the target, the place where
+/// one would travel to, and the person's likeness in the miniature. Stage frame. The miniature itself is a
+/// copy of the scene, and not one of these.
 render::SceneOverlay technique_marks(TechniqueHand& hand, const Session& session);
 
 }  // namespace icome::session

@@ -33,7 +33,7 @@ constexpr double kToleranceOfSize = 1.0 / 2000.0;
 constexpr double kCellOfSize = 1.0 / 100.0;  // of solids that are sampled: facets are far nearer than a cell
 constexpr double kLargestCoordinate = 1e70;  // what repairing a mesh can take
 
-/// Makes what is felt of the kinds of shapes, one after the other.
+/// Makes felt shapes of all kinds of shapes.
 class FeltShapeMaker {
  public:
   FeltShapeMaker(const Matrix3& felt_from_geometry, const FeltSettings& settings, const FeltShape* before)
@@ -88,7 +88,7 @@ class FeltShapeMaker {
     return felt;
   }
 
-  /// What is felt of the shape: the shape's own mesh where that is the same and may be shared.
+  /// The felt mesh: the shape's own where that is the same and may be shared.
   std::shared_ptr<const geometry::TriangleMesh> shared_mesh(const world::MeshGeometry& shape,
                                                             geometry::TriangleMesh felt) const {
     if (settings_.shares_meshes && felt.positions == shape.mesh.positions &&
@@ -98,7 +98,7 @@ class FeltShapeMaker {
     return std::make_shared<const geometry::TriangleMesh>(std::move(felt));
   }
 
-  /// Is the mesh that of before, with vertices elsewhere?
+  /// Is the mesh the one before, with its vertices elsewhere?
   bool can_follow(const geometry::TriangleMesh& mesh) const {
     return before_ && before_->sound && before_->felt_from_geometry == map_ &&
            before_->mesh->positions.size() == mesh.positions.size() &&
@@ -114,7 +114,7 @@ class FeltShapeMaker {
     return felt;
   }
 
-  /// Of what cannot be touched as what it is.
+  /// The triangles of a shape that cannot be touched as it is.
   Felt of_triangles(const world::Geometry& shape, const std::string& because,
                     double tolerance_of_size = kToleranceOfSize) const {
     const base::Bounds box = shape.bounds();
@@ -150,7 +150,7 @@ class FeltShapeMaker {
     return of_tree(shape, stretched(shape.tree, map_), "a CSG tree", kCellOfSize);
   }
 
-  /// A tree as the tip feels it: of triangles where a tip with a radius has no surface in closed form.
+  /// A tree as the tip feels it: triangles where a tip with a radius has no surface in closed form.
   Felt of_tree(const world::Geometry& shape, geometry::CsgTree tree, const std::string& what,
                double tolerance_of_size) const {
     const Vector3 middle = geometry::bring_near(tree);
@@ -247,7 +247,7 @@ base::Pose turned_to(const base::Affine3& world_from_primitive) {
 }  // namespace
 
 FeltPlace felt_place(const world::Geometry& shape, const base::Affine3& world_from_geometry) {
-  // Places within places may multiply to what no number holds.
+  // Places within places may multiply to numbers that are not finite.
   if (!world_from_geometry.matrix().allFinite()) return {base::Pose::Identity(), Matrix3::Zero()};
   const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(&shape);
   if (!primitive) {

@@ -8,7 +8,7 @@ namespace icome::session {
 namespace {
 
 constexpr double kShortestMoveTime = 0.008;  // s: well below what a thing takes to where it is put
-/// What moves is put elsewhere for at most a quarter of the time of one core.
+/// Pause after work: moving things are put elsewhere for at most a quarter of the time of one core.
 constexpr double kWorkShare = 3.0;
 
 }  // namespace
@@ -38,7 +38,7 @@ void HapticFollower::show(const world::World& world, world::SceneId shown) {
 void HapticFollower::follow(const world::World& world, const world::Changes& changes) {
   const world::Changes all = playback_.follow(world, changes, played());
   felt_.follow(playback_.shown(world), all);
-  // Looking goes through all objects, which what is dragged must not wait for.
+  // The search goes through all objects: a drag must not wait for it.
   if (!changes.geometries.empty() || !changes.materials.empty()) look_for_remarks(world);
   publish();
 }
@@ -51,7 +51,7 @@ void HapticFollower::play(const world::World& world, std::optional<double> since
   publish();
 }
 
-/// How long motions will have been played when things are where they are put now.
+/// The time (s) that motions will have been played when things are where they are put now.
 double HapticFollower::played() const { return clock_() + ahead_ - played_since_; }
 
 std::optional<std::chrono::nanoseconds> HapticFollower::pause(const world::World& /*world*/) const {

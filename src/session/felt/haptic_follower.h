@@ -13,17 +13,17 @@
 
 namespace icome::session {
 
-/// What can be touched, as others than the servo look at it.
+/// A version of the touchable world, for others than the servo.
 struct FeltVersion {
   std::shared_ptr<const haptics::HapticScene> scene;
   std::shared_ptr<const TouchedNames> names;
   std::shared_ptr<const std::vector<haptics::CappedEffect>> capped =
       nullptr;  // by the first pointer; null: none
-  /// Sentences on what is not felt, or not as it is.
+  /// Sentences on things that are not felt, or not as they are.
   std::shared_ptr<const std::vector<std::string>> remarks = nullptr;  // null: none
 };
 
-/// Keeps the world under the hand: brings each version of what can be touched to the servos of all pointers,
+/// Keeps the felt world up to date: brings each version of its haptic scene to the servos of all pointers,
 /// and to main.
 class HapticFollower final : public Representation {
  public:
@@ -48,7 +48,7 @@ class HapticFollower final : public Representation {
   double ahead_;  // s, by which motions are felt ahead, as things take that long to where they are put
   Playback playback_ = {};
   double played_since_ = 0.0;  // s on the clock
-  double due_ = 0.0;           // s on the clock: when what moves is to be felt anew
+  double due_ = 0.0;           // s on the clock: when moving things are to be felt anew
   std::vector<haptics::Servo*> servos_;
   realtime::LatestValue<FeltVersion>& newest_;
   FeltVersion published_ = {};

@@ -55,7 +55,7 @@ base::Result<void> HapticLoop::start(bool realtime_priority) {
   realtime::LoopSettings settings;
   settings.rate_hz = rate_hz_;
   settings.realtime_priority = realtime_priority;
-  // Locking all that a desktop with its designs has mapped would starve others.
+  // Locking all memory that a desktop with its designs has mapped would starve other programs.
   settings.lock_memory = false;
   auto loop =
       realtime::LoopRunner::create(settings, [this](const realtime::TickInfo& info) { return tick(info); });

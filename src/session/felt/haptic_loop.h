@@ -30,33 +30,33 @@ class HapticLoop {
   // The main thread.
   std::size_t pointers() const { return hands_.size(); }
   const devices::DeviceInfo& info(std::size_t pointer) const { return hands_[pointer]->device->info(); }
-  /// What the servo said last of a pointer that update() took in.
+  /// The servo's last report on a pointer, as update() took it in.
   const PointerView& view(std::size_t pointer) const { return hands_[pointer]->to_main.read(); }
   void update();
-  /// Where the device's workspace lies on the stage from now on; a pose that is not finite is passed over.
+  /// Carries the device's workspace to a place of the stage; a pose that is not finite is passed over.
   void carry(std::size_t pointer, const base::Pose& stage_from_device);
-  /// What the hand feels of what it holds, from now on.
+  /// Sets the feel of the thing that the hand holds, from now on.
   void grip(std::size_t pointer, const haptics::GripFeel& feel);
-  /// Where it was carried to last.
+  /// The place to which the workspace was carried last.
   const base::Pose& stage_from_device(std::size_t pointer) const {
     return hands_[pointer]->stage_from_device;
   }
-  /// As Servo::give_forces().
+  /// Servo::give_forces() of one pointer.
   void give_forces(std::size_t pointer, bool given);
-  /// Force over time of the first pointer since the last call, some 200 a second.
+  /// Samples of the first pointer's force since the last call, some 200 a second.
   std::vector<ForceSample> take_forces();
-  /// Keeps every tick of the first pointer from now on, or none any more.
+  /// Begins to keep every tick of the first pointer, or ends that.
   void trace(bool on) { traces_.store(on, std::memory_order_relaxed); }
-  /// What was kept since the last call, oldest first.
+  /// The ticks kept since the last call, oldest first.
   std::vector<PointerView> take_trace();
   /// Ticks that found no room, so far, as main had not called for seconds.
   std::uint64_t lost_ticks() const { return lost_ticks_.load(std::memory_order_relaxed); }
-  /// Null before the start.
+  /// The loop of the thread; null before the start.
   const realtime::LoopRunner* loop() const { return loop_.get(); }
   /// Ticks so far.
   std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
 
-  /// For who publishes to them.
+  /// The servos, for those who publish to them.
   std::vector<haptics::Servo*> servos();
 
  private:

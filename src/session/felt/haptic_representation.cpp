@@ -63,7 +63,7 @@ class HapticRepresentation::Update {
     const world::Geometry* shape;
     base::Matrix3 felt_from_geometry;
     FeltShapePointer before;  // null: new
-    Job* like = nullptr;      // set: what is made for that one will do
+    Job* like = nullptr;      // set: the shape made for that one will do
     FeltShapePointer made = nullptr;
   };
 
@@ -118,7 +118,7 @@ class HapticRepresentation::Update {
     return first;
   }
 
-  /// The same shape under a count of users of its own, by which one entry is forgotten and others stay.
+  /// A pointer with a count of users of its own, by which one entry is forgotten and others stay.
   static FeltShapePointer of_its_own(const FeltShapePointer& felt) {
     return {std::make_shared<FeltShapePointer>(felt), felt.get()};
   }
@@ -178,14 +178,14 @@ class HapticRepresentation::Update {
       owner_.free_slots_.pop_back();
     }
     Slot& slot = owner_.slots_[*member.slot];
-    ++slot.object.id.generation;  // who still names the last one finds nothing
+    ++slot.object.id.generation;  // names of the last one find nothing
     slot.world_id = id;
     owner_.names_.reset();
     owner_.stale_ = true;
   }
 
  public:
-  /// Before the member has another shape, or none.
+  /// To be called before the member has another shape, or none.
   static void release_shape(HapticRepresentation& owner, const Member& member) {
     if (member.felt) owner.released_.push_back(key_of(member.geometry, member.felt->felt_from_geometry));
   }
@@ -244,7 +244,7 @@ void HapticRepresentation::show(const World& world, world::SceneId scene) {
   publish();
 }
 
-/// Finds out anew what is in the scene.
+/// Finds all objects of the scene anew.
 void HapticRepresentation::survey(const World& world) {
   ++surveys_;
   std::vector<Due> due;
@@ -267,7 +267,7 @@ void HapticRepresentation::survey(const World& world) {
   for (const world::ObjectId id : gone) forget(id);
 }
 
-/// Multiplied from the top down, as `collect` does: the same bits.
+/// The object's place, multiplied from the top down as in collect(): the same bits.
 Affine3 HapticRepresentation::place(const World& world, world::ObjectId id) const {
   std::vector<const PhysicalObject*> line;
   for (const PhysicalObject* it = world.find(id); it; it = world.find(it->parent)) line.push_back(it);
@@ -276,7 +276,7 @@ Affine3 HapticRepresentation::place(const World& world, world::ObjectId id) cons
   return result;
 }
 
-/// The objects of a subtree and where they are.
+/// Adds the objects of a subtree and their places.
 void HapticRepresentation::collect(const World& world, world::ObjectId root, std::vector<Due>& due) {
   const std::size_t first = due.size();
   due.push_back({root, place(world, root)});
@@ -324,7 +324,7 @@ void HapticRepresentation::follow(const World& world, const world::Changes& chan
 /// Notes an object that an edit named, and those below it where it took them along.
 void HapticRepresentation::note_object(const World& world, world::ObjectId id, std::vector<Due>& due) {
   if (!world.find(id)) {
-    forget(id);  // what was below it is named too
+    forget(id);  // objects below it are named too
     return;
   }
   const auto found = members_.find(id);
@@ -337,7 +337,7 @@ void HapticRepresentation::note_object(const World& world, world::ObjectId id, s
   std::vector<Due> below;
   collect(world, id, below);
   for (const Due& it : below) {
-    // Below what has left, there may be a root of the scene.
+    // Below an object that has left, there may be a root of the scene.
     if (stays || in_scene(world, it.id))
       due.push_back(it);
     else
@@ -354,7 +354,7 @@ void HapticRepresentation::forget(world::ObjectId id) {
   members_.erase(found);
 }
 
-/// Puts aside what was made of a shape that has changed.
+/// Puts aside the felt shapes made of a shape that has changed.
 void HapticRepresentation::outdate_shapes(world::GeometryId geometry) {
   auto it = shapes_.lower_bound({geometry, {}});
   // Entries of a stretch may be below zero.
@@ -362,7 +362,7 @@ void HapticRepresentation::outdate_shapes(world::GeometryId geometry) {
   while (it != shapes_.end() && it->first.geometry == geometry) outdated_.insert(shapes_.extract(it++));
 }
 
-/// An object that is stretched by hand leaves a shape behind with every step.
+/// Forgets shapes without users: an object stretched by hand leaves one behind with every step.
 void HapticRepresentation::forget_unused() {
   for (const ShapeKey& key : released_) {
     const auto found = shapes_.find(key);
@@ -408,7 +408,7 @@ void HapticRepresentation::put(std::uint32_t slot, const base::Pose& world_from_
   object.world_from_object = world_from_felt;
 }
 
-/// Of objects on their way, how far they still have to go.
+/// Renews the time that objects on their way still have to go.
 void HapticRepresentation::go_on() {
   const double now = settings_.clock();
   std::vector<std::uint32_t> still_going;

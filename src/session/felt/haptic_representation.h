@@ -23,14 +23,14 @@ struct HapticRepresentationSettings {
   /// The haptic texture of a name; null for one that is not known.
   std::function<std::shared_ptr<const haptics::HapticTexture>(std::string_view name)> texture =
       [](std::string_view name) { return haptics::make_texture(name).value_or(nullptr); };
-  /// Over so long (s) an object goes, evenly, to where an edit has put it, so that what is dragged pushes a
-  /// hand without steps; 0: it is there at once.
+  /// Time (s) in which an object glides, evenly, to where an edit has put it, so that a dragged one pushes
+  /// a hand without steps; 0: it is there at once.
   double glide_seconds = 0.0;
-  /// The time (s) of what moves and changes; never goes back.
+  /// The time (s) of motions and changes; never goes back.
   std::function<double()> clock = [] { return 0.0; };
 };
 
-/// Which objects of a world the ids of its haptic scene name. Immutable.
+/// The objects of a world by the ids of its haptic scene. Immutable.
 class TouchedNames {
  public:
   struct Name {
@@ -45,44 +45,44 @@ class TouchedNames {
   std::vector<Name> names_;  // by index
 };
 
-/// What of a world can be touched: one HapticObject for each object with a shape, of the whole world or of
-/// one of its scenes (thesis 5.6.1: the haptic thread's own representation). Shapes are made once for all
-/// objects that share one and are stretched alike, and kept for as long as they are used, also by scenes that
-/// are not shown; an edit makes only those anew that it changed. One thread owns it; the compiled scene is
-/// immutable and may be given to the servo.
+/// The touchable part of a world: one HapticObject for each object with a shape, of the whole world or of one
+/// of its scenes (thesis 5.6.1: the haptic thread's own representation). Shapes are made once for all objects
+/// that share one and are stretched alike, and kept for as long as they are used, also by scenes that are not
+/// shown; an edit makes only those anew that it changed. One thread owns it; the compiled scene is immutable
+/// and may be given to the servo.
 class HapticRepresentation {
  public:
   explicit HapticRepresentation(HapticRepresentationSettings settings = {});
 
-  /// Represents another world from now on. Nothing that was made before is used again, and no name.
+  /// Represents another world from now on. No shape that was made before is used again, and no name.
   void open(const world::World& world, world::SceneId scene = {});
 
-  /// Represents this scene from now on, or the whole world. What was made for it before is used again.
+  /// Represents this scene from now on, or the whole world. Shapes made for it before are used again.
   void show(const world::World& world, world::SceneId scene = {});
 
   /// Follows an edit (or several) that the world has been through since the last call.
   void follow(const world::World& world, const world::Changes& changes);
 
-  /// What the servo touches; never null.
+  /// The scene that the servo touches; never null.
   const std::shared_ptr<const haptics::HapticScene>& scene() const { return scene_; }
 
-  /// The effects of the scene that are on, in the order of their objects' ids; a text that says nothing that
-  /// is known is left out.
+  /// The effects of the scene that are on, in the order of their objects' ids; those of unknown texts are
+  /// left out.
   const std::vector<haptics::PlacedEffect>& effects() const { return effects_; }
 
-  /// Names go both ways. What cannot be touched, or is gone, has none.
+  /// Names go both ways. Objects that cannot be touched, or are gone, have none.
   std::optional<base::ObjectId> haptic_id(world::ObjectId object) const;
   std::optional<world::ObjectId> object(base::ObjectId haptic_id) const;
-  /// The latter for another thread; never null, and the same until a name is given or taken away.
+  /// object() for another thread; never null, and unchanged until a name is given or taken away.
   const std::shared_ptr<const TouchedNames>& names();
 
-  /// How the object is felt; null when it has no shape or is not in the scene.
+  /// The felt shape of an object; null when it has no shape or is not in the scene.
   FeltShapePointer felt(world::ObjectId object) const;
 
-  /// What cannot be touched or is not quite itself, one sentence each.
+  /// The objects that cannot be touched or are not quite themselves, one sentence each.
   std::vector<std::string> remarks(const world::World& world) const;
 
-  /// What has been done since the beginning.
+  /// Counts of the work since the beginning.
   struct Work {
     std::size_t shapes = 0;    // made
     std::size_t compiled = 0;  // scenes compiled anew
@@ -110,7 +110,7 @@ class HapticRepresentation {
     std::array<double, 9> stretch;
     auto operator<=>(const ShapeKey&) const = default;
   };
-  /// An object to bring up to date, and where it is.
+  /// An object to bring up to date, and its place.
   struct Due {
     world::ObjectId id;
     base::Affine3 world_from_object;

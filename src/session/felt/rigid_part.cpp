@@ -9,8 +9,8 @@ namespace {
 
 using base::Matrix3;
 
-// What is left of a turn after some products of rounded turns; far below what contact arithmetic tells
-// apart (1e-10 of the scene).
+// Error of a turn after some products of rounded turns; far below what contact arithmetic tells apart
+// (1e-10 of the scene).
 constexpr double kRigid = 1e-12;
 constexpr int kKeptBits = 40;
 

@@ -3,7 +3,7 @@
 
 namespace icome::session {
 
-/// A place taken apart: a rigid part, in which things are touched, and what it does to the shape within.
+/// A place taken apart: a rigid part, in which things are touched, and its effect on the shape within.
 /// world_from_shape = world_from_felt * felt_from_shape.
 struct RigidPart {
   base::Pose world_from_felt = base::Pose::Identity();
@@ -17,10 +17,10 @@ struct RigidPart {
 /// to 2^-40 of its largest entry), so that clones share what is felt. A diagonal stretch stays diagonal.
 RigidPart rigid_part(const base::Affine3& world_from_shape);
 
-/// How a place turns what has a size of its own, such as an effect: without its stretch.
+/// The turn of a place without its stretch, for things of a size of their own, such as effects.
 struct TurnPart {
   base::Pose world_from_turned = base::Pose::Identity();
-  bool mirrored = false;  // what is in the place has its own x turned round first
+  bool mirrored = false;  // things in the place have their own x turned round first
 };
 
 /// The turn and the mirror nearest to a place, of finite numbers: its orthogonal polar factor, so that places

@@ -9,7 +9,7 @@ namespace icome::session {
 /// A surface that changes with time, as it is at t = 0.
 class StillSurface final : public geometry::SmoothSurface {
  public:
-  /// Shared, never null.
+  /// `moving` is shared, and never null.
   explicit StillSurface(std::shared_ptr<const geometry::SmoothSurface> moving) : moving_(std::move(moving)) {}
 
   geometry::Bounds bounds() const override { return moving_->bounds(); }

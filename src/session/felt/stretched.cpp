@@ -9,7 +9,7 @@ using base::Matrix3;
 using base::Vector3;
 using geometry::Primitive;
 
-/// By how much a diagonal map stretches each axis; what it mirrors, most primitives do not tell.
+/// Primitives stretched by a diagonal map along each axis; most of them do not show that it mirrors.
 class StretchedPrimitive {
  public:
   explicit StretchedPrimitive(const Matrix3& map)

@@ -11,7 +11,7 @@ namespace icome::session {
 
 // Shapes under a linear map that may stretch, shear and mirror, in the frame that it leads to.
 
-/// Fronts stay fronts: mirrored triangles are turned.
+/// Maps the mesh. Fronts stay fronts: mirrored triangles are turned.
 void stretch(geometry::TriangleMesh& mesh, const base::Matrix3& map);
 
 /// The primitive that the image is; nothing where it is none (an ellipsoid, an oblique cone).

@@ -12,7 +12,7 @@ namespace icome::session {
 namespace {
 
 constexpr std::uint32_t kGrabButton = 1;  // button 0
-/// A press without so much of a way only selects.
+/// A press with less movement only selects.
 constexpr double kGrabSlack = 0.0005;  // m
 
 std::string move_name(const world::World& world, const std::vector<world::ObjectId>& objects) {
@@ -55,7 +55,7 @@ void HandGrab::begin(Session& session, std::size_t pointer, std::uint64_t revisi
   held_.emplace(Held{std::move(drag), session.hands().pointer(pointer).tip, revision});
 }
 
-/// What was let go still gets to where the hand had it, as soon as it is known how far it comes.
+/// Brings released objects to where the hand had them, as soon as it is known how far they come.
 void HandGrab::arrive(Session& session, const Revisions& revisions) {
   if (!let_go_) return;
   const bool goes_on = let_go_->revision == revisions.now() && let_go_->drag.go_on(session).has_value();
@@ -63,7 +63,7 @@ void HandGrab::arrive(Session& session, const Revisions& revisions) {
   if (!goes_on || !let_go_->drag.pending()) let_go_.reset();
 }
 
-/// False when it could not go on.
+/// Follows the tip; false when it could not go on.
 bool HandGrab::follow(Session& session, const base::Vector3& tip, const Revisions& revisions,
                       std::string& refused) {
   const base::Vector3 offset = tip - held_->start;

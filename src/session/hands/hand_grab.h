@@ -11,14 +11,14 @@ namespace icome::session {
 
 class Session;
 
-/// Grabs by touch (the linear virtual hand of thesis 2.2.4): while button 0 of a pointer device is down, what
-/// it touched when it went down goes along with the tip, with the rest of the selection if it is of that; one
-/// action to undo. Where it is stopped by surfaces the hand is pushed back, and what it snaps to pulls. It
-/// lets go when anything else changes the world. One thread (main) uses it.
+/// Grabs by touch (the linear virtual hand of thesis 2.2.4): while button 0 of a pointer device is down, the
+/// object that it touched when it went down goes along with the tip, with the rest of the selection if it is
+/// of that; one action to undo. Where surfaces stop it the hand is pushed back, and snaps pull. It lets go
+/// when anything else changes the world. One thread (main) uses it.
 class HandGrab {
  public:
-  /// What the hand feels from now on, while it holds something and when it lets go; call it once for each
-  /// update of the session. `refused` is told why something could not be moved.
+  /// The feel of the hand from now on, while it holds something and when it lets go; to be called once
+  /// for each update of the session. `refused` gets the reason why something could not be moved.
   std::optional<haptics::GripFeel> update(Session& session, std::size_t pointer, const Revisions& revisions,
                                           std::string& refused);
 

@@ -15,7 +15,7 @@ using base::Vector3;
 using interaction::Contact;
 using interaction::SnapKind;
 
-/// What the hand is felt to be stopped by.
+/// The contacts by which the hand feels stopped.
 std::vector<Contact> felt_contacts(const interaction::StoppedDrag& drag) {
   return interaction::holding(drag.contacts(), drag.wanted() - drag.free());
 }

@@ -8,7 +8,7 @@ namespace icome::session {
 namespace {
 
 constexpr std::uint32_t kPartButton = 1;  // button 0
-constexpr double kPartSlack = 0.0005;     // m: a press without so much of a way moves nothing
+constexpr double kPartSlack = 0.0005;     // m: a press with less movement moves nothing
 
 }  // namespace
 

@@ -7,17 +7,17 @@
 
 namespace icome::session {
 
-/// Drags by hand what has a place of its own within what is selected: while button 0 of a pointer device is
+/// Drags by hand a part of the selection that has a place of its own: while button 0 of a pointer device is
 /// down that touched nothing when it went down, the operand or the projector whose outline was nearest goes
 /// along with the tip, turns with the stylus, and pulls back; one action to undo. It lets go when anything
 /// else changes the world. One thread (main) uses it.
 class PartGrab {
  public:
-  /// How near the tip must be to an outline.
+  /// The largest distance of the tip from an outline.
   static constexpr double kReach = 0.005;  // m
 
-  /// What the hand feels of it from now on, when that is something new; call it once for each update of the
-  /// session. `refused` is told why something could not be dragged.
+  /// The feel of the hand from now on, when that is something new; to be called once for each update of the
+  /// session. `refused` gets the reason why something could not be dragged.
   std::optional<haptics::GripFeel> update(Session& session, std::size_t pointer, const Revisions& revisions,
                                           std::string& refused);
 
@@ -35,7 +35,7 @@ class PartGrab {
   base::Result<void> follow(Session& session, const PointerView& hand);
 
   std::optional<Held> held_ = {};
-  bool was_down_ = true;  // who presses already has not pressed for it
+  bool was_down_ = true;  // a button that is down already does not count
 };
 
 }  // namespace icome::session

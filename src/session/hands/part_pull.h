@@ -8,15 +8,15 @@ namespace icome::session {
 class Session;
 
 /// A drag of an operand of a solid, or of the projector of a picture: one action to undo, however many steps
-/// it has. It is pointed out as long as it lasts. One thread (main) uses it.
+/// it has. The part is marked as long as it lasts. One thread (main) uses it.
 class PartPull {
  public:
   /// Takes hold; nothing has moved yet. Fails as PartDrag::take() does.
   static base::Result<PartPull> take(Session& session, const interaction::PlacedPart& part);
 
-  /// Carries what is held along by a motion of the world from where it was.
+  /// Carries the held part from where it was along with a motion of the world.
   base::Result<void> to(Session& session, const base::Affine3& motion);
-  /// Lets go: what has to be done once at the end is done.
+  /// Lets go, and does what has to be done once at the end.
   base::Result<void> finish(Session& session);
   /// Brings it back to where it was, as if it had never been dragged.
   base::Result<void> cancel(Session& session);

@@ -8,7 +8,7 @@ namespace icome::session {
 namespace {
 
 constexpr std::uint32_t kPointButton = 1;      // button 0
-constexpr double kPointSlack = 0.0005;         // m: a press without so much of a way moves nothing
+constexpr double kPointSlack = 0.0005;         // m: a press with less movement moves nothing
 constexpr std::size_t kMostPointObjects = 64;  // of the selection
 
 haptics::GripFeel point_feel(const base::Vector3& start, const GrabSettings& settings) {
@@ -46,7 +46,7 @@ std::optional<haptics::GripFeel> PointGrab::update(Session& session, std::size_t
   return haptics::GripFeel{};
 }
 
-/// What the tip would take hold of.
+/// Finds the handle that the tip would take hold of.
 void PointGrab::look(Session& session, std::size_t pointer) {
   const world::World& world = session.world();
   auto objects = interaction::draggable_objects(world, session.selection(), kMostPointObjects);
@@ -71,7 +71,7 @@ bool PointGrab::begin(Session& session, const base::Vector3& tip, std::uint64_t 
   return true;
 }
 
-/// False when it could not go on.
+/// Follows the tip; false when it could not go on.
 bool PointGrab::follow(Session& session, const base::Vector3& tip, const Revisions& revisions,
                        std::string& refused) {
   const base::Vector3 offset = tip - start_;

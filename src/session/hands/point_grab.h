@@ -9,20 +9,20 @@ namespace icome::session {
 
 /// Shapes by touch: while button 0 of a pointer device is down, the vertex, edge, face or point of a lattice
 /// that was nearest to the tip goes along with it, and pulls back (thesis 4.5.3); one action to undo. Parts
-/// of meshes are those of what is touched and of the selection. It lets go when anything else changes the
+/// of meshes are those of the touched object and of the selection. It lets go when anything else changes the
 /// world. One thread (main) uses it.
 class PointGrab {
  public:
-  /// How near the tip must be to what it takes hold of.
+  /// The largest distance of the tip from a handle that it takes hold of.
   static constexpr double kReach = 0.01;  // m
 
-  /// What the hand feels of it from now on, when that is something new; call it once for each update of the
-  /// session, while that is shaping. `refused` is told why something could not be dragged.
+  /// The feel of the hand from now on, when that is something new; to be called once for each update of the
+  /// session, while that is shaping. `refused` gets the reason why something could not be dragged.
   std::optional<haptics::GripFeel> update(Session& session, std::size_t pointer, const Revisions& revisions,
                                           const GrabSettings& settings, std::string& refused);
 
   bool holds() const { return pull_.has_value(); }
-  /// What it holds or would take hold of.
+  /// The handle that it holds or would take hold of.
   const std::optional<interaction::MarkedHandle>& marked() const { return marked_; }
 
  private:
@@ -34,7 +34,7 @@ class PointGrab {
   base::Vector3 start_ = base::Vector3::Zero();  // m, of the tip, stage frame
   std::uint64_t revision_ = 0;                   // of the world, as this left it
   std::optional<interaction::MarkedHandle> marked_ = {};
-  bool was_down_ = true;  // who presses already when shaping begins has not pressed for it
+  bool was_down_ = true;  // a button that is down when shaping begins does not count
 };
 
 }  // namespace icome::session

@@ -15,9 +15,9 @@ class PointPull {
   /// Takes hold; nothing has moved yet. Fails as Shaping::take() does.
   static base::Result<PointPull> take(Session& session, const interaction::ShapingHandle& handle);
 
-  /// Brings what is held so far (m, stage frame) from where it was.
+  /// Moves the held handle by the offset (m, stage frame) from where it was.
   base::Result<void> to(Session& session, const base::Vector3& offset);
-  /// Lets go: what has to be done once at the end is done.
+  /// Lets go, and does what has to be done once at the end.
   base::Result<void> finish(Session& session);
   /// Brings it back to where it was, as if it had never been dragged.
   base::Result<void> cancel(Session& session);

@@ -8,7 +8,7 @@
 
 namespace icome::session {
 
-/// What the servo says of one pointer after a tick, for eyes and for interaction; stage frame.
+/// The state of one pointer after a tick of the servo, for eyes and for interaction; stage frame.
 struct PointerView {
   std::int64_t time = 0;  // ns, steady clock
   devices::DeviceStatus status = devices::DeviceStatus::Lost;
@@ -21,8 +21,8 @@ struct PointerView {
   std::uint32_t buttons = 0;  // bit i: button i is down
   bool touching = false;
   base::ObjectId touched = {};   // in the haptic scene, when touching
-  double asked_stiffness = 0.0;  // N/m, of what is touched as it was made, or the device's nominal one
-  double stiffness = 0.0;        // N/m, the same as it is felt: no more than is stable
+  double asked_stiffness = 0.0;  // N/m, of the touched object as it was made, or the device's nominal one
+  double stiffness = 0.0;        // N/m, that as it is felt: no more than is stable
   bool spared = false;           // less force than is felt there, as the motors would become too warm
   std::uint64_t losses = 0;      // how often the device was lost since the start
 };

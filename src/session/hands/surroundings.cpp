@@ -6,7 +6,7 @@
 namespace icome::session {
 namespace {
 
-/// What it takes to make ready, once, all that stands there and is not.
+/// Effort to prepare, once, all standing shapes that are not prepared yet.
 std::uint64_t effort_to_make(world::CollisionIndex& index) {
   std::uint64_t units = 0;
   for (const auto& it : index.standing()) units += it.shape->effort_to_make();
@@ -61,7 +61,7 @@ std::shared_ptr<Surroundings::Work> Surroundings::work_out(const interaction::St
                                                            std::uint64_t effort) {
   (void)around();
   work_ = std::make_shared<Work>();
-  // The world is asked for nothing else than what things snap to.
+  // The world is asked for nothing but the places that things snap to.
   auto world = std::make_shared<const world::World>(rules.snaps.any() ? world_ : world::World());
   using Found = interaction::StoppedDrag::Found;
   const auto look = [around = around_, world = std::move(world), drag, wanted, rules, effort,
@@ -71,7 +71,7 @@ std::shared_ptr<Surroundings::Work> Surroundings::work_out(const interaction::St
       world::Effort left(effort, given_up);
       auto found = drag.find(*world, around->index, around->finder, wanted, rules, &left);
       const bool in_vain = found && found->spent && found->move.move.offset.isZero(0.0) && !*given_up;
-      // Where it all went into what must be made ready first, that is so now, and the way can be looked at.
+      // If all of it went into preparing shapes, they are ready now, and the way can be looked at.
       if (!in_vain || effort_to_make(around->index) == to_make) return found;
     }
   };

@@ -9,7 +9,7 @@
 
 namespace icome::session {
 
-/// Makes shapes into what techniques meet, on a thread of its own. Main's.
+/// Makes shapes into targets for techniques, on a thread of its own. Main's.
 class TargetMaker {
  public:
   using Made = std::pair<world::GeometryPointer, std::shared_ptr<const interaction::TargetShape>>;
@@ -21,7 +21,7 @@ class TargetMaker {
   TargetMaker& operator=(const TargetMaker&) = delete;
 
   bool is_at_work() const { return task_ && !task_->is_done(); }
-  /// Begins with these; not while it is at work.
+  /// Begins to make these; not while it is at work.
   void make(std::vector<world::GeometryPointer> shapes);
   /// Gives all that was made since the last call; a shape that could not be made is null there. Not while
   /// it is at work.

@@ -37,8 +37,8 @@ bool uses_miniature(const interaction::Technique& technique) {
 
 }  // namespace
 
-/// Of the hand as the technique maps it: while the world has shrunk for what is held, its way from the eye is
-/// longer.
+/// The input of a hand as the technique maps it: while the world has shrunk for a held object, its way from
+/// the eye is longer.
 interaction::HandInput TechniqueHand::hand_of(const TechniqueMoment& moment, std::size_t which) {
   const TechniqueMoment::Hand& hand = moment.hands[which];
   stale_[which] = hand.there ? stale_[which] & hand.buttons : ~0U;
@@ -71,7 +71,7 @@ void TechniqueHand::place_room(const TechniqueMoment& moment) {
   technique_.place_room(Affine3(moment.stage_from_workspace) * Eigen::Scaling(scale));
 }
 
-/// Where the room stands besides having grown about the eyes, which is not seen.
+/// The motion of the room besides its growth about the eyes, which is not seen.
 Pose TechniqueHand::carried(const Affine3& room_before) const {
   const Affine3& room = stage_from_room();
   const Affine3 moved = room * room_before.inverse();
@@ -82,8 +82,8 @@ Pose TechniqueHand::carried(const Affine3& room_before) const {
   return by;
 }
 
-/// False: something that the hands may meet is still being made. Buttons that are down then have to be
-/// pressed anew.
+/// False while something that the hands may meet is still being made. Buttons that are down then have
+/// to be pressed anew.
 bool TechniqueHand::get_ready(const world::World& world) {
   if (!maker_->is_at_work()) {
     for (auto& [shape, made] : maker_->take()) technique_.keep(shape, std::move(made));

@@ -14,7 +14,7 @@ namespace icome::session {
 class Session;
 class TargetMaker;
 
-/// What a technique reads of a session at one moment; stage frame.
+/// The inputs of a technique from a session at one moment; stage frame.
 struct TechniqueMoment {
   struct Hand {
     bool there = false;
@@ -29,12 +29,12 @@ struct TechniqueMoment {
 };
 
 /// The techniques of thesis chapter 2 at work with the pointers of a session: button 0 of the first selects
-/// and holds, that of the second holds with it; button 1 travels; 2 and 3 push what hangs on a ray away and
-/// pull it nearer. What is held is moved as one action to undo, and let go when anything else changes the
-/// world. One thread (main) uses it.
+/// and holds, that of the second holds with it; button 1 travels; 2 and 3 push an object on a ray away and
+/// pull it nearer. The held object is moved as one action to undo, and let go when anything else changes
+/// the world. One thread (main) uses it.
 ///
-/// The room of the technique is where the pointers' workspace lies, as large as the view shows it: at 0.6 of
-/// its metres from the eye is what one looks at, as for UserInteraction. While a person holds something,
+/// The room of the technique is where the pointers' workspace lies, as large as the view shows it: the point
+/// looked at is 0.6 of its metres from the eye, as for UserInteraction. While a person holds something,
 /// travels or records, the room is a place of its own that only the technique moves.
 ///
 /// Solids, scans and other shapes that take long to be made into triangles are made on a thread of their own;
@@ -42,18 +42,18 @@ struct TechniqueMoment {
 class TechniqueHand {
  public:
   /// The technique has to pass check(). `maker` outlives the technique, so that choosing another one does not
-  /// wait for what it makes.
+  /// wait for the shape that is being made.
   TechniqueHand(const interaction::Technique& technique, std::shared_ptr<TargetMaker> maker)
       : technique_(technique), maker_(std::move(maker)) {}
 
-  /// Call it once for each update of the session. Gives by what the view and the workspaces are to be
-  /// carried, when the person travels. `refused` is told why something could not be moved.
+  /// To be called once for each update of the session. Gives the motion of the view and the
+  /// workspaces when the person travels. `refused` gets the reason why something could not be moved.
   std::optional<base::Pose> update(Session& session, const TechniqueMoment& moment,
                                    const Revisions& revisions, std::string& refused);
-  /// The world was changed; null: it is another one.
+  /// To be told of changes of the world; null: it is another one.
   void changed(const world::Changes* changes) { technique_.changed(changes); }
 
-  /// Lets go of what is held; buttons have to be pressed anew.
+  /// Lets go of the held object; buttons have to be pressed anew.
   void let_go() {
     technique_.let_go();
     stale_ = {~0U, ~0U};
@@ -61,23 +61,23 @@ class TechniqueHand {
 
   const interaction::Technique& technique() const { return technique_.technique(); }
   bool holds() const { return technique_.holds(); }
-  /// Nothing is held, and nobody is on the way.
+  /// Is nothing held, and nobody on the way?
   bool resting() const { return technique_.resting(); }
-  /// Is what it may meet being made?
+  /// Are targets that it may meet being made?
   bool is_getting_ready() const { return is_getting_ready_; }
-  /// What the last step showed, in the stage's frame, and what went into it.
+  /// The outcome of the last step, in the stage's frame, and its input.
   const interaction::TechniqueOutcome& outcome() const { return outcome_; }
   const interaction::TechniqueInput& input() const { return input_; }
-  /// Where the technique says that the room is, after the last step.
+  /// The room's place by the technique, after the last step.
   const base::Affine3& stage_from_room() const { return technique_.state().world_from_room; }
-  /// From the world to the miniature, wherever that is shown; nothing before the first step and where neither
-  /// selecting, holding nor travelling needs one.
+  /// The map from the world to the miniature, wherever that is shown; nothing before the first step and where
+  /// neither selecting, holding nor travelling needs one.
   std::optional<base::Affine3> copy_from_stage(const Session& session);
 
-  /// Begins to record on this world; a recording under way is forgotten. What is held is let go.
+  /// Begins to record on this world; a recording under way is forgotten. A held object is let go.
   void record(const world::World& world);
   bool records() const { return recording_.has_value(); }
-  /// Ends recording. What others change of the world while it goes on ends it there: `is_whole` is false
+  /// Ends recording. A change of the world by others has ended it at that point: `is_whole` is false
   /// then, as it is after an hour.
   struct Recorded {
     world::World beginning;

@@ -28,7 +28,7 @@ constexpr double kFarthestHead = 2.0;  // m
 Pose heading_of(const View& view) {
   const auto axes = view.world_from_eye.linear();
   Vector3 right(axes(0, 0), 0.0, axes(2, 0));
-  // Who lies on the side has the right above; what is up in the picture is then to the left.
+  // A view that lies on its side has its right above; the picture's up is then to the left.
   if (right.norm() < 1e-6) right = Vector3(axes(0, 1), 0.0, axes(2, 1));
   const double angle = std::atan2(-right.z(), right.x());
   return Pose(Eigen::AngleAxisd(angle, Vector3::UnitY()));
@@ -38,7 +38,7 @@ bool is_rigid(const Pose& pose) {
   return pose.matrix().allFinite() && pose.linear().isUnitary(1e-6) && pose.linear().determinant() > 0.0;
 }
 
-/// Part of the way to where the head is when nothing is known of it.
+/// The pose a part of the way to that of a head of which nothing is known.
 Pose relaxed(const Pose& pose, double part) {
   Pose result = Pose::Identity();
   result.linear() = Quaternion(pose.linear()).slerp(part, Quaternion::Identity()).toRotationMatrix();
@@ -129,10 +129,10 @@ void UserInteraction::read_navigation(double dt, News& news) {
   const DeviceStatus status = navigation_->read(state);
   note(navigation_->name(), navigation_presence_, status, dt, news);
   if (!state.push.allFinite() || !state.turn.allFinite()) state.push = state.turn = Vector3::Zero();
-  // Nobody holds it, as far as one can tell.
+  // A device that is lost or silent counts as not held.
   if (status == DeviceStatus::Lost || navigation_presence_.silent > kPatience)
     state.push = state.turn = Vector3::Zero();
-  // Who plugs it in with a button down has not pressed it.
+  // A button that is down as the device is plugged in has not been pressed.
   const std::uint32_t pressed = was_there ? state.buttons & ~steering_.buttons : 0U;
   const bool other_mode = status == DeviceStatus::Ok && (pressed & kModeButton) != 0;
   news.home = status == DeviceStatus::Ok && (pressed & kHomeButton) != 0;
@@ -167,7 +167,7 @@ void UserInteraction::move_hands(double dt) {
   if (mode_ == NavigationMode::Hand && moved) {
     recalled_ = false;
     const auto axes = [](const Vector3& it) { return Vector3(it.cwiseMax(-1.0).cwiseMin(1.0)); };
-    // As one sees it: also after the workspace was turned, right is right.
+    // In the view's heading: also after the workspace was turned, right is right.
     hand_offset_ += dt * axes(steering_.push);
     hand_offset_ = hand_offset_.cwiseMax(-kFarthestHand).cwiseMin(kFarthestHand).eval();
     hand_turn_ = std::remainder(hand_turn_ + 0.5 * std::numbers::pi * dt * axes(steering_.turn).y(),

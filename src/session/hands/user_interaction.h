@@ -10,8 +10,8 @@
 
 namespace icome::session {
 
-/// How the user stands to the world (thesis 5.6.3 and 2.4.2): owns the view, a flight of it under way, the
-/// navigation and the head device, and says where the workspaces of the pointers lie. Whatever moves the view
+/// The user's place in the world (thesis 5.6.3 and 2.4.2): owns the view, a flight of it under way, the
+/// navigation and the head device, and gives the place of the pointers' workspaces. Whatever moves the view
 /// carries the pointers along; the head moves the eye alone. One thread (main) uses it; it knows no clock, so
 /// the same calls give the same poses.
 class UserInteraction {
@@ -25,7 +25,7 @@ class UserInteraction {
     bool lost = false;
     std::string text = {};  // a sentence or two: what happened, and what to do
   };
-  /// What update() found that others have to act on; button 0 exchanges camera and hand mode by itself.
+  /// News of update() that others have to act on; button 0 exchanges camera and hand mode by itself.
   struct News {
     bool home = false;  // the user wants to see everything: button 1 of the navigation device
     std::vector<DeviceNews> devices = {};
@@ -36,33 +36,33 @@ class UserInteraction {
 
   /// The user's view, without the head; always usable.
   const interaction::View& view() const { return view_; }
-  /// What is to be drawn: the view as the head sees it. A head that moves as far as its distance to a screen
+  /// The view to be drawn, as the head sees it. A head that moves as far as its distance to a screen
   /// (`kScreenDistance`) moves the eye by the view's distance.
   const interaction::View& drawn_view() const { return drawn_; }
   static constexpr double kScreenDistance = 0.6;  // m
 
-  /// At once; a flight ends.
+  /// Sets the view at once; a flight ends.
   void set_view(const interaction::View& view);
-  /// Softly, within that time (s). Pushing the navigation device ends the flight where it is.
+  /// Moves the view softly, within that time (s). Pushing the navigation device ends the flight where it is.
   void fly_to(const interaction::View& view, double seconds = 0.35);
 
-  /// Moves the view by that (stage frame) with all workspaces, as one rigid thing; a flight ends. Workspaces
-  /// that were tilted so get upright again by themselves, softly, once neither this nor keep_hands() is
-  /// called at every update.
+  /// Moves the view by a motion (stage frame) with all workspaces, as one rigid thing; a flight ends.
+  /// Workspaces that were tilted so get upright again by themselves, softly, once neither this nor
+  /// keep_hands() is called at every update.
   void carry(const base::Pose& by);
   void keep_hands() { carried_ = true; }
 
   interaction::NavigationMode mode() const { return mode_; }
   void set_mode(interaction::NavigationMode mode) { mode_ = mode; }
 
-  /// Where all pointer devices' workspaces lie on the stage: their middle is at what the view looks at, or
-  /// where hand mode moved it from there; upright, and turned as the view is.
+  /// The place of all pointer devices' workspaces on the stage: their middle is at the point that the view
+  /// looks at, or where hand mode moved it from there; upright, and turned as the view is.
   const base::Pose& stage_from_device() const { return stage_from_device_; }
-  /// Brings the workspaces back to what the view looks at, softly.
+  /// Brings the workspaces back to the point that the view looks at, softly.
   void recall_hands() { recalled_ = true; }
 
  private:
-  /// What is known of a device's presence.
+  /// The known presence of a device.
   struct Presence {
     bool asked = false;   // has it been read yet?
     bool there = false;   // at the last reading
@@ -84,11 +84,11 @@ class UserInteraction {
   std::optional<interaction::ViewFlight> flight_;
   double flown_for_ = 0.0;  // s
   interaction::NavigationMode mode_ = interaction::NavigationMode::Camera;
-  // Of the workspaces, from what the view looks at: in the view's heading, of its distance; rad to the left.
+  // The workspaces, from the point looked at: in the view's heading, of its distance; rad to the left.
   base::Vector3 hand_offset_ = base::Vector3::Zero();
   double hand_turn_ = 0.0;
   bool recalled_ = false;
-  // From upright and turned to how carry() left the workspaces.
+  // The tilt of the workspaces as carry() left them, from upright and turned.
   base::Quaternion hand_tilt_ = base::Quaternion::Identity();
   bool carried_ = false;  // since the last update
   base::Pose user_from_head_ = base::Pose::Identity();

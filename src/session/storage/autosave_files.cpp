@@ -31,7 +31,7 @@ constexpr std::string_view kNoteHead = "ICOME autosave, work on:\n";
 
 fs::path with_ending(fs::path journal, std::string_view ending) { return journal.replace_extension(ending); }
 
-/// The journal that a file which only makes sense beside it belongs to; empty for all others.
+/// The journal that a file beside it belongs to; empty for all other files.
 fs::path journal_of(const fs::path& path) {
   std::string name = path.filename().string();
   if (!name.starts_with(kPrefix)) return {};

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The session goes on even where there is no memory to keep its work.
+/// Lets the session go on even where there is no memory to keep its work.
 template <typename Work>
 void guard(AutosaveKeeper& keeper, const Work& work) {
   try {

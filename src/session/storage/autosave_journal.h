@@ -16,13 +16,13 @@ class AutosaveKeeper;
 
 struct AutosaveSettings {
   std::filesystem::path folder = {};  // made where there is none
-  /// What was written reaches the disk itself after so long at most, and survives the power going then.
+  /// The longest time until written work reaches the disk itself, and survives a loss of power.
   std::chrono::nanoseconds sync_period = std::chrono::seconds(1);
-  /// How often it is tried again when work cannot be kept, and looked whether what was kept is still there.
+  /// The time between tries when work cannot be kept, and between checks that kept work is still there.
   std::chrono::nanoseconds retry_period = std::chrono::seconds(5);
 };
 
-/// Whether unsaved work would survive a crash.
+/// Tells whether unsaved work would survive a crash.
 struct AutosaveState {
   bool keeping = true;
   std::string text = {};  // a sentence or two for people, when it has changed
@@ -30,8 +30,8 @@ struct AutosaveState {
 
 /// Keeps a session's unsaved work against crashes: takes every edit from the EditedQueue and has it in a
 /// journal on disk before it takes the next. There is no file while nothing is unsaved: the first edit after
-/// opening or saving makes one, of the world as it is then. A recovered world has one at once; only then the
-/// one that it was recovered of goes. Owns journal and thread; main uses this.
+/// opening or saving makes one, of the world as it is then. A recovered world gets one at once; only then
+/// the journal that it was recovered from goes. Owns journal and thread; main uses this.
 class AutosaveJournal {
  public:
   /// The reader's queue outlives this.
@@ -42,10 +42,10 @@ class AutosaveJournal {
   AutosaveJournal(const AutosaveJournal&) = delete;
   AutosaveJournal& operator=(const AutosaveJournal&) = delete;
 
-  /// Unsaved work is not wanted any more: nothing is kept of it in the end. Before the queue is closed.
+  /// Drops unsaved work: nothing is kept of it in the end. To be called before the queue is closed.
   void close() { unwanted_.store(true, std::memory_order_relaxed); }
 
-  /// Whether work is kept, when that has changed since the last call.
+  /// The state, when work has begun or ceased to be kept since the last call.
   std::optional<AutosaveState> news();
 
   /// The number of the last post that is in the journal, or need not or cannot be. Any thread.

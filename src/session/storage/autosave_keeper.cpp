@@ -106,13 +106,13 @@ base::Result<void> AutosaveKeeper::keep() {
   if (const auto written = journal_->restart(apart_); !written) return written;
   follows_ = true;
   apart_ = {};
-  // Now that there is another, and not before.
+  // The old journal goes now that there is another, and not before.
   if (recovered_) std::exchange(recovered_, nullptr)->discard();
   return {};
 }
 
 base::Result<void> AutosaveKeeper::make_journal() {
-  constexpr int kTries = 3;  // who looks for work to recover may come between making a file and locking it
+  constexpr int kTries = 3;  // a search for recoverable work may come between making a file and locking it
   base::Result<void> result;
   for (int i = 0; i < kTries; ++i) {
     const std::filesystem::path path = new_autosave_journal(settings_.folder);
@@ -156,7 +156,7 @@ void AutosaveKeeper::discard() {
   follows_ = false;
   sync_due_.reset();
   unsaved_ = false;
-  // What kept the last work from being kept need not be in the way of the next.
+  // The problem of the last work need not be in the way of the next.
   retry_due_ = {};
   failures_ = 0;
   if (!lost_) problem_.reset();

@@ -9,8 +9,8 @@
 
 namespace icome::session {
 
-/// What the AutosaveJournal does, without its thread: follows the posts of an EditedQueue and keeps unsaved
-/// work in a journal on disk. Owns the journal. Time comes from outside.
+/// The work of the AutosaveJournal, without its thread: follows the posts of an EditedQueue and keeps
+/// unsaved work in a journal on disk. Owns the journal. Time comes from outside.
 class AutosaveKeeper {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -22,16 +22,16 @@ class AutosaveKeeper {
   void follow(const Edited& edited, Time now);
   /// Does what is due: a sync, another try, a look whether the journal is still there.
   void tend(Time now);
-  /// When something will be due; nothing while there is nothing to keep.
+  /// The time when something will be due; nothing while there is nothing to keep.
   std::optional<Time> due() const;
   /// Keeps nothing until there is another world, as this one is not known any more.
   void give_up(const std::string& why);
-  /// Takes what was kept away.
+  /// Deletes the kept work.
   void discard();
-  /// Brings what was kept to the disk.
+  /// Brings the kept work to the disk.
   void finish(Time now);
 
-  /// Why unsaved work is not kept; nothing while it is, or there is none.
+  /// The reason why unsaved work is not kept; nothing while it is, or there is none.
   const std::optional<base::Error>& problem() const { return problem_; }
 
  private:
@@ -54,7 +54,7 @@ class AutosaveKeeper {
   std::filesystem::path design_ = {};       // that the work is on
   std::uint64_t last_edit_ = 0;             // number of the last edit
   std::uint64_t whole_ = 0;                 // and of the last world
-  std::shared_ptr<ClaimedWork> recovered_;  // not null: what this world is still kept in
+  std::shared_ptr<ClaimedWork> recovered_;  // not null: this world is still kept in it
   std::optional<base::Error> problem_;
   std::optional<Time> sync_due_;  // of what was written since the last sync
   Time retry_due_ = {};           // also of the look whether the journal is there

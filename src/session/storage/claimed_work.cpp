@@ -11,7 +11,7 @@
 namespace icome::session {
 namespace {
 
-/// Locks the file. Who only looks through the folder has a lock for a moment, too.
+/// Locks the file, in several tries: a search through the folder has a lock for a moment, too.
 base::Result<bool> lock_soon(const io::OpenFile& file) {
   constexpr int kTries = 5;
   constexpr auto kMoment = std::chrono::milliseconds(10);

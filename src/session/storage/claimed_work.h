@@ -10,17 +10,17 @@
 namespace icome::session {
 
 /// Recoverable work that one program has for itself until this goes, to read it, and then to keep it anew or
-/// discard it. Until discarded it stays on disk as it is, for whoever comes after a second crash.
+/// discard it. Until discarded it stays on disk as it is, against a second crash.
 class ClaimedWork {
  public:
   /// Fails when another program has claimed it, or it is gone.
   static base::Result<std::shared_ptr<ClaimedWork>> claim(const RecoverableWork& work);
 
   const RecoverableWork& work() const { return work_; }
-  /// The world that all whole edits make. Remarks tell what was lost, if anything. Takes
-  /// its time; any one thread. Fails, leaving all as it is, for what cannot be read.
+  /// The world that all whole edits make. Remarks tell of losses, if there are any. Takes its
+  /// time; any one thread. Fails, leaving all as it is, for journals that cannot be read.
   base::Result<files::LoadedDesign> read(const files::DesignReadOptions& options);
-  /// The work is safe elsewhere, or not wanted: takes it away. A damaged journal (but not one whose last edit
+  /// Deletes the work, which is safe elsewhere, or not wanted. A damaged journal (but not one whose last edit
   /// was cut off as the program stopped) stays, as "....damaged". Any one thread, after reading.
   void discard();
 

@@ -19,12 +19,12 @@ struct DesignLoader::Reading {
 
   base::Result<files::LoadedDesign> run() {
     options.progress = [this](double done) {
-      // Readers that go through a file in several ways may begin anew; people see it go on.
+      // Readers that go through a file in several ways may begin anew; the shown part never goes back.
       part.store(std::clamp(done, part.load(std::memory_order_relaxed), 1.0), std::memory_order_relaxed);
       return !stopped.load(std::memory_order_relaxed);
     };
     auto result = read(options);
-    // What nobody wants is freed here, as that may take a while.
+    // An unwanted result is freed here, as that may take a while.
     if (stopped.load(std::memory_order_relaxed)) return base::fail("interrupted");
     return result;
   }

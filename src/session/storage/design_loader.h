@@ -11,9 +11,9 @@
 
 namespace icome::session {
 
-/// Reads designs in the background, one at a time; who wants one asks now and then how far it is. One thread
-/// (main) uses it and never waits but in the destructor. Owns the threads that read: readings that were given
-/// up may take a moment to end, and as long as there are several of these, the newest waits for its turn.
+/// Reads designs in the background, one at a time; it has to be polled for the outcome. One thread (main)
+/// uses it and never waits but in the destructor. Owns the threads that read: readings that were given up may
+/// take a moment to end, and as long as there are several of these, the newest waits for its turn.
 class DesignLoader {
  public:
   /// Reads a design, as told by the options: it calls their progress and ends soon when that says stop.
@@ -26,25 +26,25 @@ class DesignLoader {
   };
 
   DesignLoader();
-  /// Cancels what is being read and waits until the threads have noticed.
+  /// Cancels the readings under way and waits until their threads have ended.
   ~DesignLoader();
   DesignLoader(const DesignLoader&) = delete;
   DesignLoader& operator=(const DesignLoader&) = delete;
 
-  /// Designs that are given up and not yet gone from memory, at most. One must not keep others from being
-  /// read: it may be on a disk that does not answer.
+  /// The most readings that are given up and not yet gone from memory. One must not keep others from
+  /// being read: it may be on a disk that does not answer.
   static constexpr std::size_t kMostLeaving = 2;
 
   /// Starts reading; a reading under way is given up, and nothing is told of it.
   void open(const std::filesystem::path& design, const files::DesignReadOptions& options = {});
-  /// The same for what is read in another way, such as recovered work; `design` only comes back with it.
+  /// Starts reading in another way, such as recovered work; `design` only comes back with the outcome.
   void start(const std::filesystem::path& design, Read read, const files::DesignReadOptions& options = {});
   /// Gives the reading up; the next poll tells so at once, though its thread may take a moment to end.
   void cancel();
 
   /// The part that is done, [0, 1], while a design is being read.
   std::optional<double> part() const;
-  /// How the reading ended, once.
+  /// The outcome of a reading that has ended, once.
   std::optional<Outcome> poll();
   /// Waits until the reading under way has ended, so that poll() tells of it.
   void wait();

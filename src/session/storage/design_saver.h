@@ -14,7 +14,7 @@
 
 namespace icome::session {
 
-/// Writes designs in the background, one after the other; who wants to know asks now and then. A file that
+/// Writes designs in the background, one after the other; it has to be polled for outcomes. A file that
 /// was there stays as it was until the new one is whole. One thread (main) uses it and never waits but in
 /// the destructor. Owns the thread that writes.
 class DesignSaver {
@@ -22,10 +22,10 @@ class DesignSaver {
   struct Outcome {
     std::filesystem::path design = {};
     std::uint64_t number = 0;  // as given to save()
-    /// What the format cannot hold; or why there is no new file, and what to do.
+    /// The losses by the format; or the reason why there is no new file, and what to do.
     base::Result<std::vector<files::Remark>> result = {};
-    /// There is no new file as that would lose what is there: a person decides, and may save with
-    /// `Replace::Anyway`.
+    /// There is no new file, as it would replace one that must not be lost unasked: a person
+    /// decides, and may save with `Replace::Anyway`.
     bool asks = false;
   };
   enum class Replace : std::uint8_t {
@@ -36,24 +36,24 @@ class DesignSaver {
   static constexpr std::size_t kMostWaiting = 8;
 
   DesignSaver();
-  /// Writes what is still waiting.
+  /// Writes the saves that are still waiting.
   ~DesignSaver();
   DesignSaver(const DesignSaver&) = delete;
   DesignSaver& operator=(const DesignSaver&) = delete;
 
-  /// Writes the world as it is now, behind what is being written. `number` comes back with the outcome: the
+  /// Writes the world as it is now, after the saves before it. `number` comes back with the outcome: the
   /// last post of the EditedQueue that is in this world.
   /// Precondition: can_save().
   void save(const std::filesystem::path& design, world::World world, std::uint64_t number = 0,
             Replace replace = Replace::Safely);
   bool can_save() const { return waiting_.size() < kMostWaiting; }
-  /// A design was opened that was this file: what others change in it from now on is not replaced unasked.
+  /// Notes a design's file as it was opened: changes by others from now on are not replaced unasked.
   void has_read(const std::filesystem::path& design, const std::optional<files::FileStamp>& stamp);
 
   bool busy() const { return writing_ != nullptr || !waiting_.empty(); }
-  /// How the oldest ended, once each, in the order of saving. Begins with the next.
+  /// The outcome of the oldest save, once each, in the order of saving. Begins with the next.
   std::optional<Outcome> poll();
-  /// Waits until the oldest has ended, so that poll() tells of it.
+  /// Waits until the oldest save has ended, so that poll() tells of it.
   void wait() const;
 
  private:

@@ -16,7 +16,7 @@ namespace icome::session {
 base::Result<world::Texture> read_picture(const std::filesystem::path& file) {
   auto bytes = io::read_bytes(file, kMostPictureBytes);
   if (!bytes) return tl::unexpected(bytes.error());
-  // What cannot be drawn is better told now than by an object that stays plain.
+  // A picture that cannot be drawn is better told now than by an object that stays plain.
   if (const auto drawn = render::decode_picture(*bytes); !drawn)
     return base::fail(fmt::format("{}: {}", file.string(), drawn.error().message));
   const std::string_view type = files::picture_type(*bytes);

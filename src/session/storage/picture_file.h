@@ -10,9 +10,9 @@ namespace icome::session {
 /// The largest file of a picture that goes into a design, bytes.
 inline constexpr std::uint64_t kMostPictureBytes = 64ULL << 20U;
 
-/// A picture as a design keeps it, by its whole name as the file that it came as: PNG, JPEG or GIF, told by
-/// what is in it. Fails, naming the file and saying what to do, for one that is missing, of another kind,
-/// damaged or larger than can be drawn (render::decode_picture). Any thread.
+/// A picture as a design keeps it: by its file's name without folders, with the file's bytes: PNG, JPEG or
+/// GIF, told by the content. Fails, naming the file and saying what to do, for one that is missing, of
+/// another kind, damaged or larger than can be drawn (render::decode_picture). Any thread.
 base::Result<world::Texture> read_picture(const std::filesystem::path& file);
 
 }  // namespace icome::session

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using io::OpenFile;
 
-/// Of a journal with an empty world and no edits: its header and the end of its snapshot.
+/// Size of a journal with an empty world and no edits: its header and the end of its snapshot.
 constexpr std::uint64_t kEmptyJournalBytes = files::kJournalHeaderBytes + files::kJournalFrameBytes;
 
 /// The journal, if no program has it.
@@ -36,7 +36,7 @@ Holds judge(const OpenFile& file) {
   if (files::JournalReader::create(file)) return Holds::Work;
   std::string first(files::kJournalHeaderBytes, '\0');
   if (!file.read(0, first.data(), first.size())) return Holds::SomethingElse;
-  // A newer version can read what it wrote.
+  // A newer version can read the journals that it wrote.
   const bool newer = files::judge_journal_header(first) == files::JournalHeader::Newer;
   return newer ? Holds::SomethingElse : Holds::Damage;
 }

@@ -13,7 +13,7 @@ struct RecoverableWork {
 };
 
 /// The work in an autosave folder of sessions that no longer run, the last changed first; a ClaimedWork reads
-/// it. What holds nothing is taken away meanwhile; what cannot be read is set aside as "....damaged".
+/// it. Meanwhile empty journals are deleted, and damaged ones set aside as "....damaged".
 std::vector<RecoverableWork> find_recoverable_work(const std::filesystem::path& folder);
 
 }  // namespace icome::session

@@ -8,25 +8,25 @@
 
 namespace icome::interaction {
 
-/// Why nothing is felt of an effect with this text, such as one of a newer program; empty: it is felt.
+/// The reason why an effect with this text (such as one of a newer program) is not felt; empty: it is felt.
 std::string trouble_with_effect(const std::string& text);
 
-/// The effect of a text, as haptics::make_effect takes it; else what is wrong with it.
+/// The effect of a text, as haptics::make_effect takes it; else an error that says what is wrong with it.
 base::Result<world::FixturePointer> make_effect_fixture(const std::string& text, bool on);
 
-/// A number that effects of a kind have, as one would turn a dial for it.
+/// A number of the effects of a kind, set with a dial.
 struct EffectDial {
   std::string kind;  // "well"
   std::string name;  // "RADIUS"
   std::string unit;  // "m"; empty: none
   std::size_t index = 0;
-  double least = 0.0, most = 0.0;              // what it may be
-  double usual_least = 0.0, usual_most = 0.0;  // what people turn it between
+  double least = 0.0, most = 0.0;              // the allowed range
+  double usual_least = 0.0, usual_most = 0.0;  // the usual range
 };
-/// Those of all kinds that have numbers alone.
+/// The dials of all kinds of effects that take numbers alone.
 const std::vector<EffectDial>& effect_dials();
 
-/// Where the dial of an effect with this text stands; nothing where the effect is of another kind, or none.
+/// The dial's value in an effect with this text; nothing where the effect is of another kind, or none.
 std::optional<double> dial_value(const EffectDial& dial, const std::string& text);
 /// The text with that number set; precondition: dial_value() has one.
 std::string with_dial(const EffectDial& dial, const std::string& text, double value);

@@ -39,7 +39,7 @@ std::vector<Parameter> force_parameters() {
 
 std::string_view kind_of_effect(std::string_view text) { return text.substr(0, text.find(':')); }
 
-/// What hands and devices of a desk can do with such a number.
+/// The range of such a number that suits hands and desktop devices.
 std::pair<double, double> usual_range(const haptics::EffectNumber& number) {
   struct Usual {
     std::string_view unit;

@@ -38,7 +38,7 @@ class MaterialNames {
   std::unordered_set<std::string> taken_;
 };
 
-/// The design's own; none where it has none of that name. Fails where it has several.
+/// The design's material of that name or number; none where there is none. Fails where there are several.
 Result<MaterialId> named_material(const World& world, std::string_view name) {
   std::vector<MaterialId> found;
   for (const auto& [id, material] : world.materials()) {

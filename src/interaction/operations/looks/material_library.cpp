@@ -11,13 +11,13 @@ namespace {
 
 using world::Material;
 
-// How these feel. A force-feedback device renders walls of some 500 to 4,000 N/m well, where real ones are a
-// thousand times as stiff: the order of the real ones is kept, each step being more than the 23 % that people
-// tell apart (Jones and Hunter 1990, the Weber fraction of stiffness). Only skin is as soft as the real one,
-// some hundred N/m under a fingertip. Friction is that of a hard, smooth tip on the dry material, as tables
-// for engineers have it: rubber 1.0 and 0.8, wood 0.4 and 0.3, metal on metal that is not quite clean 0.2 and
-// 0.15, skin about 0.5, ice near its melting point 0.05 and 0.03. What swallows sound when knocked on,
-// rubber and skin, is damped more than what rings; a device adds what keeps it stable.
+// The touch properties. A force-feedback device renders walls of some 500 to 4,000 N/m well, where real ones
+// are a thousand times as stiff: the order of the real ones is kept, each step being more than the 23 % that
+// people tell apart (Jones and Hunter 1990, the Weber fraction of stiffness). Only skin is as soft as the
+// real one, some hundred N/m under a fingertip. Friction is that of a hard, smooth tip on the dry material,
+// as tables for engineers have it: rubber 1.0 and 0.8, wood 0.4 and 0.3, metal on metal that is not quite
+// clean 0.2 and 0.15, skin about 0.5, ice near its melting point 0.05 and 0.03. Materials that swallow a
+// knock's sound, rubber and skin, are damped more than those that ring; a device adds what keeps it stable.
 
 Material wood() {
   return {.name = "wood",

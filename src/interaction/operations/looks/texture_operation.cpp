@@ -33,8 +33,8 @@ TextureProjection projection_of(const std::string& name) {
   return TextureProjection::Planar;
 }
 
-/// How a projector, whose own axis is z, stands in an object, whose y is up, while it is not turned. A plane
-/// lies across the side along which the object is thinnest; all others stand upright.
+/// Orientation of a projector that is not turned, whose axis is z, in an object, whose y is up. A plane lies
+/// across the side along which the object is thinnest; all others stand upright.
 Matrix3 untilted(TextureProjection projection, const Vector3& sizes) {
   Matrix3 lying, facing_x;
   lying << Vector3::UnitX(), -Vector3::UnitZ(), Vector3::UnitY();  // columns: seen from above
@@ -45,7 +45,7 @@ Matrix3 untilted(TextureProjection projection, const Vector3& sizes) {
   return sizes.y() == thinnest ? lying : facing_x;
 }
 
-/// Round the shape, unless something else is said.
+/// The projector of these arguments; by default it fits round the shape.
 Result<geometry::TextureProjector> projector_of(const Bounds& box, const Arguments& arguments) {
   if (box.isEmpty()) return fail("there is nothing to project on: the shape has no triangles");
   geometry::TextureProjector projector;
@@ -59,7 +59,7 @@ Result<geometry::TextureProjector> projector_of(const Bounds& box, const Argumen
   return projector;
 }
 
-/// What comes behind the folders of a file's name.
+/// The file's name without its folders.
 std::string_view last_part(std::string_view path) { return path.substr(path.find_last_of("/\\") + 1); }
 
 Result<TextureId> named_picture(const world::World& world, const std::string& name) {
@@ -88,7 +88,7 @@ struct ChosenPicture {
   world::EditGroup creation = {};
 };
 
-/// One that the design has already, so that a file that is named twice is kept once.
+/// An equal picture that the design has already, so that a file that is named twice is kept once.
 TextureId same_picture(const world::World& world, const world::Texture& wanted) {
   TextureId found;
   for (const auto& [id, texture] : world.textures()) {
@@ -121,7 +121,7 @@ Result<ChosenPicture> chosen_picture(const world::World& world, const Arguments&
   return ChosenPicture{.id = *named, .name = world.find(*named)->name};
 }
 
-/// The picture's name, with a number behind it where a material is called so.
+/// The picture's name, with a number behind it where a material has that name.
 std::string unused_material_name(const world::World& world, std::string_view picture) {
   std::set<std::string_view> taken;
   for (const auto& [id, material] : world.materials()) taken.insert(material.name);
@@ -130,8 +130,8 @@ std::string unused_material_name(const world::World& world, std::string_view pic
   return name;
 }
 
-/// Makes the object show the picture, in its own colours where the object had none. A material that others
-/// have stays as it is for them.
+/// Makes the object show the picture, in its own colours where the object had no material. A material that
+/// others have stays as it is for them.
 void show(const world::World& world, world::ObjectId object, const ChosenPicture& picture,
           world::IdSource& ids, world::EditGroup& group) {
   const world::MaterialId id = world.find(object)->material;
@@ -162,7 +162,7 @@ bool has_own_places(const world::Geometry& shape) {
          std::holds_alternative<geometry::Cylinder>(it) || std::holds_alternative<geometry::Cone>(it);
 }
 
-/// Why nothing can be shown as it lies on the shape; a mesh may get places.
+/// Fails where the shape has no texture coordinates of its own and neither is a mesh nor may become one.
 Result<void> check_places(const world::World& world, const ShapeChange& change, const Arguments& arguments) {
   if (has_own_places(*change.shape) || dynamic_cast<const world::MeshGeometry*>(change.shape.get()))
     return {};

@@ -30,12 +30,12 @@ std::string recipe_of_projector(const TextureProjector& projector) {
       {"op", "texture"}, {"projection", std::string(named->first)}, {"frame", std::move(frame)}});
 }
 
-/// Many times what recipe_of_projector() comes to: names, and twelve numbers of up to 24 characters.
+/// Many times the length of a recipe_of_projector(): names, and twelve numbers of up to 24 characters.
 constexpr std::size_t kLongestRecipe = 4096;
 
 /// The named values of a recipe of "texture"; nothing for others.
 std::optional<Value> projector_value(std::string_view recipe) {
-  // Every mesh that is selected is asked at each step of a drag: what is surely another's is not read.
+  // Called for every selected mesh at each step of a drag: recipes of other operations are not parsed.
   const bool may_be = recipe.size() <= kLongestRecipe && recipe.find("\"texture\"") != std::string_view::npos;
   if (!may_be) return std::nullopt;
   auto value = value_from_json(recipe);

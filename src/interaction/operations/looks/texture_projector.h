@@ -8,15 +8,15 @@
 
 namespace icome::interaction {
 
-// The projector that a picture was thrown on a mesh with. It stands in the mesh's recipe, so that it can be
-// moved afterwards; where vertices are moved or the mesh is remade, the recipe and with it the projector
-// goes.
+// The projector that threw a picture on a mesh. It is kept in the mesh's recipe, so that it can be moved
+// afterwards; where vertices are moved or the mesh is remade, the recipe is lost, and the projector with
+// it.
 
-/// That of a shape; nothing where none is known.
+/// The projector of a shape; nothing where none is known.
 std::optional<geometry::TextureProjector> projector_in(const world::Geometry& shape);
 
-/// The mesh with the texture coordinates that a projector, of the whole picture, gives it, and with that in
-/// its recipe. Normals and colours stay. Fails as geometry::project_texture does.
+/// The mesh with the texture coordinates that a projector of the whole picture gives it, and with the
+/// projector in its recipe. Normals and colours stay. Fails as geometry::project_texture does.
 base::Result<std::shared_ptr<const world::MeshGeometry>> with_projector(
     const world::MeshGeometry& mesh, const geometry::TextureProjector& projector);
 

@@ -50,7 +50,7 @@ struct TurnAndScale {
   Vector3 scale;
 };
 
-/// None for what leans, as nothing of this form does.
+/// The turn and scale of a linear map; none where it shears.
 std::optional<TurnAndScale> turn_and_scale(const Matrix3& linear) {
   TurnAndScale parts;
   for (int axis = 0; axis < 3; ++axis) parts.scale[axis] = linear.col(axis).stableNorm();
@@ -82,7 +82,7 @@ Result<Plan> plan_place(const World& world, const Arguments& arguments, world::I
 
 int axis_of(const Arguments& arguments) { return arguments.text("axis").front() - 'x'; }
 
-/// An object and how far it reaches along an axis of the world, m.
+/// An object and its extent along an axis of the world, m.
 struct Extent {
   ObjectId id;
   double low, high;
@@ -104,7 +104,7 @@ Result<std::vector<Extent>> extents(const World& world, const std::vector<Object
   return found;
 }
 
-/// Each by as much as is said for it along the axis.
+/// The plan that moves each object by its own shift along the axis.
 Result<Plan> shifted(const World& world, const std::vector<Extent>& extents,
                      const std::vector<double>& shifts, int axis) {
   Plan plan{world::EditGroup{}};

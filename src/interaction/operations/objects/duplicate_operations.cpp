@@ -53,10 +53,10 @@ world::CreateObject& creation_of(world::Duplication& duplication) {
   return std::get<world::CreateObject>(std::ranges::find_if(edits, makes_it)->what);
 }
 
-/// The name that duplicates count on.
+/// The name to which duplicates add a number.
 std::string stem_of(const world::PhysicalObject& model) { return model.name.empty() ? "object" : model.name; }
 
-/// A model that holds its own clones doubles each time that it is cloned.
+/// Fails for too many objects: a model that holds its own clones doubles each time that it is cloned.
 Result<void> check_count(const World& world, ObjectId model, std::size_t count) {
   if (count <= kMostMade / world::subtree(world, model).size()) return {};
   return fail(fmt::format("that would be more than {} objects: make fewer", kMostMade));
@@ -64,7 +64,7 @@ Result<void> check_count(const World& world, ObjectId model, std::size_t count) 
 
 // ---- Clone and copy -----------------------------------------------------------------------------------
 
-/// Where the duplicate of a model goes under a parent.
+/// Place of a model's duplicate under a parent.
 Result<Affine3> place_of_duplicate(const World& world, const Arguments& arguments, ObjectId model,
                                    ObjectId parent) {
   if (arguments.has("at") && arguments.has("by"))
@@ -101,7 +101,7 @@ Result<Plan> plan_duplicate(const World& world, const Arguments& arguments, worl
 
 // ---- Along a path -------------------------------------------------------------------------------------
 
-/// The path that was said (m, world frame), and whether the model stands at its beginning.
+/// The path that was given (m, world frame), and whether the model stands at its beginning.
 struct SaidPath {
   std::vector<Vector3> points;
   bool from_model = false;
@@ -125,7 +125,7 @@ Result<std::vector<PathPlace>> said_places(const World& world, const Arguments& 
   return places;
 }
 
-/// Puts duplicates where they belong, one behind the other.
+/// Plans duplicates that stand one behind the other among their siblings.
 class Row {
  public:
   Row(const World& world, ObjectId model, Duplicate how, world::IdSource& ids)

@@ -51,7 +51,7 @@ Result<void> check_group(const World& world, ObjectId id) {
   return {};
 }
 
-/// What stood in a scene as the group stands there as what was in it.
+/// Gives the group's place in every scene that holds it to the objects in it.
 void hand_over_scenes(const World& world, ObjectId id, std::vector<world::Edit>& edits) {
   for (const auto& [scene, it] : world.scenes()) {
     std::size_t place = world::place_of(it.roots, id);
@@ -75,7 +75,7 @@ void dissolve(const World& world, ObjectId id, std::size_t place, std::vector<wo
 
 Result<Plan> plan_ungroup(const World& world, const Arguments& arguments, world::IdSource&) {
   const std::vector<ObjectId> groups = topmost(world, arguments.objects("objects"));
-  // By where they stand, so that each knows how many more came before it.
+  // Sorted by their places, so that each knows how many more came before it.
   std::map<ObjectId, std::map<std::size_t, ObjectId>> rows;
   for (const ObjectId id : groups) {
     if (const auto good = check_group(world, id); !good) return tl::unexpected(good.error());

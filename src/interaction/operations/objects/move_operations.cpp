@@ -1,4 +1,4 @@
-// Move and land: what operations do that take objects past others.
+// Move and land: operations that take objects past others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Result<Plan> all_moved_by(const World& world, const std::vector<ObjectId>& objec
   return plan;
 }
 
-/// "'tray' stopped at 'wall', 'tray' snapped to an edge of 'table'", as much of it as happened.
+/// "snapped to an edge of 'table'" or "'tray' stopped at 'wall'"; empty where neither happened.
 std::string note_of(const World& world, const SnappedMove& move) {
   if (move.snap) {
     const ObjectId to = move.snap->snap.object;
@@ -46,7 +46,7 @@ std::string note_of(const World& world, const SnappedMove& move) {
   return "stopped at a surface";
 }
 
-/// To where surfaces and snaps let them go.
+/// The plan that moves the objects as far as surfaces and snaps let them go.
 Result<Plan> plan_felt_move(const World& world, const std::vector<ObjectId>& objects, const Vector3& wanted,
                             const DragRules& rules) {
   world::CollisionIndex index(world);
@@ -58,7 +58,7 @@ Result<Plan> plan_felt_move(const World& world, const std::vector<ObjectId>& obj
 
 constexpr std::array kSnapKinds = {"corners", "edges", "faces"};
 
-/// What the objects snap to.
+/// The snaps that the arguments ask for.
 Result<SnapSettings> snaps_of(const Arguments& arguments) {
   SnapSettings snaps = SnapSettings::none();
   if (arguments.has("grid")) {

@@ -15,10 +15,10 @@ using base::Affine3;
 using base::fail;
 using base::Result;
 
-/// Objects that one operation makes.
+/// The most objects that one operation makes.
 constexpr std::size_t kMostRepeated = 100'000;
 
-/// How the copies follow one another, in the frame of the object's parent.
+/// The copies one after the other, in the frame of the object's parent.
 struct Repetition {
   world::ObjectId object;
   Vector3 pivot;
@@ -58,7 +58,7 @@ Result<Repetition> repetition_of(const world::World& world, const Arguments& arg
   return repetition;
 }
 
-/// Where the copies go: under a parent whose frame is given in that of the object's own.
+/// The parent of the copies, and its frame in that of the object's own parent.
 struct Gathering {
   world::ObjectId parent;
   std::size_t place = 0;  // of the first
@@ -86,7 +86,7 @@ Result<Gathering> gather(const world::World& world, const Repetition& repetition
   return gathering;
 }
 
-/// One more copy, by its number from 0.
+/// Adds one more copy, by its number from 0.
 Result<void> add_copy(const world::World& world, const Repetition& repetition, const Gathering& gathering,
                       std::size_t number, world::IdSource& ids, Plan& plan) {
   const world::PhysicalObject& object = *world.find(repetition.object);

@@ -35,7 +35,7 @@ bool is_sound(const geometry::TriangleMesh& mesh) {
          report.non_manifold_edges == 0 && geometry::signed_volume(mesh) > 0.0;
 }
 
-/// The mesh as it is where it is sound, else what repairing it gives.
+/// The mesh as a solid: as it is where it is sound, else repaired. Fails where it encloses nothing.
 Result<MeshSolidPointer> solid_of(const geometry::TriangleMesh& mesh, const std::string& name) {
   if (const std::string wrong = world::complaint(mesh); !wrong.empty())
     return fail(fmt::format("{} cannot be combined: {}", name, wrong));
@@ -55,7 +55,7 @@ Result<MeshSolidPointer> solid_of(const geometry::TriangleMesh& mesh, const std:
   return fail(fmt::format("{} encloses nothing: combine closed shapes", name));
 }
 
-/// Of one tree: a solid that is combined with its own copies doubles each time.
+/// The most nodes of one tree: a solid that is combined with its own copies doubles each time.
 constexpr std::size_t kMostNodes = 1'000'000;
 
 // ---- Building -----------------------------------------------------------------------------------------
@@ -107,7 +107,7 @@ class SolidBuilder {
     return tree_.add_leaf(found->second, place);
   }
 
-  /// A solid that was combined before: its tree goes into this one.
+  /// Adds a solid that was combined before: its tree goes into this one.
   Result<CsgTree::Index> add(const CsgTree& from, const Affine3& place, const std::string& name) {
     if (from.empty()) return fail(fmt::format("{} is an empty solid: leave it out", name));
     if (tree_.size() + from.size() > kMostNodes)
@@ -123,7 +123,7 @@ class SolidBuilder {
     return tree_.root();
   }
 
-  /// The nodes of a tree that belong to it, operands first.
+  /// The nodes of a tree that its root reaches, operands first.
   static std::vector<CsgTree::Index> below(const CsgTree& tree) {
     std::vector<bool> belongs(tree.root() + 1, false);
     belongs[tree.root()] = true;
@@ -150,8 +150,8 @@ std::string kind_of_leaf(const geometry::CsgShape& shape) {
   return name.substr(0, name.find(':'));
 }
 
-/// How shapes are created: what is round stands along y, which is up; boxes are as long along their own axes
-/// as is said.
+/// The axis of new shapes: round ones stand along y, which is up; boxes have the given sizes along their own
+/// axes.
 world::Axis axis_of(const geometry::Primitive& primitive) {
   return std::holds_alternative<geometry::Box>(primitive) ? world::Axis::Z : world::Axis::Y;
 }

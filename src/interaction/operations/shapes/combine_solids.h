@@ -12,15 +12,15 @@
 
 namespace icome::interaction {
 
-/// The solid that objects, which are there and at least one, make together (the first is what others are
-/// taken from), in the first one's frame: their places go into the tree. Primitives, CSG solids and closed
-/// meshes can be combined; objects that share a mesh share it in the tree. Fails, naming the object and what
-/// to do, for others.
+/// The solid that existing objects, at least one, make together (a difference takes the others from the
+/// first), in the first one's frame: their places go into the tree. Primitives, CSG solids and closed meshes
+/// can be combined; objects that share a mesh share it in the tree. Fails, naming the object and what to do,
+/// for others.
 base::Result<geometry::CsgTree> combined_solid(const world::World& world,
                                                const std::vector<world::ObjectId>& objects,
                                                geometry::CsgOperator how);
 
-/// An operand of a tree for itself.
+/// An operand of a tree as a shape of its own.
 struct Operand {
   world::GeometryPointer shape;
   std::string kind;  // "box", "mesh", for its name
@@ -32,25 +32,25 @@ struct Operand {
 /// they are created: boxes along z, others along y. Leaves of one mesh have one shape.
 std::vector<Operand> operands(const geometry::CsgTree& tree);
 
-/// The node that is named: "lr" goes to the left operand and to the right one of that; "2" is the third leaf
+/// The node of that name: "lr" goes to the left operand and to the right one of that; "2" is the third leaf
 /// from the left. Fails saying what there is.
 base::Result<geometry::CsgTree::Index> operand_named(const geometry::CsgTree& tree, std::string_view name);
 
 /// The leaves of a tree from left to right: "2" names the third of them.
 std::vector<geometry::CsgTree::Index> leaves_of(const geometry::CsgTree& tree);
 
-/// The middle of a part of a tree, in the frame that its place is said in (m); its origin where it has no
-/// end.
+/// The middle of a part of a tree, in the frame in which its place is given (m); its origin where it has
+/// no end.
 base::Vector3 middle_of_operand(geometry::CsgTree tree, geometry::CsgTree::Index node);
 
-/// The tree with a part that a motion of the world has carried along. Fails where the solid is shrunk to
+/// The tree with one part carried along by a motion of the world. Fails where the solid is shrunk to
 /// nothing, and for places that are too far away.
 base::Result<geometry::CsgTree> with_operand_moved(const geometry::CsgTree& tree,
                                                    geometry::CsgTree::Index node,
                                                    const base::Affine3& world_from_tree,
                                                    const base::Affine3& motion);
 
-/// What the places of its operands are said in, in the tree's frame; identity for the root.
+/// The frame in which the place of a node is given, in the tree's frame; identity for the root.
 base::Affine3 tree_from_parent(const geometry::CsgTree& tree, geometry::CsgTree::Index node);
 
 }  // namespace icome::interaction

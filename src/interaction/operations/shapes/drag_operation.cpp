@@ -59,7 +59,7 @@ Result<Seeds> corners_of_faces(const TriangleMesh& mesh, const std::vector<std::
   return seeds;
 }
 
-/// Of the vertices that triangles use; the first of several at one distance.
+/// The nearest of the vertices that triangles use; the first of several at one distance.
 Result<Seeds> nearest_vertex(const TriangleMesh& mesh, const Vector3& place) {
   double nearest = std::numeric_limits<double>::infinity();
   Seeds seeds;

@@ -39,7 +39,7 @@ bool says_place(const Arguments& arguments) {
                              [&](const char* word) { return field(arguments.given(), word) != nullptr; });
 }
 
-/// Where no place is said, the sweep begins where its profile is; and it is of the same material.
+/// Without a place of its own the sweep begins where its profile is; without a material it gets its.
 void stay_with(const world::PhysicalObject& profile, const base::Affine3& mesh_from_profile,
                const Arguments& arguments, world::PhysicalObject& object) {
   if (!arguments.has("material")) object.material = profile.material;

@@ -16,8 +16,8 @@ using base::Result;
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 constexpr double kMostRepeats = 1e7;
-/// Pairs of triangles that are looked at, in all and more for each triangle, to tell of a sweep that goes
-/// through itself: about as long as it takes to make it.
+/// Pairs of triangles tested in the search for a sweep that goes through itself, in all and more for each
+/// triangle: about as long as making the sweep takes.
 constexpr std::uint64_t kSweepTests = std::uint64_t{1} << 19U, kSweepTestsOfATriangle = 32;
 
 std::vector<Parameter> step_parameters() {
@@ -131,7 +131,7 @@ Result<world::GeometryPointer> make_extrusion(const Arguments& arguments) {
   Value::Fields making = said_of(extrusion_parameters(), arguments, {});
   making.emplace(making.begin(), "op", "extrude");
   std::string recipe = json_from_value(making);
-  // A drawing beyond that size is as good as made by hand.
+  // A larger drawing gets no recipe, as if made by hand.
   if (recipe.size() <= world::kMostRecipeBytes) (*shape)->recipe = std::move(recipe);
   return *shape;
 }

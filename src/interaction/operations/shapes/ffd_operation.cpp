@@ -66,7 +66,7 @@ Result<void> move_points(FfdLattice& lattice, const std::vector<Arguments>& move
   return {};
 }
 
-/// The lattice with its points where they are said to go.
+/// The lattice with its points moved as the arguments say.
 Result<FfdLattice> moved_lattice(FfdLattice lattice, const Arguments& arguments) {
   if (arguments.has("moves") == arguments.has("points"))
     return fail("say where control points go: either with 'moves' or with 'points' for all of them");
@@ -79,7 +79,7 @@ Result<FfdLattice> moved_lattice(FfdLattice lattice, const Arguments& arguments)
   return lattice;
 }
 
-/// The vertices said, each once and in order; all where none are said.
+/// The vertices given, each once and in order; all where none are given.
 Result<std::vector<std::uint32_t>> selected(const geometry::TriangleMesh& mesh, const Arguments& arguments) {
   std::vector<std::uint32_t> selection;
   if (!arguments.has("vertices")) {
@@ -96,7 +96,7 @@ Result<std::vector<std::uint32_t>> selected(const geometry::TriangleMesh& mesh, 
   return selection;
 }
 
-/// What people should know where a lattice has nothing to move.
+/// The remark on a lattice that has nothing to move.
 std::string remark_on_empty(const FfdLattice& rest) {
   const Vector3 &low = rest.points.front(), &high = rest.points.back();
   return fmt::format(
@@ -105,7 +105,7 @@ std::string remark_on_empty(const FfdLattice& rest) {
       low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
 }
 
-/// Moves the vertices of a shape as the lattice does, of which `positions` are where they are in its frame.
+/// Moves the vertices of a shape with the lattice; `positions` are their places in the lattice's frame.
 Result<Plan> plan_deformed(const ShapeChange& change, const std::vector<Vector3>& positions,
                            const std::vector<std::uint32_t>& selection, const FfdLattice& rest,
                            const FfdLattice& lattice, const base::Affine3& object_from_lattice,
@@ -142,7 +142,7 @@ Result<Plan> plan_ffd_of_one(const world::World& world, world::ObjectId object, 
                        ids);
 }
 
-/// The shape of one of several objects in the world's frame, which the lattice round all of them has.
+/// The shape of one of several objects, in the world's frame like the lattice round all of them.
 struct StandingShape {
   world::ObjectId object;
   geometry::TriangleMesh mesh;
@@ -160,7 +160,7 @@ Result<StandingShape> standing(const world::World& world, world::ObjectId object
   return shape;
 }
 
-/// Two objects that share a shape would pull it to two places.
+/// Fails where two objects share a shape, which they would pull to two places.
 Result<void> check_apart(const world::World& world, const std::vector<world::ObjectId>& objects) {
   std::map<world::GeometryId, world::ObjectId> users;
   for (const world::ObjectId id : objects) {
@@ -173,7 +173,7 @@ Result<void> check_apart(const world::World& world, const std::vector<world::Obj
   return {};
 }
 
-/// One lattice along the world's axes, round all of them.
+/// The plan that deforms several objects by one lattice along the world's axes, round all of them.
 Result<Plan> plan_ffd_of_several(const world::World& world, const std::vector<world::ObjectId>& objects,
                                  const Arguments& arguments, world::IdSource& ids) {
   if (arguments.has("vertices"))

@@ -19,12 +19,12 @@ using base::Result;
 using base::Vector3;
 using geometry::TriangleMesh;
 
-/// How far a vertex may be off the plane, as a share of the mesh's extent.
+/// The largest distance of a vertex from the plane, as a share of the mesh's extent.
 constexpr double kFlatness = 1e-6;
 
 using Rim = std::map<std::uint32_t, std::uint32_t>;  // from each vertex on it to the next
 
-/// The edges that one triangle has and no other; fails where they do not go on from one another.
+/// The edges of one triangle only; fails where they cannot be followed from vertex to vertex.
 Result<Rim> rim_of(const TriangleMesh& mesh) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& triangle : mesh.triangles) {
@@ -70,7 +70,7 @@ std::map<std::uint32_t, base::Vector2> places_on(
   return places;
 }
 
-/// Along the normal of the loop, as long as twice its area (Newell).
+/// Vector along the normal of the loop, as long as twice its area (Newell).
 Vector3 doubled_area_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
   const auto from_first = [&](std::size_t i) -> Vector3 {
     return mesh.positions[loop[i]] - mesh.positions[loop[0]];

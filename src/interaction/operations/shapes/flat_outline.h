@@ -5,15 +5,15 @@
 
 namespace icome::interaction {
 
-/// The rim of a flat mesh as a drawing, and where the drawing lies.
+/// The rim of a flat mesh as a drawing, and the drawing's place.
 struct FlatOutline {
   geometry::Profile profile;        // counter-clockwise
   base::Affine3 mesh_from_profile;  // rigid; its z points where the fronts of the mesh do
 };
 
-/// Fails, saying what to do, for a mesh that is closed or not flat, or whose rim is not one loop. The
-/// drawing's axes are those of the mesh, turned the shortest way so that z points where the fronts do. Where
-/// the mesh has texture coordinates, the drawing has places.
+/// The outline of a mesh. Fails, saying what to do, where that is closed or not flat, or its rim not one
+/// loop. The drawing's axes are those of the mesh, turned the shortest way so that z points where the fronts
+/// do. Where the mesh has texture coordinates, the drawing has places.
 base::Result<FlatOutline> flat_outline(const world::MeshGeometry& shape);
 
 }  // namespace icome::interaction

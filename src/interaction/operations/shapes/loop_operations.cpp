@@ -32,7 +32,7 @@ Result<Plan> plan_refine(const world::World& world, const Arguments& arguments, 
   return plan_of_shape(*change, std::make_shared<LoopGeometry>(std::move(*finer)), ids);
 }
 
-/// One vertex at each place, and no triangle that names one twice: as surfaces are joined by indices.
+/// The mesh with one vertex at each place and no triangle that names one twice, so that indices join it.
 geometry::TriangleMesh joined(geometry::TriangleMesh mesh) {
   geometry::weld_equal(mesh);
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
@@ -57,7 +57,7 @@ Result<Plan> plan_smooth(const world::World& world, const Arguments& arguments, 
 }  // namespace
 
 Operation refine_operation() {
-  constexpr double kMostSteps = 12;  // one triangle makes more than can be by then
+  constexpr double kMostSteps = 12;  // by then one triangle makes more than can be
   return {"refine",
           "Refine",
           "Shape",

@@ -12,7 +12,7 @@ namespace {
 
 using base::fail;
 
-/// What is said beside the object: the shape's own parameters.
+/// The values given for the shape's own parameters.
 Value::Fields changes_of(const Arguments& arguments) {
   Value::Fields changes = arguments.given();
   std::erase_if(changes, [](const auto& it) { return it.first == "object" || it.first == "alone"; });
@@ -29,7 +29,7 @@ tl::unexpected<base::Error> nothing_said(const world::Geometry& shape) {
   return fail(fmt::format("say what is to change: {}", fmt::join(names, ", ")));
 }
 
-/// What is to be known of the shape that came of it, and of who shares it.
+/// The remark on the resulting shape, and on the objects that share it.
 std::string remark_on(const world::Geometry& shape, std::string shared) {
   const auto making = making_of(shape);
   const bool swept = making && field(*making, "op") != nullptr;

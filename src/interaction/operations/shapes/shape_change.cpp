@@ -41,7 +41,7 @@ Result<void> make_triangles(ShapeChange& change, const Arguments& arguments, std
   return {};
 }
 
-/// The shape that the edit is about, the object's own where it is to be: then the group begins by making it.
+/// The shape to be edited; with `alone` a copy for the object, which the group then begins by making.
 world::GeometryId own_copy(const ShapeChange& change, world::EditGroup& group, world::IdSource& ids) {
   if (!change.alone) return change.shared;
   const auto own = ids.next<world::GeometryId>();

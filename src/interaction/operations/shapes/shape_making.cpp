@@ -28,11 +28,11 @@ using geometry::TriangleMesh;
 using world::GeometryPointer;
 using Shape = Result<GeometryPointer>;
 
-// What primitives and profiles may measure, m.
+// The range of sizes of primitives and profiles, m.
 constexpr double kSmallestSize = geometry::kSmallestProfile;
 constexpr double kLargestSize = geometry::kLargestProfile;
 
-/// Primitives stand up, but a box has the size that is said along each axis of its frame.
+/// The primitive, standing up; a box has the given size along each axis of its frame.
 Shape solid(const geometry::Primitive& primitive) {
   if (const std::string complaint = world::complaint(primitive); !complaint.empty()) return fail(complaint);
   const bool is_box = std::holds_alternative<geometry::Box>(primitive);
@@ -154,7 +154,7 @@ constexpr std::array kShapeKinds = {
     ShapeKind{"text", made_text},       ShapeKind{"implicit", made_implicit},
     ShapeKind{"mesh", made_mesh},       ShapeKind{"group", made_group}};
 
-/// A length, which shapes of these kinds have.
+/// The parameter of a length that shapes of these kinds have.
 Parameter length(std::string name, std::string meaning, double fallback, std::vector<std::string> only_for) {
   return {.name = std::move(name),
           .kind = ParameterKind::Number,
@@ -281,7 +281,7 @@ Result<Value::Fields> making_of_recipe(std::string_view recipe) {
   return *value->fields();
 }
 
-/// A cube is a box, but whoever made it may go on to speak of its side.
+/// The box as a cube where `changes` speak of its side, as it may have been made with one.
 Value::Fields as_cube(const Value::Fields& box, const Value::Fields& changes) {
   const Value* size = field(box, "size");
   if (!size || !field(changes, "side") || field(changes, "size")) return box;
@@ -290,14 +290,14 @@ Value::Fields as_cube(const Value::Fields& box, const Value::Fields& changes) {
   return {{"shape", "cube"}, {"side", sizes[0]}};
 }
 
-/// The primitive as the one before it stood. A box needs no turn: its size says how it stands.
+/// The primitive along the axis of the one before it. A box needs no turn: its size says how it stands.
 GeometryPointer along(world::Axis axis, const GeometryPointer& shape) {
   const auto* primitive = dynamic_cast<const world::PrimitiveGeometry*>(shape.get());
   if (!primitive || std::holds_alternative<geometry::Box>(primitive->primitive)) return shape;
   return std::make_shared<world::PrimitiveGeometry>(primitive->primitive, axis);
 }
 
-/// A box that a file has stood along y, by its size in the frame of its shape.
+/// The primitive; a box that a file stood along y gets its sizes in the frame of its shape.
 geometry::Primitive laid(const world::PrimitiveGeometry& shape) {
   const auto* box = std::get_if<geometry::Box>(&shape.primitive);
   if (!box || shape.axis == world::Axis::Z) return shape.primitive;

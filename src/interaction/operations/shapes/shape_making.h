@@ -7,36 +7,36 @@
 
 namespace icome::interaction {
 
-// Shapes by their names and sizes. What they were made of can be asked of them and made again, so that it
-// stays open to change: solids know their sizes, meshes keep theirs as a recipe.
+// Shapes by their names and sizes. The parameters of a shape can be read back and changed later: solids
+// know their sizes, meshes keep theirs as a recipe.
 
-/// `shape`, then all that shapes are made of.
+/// `shape`, then the parameters of all kinds of shapes.
 const std::vector<Parameter>& shape_parameters();
 
-/// The shape that arguments held to (more than) shape_parameters() speak of; null for a group, which has
-/// none.
+/// The shape that arguments describe which were checked against (more than) shape_parameters(); null for
+/// a group, which has none.
 base::Result<world::GeometryPointer> make_shape(const Arguments& arguments);
 
-/// `points`, `open`, `steps` and `ends`: what an extrusion is made of.
+/// `points`, `places`, `open`, `steps` and `ends`: the parameters of an extrusion.
 const std::vector<Parameter>& extrusion_parameters();
 
-/// The sweep of arguments held to these. Fails as geometry::extrude() does.
+/// The sweep of arguments checked against these. Fails as geometry::extrude() does.
 base::Result<world::GeometryPointer> make_extrusion(const Arguments& arguments);
 
-/// What people should know of a sweep that goes through itself, which is no solid then; empty for others.
-/// What only touches itself is no such sweep.
+/// The remark on a sweep that goes through itself, which is no solid then, or that is too intricate to be
+/// tested; empty for others, such as one that only touches itself.
 std::string remark_on_sweep(const world::Geometry& sweep);
 
-/// What the shape is made of, in the words that made it. Fails, saying what to do, for one that was bent or
-/// put together by hand.
+/// The parameters that the shape was made with. Fails, saying what to do, for one that was bent or put
+/// together by hand.
 base::Result<Value::Fields> making_of(const world::Geometry& shape);
 
-/// The shape again with `changes` to what it is made of; the rest stays as it was.
+/// The shape made again with `changes` to its parameters; the others stay as they were.
 base::Result<world::GeometryPointer> remade(const world::World& world, const world::Geometry& shape,
                                             const Value::Fields& changes);
 
-/// The values of these parameters that are for `choice` (all where it is empty), whether said or fallen back
-/// to, in the parameters' order.
+/// The values, given or fallbacks, of those parameters that are for `choice` (all where it is empty), in the
+/// parameters' order.
 Value::Fields said_of(const std::vector<Parameter>& parameters, const Arguments& arguments,
                       const std::string& choice);
 

@@ -3,7 +3,7 @@
 
 namespace icome::interaction {
 
-// What shape_operations() consists of.
+// The operations that make up shape_operations().
 Operation create_operation();
 Operation reshape_operation();
 Operation extrude_operation();

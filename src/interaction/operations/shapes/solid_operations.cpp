@@ -20,7 +20,7 @@ using geometry::CsgTree;
 using world::ObjectId;
 using world::World;
 
-/// The edit that lets go of a shape when this object no longer has it.
+/// Deletes the shape that an object is about to lose, where no other object has it.
 void let_go(const World& world, world::GeometryId shape, world::EditGroup& group) {
   if (world.find(shape)->users == 1) group.edits.emplace_back(world::DeleteGeometry{shape});
 }
@@ -32,7 +32,7 @@ geometry::CsgOperator operator_named(const std::string& name) {
   return name == "intersection" ? geometry::CsgOperator::Intersection : geometry::CsgOperator::Difference;
 }
 
-/// Operands go away as objects: nothing that hangs below them may be lost.
+/// Fails for operands with objects below them, which would be lost as the operands go away.
 Result<void> check_operands(const World& world, const std::vector<ObjectId>& objects) {
   if (objects.size() < 2) return fail("'objects' must be two or more");
   for (std::size_t i = 1; i < objects.size(); ++i) {
@@ -54,8 +54,8 @@ Result<Plan> plan_combine(const World& world, const Arguments& arguments, world:
   group.edits.emplace_back(
       world::CreateGeometry{geometry, std::make_shared<world::CsgGeometry>(std::move(*tree))});
   group.edits.emplace_back(world::ChooseGeometry{first, geometry});
-  // A shape that all of them share goes when the last lets go: all operands count, and the first is none
-  // of those that are deleted.
+  // A shape that only the operands have is deleted here: delete_objects() does not count the first
+  // operand, which stays.
   world::Edit rest = delete_objects(world, std::span(objects).subspan(1));
   auto& deletions = std::get<world::EditGroup>(rest.what).edits;
   const world::GeometryId shape = world.find(first)->geometry;
@@ -102,7 +102,7 @@ class OperandMaterials {
   std::map<CsgTree::Colour, world::MaterialId> made_;
 };
 
-/// Names for the operands by what they are, in their order.
+/// Names for the operands after their kinds, in the operands' order.
 std::vector<std::string> operand_names(const World& world, const std::vector<Operand>& parts) {
   std::map<std::string, std::size_t> counts;
   for (const Operand& part : parts) ++counts[part.kind];
@@ -192,7 +192,7 @@ Result<Plan> plan_change_operator(const World& world, const Arguments& arguments
               {id}};
 }
 
-/// `how` shapes are combined.
+/// `how`: the operator that combines shapes.
 Parameter how_parameter() {
   return {.name = "how",
           .kind = ParameterKind::Choice,

@@ -14,9 +14,9 @@ using base::Result;
 using geometry::TriangleSubdivision;
 using world::MeshGeometry;
 
-constexpr double kMostLevels = 12;  // one triangle makes more than can be by then
+constexpr double kMostLevels = 12;  // by then one triangle makes more than can be
 
-/// Blended normals get unit length again; those that cancel out take the triangle's.
+/// Scales blended normals to unit length again; those that cancel out take the triangle's.
 void make_unit(MeshGeometry& shape) {
   constexpr double kUnit = 1e-12, kCancelled = 1e-6;
   for (std::size_t t = 0; t < shape.normals.size(); ++t) {

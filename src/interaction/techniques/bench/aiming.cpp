@@ -111,7 +111,7 @@ TargetId Aiming::picked(const TechniqueScene& scene, const Vector3& control) con
       .id;
 }
 
-/// In every direction, how far off still selects the target; the least of them.
+/// The least distance, in any direction, up to which the steering may be off and still selects the target.
 double Aiming::tolerance(const TechniqueScene& scene, TargetId target, const Vector3& control) const {
   constexpr double kFarthestOff = 1.0;
   constexpr int kHalvings = 14;

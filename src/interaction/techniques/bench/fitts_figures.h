@@ -9,7 +9,7 @@ namespace icome::interaction {
 
 // Figures of pointing tasks as ISO 9241-411 has them, with the Shannon form of Fitts' law (MacKenzie 1992).
 
-/// One movement from where the last target was to the next, and where it was selected; world frame, m.
+/// One movement from the last target to the next, and the place of the selection; world frame, m.
 struct FittsTrial {
   base::Vector3 start = base::Vector3::Zero();
   base::Vector3 target = base::Vector3::Zero();    // its centre
@@ -27,13 +27,13 @@ struct MeanAndDeviation {
 };
 MeanAndDeviation mean_and_deviation(std::span<const double> values);
 
-/// What one person did in one condition. Endpoints count by their projection on the way from start to target.
+/// Figures of one person in one condition. Endpoints are projected on the way from start to target.
 struct EffectiveFigures {
   double width;       // m: 4.133 standard deviations of the endpoints
   double amplitude;   // m: mean of the ways really gone
   double throughput;  // bit/s: log2(amplitude / width + 1) over the mean time
 };
-/// Nothing for less than two trials, and where all ended in the same place or took no time.
+/// The figures of trials; nothing for less than two, and where all ended in the same place or took no time.
 std::optional<EffectiveFigures> effective_figures(std::span<const FittsTrial> trials);
 
 /// A straight line through points by least squares.
@@ -42,7 +42,7 @@ struct FittedLine {
   double slope;      // s/bit
   double r_squared;  // 1 where all points lie on it
 };
-/// Of times (y) on indices of difficulty (x). Nothing where all x are the same.
+/// The line of times (y) on indices of difficulty (x). Nothing where all x are the same.
 std::optional<FittedLine> fitted_line(std::span<const base::Vector2> points);
 
 }  // namespace icome::interaction

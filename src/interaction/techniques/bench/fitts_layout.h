@@ -6,7 +6,7 @@
 
 namespace icome::interaction {
 
-/// A pointing task: how large targets are, how far away, and among how many others.
+/// A pointing task: the size and the distance of targets, and the number of others among them.
 struct FittsCondition {
   double size = 0.06;     // m, diameter of a target
   double distance = 1.2;  // m, from the eyes to the middle of the ring

@@ -8,7 +8,7 @@
 namespace icome::interaction {
 namespace {
 
-/// How likely a movement ends within the tolerance, with those deviations along and across it.
+/// Probability that a movement ends within the tolerance, with those deviations along and across it.
 double chance_to_hit(double tolerance, double along, double across) {
   const double hits_along = std::erf(tolerance / (along * std::numbers::sqrt2));
   const double hits_across = 1.0 - std::exp(-0.5 * tolerance * tolerance / (across * across));

@@ -11,7 +11,7 @@ namespace icome::interaction {
 // that are named "chosen" are of a plausible size and nobody's measurement. A simulation says how techniques
 // compare under these assumptions. It is no study of people.
 
-/// How a part of the body moves: positions of the hand are in m, directions of wrist and head in rad.
+/// Movement of a part of the body: positions of the hand are in m, directions of wrist and head in rad.
 struct LimbModel {
   double noise = 0.025;        // s: a movement ends off by a deviation of noise * amplitude / duration
   double acceleration = 20.0;  // (m or rad)/s^2, at most
@@ -40,7 +40,7 @@ struct PersonModel {
   double eye_distance = 0.063;  // m
   double arm_length = 0.7;      // m, from the chest
   double spread = 0.12;         // deviation of the logarithm of each person's noise, tremor and times
-  std::optional<KnownDuration> known = {};  // else as quick as pays off
+  std::optional<KnownDuration> known = {};  // none: as quick as pays off
 };
 
 /// One number of the model, for reports.
@@ -52,13 +52,13 @@ struct PersonAssumption {
 };
 std::vector<PersonAssumption> assumptions(const PersonModel& model);
 
-/// Another person of that kind.
+/// Another random person of that kind.
 PersonModel drawn_person(const PersonModel& model, base::Random& random);
 
 /// A number of the standard normal distribution (Box and Muller).
 double normal_number(base::Random& random);
 
-/// How far a movement of minimum jerk is after that share of its time, both in [0, 1] (Flash and Hogan 1985).
+/// Progress of a movement of minimum jerk after a share of its time, in [0, 1] (Flash and Hogan 1985).
 double minimum_jerk(double share);
 
 /// The shortest time of a movement of minimum jerk over that amplitude.

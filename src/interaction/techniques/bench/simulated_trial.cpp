@@ -36,7 +36,7 @@ class SimulatedRun {
     while (!sure && time_ < person_.give_up && run_.movements < kMostMovementsOfTrial) {
       move_towards_goal();
       ++run_.movements;
-      // What is seen now is understood later.
+      // The view of now is understood later.
       sure = outcome_.pointed.id == task_.target;
       rest(person_.correction);
     }
@@ -45,7 +45,7 @@ class SimulatedRun {
   }
 
  private:
-  /// Axes that this way of selecting has.
+  /// The steering on the axes that this way of selecting has.
   Vector3 on_axes(const Vector3& control) const {
     return aiming_.goes() ? control : Vector3(control.x(), control.y(), 0.0);
   }
@@ -67,7 +67,7 @@ class SimulatedRun {
     outcome_ = next.outcome;
   }
 
-  /// Time goes on while the limb goes from one place to another, or stays.
+  /// Lets time go on while the limb goes from one place to another, or stays.
   void pass(double asked, const Vector3& to) {
     const double duration = std::clamp(asked, 0.0, person_.give_up);
     const Vector3 from = at_;
@@ -83,7 +83,7 @@ class SimulatedRun {
 
   void rest(double duration) { pass(duration, at_); }
 
-  /// Where the person takes the goal to be: depth is not seen sharply.
+  /// The goal as the person perceives it: depth is not seen sharply.
   Vector3 perceived_goal() {
     if (!aiming_.goes() || !(person_.stereo_acuity > 0.0)) return task_.goal.control;
     const Vector3 target = ball_of(*scene_.find(task_.target)).centre;

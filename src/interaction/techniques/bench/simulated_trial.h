@@ -9,10 +9,10 @@ struct TrialTask {
   TargetId target = 0;
   Aiming::Goal goal = {};
   Vector3 start = Vector3::Zero();          // m: the last target's centre
-  Vector3 start_control = Vector3::Zero();  // where hand or head are
+  Vector3 start_control = Vector3::Zero();  // the steering of hand or head
 };
 
-/// What came of it.
+/// The outcome of a trial.
 struct TrialRun {
   FittsTrial trial;
   Vector3 end_control = Vector3::Zero();
@@ -21,9 +21,9 @@ struct TrialRun {
 };
 
 /// A simulated person selects a target with a technique: reacts, moves by minimum jerk to where signal-
-/// dependent noise lets the movement end, looks what is highlighted, and corrects until it is the target;
-/// then presses the button, which jolts. All the while the hand trembles. The technique's own step() says
-/// what is highlighted and selected. The same random numbers give the same run.
+/// dependent noise lets the movement end, sees the highlighted thing, and corrects until it is the
+/// target; then presses the button, which jolts. All the while the hand trembles. The technique's own
+/// step() tells the highlighted and the selected target. The same random numbers give the same run.
 TrialRun simulated_trial(const Technique& technique, const PersonModel& person, const Aiming& aiming,
                          const TechniqueScene& scene, const TrialTask& task, base::Random& random);
 

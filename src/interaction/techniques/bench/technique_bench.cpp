@@ -12,7 +12,7 @@
 namespace icome::interaction {
 namespace {
 
-/// A number that two places in the plan of the bench never share.
+/// A seed that two places in the plan of the bench never share.
 std::uint64_t mixed_seed(std::uint64_t seed, std::uint64_t one, std::uint64_t other) {
   base::Random random(seed);
   base::Random next(random.bits() ^ (one * 0x9e3779b97f4a7c15ULL));
@@ -27,7 +27,7 @@ std::vector<FittsCondition> conditions_of(const BenchSettings& settings) {
   return conditions;
 }
 
-/// The same people for every technique and condition.
+/// The people, who are the same for every technique and condition.
 std::vector<PersonModel> people_of(const BenchSettings& settings) {
   std::vector<PersonModel> people;
   for (int i = 0; i < settings.users; ++i) {
@@ -37,7 +37,7 @@ std::vector<PersonModel> people_of(const BenchSettings& settings) {
   return people;
 }
 
-/// One technique in one condition: what all people share there.
+/// One technique in one condition: the part that all people share.
 struct BenchCell {
   Technique technique;
   Aiming aiming;
@@ -173,7 +173,7 @@ bool all_within(const std::vector<Number>& values, Number least, Number most) {
          std::all_of(values.begin(), values.end(), [&](Number it) { return it >= least && it <= most; });
 }
 
-/// Numbers that would make people of stone, or without time.
+/// Fails for numbers that no person can have.
 base::Result<void> check_person(const PersonModel& person) {
   constexpr double kGreatest = 1e10;
   for (const PersonAssumption& it : assumptions(person))

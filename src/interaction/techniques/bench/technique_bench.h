@@ -6,7 +6,7 @@
 
 namespace icome::interaction {
 
-/// What the bench does. Every person does every condition with every technique.
+/// Settings of the bench. Every person does every condition with every technique.
 struct BenchSettings {
   int users = 12;  // 1 to 1000
   int trials = 9;  // movements of a person in a condition; 2 to 1000
@@ -14,15 +14,15 @@ struct BenchSettings {
   std::vector<double> sizes = {0.03, 0.06, 0.10};    // m
   std::vector<double> distances = {0.45, 1.2, 4.0};  // m
   std::vector<int> distractors = {0, 4, 10};         // around each target
-  // What the miniature shows, m: the room that the person stands in.
+  // The part that the miniature shows, m: the room that the person stands in.
   base::Bounds room = base::Bounds(Vector3(-2.5, 0.0, -5.5), Vector3(2.5, 3.0, 0.5));
   PersonModel person = {};
 };
 
-/// What the simulation leaves out, in sentences: assumptions as well.
+/// The simplifications of the simulation, in sentences: they are assumptions as well.
 std::vector<std::string> simplifications();
 
-/// A technique in one condition. Without reach there are no figures but the condition's own.
+/// A technique in one condition. Out of reach there are no figures but the condition's own.
 struct ConditionResult {
   FittsCondition condition;
   double id = 0.0;                        // bit, of the condition as it was given; mean over the ring
@@ -51,7 +51,7 @@ struct BenchResult {
   std::vector<TechniqueResult> techniques;  // the highest score first
 };
 
-/// Settings that can be. The error says what to choose.
+/// Checks that the settings are possible. The error says what to choose.
 base::Result<void> check(const BenchSettings& settings);
 
 /// Lets simulated people select targets with every way of selecting, on all cores. The same settings give the
