@@ -33,8 +33,9 @@ HapticRepresentationSettings felt_settings(const haptics::ServoSettings& servo) 
 
 }  // namespace
 
-Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
-                      devices::SimulatedDevice* mouse)
+SessionParts::SessionParts(SessionSettings given,
+                           std::vector<std::unique_ptr<devices::PointerDevice>> devices,
+                           devices::SimulatedDevice* mouse)
     : settings(std::move(given)),
       user(std::move(settings.navigation), std::move(settings.head)),
       display(devices.size()),
@@ -49,7 +50,7 @@ Session::Parts::Parts(SessionSettings given, std::vector<std::unique_ptr<devices
       felt({haptics::HapticScene::compile({}), std::make_shared<const TouchedNames>()}),
       seen(std::make_shared<const render::RenderScene>()) {}
 
-Session::Parts::~Parts() {
+SessionParts::~SessionParts() {
   finish_saving();
   for (const auto& follower : followers) follower->give_up();
   queue.close();
@@ -66,7 +67,7 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
     devices.push_back(std::move(hand));
   }
   const bool realtime = settings.realtime_priority;
-  auto parts = std::make_unique<Parts>(std::move(settings), std::move(devices), mouse);
+  auto parts = std::make_unique<SessionParts>(std::move(settings), std::move(devices), mouse);
   try {
     parts->start_followers();
   } catch (const std::system_error& error) {
@@ -80,7 +81,7 @@ base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings)
   return std::unique_ptr<Session>(new Session(std::move(parts)));
 }
 
-void Session::Parts::start_followers() {
+void SessionParts::start_followers() {
   followers.push_back(std::make_unique<Follower>(
       queue, std::make_unique<HapticFollower>(felt_settings(settings.servo), hands.servos(), felt),
       "felt world"));
@@ -95,15 +96,22 @@ void Session::Parts::start_followers() {
     followers.push_back(std::make_unique<Follower>(queue, std::move(representation), "representation"));
 }
 
-Session::Session(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Session::Session(std::unique_ptr<SessionParts> parts)
+    : parts_(std::move(parts)),
+      files_(*parts_),
+      history_(*parts_),
+      view_(*parts_),
+      stage_(*parts_),
+      hands_(*parts_),
+      techniques_(*this, *parts_) {}
 Session::~Session() = default;
 
-void Session::Parts::tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details) {
+void SessionParts::tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details) {
   events.push_back({kind, std::move(text), std::move(details)});
 }
 
 /// Takes in the news of other threads. Pointers first: the names of touched things are never older then.
-void Session::Parts::take_in() {
+void SessionParts::take_in() {
   queue.pump();
   take_files();
   take_followers();
@@ -115,7 +123,7 @@ void Session::Parts::take_in() {
 }
 
 /// Tells each sentence once for a design.
-void Session::Parts::tell_what_is_not_as_it_is() {
+void SessionParts::tell_what_is_not_as_it_is() {
   std::vector<std::string> news;
   const auto take = [&](const std::vector<std::string>& sentences) {
     for (const std::string& it : sentences)
@@ -133,12 +141,12 @@ void Session::Parts::tell_what_is_not_as_it_is() {
     tell(SessionEvent::Kind::NotAsItIs, "Some of the design is not seen or felt as it is.", std::move(news));
 }
 
-void Session::Parts::take_followers() {
+void SessionParts::take_followers() {
   for (const auto& follower : followers)
     if (const auto news = follower->news()) tell(SessionEvent::Kind::Notice, *news);
 }
 
-void Session::Parts::notice_devices() {
+void SessionParts::notice_devices() {
   for (std::size_t i = 0; i < hands.pointers(); ++i) {
     const PointerView& pointer = hands.view(i);
     if (pointer.time == 0) continue;  // no tick yet
@@ -177,8 +185,8 @@ void Session::move_held() {
 }
 
 void Session::move_held_by_touch() {
-  for (std::size_t i = 0; i < pointers(); ++i) {
-    if (parts_->ungrabbed[i] && (pointer(i).buttons & 1U) != 0) continue;
+  for (std::size_t i = 0; i < parts_->hands.pointers(); ++i) {
+    if (parts_->ungrabbed[i] && (parts_->hands.view(i).buttons & 1U) != 0) continue;
     parts_->ungrabbed[i] = false;
     std::string refused;
     const bool held_part = parts_->part_grabs[i].holds();
@@ -192,21 +200,9 @@ void Session::move_held_by_touch() {
   }
 }
 
-void Session::set_grab(const GrabSettings& settings) { parts_->grab_settings = settings; }
-
-const GrabSettings& Session::grab() const { return parts_->grab_settings; }
-
-Surroundings& Session::surroundings() { return parts_->surroundings; }
-
-bool Session::holds(std::size_t index) const {
-  const bool by_technique = index == 0 && parts_->technique && parts_->technique->holds();
-  return by_technique || parts_->grabs[index].holds() || parts_->part_grabs[index].holds() ||
-         parts_->point_grabs[index].holds();
-}
-
 void Session::move_points() {
   parts_->shaping->follow(world(), selection());
-  for (std::size_t i = 0; i < pointers(); ++i) {
+  for (std::size_t i = 0; i < parts_->hands.pointers(); ++i) {
     if (i == 0 && parts_->mouse_hand && !parts_->hand_is_aimed) continue;  // it lies aside
     std::string refused;
     const auto feel =
@@ -216,57 +212,7 @@ void Session::move_points() {
   }
 }
 
-bool Session::is_mouse_driven() const { return parts_->mouse_hand != nullptr; }
-
-void Session::hold_pointer(const std::optional<base::Vector3>& place) {
-  haptics::GripFeel feel;
-  if (place) {
-    feel.holds = true;
-    feel.start = *place;
-    feel.freedom.setZero();
-  }
-  parts_->hands.grip(0, feel);
-}
-
-void Session::give_forces(bool given) {
-  for (std::size_t i = 0; i < pointers(); ++i) parts_->hands.give_forces(i, given);
-}
-
-void Session::trace(bool on) { parts_->hands.trace(on); }
-
-Session::Ticks Session::take_trace() {
-  return {parts_->hands.take_trace(), parts_->hands.lost_ticks(), parts_->felt.read().names};
-}
-
-base::Result<void> Session::set_shaping(const std::optional<interaction::ShapingSettings>& settings) {
-  if (settings) {
-    interaction::Shaping fresh;
-    if (const auto good = fresh.set(*settings); !good) return good;
-    if (!parts_->shaping) parts_->shaping = std::move(fresh);
-    (void)parts_->shaping->set(*settings);  // it keeps its knowledge of shapes
-  } else {
-    parts_->shaping.reset();
-  }
-  // Held things are let go: they may not be there to be held any more.
-  for (std::size_t i = 0; i < pointers(); ++i) {
-    if (holds(i)) parts_->hands.grip(i, {});
-    parts_->grabs[i] = {};
-    parts_->part_grabs[i] = {};
-    parts_->point_grabs[i] = {};
-  }
-  if (parts_->technique) parts_->technique->let_go();
-  parts_->mouse_marks.reset();
-  mark_part(std::nullopt);
-  return {};
-}
-
-interaction::Shaping* Session::shaping() { return parts_->shaping ? &*parts_->shaping : nullptr; }
-
-void Session::mark_handle(const std::optional<interaction::MarkedHandle>& marked) {
-  parts_->mouse_marks = marked;
-}
-
-bool Session::Parts::is_settled() const {
+bool SessionParts::is_settled() const {
   if (loader.part() || saver.busy()) return false;
   if (journal && journal->followed() != queue.posted()) return false;
   return std::all_of(followers.begin(), followers.end(),
@@ -286,21 +232,6 @@ void Session::settle() {
   wait([this, ticks] { return parts_->hands.ticks() >= ticks + 2; });
   parts_->take_in();
   parts_->publish_wish();
-}
-
-const render::RenderScenePointer& Session::drawn() const { return parts_->seen.read(); }
-
-DisplayFeed& Session::display() { return parts_->display; }
-
-ServoHealth Session::servo() const {
-  const realtime::LoopRunner& loop = *parts_->hands.loop();
-  ServoHealth health;
-  health.running = loop.running();
-  health.rate_hz = parts_->settings.servo.rate_hz;
-  health.summary = loop.recorder().summary();
-  health.load_histogram = loop.recorder().load_histogram();
-  health.notice = loop.report().notice;
-  return health;
 }
 
 }  // namespace icome::session

@@ -23,7 +23,7 @@ std::string shown_name(const std::filesystem::path& design) {
 }  // namespace
 
 /// Takes in a design that was read, or the reason why there is none.
-void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
+void SessionParts::take_opened(DesignLoader::Outcome& outcome) {
   const std::shared_ptr<ClaimedWork> work = std::exchange(recovering, nullptr);
   const std::string name = shown_name(outcome.design);
   if (!outcome.result) {
@@ -50,8 +50,8 @@ void Session::Parts::take_opened(DesignLoader::Outcome& outcome) {
   }
 }
 
-void Session::Parts::tell_of_saved(const DesignSaver::Outcome& outcome,
-                                   const std::vector<std::string>& missing) {
+void SessionParts::tell_of_saved(const DesignSaver::Outcome& outcome,
+                                 const std::vector<std::string>& missing) {
   const std::string name = shown_name(outcome.design);
   if (missing.empty()) {
     tell(SessionEvent::Kind::Saved, fmt::format("{} was saved.", name),
@@ -66,7 +66,7 @@ void Session::Parts::tell_of_saved(const DesignSaver::Outcome& outcome,
   }
 }
 
-void Session::Parts::take_saved(DesignSaver::Outcome& outcome) {
+void SessionParts::take_saved(DesignSaver::Outcome& outcome) {
   const std::uint64_t revision = saving_revisions.front();
   saving_revisions.pop_front();
   if (!outcome.result) {
@@ -89,7 +89,7 @@ void Session::Parts::take_saved(DesignSaver::Outcome& outcome) {
   queue.post(std::move(edited));
 }
 
-void Session::Parts::take_files() {
+void SessionParts::take_files() {
   if (auto opened = loader.poll()) take_opened(*opened);
   while (auto saved = saver.poll()) take_saved(*saved);
   if (!journal) return;
@@ -99,74 +99,73 @@ void Session::Parts::take_files() {
 }
 
 /// Ends all saving, so that work that is written by now is not kept against crashes, too.
-void Session::Parts::finish_saving() {
+void SessionParts::finish_saving() {
   while (saver.busy()) {
     saver.wait();
     while (auto saved = saver.poll()) take_saved(*saved);
   }
 }
 
-void Session::make_new() {
-  parts_->loader.cancel();
-  parts_->take_files();
-  parts_->open_world({}, {});
+void SessionFiles::make_new() {
+  parts_.loader.cancel();
+  parts_.take_files();
+  parts_.open_world({}, {});
 }
 
-void Session::open(const std::filesystem::path& design) {
-  parts_->recovering.reset();
-  parts_->loader.open(design);
+void SessionFiles::open(const std::filesystem::path& design) {
+  parts_.recovering.reset();
+  parts_.loader.open(design);
 }
 
-void Session::cancel_open() { parts_->loader.cancel(); }
+void SessionFiles::cancel_open() { parts_.loader.cancel(); }
 
-std::optional<double> Session::opening() const { return parts_->loader.part(); }
+std::optional<double> SessionFiles::opening() const { return parts_.loader.part(); }
 
-void Session::save(const std::filesystem::path& design, bool anyway) {
-  if (!parts_->saver.can_save()) {
-    parts_->tell(
-        SessionEvent::Kind::SaveFailed,
-        fmt::format("{} was not saved, as {} saves before it are still being written: try again in a "
-                    "moment.",
-                    shown_name(design), DesignSaver::kMostWaiting));
+void SessionFiles::save(const std::filesystem::path& design, bool anyway) {
+  if (!parts_.saver.can_save()) {
+    parts_.tell(SessionEvent::Kind::SaveFailed,
+                fmt::format("{} was not saved, as {} saves before it are still being written: try again in a "
+                            "moment.",
+                            shown_name(design), DesignSaver::kMostWaiting));
     return;
   }
-  parts_->saving_revisions.push_back(parts_->revisions.now());
-  parts_->saver.save(design, parts_->world, parts_->queue.posted(),
-                     anyway ? DesignSaver::Replace::Anyway : DesignSaver::Replace::Safely);
+  parts_.saving_revisions.push_back(parts_.revisions.now());
+  parts_.saver.save(design, parts_.world, parts_.queue.posted(),
+                    anyway ? DesignSaver::Replace::Anyway : DesignSaver::Replace::Safely);
 }
 
-bool Session::saving() const { return parts_->saver.busy(); }
+bool SessionFiles::saving() const { return parts_.saver.busy(); }
 
-const std::filesystem::path& Session::path() const { return parts_->path; }
+const std::filesystem::path& SessionFiles::path() const { return parts_.path; }
 
-bool Session::modified() const {
-  return parts_->revisions.now() != parts_->saved_revision || !parts_->left_out.empty();
+bool SessionFiles::modified() const {
+  return parts_.revisions.now() != parts_.saved_revision || !parts_.left_out.empty();
 }
 
-const std::vector<std::string>& Session::left_out() const { return parts_->left_out; }
+const std::vector<std::string>& SessionFiles::left_out() const { return parts_.left_out; }
 
-void Session::close() {
-  if (parts_->journal) parts_->journal->close();
+void SessionFiles::close() {
+  if (parts_.journal) parts_.journal->close();
 }
 
-std::vector<RecoverableWork> Session::recoverable() const {
-  const std::filesystem::path& folder = parts_->settings.autosave_folder;
+std::vector<RecoverableWork> SessionFiles::recoverable() const {
+  const std::filesystem::path& folder = parts_.settings.autosave_folder;
   return folder.empty() ? std::vector<RecoverableWork>{} : find_recoverable_work(folder);
 }
 
-void Session::recover(const RecoverableWork& work) {
+void SessionFiles::recover(const RecoverableWork& work) {
   const auto claimed = ClaimedWork::claim(work);
   if (!claimed) {
-    parts_->tell(SessionEvent::Kind::OpenFailed, claimed.error().message);
+    parts_.tell(SessionEvent::Kind::OpenFailed, claimed.error().message);
     return;
   }
-  parts_->loader.start(work.design, [work = *claimed](const files::DesignReadOptions& options) {
+  parts_.loader.start(work.design, [work = *claimed](const files::DesignReadOptions& options) {
     return work->read(options);
   });
-  parts_->recovering = *claimed;
+  parts_.recovering = *claimed;
 }
 
-void Session::discard(const RecoverableWork& work) {
+void SessionFiles::discard(const RecoverableWork& work) {
   // Work that another program has claimed in the meantime is left to it.
   if (const auto claimed = ClaimedWork::claim(work)) (*claimed)->discard();
 }

@@ -25,20 +25,20 @@ class SessionFiles {
   void cancel_open();
   /// The part that is done, [0, 1], while a design is being read.
   std::optional<double> opening() const;
-  /// Starts writing what the world is now, there from now on. What another program has changed there since,
-  /// and a damaged file, are only replaced `anyway`; the event SaveAsks tells.
+  /// Starts writing the world as it is now; that file is the design's once it is written. A file that another
+  /// program has changed since, and a damaged one, are only replaced `anyway`; the event SaveAsks tells.
   void save(const std::filesystem::path& design, bool anyway = false);
   bool saving() const;
-  /// Of the design; empty: it has never been saved.
+  /// The file of the design; empty: it has never been saved.
   const std::filesystem::path& path() const;
   /// Would closing lose something?
   bool modified() const;
-  /// What the file does not hold, as its format cannot, in sentences; empty: it was saved whole, or not yet.
+  /// The parts that the file does not hold, as its format cannot, in sentences; empty: none, or not saved.
   const std::vector<std::string>& left_out() const;
-  /// The work is saved or not wanted: nothing of it is kept for recovery.
+  /// Ends the work, which is saved or not wanted: nothing of it is kept for recovery.
   void close();
   std::vector<RecoverableWork> recoverable() const;
-  /// Opens it instead of the design that it was made of, as modified work on that.
+  /// Opens the work instead of the design that it was made of, as modified work on that.
   void recover(const RecoverableWork& work);
   void discard(const RecoverableWork& work);
 

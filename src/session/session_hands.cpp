@@ -41,11 +41,11 @@ base::Result<void> SessionHands::set_shaping(const std::optional<interaction::Sh
     interaction::Shaping fresh;
     if (const auto good = fresh.set(*settings); !good) return good;
     if (!parts_.shaping) parts_.shaping = std::move(fresh);
-    (void)parts_.shaping->set(*settings);  // what it knows of shapes it keeps
+    (void)parts_.shaping->set(*settings);  // it keeps its knowledge of shapes
   } else {
     parts_.shaping.reset();
   }
-  // What is held is let go: it may not be there to be held any more.
+  // Held things are let go: they may not be there to be held any more.
   for (std::size_t i = 0; i < parts_.hands.pointers(); ++i) {
     if (holds(i)) parts_.hands.grip(i, {});
     parts_.grabs[i] = {};

@@ -20,7 +20,7 @@ namespace icome::session {
 
 struct SessionParts;
 
-/// How the servo is doing.
+/// The state of the servo loop.
 struct ServoHealth {
   bool running = false;
   double rate_hz = 0.0;  // as asked for
@@ -44,37 +44,37 @@ class SessionHands {
   const std::vector<haptics::CappedEffect>& capped_effects() const;
   /// The object that a pointer touches.
   std::optional<world::ObjectId> touched(std::size_t index) const;
-  /// Is something held by it? While button 0 is down, what it touched goes along with it (HandGrab), or what
-  /// the technique holds, as the first pointer's.
+  /// Does the pointer hold something? While button 0 is down, the object that it touched goes along with it
+  /// (HandGrab), or the one that the technique holds, with the first pointer.
   bool holds(std::size_t index) const;
-  /// From now on hands take hold of points of shapes, not of objects (PointGrab), and these are shown; or not
-  /// any more. Fails as Shaping::set() does, changing nothing.
+  /// Lets hands take hold of points of shapes, not of objects (PointGrab), and shows these; without settings,
+  /// not any more. Fails as Shaping::set() does, changing nothing.
   base::Result<void> set_shaping(const std::optional<interaction::ShapingSettings>& settings);
-  /// Null while points are not what is dragged.
+  /// The handles of shapes; null while objects are dragged, not points.
   interaction::Shaping* shaping();
-  /// How things are moved from now on, and felt then.
+  /// Sets how things are moved from now on, and how that feels.
   void set_grab(const GrabSettings& settings);
   const GrabSettings& grab() const;
-  /// What they stop at and snap to.
+  /// The surroundings that moved things stop at and snap to.
   Surroundings& surroundings();
   /// Is the first pointer the simulated hand that the mouse drives?
   bool is_mouse_driven() const;
-  /// Keeps the first pointer at a place of the stage by springs, where it touches nothing, or lets it go. For
-  /// who has set GrabSettings::takes_hold to false; hands that take hold have springs of their own.
+  /// Keeps the first pointer at a place of the stage by springs, where it touches nothing, or lets it go.
+  /// Only with GrabSettings::takes_hold set to false: hands that take hold have springs of their own.
   void hold_pointer(const std::optional<base::Vector3>& place);
-  /// As Servo::give_forces(), of all pointers.
+  /// Servo::give_forces() for all pointers.
   void give_forces(bool given);
-  /// Every tick of the first pointer is kept from now on, or none any more.
+  /// Begins to keep every tick of the first pointer, or ends that.
   void trace(bool on);
   /// Ticks since the last call, oldest first, of which some seconds are kept.
   struct Ticks {
     std::vector<PointerView> ticks;
     std::uint64_t lost = 0;                     // ticks in all that found no room
-    std::shared_ptr<const TouchedNames> names;  // what PointerView::touched names; null before the first
+    std::shared_ptr<const TouchedNames> names;  // for PointerView::touched; null before the first
   };
   Ticks take_trace();
-  /// Where the hand of the mouse-driven pointer wants to be, stage frame; surfaces may keep it away. Without
-  /// effect on other devices.
+  /// Sets the place that the hand of the mouse-driven pointer aims at, stage frame; surfaces may keep it
+  /// away. Without effect on other devices.
   void aim(const base::Vector3& position);
   /// Puts that hand there without a way in between, as a pen is lifted and set down elsewhere.
   void put(const base::Vector3& position);
@@ -84,7 +84,7 @@ class SessionHands {
   /// again.
   void park();
   ServoHealth servo() const;
-  /// Force over time of the first pointer since the last call, oldest first, some 200 a second.
+  /// Samples of the first pointer's force since the last call, oldest first, some 200 a second.
   std::vector<ForceSample> take_forces();
 
  private:

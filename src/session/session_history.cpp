@@ -17,7 +17,7 @@ Edited one_after_the_other(const Edited& first, const Edited& then) {
 
 }  // namespace
 
-/// Takes back what is being tried out, without posting it yet.
+/// Takes back the tried action, without posting it yet.
 base::Result<void> SessionParts::take_back() {
   const auto taken = history.take_back(sink());
   if (taken) revisions.took_back();

@@ -17,7 +17,7 @@ class SessionHistory {
 
   /// Performs an action called `name` ("Move leg"), which can then be undone.
   base::Result<void> perform(const world::Edit& edit, const std::string& name);
-  /// More of the last action, such as the next step of a drag.
+  /// Performs more of the last action, such as the next step of a drag.
   base::Result<void> extend(const world::Edit& edit);
   /// Performs an action that is only tried out, such as a preview: as long as nothing else is done,
   /// take_back() leaves no trace of it (History::trying). Trying another takes its place, at once and without
@@ -25,7 +25,7 @@ class SessionHistory {
   /// leaves nothing tried.
   base::Result<void> try_out(const world::Edit& edit, const std::string& name);
   base::Result<void> take_back();
-  /// It is an action like any other from now on.
+  /// Makes the tried action one like any other.
   void keep_tried();
   base::Result<void> undo();
   base::Result<void> redo();

@@ -33,14 +33,16 @@ inline double session_seconds() {
 }
 
 /// The parts of a session. All of them are main's, but for those of the session's other threads.
-struct Session::Parts {
-  Parts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
-        devices::SimulatedDevice* mouse_hand);
-  ~Parts();
+struct SessionParts {
+  SessionParts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
+               devices::SimulatedDevice* mouse_hand);
+  ~SessionParts();
+
+  // session_history.cpp
+  base::Result<void> take_back();
 
   // session_world.cpp
   base::Result<void> done(base::Result<void> result);
-  base::Result<void> take_back();
   void open_world(world::World opened, const std::filesystem::path& design,
                   const std::shared_ptr<ClaimedWork>& recovered = nullptr);
   void tell_change(const world::Changes* changes);
@@ -66,6 +68,7 @@ struct Session::Parts {
   void renew_symbols();
   void renew_parts();
   void renew_handles();
+  void mark_part(const std::optional<MarkedPart>& marked);
   void publish_wish();
 
   // session_techniques.cpp

@@ -23,30 +23,30 @@ class SessionStage {
   /// Has any object a motion? Looks at all of them.
   bool has_motions() const;
   /// Shows and feels objects where their motions have them, from their beginning on and on; or, as at first
-  /// and after another design was opened, where they are at rest. The world stays what it is, and who puts a
-  /// moving object elsewhere moves all of its way.
+  /// and after another design was opened, where they are at rest. The world stays what it is, and an edit
+  /// that puts a moving object elsewhere moves all of its way.
   void play(bool on);
   bool playing() const;
-  /// Of the selection (all, without one), stage frame.
+  /// The bounds of the selection (of everything, without one), stage frame.
   base::Bounds selection_bounds() const;
-  /// Points out what the mouse is over or holds; each hand points out its own.
+  /// Marks the handle that the mouse is over or holds; each hand marks its own.
   void mark_handle(const std::optional<interaction::MarkedHandle>& marked);
-  /// Points out an operand or a projector of the selection, which the mouse is over, or which is dragged.
+  /// Marks an operand or a projector of the selection, which the mouse is over, or which is dragged.
   void mark_part(const std::optional<MarkedPart>& marked);
-  /// With a motion: it is dragged, by the mouse or by a hand.
+  /// The marked part; with a motion, it is dragged, by the mouse or by a hand.
   const std::optional<MarkedPart>& marked_part() const;
-  /// What the ray meets first of what can be touched, stage frame.
+  /// The first thing that a ray meets of those that can be touched, stage frame.
   struct Picked {
     world::ObjectId object;
     interaction::PickedPoint place;
   };
   std::optional<Picked> pick(const interaction::Ray& ray) const;
-  /// The same of what can be seen: the symbols of effects, too, where the ray passes one by a few pixels.
+  /// The first thing that is seen on the ray: also a symbol of an effect that it passes by a few pixels.
   std::optional<Picked> pick_seen(const interaction::Ray& ray) const;
-  /// The operand of a solid, or the projector of a picture, of what is selected, whose outline the ray passes
-  /// by a few pixels, whatever is before it.
+  /// The operand of a solid, or the projector of a picture, in the selection whose outline the ray passes by
+  /// a few pixels, whatever is before it.
   std::optional<PartOutlines::Picked> pick_part(const interaction::Ray& ray) const;
-  /// The same of which the outline is nearest to a place of the stage, within `reach` (m).
+  /// The part whose outline is nearest to a place of the stage, within `reach` (m).
   std::optional<interaction::PlacedPart> part_near(const base::Vector3& place, double reach) const;
 
  private:

@@ -25,7 +25,7 @@ Pose pointing_from_eye(const Pose& eye, const Vector3& place) {
 
 }  // namespace
 
-bool Session::Parts::is_hand_there(std::size_t pointer) const {
+bool SessionParts::is_hand_there(std::size_t pointer) const {
   const PointerView& view = hands.view(pointer);
   if (mouse_hand && pointer == 0 && !hand_is_aimed) return false;
   return view.time != 0 && view.status != devices::DeviceStatus::Lost &&
@@ -33,13 +33,13 @@ bool Session::Parts::is_hand_there(std::size_t pointer) const {
 }
 
 /// The hand's pose with its workspace where the user now is, which the servo gets to softly.
-Pose Session::Parts::stage_from_hand(std::size_t pointer) const {
+Pose SessionParts::stage_from_hand(std::size_t pointer) const {
   const Pose hand = user.stage_from_device() * hands.view(pointer).device_from_stylus;
   if (!mouse_hand || pointer != 0) return hand;
   return pointing_from_eye(user.view().world_from_eye, hand.translation());
 }
 
-TechniqueMoment Session::Parts::technique_moment() const {
+TechniqueMoment SessionParts::technique_moment() const {
   TechniqueMoment moment;
   moment.time = double(moved_at - technique_since) * 1e-9;
   moment.stage_from_eye = user.drawn_view().world_from_eye;
@@ -52,20 +52,20 @@ TechniqueMoment Session::Parts::technique_moment() const {
   return moment;
 }
 
-void Session::Parts::carry_user(const Pose& by) {
+void SessionParts::carry_user(const Pose& by) {
   user.carry(by);
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
 }
 
 /// Sets the feel of a hand that holds something: nothing holds it back.
-void Session::Parts::feel_held(bool held) {
+void SessionParts::feel_held(bool held) {
   haptics::GripFeel feel;
   feel.holds = held;
   feel.least_pull = feel.most_pull = 0.0;
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.grip(i, feel);
 }
 
-void Session::Parts::hold_by_technique(Session& session) {
+void SessionParts::hold_by_technique(Session& session) {
   const std::shared_ptr<TechniqueHand> at_work = technique;
   const bool held = at_work->holds();
   std::string refused;
@@ -81,7 +81,7 @@ void Session::Parts::hold_by_technique(Session& session) {
 }
 
 /// Renews the drawing of the technique, where it has changed.
-void Session::Parts::renew_marks(const Session& session) {
+void SessionParts::renew_marks(const Session& session) {
   std::optional<base::Affine3> copy;
   std::uint64_t now = 0;
   const bool is_at_work = technique && !shaping;
@@ -102,11 +102,11 @@ void Session::Parts::renew_marks(const Session& session) {
   look_is_new = true;
 }
 
-base::Result<void> Session::set_technique(const std::optional<interaction::Technique>& technique) {
+base::Result<void> SessionTechniques::set(const std::optional<interaction::Technique>& technique) {
   if (technique) {
     if (const auto possible = check(*technique); !possible) return possible;
   }
-  Parts& parts = *parts_;
+  SessionParts& parts = parts_;
   bool held = parts.technique && parts.technique->holds();
   for (HandGrab& grab : parts.grabs) {
     held = held || grab.holds();
@@ -116,7 +116,7 @@ base::Result<void> Session::set_technique(const std::optional<interaction::Techn
     held = held || grab.holds();
     grab = {};
   }
-  mark_part(std::nullopt);
+  parts_.mark_part(std::nullopt);
   if (held) parts.feel_held(false);
   parts.ungrabbed.assign(parts.ungrabbed.size(), true);
   parts.technique.reset();
@@ -125,28 +125,24 @@ base::Result<void> Session::set_technique(const std::optional<interaction::Techn
   return {};
 }
 
-const TechniqueHand* Session::technique() const { return parts_->technique.get(); }
+const TechniqueHand* SessionTechniques::current() const { return parts_.technique.get(); }
 
-std::optional<base::Affine3> Session::miniature() const {
-  if (!parts_->technique) return std::nullopt;
-  return parts_->technique->copy_from_stage(*this);
+std::optional<base::Affine3> SessionTechniques::miniature() const {
+  if (!parts_.technique) return std::nullopt;
+  return parts_.technique->copy_from_stage(session_);
 }
 
-base::Result<void> Session::record_technique() {
-  if (!parts_->technique)
+base::Result<void> SessionTechniques::record() {
+  if (!parts_.technique)
     return base::fail("What is done by touch is not recorded: choose another technique first.");
-  if (parts_->technique->holds()) parts_->feel_held(false);
-  parts_->technique->record(parts_->world);
+  if (parts_.technique->holds()) parts_.feel_held(false);
+  parts_.technique->record(parts_.world);
   return {};
 }
 
-std::optional<TechniqueHand::Recorded> Session::stop_recording() {
-  if (!parts_->technique) return std::nullopt;
-  return parts_->technique->stop_recording();
-}
-
-void Session::hold_hand_buttons(std::uint32_t buttons) {
-  if (parts_->mouse_hand) parts_->mouse_hand->hold_buttons(buttons);
+std::optional<TechniqueHand::Recorded> SessionTechniques::stop_recording() {
+  if (!parts_.technique) return std::nullopt;
+  return parts_.technique->stop_recording();
 }
 
 }  // namespace icome::session

@@ -19,13 +19,13 @@ class SessionTechniques {
   /// Selects, holds and travels with the first two pointers by this technique (thesis chapter 2) from now on,
   /// as TechniqueHand says; without one, by touch. Fails, and changes nothing, for sizes that cannot be.
   base::Result<void> set(const std::optional<interaction::Technique>& technique);
-  /// Null while it is by touch. What it points at, holds and shows.
+  /// The technique that is used, with its target, held object and marks; null while it is by touch.
   const TechniqueHand* current() const;
-  /// From the world to the technique's miniature, where it shows one, stage frame.
+  /// The map from the world to the technique's miniature, where it shows one, stage frame.
   std::optional<base::Affine3> miniature() const;
-  /// Records what the technique is fed from now on, from its beginning. Fails without a technique.
+  /// Records the technique's inputs from now on; it begins anew. Fails without a technique.
   base::Result<void> record();
-  /// Nothing unless it records.
+  /// Ends the recording and gives it; nothing unless it records.
   std::optional<TechniqueHand::Recorded> stop_recording();
 
  private:

@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "interaction/object_move.h"
 #include "render/model/views.h"
-#include "session/display/picking.h"
 #include "session/session_parts.h"
 
 namespace icome::session {
@@ -16,7 +15,6 @@ constexpr charts::Colour kHandleColour{0.10, 0.35, 0.80};
 constexpr charts::Colour kHandleLineColour{0.30, 0.40, 0.60, 0.7};
 constexpr charts::Colour kMarkedHandleColour{1.0, 0.55, 0.10};
 constexpr std::size_t kMostHandledObjects = 32;
-constexpr double kSymbolSlack = 0.01;  // of the field of view: some 6 pixels of 600
 
 /// Compares bit by bit: places that are not finite equal themselves.
 bool same_bits(const std::vector<base::Vector3>& one, const std::vector<base::Vector3>& other) {
@@ -46,7 +44,7 @@ void add_marks(render::SceneOverlay& overlay, const render::SceneOverlay& more) 
 }  // namespace
 
 /// Moves the user on, with the workspaces of all pointers.
-void Session::Parts::move_user() {
+void SessionParts::move_user() {
   const std::int64_t now = base::steady_nanoseconds();
   const double dt = moved_at == 0 ? 0.0 : double(now - moved_at) * 1e-9;
   moved_at = now;
@@ -58,7 +56,7 @@ void Session::Parts::move_user() {
   if (!hand_is_aimed) park();
 }
 
-void Session::Parts::aim(const base::Vector3& position) {
+void SessionParts::aim(const base::Vector3& position) {
   if (!mouse_hand) return;
   hand_is_aimed = true;
   // A hand that lies aside is taken up where it lies.
@@ -66,13 +64,13 @@ void Session::Parts::aim(const base::Vector3& position) {
   mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
 }
 
-void Session::Parts::put(const base::Vector3& position) {
+void SessionParts::put(const base::Vector3& position) {
   aim(position);
   if (mouse_hand) mouse_hand->put(hands.stage_from_device(0).inverse() * position);
 }
 
 /// Puts the hand at the eye instead of leading it there: something may stand in the way.
-void Session::Parts::park() {
+void SessionParts::park() {
   if (!mouse_hand) return;
   const base::Vector3 eye = hands.stage_from_device(0).inverse() * user.view().world_from_eye.translation();
   if (parked_at == eye) return;
@@ -82,7 +80,7 @@ void Session::Parts::park() {
 }
 
 /// A group has no shape of its own: the selection shows by all that moves along with it.
-void Session::Parts::renew_outline() {
+void SessionParts::renew_outline() {
   if (!std::exchange(outline_is_new, false)) return;
   std::vector<world::ObjectId> all;
   for (const world::ObjectId root : interaction::topmost(world, selection)) {
@@ -95,7 +93,7 @@ void Session::Parts::renew_outline() {
 }
 
 /// Renews the handles by which shapes can be dragged, at their present places.
-void Session::Parts::renew_handles() {
+void SessionParts::renew_handles() {
   interaction::ShapingPicture now;
   if (shaping) {
     std::vector<interaction::MarkedHandle> marked;
@@ -112,21 +110,30 @@ void Session::Parts::renew_handles() {
 }
 
 /// Renews the symbols of effects, at their present places.
-void Session::Parts::renew_symbols() {
+void SessionParts::renew_symbols() {
   if (!std::exchange(symbols_are_new, false)) return;
   symbols = effects.overlay(world, shown_scene);
   look_is_new = true;
 }
 
 /// Renews the operands and projectors of the selection, at their present places.
-void Session::Parts::renew_parts() {
+void SessionParts::renew_parts() {
   if (!std::exchange(parts_are_new, false)) return;
   const bool had_parts = !part_outlines.empty();
   part_outlines.renew(world, shown_scene, selection);
   if (had_parts || !part_outlines.empty()) look_is_new = true;
 }
 
-void Session::Parts::publish_wish() {
+void SessionParts::mark_part(const std::optional<MarkedPart>& marked) {
+  const auto& now = marked_part;
+  const bool same = now.has_value() == marked.has_value() &&
+                    (!now || (now->part == marked->part && !now->motion && !marked->motion));
+  if (same) return;
+  marked_part = marked;
+  look_is_new = true;
+}
+
+void SessionParts::publish_wish() {
   renew_outline();
   renew_handles();
   renew_symbols();
@@ -148,7 +155,7 @@ void Session::Parts::publish_wish() {
   display.wish(wish);
 }
 
-void Session::Parts::go_home() {
+void SessionParts::go_home() {
   const render::ViewDirection iso = *render::view_direction("iso");
   const world::Scene* scene = world.find(shown_scene);
   base::Bounds bounds;
@@ -158,102 +165,31 @@ void Session::Parts::go_home() {
   user.fly_to(interaction::fitted(user.view(), bounds, iso.toward_eye, iso.up, aspect));
 }
 
-const interaction::View& Session::view() const { return parts_->user.view(); }
+const render::RenderScenePointer& SessionView::drawn() const { return parts_.seen.read(); }
 
-void Session::set_view(const interaction::View& view) { parts_->user.set_view(view); }
+DisplayFeed& SessionView::display() { return parts_.display; }
 
-void Session::fly_to(const interaction::View& view) { parts_->user.fly_to(view); }
+const interaction::View& SessionView::now() const { return parts_.user.view(); }
 
-void Session::home() { parts_->go_home(); }
+void SessionView::set(const interaction::View& view) { parts_.user.set_view(view); }
 
-void Session::set_aspect(double aspect) {
-  if (aspect > 0.0 && std::isfinite(aspect)) parts_->aspect = aspect;
+void SessionView::fly_to(const interaction::View& view) { parts_.user.fly_to(view); }
+
+void SessionView::home() { parts_.go_home(); }
+
+void SessionView::set_aspect(double aspect) {
+  if (aspect > 0.0 && std::isfinite(aspect)) parts_.aspect = aspect;
 }
 
-double Session::aspect() const { return parts_->aspect; }
+double SessionView::aspect() const { return parts_.aspect; }
 
-interaction::NavigationMode Session::navigation_mode() const { return parts_->user.mode(); }
+interaction::NavigationMode SessionView::navigation_mode() const { return parts_.user.mode(); }
 
-void Session::set_navigation_mode(interaction::NavigationMode mode) { parts_->user.set_mode(mode); }
+void SessionView::set_navigation_mode(interaction::NavigationMode mode) { parts_.user.set_mode(mode); }
 
-void Session::set_look(const DisplayWish& look) {
-  parts_->look = look;
-  parts_->look_is_new = true;
+void SessionView::set_look(const DisplayWish& look) {
+  parts_.look = look;
+  parts_.look_is_new = true;
 }
-
-std::size_t Session::pointers() const { return parts_->hands.pointers(); }
-
-const PointerView& Session::pointer(std::size_t index) const { return parts_->hands.view(index); }
-
-const devices::DeviceInfo& Session::pointer_info(std::size_t index) const {
-  return parts_->hands.info(index);
-}
-
-std::optional<world::ObjectId> Session::touched(std::size_t index) const {
-  const PointerView& view = pointer(index);
-  if (!view.touching) return std::nullopt;
-  return parts_->felt.read().names->object(view.touched);
-}
-
-const std::vector<haptics::CappedEffect>& Session::capped_effects() const {
-  static const std::vector<haptics::CappedEffect> kNone;
-  const auto& capped = parts_->felt.read().capped;
-  return capped ? *capped : kNone;
-}
-
-void Session::aim_hand(const base::Vector3& position) {
-  if (!position.allFinite()) return;
-  parts_->aim(position);
-}
-
-void Session::put_hand(const base::Vector3& position) {
-  if (!position.allFinite()) return;
-  parts_->put(position);
-}
-
-void Session::park_hand() { parts_->hand_is_aimed = false; }
-
-std::optional<Session::Picked> Session::pick(const interaction::Ray& ray) const {
-  const FeltVersion& felt = parts_->felt.read();
-  // Things are picked where they are seen: at the end of their glide.
-  const double elapsed =
-      std::max(session_seconds() - felt.scene->moment(), haptics::EffectFeed::kGlideSeconds);
-  const auto thing = session::pick(*felt.scene, ray, elapsed);
-  if (!thing) return std::nullopt;
-  const auto object = felt.names->object(thing->object);
-  if (!object) return std::nullopt;
-  return Picked{*object, thing->place};
-}
-
-std::optional<Session::Picked> Session::pick_seen(const interaction::Ray& ray) const {
-  auto surface = pick(ray);
-  const auto symbol =
-      parts_->effects.pick(parts_->world, parts_->shown_scene, ray, kSymbolSlack * view().field);
-  if (!symbol || (surface && surface->place.distance <= symbol->place.distance)) return surface;
-  return Picked{symbol->object, symbol->place};
-}
-
-std::optional<PartOutlines::Picked> Session::pick_part(const interaction::Ray& ray) const {
-  parts_->renew_parts();
-  return parts_->part_outlines.pick(ray, kSymbolSlack * view().field);
-}
-
-std::optional<interaction::PlacedPart> Session::part_near(const base::Vector3& place, double reach) const {
-  parts_->renew_parts();
-  return parts_->part_outlines.nearest(place, reach);
-}
-
-void Session::mark_part(const std::optional<MarkedPart>& marked) {
-  const auto& now = parts_->marked_part;
-  const bool same = now.has_value() == marked.has_value() &&
-                    (!now || (now->part == marked->part && !now->motion && !marked->motion));
-  if (same) return;
-  parts_->marked_part = marked;
-  parts_->look_is_new = true;
-}
-
-const std::optional<MarkedPart>& Session::marked_part() const { return parts_->marked_part; }
-
-std::vector<ForceSample> Session::take_forces() { return parts_->hands.take_forces(); }
 
 }  // namespace icome::session

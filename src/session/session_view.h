@@ -17,20 +17,20 @@ class SessionView {
 
   const interaction::View& now() const;
   void set(const interaction::View& view);
-  /// On its way softly, over some tenths of a second.
+  /// Moves the view there softly, over some tenths of a second.
   void fly_to(const interaction::View& view);
-  /// Softly to where all that is shown is seen.
+  /// Moves the view softly to where everything that is shown is seen.
   void home();
-  /// Width by height of the picture that it has to fit into. What is no such shape is passed over.
+  /// Sets the width over the height of the picture to fit into. Impossible values are passed over.
   void set_aspect(double aspect);
   double aspect() const;
   interaction::NavigationMode navigation_mode() const;
   void set_navigation_mode(interaction::NavigationMode mode);
-  /// How main wants the world to look; view and selection are put in by the session.
+  /// Sets the look of the world as main wants it; view and selection are put in by the session.
   void set_look(const DisplayWish& look);
-  /// What is on the stage, as main saw it last; never null.
+  /// The scene on the stage, as main saw it last; never null.
   const render::RenderScenePointer& drawn() const;
-  /// The display thread's.
+  /// The feed of the display thread.
   DisplayFeed& display();
 
  private:
