@@ -8,8 +8,8 @@
 namespace icome::geometry {
 
 /// The part [first, last] of the segment start + t * step, t in [0, 1], that lies within `reach` (m) of the
-/// box, each axis by itself; nothing where there is none, and for numbers that are not finite. Real-time
-/// safe.
+/// box along each axis separately; nothing where there is no such part, and for numbers that are not finite.
+/// Real-time safe.
 inline std::optional<std::array<double, 2>> part_within(const base::Bounds& box, const base::Vector3& start,
                                                         const base::Vector3& step, double reach) {
   double first = 0.0, last = 1.0;

@@ -11,30 +11,30 @@ namespace icome::geometry {
 struct SurfacePlace {
   Vector3 point;            // m
   Vector3 normal;           // unit, out of the solid (or towards the front of a sheet)
-  std::uint32_t piece = 0;  // which of the surface's pieces it lies on
+  std::uint32_t piece = 0;  // the number of the surface's piece that it lies on
   double u = 0.0, v = 0.0;  // the piece's own parameters there, where it has any
-  bool reached = true;      // of a foot: that it is one, not where the walk towards it stopped
+  bool reached = true;      // of a foot: true at the foot itself, false where the walk towards it stopped
 };
 
-/// Where a moving point goes through a surface.
+/// A hit: the place at which a moving point goes through a surface.
 struct SurfaceHit {
   double t;  // along the step, in [0, 1]
   SurfacePlace place;
 };
 
-/// A surface made of smooth pieces that can be touched as what it is, without a mesh: the faces of a CSG
+/// A surface made of smooth pieces that can be touched directly, without a mesh: the faces of a CSG
 /// solid, a subdivision surface's limit, an implicit surface. These few questions are all that finding
 /// the surface contact point (SCP) needs. Immutable; all functions may be called from several threads.
 ///
-/// `time` (s) matters to surfaces that change with time only. `slack` (m, >= 0) is the length within
-/// which contact arithmetic does not distinguish, some 1e-11 of the surface's size: pieces reach this
-/// far beyond their edges, so that neighbours leave no crack; more exact than this need not be computed,
-/// but results must be exact to within a tenth of it.
+/// `time` (s) matters only to surfaces that change with time. `slack` (m, >= 0) is the tolerance of
+/// contact arithmetic, some 1e-11 of the surface's size: pieces reach this far beyond their edges, so
+/// that neighbours leave no crack. Results must be exact to within a tenth of it; they need not be more
+/// exact.
 class SmoothSurface {
  public:
   virtual ~SmoothSurface() = default;
 
-  /// Around the surface, at all times; infinite for an unlimited one.
+  /// Bounds of the surface at all times; infinite for an unlimited one.
   virtual Bounds bounds() const = 0;
 
   /// Calls `visit(piece, box)` for every piece that comes within `reach` of the segment from `a` to `b`,
@@ -56,10 +56,10 @@ class SmoothSurface {
 
   /// The first place at which a point that moves from `start` by t * `step` goes through the piece from
   /// its front (outside) to behind it, t in [0, 1], and at which the piece belongs to the surface
-  /// (covers). Must not miss one, however grazing: who misses one falls through. `from_behind` asks for
+  /// (covers). Must not miss one, however grazing: the tip would fall through. `from_behind` asks for
   /// passages from behind to the front instead (sheets that are touched from both sides).
-  /// A start within `slack` of the surface counts as being on the side that it comes from: moving in,
-  /// that is a hit at t = 0; moving out, it is none. Real-time safe.
+  /// A start within `slack` of the surface counts as being on the side that it comes from: moving in is
+  /// a hit at t = 0; moving out is no hit. Real-time safe.
   virtual std::optional<SurfaceHit> first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
                                               bool from_behind, double time, double slack) const = 0;
 
@@ -71,8 +71,8 @@ class SmoothSurface {
   virtual SurfacePlace nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const = 0;
 
   /// Does the surface really run through `place`, which lies on the (extended) piece, or within `slack`
-  /// of it? `above` is where the tip is, to tell whether it is still over the piece (a sheet ends at its
-  /// rim). Real-time safe.
+  /// of it? `above` is the tip's place, by which to tell whether it is still over the piece (a sheet ends
+  /// at its rim). Real-time safe.
   virtual bool covers(const SurfacePlace& place, const Vector3& above, double time, double slack) const = 0;
 
   /// May a tip that rests on `one` be taken to have met `other` too (the same piece, or its smooth

@@ -6,10 +6,10 @@
 
 namespace icome::geometry {
 
-/// The nearest free place for the centre of a ball along 26 straight lines from where it overlaps, and
+/// The nearest free place for the centre of a ball along 26 straight lines from its overlapping place, and
 /// `clear` (m) beyond, as a line may run along a surface; nothing where none of them leads out.
-/// `inside(centre)` says where the ball overlaps, `bounds` are around these places; lines are looked along in
-/// steps of a fifth of the `radius` (m). Real-time safe when `inside` is.
+/// `inside(centre)` tells whether the ball overlaps; `bounds` enclose all such centres. The lines are
+/// searched in steps of a fifth of the `radius` (m). Real-time safe when `inside` is.
 template <typename Inside>
 std::optional<SurfacePlace> straight_way_out(const Vector3& centre, const Bounds& bounds, double radius,
                                              double clear, Inside&& inside) {

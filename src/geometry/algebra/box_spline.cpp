@@ -77,7 +77,7 @@ QuarticJet2 evaluate2(const QuarticTriangle& triangle, double s, double t) {
 }
 
 void bisect(const QuarticTriangle& triangle, QuarticTriangle& one, QuarticTriangle& other) {
-  // Of each row of points with the same power of the first corner, de Casteljau's algorithm at 1/2.
+  // De Casteljau's algorithm at 1/2 on each row of points with the same power of the first corner.
   for (int i = 0; i <= QuarticTriangle::kDegree; ++i) {
     const int degree = QuarticTriangle::kDegree - i;
     std::array<Vector4, QuarticTriangle::kDegree + 1> row;

@@ -82,7 +82,7 @@ int side_sign(const Vector3& a, const Vector3& b, const Vector3& c, const Vector
   const Vector3 sizes(std::abs(u.y() * v.z()) + std::abs(u.z() * v.y()),
                       std::abs(u.z() * v.x()) + std::abs(u.x() * v.z()),
                       std::abs(u.x() * v.y()) + std::abs(u.y() * v.x()));
-  // From d, the corners of a plane that d is above run clockwise: the volume is below zero.
+  // The volume is below zero when a, b and c run counter-clockwise as seen from d.
   const double volume = cross.dot(w);
   if (std::abs(volume) > kVolumeError * sizes.dot(w.cwiseAbs())) return -sign_of(volume);
   ExactSum sum;

@@ -38,7 +38,7 @@ Interval wave(const Interval& a, double at_lo, double at_hi, double top) {
   return within_range(image, -1.0, 1.0);
 }
 
-/// Too wide, too far out, or infinite: not worth asking where the tops are.
+/// Is the interval so wide, so far out or infinite that its image counts as all of [-1, 1]?
 bool all_around(const Interval& a) { return !(a.hi - a.lo < 2 * pi) || magnitude(a) > 0x1p40; }
 
 }  // namespace
@@ -191,7 +191,7 @@ namespace {
 
 constexpr double kShortAngle = 0.1;  // up to here four terms of the series have all digits
 
-/// What a function takes whose derivative is nowhere more than `steepest`, by its value in the middle.
+/// Encloses the values of a function whose derivative is nowhere more than `steepest`, from the middle one.
 template <typename Function>
 Interval around_middle(const Interval& a, double steepest, Function&& function) {
   if (!std::isfinite(a.lo) || !std::isfinite(a.hi)) return {-1.0, 1.0};

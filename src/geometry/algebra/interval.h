@@ -73,12 +73,12 @@ inline Interval operator*(const Interval& a, double factor) {
           a.hi <= 0.0 && factor >= 0.0 ? std::min(hi, 0.0) : hi};
 }
 
-/// What both hold. Precondition: they overlap, as enclosures of the same values do.
+/// The intersection of both. Precondition: they overlap, as enclosures of the same values do.
 inline Interval intersection(const Interval& a, const Interval& b) {
   return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
 
-/// The smallest that holds both.
+/// The smallest interval that holds both.
 inline Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
@@ -120,7 +120,7 @@ Interval power(const Interval& a, const Interval& b);
 Interval odd_power(const Interval& a, double n);
 inline double odd_power(double a, double n) { return std::copysign(std::pow(std::fabs(a), n), a); }
 
-/// a less as many turns as leave it between -pi and pi.
+/// a minus whole turns, so that the result is between -pi and pi.
 Interval wrap(const Interval& a);
 double wrap(double a);
 /// May wrap jump there?
@@ -134,7 +134,7 @@ double sinc(double a);
 double sinc_slope(double a);
 double sinc_bend(double a);
 
-/// sin(a) and cos(a), for little more than the price of one.
+/// sin(a) and cos(a), at little more than the cost of one.
 void sine_and_cosine(const Interval& a, Interval& sine, Interval& cosine);
 
 /// May tan have a pole there?

@@ -9,7 +9,7 @@
 
 namespace icome::geometry {
 
-// The functions of double under the names that Interval's have, for the templates below.
+// Functions of double under the names of those of Interval, for the templates below.
 inline double reciprocal(double a) { return 1.0 / a; }
 inline void sine_and_cosine(double a, double& sine, double& cosine) {
   sine = std::sin(a);
@@ -168,13 +168,13 @@ Jet<S, V, O> raise_size(const Jet<S, V, O>& a, double exponent) {
   if constexpr (O >= 2) {
     d2 = power(size, exactly<S>(exponent - 2.0)) * (exponent * (exponent - 1.0));
     if constexpr (std::is_same_v<S, double>) {
-      if (!std::isfinite(d2)) d2 = 0.0;  // at 0 it bends infinitely: of that a single place says nothing
+      if (!std::isfinite(d2)) d2 = 0.0;  // infinite at 0, which says nothing about the places around
     }
   }
   return chain(a, value, d1, d2);
 }
 
-/// The same with the sign of a.
+/// The sign of a, times |a|^exponent, exponent > 1.
 template <typename S, int V, int O>
 Jet<S, V, O> raise_oddly(const Jet<S, V, O>& a, double exponent) {
   using std::abs;
@@ -212,8 +212,8 @@ Jet<S, V, O> angle(const Jet<S, V, O>& y, const Jet<S, V, O>& x) {
   return chain(y, x, {value, dy, dx, mixed, dx * dx - dy * dy, -mixed});
 }
 
-// A length does not rise faster than what it is taken of. At 0, where it has a point, a double takes the
-// derivatives of the axis of that.
+// A length rises no faster than its arguments: shares are in [-1, 1]. At 0, the tip of a cone, doubles take
+// the derivatives along the cone's axis, which are 0.
 inline double share_of(double a, double length) { return length > 0.0 ? a / length : 0.0 * a; }
 inline double inverse_length(double length) { return length > 0.0 ? 1.0 / length : 0.0 * length; }
 inline Interval share_of(const Interval& a, const Interval& length) {
@@ -252,7 +252,7 @@ Jet<S, V, O> larger_of(const Jet<S, V, O>& a, const Jet<S, V, O>& b) {
 
 }  // namespace jets
 
-/// `operation` of one argument. `constant` is the step's.
+/// The unary `operation` applied to `a`. `constant` is the step's.
 template <typename S, int V, int O>
 Jet<S, V, O> compute_unary(Operation operation, double constant, const Jet<S, V, O>& a) {
   using jets::chain, jets::exactly;
@@ -340,7 +340,7 @@ Jet<S, V, O> compute_unary(Operation operation, double constant, const Jet<S, V,
   }
 }
 
-/// What a step computes from its operands; leaves have been computed before.
+/// The result of a step's operation on its operands; leaves have been computed before.
 template <typename S, int V, int O>
 Jet<S, V, O> compute(Operation operation, double constant, const Jet<S, V, O>& a, const Jet<S, V, O>& b) {
   switch (operation) {

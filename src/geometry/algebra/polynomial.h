@@ -10,7 +10,7 @@ struct RealRoots {
   unsigned count = 0;
 
   std::span<const double> all() const& { return {t.data(), count}; }
-  std::span<const double> all() const&& = delete;  // of roots that are gone before a loop over them begins
+  std::span<const double> all() const&& = delete;  // a temporary is gone before a loop over it begins
   void add(double root) { t[count++] = root; }
 };
 

@@ -6,9 +6,9 @@
 namespace icome::geometry {
 
 /// The point of `box` that is nearest to all the planes given by points and unit normals, in the sense of
-/// least squares (the quadric error function of Ju et al., 2002). Directions along which the planes say
-/// little, compared with the one along which they say most, are left as at the points' mean: there the
-/// answer stays on the edge or the face. Precondition: at least one plane, points finite.
+/// least squares (the quadric error function of Ju et al., 2002). Along directions that the planes hardly
+/// determine, compared with the best determined one, the result keeps the position of the points' mean: it
+/// stays on the edge or the face. Precondition: at least one plane, points finite.
 Vector3 nearest_to_planes(std::span<const SurfacePoint> planes, const Bounds& box);
 
 /// The largest distance from the point to one of the planes, m.

@@ -11,7 +11,7 @@ namespace {
 using base::Matrix3;
 using base::Vector3;
 
-constexpr double kLeastSpan = 1e-12;  // of rows that are told apart: the square of the sine between them
+constexpr double kLeastSpan = 1e-12;  // for two independent rows, the least squared sine between them
 
 /// Tries sets of rows that hold with equality.
 class ActiveSets {
@@ -21,7 +21,7 @@ class ActiveSets {
     for (std::size_t i = 0; i < rows.size(); ++i) pushed_[i] = inverse * rows[i].normal;
   }
 
-  /// There is one solution, so that it does not matter which set finds it.
+  /// Tries the guess's active set only. The solution is unique: any set that finds it will do.
   std::optional<SmallProgram::Solution> find_by(const SmallProgram::Solution& guess) {
     std::array<std::size_t, 3> set{};
     int count = 0;
@@ -33,7 +33,7 @@ class ActiveSets {
     return count > 0 && holds(count, set[0], set[1], set[2]) ? std::optional(solution_) : std::nullopt;
   }
 
-  /// One of the rows that the free least breaks is among those that hold with equality.
+  /// Tries all sets that include a row broken by the free minimum: one of these rows holds with equality.
   std::optional<SmallProgram::Solution> find() {
     const std::size_t n = rows_.size();
     if (holds(0, 0, 0, 0)) return solution_;

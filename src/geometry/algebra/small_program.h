@@ -7,8 +7,8 @@
 
 namespace icome::geometry {
 
-/// A quadratic program in space: the y at which y'Wy/2 + p'y is least, W positive definite, among those that
-/// a few half-spaces hold. Active sets are tried one after the other. A plain value; real-time safe.
+/// A quadratic program in space: the y at which y'Wy/2 + p'y is least, W positive definite, among those
+/// within a few half-spaces. Active sets are tried one after the other. A plain value; real-time safe.
 class SmallProgram {
  public:
   static constexpr std::size_t kMostRows = 12;
@@ -27,7 +27,7 @@ class SmallProgram {
   std::size_t size() const { return count_; }
   const Row& row(std::size_t i) const { return rows_[i]; }
 
-  /// `doubt` (m): what rows may be broken by. Nothing where no place is allowed. `guess`: the solution of a
+  /// `doubt` (m): the tolerance of the rows. Nothing where no place is allowed. `guess`: the solution of a
   /// program much like this one, whose active set is tried first; null: none.
   std::optional<Solution> solve(const base::Matrix3& inverse_of_w, const base::Vector3& p, double doubt,
                                 const Solution* guess = nullptr) const;

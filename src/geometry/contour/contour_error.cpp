@@ -12,9 +12,9 @@ namespace {
 
 /// Searches reach this many cells.
 constexpr double kErrorReach = 2.0;
-/// Where the surface is not within this many cells along the normal, other directions are tried as well.
+/// Other directions are tried as well if the surface is not within this many cells along the normal.
 constexpr double kNearEnough = 0.1;
-/// Where it is not within this many, which is so beside knife edges only, in more directions.
+/// More directions are tried if it is not within this many cells, which happens only beside knife edges.
 constexpr double kFar = 0.5;
 constexpr int kFewDirections = 8, kDirections = 128;
 
@@ -34,8 +34,8 @@ class ErrorMeter {
 
   double at_vertex(std::size_t vertex) const { return distance(mesh_->positions[vertex], normals_[vertex]); }
 
-  /// At the triangle's centre and at the middles of those edges that are measured here, not from the other
-  /// side.
+  /// The largest distance at the triangle's centre and at the middles of those edges that are measured from
+  /// this triangle, not from the neighbour.
   double at_triangle(std::size_t triangle) const {
     const auto& corners = mesh_->triangles[triangle];
     const Vector3 &a = mesh_->positions[corners[0]], &b = mesh_->positions[corners[1]],
@@ -60,7 +60,7 @@ class ErrorMeter {
     };
     take(search_along(*solid_, point, normal, reach));
     if (nearest <= kNearEnough * cell_) return nearest;
-    // Near thin parts the normal may pass the surface by: then another direction is shorter.
+    // Near thin parts the line along the normal may miss the surface: then another direction is shorter.
     take(search_finely_along(*solid_, point, normal, reach));
     for (int i = 0; i < kDirections && nearest > kNearEnough * cell_; ++i) {
       if (i == kFewDirections && nearest <= kFar * cell_) break;
@@ -81,7 +81,7 @@ std::optional<double> measure_contour_error(const SampledSolid& solid, double ce
                                             const ContourProgress& go_on) {
   const ErrorMeter meter(solid, cell, mesh);
   double worst = 0.0;
-  std::mutex guard;  // the largest of the parts' figures, in whatever order, is the same
+  std::mutex guard;  // the largest of the parts' figures does not depend on their order
   const std::size_t vertices = mesh.positions.size();
   const std::size_t places = vertices + mesh.triangles.size();
   const bool done = contour_in_batches(places, go_on, [&](std::size_t begin, std::size_t end) {

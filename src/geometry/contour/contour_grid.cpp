@@ -24,7 +24,7 @@ constexpr std::uint32_t kBlock = 8;
 constexpr double kMaxPoints = 0x1p36;
 constexpr double kMaxLayer = 0x1p28;
 constexpr double kMaxRow = 0x1p24;
-/// The smallest cell, as a part of the largest coordinate: places in a cell must be told apart.
+/// The smallest cell, as a part of the largest coordinate: places in a cell must be distinguishable.
 constexpr double kFinestCell = 1e-11;
 
 /// The grid's first plane lies this part of a cell below the box, different for each axis and far from
@@ -41,7 +41,7 @@ class SignSlab {
         bits_(std::size_t{kBlock + 1} * grid.points[1] * words_, 0) {}
 
   /// Samples the layers from z = `first` on (kBlock of them, or up to the last). Layer 0 becomes the last
-  /// one of the slab before, so the layers sampled are 1, 2 and so on. Returns how many.
+  /// one of the slab before, so the layers sampled are 1, 2 and so on. Returns their number.
   std::uint32_t sample(std::uint32_t first) {
     const std::size_t layer = std::size_t{grid_->points[1]} * words_;
     std::copy_n(bits_.end() - static_cast<std::ptrdiff_t>(layer), layer, bits_.begin());
@@ -103,7 +103,7 @@ class SignSlab {
     }
   }
 
-  /// The range's points are all inside or all outside: as one of them is.
+  /// Marks all of the range's points as the middle one is: they are all inside or all outside.
   void fill(const Range& range, std::uint32_t first_layer) {
     std::array<std::uint32_t, 3> middle;
     for (int axis = 0; axis < 3; ++axis) middle[axis] = (range.begin[axis] + range.end[axis]) / 2;

@@ -9,7 +9,7 @@
 
 namespace icome::geometry {
 
-/// Where the points of a contouring grid lie. A cell has the number (key) of its lowest corner.
+/// The layout of a contouring grid's points. A cell has the number (key) of its lowest corner.
 struct ContourGrid {
   using Key = std::uint64_t;
 
@@ -33,18 +33,18 @@ struct ContourGrid {
     return static_cast<Key>(steps[0]) + static_cast<Key>(steps[1]) * stride[1] +
            static_cast<Key>(steps[2]) * stride[2];
   }
-  /// From a cell's key to that of the cell whose lowest corner is its corner `corner` (contour_sheets.h).
+  /// The offset from a cell's key to that of the cell with this corner as lowest (contour_sheets.h).
   Key corner_offset(int corner) const {
     return (corner & 1) * stride[0] + (corner >> 1 & 1) * stride[1] + (corner >> 2 & 1) * stride[2];
   }
 };
 
-/// A grid around the box, one layer of points outside it all around. Its planes keep clear of where models
-/// like to have faces: at round fractions of cells from the box's sides. Fails when the cell is too small
-/// for the box, or for doubles so far from the origin.
+/// A grid around the box, one layer of points outside it all around. Its planes avoid the usual places of
+/// models' faces, at round fractions of cells from the box's sides. Fails when the cell is too small for
+/// the box, or for doubles so far from the origin.
 base::Result<ContourGrid> make_contour_grid(const Bounds& box, double cell);
 
-/// A cell that the surface passes, as its corners tell.
+/// A cell that the surface passes, judged by its corners.
 struct ContourCell {
   ContourGrid::Key key = 0;
   std::uint32_t first_edge = 0;    // its crossed edges at corner 0, by axis, have numbers from here on
@@ -58,7 +58,7 @@ inline bool crosses_axis(const ContourCell& cell, int axis) {
   return ((cell.signs ^ cell.signs >> (1 << axis)) & 1) != 0;
 }
 
-/// The number of that edge, which is crossed.
+/// The number of the edge from corner 0 along the axis. Precondition: it is crossed.
 inline std::uint32_t edge_number(const ContourCell& cell, int axis) {
   std::uint32_t number = cell.first_edge;
   for (int before = 0; before < axis; ++before) number += crosses_axis(cell, before);

@@ -7,7 +7,7 @@
 
 namespace icome::geometry {
 
-/// Told the part of a stage that is done, in [0, 1]; answers whether to go on.
+/// Receives the part of a stage that is done, in [0, 1]; returns whether to go on.
 using ContourProgress = std::function<bool(double part)>;
 
 /// Progress of a part of the stage: from `begin` on, `share` of it.

@@ -13,9 +13,9 @@ namespace {
 /// Quads with a larger fault, in cells, are worked on.
 constexpr double kFault = 0.02;
 constexpr int kRounds = 2;
-/// How far a vertex may leave its cell, and samples for it lie beside, in cells.
+/// The largest distance of a vertex, and of the samples for it, beside its cell, in cells.
 constexpr double kBeyond = 0.5;
-/// A move by less than this part of a cell is none.
+/// Moves by less than this part of a cell are not made.
 constexpr double kStill = 1e-6;
 /// A move must make the faults around a vertex less by this part, so that rounding moves nothing.
 constexpr double kGain = 1e-3;
@@ -53,7 +53,7 @@ class ContourRefiner {
       for (std::size_t i = begin; i < end; ++i) proposals[i] = propose(quads_of(i));
     });
     if (!done) return false;
-    // One after the other: whether a move is good depends on where the neighbours went.
+    // One after the other: whether a move is good depends on the neighbours' new places.
     for (std::size_t i = 0; i < first.size(); ++i) {
       if (i % 1024 == 0 && !moving(static_cast<double>(i) / static_cast<double>(first.size()))) return false;
       move_if_better(quads_of(i), proposals[i]);

@@ -9,7 +9,7 @@
 
 namespace icome::geometry {
 
-/// Where the surface crosses an edge of the grid.
+/// A crossing of the surface with an edge of the grid.
 struct EdgeCrossing {
   double t = 0.5;                     // along the edge, in [0, 1], from its lower end
   Vector3 normal = Vector3::UnitX();  // unit, out of the solid
@@ -30,14 +30,14 @@ struct SheetSamples {
   std::span<SurfacePoint> all() { return {at.data(), count}; }
 };
 
-/// Collects the samples of cells, which are asked for in the order of their keys. Refers to what it is made
-/// from.
+/// Collects the samples of cells, which are asked for in the order of their keys. Keeps references to the
+/// constructor's arguments.
 class SheetSampler {
  public:
   SheetSampler(const ContourGrid& grid, const ContourCells& cells, const std::vector<EdgeCrossing>& crossings,
                ContourGrid::Key start);
 
-  /// The samples of the cell's sheets, of which there are four at most.
+  /// The samples of the cell's sheets, four at most.
   std::array<SheetSamples, 4> samples(const ContourCell& cell);
 
  private:

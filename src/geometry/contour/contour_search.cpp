@@ -5,7 +5,7 @@
 namespace icome::geometry {
 namespace {
 
-/// An answer further beside the segment than this part of its length is wrong.
+/// Answers further beside the segment than this part of its length are wrong.
 constexpr double kBeside = 1e-6;
 constexpr int kHalvings = 50;
 /// The parts of the reach that a quick search tries: most points lie near the surface.
@@ -21,7 +21,7 @@ Vector3 crossing_by_halving(const SampledSolid& solid, Vector3 inner, Vector3 ou
   return inner;
 }
 
-/// The nearer of the crossings between the point and those this far from it, if there are some.
+/// The nearer of the crossings between the point and the two that are one `step` from it; nothing if none.
 std::optional<SurfacePoint> cross_within(const SampledSolid& solid, const Vector3& point, bool in,
                                          const Vector3& step) {
   std::optional<SurfacePoint> nearest;

@@ -5,9 +5,9 @@
 
 namespace icome::geometry {
 
-/// Where the surface crosses the segment from `inner`, which is inside, to `outer`, which is not. Made fit
-/// for arithmetic where the solid's answer is not (not finite, beside the segment): then the place is found
-/// by asking `inside`, and the segment's direction stands for a normal that is none.
+/// The crossing of the surface with the segment from `inner`, which is inside, to `outer`, which is not.
+/// Unusable answers of the solid are replaced: a place that is not finite or beside the segment by bisection
+/// with `inside`, a normal without direction by the segment's direction.
 SurfacePoint find_crossing(const SampledSolid& solid, const Vector3& inner, const Vector3& outer);
 
 /// The nearest crossing of the surface found along the line through `point`, either way, in a few steps of
@@ -15,7 +15,7 @@ SurfacePoint find_crossing(const SampledSolid& solid, const Vector3& inner, cons
 std::optional<SurfacePoint> search_along(const SampledSolid& solid, const Vector3& point,
                                          const Vector3& direction, double reach);
 
-/// The same in many steps, which also finds slivers of solid or space close to the point.
+/// Like search_along, but in many steps: also finds slivers of solid or space close to the point.
 std::optional<SurfacePoint> search_finely_along(const SampledSolid& solid, const Vector3& point,
                                                 const Vector3& direction, double reach);
 

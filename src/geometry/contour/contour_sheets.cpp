@@ -72,7 +72,7 @@ CellSheets find_sheets(unsigned signs, unsigned joins) {
   return sheets;
 }
 
-/// What most cells need: they have no ambiguous face to join.
+/// Tables by a cell's signs: its sheets without joins, as most cells need them, and its ambiguous faces.
 struct SheetTable {
   std::array<CellSheets, 256> sheets;
   std::array<std::uint8_t, 256> ambiguous_faces = {};

@@ -17,7 +17,7 @@ constexpr int edge_start(int edge) {
 
 constexpr int edge_end(int edge) { return edge_start(edge) | 1 << edge_axis(edge); }
 
-/// How the surface in a cell falls into sheets, each a disc that crosses some of the cell's edges.
+/// The sheets of the surface in a cell, each a disc that crosses some of the cell's edges.
 struct CellSheets {
   std::int8_t count = 0;
   std::array<std::int8_t, 12> of_edge = {};  // the sheet that crosses the edge; -1 for none
@@ -27,7 +27,7 @@ struct CellSheets {
 /// corner c is inside.
 std::uint8_t ambiguous_faces(std::uint8_t signs);
 
-/// The sheets of a cell, four at most. `joins` has a bit for each ambiguous face, whether its inner corners
+/// The sheets of a cell, four at most. `joins` has a bit for each ambiguous face: set where its inner corners
 /// are joined; else its outer ones are.
 CellSheets cell_sheets(std::uint8_t signs, std::uint8_t joins);
 

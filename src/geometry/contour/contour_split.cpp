@@ -13,7 +13,7 @@ using Triangle = TriangleMesh::Triangle;
 /// Quads whose triangles, however divided, are within this cosine of the surface's normal have no edge of the
 /// surface inside them.
 constexpr double kNearlyFlat = 0.9;
-/// Quads whose diagonals pass each other at this part of a cell are planar: any diagonal does.
+/// Quads whose diagonals pass each other at this part of a cell are planar: either diagonal will do.
 constexpr double kPlanar = 1e-9;
 /// Triangles less high than this part of their longest edge are slivers.
 constexpr double kSliver = 1e-6;
@@ -58,7 +58,7 @@ double QuadSplitter::agreement(const std::array<Triangle, 2>& triangles, const V
   return least;
 }
 
-/// How far the middle of a diagonal is off the surface.
+/// The distance of a diagonal's middle from the surface along `direction`; one cell where none is found.
 double QuadSplitter::off_surface(std::uint32_t from, std::uint32_t to, const Vector3& direction) const {
   const Vector3 middle = (at(from) + at(to)) / 2;
   const auto found = search_along(*solid_, middle, direction, cell_);

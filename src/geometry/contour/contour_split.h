@@ -8,7 +8,7 @@
 
 namespace icome::geometry {
 
-/// A quad as two triangles, and how badly they stand for the surface.
+/// A quad as two triangles, with a measure of how badly they represent the surface.
 struct QuadSplit {
   std::array<TriangleMesh::Triangle, 2> triangles;
   /// m: the largest distance of the triangles' centres and of the diagonal's middle from the surface, plus
@@ -17,8 +17,8 @@ struct QuadSplit {
   double fault = 0.0;
 };
 
-/// Divides quads along the diagonal that keeps to the surface: along its edges where it has some. Refers to
-/// what it is made from.
+/// Divides quads along the diagonal that keeps to the surface, along the surface's edges where it has some.
+/// Keeps references to the constructor's arguments.
 class QuadSplitter {
  public:
   QuadSplitter(const SampledSolid& solid, double cell, const std::vector<Vector3>& positions)

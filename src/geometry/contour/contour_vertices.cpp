@@ -16,13 +16,13 @@ constexpr double kOnPlanes = 1e-9;
 constexpr double kSame = 1 - 1e-12;
 /// Normals within this cosine of their mean (some 6 degrees) make a smooth sheet.
 constexpr double kSmooth = 0.995;
-/// How far beside its cell a vertex may be put on a smooth surface, in cells.
+/// The largest distance beside its cell at which a vertex may be put on a smooth surface, in cells.
 constexpr double kBesideCell = 0.25;
 /// Rounds of fitting a vertex to a curved edge, each on samples four times as near.
 constexpr int kFits = 3;
 
-/// The point moved along the normal onto the surface, if that is near the box and the same sheet; the same
-/// when it already lies there.
+/// The point moved along the normal onto the surface, if that is near the box and the same sheet; else, and
+/// when it already lies there, the point itself.
 Vector3 snapped(const SampledSolid& solid, double cell, const Bounds& box, const Vector3& point,
                 const Vector3& normal) {
   const auto found = search_along(solid, point, normal, cell / 2);
@@ -54,8 +54,8 @@ Vector3 mean_normal(std::span<const SurfacePoint> samples) {
   return sum.normalized();
 }
 
-/// For one of the eight vertices around a lone point. Those could turn a part of the solid that is thinner
-/// than a cell inside out, unless they are corners of it or keep to the samples' means.
+/// The place of one of the eight vertices around a lone point. These could turn a part of the solid that is
+/// thinner than a cell inside out, unless they are corners of it or keep to the samples' means.
 Vector3 fit_lone_vertex(const SampledSolid& solid, double cell, const Bounds& box,
                         std::span<const SurfacePoint> samples) {
   const Vector3 corner = nearest_to_planes(samples, box);
@@ -77,7 +77,7 @@ Vector3 fit_vertex(const SampledSolid& solid, double cell, const Bounds& box,
   const bool on_planes = farthest_plane(samples, first) <= kOnPlanes * cell;
   if (on_planes && least >= kSame) return first;
   const Vector3 near = snapped(solid, cell, box, first, mean);
-  // Three planes always meet; that the surface has its corner there shows in the surface.
+  // Three planes always meet; the surface has its corner there only if it passes through that point.
   if (least >= kSmooth || (on_planes && near == first)) return near;
   return snapped(solid, cell, box, fitted_to_edge(solid, cell, box, first, samples), mean);
 }

@@ -7,8 +7,8 @@
 
 namespace icome::geometry {
 
-/// The place within `box` for a vertex that stands for the surface sampled: on its edge or corner where it
-/// has one there, else on the surface. The samples are changed: to others nearer to the vertex.
+/// The place within `box` for a vertex that represents the sampled surface: on its edge or corner where it
+/// has one there, else on the surface. May replace the samples by others nearer to the vertex.
 Vector3 fit_vertex(const SampledSolid& solid, double cell, const Bounds& box,
                    std::span<SurfacePoint> samples);
 

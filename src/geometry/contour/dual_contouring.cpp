@@ -15,7 +15,7 @@ namespace {
 /// Numbers of vertices and edges are 32 bits wide.
 constexpr std::size_t kMostContourTriangles = std::size_t{1} << 31;
 
-/// The parts of the whole that the stages take, as progress is told.
+/// Reports progress: each stage takes a part of the whole.
 class StageProgress {
  public:
   explicit StageProgress(const ContourOptions& options) : tell_(&options.progress) {}

@@ -9,17 +9,17 @@
 
 namespace icome::geometry {
 
-/// A solid given by a few questions, for meshing. In its own frame, m. All are asked from several threads
+/// A solid given by a few queries, for meshing. In its own frame, m. All are called from several threads
 /// at once.
 struct SampledSolid {
-  /// Around the solid; empty for an empty one. What reaches beyond is cut off.
+  /// Bounds of the solid; empty for an empty one. Parts that reach beyond are cut off.
   Bounds bounds;
   /// Is the point inside?
   std::function<bool(const Vector3&)> inside;
-  /// Where the surface first crosses the segment from `a`, which is inside, to `b`, which is not, and its
-  /// outward normal there.
+  /// The first crossing of the surface with the segment from `a`, which is inside, to `b`, which is not, and
+  /// the outward normal there.
   std::function<SurfacePoint(const Vector3& a, const Vector3& b)> crossing;
-  /// May there be surface in the box? Where not, one point tells for the whole box. Not set: anywhere.
+  /// May there be surface in the box? If not, one point decides for the whole box. Not set: anywhere.
   std::function<bool(const Bounds& box)> may_cross = {};
 };
 
@@ -33,10 +33,10 @@ struct ContourOptions {
 struct ContourMesh {
   TriangleMesh mesh;  // closed: every edge has two triangles that run along it in opposite directions
   /// m, measured: the largest distance from the mesh's vertices, edge midpoints and triangle centres to the
-  /// surface. Looked for along the mesh's normal there, both ways, up to two cells, and where it is not near
+  /// surface. Searched along the mesh's normal there, both ways, up to two cells, and where it is not near
   /// in other directions too; so each is an upper bound of the point's true distance. Where nothing is found,
-  /// the cell's diagonal counts. 0 where it is not to be measured. How far the surface is from the mesh,
-  /// where it has parts that the mesh lacks (those thinner than a cell), is not in it.
+  /// the cell's diagonal counts. 0 where it is not to be measured. Parts of the surface that the mesh lacks
+  /// (those thinner than a cell) are not measured.
   double error = 0.0;
   /// A place of the solid's surface that the mesh lacks, m, if one was found; only of CSG trees (csg_mesh.h).
   std::optional<Vector3> lost = std::nullopt;

@@ -11,30 +11,30 @@ namespace {
 
 using Kind = CsgAtom::Kind;
 
-constexpr double kSimilar = 1e-12;       // how far a transform may be from keeping angles, relatively
+constexpr double kSimilar = 1e-12;       // relative tolerance of transforms that keep angles
 constexpr double kMaxTurn = 0.3;         // rad, of one walk
 constexpr int kMaxWalk = 24;             // steps
-constexpr double kClose = 0.1;           // of the tightest bend: so near the surface a goal has one foot
+constexpr double kClose = 0.1;           // of the tightest bend: goals so near the surface have one foot
 constexpr double kArrived = 1e-15;       // a step this small, relative to the place's coordinates, is none
-constexpr double kAlmost = 1e-6;         // of the longest step: the last of a walk that is slow to end
-constexpr double kApex = 1e-7;           // of the way to the goal: so near a cone's apex is at it
-constexpr double kSideRounding = 1e-12;  // of coordinates: what distances are sure to
+constexpr double kAlmost = 1e-6;         // of the longest step: allowed for the last step of a slow walk
+constexpr double kApex = 1e-7;           // of the goal's distance: a place so near a cone's apex is at it
+constexpr double kSideRounding = 1e-12;  // of coordinates: the accuracy of distances
 constexpr double kCustomStride = 0.02;   // of a custom primitive's size
 
 /// The part of a vector across z.
 Vector3 across(const Vector3& v) { return {v.x(), v.y(), 0.0}; }
 
-/// A unit vector along `v`; any of the plane z = 0 where there is none.
+/// A unit vector along `v`, whose length is given; one in the plane z = 0 where that is 0.
 Vector3 direction(const Vector3& v, double length) {
   return length > 0.0 ? Vector3(v / length) : Vector3::UnitX();
 }
 
-/// The point of a capsule's axis that its surface surrounds nearest to `point`.
+/// The point nearest to `point` on the axis of a capsule.
 Vector3 spine(const CsgAtom& capsule, const Vector3& point) {
   return {0.0, 0.0, std::clamp(point.z(), -capsule.b, capsule.b)};
 }
 
-/// The circle's point that a torus's tube surrounds nearest to `point`.
+/// The point nearest to `point` on the circle in the middle of a torus's tube.
 Vector3 core(const CsgAtom& torus, const Vector3& point) {
   const Vector3 out = across(point);
   return torus.a * direction(out, out.norm());
@@ -46,7 +46,7 @@ bool beyond_apex(const CsgAtom& cone, const Vector3& point) {
   return radius * cone.b * cone.b < -(cone.a + cone.b * point.z());
 }
 
-/// From the apex to `point`, also in the tree's frame, which may be stretched.
+/// The unit normal that in the tree's frame, which may be stretched, points from the apex to `point`.
 Vector3 beyond_normal(const CsgAtom& cone, const Vector3& point) {
   const Vector3 way = cone.metric * (point - apex(cone));
   const double length = way.norm();
@@ -100,7 +100,7 @@ Vector3 bend(const CsgAtom& atom, const Vector3& point, const Vector3& along) {
              (around.dot(along) / (radius * std::hypot(1.0, atom.kind == Kind::ConeSide ? atom.b : 0.0)));
     }
     case Kind::Torus: {
-      // Around the tube with its own radius, around the axis with the distance from it.
+      // The curvature around the tube is by its own radius, around the axis by the distance from it.
       const Vector3 out = across(point);
       const double radius = out.norm();
       if (radius <= 0.0) return along / atom.b;
@@ -122,8 +122,8 @@ struct Tangents {
   Vector3 u, v;
 };
 
-/// One Newton step downhill along the surface: the distance to `goal` in the tree's frame, with the
-/// surface's own curvature where that makes a minimum, without it where it does not.
+/// One Newton step along the surface that reduces the distance to `goal` in the tree's frame, with the
+/// surface's own curvature where that makes a minimum, without it elsewhere.
 Vector3 downhill(const CsgAtom& atom, const SurfacePoint& at, const Vector3& goal) {
   const Tangents tangent(at.normal);
   const Vector3 pull = atom.metric * (at.point - goal);
@@ -190,7 +190,7 @@ RealRoots sphere_crossings(double radius, const Vector3& start, const Vector3& s
   return quadratic(start.squaredNorm() - radius * radius, 2.0 * start.dot(step), step.squaredNorm());
 }
 
-/// Of a convex body: one way in and one way out, on its side or one of its ends; on a seam both twice.
+/// A convex body has one crossing in and one out, on its side or one of its ends; on a seam they come twice.
 RealRoots capsule_crossings(const CsgAtom& atom, const Vector3& start, const Vector3& step) {
   RealRoots roots;
   const auto height = [&](double t) { return start.z() + t * step.z(); };
@@ -220,7 +220,7 @@ Affine3 placed(const Affine3& tree_from_leaf, const Vector3& origin, const Vecto
   return tree_from_leaf * leaf_from_atom;
 }
 
-/// Takes a primitive apart.
+/// Adds the atoms of a primitive.
 class PrimitiveAtoms {
  public:
   PrimitiveAtoms(const Affine3& tree_from_leaf, std::vector<CsgAtom>& into)
@@ -430,7 +430,7 @@ WalkEnd walk(const CsgAtom& atom, const Vector3& from, const Vector3& goal) {
     if (at_apex || (atom.similar && beyond_apex(atom, goal))) return {retract(atom, goal), true};
   }
   const double radius = tightest_bend(atom, start.point);
-  // All round the top of a torus normals are alike.
+  // Normals are alike all round the top of a torus, where the distance must count as well.
   const auto within = [&](const SurfacePoint& place, double turn) {
     return place.normal.dot(start.normal) >= std::cos(turn) &&
            (atom.kind != Kind::Torus || (place.point - start.point).norm() <= turn * radius);

@@ -9,8 +9,8 @@
 
 namespace icome::geometry {
 
-/// One smooth surface that divides space in two: what faces of solids lie on. A box is the intersection
-/// of six, a cylinder of three. In a frame of its own:
+/// One smooth surface that divides space in two, on which faces of solids lie. A box is the intersection
+/// of six, a cylinder of three. Its kinds, in its own frame:
 struct CsgAtom {
   enum class Kind : std::uint8_t {
     Plane,     // solid below z = 0
@@ -20,13 +20,13 @@ struct CsgAtom {
     Torus,     // tube of radius b around the circle of radius a in the plane z = 0
     Capsule,   // all within a of the axis from z = -b to b
     Mesh,      // a closed mesh; its triangles are separate faces
-    Custom,    // whatever answers the three questions
+    Custom,    // any that answers the three queries
   };
 
   CsgAtom(Kind atom_kind, double size_a, double size_b, const Affine3& tree_from_frame);
 
   Kind kind;
-  bool subtracted = false;  // the solid lies behind it: its faces are felt from within
+  bool subtracted = false;  // the solid lies behind it: its faces are touched from within
   double a, b;              // m
   Affine3 tree_from_atom, atom_from_tree;
   Matrix3 normal_map;   // takes unit normals of the atom's frame to normals of the tree's, not unit
@@ -37,10 +37,10 @@ struct CsgAtom {
   std::shared_ptr<const CsgPrimitive> custom;  // of a Custom, else null
 };
 
-/// The atoms of a leaf, whose intersection it is.
+/// The atoms whose intersection the leaf is.
 std::vector<CsgAtom> atoms(const CsgLeaf& leaf);
 
-/// Can the surface at a distance from the atom's be told in closed form? For planes and meshes (triangle by
+/// Is the surface at a distance from the atom's known in closed form? For planes and meshes (triangle by
 /// triangle) however they are stretched, for curved kinds while angles are kept.
 bool has_offset(const CsgAtom& atom);
 
@@ -58,11 +58,11 @@ double signed_distance(const CsgAtom& atom, const Vector3& point);
 /// For meshes, too.
 std::optional<bool> side_of(const CsgAtom& atom, const Bounds& box);
 
-/// Where the distance is zero, straight along its gradient from `point`.
+/// The place at which the distance is zero, straight along its gradient from `point`.
 SurfacePoint retract(const CsgAtom& atom, const Vector3& point);
 
-/// How far in front of the surface `point` is (m), and the unit normal there: in the tree's frame, to first
-/// order.
+/// The signed distance (m) of `point` in front of the surface, and the unit normal there: in the tree's
+/// frame, to first order.
 struct AtomHeight {
   double height;
   Vector3 normal;
@@ -72,7 +72,7 @@ AtomHeight height_in_tree(const CsgAtom& atom, const Vector3& point);
 /// The radius (m, the atom's frame) of the tightest bend near a place of the surface; infinite for a plane.
 double tightest_bend(const CsgAtom& atom, const Vector3& place);
 
-/// Where start + t step changes sides, t in [0, 1]: rising t. Not for Custom.
+/// The t in [0, 1], rising, at which start + t step changes sides. Not for Custom.
 RealRoots crossings(const CsgAtom& atom, const Vector3& start, const Vector3& step);
 
 /// Walks along the surface, from the place nearest to `from`, downhill in the distance (as measured in

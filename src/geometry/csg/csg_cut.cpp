@@ -24,34 +24,34 @@ using Corners4 = std::array<std::uint32_t, 4>;
 using Triangle = TriangleMesh::Triangle;
 
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
-constexpr double kOnSurface = 1e-10;  // of the coordinates: so near, a point is on a surface
-constexpr double kRootExact = 1e-4;   // of that: so near, a cut is as exact as can be
-constexpr double kHighEnough = 10.0;  // of that: triangles that merging may leave
+constexpr double kOnSurface = 1e-10;  // of the coordinates: a point so near a surface is on it
+constexpr double kRootExact = 1e-4;   // of kOnSurface: the accuracy of a cut
+constexpr double kHighEnough = 10.0;  // of kOnSurface: the least height of triangles made by merging
 constexpr int kRootSteps = 80;
 constexpr std::size_t kTetsATriangle = 4;  // more tetrahedra than this for each triangle allowed are too many
 constexpr std::size_t kMostTets = 1'500'000;   // however many triangles are allowed: they take some seconds
 constexpr std::size_t kMostPieces = 100'000;   // of one tetrahedron
 constexpr std::size_t kMostCuts = 50'000'000;  // cuts of pieces by surfaces, all told
 constexpr std::size_t kFewMeshTriangles =
-    2'000;  // of all meshes in a tree: more are better sampled, if that does
+    2'000;  // of all meshes in a tree: with more, sampling is tried first
 constexpr std::size_t kMostMeshTriangles = 20'000;  // of all meshes in a tree that is cut at all
-constexpr std::size_t kTellEachCut = 1 << 16;       // of them between two looks at `go_on`
+constexpr std::size_t kTellEachCut = 1 << 16;       // cuts between two calls of `go_on`
 constexpr double kMakingTetsPart = 0.4;             // of the whole work
-constexpr double kCuttingPart = 2.0 / 3.0;          // of what follows; the rest is merging
+constexpr double kCuttingPart = 2.0 / 3.0;          // of the remaining work; the rest is merging
 constexpr std::array<std::array<int, 2>, 6> kPieceEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-/// Of a tetrahedron of positive volume, facing out.
+/// The faces of a tetrahedron of positive volume, facing out.
 constexpr std::array<std::array<int, 3>, 4> kPieceFaces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 
-/// A point at which pieces have a corner: one of the tetrahedra's, or where a surface cuts an edge.
+/// A corner of pieces: a point of the tetrahedra, or one at which a surface cuts an edge.
 struct CutPoint {
   Vector3 place;
   CsgSurfaces::Index surface = CsgSurfaces::kNone;        // on which it was put
   std::array<std::uint32_t, 2> ends{kNoPoint, kNoPoint};  // of the edge that was cut
-  /// The corners of the smallest side of a tetrahedron that holds it, rising: all that its cuts depend on.
+  /// The corners of the smallest side of a tetrahedron that holds it, rising: its cuts depend only on these.
   Corners4 carrier{kNoPoint, kNoPoint, kNoPoint, kNoPoint};
 };
 
-/// The side of a piece, with what is behind it.
+/// A face of a piece; `solid` tells whether that piece is solid.
 struct PieceFace {
   Triangle key;     // its points, rising
   Triangle facing;  // facing out of the piece
@@ -115,8 +115,8 @@ class CsgCutter {
     return merge_faces(result, faces, tips, kHighEnough * on_, fits, go_on);
   }
 
-  /// -1 behind the surface, 1 in front of it, 0 on it. Cuts are flat: along an edge that was cut later, a
-  /// point is on the side on which the edge is.
+  /// The point's side: -1 behind the surface, 1 in front of it, 0 on it. Cuts are flat: a point on an edge
+  /// that was cut later is on the side of that edge.
   int side(std::uint32_t index, Surface surface) const {
     const CutPoint& point = points_[index];
     if (point.surface == surface) return 0;
@@ -128,7 +128,7 @@ class CsgCutter {
     return std::abs(distance) <= on_ ? 0 : distance < 0.0 ? -1 : 1;
   }
 
-  /// The distance from a surface, m, as far as its transform is even.
+  /// The signed distance from a surface, m; exact where its transform is even.
   double height(const Vector3& place, Surface surface) const {
     const CsgAtom& atom = surfaces_.shape(surface);
     return signed_distance(atom, atom.atom_from_tree * place) * std::sqrt(3.0) / atom.most_stretch;
@@ -172,7 +172,7 @@ class CsgCutter {
     return best;
   }
 
-  /// Where the surface crosses the edge, between points on either side of it.
+  /// The place at which the surface crosses the edge between two points on either side of it.
   Vector3 crossing(std::uint32_t a, std::uint32_t b, Surface surface) const {
     const Vector3 start = points_[a].place, step = points_[b].place - start;
     double low = 0.0, high = 1.0, at_low = height(start, surface), at_high = height(start + step, surface);
@@ -209,7 +209,7 @@ class CsgCutter {
     return found->second;
   }
 
-  /// Divides every piece that the surface passes, edge by edge; in an order that its neighbours share.
+  /// Divides every piece that the surface passes, edge by edge, in an order that its neighbours share.
   void cut_along(Surface surface, std::vector<Corners4>& pieces) {
     std::vector<Corners4> result;
     std::vector<std::array<std::uint32_t, 2>> crossed;
@@ -242,7 +242,7 @@ class CsgCutter {
   }
 
   base::Result<void> cut(const CsgTets::Tet& tet, const ContourProgress& go_on) {
-    std::vector<Surface> passing;  // an edge, perhaps beyond what is open here
+    std::vector<Surface> passing;  // an edge of it, also those that are not open in it
     for (const std::uint32_t corner : tet.corners)
       passing.insert(passing.end(), open_at_[corner].begin(), open_at_[corner].end());
     make_set(passing);
@@ -293,7 +293,7 @@ class CsgCutter {
     });
   }
 
-  /// Faces between solid and free pieces are the surface; those that find no other half go to `lone`.
+  /// Takes faces between solid and free pieces as surface; those without counterpart go to `lone`, if given.
   void pair_up(std::vector<PieceFace>& faces, std::vector<PieceFace>* lone) {
     std::sort(faces.begin(), faces.end());
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -313,7 +313,7 @@ class CsgCutter {
   double on_;  // m
   std::size_t cuts_ = 0, tell_at_ = 0;
   std::vector<CutPoint> points_;
-  std::vector<std::vector<Surface>> open_at_;  // by point of the tetrahedra: of all around it
+  std::vector<std::vector<Surface>> open_at_;  // by point of the tetrahedra: those of all around it
   std::unordered_map<std::uint64_t, std::uint32_t> cut_edges_;
   std::vector<PieceFace> between_;  // tetrahedra
   std::vector<Triangle> triangles_;
@@ -323,7 +323,7 @@ class CsgCutter {
 
 base::Result<TriangleMesh> cut_csg(const CsgTree& tree, double cell, std::size_t max_triangles,
                                    const ContourProgress& go_on) {
-  // What is straight lies along z, where tetrahedra may be long.
+  // The straight direction is turned to z, along which tetrahedra may be long.
   base::Quaternion tree_from_z = base::Quaternion::Identity();
   if (const auto way = straight_way(CsgProgram(tree)))
     tree_from_z = base::rotation_between(Vector3::UnitZ(), *way);

@@ -13,18 +13,18 @@ namespace {
 using Kind = CsgAtom::Kind;
 
 // Shares of the solid's size:
-constexpr double kFitted = 1e-13;      // how far a polynomial may be from its edge
+constexpr double kFitted = 1e-13;      // tolerance of a polynomial to its edge
 constexpr double kCoincident = 1e-13;  // surfaces so near are the same
-constexpr double kCutAt = 1e-9;        // to which ends of edges are found
+constexpr double kCutAt = 1e-9;        // tolerance of the ends of edges
 constexpr double kEdgeSlack = 1e-10;   // surfaces so near are taken to pass through an edge
 constexpr double kTouching =
     4e-4;  // half a cell's diagonal: here surfaces that do not cross count as touching
-constexpr double kSmallest = 1e-5;  // the same of the smallest cell
+constexpr double kSmallest = 1e-5;  // half the diagonal of the smallest cell
 
 constexpr double kParallelFaces = 1e-9;   // sine of the angle between faces
 constexpr double kFlatForCrossing = 0.2;  // turn of a surface in a cell, in terms of the angle between both
-constexpr double kArcMargin = 0.4;        // of half a cell's diagonal: how far its arc reaches out of it
-constexpr double kMostTurnInCell = 0.25;  // rad: so far the turn of a surface is bounded by its tightest bend
+constexpr double kArcMargin = 0.4;        // of half a cell's diagonal: the reach of its arc out of it
+constexpr double kMostTurnInCell = 0.25;  // rad: up to here its tightest bend bounds the turn of a surface
 constexpr std::size_t kMostCellsOfPair = 1'000'000;
 constexpr std::size_t kMostInAll = 8'000'000;
 constexpr int kMostNewton = 24;
@@ -55,7 +55,7 @@ class Sheet {
     if (flat_) return normal_.dot(point - origin_);
     return scale_ * signed_distance(*atom_, atom_->atom_from_tree * point);
   }
-  /// Out of the atom, unit.
+  /// The unit normal out of the atom.
   Vector3 normal(const Vector3& point) const {
     return flat_ ? normal_ : tree_normal(*atom_, retract(*atom_, atom_->atom_from_tree * point).normal);
   }
@@ -81,8 +81,8 @@ class Crossing {
   Crossing(const Sheet& one, const Sheet& other, double rounding)
       : one_(one), other_(other), rounding_(rounding) {}
 
-  /// Goes from a place near by to the curve, the shortest way; false where Newton's method does not get
-  /// there.
+  /// Moves a place near by to the curve, the shortest way; false where Newton's method does not converge or
+  /// the sheets are parallel.
   bool settle(Vector3& place) {
     for (int i = 0; i < kMostNewton; ++i) {
       const Vector3 n = one_.normal(place), m = other_.normal(place);
@@ -102,7 +102,7 @@ class Crossing {
 
   const Vector3& along() const { return along_; }
 
-  /// The place of the curve so far along from where it was settled on, in the direction that it had there.
+  /// The curve's place at a distance from the settled one, along its direction there; nothing on failure.
   std::optional<Vector3> at(double distance) const {
     Vector3 place = origin_ + distance * along_;
     for (int i = 0; i < kMostNewton; ++i) {
@@ -139,7 +139,7 @@ class Crossing {
   }
 
  private:
-  /// Between its nodes, and at its ends.
+  /// Is the arc on both sheets, between its nodes and at its ends?
   bool fits(const CurveArc& arc, double tolerance) const {
     for (const double s : {-1.0, -0.93, -0.5, 0.17, 0.77, 1.0}) {
       const Vector3 place = arc.at(s);
@@ -214,7 +214,7 @@ class EdgeFinder {
     return true;
   }
 
-  /// To within the primitive, which in a tree that stands askew fills little of its box.
+  /// Clips to the primitive, which in a tilted tree fills little of its box.
   void clip_to_leaf(const Sheet& sheet, const Vector3& start, const Vector3& step, double slack,
                     double& first, double& last) const {
     const CsgAtom& atom = program_.atoms()[sheet.atom()];
@@ -224,7 +224,7 @@ class EdgeFinder {
     last = part ? std::min(last, (*part)[1]) : 0.0;
   }
 
-  /// To within the edges of a triangle.
+  /// Clips to the edges of a triangle.
   static void clip(const Sheet& sheet, const Vector3& start, const Vector3& step, double slack, double& first,
                    double& last) {
     if (!sheet.triangle()) return;
@@ -239,7 +239,7 @@ class EdgeFinder {
     }
   }
 
-  /// False when it takes too much work.
+  /// Finds the edges of two sheets by halving the box; false when it takes too much work.
   bool cross_in_cells(const Sheet& one, const Sheet& other, const Bounds& box) {
     const auto& atoms = program_.atoms();
     if (likeness(atoms[one.atom()], atoms[other.atom()], largest_coordinate(program_)) != AtomLikeness::None)
@@ -294,7 +294,7 @@ class EdgeFinder {
   }
 
   /// Are the sheets so alike in direction that their distance in the middle of a cell leaves no place in it
-  /// for both? How that distance changes is bounded by the angle between them and how much they turn.
+  /// for both? The change of that distance is bounded by the angle between them and by their turn.
   static bool stay_apart(double height, double other, const Vector3& n, const Vector3& m, double turn,
                          double half) {
     if (turn > kMostTurnInCell) return false;
@@ -303,7 +303,7 @@ class EdgeFinder {
     return apart > half * ((alike ? Vector3(n - m) : Vector3(n + m)).norm() + 1.5 * turn);
   }
 
-  /// On which sides of the other sheet do places of one in the cell lie? On none where both are the same.
+  /// The sides of the other sheet on which places of one in the cell lie; none where both are the same.
   struct Sides {
     bool above = false, below = false;
   };
@@ -348,7 +348,7 @@ class EdgeFinder {
   struct Pair {
     const Sheet &one, &other;
   };
-  /// The part kept last, which may go on.
+  /// The part kept last, which the next one may continue.
   struct Kept {
     double from = 0.0, to = 0.0;
     bool any = false;

@@ -19,7 +19,7 @@ struct OpenPart {
   std::vector<std::uint32_t> atoms;  // whose surfaces may pass it
 };
 
-/// Do some places of the atoms' surfaces belong to the solid's? So most solids soon show that they are not
+/// Do some places of the atoms' surfaces belong to the solid's? That soon shows that most solids are not
 /// empty.
 bool shows_surface(const CsgProgram& program) {
   base::Random random(1);

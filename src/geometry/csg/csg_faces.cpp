@@ -11,10 +11,10 @@ namespace {
 using Kind = CsgAtom::Kind;
 
 constexpr int kMaxTrace = 400;        // steps of a sphere trace
-constexpr double kTraceShare = 1e-9;  // of the way: how near a trace comes before it counts as there
+constexpr double kTraceShare = 1e-9;  // of the way: a trace so near has arrived
 constexpr double kMargin = 1e-9;      // boxes are this much larger than what they hold, relatively
 
-/// The box around where a plane passes through a box; empty when it does not.
+/// The bounds of a plane's section through a box; empty when the plane misses the box.
 Bounds plane_in_box(const Vector3& origin, const Vector3& normal, const Bounds& box) {
   Bounds result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -44,7 +44,7 @@ Bounds grown(const Bounds& box) {
   return {box.min() - margin, box.max() + margin};
 }
 
-/// Finds where a segment goes through one face.
+/// Finds the places at which a segment goes through one face.
 class FacePassage {
  public:
   FacePassage(const CsgAtom& atom, bool inwards, const Vector3& start, const Vector3& step, double slack)
@@ -69,7 +69,7 @@ class FacePassage {
     return std::nullopt;
   }
 
-  /// The same for a triangle of a mesh.
+  /// The t at which the segment goes through a triangle of a mesh, if `accept` returns true; else nothing.
   template <typename Accept>
   std::optional<double> first(const PlacedTriangle& triangle, Accept&& accept) const {
     const double fall = triangle.normal.dot(step_);
@@ -89,7 +89,7 @@ class FacePassage {
     return distance <= slack_ * (atom_.normal_map * here.normal).norm();
   }
 
-  /// Steps as far as the distance allows.
+  /// Sphere tracing: each step is as long as the distance allows.
   template <typename Accept>
   std::optional<double> trace(const Vector3& start, const Vector3& step, Accept&& accept) const {
     const double length = step.norm();
@@ -110,7 +110,7 @@ class FacePassage {
       before = after;
     }
     if (t >= 1.0) return std::nullopt;
-    // Out of steps close along the surface: to stop is safe.
+    // Out of steps, close along the surface: stopping there is safe.
     const Vector3 normal = tree_normal(atom_, retract(atom_, start + t * step).normal);
     return accept(t, start_ + t * step_, normal) ? std::optional(t) : std::nullopt;
   }

@@ -64,7 +64,7 @@ class CsgFaces {
 
   CsgProgram program_;
   double tip_;
-  std::vector<CsgAtom> rests_;   // the atoms at the tip's radius, where there is one
+  std::vector<CsgAtom> rests_;   // the atoms at the tip's radius, if that is not 0
   std::vector<Face> faces_;      // in the tree's order
   std::vector<FloatBox> boxes_;  // of the faces
   BoxTree tree_;

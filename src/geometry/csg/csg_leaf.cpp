@@ -14,9 +14,9 @@
 namespace icome::geometry {
 namespace {
 
-// ---- How far a shape reaches along a direction ----------------------------------------------------
-// The box around an affine image: along each axis of the tree, the shape's support function for the row
-// of the matrix that belongs to the axis.
+// ---- The extent of a shape along a direction ------------------------------------------------------
+// The box around an affine image has along each axis of the tree the extent given by the shape's support
+// function for the row of the matrix that belongs to the axis.
 
 struct SupportRange {
   double low, high;
@@ -24,7 +24,7 @@ struct SupportRange {
 
 SupportRange both_ways(double half) { return {-half, half}; }
 
-/// The least and most that the sum of row * x takes over a box, which may be infinite along some axes.
+/// The least and the largest sum of row * x over a box, which may be infinite along some axes.
 SupportRange support_along(const Bounds& box, const Vector3& row) {
   SupportRange sum{0.0, 0.0};
   for (int k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ SupportRange support_along(const Sphere& sphere, const Vector3& row) {
   return both_ways(sphere.radius * row.stableNorm());
 }
 
-/// How far discs across the z axis reach, per metre of their radius.
+/// The reach along `row` of discs across the z axis, per metre of their radius.
 double disc_reach(const Vector3& row) { return std::hypot(row.x(), row.y()); }
 
 SupportRange support_along(const Cone& cone, const Vector3& row) {
@@ -82,7 +82,7 @@ Bounds placed_bounds(const Extent& extent, const Affine3& placing) {
   return box;
 }
 
-// ---- What each kind of shape answers --------------------------------------------------------------
+// ---- The answers of each kind of shape ------------------------------------------------------------
 
 struct BoundsOfShape {
   const Affine3& placing;
@@ -101,7 +101,7 @@ struct BoundsOfShape {
   }
 };
 
-/// What rounding can make of a point of the mesh: a few units in the last place of the coordinates.
+/// The rounding error of a point of the mesh: a few units in the last place of the coordinates.
 double mesh_rounding(const MeshSolid& solid, const Vector3& point) {
   const Bounds& box = solid.tree.bounds();
   const double size = std::max(
@@ -109,14 +109,14 @@ double mesh_rounding(const MeshSolid& solid, const Vector3& point) {
   return 8 * std::numeric_limits<double>::epsilon() * size;
 }
 
-/// Rays decide for points away from the surface; on it they go either way, and it counts as inside.
+/// Rays decide for points away from the surface; on it they are unreliable, and points count as inside.
 bool inside_mesh(const MeshSolid& solid, const Vector3& point) {
   const double slack = mesh_rounding(solid, point);
   if (!(solid.tree.bounds().squaredExteriorDistance(point) <= slack * slack)) return false;
   return solid.tree.encloses(point) || solid.tree.nearest(point, slack).has_value();
 }
 
-/// On a face the face's normal; on edges and vertices along the line to the point, as primitives do.
+/// The normal on a face is the face's, on edges and vertices along the line to the point, as of primitives.
 SurfacePoint nearest_of_mesh(const MeshSolid& solid, const Vector3& point) {
   const std::optional<MeshHit> hit = solid.tree.nearest(point);
   if (!hit) return {point, Vector3::UnitZ()};  // a point so far away that its square overflows
@@ -232,7 +232,7 @@ TriangleMesh CsgLeaf::tessellate(double tolerance) const {
   const double stretch = base::singular_values(tree_from_shape_.linear()).values[0];
   TriangleMesh mesh = std::visit(MeshOfShape{tolerance / stretch}, shape_);
   for (Vector3& position : mesh.positions) position = tree_from_shape_ * position;
-  // Of the matrix made of size one: the determinant of a scale by 1e-120 underflows.
+  // The matrix is first brought to size one: the determinant of a scale by 1e-120 underflows.
   if ((tree_from_shape_.linear() / stretch).determinant() < 0.0) {
     for (TriangleMesh::Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   }

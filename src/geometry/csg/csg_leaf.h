@@ -12,7 +12,7 @@ namespace icome::geometry {
 
 using base::Affine3;
 
-/// A closed mesh as an operand of a CSG tree, with the tree that answers for it. Immutable, shared.
+/// A closed mesh as an operand of a CSG tree, with a triangle tree for its queries. Immutable, shared.
 struct MeshSolid {
   explicit MeshSolid(TriangleMesh closed_mesh) : mesh(std::move(closed_mesh)), tree(mesh) {}
 
@@ -20,7 +20,7 @@ struct MeshSolid {
   TriangleTree tree;
 };
 
-/// A primitive of your own: what can answer the three questions of thesis section 5.5 can be an operand
+/// A primitive of your own: anything that answers the three queries of thesis section 5.5 can be an operand
 /// of a CSG tree. Immutable, in its own frame (m).
 class CsgPrimitive {
  public:
@@ -37,7 +37,7 @@ class CsgPrimitive {
   virtual std::string name() const = 0;
 };
 
-/// What a leaf may be. Pointers are never null.
+/// The shape of a leaf. Pointers are never null.
 using CsgShape =
     std::variant<Primitive, std::shared_ptr<const MeshSolid>, std::shared_ptr<const CsgPrimitive>>;
 
@@ -48,7 +48,7 @@ bool shape_encloses(const CsgShape& shape, const Vector3& point);
 Bounds shape_bounds(const CsgShape& shape, const Affine3& placing);
 /// The inverse, also of scales so small that their determinant underflows.
 Affine3 unplacing(const Affine3& placing);
-/// For people: "box:0.1x0.2x0.3", "mesh of 12 triangles", or the name of a primitive of your own.
+/// A readable name: "box:0.1x0.2x0.3", "mesh of 12 triangles", or that of a primitive of your own.
 std::string shape_name(const CsgShape& shape);
 
 /// A shape placed in a tree by an invertible affine transform, which may stretch, shear and mirror it.
@@ -59,13 +59,13 @@ class CsgLeaf {
   const CsgShape& shape() const { return shape_; }
   const Affine3& tree_from_shape() const { return tree_from_shape_; }
   const Affine3& shape_from_tree() const { return shape_from_tree_; }
-  /// In the tree's frame, as tight as the shape allows (exact for every built-in primitive and a mesh,
+  /// Bounds in the tree's frame, as tight as the shape allows (exact for every built-in primitive and a mesh,
   /// stretched, sheared or mirrored; for a primitive of your own, around the corners of its box).
   const Bounds& bounds() const { return bounds_; }
 
-  // The three questions of 5.5 in the tree's frame (m). Exact under rotation, translation and uniform
-  // scale; under other transforms the points are the images of the shape's own answers, on the surface
-  // but not quite the nearest, and the normals are the surface's there. Real-time safe.
+  // The three queries of thesis section 5.5 in the tree's frame (m). Exact under rotation, translation and
+  // uniform scale; under other transforms the points are the images of the shape's own answers, on the
+  // surface but not quite the nearest, and the normals are the surface's there. Real-time safe.
   bool inside(const Vector3& point) const;
   SurfacePoint scp_from_inside(const Vector3& point) const;
   SurfacePoint scp_from_outside(const Vector3& point) const;

@@ -14,7 +14,7 @@ bool stretches_evenly(const Affine3& transform) {
   return (squared - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= kEven * mean;
 }
 
-/// From left to right. Does not recurse: trees may be deep.
+/// The leaves below the root, from left to right. Does not recurse: trees may be deep.
 std::vector<CsgTree::Index> leaves_below_root(const CsgTree& tree) {
   std::vector<CsgTree::Index> leaves, todo{tree.root()};
   while (!todo.empty()) {

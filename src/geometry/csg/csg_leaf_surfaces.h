@@ -20,7 +20,7 @@ class CsgLeafSurfaces {
     bool even;         // distances from it are exact
   };
 
-  /// Of the leaves below the root that reach into `box`. Precondition: the tree is not empty.
+  /// Takes the leaves below the root that reach into `box`. Precondition: the tree is not empty.
   CsgLeafSurfaces(const CsgTree& tree, const Bounds& box);
 
   const std::vector<Leaf>& leaves() const { return leaves_; }
@@ -33,11 +33,11 @@ class CsgLeafSurfaces {
   }
 
  private:
-  std::vector<Leaf> leaves_;  // so that what is near in space is near in memory
+  std::vector<Leaf> leaves_;  // sorted so that neighbours in space are near in memory
   BoxTree boxes_;
 };
 
-/// How far the place is from the surface of the leaf, as far as that tells.
+/// The distance of the place from the surface of the leaf; exact only for evenly stretched leaves.
 double distance_to_surface(const CsgLeaf& leaf, const Vector3& place);
 
 }  // namespace icome::geometry

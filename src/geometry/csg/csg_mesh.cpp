@@ -19,7 +19,7 @@ namespace {
 /// Walls below this many cells may slip between the points of a grid.
 constexpr double kThinCells = 2.0;
 constexpr double kMakingPart = 0.8;  // of the whole work, without measuring
-constexpr double kNearCells = 2.0;   // the surface is there if the mesh is so near
+constexpr double kNearCells = 2.0;   // a place of the surface is not lost if the mesh is so near
 constexpr int kMostTries = 3;        // with cells that get smaller
 constexpr double kFiner = 2.0;
 /// Distances from a primitive are trusted to this part of the coordinates.
@@ -38,16 +38,16 @@ bool may_cross(const CsgLeafSurfaces& surfaces, const Bounds& box) {
   return crossed;
 }
 
-/// Is there solid behind the place, and none before it, by more than rounding? Faces that lie in one another
-/// have slivers between them that are none.
+/// Is there solid behind the place, and none before it, by more than rounding? Faces that coincide have
+/// slivers between them that are only rounding.
 bool is_more_than_rounding(const CsgProgram& program, const SurfacePoint& place) {
   constexpr double kRounding = 1e-9;  // of the coordinates
   const Vector3 off = kRounding * largest_coordinate(program) * place.normal;
   return program.inside(place.point - off) && !program.inside(place.point + off);
 }
 
-/// A place of the solid's surface that is farther from the mesh than `reach` (m), where chance finds one. Of
-/// a primitive that has little share in the surface many places are thrown away before one counts, as of two
+/// A place of the solid's surface that is farther from the mesh than `reach` (m), if random trials find one.
+/// For a primitive with little share in the surface, many places are discarded before one counts, as for two
 /// large spheres whose intersection is a thin lens.
 std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMesh& mesh, double reach) {
   constexpr std::size_t kMostAsked = 2000;     // atoms
@@ -69,7 +69,7 @@ std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMe
   return std::nullopt;
 }
 
-/// Meshes one tree by the ways that there are.
+/// Meshes one tree by cutting out, by sampling, or by one after the other.
 class CsgMesher {
  public:
   CsgMesher(const CsgTree& tree, const ContourOptions& options)
@@ -98,7 +98,7 @@ class CsgMesher {
         if (cuts && !can_cut) continue;
         auto made = cuts ? cut_out(cell) : by_cells(cell);
         if (stopped_ || (!made && is_limited_in_triangles() && !best)) return made;
-        can_cut = can_cut && (made || !cuts);  // what took too much takes more with smaller cells
+        can_cut = can_cut && (made || !cuts);  // too much work gets more with smaller cells
         if (!made) continue;
         made->lost = missing_place(program(), made->mesh, kNearCells * options_.cell);
         best = std::move(*made);
@@ -110,7 +110,7 @@ class CsgMesher {
 
  private:
   const CsgProgram& program() const { return compiled_.program(); }
-  /// Who says how many triangles are allowed hears that they do not suffice.
+  /// Has the caller limited the number of triangles? Then an error tells that they do not suffice.
   bool is_limited_in_triangles() const { return options_.max_triangles < ContourOptions().max_triangles; }
 
   bool go_on(double part) {

@@ -25,7 +25,7 @@ struct NormalisedTree {
   std::size_t pruned = 0;  // nodes that the form would have more without pruning
 };
 
-/// The same solid in another form. Idempotent: a tree in the form comes back as it is. In Normal form the
+/// Brings the solid into another form. Idempotent: a tree in the form comes back as it is. In Normal form the
 /// operands of a product keep the tree's order, those that are subtracted after the others. Fails, naming the
 /// size, when the result would have more than `max_nodes` nodes. Does not recurse.
 base::Result<NormalisedTree> normalise(const CsgTree& tree, CsgForm form,
@@ -37,7 +37,7 @@ struct CsgFactor {
   bool subtracted;  // or else intersected
   std::optional<CsgTree::Colour> colour;
 };
-/// What is in all of the intersected operands, of which the first is one, and in no subtracted one.
+/// The space in all of the intersected operands, the first of them included, and in no subtracted one.
 using CsgProduct = std::vector<CsgFactor>;
 
 /// The products whose union a tree in Normal form is, from left to right.

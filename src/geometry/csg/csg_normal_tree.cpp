@@ -55,10 +55,10 @@ class Multiplication {
   }
 
  private:
-  // A result within the limit takes fewer, unless nearly all is dropped late.
+  // Results within the limit take fewer steps, unless nearly all is dropped late.
   static constexpr std::uint64_t kStepsPerNode = 64;
 
-  /// What is still to be multiplied by, last first; shared by the choices that branch off.
+  /// A list of the terms still to be multiplied by, last first; shared by the choices that branch off.
   struct Pending {
     Term term;
     Index next;
@@ -66,14 +66,14 @@ class Multiplication {
 
   struct Choice {
     Term second;
-    Index pending;                // after it
-    std::size_t cells, literals;  // at it
-    Bounds box;                   // before it
+    Index pending;                // the terms after it
+    std::size_t cells, literals;  // the sizes of the lists at it
+    Bounds box;                   // the product's box before it
     bool at_second;
     std::optional<Index> first;  // the tree that its first side became
   };
 
-  /// Meets all products, counts their nodes and, the second time, makes them.
+  /// Visits all products, counts their nodes and, the second time, makes them.
   bool pass() {
     size_ = 0;
     pending_ = CsgPlan::kNothing;
@@ -96,7 +96,7 @@ class Multiplication {
 
   bool lives() const { return !box_.isEmpty(); }
 
-  /// Down to the leaves of one product, taking the first side of each choice.
+  /// Walks down to the leaves of one product, taking the first side of each choice.
   void walk_down() {
     while (pending_ != CsgPlan::kNothing && lives() && spend(1)) {
       const Term term = cells_[pending_].term;
@@ -116,7 +116,7 @@ class Multiplication {
     }
   }
 
-  /// Adds the chain of the literals at hand, the intersected ones first. They were found last to first.
+  /// Adds the chain of the current literals, the intersected ones first. They were found last to first.
   void make_product() {
     made_.reset();
     if (!lives() || failure_ || !spend(literals_.size())) return;
@@ -130,7 +130,7 @@ class Multiplication {
     }
   }
 
-  /// Up past the choices that are done; on to the second side of the next, if there is one.
+  /// Walks up past the choices that are done and on to the second side of the next; false if there is none.
   bool walk_up() {
     for (; !choices_.empty(); choices_.pop_back()) {
       Choice& choice = choices_.back();
@@ -205,7 +205,7 @@ class Multiplication {
   std::optional<std::string> failure_;
 };
 
-/// Of a term multiplied out: its products, and their leaves in all.
+/// A term multiplied out: the numbers of its products and of their leaves in all.
 struct ProductCount {
   double products, leaves;
 };

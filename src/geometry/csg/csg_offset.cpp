@@ -14,10 +14,10 @@ namespace {
 using Kind = CsgAtom::Kind;
 
 constexpr double kMostTurn = 0.3;  // rad, of one walk round a tube
-constexpr double kInTouch = 1e-9;  // of the bounds: who overlaps by less is at the surface
+constexpr double kInTouch = 1e-9;  // of the bounds: a ball that overlaps by less is at the surface
 constexpr int kMostPushes = 8;     // from one piece to the next
 
-/// Why the surface at a distance is not known in closed form; empty where it is.
+/// The reason why the surface at a distance is not known in closed form; empty where it is.
 std::string reason_against(const CsgProgram& program, double radius) {
   const Bounds& box = program.bounds();
   if (!box.min().allFinite() || !box.max().allFinite()) return "the solid has no bounds";
@@ -31,7 +31,7 @@ std::string reason_against(const CsgProgram& program, double radius) {
   return {};
 }
 
-/// A step around a tube towards a goal, from where the normal is `out`.
+/// A step around a tube towards a goal, from the place with the normal `out`.
 Vector3 step_round(const Vector3& out, const Vector3& pull, double radius) {
   const Vector3 along = pull - out.dot(pull) * out;
   const double length = along.norm(), most = kMostTurn * radius;
@@ -77,7 +77,7 @@ void CsgOffset::near(const Vector3& a, const Vector3& b, double reach, double /*
     return more;
   });
   if (!more) return;
-  // Boxes of tubes as thick as a tip are loose, and with them everything around would be near.
+  // Boxes of tubes as thick as a tip are loose: by them alone, everything around would be near.
   const double within = radius() + reach + kInTouch * radius();
   edge_tree_.near(SegmentQuery(a, b, reach), [&](std::uint32_t i) {
     if (edges_[i].least_distance(a, b) > within) return true;
@@ -160,7 +160,7 @@ bool CsgOffset::inside(const Vector3& point, double /*time*/) const {
   return walls_.program().inside(point) || overlaps(point);
 }
 
-// From piece to piece, where a ball overlaps a little; else along straight lines.
+// Moves from piece to piece where a ball overlaps a little; else along straight lines.
 std::optional<SurfacePlace> CsgOffset::way_out(const Vector3& point, double time) const {
   if (!inside(point, time)) return std::nullopt;
   const double clear = 2.0 * kInTouch * bounds().sizes().maxCoeff();

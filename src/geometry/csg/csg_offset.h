@@ -9,15 +9,15 @@
 
 namespace icome::geometry {
 
-/// Where the centre of a ball is that touches a CSG solid: the solid's surface at the ball's radius. Below a
-/// ball that touches lies a face, an edge or a corner, so the pieces are the faces at that distance
-/// (CsgFaces), and tubes around the edges (csg_edges), whose round ends are the balls around the corners. All
-/// places within a tube are too near to the solid, so that tubes need no trimming, and one that nothing can
-/// reach, as along a concave edge, does no harm. The solid's `inside` is where the ball's centre cannot be.
+/// The places of a ball's centre while it touches a CSG solid: the solid's surface at the ball's radius. Such
+/// a ball lies on a face, an edge or a corner, so the pieces are the faces at that distance (CsgFaces), and
+/// tubes around the edges (csg_edges), whose round ends are the balls around the corners. All places within a
+/// tube are too near to the solid, so that tubes need no trimming, and one that nothing can reach, as along a
+/// concave edge, does no harm. Points are inside() where the ball's centre cannot be.
 /// Immutable; its points are places of the centre.
 class CsgOffset final : public SmoothSurface {
  public:
-  /// For a ball of this radius (m, > 0). Fails, with a clause that says why, where the surface is not known
+  /// For a ball of this radius (m, > 0). Fails, with the reason as a clause, where the surface is not known
   /// in closed form: curved primitives that are stretched, primitives of one's own, solids without bounds,
   /// tori in whose hole the ball sticks, and edges that take too much work to find.
   static base::Result<std::shared_ptr<const CsgOffset>> create(const CsgTree& tree, double radius);
@@ -45,7 +45,7 @@ class CsgOffset final : public SmoothSurface {
   void overlapped(const Vector3& point, Visit&& visit) const;
   bool overlaps(const Vector3& point) const;
 
-  CsgFaces walls_;                    // the solid's own faces, by which its distance is told
+  CsgFaces walls_;                    // the solid's own faces, which give its distance
   CsgFaces faces_;                    // those at the ball's radius
   std::vector<CurveArc> edges_;       // in the tree's order
   std::vector<FloatBox> edge_boxes_;  // around their tubes

@@ -10,7 +10,7 @@ constexpr std::size_t kMostTried = 8;  // surfaces whose sides are tried out
 constexpr double kSamePlace = 1e-12;   // of the coordinates
 constexpr double kFlush = 1e-14;       // of the coordinates: so near, faces are flush
 
-/// An atom's side in terms of that of a surface, of which several atoms may have a share.
+/// An atom's side in terms of that of a surface, which several atoms may share.
 struct OpenSide {
   std::uint32_t atom;
   unsigned surface;
@@ -102,7 +102,7 @@ std::optional<SurfacePoint> random_place(const CsgProgram& program, std::uint32_
     const Vector3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
     place = {(a + b + c) / 3.0, (b - a).cross(c - a)};
   } else {
-    // Around the face itself: bars that stand tilted fill next to nothing of boxes along the tree's axes.
+    // Around the face itself: tilted bars fill next to nothing of boxes along the tree's axes.
     const Bounds around = program.extent(index).intersection(box.transformed(atom.atom_from_tree));
     if (around.isEmpty()) return std::nullopt;
     Vector3 start;

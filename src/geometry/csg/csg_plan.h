@@ -30,11 +30,11 @@ class CsgPlan {
   const Node& node(Index index) const { return nodes_[index]; }
   std::size_t size() const { return nodes_.size(); }
 
-  /// Drops what 5.5.5 drops: intersections whose boxes do not meet, and right sides of differences whose
-  /// boxes do not meet the left ones'.
+  /// Drops the nodes that 5.5.5 drops: intersections whose boxes do not meet, and right sides of
+  /// differences whose boxes do not meet the left ones'.
   void prune();
-  /// Drops leaves whose boxes meet nothing of what all operations above them leave to them. Only what a
-  /// product of the normal form would lose as well, but before it is multiplied out.
+  /// Drops leaves whose boxes do not meet the space that all operations above leave to them: only those that
+  /// a product of the normal form would lose as well, but before it is multiplied out.
   void narrow();
 
   std::vector<Side> sides() const;

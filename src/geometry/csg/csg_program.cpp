@@ -17,7 +17,7 @@ constexpr double kAlong = 1e-5;        // rad, between faces that count as flush
 constexpr std::size_t kGroup = 4;      // operands of a union below one box
 constexpr unsigned kMaxBranches = 64;  // places that may count as either
 
-/// As height_in_tree, for a mesh, within `reach`; nothing beyond.
+/// The distance of the point from a mesh and the normal there, in the tree's frame; nothing beyond `reach`.
 std::optional<AtomHeight> mesh_height(const CsgAtom& atom, const Vector3& in_atom, double reach) {
   const auto hit = atom.mesh->tree.nearest(in_atom, reach * atom.most_stretch);
   if (!hit) return std::nullopt;
@@ -39,16 +39,16 @@ bool behind(const CsgAtom& atom, const Vector3& point) {
   return signed_distance(atom, in_atom) <= 0.0;
 }
 
-/// What on_surface() looks with.
+/// One view of on_surface(): the place, and the side of the atom from which it is looked at.
 struct CsgProgram::SidesView {
-  std::uint32_t atom;  // the one that is looked at
+  std::uint32_t atom;  // the atom that is looked at
   bool from_behind;    // which of its sides is assumed
   const Vector3& place;
   const Vector3& normal;
   double slack;
 };
 
-/// From the tree to code. Works on parts: leaves, and operations with any number of operands.
+/// Compiles the tree to code. Works on parts: leaves, and operations with any number of operands.
 class CsgProgram::Compiler {
  public:
   Compiler(CsgProgram& program, const CsgTree& tree) : program_(program), tree_(tree) {
@@ -121,7 +121,7 @@ class CsgProgram::Compiler {
     if (is_empty(parts_[right].box)) return op == CsgOperator::Intersection ? right : left;
     const Bounds shared = parts_[left].box.intersection(parts_[right].box);
     if (op == CsgOperator::Difference && is_empty(shared)) return left;
-    // The left operand of the same operation takes the right one in, a union also the right one's.
+    // A left operand of the same operation takes the right one in; a union also takes in the right one's.
     std::uint32_t whole = left;
     if (parts_[left].is_leaf || parts_[left].op != op) {
       Part part;
@@ -149,7 +149,7 @@ class CsgProgram::Compiler {
     return std::uint32_t(parts_.size() - 1);
   }
 
-  /// Unions of many get a hierarchy of boxes; what a difference takes away is a union, too.
+  /// Unions of many get a hierarchy of boxes; the subtracted operands of a difference are a union, too.
   void group_unions() {
     const auto count = parts_.size();
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -189,8 +189,8 @@ class CsgProgram::Compiler {
     return sorted;
   }
 
-  /// Hands the boxes down: an operand's surface matters only where the operation can. Parts below a
-  /// difference's first operand are felt from within.
+  /// Hands the boxes down: an operand's surface matters only where the operation can. Operands of a
+  /// difference after the first are touched from within.
   void mark_relevant() {
     struct Visit {
       std::uint32_t part;
@@ -217,13 +217,13 @@ class CsgProgram::Compiler {
     }
   }
 
-  /// Code is made from the end: who jumps forward must know where to.
+  /// Emits the code from its end, so that the targets of forward jumps are known.
   void emit() {
     struct Frame {
       std::uint32_t part;
       std::uint32_t on_true, on_false;
       std::size_t left;     // operands to do
-      std::uint32_t start;  // of what is done
+      std::uint32_t start;  // of the code emitted so far
     };
     const auto frame = [&](std::uint32_t part, std::uint32_t on_true, std::uint32_t on_false) {
       const bool any = parts_[part].is_leaf || parts_[part].op == CsgOperator::Union;
@@ -244,7 +244,7 @@ class CsgProgram::Compiler {
       const std::size_t operand = --top.left;
       const std::uint32_t child = part.operands[operand];
       const bool taken = part.op == CsgOperator::Difference && operand > 0;
-      // `start` is where the rest of the operands begins.
+      // `start` is the beginning of the rest of the operands.
       if (part.op == CsgOperator::Union) {
         open.push_back(frame(child, top.on_true, top.start));
       } else if (taken) {

@@ -13,14 +13,14 @@ namespace icome::geometry {
 bool behind(const CsgAtom& atom, const Vector3& point);
 
 /// A CSG tree compiled to a program of tests and forward jumps: "is the point in this box?", "is it
-/// behind this atom?". Deep trees need no stack, and what is far costs one test of a box: operands of a
-/// union are grouped in space, so a point looks at what is near, not at the whole tree.
+/// behind this atom?". Deep trees need no stack, and distant parts cost one test of a box: operands of a
+/// union are grouped in space, so a point is tested against near ones, not against the whole tree.
 class CsgProgram {
  public:
   explicit CsgProgram(const CsgTree& tree);
 
   const std::vector<CsgAtom>& atoms() const { return atoms_; }
-  /// Where an atom's faces can matter at all: the boxes that 5.5.5 gives the nodes above it.
+  /// The box in which an atom's faces can matter at all, by the boxes that 5.5.5 gives the nodes above it.
   const Bounds& relevant(std::uint32_t atom) const { return relevant_[atom]; }
   /// The box around an atom's leaf, in the atom's frame: its faces lie within.
   const Bounds& extent(std::uint32_t atom) const { return extents_[atom]; }
@@ -29,8 +29,8 @@ class CsgProgram {
   /// Is the point in the solid? Real-time safe.
   bool inside(const Vector3& point) const;
 
-  /// Is there solid in the box, if `behind(atom)` tells for each atom on which side of it the box is? What is
-  /// told about atoms whose relevant() box the box does not meet makes no difference.
+  /// Is there solid in the box, if `behind(atom)` tells for each atom on which side of it the box is? Answers
+  /// about atoms whose relevant() box the box does not meet make no difference.
   template <typename Behind>
   bool inside_where(const Bounds& box, Behind&& behind) const {
     std::uint32_t at = start_;
@@ -43,13 +43,13 @@ class CsgProgram {
     return at == kTrue;
   }
 
-  /// The number of tests that finding out about a point can take.
+  /// The largest number of tests that a query about a point can take.
   std::size_t size() const { return code_.size(); }
 
   /// Does the solid's surface run along `atom` at a place of it? Decided by looking from both sides, with
-  /// all else as it is there: solid behind and free in front. What else lies within `slack` (m) and across
-  /// counts as either, so that edges leave no crack; what lies within `slack` and along (a flush face)
-  /// changes sides with the atom, so that flush faces of operands cancel or join as the solids do.
+  /// all else as it is there: solid behind and free in front. Other surfaces within `slack` (m) and across
+  /// count as either, so that edges leave no crack; those within `slack` and along (a flush face) change
+  /// sides with the atom, so that flush faces of operands cancel or join as the solids do.
   /// Real-time safe.
   bool on_surface(std::uint32_t atom, const Vector3& place, const Vector3& normal, double slack) const;
 

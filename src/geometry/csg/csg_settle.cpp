@@ -18,11 +18,11 @@ using Surface = CsgSurfaces::Index;
 constexpr int kMostSettling = 8;     // steps
 constexpr double kSettled = 1e-16;   // of the coordinates: a step so small is none
 constexpr double kAlike = 1e-6;      // of the largest eigenvalue: below, normals do not tell a direction
-constexpr double kWayOfEdge = 0.5;   // of the shortest edge around: how far a vertex may go
+constexpr double kWayOfEdge = 0.5;   // of the shortest edge around: the longest move of a vertex
 constexpr double kFacing = 0.8;      // cosine between a triangle and its surface
-constexpr double kOnItself = 1e-12;  // of the coordinates: what is so near a surface is on it
-constexpr double kBesideTip = 1e-9;  // of the coordinates: where a tip tells solid from free
-/// So many times deeper than what a chord is off, a wall or a gap goes on.
+constexpr double kOnItself = 1e-12;  // of the coordinates: places so near a surface are on it
+constexpr double kBesideTip = 1e-9;  // of the coordinates: the distance from a tip at which it is probed
+/// A wall or a gap must go on this many times deeper than the chord's distance from the surface.
 constexpr std::array<double, 5> kDepths{1.0, 2.0, 5.0, 10.0, 20.0};
 
 class VertexSettler {
@@ -38,7 +38,7 @@ class VertexSettler {
     for (std::uint32_t vertex = 0; vertex < around_.size(); ++vertex) settle(vertex);
   }
 
-  /// The vertex that lies on the surface alone and is nearest to the place moves there.
+  /// Moves the nearest vertex within `reach` that lies on the surface alone to the place, and returns it.
   std::optional<std::uint32_t> settle_nearest(Surface surface, const Vector3& place, double reach) {
     std::optional<std::uint32_t> nearest;
     for (std::uint32_t vertex = 0; vertex < around_.size(); ++vertex) {
@@ -83,7 +83,7 @@ class VertexSettler {
     return most;
   }
 
-  /// Nothing where it is no nearer to all surfaces.
+  /// The place common to all surfaces; nothing where Newton's method gets no nearer to them than `start`.
   std::optional<Vector3> common_place(const Vector3& start, const std::vector<Surface>& passing) const {
     Vector3 place = start;
     for (int i = 0; i < kMostSettling; ++i) {
@@ -95,7 +95,7 @@ class VertexSettler {
     return place;
   }
 
-  /// The shortest step to where the tangent planes meet, or to what is nearest to all of them.
+  /// The shortest step to a common point of the tangent planes, or else to the point nearest to all of them.
   Vector3 step_to(const Vector3& place, const std::vector<Surface>& passing) const {
     Matrix3 normals = Matrix3::Zero();
     Vector3 pull = Vector3::Zero();
@@ -113,7 +113,7 @@ class VertexSettler {
     return step;
   }
 
-  /// May the vertex go there: is that near, and is no triangle turned over?
+  /// May the vertex move there: is that near, and is no triangle turned over?
   bool fits(std::uint32_t vertex, const Vector3& place) const {
     const Vector3& here = mesh_.positions[vertex];
     double shortest = std::numeric_limits<double>::infinity();
@@ -125,7 +125,7 @@ class VertexSettler {
     return (place - here).norm() <= kWayOfEdge * shortest && !turns_over(vertex, place);
   }
 
-  /// Is a triangle turned over when the vertex goes there?
+  /// Is a triangle turned over when the vertex moves there?
   bool turns_over(std::uint32_t vertex, const Vector3& place) const {
     return std::any_of(around_[vertex].begin(), around_[vertex].end(), [&](std::uint32_t t) {
       std::array<Vector3, 3> before, after;
@@ -182,12 +182,12 @@ bool ChordJudge::stands_for(Surface surface, const std::array<Vector3, 3>& corne
          near_against_thickness(middle, there, facing > 0.0);
 }
 
-/// All is solid behind the surface and free in front of it, some times deeper than the place is off: what a
-/// chord takes away from a wall or adds to it is a small part of it.
+/// Is it solid behind the surface and free in front of it, to several times the place's distance from it?
+/// Then a chord takes away or adds only a small part of a wall.
 bool ChordJudge::near_against_thickness(const Vector3& place, const AtomHeight& there, bool faces_out) const {
   if (std::abs(there.height) <= kOnItself * place.norm()) return true;
   const Vector3 foot = place - there.height * there.normal;
-  const bool solid = (there.height < 0.0) == faces_out;  // where the place is
+  const bool solid = (there.height < 0.0) == faces_out;  // at the place
   return std::all_of(kDepths.begin(), kDepths.end(), [&](double depth) {
     const Vector3 way = depth * there.height * there.normal;
     return program_.inside(foot + way) == solid && program_.inside(foot - way) != solid;

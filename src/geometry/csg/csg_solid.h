@@ -28,8 +28,8 @@ class CsgSolid final : public SmoothSurface {
 
   const CsgProgram& program() const;
 
-  /// Where the segment from `a` to `b` first crosses the surface, either way, for meshing and pictures;
-  /// nothing when it does not. Real-time safe.
+  /// The first crossing of the segment from `a` to `b` with the surface, in either direction, for meshing and
+  /// pictures; nothing when there is none. Real-time safe.
   std::optional<SurfacePoint> crossing(const Vector3& a, const Vector3& b) const;
 
  private:

@@ -52,10 +52,10 @@ class SharedTree {
  private:
   /// A right side of a difference that is being rewritten.
   struct Rewriting {
-    Index from;       // what it is subtracted from
-    Index right;      // plan: what is subtracted
+    Index from;       // the solid that it is subtracted from
+    Index right;      // in the plan: the subtracted node
     bool left_done;   // of the right side's own operands
-    Index with_left;  // what became of it
+    Index with_left;  // the result for its left operand
   };
 
   Index add_leaf(Index leaf) {
@@ -63,7 +63,7 @@ class SharedTree {
     return static_cast<Index>(nodes_.size() - 1);
   }
 
-  /// Unions with and intersections of nothing, and those of boxes that do not meet, are not made.
+  /// Adds an operation. Unions with nothing, and empty intersections (by their boxes), are not made.
   Index add(CsgOperator op, Index left, Index right) {
     if (op == CsgOperator::Union && (left == CsgPlan::kNothing || right == CsgPlan::kNothing))
       return left == CsgPlan::kNothing ? right : left;
@@ -117,7 +117,7 @@ Index SharedTree::subtract(Index from, Index right, const std::vector<Index>& ma
   }
 }
 
-/// What X - Y grows to, Y rewritten by the three rules: so many copies of X, and so many nodes more.
+/// The growth of X - Y when Y is rewritten by the three rules: the copies of X, and the nodes added.
 struct Growth {
   double copies, more;
   double of(double size) const { return copies * size + more; }

@@ -17,10 +17,10 @@ namespace {
 using Index = CsgSurfaces::Index;
 using Kind = CsgAtom::Kind;
 
-constexpr double kTip = 0.1;             // of a cone's or tube's size: what is bent more counts as bent so
-constexpr double kTipOfCell = 0.6;       // in cells: the same
-constexpr double kInFace = 1e-11;        // of the coordinates: corners so near its plane lie in a face
-constexpr double kLikeDistance = 4e-12;  // of the coordinates: planes that may be alike are as far away
+constexpr double kTip = 0.1;             // of a cone's or tube's size: the least radius of bend that counts
+constexpr double kTipOfCell = 0.6;       // in cells: likewise
+constexpr double kInFace = 1e-11;        // of the coordinates: corners so near a face's plane lie in it
+constexpr double kLikeDistance = 4e-12;  // of the coordinates: distances of like planes differ by no more
 
 CsgAtom plane_through(const Vector3& place, const Vector3& normal) {
   Affine3 frame = Affine3::Identity();
@@ -37,7 +37,7 @@ class FaceGatherer {
     for (const Vector3& position : mesh.positions) at_.push_back(tree_from_mesh * position);
   }
 
-  /// Calls `face(plane, box)` for each.
+  /// Calls `face(plane, box)` for each flat face.
   template <typename Face>
   void gather(const Face& face) {
     std::vector<Vector3> areas;
@@ -122,8 +122,8 @@ void CsgSurfaces::add_faces(const CsgAtom& mesh, std::uint32_t atom, const Bound
 }
 
 void CsgSurfaces::find_likes(double length) {
-  // The first ones, by how far they are from a place that no shape is made around: the facets of a ball are
-  // all as far from its middle.
+  // The first ones, by their distance from a place that is no shape's centre: the facets of a ball are all
+  // equally far from its centre.
   std::multimap<double, Index> planes;
   const Vector3 place = length * Vector3(0.7316, -0.4487, 0.5923);
   std::vector<Index> bent;

@@ -23,36 +23,36 @@ class CsgSurfaces {
   explicit CsgSurfaces(const CsgProgram& program);
 
   std::size_t size() const { return surfaces_.size(); }
-  /// Never a mesh.
+  /// The surface's shape; never a mesh.
   const CsgAtom& shape(Index surface) const { return surfaces_[surface].shape; }
   bool is_plane(Index surface) const { return shape(surface).kind == CsgAtom::Kind::Plane; }
   /// The surface of an atom that is no mesh.
   Index of_atom(std::uint32_t atom) const { return first_[atom]; }
 
-  /// Of surfaces that lie in one another, the first, and whether what is behind it is in front of this one.
+  /// The first of the surfaces that coincide with this one, and whether it faces the opposite way.
   Index like(Index surface) const { return surfaces_[surface].like; }
   bool opposite(Index surface) const { return surfaces_[surface].opposite; }
-  /// The first ones of all that lie in others, each once, rising.
+  /// The surfaces replaced by the first that coincide with them, each once, rising.
   std::vector<Index> unlike(std::vector<Index> surfaces) const;
 
-  /// Those of `among` that may pass the box and matter there.
+  /// The surfaces of `among` that may pass the box and matter there.
   std::vector<Index> open(const Bounds& box, const std::vector<Index>& among) const;
   /// The atoms that they belong to, rising.
   std::vector<std::uint32_t> atoms(const std::vector<Index>& surfaces) const;
 
-  /// How far in front of the surface the place is, and the normal there, to first order.
+  /// The signed distance of the place in front of the surface, and the normal there, to first order.
   AtomHeight height(Index surface, const Vector3& place) const;
-  /// The radius of the tightest bend near the place, as far as the transform is even, as it matters for a
-  /// mesh with cells of `cell`: tips bend no more than what such a mesh can follow. Infinite for a plane.
+  /// The radius of the tightest bend near the place, exact where the transform is even, as it matters for a
+  /// mesh with cells of `cell`: tips count as no sharper than such a mesh can follow. Infinite for a plane.
   double bend(Index surface, const Vector3& place, double cell) const;
-  /// The tip of a cone, and the way out of it along the axis.
+  /// The tip of a cone, and the direction out of it along the axis; nothing for other shapes.
   std::optional<SurfacePoint> apex(Index surface) const;
 
  private:
   struct Surface {
     CsgAtom shape;
     std::uint32_t atom;
-    Bounds reach;  // where it can matter
+    Bounds reach;  // the box in which it can matter
     Index like = kNone;
     bool opposite = false;
   };

@@ -16,20 +16,20 @@ namespace icome::geometry {
 namespace {
 
 constexpr double kEdgeOfCell = 2.5;      // the longest edges where many flat surfaces pass
-constexpr double kOffOfCell = 0.03;      // how far chords may be off the surface, in cells
+constexpr double kOffOfCell = 0.03;      // the distance of chords from the surface, in cells
 constexpr double kEdgeInCrowd = 0.1;     // where more than kCrowd surfaces pass
-constexpr double kChord = 0.4;           // edges, of the radius of the bend
+constexpr double kChord = 0.4;           // the length of edges, of the radius of the bend
 constexpr double kStraightChord = 0.2;   // where they may be long in the other direction
-constexpr double kParallel = 1e-9;       // what cosines of parallel directions are off 1
+constexpr double kParallel = 1e-9;       // the difference from 1 of cosines of parallel directions
 constexpr std::size_t kMostFlat = 8;     // planes that one tetrahedron is cut by, where it need not be small
 constexpr std::size_t kCrowd = 12;       // more surfaces than this are better parted than cut along
 constexpr double kFinest = 0x1p-18;      // of the whole: no edge is halved below
 constexpr double kAround = 0.1;          // of a tetrahedron's size: so much around it counts as its own
-constexpr double kDrawnFrom = 0.02;      // of a point's shortest edge: nearer surfaces draw it to them
+constexpr double kDrawnFrom = 0.02;      // of a point's shortest edge: it is moved onto nearer surfaces
 constexpr std::size_t kLooksATet = 64;   // on average, for each tetrahedron allowed
-constexpr std::size_t kTellEach = 4096;  // tetrahedra between two looks at `go_on`
-/// The first tetrahedra begin this part of the size below the box: neither faces along the axes nor along
-/// their diagonals shall fall on their points.
+constexpr std::size_t kTellEach = 4096;  // tetrahedra between two calls of `go_on`
+/// The first tetrahedra begin this part of the size below the box, so that neither faces along the axes nor
+/// along their diagonals fall on their points.
 const Vector3 kTetShift(0.0381966011, 0.0414213562, 0.0318309886);
 constexpr double kTetRoom = 1.1;
 
@@ -37,7 +37,7 @@ constexpr std::array<std::array<int, 2>, 6> kTetEdges{{{0, 1}, {0, 2}, {0, 3}, {
 
 using SurfaceList = std::shared_ptr<const std::vector<CsgSurfaces::Index>>;
 
-/// In Maubach's order: the edge from corner 0 to corner `tag` is the next to be halved.
+/// A tetrahedron in Maubach's order: the edge from corner 0 to corner `tag` is the next to be halved.
 struct OpenTet {
   std::array<std::uint32_t, 4> corners;
   unsigned tag;
@@ -71,13 +71,13 @@ class TetRefiner {
   }
 
  private:
-  /// Six around the diagonal of a cube, or of a box that is as long as the solid is along z.
+  /// Makes six tetrahedra around the diagonal of a cube, or of a box that is as long as the solid along z.
   void begin() {
     const Bounds& box = program_.bounds();
     const auto way = straight_way(program_);
     along_z_ = way && std::abs(way->z()) > 1.0 - kParallel;
     const double across = along_z_ ? box.sizes().head<2>().maxCoeff() : box.sizes().maxCoeff();
-    // Of a plate no less than across: each halving across is one along z, too.
+    // No less along z than across, even for a plate: each halving across is one along z, too.
     Vector3 sides(across, across, std::max(across, box.sizes().z()));
     sides *= kTetRoom;
     finest_ = kFinest * sides.x();
@@ -92,7 +92,7 @@ class TetRefiner {
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
 
-  /// `others`: tetrahedra beside those that are done or wait.
+  /// Is the work still within its limits? `others`: tetrahedra beside those that are done or wait.
   bool goes_on(std::size_t others = 0) {
     too_many_ = tets_.size() + waiting_.size() + others + passed_ / kMostFlat > most_ ||
                 ++looks_ > kLooksATet * most_;
@@ -115,7 +115,7 @@ class TetRefiner {
     return true;
   }
 
-  /// Until no tetrahedron has an edge that its neighbour halved.
+  /// Halves tetrahedra until none has an edge that its neighbour halved.
   bool close_gaps() {
     for (bool any = true; any;) {
       any = false;
@@ -147,7 +147,7 @@ class TetRefiner {
     return (at(c[1]) - at(c[0])).cross(at(c[2]) - at(c[0])).dot(at(c[3]) - at(c[0]));
   }
 
-  /// The longest edge as far as it matters where surfaces bend.
+  /// The longest edge; only its part across z where surfaces are straight along z.
   double size(const OpenTet& tet) const {
     double longest = 0.0;
     for (const auto& edge : kTetEdges) {
@@ -174,8 +174,8 @@ class TetRefiner {
     return found.solid && found.free;
   }
 
-  /// Where so many surfaces pass that cutting takes longer than halving, edges are shorter. Those that lie in
-  /// one another count as one: halving does not part them.
+  /// The length of edges by the bends; shorter where so many surfaces pass that cutting takes longer than
+  /// halving. Surfaces that coincide count as one: halving does not part them.
   double wanted_size(const OpenTet& tet) const {
     double wanted = std::numeric_limits<double>::infinity();
     const Vector3 centre = box_around(tet).center();
@@ -214,7 +214,7 @@ class TetRefiner {
     into.push_back(std::move(other));
   }
 
-  /// Surfaces that pass close to a point would cut slivers off there.
+  /// Moves points onto surfaces that pass close to them, as these would cut slivers off there.
   void move_beside() {
     struct Nearest {
       double reach = std::numeric_limits<double>::infinity();  // m
@@ -256,7 +256,7 @@ class TetRefiner {
   bool along_z_ = false;
   double finest_ = 0.0;     // m
   std::size_t looks_ = 0;   // at tetrahedra
-  std::size_t passed_ = 0;  // by surfaces, each tetrahedron as often as surfaces may pass it
+  std::size_t passed_ = 0;  // by surfaces: each tetrahedron counts once for each that may pass it
   bool too_many_ = false;
   std::vector<OpenTet> waiting_, tets_;
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;

@@ -23,17 +23,17 @@ struct CsgTets {
   std::vector<Tet> tets;
 };
 
-/// Tells an edge between two points, in either order.
+/// The key of the edge between two points, in either order.
 inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
 
-/// How far a chord of a surface with this bend (its radius, m) may be off, where a mesh has cells of `cell`
-/// m.
+/// The largest distance (m) of a chord from a surface with this bend (its radius, m), for a mesh with cells
+/// of `cell` m.
 double chord_height(double cell, double bend);
 
-/// The direction in which no surface of the solid bends: along its cylinders, where it has some, all of them
-/// lie that way, and nothing else is bent. Unit, tree's frame.
+/// The direction in which no surface of the solid bends: that of its cylinders, if it has some, all of them
+/// are parallel, and nothing else is bent; else nothing. Unit, tree's frame.
 std::optional<Vector3> straight_way(const CsgProgram& program);
 
 /// Halves the longest edges of six tetrahedra around the solid (Maubach 1995), so that neighbours always

@@ -7,7 +7,7 @@
 namespace icome::geometry {
 namespace {
 
-/// Which nodes belong to the tree below its root, by index.
+/// By index: does the node belong to the tree below its root?
 std::vector<bool> below_root(const CsgTree& tree) {
   std::vector<bool> below(tree.size(), false);
   if (tree.empty()) return below;
@@ -19,7 +19,7 @@ std::vector<bool> below_root(const CsgTree& tree) {
   return below;
 }
 
-/// An operation whose left operand is being looked at, then its right one if that did not decide.
+/// An operation whose left operand is being evaluated, then its right one if that did not decide.
 struct Waiting {
   CsgOperator op;
   bool left_done;

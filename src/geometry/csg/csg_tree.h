@@ -11,9 +11,9 @@ namespace icome::geometry {
 
 enum class CsgOperator : std::uint8_t { Union, Intersection, Difference };
 
-/// A tree of solids under union, intersection and difference (thesis section 5.5): binary, as there; of
-/// several operands the left ones go together first. A plain value. Nodes live in one array, children
-/// before parents, so that nothing here recurses however deep the tree is.
+/// A tree of solids under union, intersection and difference (thesis section 5.5): binary, as there;
+/// several operands are grouped from the left. A plain value. Nodes live in one array, children before
+/// parents, so that nothing here recurses however deep the tree is.
 class CsgTree {
  public:
   using Index = std::uint32_t;
@@ -34,7 +34,7 @@ class CsgTree {
   /// Adds an operation on two nodes that have no parent yet and makes it the root.
   Index add(CsgOperator op, Index left, Index right, const Affine3& parent_from_node = Affine3::Identity());
 
-  // Edits of a tree: of a copy, while the servo touches what was compiled from the last version.
+  // Edits of a tree. Edit a copy while the servo touches the solid compiled from the last version.
   void set_transform(Index node, const Affine3& parent_from_node);
   void set_operator(Index node, CsgOperator op);
 
@@ -55,7 +55,7 @@ class CsgTree {
   Index root_ = 0;
 };
 
-/// What a tree consists of, counted from its root.
+/// The size of a tree, counted from its root.
 struct CsgCount {
   std::size_t nodes = 0;       // operations and primitives
   std::size_t primitives = 0;  // leaves
@@ -63,8 +63,8 @@ struct CsgCount {
 };
 CsgCount count(const CsgTree& tree);
 
-/// Around the solid, by the rules of 5.5.5: of a union the box of both, of an intersection what the boxes
-/// share, of a difference the box of the left. Empty for an empty solid.
+/// Bounds of the solid, by the rules of 5.5.5: the box of both for a union, the common part of the boxes for
+/// an intersection, the box of the left for a difference. Empty for an empty solid.
 Bounds bounds(const CsgTree& tree);
 /// The rule for one operation; empty boxes are those of empty solids.
 Bounds combined_bounds(CsgOperator op, const Bounds& left, const Bounds& right);

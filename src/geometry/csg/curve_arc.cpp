@@ -10,10 +10,10 @@ namespace {
 
 constexpr int kCount = CurveArc::kDegree + 1;
 constexpr int kMostParts = 160;    // parts of an arc that one sweep looks at before it traces those left
-constexpr int kMostWaiting = 64;   // of them in store: one a halving
+constexpr int kMostWaiting = 64;   // of them in store: one for each halving
 constexpr int kMostTraced = 48;    // steps of a trace
 constexpr int kMaxDescent = 32;    // steps downhill along an arc
-constexpr double kArcShare = 0.1;  // of the slack: what is left out of account
+constexpr double kArcShare = 0.1;  // of the slack: errors that are neglected
 
 /// The first t >= 0 at which start + t step is within `reach` of the segment from `a` to `b`: a convex body,
 /// the union of a cylinder and two balls, so the first of their own.
@@ -147,9 +147,9 @@ struct CurveArc::Part {
   Vector3 begin, end;  // the places there
 };
 
-/// From `t`, where the ball is clear of the part, on to where it touches it, or at most to `last`: the
-/// distance to each place changes no faster than the angle to it allows. For balls that meet a whole part at
-/// once, as one that drops into a ring: there halving finds no end.
+/// Advances from `t`, where the ball is clear of the part, to its touch, or at most to `last`: the distance
+/// to each place changes no faster than the angle to it allows. For balls that meet a whole part at once,
+/// such as one that drops into a ring, where halving finds no end.
 double CurveArc::traced(const Part& part, double radius, const Vector3& start, const Vector3& step, double t,
                         double last, double slack) const {
   const CurveArc arc = this->part(part.from, part.to);
@@ -169,7 +169,7 @@ double CurveArc::traced(const Part& part, double radius, const Vector3& start, c
 }
 
 // Halves the arc wherever the ball meets a capsule around the chord of a part, until the capsules are as thin
-// as the slack. Parts that the centre goes away from throughout are left out: who is clear of them stays so.
+// as the slack. Parts that the centre goes away from throughout are left out: a ball clear of them stays so.
 std::optional<CurveArc::Touch> CurveArc::first_touch(double radius, const Vector3& start, const Vector3& step,
                                                      double slack) const {
   std::array<Part, kMostWaiting> waiting;

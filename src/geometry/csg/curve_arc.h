@@ -17,7 +17,7 @@ class CurveArc {
   static constexpr int kDegree = 8;
   using Places = std::array<Vector3, kDegree + 1>;
 
-  /// The parameters through whose places an arc is laid: the zeros of a Chebyshev polynomial.
+  /// The parameters of the places through which an arc is laid: the zeros of a Chebyshev polynomial.
   static double node(int index);
 
   /// The arc through the places at the nodes.
@@ -27,26 +27,26 @@ class CurveArc {
 
   double first() const { return first_; }
   double last() const { return last_; }
-  /// The same curve between two other parameters in [-1, 1].
+  /// The curve between two other parameters in [-1, 1].
   CurveArc part(double first, double last) const;
 
   // Real-time safe, all of them:
 
   Vector3 at(double s) const;
-  /// How far the arc may stray from the straight line between its ends (m).
+  /// The most that the arc may stray from the straight line between its ends (m).
   double sagitta() const { return sagitta(first_, last_); }
   double sagitta(double from, double to) const { return 0.125 * bend_ * (to - from) * (to - from); }
   Bounds bounds() const;
   /// The parameter of the place nearest to `point`, as found downhill from that at `from`.
   double nearest(const Vector3& point, double from) const;
-  /// The same, found from the best of some places.
+  /// The parameter of the place nearest to `point`, as found downhill from the best of some places.
   double nearest(const Vector3& point) const;
   /// No place of the arc is nearer than this (m) to the segment from `a` to `b`.
   double least_distance(const Vector3& a, const Vector3& b) const;
 
-  /// Where a ball of this radius whose centre moves from `start` by t * `step`, t in [0, 1], first touches
-  /// the arc, to within `slack` (m), and never later than it does; nothing when it does not, or when it
-  /// touches at the start and leaves.
+  /// The first touch of the arc by a ball of this radius whose centre moves from `start` by t * `step`, t in
+  /// [0, 1], to within `slack` (m), and never later than the true one; nothing when it does not touch, or
+  /// when it touches at the start and leaves.
   struct Touch {
     double t;
     double s;

@@ -11,7 +11,7 @@ namespace icome::geometry {
 namespace {
 
 constexpr std::size_t kGrain = 4096;  // vertices a thread is worth starting for
-// Of the box's side: what was meant to lie in a face may lie beside it by rounding.
+// As a part of the box's side: points meant to lie in a face may lie beside it by rounding.
 constexpr double kBesideFace = 1e-9;
 
 /// All Bernstein polynomials of a degree at a place in [0, 1]: from those of the degree below, which adds up

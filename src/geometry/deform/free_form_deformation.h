@@ -10,7 +10,7 @@
 
 namespace icome::geometry {
 
-/// A lattice of control points in a box: what lies in the box follows the points when they are moved
+/// A lattice of control points in a box: vertices in the box follow the points when they are moved
 /// (free-form deformation, Sederberg and Parry 1986; thesis 2.4.3). A plain value.
 struct FfdLattice {
   base::Affine3 space_from_box =
@@ -22,15 +22,15 @@ struct FfdLattice {
   std::size_t index(const std::array<int, 3>& place) const {
     return (std::size_t(place[0]) * counts()[1] + place[1]) * counts()[2] + place[2];
   }
-  /// Where the point is while nothing is deformed, m.
+  /// The point's position while nothing is deformed, m.
   Vector3 rest(const std::array<int, 3>& place) const;
 };
 
-/// A box for a lattice round what has these bounds: sides that are too short to divide by become a tenth of
-/// the longest, about their middle. Nothing where there is no size.
+/// A box for a lattice around an object with these bounds: sides that are too short to divide by become a
+/// tenth of the longest, about their middle. Nothing where the bounds have no size.
 std::optional<base::Bounds> ffd_box(base::Bounds around);
 
-/// How many control points a lattice may have.
+/// The largest number of control points in a lattice.
 constexpr std::size_t kMostFfdPoints = 32768;
 
 /// A lattice at rest in a box. Fails when a number of cells is below 1, there would be more than
@@ -41,23 +41,23 @@ base::Result<FfdLattice> make_ffd_lattice(const base::Affine3& space_from_box,
 /// Does the lattice hold together, as one that comes from a file or from a script may not?
 base::Result<void> check(const FfdLattice& lattice);
 
-/// The vertices that a lattice moves, and where in its box they are. They are found once; then each state of
+/// The vertices that a lattice moves, and their places in its box. They are found once; then each state of
 /// the lattice is evaluated. Owns its numbers: 56 bytes a vertex.
 class FfdBinding {
  public:
-  /// Those of the positions (m) that are in the box, its faces included. The lattice must be checked.
+  /// Binds those of the positions (m) that are in the box, its faces included. The lattice must be checked.
   FfdBinding(std::span<const Vector3> positions, const FfdLattice& lattice);
-  /// The same, of these vertices only, such as a selection.
+  /// Binds only those that are among these vertices, such as a selection.
   FfdBinding(std::span<const Vector3> positions, std::span<const std::uint32_t> vertices,
              const FfdLattice& lattice);
 
   /// Indices of the vertices in the box, in the order in which they were given.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
-  /// Where they are under a lattice of the same box and cells, m. With all points at rest that is exactly
-  /// where they were; when all points are moved by one affine map, so is every vertex (to rounding).
+  /// Their positions under a lattice of the same box and cells, m. With all points at rest these are exactly
+  /// the original ones; when all points are moved by one affine map, so is every vertex (to rounding).
   std::vector<Vector3> deformed(const FfdLattice& lattice) const;
-  /// How much of a control point's move each vertex goes along with, in [0, 1]; of all points, the shares of
-  /// a vertex add up to 1. While one point is dragged, a vertex is where it was at the beginning plus its
+  /// The share of a control point's move that each vertex follows, in [0, 1]; over all points, the shares of
+  /// a vertex add up to 1. While one point is dragged, a vertex is at its position at the beginning plus its
   /// share of the way: far cheaper than evaluating all.
   std::vector<double> shares(const std::array<int, 3>& point) const;
 
@@ -66,7 +66,7 @@ class FfdBinding {
 
   std::array<int, 3> cells_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<Vector3> rest_;    // m, where they were
+  std::vector<Vector3> rest_;    // m, the original positions
   std::vector<Vector3> in_box_;  // s, t and u of the paper, in [0, 1]
 };
 

@@ -21,7 +21,7 @@ constexpr double kUnreached = std::numeric_limits<double>::infinity();
 /// Distances are in radii: squares of metres could overflow or vanish where the radius is enormous or tiny.
 double radii_between(const Vector3& a, const Vector3& b, double radius) { return ((a - b) / radius).norm(); }
 
-/// The seeds as a tree of medians, halved along x, y and z in turn.
+/// The seeds as a k-d tree, halved at the medians along x, y and z in turn.
 class SeedTree {
  public:
   SeedTree(std::vector<Vector3> points, double radius) : points_(std::move(points)), radius_(radius) {
@@ -29,7 +29,7 @@ class SeedTree {
     build(0, points_.size(), 0);
   }
 
-  /// In radii; kUnreached when no seed is within the radius.
+  /// The distance to the nearest seed, in radii; kUnreached when no seed is within the radius.
   double distance(const Vector3& from) const {
     double nearest = std::nextafter(1.0, 2.0);  // seeds at the radius itself count
     const Vector3 gap = (box_.min() - from).cwiseMax(from - box_.max()).cwiseMax(Vector3::Zero()) / radius_;
@@ -48,8 +48,8 @@ class SeedTree {
     build(middle + 1, end, (axis + 1) % 3);
   }
 
-  /// `gap` is how far, in radii along each axis, `from` is outside the part of space that these points lie
-  /// in. Its length never exceeds their distances as computed, as rounding keeps the order of numbers.
+  /// `gap` is the distance, in radii along each axis, of `from` outside the part of space that these points
+  /// lie in. Its length never exceeds their computed distances, as rounding keeps the order of numbers.
   void look(const Vector3& from, std::size_t begin, std::size_t end, int axis, const Vector3& gap,
             double& nearest) const {
     if (begin == end || gap.norm() >= nearest) return;
@@ -111,7 +111,7 @@ VertexNeighbours vertex_neighbours(const TriangleMesh& mesh) {
   return result;
 }
 
-/// Dijkstra's way, no further than the radius.
+/// Distances along edges by Dijkstra's algorithm, in radii; kUnreached beyond the radius.
 std::vector<double> edge_distances(const TriangleMesh& mesh, std::span<const std::uint32_t> seeds,
                                    double radius) {
   using Visit = std::pair<double, std::uint32_t>;

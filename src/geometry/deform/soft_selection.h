@@ -8,17 +8,17 @@
 
 namespace icome::geometry {
 
-/// How the pull of a drag dies away with the distance t from the seeds, in radii.
+/// The decrease of a drag's pull with the distance t from the seeds, in radii.
 enum class Falloff {
-  Constant,  // 1 as far as the radius, which is inside
+  Constant,  // 1 up to the radius, inclusive
   Linear,    // 1 - t: a cone
   Smooth,    // Hermite's 1 - 3 t^2 + 2 t^3: a bell, flat at the seeds and at the rim
   Sharp,     // (1 - t)^2: a thorn, flat at the rim only
 };
 
-/// How far a vertex is from the seeds.
+/// The measure of a vertex's distance from the seeds.
 enum class SoftDistance {
-  Straight,   // to the nearest seed, through whatever is between
+  Straight,   // to the nearest seed, through anything between
   AlongEdges  // the shortest way over edges of the mesh: never across a gap or to a part that is not
               // connected
 };
@@ -29,7 +29,7 @@ struct SoftSelection {
   SoftDistance distance = SoftDistance::Straight;
 };
 
-/// How much a vertex follows what is dragged: all the way at 1.
+/// The share of a drag that a vertex follows: all the way at 1.
 struct SoftWeight {
   std::uint32_t vertex;
   double weight;
@@ -40,8 +40,8 @@ struct SoftWeight {
 double falloff_weight(Falloff falloff, double t);
 
 /// The vertices that follow when the seeds (one for a vertex, two for an edge, three for a face; repeats do
-/// not matter) are dragged: those of weight above 0, by index. Seeds weigh 1. Fails on seeds that are not
-/// there, radii that are not finite or negative, and meshes with non-finite vertices or wrong indices.
+/// not matter) are dragged: those of weight above 0, by index. Seeds weigh 1. Fails on seeds that do not
+/// exist, radii that are not finite or negative, and meshes with non-finite vertices or wrong indices.
 base::Result<std::vector<SoftWeight>> soft_weights(const TriangleMesh& mesh,
                                                    std::span<const std::uint32_t> seeds,
                                                    const SoftSelection& selection);

@@ -103,7 +103,7 @@ Vector3 around_axis(const Vector3& local, TextureProjection projection) {
   return {turns, height + 0.5, distance};
 }
 
-/// Brings turns together that the meridian parts: it is passed in the widest gap between them.
+/// Joins turns that the meridian separates: the cut is moved to the widest gap between them.
 void join_turns(std::span<double> turns) {
   std::array<double, 3> sorted{};
   std::copy(turns.begin(), turns.end(), sorted.begin());
@@ -160,8 +160,8 @@ bool is_round(TextureProjection projection) {
   return projection == TextureProjection::Cylindrical || projection == TextureProjection::Spherical;
 }
 
-/// The vertices as the projection needs them: in its frame or around its axis. Not finite where they are out
-/// of its range.
+/// The vertices in the coordinates of the projection: its frame or around its axis. Not finite where they are
+/// out of its range.
 std::vector<Vector3> seen_vertices(const TriangleMesh& mesh, const ProjectorFrame& frame,
                                    TextureProjection projection) {
   constexpr std::size_t kVerticesForOneThread = 1U << 14U;

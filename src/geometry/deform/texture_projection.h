@@ -9,8 +9,8 @@ namespace icome::geometry {
 
 using base::Affine3;
 
-/// How a picture is thrown on a surface. Its frame is the projector's, whose unit cube (x, y and z from -1/2
-/// to 1/2) takes the picture once.
+/// The kind of projection of a picture onto a surface. Its frame is the projector's, whose unit cube (x, y
+/// and z from -1/2 to 1/2) takes the picture once.
 enum class TextureProjection {
   Planar,       // along z, over x and y
   Box,          // along x, y or z, whichever a triangle faces most: every side of the cube takes the picture
@@ -23,7 +23,7 @@ struct TextureProjector {
   TextureProjection projection = TextureProjection::Planar;
   Affine3 mesh_from_projector = Affine3::Identity();
   /// The texture coordinates of the picture's corners, at (x, y) = (-, -), (+, -), (+, +) and (-, +) of a
-  /// planar projector's square, and likewise of what others unroll. Bilinear between them and beyond.
+  /// planar projector's square, and likewise of the unrolled others. Bilinear between them and beyond.
   std::array<Vector2, 4> corners = {Vector2(0, 0), Vector2(1, 0), Vector2(1, 1), Vector2(0, 1)};
 };
 

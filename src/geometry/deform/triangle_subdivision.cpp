@@ -17,7 +17,7 @@ constexpr std::uint32_t kUncut = 0xffffffff;
 constexpr std::size_t kMostVertices = 0xffffffff - 3 * kMostSubdivided;  // each triangle adds three at most
 
 /// The new vertices on the edges of the selected triangles. They are numbered by their edges' lower vertex,
-/// then the higher one, so that the numbers do not depend on who asks first.
+/// then the higher one, so that the numbers do not depend on the order of the triangles.
 class EdgeMiddles {
  public:
   explicit EdgeMiddles(const TriangleSubdivision& now)
@@ -81,7 +81,7 @@ class EdgeMiddles {
   }
 
   std::uint32_t first_new_;
-  std::vector<std::uint32_t> first_;  // where in highs_ those of each lower vertex begin
+  std::vector<std::uint32_t> first_;  // by lower vertex: the first of its edges in highs_
   std::vector<std::uint32_t> highs_;  // the cut edges' higher vertices
 };
 
@@ -96,13 +96,13 @@ unsigned cut_sides(const TriangleSubdivision& now, const EdgeMiddles& middles, s
   return sides;
 }
 
-/// How a triangle is cut: 0, 1, 2 are its corners, 3 + i is the middle of side i.
+/// The pieces of a cut triangle: 0, 1, 2 are its corners, 3 + i is the middle of side i.
 struct CutPattern {
   std::size_t count;
   std::array<std::array<unsigned, 3>, 4> pieces;
 };
 
-/// With two sides cut a corner comes off; `from_end` says which diagonal cuts the quad that is left: from
+/// With two sides cut a corner comes off; `from_end` selects the diagonal that cuts the remaining quad: from
 /// the end of the whole side to the middle that is not beside it, or else from its beginning.
 CutPattern cut_pattern(unsigned sides, bool from_end) {
   switch (std::popcount(sides)) {
@@ -172,7 +172,7 @@ tl::unexpected<base::Error> too_many_pieces() {
                   kMostSubdivided / 1'000'000));
 }
 
-/// How many triangles the levels that are left make at least. Each cut of a side adds a triangle to those
+/// The least number of triangles after the levels that are left. Each cut of a side adds a triangle to those
 /// that are not selected, and a cut side has twice as many to cut at the next level.
 std::size_t triangles_to_come(const TriangleSubdivision& now, const std::vector<std::uint8_t>& sides,
                               int levels_left) {
@@ -206,7 +206,7 @@ base::Result<TriangleSubdivision> cut_once(TriangleSubdivision now, int levels_l
   return next;
 }
 
-/// Does the selection alone become too many? Asked first: then few levels are left to count with.
+/// Does the selection alone become too many triangles? Asked first: then the levels are few enough to count.
 bool outgrows(std::size_t selected, int levels) {
   for (int level = 0; level < levels && selected > 0; ++level) {
     selected *= 4;

@@ -10,17 +10,17 @@
 
 namespace icome::geometry {
 
-/// A mesh with some triangles cut into smaller ones, and where each piece comes from.
+/// A mesh with some triangles cut into smaller ones, and the origin of each piece.
 struct TriangleSubdivision {
   /// A place on the parent is (u, v): the weights of its corners are 1 - u - v, u and v. Exact, as halving
   /// gives few binary digits.
   struct Piece {
-    std::uint32_t parent = 0;                     // the triangle that was, before all levels
+    std::uint32_t parent = 0;                     // the original triangle, before all levels
     bool selected = false;                        // does it descend from the selection?
-    std::array<Eigen::Vector2f, 3> corners = {};  // where on the parent its corners lie
+    std::array<Eigen::Vector2f, 3> corners = {};  // places of its corners on the parent
   };
 
-  TriangleMesh mesh;  // the vertices that were keep their places; pieces of one parent follow each other
+  TriangleMesh mesh;  // the original vertices keep their places; pieces of one parent follow each other
   std::vector<Piece> pieces;  // one for each triangle of `mesh`, parents in ascending order
 };
 
@@ -32,7 +32,7 @@ inline constexpr std::size_t kMostSubdivided = 20'000'000;
 /// triangle that does not use it: in two where one side is cut, in three (along the shorter diagonal) where
 /// two are, in four where all are. What was closed stays closed, and the shape stays as it was. An edge has
 /// one middle however many triangles share it; edges are told apart by their vertex indices, so weld first.
-/// The same arguments give the same mesh.
+/// Equal arguments give the same mesh.
 ///
 /// Triangles back to back stay so, which makes the edges between their middles ones of four triangles.
 /// Fails on meshes with non-finite vertices or wrong indices, and when the result would be too large.

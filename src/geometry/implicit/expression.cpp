@@ -235,7 +235,7 @@ Expression::Node Expression::divided(Node a, Node b) {
   return shared({Operation::Divide, a, b, 0.0});
 }
 
-/// What a node is but for a constant factor, and that factor.
+/// A node without its constant factor, and that factor.
 std::pair<Expression::Node, double> Expression::factored(Node a) const {
   const Step& step = steps_[a];
   if (step.operation == Operation::Scale) return {step.a, step.constant};
@@ -243,7 +243,7 @@ std::pair<Expression::Node, double> Expression::factored(Node a) const {
   return {a, 1.0};
 }
 
-/// The quotient of a sine and of what it is taken of, each with any factor.
+/// The quotient of a sine and of its angle, each with any factor; nothing for other quotients.
 std::optional<Expression::Node> Expression::sinc(Node a, Node b) {
   const auto [sine, over] = factored(a);
   if (steps_[sine].operation != Operation::Sin) return std::nullopt;

@@ -8,7 +8,7 @@
 
 namespace icome::geometry {
 
-/// What a step of a formula computes, from `a`, from `a` and `b`, or from `a` and a constant.
+/// The operation of a step of a formula, on `a`, on `a` and `b`, or on `a` and a constant.
 enum class Operation : std::uint8_t {
   Variable,  // x, y, z, t: number `a`
   Constant,
@@ -33,9 +33,9 @@ enum class Operation : std::uint8_t {
   Sinh,
   Cosh,
   Tanh,
-  Wrap,  // `a` less as many turns as leave it between -pi and pi
+  Wrap,  // `a` minus whole turns, so that it is between -pi and pi
   Sinc,  // sin(a) / a, and 1 where a = 0
-  Add,   // from here on of two or more
+  Add,   // from here on: of two or more operands
   Subtract,
   Multiply,
   Divide,
@@ -44,7 +44,7 @@ enum class Operation : std::uint8_t {
   Hypot,
   Min,
   Max,
-  Select,  // of three: where `c` is zero or less `a`, where it is more `b`
+  Select,  // of three: `a` where `c` is zero or less, `b` where it is more
 };
 
 inline bool is_binary(Operation operation) { return operation >= Operation::Add; }
@@ -57,9 +57,9 @@ inline bool chooses(Operation operation) {
 inline bool is_leaf(Operation operation) { return operation <= Operation::Constant; }
 
 /// A formula while it is read: a graph of operations in which equal parts are one, constants are folded,
-/// and products of equal factors are powers (whose range is known better). What is written with an end, a
-/// crease or a gap that it does not have is what it is: sqrt(a^2) is |a|, |a|^1.5 has no crease, sin(a)/a no
-/// gap; and sqrt(a^2 + b^2) is hypot(a, b). Operands stand before what is made of them.
+/// and products of equal factors are powers (whose range is known better). Forms that only seem to have an
+/// end, a crease or a gap are rewritten: sqrt(a^2) is |a|, |a|^1.5 has no crease, sin(a)/a no gap; and
+/// sqrt(a^2 + b^2) is hypot(a, b). Operands stand before the steps that use them.
 class Expression {
  public:
   using Node = std::uint32_t;
@@ -74,30 +74,30 @@ class Expression {
   Node variable(std::uint32_t number);
   Node constant(double value);
   Node unary(Operation operation, Node a);
-  /// Also Power with a constant exponent.
+  /// An operation on two operands; also Power with a constant exponent.
   Node binary(Operation operation, Node a, Node b);
-  /// Where `condition` is zero or less `a`, where it is more `b`; undefined where it is.
+  /// `a` where `condition` is zero or less, `b` where it is more; undefined where `condition` is.
   Node select(Node condition, Node a, Node b);
-  /// What `step`, no Select, computes of other operands (`b` counts where it has two).
+  /// The operation of `step`, which is no Select, on other operands (`b` counts where it has two).
   Node rebuilt(const Step& step, Node a, Node b);
   /// |a|^exponent, the exponent more than 0.
   Node size_power(Node a, double exponent);
-  /// The same with the sign of `a`, the exponent more than 1.
+  /// The sign of `a`, times |a|^exponent, the exponent more than 1.
   Node odd_power(Node a, double exponent);
 
-  /// A quotient, by its parts: factor * over / under. Nothing where a node is none.
+  /// A quotient, by its parts: factor * over / under. quotient() gives nothing where a node is none.
   struct Quotient {
     Node over, under;
     double factor;
   };
   std::optional<Quotient> quotient(Node a);
 
-  /// Does asin, acos or atan take back the sine, cosine or tangent of something, or is it the angle of a
-  /// quotient? Such a `step` is smooth but for places where it turns, or jumps.
+  /// Is the step asin, acos or atan of a sine, cosine or tangent, which it takes back, or the angle of a
+  /// quotient? Such a `step` is smooth except at places where it turns, or jumps.
   bool takes_back(const Step& step);
 
   const std::vector<Step>& steps() const { return steps_; }
-  /// Why a part that consists of constants has no value ("sqrt(-1) is not a finite number"); else empty.
+  /// The reason why a part of constants has no value ("sqrt(-1) is not a finite number"); else empty.
   const std::string& fault() const { return fault_; }
   void forget_fault() { fault_.clear(); }
 

@@ -11,14 +11,14 @@ namespace {
 
 using base::Vector3;
 
-constexpr std::uint64_t kIntervalWork = 8;  // times that of a number
+constexpr std::uint64_t kIntervalWork = 8;  // times the work on a number
 
-/// Undefined, discontinuous, or undefined everywhere there?
+/// Doubts about a value in a range: it may be undefined or discontinuous, or is undefined everywhere.
 struct Doubts {
   bool some = false, all = false;
 };
 
-/// What can go wrong in a step with operands in the given ranges.
+/// The doubts about a step with operands in the given ranges.
 Doubts doubts_of(Operation operation, const Interval& a, const Interval& b) {
   switch (operation) {
     case Operation::Reciprocal:
@@ -63,7 +63,7 @@ void set(Number& number, double value, int variable) {
   number.first[static_cast<std::size_t>(variable)] = jets::exactly<decltype(Number::value)>(1.0);
 }
 
-/// Of numbers with their derivatives.
+/// A Select on numbers with their derivatives.
 template <typename Number>
 Number selected(const Number& condition, const Number& a, const Number& b) {
   using Scalar = decltype(Number::value);
@@ -77,7 +77,7 @@ Number selected(const Number& condition, const Number& a, const Number& b) {
   }
 }
 
-/// What is doubtful about a Select in a range of its condition, by what is about its operands.
+/// The doubts about a Select in a range of its condition, by those about its operands.
 Doubts doubts_of_select(const Interval& range, const Doubts& condition, const Doubts& a, const Doubts& b) {
   if (range.hi <= 0.0) return {condition.some || a.some, condition.all || a.all};
   if (range.lo > 0.0) return {condition.some || b.some, condition.all || b.all};
@@ -257,7 +257,7 @@ std::vector<std::uint32_t> last_uses(const std::vector<Expression::Step>& steps,
   return last;
 }
 
-/// Hands out registers, those given back last first.
+/// Hands out registers; the one given back last comes first.
 class RegisterPool {
  public:
   explicit RegisterPool(std::uint16_t first) : next_(first) {}

@@ -19,8 +19,8 @@ namespace icome::geometry {
 /// It may use the numbers pi and e; + - * / ^ and parentheses (-x^2 is -(x^2), x^y^z is x^(y^z)); sin cos
 /// tan asin acos atan atan2(y, x) sinh cosh tanh exp log ln (both to the base e) log10 sqrt abs hypot pow
 /// min max (the last two of any number of values), and if(condition, a, b). Conditions are comparisons by <
-/// <= > >=, and put together of those by &&, ||, ! and parentheses; && binds before ||, and what the first
-/// operand of either decides needs no second. Undefined operations give NaN, and NaN stays, but in the
+/// <= > >=, combined by &&, ||, ! and parentheses; && binds before ||, and the second operand of either
+/// does not matter where the first decides. Undefined operations give NaN, and NaN stays, except in the
 /// operand that an if does not take.
 class Formula {
  public:
@@ -30,7 +30,7 @@ class Formula {
 
   /// Fails with a sentence that names the column.
   static base::Result<Formula> parse(const std::string& text);
-  /// What the expression computes at `root`; fails if that takes more steps or registers than there may be.
+  /// Compiles the expression at `root`; fails if that takes more steps or registers than are allowed.
   static base::Result<Formula> compile(const Expression& expression, Expression::Node root);
 
   double value(const base::Vector3& point, double time) const;
@@ -56,7 +56,7 @@ class Formula {
   /// f and its slope at `start` + s * `step`.
   LineSlope on_line(const base::Vector3& start, const base::Vector3& step, double s, double time) const;
 
-  /// What is known about f somewhere.
+  /// The range of f in a part of space, or on a line or a patch.
   struct Range {
     Interval value;
     bool total;  // surely defined, continuous and finite everywhere there
@@ -70,27 +70,27 @@ class Formula {
     Range range;
     std::array<Interval, Variables> slope;  // f's derivatives; where `total`, f obeys the mean value theorem
   };
-  /// With respect to x, y, z.
+  /// The ranges of f and of its derivatives with respect to x, y, z.
   SlopeRange<3> slope_range(const Box4& box) const;
   struct BendRange {
     Range range;
     std::array<Interval, 3> slope;
     std::array<Interval, 6> bend;  // second derivatives: xx, xy, xz, yy, yz, zz
   };
-  /// The same with second derivatives.
+  /// The ranges of f and of its first and second derivatives with respect to x, y, z.
   BendRange bend_range(const Box4& box) const;
-  /// At `start` + s * `step`, with respect to s.
+  /// The ranges of f and of its derivative at `start` + s * `step`, with respect to s.
   SlopeRange<1> line_range(const base::Vector3& start, const base::Vector3& step, const Interval& s,
                            double time) const;
   Range point_range(const base::Vector3& start, const base::Vector3& step, double s, double time) const;
-  /// At `origin` + p * `u` + q * `v`, with respect to p and q.
+  /// The ranges of f and of its derivatives at `origin` + p * `u` + q * `v`, with respect to p and q.
   SlopeRange<2> patch_range(const base::Vector3& origin, const base::Vector3& u, const base::Vector3& v,
                             const Interval& p, const Interval& q, double time) const;
 
   /// Does it depend on x, y or z? On t?
   bool uses_place() const { return used_[0] || used_[1] || used_[2]; }
   bool uses_time() const { return used_[3]; }
-  /// Has it neither abs, min nor max, and so no creases but where its derivatives are unbounded?
+  /// Has it neither abs, min, max nor if, and so no creases but where its derivatives are unbounded?
   bool is_smooth() const;
   std::size_t steps() const { return program_.size(); }
   std::size_t bytes() const { return sizeof(*this) + program_.capacity() * sizeof(Instruction); }

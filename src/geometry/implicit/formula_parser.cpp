@@ -12,7 +12,7 @@
 #include "geometry/implicit/formula.h"
 
 // muParser reads the text: it knows precedence and tells where something is wrong. But it computes numbers,
-// and we need to know how they come about. So its own operators and functions are left out, and ours are
+// and the operations behind them are needed. So its own operators and functions are left out, and ours are
 // put in their place, whose "values" are the numbers of nodes of an expression. Evaluated once, it has
 // built the expression. Its optimiser would fold those values and is off.
 
@@ -21,18 +21,18 @@ namespace {
 
 using ReadNode = Expression::Node;
 
-/// What an if asks. Numbers of other conditions are of those before.
+/// The condition of an if. Other conditions in it are given by their numbers, and come before it.
 struct IfCondition {
   enum class Kind { NotAbove, Not, And, Or };
   Kind kind;
   std::uint32_t a, b = 0;  // NotAbove: is the node `a` zero or less? Else numbers of conditions
 };
 
-/// Where the operators of the parser that runs on this thread build. muParser's operators and literals
-/// carry no user data.
+/// The place in which the operators of the parser on this thread build their expression. muParser's
+/// operators and literals carry no user data.
 struct FormulaSite {
   Expression* expression;
-  const char* literal_too_large = nullptr;  // where in the text
+  const char* literal_too_large = nullptr;  // its place in the text
   std::vector<IfCondition> conditions = {};
   const char* misuse = nullptr;  // of a condition, or of a value in place of one
 };
@@ -87,7 +87,7 @@ double joined_step(double a, double b) {
   return as_value(IfCondition{kKind, as_condition(a), as_condition(b)});
 }
 
-/// `a` where the condition holds, else `b`: one Select for each comparison that it takes to tell.
+/// `a` where the condition holds, else `b`: one Select for each comparison that decides it.
 ReadNode selected_node(std::uint32_t number, ReadNode a, ReadNode b) {
   const IfCondition condition = current_site->conditions[number];
   switch (condition.kind) {
@@ -134,7 +134,7 @@ double log10_step(double a) {
   return as_value(expression.binary(Operation::Multiply, natural, expression.constant(std::numbers::log10e)));
 }
 
-/// Whether a number stands at `text`; if so, its node and how far it reaches.
+/// Reads a number at `text`: its node and the position behind it. Returns 1, or 0 where there is none.
 int read_literal(const char* text, int* position, double* value) {
   const bool digit = text[0] >= '0' && text[0] <= '9';
   const bool point = text[0] == '.' && text[1] >= '0' && text[1] <= '9';
@@ -220,7 +220,7 @@ std::string at_column(std::ptrdiff_t position, const std::string& complaint) {
   return fmt::format("formula, column {}: {}", position + 1, complaint);
 }
 
-/// Characters that muParser would give a meaning that formulas here do not have, or that it cannot show.
+/// The complaint about a character that has no meaning in formulas here, or cannot be shown; else empty.
 std::string wrong_character(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -234,7 +234,7 @@ std::string wrong_character(const std::string& text) {
   return {};
 }
 
-/// What to show of a part of the text that was not understood.
+/// A part of the text that was not understood, shortened for a message.
 std::string shown(std::string token) {
   while (!token.empty() && token.back() == ' ') token.pop_back();
   constexpr std::size_t kMost = 40;

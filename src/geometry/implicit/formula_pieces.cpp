@@ -18,7 +18,7 @@ constexpr std::size_t kMostChoices = 64;
 constexpr int kMostInversions = 4;  // of one part: roots of roots
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
-/// What a part of a formula is where choices were made so.
+/// The smooth function that a part of a formula is where choices were made by this case.
 struct SmoothPart {
   Node node;
   Case by;
@@ -29,9 +29,9 @@ bool agree(const Case& one, const Case& other) {
   return (one.made & other.made & (one.second ^ other.second)) == 0;
 }
 
-/// Solves f = 0 for what a root, a hypot, asin or acos in it is taken of: z - sqrt(x) is zero where z^2 - x
-/// is and z is not negative. At the edge of its domain f is infinitely steep, or ends; what is solved goes
-/// on.
+/// Solves f = 0 for the operand of a root, a hypot, asin or acos in it: z - sqrt(x) is zero where z^2 - x
+/// is and z is not negative. At the edge of its domain f is infinitely steep, or ends; the solved function
+/// goes on.
 class Inversion {
  public:
   Inversion(Expression& expression, Node root)
@@ -47,7 +47,7 @@ class Inversion {
   }
 
   bool found() const { return found_; }
-  /// It has the zeros of f where the limits are zero or less, and rises there where f does.
+  /// A function that has the zeros of f where the limits are zero or less, and rises there where f does.
   Node solved() { return rises_ ? difference(inner_, value_) : difference(value_, inner_); }
   const std::vector<Node>& limits() const { return limits_; }
 
@@ -66,7 +66,7 @@ class Inversion {
     }
   }
 
-  /// The operand that leads to what can be inverted, or the node itself if that can be.
+  /// The operand that leads to an invertible step, or the node itself if it is one; nothing otherwise.
   std::optional<Node> next_step(Node node) {
     if (++looks_ > kMostLooks) return std::nullopt;
     const Expression::Step step = expression_.steps()[node];
@@ -85,7 +85,7 @@ class Inversion {
     }
   }
 
-  /// inner_ is to have this value_: the same of one of its operands.
+  /// Replaces the equation inner_ = value_ by one for an operand of inner_.
   void peel(const Expression::Step& step, Node operand) {
     inner_ = operand;
     switch (step.operation) {
@@ -137,8 +137,8 @@ class Inversion {
     } else {
       limits_ = {difference(zero, value_)};
     }
-    // With its sign it rises all along: so no way goes through the bottom of a groove, or of a pit, where the
-    // walls beyond would lead apart again.
+    // With its sign the power rises all along: so no path goes through the bottom of a groove, or of a pit,
+    // where the walls beyond would lead apart again.
     value_ = expression_.odd_power(value_, is_whole ? whole : root);
     return true;
   }
@@ -173,8 +173,8 @@ class FormulaSplitter {
     }
   }
 
-  /// Goes on beyond the ends of powers and roots: each part becomes what has the same zeros, trimmed by more
-  /// choices.
+  /// Goes on beyond the ends of powers and roots: each part becomes a function with the same zeros, trimmed
+  /// by more choices.
   void go_on() {
     for (SmoothPart& part : parts_[root_]) {
       extend(part);
@@ -195,7 +195,7 @@ class FormulaSplitter {
     return replace(part, inversion.solved(), inversion.limits());
   }
 
-  /// Powers that end where what they are taken of is negative go on as powers of its size, without a crease.
+  /// Replaces powers that end where their base is negative by powers of its size, without a crease.
   bool extend(SmoothPart& part) {
     const std::vector<Expression::Step> steps = expression_.steps();
     const auto ends = [](const Expression::Step& step) {
@@ -208,7 +208,7 @@ class FormulaSplitter {
     for (Node i = 0; i <= part.node; ++i) {
       const Expression::Step& step = steps[i];
       if (!used[i]) continue;
-      if (is_ternary(step.operation)) return false;  // what it does not take sets no limits
+      if (is_ternary(step.operation)) return false;  // the operand that it does not take sets no limits
       if (is_leaf(step.operation)) {
         extended[i] = i;
       } else if (ends(step)) {
@@ -265,7 +265,7 @@ class FormulaSplitter {
     return parts.size() > kMostCases ? as_it_is : parts;
   }
 
-  /// What asin, acos or atan make of what they undo: straight lines, chosen by which way the sine goes there.
+  /// The parts of an asin, acos or atan that takes back its operand: straight lines, chosen by their slope.
   std::vector<SmoothPart> taken_back(const Expression::Step& step) {
     const Expression::Step inner = expression_.steps()[step.a];
     if (step.operation == Operation::Atan && inner.operation != Operation::Tan)
@@ -284,7 +284,7 @@ class FormulaSplitter {
   }
 
   /// The asin or acos of the sine of an angle, or the atan of its tangent, where the cosine is zero or more,
-  /// or else is `less`.
+  /// or where it is `less`.
   Node line(Operation operation, Node angle, bool less) {
     if (operation == Operation::Atan && less)
       angle = expression_.binary(Operation::Subtract, angle, half_turn());
@@ -297,10 +297,10 @@ class FormulaSplitter {
     return expression_.binary(Operation::Subtract, expression_.constant(most), angle);
   }
 
-  /// atan(a / b) where b is zero or more, and where it is less: each goes on smoothly beyond.
+  /// The parts of atan(a / b) where b is zero or more, and where it is less: each goes on smoothly beyond.
   std::vector<SmoothPart> slopes(const Expression::Quotient& quotient) {
     const ChoiceSet bit = ChoiceSet{1} << choices_.size();
-    const std::vector<SmoothPart> one{{quotient.over, {0, 0}}};  // of a reciprocal, it stands nowhere
+    const std::vector<SmoothPart> one{{quotient.over, {0, 0}}};  // for a reciprocal, whose 1 has no parts
     const bool known = quotient.over < parts_.size() && !parts_[quotient.over].empty();
     std::vector<SmoothPart> result;
     for (const SmoothPart& a : known ? parts_[quotient.over] : one) {
@@ -327,7 +327,7 @@ class FormulaSplitter {
         if (!agree(a.by, b.by)) continue;
         expression_.forget_fault();
         const Node node = expression_.rebuilt(step, a.node, b.node);
-        // Without a value, as sqrt(min(x, -1)) where the choice is -1, it has no surface.
+        // A part without a value, as sqrt(min(x, -1)) where the choice is -1, has no surface.
         if (!expression_.fault().empty()) continue;
         result.push_back({node, {a.by.made | b.by.made, a.by.second | b.by.second}});
         if (result.size() > kMostCases) return result;
@@ -336,8 +336,8 @@ class FormulaSplitter {
     return result;
   }
 
-  /// atan2(y, x) where y is zero or more, and where it is less: turned by a quarter so that what jumps is on
-  /// the other side.
+  /// The parts of atan2(y, x) where y is zero or more, and where it is less: turned by a quarter so that the
+  /// jump is on the other side.
   std::vector<SmoothPart> angles(const Expression::Step& step) {
     const ChoiceSet bit = ChoiceSet{1} << choices_.size();
     std::vector<SmoothPart> result;
@@ -373,7 +373,7 @@ class FormulaSplitter {
     return result;
   }
 
-  /// Zero or less where the first operand is chosen.
+  /// A function that is zero or less where the first operand is chosen.
   Node choice_function(const Expression::Step& step) {
     if (step.operation == Operation::Abs) return expression_.unary(Operation::Negate, step.a);
     if (step.operation == Operation::Select) return step.c;
@@ -405,7 +405,7 @@ class FormulaSplitter {
     }
   }
 
-  /// A product is zero where a factor is, and a square does not go through zero where its root does.
+  /// A product is zero where a factor is; a square only touches zero where its root goes through it.
   void add_zeros_of(Node node) {
     const Expression::Step step = expression_.steps()[node];
     switch (step.operation) {
@@ -442,7 +442,7 @@ class FormulaSplitter {
   std::vector<Node> choices_, borders_;
 };
 
-/// One piece for each function; what does not depend on x, y or z has no surface.
+/// One piece for each function; functions that do not depend on x, y or z have no surface.
 base::Result<std::vector<FormulaPieces::Piece>> pieces_of(const Expression& expression,
                                                           const std::vector<SmoothPart>& parts) {
   std::vector<Node> nodes;

@@ -33,8 +33,8 @@ bool is_rising(Operation operation) {
   }
 }
 
-/// Takes an expression apart; every function of this class gives nothing where that leads to too much, or
-/// where a choice is made within what neither rises nor falls with it.
+/// Takes an expression apart; every function of this class gives nothing where the result gets too large, or
+/// where a choice is made within a function that neither rises nor falls with it.
 class MinMaxSplitter {
  public:
   explicit MinMaxSplitter(Expression& expression) : expression_(expression) {}
@@ -125,7 +125,7 @@ class MinMaxSplitter {
     return of;
   }
 
-  /// The greatest of the least of the negated functions, multiplied out.
+  /// The negation: the greatest of the least of the negated functions, multiplied out.
   std::optional<MinMax> negated(const MinMax& of) {
     std::optional<MinMax> result = MinMax{{}};
     for (const std::vector<Node>& way : of) {
@@ -143,7 +143,7 @@ class MinMaxSplitter {
   Expression& expression_;
 };
 
-/// Each combination of choices is a way.
+/// Makes a way of each combination of choices.
 base::Result<FormulaWays> by_choices(const std::string& text) {
   auto read = FormulaPieces::parse(text);
   if (!read) return base::fail(read.error().message);

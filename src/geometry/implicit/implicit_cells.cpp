@@ -9,7 +9,7 @@ using base::Bounds;
 using base::Vector3;
 
 constexpr std::size_t kMostLeaves = 4096;
-// Steps of programs spent on the tree: a long formula gets a coarser one, so that all are ready in a second.
+// Steps of programs spent on the tree: a long formula gets a coarser one, so that all take about a second.
 constexpr std::size_t kMostWork = 4'000'000;
 
 Bounds eighth_of(const Bounds& box, unsigned number) {
@@ -27,7 +27,7 @@ struct GrowingCell {
   Bounds box;
 };
 
-/// Does the segment come within `reach` of the box, or nearly? (Boxes around both are compared, and slabs.)
+/// Does the segment come within `reach` of the box, or nearly? (The box is enlarged by it along each axis.)
 bool may_reach(const Vector3& a, const Vector3& step, double reach, const Bounds& box) {
   double first = 0.0, last = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -49,7 +49,7 @@ bool may_reach(const Vector3& a, const Vector3& step, double reach, const Bounds
 Formula::Box4 always_in(const Bounds& box) {
   Formula::Box4 ranges;
   for (int i = 0; i < 3; ++i) ranges[static_cast<std::size_t>(i)] = {box.min()[i], box.max()[i]};
-  // Thirty years, not for ever: what overflows is not sure to have a value.
+  // Thirty years, not for ever: values that overflow are not sure to be defined.
   ranges[3] = {-1e9, 1e9};
   return ranges;
 }

@@ -9,24 +9,24 @@
 
 namespace icome::geometry {
 
-/// The parts of a box in which something may be found: an octree.
+/// An octree of the parts of a box that may hold something, such as a piece of a surface.
 class ImplicitCells {
  public:
-  /// `may_hold(part)` says whether it may be in a part; asking takes some `work` steps of a formula.
+  /// `may_hold(part)` tells whether a part may hold it; each call takes some `work` steps of a formula.
   ImplicitCells(const base::Bounds& box, std::size_t work,
                 base::FunctionRef<bool(const base::Bounds& part)> may_hold);
 
-  /// Around all parts; empty if it is surely nowhere in the box.
+  /// Bounds of all parts; empty if the box surely holds nothing.
   const base::Bounds& bounds() const { return bounds_; }
   /// Calls `visit(part)` for every part within `reach` of the segment, until it returns false; then the
-  /// answer is false. Real-time safe.
+  /// result is false. Real-time safe.
   bool near(const base::Vector3& a, const base::Vector3& b, double reach,
             base::FunctionRef<bool(const base::Bounds&)> visit) const;
   std::size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
 
  private:
-  /// Its eighths that count are `first`, `first` + 1, ... in the order of the bits in `eighths`; none: a
-  /// leaf.
+  /// Its eighths that may hold something are `first`, `first` + 1, ... in the order of the bits in
+  /// `eighths`; `first` is 0 for a leaf.
   struct Node {
     std::uint32_t first;
     std::uint8_t eighths;
@@ -41,7 +41,7 @@ class ImplicitCells {
 /// The box at all times that count: up to 1e9 s.
 Formula::Box4 always_in(const base::Bounds& box);
 
-/// Does f surely keep away from zero in the box, at all times? Then its sign there, else 0.
+/// The sign of f in the box, if f surely keeps away from zero there at all times; else 0. Undefined is 1.
 int sign_in_box(const Formula& formula, const base::Bounds& box);
 
 }  // namespace icome::geometry

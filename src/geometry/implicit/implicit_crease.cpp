@@ -24,7 +24,7 @@ std::optional<CreaseSide> crease_side(const Formula& formula, const Vector3& poi
   return CreaseSide{at.gradient / steepness, point, at.value / steepness};
 }
 
-/// The two sides of a crease, looked at from places a little off it.
+/// The two sides of a crease, as seen from places a little off it.
 class Crease {
  public:
   Crease(const CreaseSide& first, const CreaseSide& second) : one(first), other(second) {}
@@ -51,7 +51,7 @@ class Crease {
 
   /// Looks at both sides from `offset` away. In a groove the lower of the two functions counts, on an edge
   /// the higher one: towards one.normal - other.normal the first grows faster. If that shows only one side,
-  /// the other is looked for half-way back to where it was last seen.
+  /// the other is searched for half-way back to its last known point.
   bool look_from(const Formula& formula, const Vector3& point, double offset, double time) {
     const Vector3 apart = (one.normal - other.normal).normalized();
     const auto below = crease_side(formula, point - offset * apart, time);
@@ -80,7 +80,7 @@ class Crease {
 
 std::optional<ImplicitWalk::Leg> ImplicitWalk::crease_leg(const Place& from, const Vector3& goal,
                                                           double reach, Vector3& up) const {
-  // The other side is where Newton's method for this side would lead.
+  // Newton's method for this side would lead to the other side.
   const Vector3 pull = goal - from.point;
   const Vector3 ahead = pull - pull.dot(from.normal) * from.normal;
   const double length = ahead.norm();
@@ -96,7 +96,7 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::crease_leg(const Place& from, con
   bool arrived = false;
   for (int i = 0; i < kMostTurns && !arrived; ++i) {
     const Vector3 direction = crease.direction();
-    // The crease bends, and with it the pull along it: by the last step, how much (the secant method).
+    // The crease bends, and with it the pull along it: the last step tells how much (the secant method).
     const double pulled = direction.dot(goal - at);
     const double bends = last_move == 0.0 ? 1.0 : (last_pull - pulled) / last_move;
     const double along = std::clamp(pulled / std::clamp(bends, 0.05, 20.0), -0.5 * reach, 0.5 * reach);

@@ -129,7 +129,7 @@ class CrossingSearch {
       if (surely_behind(at.range)) return behind_from(cell.a);
       // Along the surface, from within slack: still in front.
       if (level_ > 0.0 && above_level(at.range.value)) return Outcome::Clear;
-      // Too near to tell, all along: only what follows shows on which side the way goes on.
+      // Too near to the surface all along: only later parts show on which side the way goes on.
       if (magnitude(at.range.value) <= band(middle, 0.1 * line_.slack)) return Outcome::Clear;
     }
     if (!tiny) return Outcome::Unclear;
@@ -153,8 +153,8 @@ class CrossingSearch {
     return behind_from(cell.a);
   }
 
-  /// Where the height goes through zero in a cell in which it falls: Newton's method, and halving where
-  /// that leaves the cell.
+  /// The zero of the height in a cell in which it falls: by Newton's method, and by halving where that
+  /// leaves the cell.
   double root(const LinePart& cell, double before) const {
     double a = cell.a, b = cell.b;
     const double enough = std::max(0.01 * line_.slack / length_, 0x1p-52 * line_.last);
@@ -183,7 +183,7 @@ class CrossingSearch {
   double level_ = 0.0;  // F above this much below zero counts as in front
   bool starts_inwards_ = false;
   double found_ = 0.0;
-  bool jump_ = false;   // is what was found no zero of f, or not surely?
+  bool jump_ = false;   // may f be discontinuous or undefined at the found crossing?
   bool steady_ = true;  // was f surely continuous where it was last looked at?
 };
 

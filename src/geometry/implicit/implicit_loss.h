@@ -7,8 +7,8 @@
 namespace icome::geometry {
 
 /// A place within the solid at that time that a closed mesh of it does not enclose, and whose surroundings
-/// of `reach` (m) have no part of the mesh, where chance finds one among some thousand places: a plate that
-/// slipped between the points of a grid.
+/// of `reach` (m) have no part of the mesh, if there is one among ten thousand random places: on a plate, for
+/// example, that slipped between the points of a grid.
 std::optional<Vector3> place_that_mesh_lacks(const ImplicitSurface& surface, double time,
                                              const TriangleMesh& mesh, double reach);
 

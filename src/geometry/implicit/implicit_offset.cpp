@@ -17,9 +17,9 @@ constexpr unsigned kPartBits = 32 - kActiveBits;
 constexpr std::uint32_t kPartMask = (std::uint32_t{1} << kPartBits) - 1;
 
 constexpr double kMostRoundTurn = 0.3;  // rad, of one walk round an edge or a corner
-constexpr double kSurfaceDepth = 1e-9;  // of the size: who overlaps by less is at the surface
-constexpr double kTouchShare = 0.1;     // of the slack: who is as near has arrived
-constexpr double kOffFoot = 1e-6;       // of a distance: how far beside its foot a place may be
+constexpr double kSurfaceDepth = 1e-9;  // of the size: a ball that overlaps by less is at the surface
+constexpr double kTouchShare = 0.1;     // of the slack: a ball so near has arrived
+constexpr double kOffFoot = 1e-6;       // of a distance: a place so little beside its foot is at it
 constexpr int kMostAdvances = 64;
 constexpr int kMostPartPushes = 16;  // from one part to the next
 
@@ -27,7 +27,7 @@ std::uint32_t part_of(std::uint32_t piece) { return piece & kPartMask; }
 ActiveSet active_of(std::uint32_t piece) { return piece >> kPartBits; }
 std::uint32_t piece_of_part(std::uint32_t part, ActiveSet active) { return part | active << kPartBits; }
 
-/// From one unit vector towards another, no farther than one walk may turn.
+/// One unit vector turned towards another, no farther than one walk may turn.
 Vector3 turned_towards(const Vector3& from, const Vector3& to) {
   const double cosine = from.dot(to);
   if (cosine >= std::cos(kMostRoundTurn)) return to;
@@ -45,8 +45,8 @@ double first_fall(double a, double b, double c) {
                   : (b + std::sqrt(std::max(0.0, square))) / (2.0 * c);
 }
 
-/// How far along `step` a ball's centre surely stays clear, as a share; from where the nearest place of a
-/// part is known.
+/// The share of `step` over which a ball's centre surely stays clear of a part, from a centre for which the
+/// nearest place of the part is known.
 double clear_share(const ImplicitPart::Nearest& nearest, const Vector3& centre, const Vector3& step,
                    double radius) {
   constexpr double kSteepBowl = 0.05;  // of a sphere around the centre
@@ -131,7 +131,7 @@ std::optional<SurfaceHit> ImplicitOffset::first_hit(std::uint32_t piece, const V
     t += std::max(clear_share(*nearest, centre, step, radius_), least);
   }
   if (t > 1.0) return std::nullopt;
-  // Out of work close along the part: to stop is safe.
+  // Out of work, close along the part: stopping there is safe.
   const Vector3 centre = start + t * step;
   const auto nearest = part.nearest(centre, radius_, 2.0 * radius_ + length);
   if (!nearest || nearest->distance <= 0.0) return std::nullopt;
@@ -164,7 +164,7 @@ std::uint32_t ImplicitOffset::moved_to(std::uint32_t piece, const Vector3& place
   return found;
 }
 
-/// The same place below as that of a point tip.
+/// Slides along a face: the place below the centre is the same as for a point tip.
 SurfacePlace ImplicitOffset::face_projection(const SurfacePlace& from, const Vector3& place,
                                              const Vector3& goal, double time) const {
   const auto condition = unsigned(std::countr_zero(active_of(from.piece)));
@@ -181,7 +181,7 @@ SurfacePlace ImplicitOffset::face_projection(const SurfacePlace& from, const Vec
   return foot;
 }
 
-/// Round an edge or a corner no farther than to where a face, or an edge, goes on.
+/// Goes round an edge or a corner no farther than to the face, or the edge, that continues it.
 SurfacePlace ImplicitOffset::nearest_local(const SurfacePlace& from, const Vector3& goal, double time) const {
   const Vector3 before = from.point - radius_ * from.normal;
   const ActiveSet active = active_of(from.piece);
@@ -221,7 +221,7 @@ bool ImplicitOffset::same(std::uint32_t one, std::uint32_t other) const {
   return a.gentle && b.gentle && a.way == b.way && a.cell.intersects(b.cell);
 }
 
-/// What pushes along the normal, each active condition by its share.
+/// The speed at which the active conditions push along the normal, each by its share.
 double ImplicitOffset::normal_speed(const SurfacePlace& place, double time) const {
   if (!changes()) return 0.0;
   const Vector3 below = place.point - radius_ * place.normal;
@@ -260,7 +260,7 @@ bool ImplicitOffset::inside(const Vector3& point, double time) const {
   return found;
 }
 
-// Out of the solid itself, then from part to part where a ball overlaps; else along straight lines.
+// Moves out of the solid itself, then from part to part where a ball overlaps; else along straight lines.
 std::optional<SurfacePlace> ImplicitOffset::way_out(const Vector3& point, double time) const {
   const double clear = 2.0 * in_touch();
   Vector3 at = point, out = Vector3::Zero();

@@ -8,19 +8,19 @@
 
 namespace icome::geometry {
 
-/// Where the centre of a ball is that touches the solid of a formula: the solid's surface at the ball's
+/// The places of a ball's centre while it touches the solid of a formula: the solid's surface at the ball's
 /// radius. The solid is the union of simple parts (ImplicitParts), so that this surface bounds the union of
-/// what is around each of them. The pieces are the parts; a place on one also says on which of the part's
+/// the spaces around each of them. The pieces are the parts; a place on one also tells on which of the part's
 /// faces, edges and corners the ball rests. Along a face the place below the centre is the same as a point
 /// tip's (ImplicitWalk), along an edge the centre goes round a tube, at a corner round a ball. A place where
 /// no ball can be, as beyond a groove, lies too near to another part and does no harm. The distance to a part
-/// is known with what the second derivatives can do at most: nothing is sampled, so nothing is missed; only
-/// in hollows narrower than the ball, where it cannot rest, is the nearest place the nearest of those found.
+/// follows from bounds on the second derivatives: nothing is sampled, so nothing is missed; only in hollows
+/// narrower than the ball, where it cannot rest, is the nearest place the nearest of those found.
 /// Immutable; its points are places of the centre.
 class ImplicitOffset final : public SmoothSurface {
  public:
-  /// For a ball of this radius (m, > 0) and a formula and box that make an ImplicitSurface. Fails, with a
-  /// clause that says why, where the surface cannot be taken apart: where it comes to a point, at poles, and
+  /// For a ball of this radius (m, > 0) and a formula and box that make an ImplicitSurface. Fails, with the
+  /// reason as a clause, where the surface cannot be taken apart: where it comes to a point, at poles, and
   /// where its hollows are too many and too narrow for the ball.
   static base::Result<std::shared_ptr<const ImplicitOffset>> create(const std::string& formula,
                                                                     const Bounds& box, double radius);
@@ -53,7 +53,7 @@ class ImplicitOffset final : public SmoothSurface {
   void overlapped(const Vector3& point, double time, Visit&& visit) const;
   double in_touch() const;
 
-  std::shared_ptr<const ImplicitSurface> walls_;  // by which it is told what is in the solid itself
+  std::shared_ptr<const ImplicitSurface> walls_;  // tells which points are in the solid itself
   ImplicitParts parts_;
   double radius_;
 };

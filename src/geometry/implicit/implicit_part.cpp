@@ -15,10 +15,10 @@ namespace {
 constexpr unsigned kConditions = ImplicitParts::kMostConditions;
 constexpr int kMostSolves = 16;
 constexpr double kExactly = 1e-12;   // of the box: the last step, after which the error is its square
-constexpr double kNearly = 1e-10;    // the same where steps shrink slowly
-constexpr double kBroken = 1e-14;    // of the box: what conditions may be broken by
-constexpr double kOverlap = 0.05;    // of a cell, it reaches beyond its sides
-constexpr double kLeastCurve = 0.1;  // of the identity, the Lagrangian's second derivative is at least
+constexpr double kNearly = 1e-10;    // likewise, where steps shrink slowly
+constexpr double kBroken = 1e-14;    // of the box: the tolerance of conditions
+constexpr double kOverlap = 0.05;    // of a cell: its reach beyond its sides
+constexpr double kLeastCurve = 0.1;  // the least eigenvalue used of the Lagrangian's second derivative
 constexpr int kCellSplits = 1;
 constexpr int kMostAlong = 24;
 
@@ -41,7 +41,7 @@ double gap_between(const Bounds& box, const Vector3& point) {
   return (box.min() - point).cwiseMax(point - box.max()).cwiseMax(0.0).norm();
 }
 
-/// Is a row broken all over a cell in which one is at `at`?
+/// Is a row, written for steps from `at`, broken all over the cell?
 bool forbids(const SmallProgram::Row& row, const Bounds& cell, const Vector3& at) {
   const Vector3 lowest = (row.normal.array() > 0.0).select(cell.min(), cell.max());
   return row.normal.dot(lowest - at) > row.most;
@@ -93,7 +93,7 @@ std::optional<ImplicitPart::Nearest> ImplicitPart::nearest(const Vector3& point,
   return nearest_in(with_margin(part_.cell, parts_.box()), point, close, kCellSplits);
 }
 
-/// Where a hollow is narrower than the distance, the nearest place of all is looked for in parts of the cell.
+/// The nearest place in a cell. In hollows narrower than the distance, parts of the cell are searched.
 std::optional<ImplicitPart::Nearest> ImplicitPart::nearest_in(const Bounds& cell, const Vector3& point,
                                                               double close, int splits) const {
   std::optional<Nearest> found = solve_in(cell, point);
@@ -111,8 +111,8 @@ std::optional<ImplicitPart::Nearest> ImplicitPart::nearest_in(const Bounds& cell
   return found;
 }
 
-// Sequential quadratic programming: conditions as their tangent planes, distances as they are, and how the
-// conditions bend by their multipliers (Nocedal and Wright 2006, 18.1).
+// Sequential quadratic programming: conditions as their tangent planes, distances exactly, and the bends of
+// the conditions weighted by their multipliers (Nocedal and Wright 2006, 18.1).
 std::optional<ImplicitPart::Nearest> ImplicitPart::solve_in(const Bounds& cell, const Vector3& point) const {
   const double size = parts_.box().diagonal().norm();
   const double reach = cell.sizes().squaredNorm();
@@ -173,7 +173,7 @@ std::optional<ImplicitPart::Nearest> ImplicitPart::solve_in(const Bounds& cell, 
 }
 
 ActiveSet ImplicitPart::holding(ActiveSet active, const Vector3& place, const Vector3& out) const {
-  // The nearest sum of normals is what is left of `out` by the nearest direction that none of them forbids.
+  // The nearest sum of normals is `out` minus the nearest direction to it that none of them forbids.
   SmallProgram program;
   std::array<unsigned, SmallProgram::kMostRows> bits{};
   for (ActiveSet set = active; set != 0; set &= set - 1) {

@@ -21,29 +21,29 @@ class ImplicitPart {
   struct Nearest {
     Vector3 place;
     double distance;   // m; 0 within the part
-    ActiveSet active;  // what bounds the solid there; none where only the cell ends
+    ActiveSet active;  // the conditions that bound the solid there; none where only the cell ends
     /// No place x of the part is nearer than the root of distance^2 + (1 - spread) * |x - place|^2, nor than
     /// that of distance^2 + (x - place)' bowl (x - place).
     double spread;
     base::Matrix3 bowl;
-    double width;  // m, of what was looked at around the place
-    bool cut;      // the part ends there for no reason but its cell's: the next part is as near
+    double width;  // m, of the cell searched around the place
+    bool cut;      // the part ends there only because its cell does: the next part is as near
 
-    double least() const;  // m, no place of the part is nearer than that
+    double least() const;  // m, a lower bound of the distance to the part
   };
   /// Nothing where the part is empty, or surely not nearer than `limit` (m). Where another place might be
-  /// nearer than the one found, and than `close` (m), it is looked for in parts of the cell.
+  /// nearer than the one found, and than `close` (m), it is searched for in parts of the cell.
   std::optional<Nearest> nearest(const Vector3& point, double close, double limit) const;
 
-  /// Surely no place is nearer than `reach` (m) to the segment between two points.
+  /// Is surely no place nearer than `reach` (m) to the segment between two points?
   bool keeps_off(const Vector3& a, const Vector3& b, double reach) const;
 
   /// The place near `from` where the active conditions hold with equality that is nearest to `goal`, at most
   /// `reach` (m) away; for no active condition or three it does not depend on the goal.
   Vector3 along(ActiveSet active, const Vector3& from, const Vector3& goal, double reach) const;
 
-  /// Which of the active conditions hold a ball that is pushed along `out` (unit) from a place where they are
-  /// active: those of which `out` is a sum of normals. Of three or fewer.
+  /// The subset of the active conditions that holds a ball pushed along `out` (unit) from a place where they
+  /// are active: `out` is a sum of their normals. Of three or fewer.
   ActiveSet holding(ActiveSet active, const Vector3& place, const Vector3& out) const;
 
   /// One of the active conditions there: its value, and its gradient out of the solid.

@@ -19,15 +19,15 @@ constexpr std::size_t kMostFunctionLooks = 400'000;  // at a function in a cell
 constexpr double kLargestCell = 1.0 / 12.0;          // of the box
 constexpr double kSmallestCell = 1.0 / 4000.0;
 constexpr double kMostGradientTurn = 0.5;  // of a gradient in a cell, as part of its length
-constexpr double kGentle = 0.5;            // radius of a ball, of the surface's own in a hollow
+constexpr double kGentle = 0.5;            // the ball's radius, of the surface's own in a hollow
 constexpr double kNeighbours = 1.0;        // cells around one
-constexpr double kTame = 0.9;              // of the ball's own curvature, a hollow has less
-// Where a hollow curves in about as much as the ball, cells are cut until they are as small, in radii;
+constexpr double kTame = 0.9;              // of the ball's own curvature: tame hollows have less
+// If a hollow curves in about as much as the ball, cells are cut until they are this small, in radii;
 // coarser ones are tried where that makes too many parts.
 constexpr std::array<double, 3> kFoldCells{1.0 / 12.0, 1.0 / 3.0, std::numeric_limits<double>::infinity()};
 constexpr const char* kTooManyParts = "it takes too many small parts to follow its surface";
 
-/// What is known about a function in a cell, at all times.
+/// Bounds on a function and its derivatives in a cell, at all times.
 struct CellShape {
   bool tame;           // it is defined, and its derivatives are bounded
   double least_slope;  // of the gradient's length
@@ -36,12 +36,12 @@ struct CellShape {
   std::array<Interval, 3> slope;
   base::Matrix3 least = base::Matrix3::Zero();  // as Condition::least
   double most_slope = 0.0;
-  Vector3 inwards = Vector3::Zero();  // unit: along this the function bends down most, in the middle of what
+  Vector3 inwards = Vector3::Zero();  // unit: along this the function bends down most, for the middles of
   double least_bend = 0.0, largest_bend = 0.0,
-         doubt = 0.0;  // is known: so much, at most so much, and so unsure
+         doubt = 0.0;  // the second derivatives' ranges: their extreme eigenvalues, and their error
 
-  /// Along some tangent, at every place of the cell, a surface of the function curves in by at least this
-  /// (1/m).
+  /// A lower bound, for every place of the cell, of the curvature (1/m) with which a surface of the function
+  /// curves in along some tangent.
   double least_hollow() const;
 };
 
@@ -83,7 +83,7 @@ CellShape shape_of(const Formula& formula, double sign, const Bounds& cell) {
   const Vector3& values = axes.values;
   const double doubtful = doubt.rowwise().sum().maxCoeff();
   shape.most_bend = values.cwiseAbs().maxCoeff() + doubtful;
-  // Less what each row may be off in all, a matrix is less by every one that is off so.
+  // With each row's sum of uncertainties taken from the diagonal, it is a lower bound of all these matrices.
   shape.least = middle - base::Matrix3(doubt.rowwise().sum().asDiagonal());
   shape.hollow = std::max(0.0, -base::symmetric_eigen(shape.least).values[0]);
   shape.inwards = axes.vectors.col(0);
@@ -101,7 +101,7 @@ Bounds eighth_of_cell(const Bounds& cell, unsigned which) {
   return eighth;
 }
 
-/// A function and how it enters.
+/// A function and the sign with which it enters.
 struct SignedFormula {
   const Formula* formula;
   double sign;
@@ -116,7 +116,7 @@ class ImplicitPartsMaker {
   ImplicitPartsMaker(ImplicitParts& parts, double radius, double fold_cell)
       : parts_(parts), radius_(radius), fold_cell_(fold_cell) {}
 
-  /// Why it cannot be done; empty when it was.
+  /// Does the work. Returns the reason why it cannot be done; empty when it was.
   std::string run() {
     for (const std::vector<FormulaWays::Term>& way : parts_.ways_->ways) {
       way_.clear();
@@ -183,7 +183,7 @@ class ImplicitPartsMaker {
     for (std::size_t i = 0; i < terms.size(); ++i)
       parts_.conditions_.push_back({terms[i].formula, terms[i].sign, shapes[i].hollow, shapes[i].least});
     const bool gentle = terms.size() == 1 && is_gentle(cell, terms.front());
-    // Around a place of a surface that curves in more, some of it is nearer to the ball's centre.
+    // Around a place of a surface that curves in more than the ball, some of it is nearer to the centre.
     const bool folded = terms.size() == 1 && !at_side(cell) && radius_ * shapes.front().least_hollow() > 1.0;
     parts_.parts_.push_back({cell, way_number_, first, std::uint32_t(terms.size()), gentle, folded});
     centres_.push_back(centres(cell, shapes));
@@ -201,8 +201,8 @@ class ImplicitPartsMaker {
     return shape.tame && radius_ * shape.hollow <= kGentle * shape.least_slope;
   }
 
-  /// Around the centres of balls that rest on what lies in the cell: that far along the normals, which are
-  /// sums of gradients and of the normals of the box's sides.
+  /// Bounds of the centres of balls that rest on the part in the cell: a radius away along the normals, which
+  /// are sums of gradients and of the normals of the box's sides.
   Bounds centres(const Bounds& cell, const std::vector<CellShape>& shapes) const {
     Vector3 lo = Vector3::Zero(), hi = Vector3::Zero();
     const bool side = at_side(cell);
@@ -249,7 +249,7 @@ base::Result<ImplicitParts> ImplicitParts::create(const std::string& formula, co
 }
 
 void ImplicitParts::sort(const std::vector<Bounds>& centres) {
-  constexpr double kMargin = 1e-9;  // boxes are this much larger than what they hold, of the whole
+  constexpr double kMargin = 1e-9;  // boxes are this much larger than their contents, of the whole
   const Vector3 margin = Vector3::Constant(kMargin * box_.diagonal().norm());
   std::vector<Eigen::Vector3f> middles;
   for (const Part& part : parts_) middles.emplace_back(part.cell.center().cast<float>());

@@ -13,8 +13,8 @@ namespace icome::geometry {
 
 /// The solid f < 0 of a formula in a box as a union of simple parts: each is the part of a cell in which a
 /// few smooth functions are not positive (FormulaWays), and each of these is nearly linear there. Only cells
-/// in which the surface may run, at any time, are there. Immutable; see implicit_part.h for what one part is
-/// asked.
+/// in which the surface may run, at any time, are kept. Immutable; see implicit_part.h for the queries of
+/// one part.
 class ImplicitParts {
  public:
   static constexpr std::size_t kMostConditions = 6;  // of one part
@@ -33,12 +33,12 @@ class ImplicitParts {
     std::uint32_t way;    // of the formula; parts of one way continue each other
     std::uint32_t first;  // of its conditions
     std::uint32_t count;
-    bool gentle;  // below a ball of the radius that rests on it, nothing of the way's neighbouring cells
-                  // is nearer
+    bool gentle;  // nothing in the way's neighbouring cells is nearer to a ball of the radius that rests
+                  // on it
     bool folded;  // it curves in more than the ball does, so that none can touch it
   };
 
-  /// For balls of this radius (m). Fails, with a clause that says why, where the surface cannot be cut into
+  /// For balls of this radius (m). Fails, with the reason as a clause, where the surface cannot be cut into
   /// such parts.
   static base::Result<ImplicitParts> create(const std::string& formula, const Bounds& box, double radius);
 
@@ -49,12 +49,12 @@ class ImplicitParts {
   }
   const FloatBox& centres(std::uint32_t number) const { return centres_[number]; }
   const Bounds& box() const { return box_; }
-  /// Around all cells.
+  /// Bounds of all cells.
   const Bounds& bounds() const { return bounds_; }
-  /// Over the cells.
+  /// The tree over the cells.
   const BoxTree& cells() const { return cell_tree_; }
-  /// Over the places of a ball's centre while it rests on a part; those that are folded come last, and are
-  /// not there.
+  /// The tree over the places of a ball's centre while it rests on a part; folded parts come last, and are
+  /// not in it.
   const BoxTree& rests() const { return rest_tree_; }
   std::size_t bytes() const;
 

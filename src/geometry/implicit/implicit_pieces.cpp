@@ -12,9 +12,9 @@ using base::Vector3;
 using ChoiceSet = FormulaPieces::ChoiceSet;
 
 constexpr double kAlongside = 1e-6;    // sine of the angle up to which two pieces run along each other
-constexpr double kLeastAcross = 0.01;  // share of a slope that counts across at least
+constexpr double kLeastAcross = 0.01;  // the least share of a slope that counts as across
 
-/// Calls `visit(number)` for each choice of a set, until it returns false; then the answer is false.
+/// Calls `visit(number)` for each choice of a set, until it returns false; then the result is false.
 template <typename Visit>
 bool each_choice(ChoiceSet set, Visit&& visit) {
   for (; set != 0; set &= set - 1) {
@@ -23,11 +23,11 @@ bool each_choice(ChoiceSet set, Visit&& visit) {
   return true;
 }
 
-/// How a choice stands on a piece.
+/// The state of a choice on a piece.
 enum class ChoiceState { First, Second, Either, Undefined };
 
-/// Within `slack` of where it changes, it counts as either; but where it changes along all of the piece, it
-/// is what it is behind the piece.
+/// Within `slack` of its change, a choice counts as either; but where it changes along all of the piece, its
+/// state behind the piece counts.
 ChoiceState choice_at(const Formula& choice, const Vector3& point, const Vector3& normal, double time,
                       double slack) {
   const Formula::Slope at = choice.slope(point, time);
@@ -42,14 +42,14 @@ ChoiceState choice_at(const Formula& choice, const Vector3& point, const Vector3
   return through < 0.0 ? ChoiceState::Second : ChoiceState::First;
 }
 
-/// Unit; nothing where the formula has no gradient.
+/// The unit gradient; nothing where the formula has no gradient.
 std::optional<Vector3> gradient_direction(const Formula::Slope& at) {
   const double steepness = at.gradient.norm();
   if (!(steepness > 0.0) || !std::isfinite(steepness)) return std::nullopt;
   return at.gradient / steepness;
 }
 
-/// May it take values on both sides of zero? Rounding alone may bring a sum of squares below.
+/// May it take values on both sides of zero? Rounding alone may bring a sum of squares below zero.
 bool may_change_sign(const Formula& formula, const Bounds& box) {
   constexpr double kNothing = 64.0 * rounding::kSmallest;
   const Interval range = formula.range(always_in(box)).value;
@@ -90,7 +90,7 @@ bool ImplicitPieces::is_possible(std::size_t piece, const Decided& decided) cons
   });
 }
 
-/// At any time.
+/// May the piece run in the box at any time?
 bool ImplicitPieces::may_run_in(std::size_t piece, const Bounds& box) const {
   if (sign_in_box(formula(piece), box) != 0) return false;
   if (is_border(piece)) {

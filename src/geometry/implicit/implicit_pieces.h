@@ -7,7 +7,7 @@
 
 namespace icome::geometry {
 
-/// The smooth pieces of the surface of the solid f < 0 in a box, with what trims them. First those of the
+/// The smooth pieces of the surface of the solid f < 0 in a box, with their trimming. First those of the
 /// surface f = 0 (FormulaPieces::pieces), which end where f chooses otherwise; then the borders, where f
 /// jumps or begins to have values, which count where that bounds the solid. Pieces face along their
 /// gradients.
@@ -22,9 +22,9 @@ class ImplicitPieces {
   }
   bool is_border(std::size_t piece) const { return piece >= parts_.pieces.size(); }
 
-  /// Around all pieces; empty if the solid surely has no surface in the box.
+  /// Bounds of all pieces; empty if the solid surely has no surface in the box.
   const base::Bounds& bounds() const { return bounds_; }
-  /// Where a piece may run.
+  /// The cells in which a piece may run.
   const ImplicitCells& cells(std::size_t piece) const { return cells_[piece]; }
 
   /// Is the point, in the box, in the solid? Real-time safe.
@@ -38,13 +38,13 @@ class ImplicitPieces {
   /// A border that bounds the solid within `slack` of `point`. Real-time safe.
   std::optional<std::size_t> border_at(const base::Vector3& point, double time, double slack) const;
 
-  /// A piece of f = 0 that f is near `point`; nothing where f has no value. Real-time safe.
+  /// A piece of f = 0 whose function f equals near `point`; nothing where f has no value. Real-time safe.
   std::optional<std::size_t> piece_at(const base::Vector3& point, double time) const;
 
   std::size_t bytes() const;
 
  private:
-  /// Which choices are decided somewhere, and which of these for the second operand.
+  /// The choices that are decided somewhere, and those of them decided for the second operand.
   struct Decided {
     FormulaPieces::ChoiceSet choices = 0, second = 0;
   };

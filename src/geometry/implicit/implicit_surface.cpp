@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kSides = 6;  // pieces 1 to 6
 
 bool is_side(std::uint32_t piece) { return piece >= 1 && piece <= kSides; }
-/// Of the formula's pieces, in ImplicitPieces and here.
+/// The formula's pieces by their numbers in ImplicitPieces (index) and here (piece).
 std::size_t index_of(std::uint32_t piece) { return piece == 0 ? 0 : piece - kSides; }
 std::uint32_t piece_of(std::size_t index) { return std::uint32_t(index == 0 ? 0 : index + kSides); }
 
@@ -36,7 +36,7 @@ double side_level(const Bounds& box, std::uint32_t piece) {
   return (direction_of(piece) > 0.0 ? box.max() : box.min())[axis_of(piece)];
 }
 
-/// The part of a side where the solid may reach it at some time; empty if it never does.
+/// The part of a side that the solid may reach at some time; empty if it never does.
 Bounds side_part(const Formula& formula, const Bounds& box, std::uint32_t piece) {
   constexpr int kParts = 16;
   const Eigen::Index axis = axis_of(piece), u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -82,7 +82,7 @@ bool is_within(const Bounds& box, const Vector3& point, double reach) {
 
 struct ImplicitSurface::Parts {
   ImplicitPieces pieces;
-  std::array<Bounds, kSides> sides;  // what counts of pieces 1 to 6
+  std::array<Bounds, kSides> sides;  // the parts that count of pieces 1 to 6
   Bounds bounds;
   double size;  // m, of the box
 
@@ -191,8 +191,8 @@ std::optional<SurfaceHit> ImplicitSurface::hit_of_formula(std::uint32_t piece, c
   const ImplicitWalk walk = parts_->walk(piece, time);
   const auto place_at = [&](double t) -> SurfacePlace {
     const Vector3 point = start + t * step;
-    // Where f jumps, or begins to have values, it has no gradient: then the surface faces the way that is
-    // taken.
+    // At a jump of f, or at the beginning of its values, there is no gradient: then the surface faces along
+    // the line on which it is met.
     const Vector3 facing = from_behind ? step : -step;
     return {point, walk.normal(point).value_or(facing.stableNormalized()), piece};
   };

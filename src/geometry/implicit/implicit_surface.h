@@ -14,7 +14,7 @@ namespace icome::geometry {
 /// the formula has no value, there is nothing; where it begins to have negative ones, or jumps to them (at a
 /// pole), the solid ends in a wall.
 ///
-/// Where abs, min, max and if choose, the surface consists of pieces that are smooth each and meet in edges
+/// By the choices of abs, min, max and if, the surface consists of pieces, each smooth, that meet in edges
 /// and grooves, as faces of a CSG solid do. Piece 0 is the first of them, or all of a smooth formula's
 /// surface; it goes on beyond its edges and the box (covers() knows), as the others do, which are pieces 7,
 /// 8, ..., with walls the last. Pieces 1 to 6 are the sides of the box towards -x, +x, -y, +y, -z, +z where
@@ -27,8 +27,8 @@ class ImplicitSurface final : public SmoothSurface {
                                                                      const Bounds& box);
   ~ImplicitSurface() override;
 
-  /// f there, and its exact gradient (with respect to x, y, z; where abs, min and max change, of one side).
-  /// Real-time safe.
+  /// The value of f, and its exact gradient (with respect to x, y, z; where abs, min and max change, of one
+  /// side). Real-time safe.
   struct Value {
     double value;
     Vector3 gradient;
@@ -64,7 +64,7 @@ class ImplicitSurface final : public SmoothSurface {
   Bounds box_;
 };
 
-/// Is some of it solid at that time? Looks at some thousand places, between which a small solid may lie.
+/// Is some of it solid at that time? Tests some thousand places, between which a small solid may be missed.
 bool shows_solid(const ImplicitSurface& surface, double time);
 
 /// The solid at one time, for meshing; `surface` outlives it.

@@ -22,11 +22,11 @@ constexpr double kUpright = 1e-6;  // sine of the angle between pull and normal 
 constexpr int kMostLegs = 14;
 constexpr int kFewLegs = 2;  // that are walked in any case
 constexpr int kMostWalkSteps = 8;
-constexpr int kSheetHalvings = 3;  // of ways that are not sure at once
+constexpr int kSheetHalvings = 3;  // of ways that are not certain at once
 // Legs are shortened by this factor until they are sure, and given up when they are that much shorter than
 // the size.
 constexpr double kShorter = 0.25;
-constexpr double kBack = 0.4;  // of the last step: how far the next goes back at most
+constexpr double kBack = 0.4;  // of the last step: the most that the next goes back
 
 /// Two unit vectors that are orthogonal to `normal` and to each other.
 TangentFrame tangents(const Vector3& normal) {
@@ -41,7 +41,7 @@ struct NewtonStep {
   Vector3 step;
   double length;       // along the surface
   double error_after;  // m, estimated
-  bool curbed;         // shortened, or for want of a minimum nearby only downhill
+  bool curbed;         // shortened, or only downhill as no minimum is near
 };
 
 NewtonStep newton_step(const Formula::Bend& at, const Vector3& point, const Vector3& goal, double reach) {
@@ -58,7 +58,7 @@ NewtonStep newton_step(const Formula::Bend& at, const Vector3& point, const Vect
   const Vector2 slope = frame.transpose() * (pull - above * sink * (bend * normal));
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
   axes.computeDirect(hessian);
-  // Where the distance curves downwards there is no minimum near: any step downhill will do.
+  // A distance that curves downwards has no minimum near: any step downhill will do.
   constexpr double kFlattest = 0.02;
   const Vector2 bending = axes.eigenvalues().cwiseAbs().cwiseMax(kFlattest);
   const bool downhill_only = axes.eigenvalues().minCoeff() < kFlattest;
@@ -69,7 +69,7 @@ NewtonStep newton_step(const Formula::Bend& at, const Vector3& point, const Vect
   const double wanted = along.norm();
   const bool too_long = wanted > most;
   if (too_long) along *= most / wanted;
-  const double drop = -0.5 * along.dot(curvature * along);  // how the surface falls off meanwhile
+  const double drop = -0.5 * along.dot(curvature * along);  // the fall of the surface over the step
   const double length = along.norm();
   return {frame * along + (sink + drop) * normal, length,
           steepest_curve * (length * length + sink * sink) / bending.minCoeff(), too_long || downhill_only};
@@ -126,13 +126,13 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Ve
     if (!is_usable(here)) return std::nullopt;
     // Half of what is left, so that something is left to go on beyond an edge.
     NewtonStep next = newton_step(here, at, goal, 0.5 * left);
-    // Where it bends ever more, as the power 1.5 does, Newton's method may go to and fro for ever.
+    // On a surface that bends ever more, as of the power 1.5, Newton's method may go to and fro for ever.
     if (next.step.dot(last) < -0.5 * last.squaredNorm())
       next = newton_step(here, at, goal, std::min(0.5 * left, kBack * last.norm()));
     at += next.step;
     last = next.step;
     left -= next.length;
-    // Beyond a crease the surface is elsewhere than where it was expected.
+    // Beyond a crease the surface is not at the expected place.
     if (!next.curbed && next.error_after <= kExact * size_ &&
         std::fabs(formula_.value(at, time_)) <= kOnIt * size_ * here.gradient.norm()) {
       // The normal has turned by the last step only, which was short.
@@ -146,13 +146,13 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Ve
   return Leg{*end, false};
 }
 
-/// By how much the square of the distance to `goal` is less at `to`.
+/// The decrease of the squared distance to `goal` from `from` to `to`.
 double ImplicitWalk::gain(const Vector3& from, const Vector3& to, const Vector3& goal) const {
   return (from - to).dot(from + to - 2.0 * goal);
 }
 
-/// Along a rectangle that holds both places, upright on the way between them, f rises everywhere `up`,
-/// and the surface can neither leave it above nor below: so the two are connected within it.
+/// Are the places surely connected in a rectangle that holds both, upright on the way between them? They are
+/// if f rises everywhere along `up` in it, and the surface can leave it neither above nor below.
 bool ImplicitWalk::is_straight_on(const Place& from, const Place& to, const Vector3& up) const {
   const Vector3 way = to.point - from.point;
   const double rise = way.dot(up);
@@ -175,7 +175,7 @@ bool ImplicitWalk::is_straight_on(const Place& from, const Place& to, const Vect
   return false;
 }
 
-/// Over long ways, by way of places in between.
+/// Are the places surely on one sheet? Over long ways, this is shown by way of places in between.
 bool ImplicitWalk::on_one_sheet(const Place& from, const Place& to, const Vector3& up, int halvings) const {
   if (is_straight_on(from, to, up)) return true;
   if (halvings == 0) return false;

@@ -5,7 +5,7 @@
 
 namespace icome::geometry {
 
-/// Walks on the surface f = 0 of a formula at one time. `size` (m) is that of what is looked at: results are
+/// Walks on the surface f = 0 of a formula at one time. `size` (m) is that of the whole object: results are
 /// exact to some 1e-13 of it. All functions are real-time safe.
 class ImplicitWalk {
  public:
@@ -15,14 +15,14 @@ class ImplicitWalk {
   struct Place {
     base::Vector3 point;
     base::Vector3 normal;  // unit, towards larger f
-    bool reached = true;  // of descend(): that the distance has its minimum there, not where the walk stopped
+    bool reached = true;  // of descend(): the distance has its minimum there; false: the walk stopped earlier
   };
 
-  /// From near the surface onto it, along the gradient; nothing if there is none within `reach`.
+  /// Moves a point near the surface onto it, along the gradient; nothing if it is not within `reach`.
   std::optional<Place> settle(const base::Vector3& point, double reach) const;
 
-  /// From near the surface, along it, to where the distance to `goal` has a local minimum, or as far as is
-  /// sure: each leg is proved to stay on one sheet of the surface.
+  /// Walks from near the surface, along it, to a local minimum of the distance to `goal`, or as far as is
+  /// certain: each leg is proved to stay on one sheet of the surface.
   Place descend(const base::Vector3& from, const base::Vector3& goal) const;
 
   /// The unit gradient there; nothing where f has none.
@@ -35,7 +35,7 @@ class ImplicitWalk {
   };
   /// Newton's method for the minimum, no further than `reach` from `from`. Nothing where it fails.
   std::optional<Leg> leg(const base::Vector3& from, const base::Vector3& goal, double reach) const;
-  /// The same along a crease of the surface, where the gradient jumps (of abs, min and max). `up`, unit, is
+  /// A leg along a crease of the surface, where the gradient jumps (of abs, min and max). `up`, unit, is
   /// the mean of the normals on both sides.
   std::optional<Leg> crease_leg(const Place& from, const base::Vector3& goal, double reach,
                                 base::Vector3& up) const;

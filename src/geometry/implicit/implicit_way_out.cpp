@@ -12,10 +12,10 @@ namespace icome::geometry {
 namespace {
 
 constexpr int kRays = 26;
-constexpr int kFollowed = 6;      // of the nearest hits
+constexpr int kFollowed = 6;      // so many of the nearest hits
 constexpr double kSlack = 1e-11;  // of the size: contact arithmetic's usual slack
 
-/// A place where a ray leaves the solid.
+/// A place at which a ray leaves the solid.
 struct Hit {
   Vector3 point;
   double distance;
@@ -27,7 +27,7 @@ class NearestWayOut {
   NearestWayOut(const ImplicitPieces& pieces, const Bounds& box, const Vector3& point, double time)
       : pieces_(pieces), box_(box), point_(point), time_(time), size_(box.diagonal().norm()) {}
 
-  /// A place of the surface, and the nearest one of the piece that it lies on.
+  /// Offers a place of the surface, and the nearest place of the piece that it lies on.
   void follow(const Vector3& hit) {
     const auto border = pieces_.border_at(hit, time_, kSlack * size_);
     const auto piece = border ? border : pieces_.piece_at(hit, time_);
@@ -38,7 +38,7 @@ class NearestWayOut {
     offer_projection(walk.descend(hit, point_), *piece);
   }
 
-  /// The nearest place of the piece that the formula is where the point lies.
+  /// Offers the nearest place of the piece whose function the formula equals at the point.
   void look_straight_up() {
     const auto piece = pieces_.piece_at(point_, time_);
     if (!piece) return;

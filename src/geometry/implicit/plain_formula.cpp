@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The least or the greatest, by `before`; one that is undefined makes the whole undefined.
+/// The least or the greatest value, by `before`; an undefined one makes the result undefined.
 template <typename Before>
 double extreme(const double* values, int count, Before&& before) {
   double best = values[0];
@@ -31,14 +31,14 @@ double greatest_value(const double* values, int count) {
   return extreme(values, count, [](double a, double b) { return a > b; });
 }
 
-/// Compares; what is undefined makes the outcome undefined.
+/// Compares; an undefined operand makes the result undefined.
 template <typename Compare>
 double compared(double a, double b, Compare&& holds) {
   if (std::isnan(a) || std::isnan(b)) return kNoValue;
   return holds(a, b) ? 1.0 : 0.0;
 }
 
-/// What the first operand decides needs no second.
+/// The second operand matters only where the first does not decide.
 double both(double a, double b) { return std::isnan(a) || a == 0.0 ? a : b; }
 double either(double a, double b) { return std::isnan(a) || a != 0.0 ? a : b; }
 double chosen_value(double condition, double a, double b) {
@@ -58,7 +58,7 @@ struct BoundParser {
     parser.DefineVar("t", &t);
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
-    // Where muParser means something else or has no such function.
+    // The functions that muParser lacks, or by which it means something else.
     parser.DefineFun(
         "log", +[](double a) { return std::log(a); });
     parser.DefineFun(
@@ -72,7 +72,7 @@ struct BoundParser {
     parser.Eval();
   }
 
-  /// muParser's own comparisons take what is undefined for false; it has all of its operators or none.
+  /// muParser's own comparisons take undefined operands for false; it has all of its operators or none.
   void define_operators() {
     parser.EnableBuiltInOprt(false);
     parser.DefineOprt(

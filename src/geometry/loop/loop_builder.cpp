@@ -84,12 +84,12 @@ std::uint32_t LoopPatches::Builder::opposite(std::uint32_t side) const {
   return corner(side / 4, (side % 4 + 2) % 3);
 }
 
-/// Over the edge of the side's piece that follows the side (turn 1) or comes before it (turn 2).
+/// The side beyond the edge of the side's piece that follows the side (turn 1) or precedes it (turn 2).
 std::uint32_t LoopPatches::Builder::over(std::uint32_t side, int turn) const {
   return result_.across(side / 4, int(side % 4 + std::uint32_t(turn)) % 3);
 }
 
-/// The point over a boundary that makes the regular rules give the boundary's: a + b - c.
+/// The point beyond a boundary with which the regular rules give the boundary's: a + b - c.
 std::uint32_t LoopPatches::Builder::mirrored(std::uint32_t side) {
   const auto [found, is_new] = mirrored_.try_emplace(side, std::uint32_t(result_.points_.size()));
   if (is_new) {
@@ -125,7 +125,7 @@ void LoopPatches::Builder::add_piece(std::uint32_t piece) {
 
 void LoopPatches::Builder::add_regular(std::uint32_t piece) {
   std::array<std::uint32_t, kBoxSplinePoints> stencil;
-  // Over edge i of the piece lies one point, beyond the two far edges there one each.
+  // Beyond edge i of the piece lies one point, and beyond each of the two far edges there another.
   constexpr std::array<int, 3> kOver = {6, 9, 3};
   constexpr std::array<int, 3> kAtStart = {5, 8, 11};  // beyond the far edge at the start of edge i
   constexpr std::array<int, 3> kAtEnd = {7, 10, 4};

@@ -18,7 +18,7 @@ Vector3 slab_axis_of(const LoopPatches& patches, std::uint32_t piece) {
   return {axis[0], axis[1], axis[2]};
 }
 
-/// Lengths that are not told apart; never quite 0.
+/// The tolerance of lengths; never quite 0.
 double slack_of(const LoopPatches& patches, double slack) { return std::max(slack, 1e-15 * patches.size()); }
 
 struct Near {
@@ -109,7 +109,7 @@ bool beyond_edge(const LoopPoint& at, int edge, const Vector3& above, double sla
   return (above - at.point).dot(out) > slack;
 }
 
-/// At the vertex of a piece that touches a boundary or crease there: beyond one of the fan's two edges?
+/// Is `above` beyond one of the fan's two edges at a piece's vertex on a boundary or crease?
 bool beyond_vertex(const LoopPatches& patches, std::uint32_t piece, const Vector3& above, double slack) {
   LoopCursor cursor(patches);
   for (const bool counter_clockwise : {false, true}) {

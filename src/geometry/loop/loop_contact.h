@@ -7,7 +7,7 @@
 
 namespace icome::geometry {
 
-/// SmoothSurface's questions about single pieces; see there. Real-time safe.
+/// SmoothSurface's queries about single pieces; see there. Real-time safe.
 SurfacePlace loop_place(LoopCursor& cursor, const LoopPatches& patches, const LoopSpot& spot);
 std::optional<SurfaceHit> loop_hit(const LoopPatches& patches, std::uint32_t piece, const Vector3& start,
                                    const Vector3& step, bool from_behind, double slack);
@@ -16,7 +16,7 @@ bool loop_covers(const LoopPatches& patches, const SurfacePlace& place, const Ve
 /// The box of a piece.
 Bounds loop_box(const LoopPatches& patches, std::uint32_t piece);
 
-/// SmoothSurface's questions about the whole surface; see there. Real-time safe.
+/// SmoothSurface's queries about the whole surface; see there. Real-time safe.
 bool loop_inside(const LoopPatches& patches, const Vector3& point);
 SurfacePlace loop_nearest(const LoopPatches& patches, const Vector3& point);
 

@@ -13,7 +13,7 @@
 namespace icome::geometry {
 namespace {
 
-/// The edges by their vertices, each under the lower one and the higher one.
+/// The key of an edge: its lower vertex, then its higher one.
 std::uint64_t key_of_edge(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t(std::min(a, b)) << 32U | std::max(a, b);
 }

@@ -70,7 +70,7 @@ void LoopCrossings::find(std::uint32_t piece) {
   limit_ = std::min(limit_, visit_({at, {piece, 0.0, 0.0}, slope, std::abs(slope) > kSure}));
 }
 
-// What is left around the vertex lies in a flat disc.
+// The rest around the vertex lies in a flat disc.
 bool LoopCrossings::misses_rest(const LoopFanPoints& fan, int level) const {
   const Vector3 away = ray_.start - fan.apex;
   const double reach = fan.reach(level) + margin_;
@@ -97,7 +97,7 @@ bool LoopCrossings::out_of_sight(const Vector4& low, const Vector4& high) const 
          low[2] > limit_ + margin_ || high[2] < -margin_;
 }
 
-// What a grazing ray sees of a part is a sliver: its thin direction tells more than both axes.
+// A grazing ray sees a part as a sliver: its thin direction tells more than both axes.
 LoopCrossings::View LoopCrossings::view_of(const QuarticTriangle& shape) const {
   Vector4 low = shape.points[0], high = low;
   for (int i = 1; i < QuarticTriangle::kPoints; ++i) {
@@ -165,8 +165,8 @@ void LoopCrossings::search(std::uint32_t piece, const BoxSplineControl& control,
 
 namespace {
 
-/// The inverse of the derivative's mean and how far from it the derivative gets anywhere: where that is less
-/// than 1 the map to the plane across the ray takes no value twice.
+/// The inverse of the derivative's mean, and the largest deviation of the derivative from it: where that is
+/// less than 1, the map to the plane across the ray takes no value twice.
 struct Contraction {
   double ys0, ys1, yt0, yt1;  // s = ys0 x + ys1 y
   double rate = 2.0;
@@ -207,7 +207,7 @@ Contraction contraction_of(const QuarticTriangle& shape) {
   return result;
 }
 
-/// How far outside the triangle, at least.
+/// A lower bound of the distance outside the triangle enlarged by `room`; negative inside.
 double outside(double s, double t, double room) {
   return std::max({-s - room, -t - room, (s + t - 1.0 - room) * 0.70710678118654752});
 }
@@ -242,7 +242,7 @@ LoopCrossings::Verdict LoopCrossings::newton(std::uint32_t piece, const LoopCell
       next_s = std::max(next_s - over, -room);
       next_t = std::min(1.0 + room - next_s, next_t);
     }
-    // Quadratic: what is left after the step is about its square.
+    // Quadratic: the error after the step is about its square.
     if (way < 1e-8 && outside(s - step_s, t - step_t, room) <= 1e-14) {
       const auto at = [&](double ps, double pt) -> Vector2 {
         return node.corners[0] + ps * (node.corners[1] - node.corners[0]) +
@@ -259,7 +259,7 @@ LoopCrossings::Verdict LoopCrossings::newton(std::uint32_t piece, const LoopCell
   return Verdict::Unsure;
 }
 
-// The ray runs within rounding of this part, or it is too small to cut: where it passes over the part beside.
+// The ray runs within rounding of this part, or it is too small to cut: reports a place that the ray passes.
 void LoopCrossings::graze(std::uint32_t piece, const LoopCell& cell, const Node& node) {
   double s = 1.0 / 3.0, t = 1.0 / 3.0;
   QuarticJet jet = evaluate(node.shape, s, t);

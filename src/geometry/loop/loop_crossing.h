@@ -6,7 +6,7 @@
 
 namespace icome::geometry {
 
-/// A straight way through the surface, with the frame that it is looked at in. Real-time safe.
+/// A straight way through the surface, with the frame in which the surface is seen. Real-time safe.
 struct LoopRay {
   /// `about_normal` need not be exact: where it is the surface's normal, grazing rays take least work.
   LoopRay(const Vector3& from, const Vector3& step, double slack, const Vector3& about_normal);
@@ -17,7 +17,7 @@ struct LoopRay {
   double slack;            // m
 };
 
-/// Where a ray goes through a piece.
+/// A crossing of a ray with a piece.
 struct LoopCrossing {
   double at;  // m along the ray
   LoopSpot spot;
@@ -31,7 +31,7 @@ struct LoopCrossing {
 /// safe, the work for one piece is bounded.
 class LoopCrossings {
  public:
-  /// Returns how far along the ray (m) crossings are of interest from now on.
+  /// Returns the distance along the ray (m) up to which crossings are of interest from now on.
   using Visitor = base::FunctionRef<double(const LoopCrossing&)>;
 
   LoopCrossings(const LoopPatches& patches, const LoopRay& ray, Visitor visit);
@@ -61,7 +61,7 @@ class LoopCrossings {
   Visitor visit_;
   double limit_;     // m along the ray
   double margin_;    // m, around bounds
-  double rounding_;  // m, below which surfaces are not told apart
+  double rounding_;  // m, the distance below which surfaces are not distinguished
   int work_ = 0;
 };
 

@@ -7,10 +7,10 @@
 namespace icome::geometry {
 namespace {
 
-// Rings around an extraordinary vertex that are looked at one by one, before what is left is bounded as a
+// Rings around an extraordinary vertex that are looked at one by one, before the rest is bounded as a
 // whole.
 constexpr int kRings = 4;
-// For the arithmetic of surfaces and bounds, relative to the coordinates.
+// The rounding of the arithmetic of surfaces and bounds, relative to the coordinates.
 constexpr double kBoundsRounding = 1e-14;
 
 /// The Bernstein points of a piece and the flat pancake at its extraordinary vertex.
@@ -66,7 +66,7 @@ Hull hull_of(const LoopPatches& patches, std::uint32_t piece) {
   return hull;
 }
 
-/// Along the piece's mean normal.
+/// The direction of the piece's mean normal, unit.
 Vector3 slab_axis(const LoopPatches& patches, std::uint32_t piece) {
   LoopCursor cursor(patches);
   Vector3 sum = Vector3::Zero();

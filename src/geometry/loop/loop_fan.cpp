@@ -8,7 +8,7 @@
 namespace icome::geometry {
 namespace {
 
-// The slowest shrinking that the scheme knows is 5/8 a level: 80 levels reach the last bit of a double.
+// The slowest shrinking of the scheme is 5/8 a level: 80 levels reach the last bit of a double.
 constexpr int kMaxLevels = 80;
 constexpr double kNegligible = 1e-17;
 
@@ -46,7 +46,7 @@ std::array<Row, kFinePoints> subdivide(const FanType& type, FaceRows& rows) {
   return fine;
 }
 
-/// Takes the vertex's place on the limit from all rows: again and again, as rounding brings it back.
+/// Subtracts the vertex's place on the limit from all rows: on every level, as rounding brings it back.
 void take_limit(const FanMasks& masks, FaceRows& rows) {
   Row limit = masks.limit[0] * rows.ring[0];
   for (std::size_t i = 1; i < rows.ring.size(); ++i) limit += masks.limit[i] * rows.ring[i];
@@ -54,8 +54,8 @@ void take_limit(const FanMasks& masks, FaceRows& rows) {
   for (Row& row : rows.outer) row -= limit;
 }
 
-/// An orthonormal basis of what the tangent masks and the limit mask span, by Gram and Schmidt, twice, since
-/// rounding leaves something of what was taken away.
+/// An orthonormal basis of the span of the tangent masks and the limit mask, by Gram and Schmidt, twice,
+/// since rounding leaves something of the subtracted parts.
 std::vector<Row> constraint_basis(const FanMasks& masks, Eigen::Index width) {
   std::vector<const std::vector<double>*> used = {&masks.limit};
   for (const auto& tangent : masks.tangents) {
@@ -129,7 +129,7 @@ std::size_t FanTable::bytes() const {
 
 namespace {
 
-/// Where a face's three outer points stand in one level of FanRings.
+/// The index of one of a face's three outer points in one level of FanRings.
 std::size_t outer_index(const FanType& type, std::uint32_t face, int which) {
   return 1 + type.spokes() + 3 * std::size_t(face) + std::size_t(which);
 }

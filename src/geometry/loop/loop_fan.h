@@ -9,7 +9,7 @@
 
 namespace icome::geometry {
 
-/// How Loop's scheme treats a vertex.
+/// The rule by which Loop's scheme treats a vertex.
 enum class FanRule : std::uint8_t {
   Smooth,  // faces all round
   Dart,    // faces all round, one of the edges is sharp
@@ -24,7 +24,7 @@ enum class FanRule : std::uint8_t {
 struct FanType {
   FanRule rule = FanRule::Smooth;
   std::uint32_t faces = 6;
-  std::uint32_t face = 0;    // the one that is asked about; 0 where the faces go all round
+  std::uint32_t face = 0;    // the one in question; 0 where the faces go all round
   std::uint32_t crease = 0;  // the sharp spoke of a dart
 
   auto operator<=>(const FanType&) const = default;
@@ -46,8 +46,8 @@ struct FanType {
   bool regular() const {
     return rule == FanRule::Smooth ? faces == 6 : rule == FanRule::Crease && faces == 3;
   }
-  /// Control points of the face: the vertex, the spokes' ends, and those around the face's other corners
-  ///
+  /// The number of the face's control points: the vertex, the spokes' ends, three around the face's other
+  /// corners, and one beyond each of the face's spokes that is not sharp.
   std::uint32_t points() const { return 1 + spokes() + 3 + (sharp_first() ? 0 : 1) + (sharp_last() ? 0 : 1); }
 };
 
@@ -55,12 +55,12 @@ struct FanType {
 /// face's spokes at (1,0) and (0,1), then (1,1) (2,0) (0,2), (1,-1) (2,-1), (-1,1) (-1,2). Where the face's
 /// first (last) spoke is sharp, 6 and 7 (8 and 9) are mirrored from inside.
 inline constexpr int kCoarsePoints = 10;
-/// The same after a subdivision, with (3,0) (2,1) (3,-1) (1,2) (0,3) (-1,3): the points of the face's three
-/// parts that do not touch the vertex.
+/// These points after a subdivision, with (3,0) (2,1) (3,-1) (1,2) (0,3) (-1,3): the points of the face's
+/// three parts that do not touch the vertex.
 inline constexpr int kFinePoints = 16;
 
-/// Which of the fine points are the twelve of each part, in box_spline order. Part 0 lies at the face's
-/// second corner, part 1 in the middle (turned round), part 2 at the third corner.
+/// The indices of the twelve fine points of each part, in box_spline order. Part 0 lies at the face's second
+/// corner, part 1 in the middle (turned round), part 2 at the third corner.
 extern const std::array<std::array<std::uint8_t, kBoxSplinePoints>, 3> kFanParts;
 
 /// Weights over the vertex (first) and its spokes' ends.
@@ -96,8 +96,8 @@ struct FanTable {
 };
 FanTable fan_table(const FanType& type);
 
-/// The same for one vertex of a valence so high that matrices would not pay: the points themselves, for all
-/// its faces, less its place on the limit surface.
+/// The counterpart of FanTable for one vertex of a valence so high that matrices would not pay: the points
+/// themselves, for all its faces, less its place on the limit surface.
 struct FanRings {
   FanType type;  // face 0
   int levels = 0;

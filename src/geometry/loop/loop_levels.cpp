@@ -19,7 +19,7 @@ using base::fail;
 
 constexpr double kFarthest = 1e9;  // m; squares of lengths stay numbers
 
-/// What OpenSubdiv interpolates.
+/// A point as OpenSubdiv interpolates it.
 struct RefinedPoint {
   Vector3 position = Vector3::Zero();
 
@@ -97,7 +97,7 @@ ControlMesh used_part(const ControlMesh& control) {
   return result;
 }
 
-/// Bytes that a level of so many faces will hold; there are about half as many vertices as faces, and more
+/// The bytes of a level with this number of faces; there are about half as many vertices as faces, and more
 /// where there is boundary.
 std::size_t level_bytes(double faces, double control_vertices_per_face, bool finest) {
   const double vertices = faces * std::max(0.5, control_vertices_per_face);

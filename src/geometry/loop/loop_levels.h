@@ -19,7 +19,7 @@ struct LoopLevel {
   std::vector<Vector3> normals;  // unit
 
   // The faces around vertex v: around[first_around[v]] up to, not including, around[first_around[v + 1]].
-  // Both are empty in the finest level, whose neighbourhoods nobody asks for.
+  // Both are empty in the finest level, whose neighbourhoods are not needed.
   std::vector<std::uint32_t> first_around;
   std::vector<std::uint32_t> around;
 
@@ -40,8 +40,8 @@ class LoopLevels {
  public:
   static constexpr int kMost = 10;
 
-  /// Boundaries become subdivision curves, creases and corners stay sharp. Fails with a sentence on what
-  /// is no surface, and when the levels would take more memory than allowed.
+  /// Boundaries become subdivision curves, creases and corners stay sharp. Fails with a sentence on meshes
+  /// that are no surface, and when the levels would take more memory than allowed.
   static base::Result<std::shared_ptr<const LoopLevels>> create(const ControlMesh& control,
                                                                 const LoopLevelsSettings& settings = {});
 
@@ -49,7 +49,7 @@ class LoopLevels {
   const LoopLevel& level(int which) const { return levels_[std::size_t(which)]; }
   /// Does the mesh divide inside from outside?
   bool closed() const { return closed_; }
-  /// Around every level: refined vertices are means of control vertices.
+  /// Bounds of every level: refined vertices are means of control vertices.
   Bounds bounds() const { return geometry::bounds(levels_.front().mesh); }
   std::size_t bytes() const;
 

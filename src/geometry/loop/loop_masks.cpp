@@ -82,7 +82,7 @@ std::vector<double> spread_even(const FanType& type, const Eigen::VectorXd& weig
   return result;
 }
 
-// Odd about the crease the scheme does not see it. Even about it there is no closed form.
+// On vectors that are odd about the crease the scheme does not see it; on even ones there is no closed form.
 void set_dart_masks(const FanType& type, FanMasks& masks) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(even_dart_matrix(type).transpose());
   const Eigen::VectorXd values = solver.eigenvalues().real();

@@ -1,4 +1,4 @@
-// Inside or not, and the nearest place of a Loop surface.
+// The inside test and the nearest place of a Loop surface.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr int kMostDirections = 24;
 constexpr double kNearEdge = 1e-9;
 constexpr std::size_t kMostCrossingsKept = 256;  // kept of one ray at once
 
-/// Counts what a ray that leaves everything behind goes through.
+/// Counts the crossings of a ray that ends beyond the whole surface.
 class Winding {
  public:
   Winding(const LoopPatches& patches, const Vector3& point, const Vector3& direction)
@@ -23,7 +23,7 @@ class Winding {
         point_(point),
         step_(direction * (2.0 * (patches.size() + (point - patches.bounds().center()).norm()))) {}
 
-  /// Nothing when this direction leaves doubts.
+  /// The winding number; nothing when this direction leaves doubts.
   std::optional<int> count() {
     patches_.tree().near(SegmentQuery(point_, point_ + step_, 0.0), [&](std::uint32_t piece) {
       look(piece);
@@ -66,7 +66,7 @@ class Winding {
   int winding_ = 0;
 };
 
-/// Directions all over the sphere that no model is built along.
+/// Directions all over the sphere along which no model is built.
 Vector3 odd_direction(int i) {
   const double z = std::fmod(0.381966 + 0.7548776662466927 * i, 1.0) * 2.0 - 1.0;
   const double angle = 6.283185307179586 * std::fmod(0.1234 + 0.5698402909980532 * i, 1.0);

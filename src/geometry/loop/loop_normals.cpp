@@ -17,7 +17,7 @@ struct Sector {
   std::vector<std::uint32_t> faces;  // one fewer than `ring`, or as many when the sector goes all around
 };
 
-/// The faces around one vertex, taken apart.
+/// The faces around one vertex, divided into sectors.
 class VertexFan {
  public:
   VertexFan(const LoopLevel& level, const LoopSharpness& sharp, std::uint32_t vertex)
@@ -52,11 +52,11 @@ class VertexFan {
     if (!began && !spokes_.empty()) take(walk(0));
   }
 
-  // Known once sectors() has begun to hand out.
+  // These are known once sectors() has begun to call `take`.
 
-  /// The only sharp edge, the ring's first, ends here.
+  /// Is there one sharp edge only, the ring's first, which ends here?
   bool dart() const { return sharp_edges_ == 1; }
-  /// The surface keeps the vertex in place.
+  /// Does the surface keep the vertex in place?
   bool corner() const { return sharp_edges_ > 2 || parts_ > 1 || sharp_.corners.contains(vertex_); }
   bool smooth() const { return sharp_edges_ < 2 && !corner(); }
 
@@ -121,9 +121,9 @@ Mask sines(std::size_t k) {
   return mask;
 }
 
-/// Across a boundary or crease, towards the sector. The ring's inner vertices obey a tridiagonal matrix
-/// with eigenvectors sin(i angle); the weights of the vertex and of the two ends follow from the refinement
-/// of the curve.
+/// The tangent mask across a boundary or crease, towards the sector. The ring's inner vertices obey a
+/// tridiagonal matrix with eigenvectors sin(i angle); the weights of the vertex and of the two ends follow
+/// from the refinement of the curve.
 Mask across_crease(std::size_t k) {
   Mask mask(k + 1, 0.0);
   if (k == 2) return {-2.0, 1.0, 1.0};
@@ -137,7 +137,7 @@ Mask across_crease(std::size_t k) {
   return mask;
 }
 
-/// The transposed matrix of a vertex in which one crease ends, along the ring's first edge.
+/// Applies the transposed matrix of a vertex in which one crease ends, along the ring's first edge.
 Mask refine_dart(const Mask& mask) {
   const std::size_t k = mask.size() - 1;
   const double turn = 0.375 + 0.25 * std::cos(2.0 * std::numbers::pi / double(k));
@@ -154,9 +154,9 @@ Mask refine_dart(const Mask& mask) {
   return next;
 }
 
-/// Along a crease that ends in a vertex: no closed form, so the transposed matrix is applied until the
-/// largest eigenvalue is left that is symmetric and not 1. Weights that add up to zero have no part in the
-/// eigenvalue 1.
+/// The tangent mask along a crease that ends in a vertex: no closed form, so the transposed matrix is applied
+/// until the largest eigenvalue is left that is symmetric and not 1. Weights that add up to zero have no part
+/// in the eigenvalue 1.
 Mask along_dart(std::size_t k) {
   constexpr int kSteps = 200;
   Mask mask = cosines(k);

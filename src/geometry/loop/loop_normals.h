@@ -7,7 +7,7 @@
 
 namespace icome::geometry {
 
-/// What stays sharp in one level of a mesh. Boundaries are not named: they show.
+/// The sharp edges and vertices of one level of a mesh. Boundaries are not listed: the mesh shows them.
 struct LoopSharpness {
   std::unordered_set<std::uint64_t> edges;  // by edge_key
   std::unordered_set<std::uint32_t> corners;

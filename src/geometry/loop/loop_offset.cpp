@@ -16,12 +16,12 @@ namespace {
 constexpr double kMostRoll = 0.3;       // rad, of one walk round an edge or a fold
 constexpr int kMostRollHalvings = 6;    // of such a walk
 constexpr double kLeastRoom = 0.02;     // of the ball's curvature: less room than this is a fold
-constexpr double kAlongNormal = 1e-6;   // sine between normal and goal of a foot that is one
-constexpr double kOverlapNoise = 1e-9;  // of the bounds: who overlaps by less is at the surface
+constexpr double kAlongNormal = 1e-6;   // the largest sine between normal and goal at a foot
+constexpr double kOverlapNoise = 1e-9;  // of the bounds: a ball that overlaps by less is at the surface
 constexpr int kMostPushesOut = 8;       // from one place to the next
 constexpr double kNeighbourTurn = 0.8;  // cosine between the axes of tiles that are one smooth sheet
 
-/// The part of a pull that leads round a ball from where its centre lies at `out`, no longer than a walk.
+/// The part of a pull that leads round a ball whose centre lies towards `out`, no longer than a walk.
 Vector3 step_round_ball(const Vector3& out, const Vector3& pull, double radius) {
   const Vector3 along = pull - out.dot(pull) * out;
   const double length = along.norm(), most = kMostRoll * radius;
@@ -117,7 +117,7 @@ LoopOffset::Contact LoopOffset::contact_of(const SurfacePlace& from) const {
   return {spot, at.point, clear ? Vector3(away.normalized()) : Vector3(sign * at.normal)};
 }
 
-/// Can the ball touch there from that side at all, or is it in a fold?
+/// Can the ball touch the spot from that side at all? It cannot in a fold.
 bool LoopOffset::holds(const LoopSpot& spot, const Vector3& out, LoopSide side) const {
   const LoopTile& tile = tiles_[tiles_.find(spot.piece, spot.u, spot.v)];
   if (tile.folded_at(side)) return false;
@@ -126,7 +126,7 @@ bool LoopOffset::holds(const LoopSpot& spot, const Vector3& out, LoopSide side) 
   return curvature_towards(cursor, spot, out) * radius_ < 1.0 - kLeastRoom;
 }
 
-/// The contact below (or above) a goal that the surface leads to from a spot, if there is one.
+/// The contact below (or above) a goal to which the surface leads from a spot, if there is one.
 std::optional<LoopOffset::Contact> LoopOffset::contact_towards(const LoopSpot& from, const Vector3& goal,
                                                                LoopSide side) const {
   const LoopPatches& patches = surface_->patches();
@@ -145,8 +145,8 @@ std::optional<LoopOffset::Contact> LoopOffset::contact_towards(const LoopSpot& f
   return contact;
 }
 
-// At once where the surface is smooth between here and there; else round the ball a part of the way, to what
-// is nearest there.
+// Goes there at once where the surface is smooth on the way; else round the ball a part of the way, to the
+// contact nearest there.
 SurfacePlace LoopOffset::nearest_local(const SurfacePlace& from, const Vector3& goal, double /*time*/) const {
   const LoopSide side = side_of(from.piece);
   const Contact here = contact_of(from);
@@ -166,7 +166,7 @@ SurfacePlace LoopOffset::nearest_local(const SurfacePlace& from, const Vector3& 
   return place;
 }
 
-// A ball cannot be where it overlaps a tile, whoever else holds it there.
+// Nothing is trimmed: a ball cannot overlap a tile, whatever other tiles it touches.
 bool LoopOffset::covers(const SurfacePlace& /*place*/, const Vector3& /*above*/, double /*time*/,
                         double /*slack*/) const {
   return true;
@@ -197,7 +197,7 @@ std::optional<SurfacePlace> LoopOffset::way_out(const Vector3& point, double tim
                           [&](const Vector3& centre) { return inside(centre, time); });
 }
 
-/// Out of the nearest place, again and again.
+/// Moves the centre out of the nearest place, again and again; nothing where that does not free it.
 std::optional<SurfacePlace> LoopOffset::pushed_out(const Vector3& point) const {
   const double clear = 2.0 * kOverlapNoise * surface_->patches().size();
   Vector3 at = point;

@@ -9,21 +9,21 @@ namespace icome::geometry {
 
 class LoopSurface;
 
-/// Where the centre of a ball is that touches a Loop surface: the surface at the ball's radius. Its pieces
-/// are the places at which the ball touches one tile of the surface (LoopTiles): the tile's offset along its
-/// normals and, where the surface ends or bends sharply, tubes around edges and balls around corners, without
-/// more ado: nearest places of a tile may lie on its border. Where the surface curves in more than the ball,
-/// offsets run into each other, and the pieces of both hold. Pieces from count / 2 on are the same tiles,
-/// touched from behind. A sheet's rim is rolled round from one side to the other.
+/// The places of a ball's centre while it touches a Loop surface: the surface at the ball's radius. A piece
+/// has the places at which the ball touches one tile of the surface (LoopTiles): the tile's offset along its
+/// normals and, where the surface ends or bends sharply, tubes around edges and balls around corners, which
+/// need no extra work: nearest places of a tile may lie on its border. Where the surface curves in more than
+/// the ball, offsets run into each other, and the pieces of both hold. Pieces from count / 2 on are the same
+/// tiles, touched from behind. A sheet's rim is rolled round from one side to the other.
 ///
 /// The ball never comes nearer than its radius to a place of a tile that is `tame`. The others are small:
-/// there it may come nearer by about 1e-5 of its radius, and of degenerate tiles, which are not cut for ever,
+/// there it may come nearer by about 1e-5 of its radius; for degenerate tiles, which are not cut for ever,
 /// nothing is proved.
 ///
 /// Immutable; its points are places of the centre.
 class LoopOffset final : public SmoothSurface {
  public:
-  /// For a ball of this radius (m, > 0). Fails, with a clause that says why, where the surface bends so much
+  /// For a ball of this radius (m, > 0). Fails, with the reason as a clause, where the surface bends so much
   /// that it falls into too many tiles.
   static base::Result<std::shared_ptr<const LoopOffset>> create(std::shared_ptr<const LoopSurface> surface,
                                                                 double radius);
@@ -33,8 +33,8 @@ class LoopOffset final : public SmoothSurface {
 
   Bounds bounds() const override;
   void near(const Vector3& a, const Vector3& b, double reach, double time, PieceVisitor visit) const override;
-  /// Where the centre cannot be: in the solid, or nearer than the radius to the surface; of a sheet, to its
-  /// front.
+  /// Is the centre where it cannot be: in the solid, or nearer than the radius to the surface (of a sheet, to
+  /// its front)?
   bool inside(const Vector3& point, double time = 0.0) const override;
   std::optional<SurfacePlace> way_out(const Vector3& point, double time) const override;
   std::optional<SurfaceHit> first_hit(std::uint32_t piece, const Vector3& start, const Vector3& step,
@@ -45,7 +45,7 @@ class LoopOffset final : public SmoothSurface {
   std::size_t bytes() const override;
 
  private:
-  /// The ball against the surface: where it touches, and in which direction its centre lies from there.
+  /// A contact of the ball with the surface: the touched place, and the direction to the centre from there.
   struct Contact {
     LoopSpot spot;
     Vector3 place;  // m, on the surface

@@ -32,9 +32,9 @@ struct LoopFanPoints {
   Vector3 apex;                       // the vertex on the limit surface
   Vector3 normal;                     // there; zero where there is none
   std::array<Vector4, kMost> points;  // of the table's face, less its vertex
-  double far = 1.0, high = 1.0;       // what the reach and lift of the levels are multiplied with
+  double far = 1.0, high = 1.0;       // factors of the reach and lift of the levels
 
-  /// Around what is left at the vertex after `level` subdivisions: this far from the apex and from the
+  /// Bounds on the rest at the vertex after `level` subdivisions: its distance from the apex, and from the
   /// tangent plane there.
   double reach(int level) const { return far * (table ? table->reach : rings->reach)[std::size_t(level)]; }
   double lift(int level) const { return high * (table ? table->lift : rings->lift)[std::size_t(level)]; }
@@ -61,31 +61,31 @@ class LoopPatches {
   std::size_t bytes() const;
 
   bool regular(std::uint32_t piece) const { return pieces_[piece].kind == 0; }
-  /// Of the piece's extraordinary vertex.
+  /// The rule of the piece's extraordinary vertex.
   FanRule rule(std::uint32_t piece) const {
     const std::uint32_t kind = pieces_[piece].kind;
     return kind % 2 == 0 ? rings_[kind / 2 - 1].rings.type.rule : tables_[kind / 2].type.rule;
   }
-  /// Real-time safe, for regular pieces.
+  /// Loads a regular piece. Real-time safe.
   void load(std::uint32_t piece, LoopCell& cell) const;
-  /// The control points alone, less `origin`.
+  /// Loads the control points of a regular piece alone, less `origin`.
   void load(std::uint32_t piece, BoxSplineControl& control, Vector3& origin) const;
-  /// Real-time safe, for irregular pieces.
+  /// Loads the control points of an irregular piece. Real-time safe.
   void load(std::uint32_t piece, LoopFanPoints& fan) const;
-  /// Real-time safe. `level` < fan.levels, `part` as kFanParts.
+  /// Loads one part of a ring. `level` < fan.levels, `part` as in kFanParts. Real-time safe.
   static void load(const LoopFanPoints& fan, int level, int part, LoopCell& cell);
   /// The control points of all three parts, less the apex. Real-time safe.
   static std::array<Vector4, kFinePoints> fine_points(const LoopFanPoints& fan, int level);
   /// Sets all but the shape and the origin. Real-time safe.
   static void place_part(int level, int part, LoopCell& cell);
 
-  /// The piece and edge over an edge as 4 * piece + edge, kNone where the surface ends or bends sharply.
+  /// The piece and edge beyond an edge as 4 * piece + edge, kNone where the surface ends or bends sharply.
   /// Real-time safe.
   std::uint32_t across(std::uint32_t piece, int edge) const;
   /// Do the two meet smoothly at an edge or a vertex, or are they one? Real-time safe.
   bool adjoin(std::uint32_t one, std::uint32_t other) const;
 
-  /// The points of two parallel planes that hold the piece: axis * (x - centre) in [lo, hi].
+  /// The space between two parallel planes that holds the piece: axis * (x - centre) in [lo, hi].
   struct Slab {
     std::array<float, 3> axis;  // unit, about the normal
     float lo, hi;               // m
@@ -127,7 +127,7 @@ class LoopPatches {
   bool closed_ = false;
 };
 
-/// Evaluates the surface place after place, keeping what neighbours in the parameters share. Holds a
+/// Evaluates the surface place after place, keeping data that neighbours in the parameters share. Holds a
 /// reference to the patches. Real-time safe.
 class LoopCursor {
  public:
@@ -137,12 +137,12 @@ class LoopCursor {
   bool go(std::uint32_t piece, double u, double v);
 
   const LoopCell& cell() const { return cell_; }
-  /// The cell's parameters of the place.
+  /// The place's parameters in the cell.
   double s() const { return s_; }
   double t() const { return t_; }
-  /// Only for irregular pieces.
+  /// The control points of the piece; only for irregular pieces.
   const LoopFanPoints& fan() const { return fan_; }
-  /// How far from its extraordinary vertex an irregular piece's place may be, m.
+  /// A bound on the distance of an irregular piece's place from its extraordinary vertex, m.
   double reach() const { return fan_.reach(level_); }
 
  private:

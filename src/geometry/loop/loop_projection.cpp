@@ -10,8 +10,8 @@ constexpr int kFootSteps = 60;
 constexpr int kFootHalvings = 20;
 constexpr double kFarFromApex = 1e-3;  // share of the way that is left
 constexpr int kMostNoisySteps = 12;
-constexpr double kFootDone = 1e-13;     // of the surface's size: what is left of the way along the surface
-constexpr double kLeastBending = 1e-3;  // Newton's matrix is kept this much of the surface's metric
+constexpr double kFootDone = 1e-13;     // of the surface's size: the rest of the way along the surface
+constexpr double kLeastBending = 1e-3;  // Newton's matrix is kept at least this much of the surface's metric
 constexpr double kFootRounding = 4e-16;
 
 /// The squared distance's model at a place, over the cell's s and t.
@@ -78,7 +78,7 @@ struct Step {
   double du = 0.0, dv = 0.0;
   int edge = -1;
   double along = 0.0;
-  double left = 0.0;      // m, what the step is to take away
+  double left = 0.0;      // m, the length that the step is to remove
   double decrease = 0.0;  // m^2, of half the squared distance, expected
 };
 
@@ -126,13 +126,13 @@ LoopSpot taken(const LoopPatches& patches, const LoopSpot& spot, const Step& ste
   return walk(patches, spot, share * step.du, share * step.dv);
 }
 
-/// Looks around an extraordinary vertex for a way down.
+/// Searches around an extraordinary vertex for a way down.
 class ApexSearch {
  public:
   ApexSearch(const LoopPatches& patches, LoopCursor& cursor, const Vector3& goal)
       : patches_(patches), cursor_(cursor), goal_(goal) {}
 
-  /// True, and the spot lies further down, when there is one.
+  /// Is there a way down? Then the spot is moved further down.
   bool leave(LoopSpot& spot) {
     // The caller's cursor stands at the vertex.
     apex_ = cursor_.fan().apex;
@@ -204,12 +204,12 @@ class ApexSearch {
   LoopCursor& cursor_;
   const Vector3& goal_;
   Vector3 apex_;
-  double best_ = 0.0;  // m, how far the goal leads along the best direction
+  double best_ = 0.0;  // m, the goal's component along the best direction
   std::uint32_t piece_ = 0;
   double direction_ = 0.0;
 };
 
-/// Newton's steps would only halve the way to a vertex that is itself the foot.
+/// Is the extraordinary vertex itself the foot? Newton's steps would only halve the way to it.
 bool foot_is_apex(const LoopPatches& patches, const LoopCursor& cursor, const LoopSpot& spot,
                   const Vector3& goal) {
   if (patches.regular(spot.piece) || patches.rule(spot.piece) != FanRule::Smooth || spot.u + spot.v > 0.25) {
@@ -220,7 +220,7 @@ bool foot_is_apex(const LoopPatches& patches, const LoopCursor& cursor, const Lo
   return !normal.isZero(0.0) && (rest - normal * normal.dot(rest)).norm() <= kFootDone * patches.size();
 }
 
-/// One descent: where it stands and what it knows there.
+/// One descent: its current spot and the model there.
 class Descent {
  public:
   Descent(const LoopPatches& patches, LoopCursor& cursor, const LoopSpot& from, const Vector3& goal)
@@ -232,7 +232,7 @@ class Descent {
   }
 
  private:
-  /// False when the spot is where the descent ends.
+  /// Makes one step; false when the descent ends at the spot.
   bool advance() {
     if (!known_) {
       if (!cursor_.go(spot_.piece, spot_.u, spot_.v)) {
@@ -274,7 +274,7 @@ class Descent {
     return false;
   }
 
-  /// Corners and spikes are often nearest themselves; polynomials only lead ever nearer to them.
+  /// Is the vertex nearer? Corners and spikes often are the foot; polynomials only lead ever nearer to them.
   bool apex_is_nearer() const {
     if (patches_.regular(spot_.piece) || spot_.u + spot_.v > 0.0625) return false;
     const FanRule rule = patches_.rule(spot_.piece);
@@ -294,8 +294,8 @@ class Descent {
       return Outcome::Better;
     }
     const Model next = model_at(cursor_, goal_);
-    // Where squares no longer tell better from worse, the rest of the way must shrink. A step that only led
-    // to another piece's view of the same place is taken, too.
+    // If squares no longer tell better from worse, the rest of the way must shrink. A step that only led to
+    // another piece's view of the same place is taken, too.
     const double distance = std::sqrt(2.0 * here_.half_square);
     const double rounding =
         kFootRounding * distance * (distance + goal_.cwiseAbs().maxCoeff() + patches_.size());

@@ -8,7 +8,7 @@
 
 namespace icome::geometry {
 
-/// One step of Loop's subdivision: where the vertices go and the new points on the edges. Computed by
+/// One step of Loop's subdivision: the vertices' new places and the new points on the edges. Computed by
 /// OpenSubdiv, whose weights are exact for this (its limit patches are not).
 struct LoopRefinement {
   std::vector<Vector3> vertices;

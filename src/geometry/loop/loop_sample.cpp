@@ -15,7 +15,7 @@ LoopPoint point_of(const QuarticJet& jet, const LoopCell& cell) {
   return point;
 }
 
-// Where the derivatives are parallel (or gone) a place further inside or the piece as a whole must tell.
+// The normal where the derivatives are parallel (or vanish): by a place further inside, or the whole piece.
 Vector3 normal_nearby(LoopCursor& cursor, const LoopPatches& patches, std::uint32_t piece, double u,
                       double v) {
   for (double share = 0x1p-20; share < 0.6; share *= 4.0) {

@@ -11,7 +11,7 @@ struct LoopPoint {
 };
 LoopPoint loop_point(LoopCursor& cursor, const LoopPatches& patches, std::uint32_t piece, double u, double v);
 
-/// Where a place of a control triangle lies on its pieces, and how u and v change there.
+/// A place of a control triangle on its pieces, and the derivatives of the piece's u and v there.
 struct LoopPlace {
   std::uint32_t piece;
   double u, v;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostTessellated = 20'000'000;
 
-/// Makes the triangles piece by piece; what pieces share is made once.
+/// Makes the triangles piece by piece; vertices that pieces share are made once.
 class Tessellation {
  public:
   /// `steps` along each edge of a piece.

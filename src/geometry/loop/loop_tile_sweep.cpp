@@ -13,7 +13,7 @@ constexpr int kMostFootSteps = 30;
 constexpr int kMostFootHalvings = 12;
 constexpr double kTileFootDone = 1e-11;  // of the surface's size: distances are then exact by far
 constexpr int kMostTileAdvances = 200;
-constexpr double kSharpestBend = 0.95;  // bend times distance, up to which curvature says how distances fall
+constexpr double kSharpestBend = 0.95;  // bend times distance up to which the curvature bounds how they fall
 constexpr double kBarelyOnSide = 1e-9;  // cosine: a ball beside a rim touches it from the front and the back
 constexpr double kGoingIn = 1e-12;      // cosine between way and normal: along the surface counts as inwards
 
@@ -62,12 +62,12 @@ class ProjectionSearch {
     bend << away.dot(jet.dss), away.dot(jet.dst), away.dot(jet.dst), away.dot(jet.dtt);
     metric = change.transpose() * metric * change;
     m.bend = metric - change.transpose() * bend * change;
-    // Where the distance is not convex, its metric leads downhill as well.
+    // If the distance is not convex, its metric leads downhill as well.
     if (!(m.bend.determinant() > 1e-3 * metric.determinant()) || !(m.bend.trace() > 0.0)) m.bend = metric;
     return m;
   }
 
-  /// The least of the model within the tile.
+  /// The minimum of the model within the tile.
   static TileSpot least(const DistanceModel& m, const TileSpot& from) {
     const double det = m.bend.determinant();
     if (det > 0.0) {
@@ -203,9 +203,9 @@ Bounds centres_on_tile(const LoopTile& tile, LoopSide side, double radius) {
 
 namespace {
 
-/// How far (m) a point can go before it is nearer to a tile than `radius`: its distance is now `distance`,
-/// falling by `fall` for each metre. Half the squared distance falls like that of a convex set, but for as
-/// much as the tile curves in.
+/// The length (m) that a point can surely go before it is nearer to a tile than `radius`: its distance is now
+/// `distance`, falling by `fall` for each metre. Half the squared distance falls like that of a convex set,
+/// except for the amount by which the tile curves in.
 double sure_way(const LoopTile& tile, LoopSide side, double distance, double fall, double radius) {
   const double plain = distance - radius;
   const double bent = tile.bend_at(side) * distance;
@@ -261,7 +261,7 @@ std::optional<TileTouch> first_touch(const LoopPatches& patches, const LoopTile&
     at_start = false;
     if (way > end) return {};
   }
-  // Grazing for so long: what is left of the way counts as touching.
+  // Grazing for so long: the rest of the way counts as touching.
   const TileProjection foot = projection_on_tile(cursor, patches, tile, start + way * along);
   if (overlaps || !touches_from(cursor, patches, side, foot)) return {};
   return TileTouch{std::clamp(way / length, 0.0, 1.0), foot};

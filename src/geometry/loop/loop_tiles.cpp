@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kNarrow = 0.26;       // sine of the angle between a tile's normals and its axis: 15 degrees
 constexpr double kTameBend = 0.9;      // of the ball's own curvature
-constexpr double kFoldedBend = 1.001;  // the same, where the ball surely cannot touch
+constexpr double kFoldedBend = 1.001;  // likewise: from here on the ball surely cannot touch
 constexpr double kNegligibleGap =
-    1e-5;                            // of the radius: how far two nearest places of a small tile may differ
+    1e-5;                            // of the radius: allowed between any two nearest places of a small tile
 constexpr double kLeastWide = 1e-5;  // of the surface: tiles are not cut further
 constexpr int kMostTileDepth = 12;   // bisections
-constexpr int kMostBlindDepth = 8;   // where the surface is degenerate, so that nothing bounds how it bends
+constexpr int kMostBlindDepth = 8;   // where the surface is degenerate, so that nothing bounds its bends
 constexpr int kApexRings = 4;        // by which the surface around an extraordinary vertex is judged
 constexpr int kMostApexLevels = 12;  // rings cut off one by one
 constexpr double kApexRoom = 1.5;    // curvatures around it grow, but slowly
@@ -36,7 +36,7 @@ Eigen::Matrix<double, 3, 2> across_axis(const Vector3& axis) {
 
 using Matrix2 = Eigen::Matrix2d;
 
-/// How a quartic triangle bends over the plane across an axis.
+/// Bounds on the bends of a quartic triangle over the plane across an axis.
 struct Bending {
   double slope = kInfinite;                             // the most, against the plane
   std::array<double, 2> most = {kInfinite, kInfinite};  // 1/m, curving in: front, back
@@ -142,7 +142,7 @@ Bending bending_of(const Derivatives& d, const Vector3& axis) {
   return result;
 }
 
-/// The most by which a side of the triangle bends as a curve, 1/m: a ball that lies beside a rim sees that.
+/// The most by which a side of the triangle bends as a curve, 1/m: it matters to a ball beside a rim.
 double bending_of_side(const QuarticTriangle& shape, int side) {
   constexpr int kDegree = QuarticTriangle::kDegree;
   std::array<Vector3, kDegree + 1> points;
@@ -168,7 +168,7 @@ double bending_of_side(const QuarticTriangle& shape, int side) {
   return most / (least * least);
 }
 
-/// Takes what a tile encloses, point by point.
+/// Enlarges the tile's cylinder so that it encloses the point.
 void enclose(LoopTile& tile, const Vector3& point) {
   const Vector3 away = point - tile.centre;
   const double along = tile.axis.dot(away);
@@ -177,7 +177,7 @@ void enclose(LoopTile& tile, const Vector3& point) {
   tile.high = std::max(tile.high, along);
 }
 
-/// Where a tile and what is around it bends.
+/// Enlarges the tile's spread and bends to those of a part of it, times `room`.
 void take_bending(LoopTile& tile, const Bending& bending, double room) {
   const double spread = std::isfinite(bending.slope) ? bending.slope / std::hypot(1.0, bending.slope) : 1.0;
   tile.spread = std::max(tile.spread, std::min(1.0, room * spread));
@@ -237,7 +237,7 @@ class LoopTiles::Builder {
       }
     }
     LoopTile rest = apex_tile(piece, fan, last);
-    rest.tame = true;  // smaller than what its curvature could tell
+    rest.tame = true;  // so small that its curvature does not matter
     begin_root();
     add(rest);
   }
@@ -293,7 +293,7 @@ class LoopTiles::Builder {
     return tile;
   }
 
-  /// All that lies around an extraordinary vertex after `level` subdivisions.
+  /// The tile of everything around an extraordinary vertex after `level` subdivisions.
   LoopTile apex_tile(std::uint32_t piece, const LoopFanPoints& fan, int level) {
     const double size = std::ldexp(1.0, -level);
     LoopTile tile;

@@ -17,7 +17,7 @@ struct LoopTile {
   std::uint32_t piece = 0;
   std::array<Vector2, 3> corners;  // in the piece's u and v
   bool sharp = false;              // does the surface end or bend sharply at its border, or in its corner?
-  bool tame = false;               // is it as flat as said above? Else it is only small
+  bool tame = false;               // is it as flat as described above? Else it is only small
   /// Can no ball touch the tile's inside from the front (back), as the surface curves in there more than the
   /// ball?
   std::array<bool, 2> folded = {false, false};
@@ -43,7 +43,7 @@ class LoopTiles {
  public:
   static constexpr std::size_t kMost = 1'000'000;
 
-  /// Fails, with a clause that says why, when there would be more than kMost. `radius`: m, > 0.
+  /// Fails, with the reason as a clause, when there would be more than kMost. `radius`: m, > 0.
   static base::Result<LoopTiles> create(const LoopPatches& patches, double radius);
 
   std::uint32_t count() const { return std::uint32_t(tiles_.size()); }
@@ -59,8 +59,8 @@ class LoopTiles {
 
   LoopTiles() = default;
 
-  /// A quartic triangle, or a half of one: a tile, or cut in two. Halves follow at once; `second` is the
-  /// other.
+  /// A quartic triangle, or a half of one: a tile, or cut in two. The first half follows at once; `second`
+  /// is the other one.
   struct Half {
     std::uint32_t tile = 0;
     std::uint32_t second = 0;  // 0: it is a tile

@@ -74,7 +74,7 @@ base::Result<void> check_control(const ControlMesh& control) {
   return {};
 }
 
-/// Turns the triangle so that it is (a, b, other), if it has that side.
+/// The third corner of the triangle, if it has a side from `a` to `b`.
 std::optional<std::uint32_t> third_after(const TriangleMesh::Triangle& t, std::uint32_t a, std::uint32_t b) {
   for (std::uint32_t i = 0; i < 3; ++i) {
     if (t[i] == a && t[next_corner(i)] == b) return t[last_corner(i)];
@@ -194,8 +194,8 @@ std::vector<std::uint32_t> faces_around(const LoopTopology::Sides& sides, std::u
   }
 }
 
-/// Gives each fan a vertex of its own and drops vertices without triangles. `origin` says where the new
-/// vertices come from; vertices of several fans are kept in place.
+/// Gives each fan a vertex of its own and drops vertices without triangles. Returns the old vertex of each
+/// new one; vertices of several fans are kept in place.
 std::vector<std::uint32_t> split_fans(LoopTopology& topology, std::vector<bool>& keep) {
   TriangleMesh& mesh = topology.mesh;
   const std::vector<TriangleMesh::Triangle> old = mesh.triangles;

@@ -10,8 +10,8 @@ constexpr int kMostEdgeCrossings = 64;
 
 using Barycentric = std::array<double, 3>;
 
-/// What is (a, b, c) at edge `edge` of one piece, in the piece beyond, whose side `side` it is: the two make
-/// a parallelogram.
+/// Carries coordinates over edge `edge` of one piece into the piece beyond, whose side `side` it is: the two
+/// make a parallelogram.
 Barycentric carried(const Barycentric& from, int edge, std::uint32_t side) {
   const double a = from[edge], b = from[(edge + 1) % 3], c = from[(edge + 2) % 3];
   Barycentric to;
@@ -21,7 +21,7 @@ Barycentric carried(const Barycentric& from, int edge, std::uint32_t side) {
   return to;
 }
 
-/// How far along the step (at most 1) the triangle is left, and over which edge (-1: not at all).
+/// The share of the step (at most 1) after which the triangle is left, and the edge crossed (-1: none).
 struct Exit {
   double share = 1.0;
   int edge = -1;

@@ -13,11 +13,11 @@ struct LoopSpot {
 LoopSpot clamped(const LoopSpot& spot);
 
 /// Goes straight on by (du, dv), measured in the piece's parameters, over the edges of pieces as if all lay
-/// in one plane, to the end or to where the surface ends or bends sharply. Real-time safe.
+/// in one plane, to the end or to a place where the surface ends or bends sharply. Real-time safe.
 LoopSpot walk(const LoopPatches& patches, LoopSpot from, double du, double dv);
 
-/// The same along a boundary (or crease), which edge 0 or 2 of the piece lies on, by `distance` along the
-/// edge's direction in edges' lengths; stops at corners and at the ends of creases. Real-time safe.
+/// Goes along a boundary (or crease), on which edge 0 or 2 of the piece lies, by `distance` along the edge's
+/// direction in edges' lengths; stops at corners and at the ends of creases. Real-time safe.
 LoopSpot walk_along(const LoopPatches& patches, LoopSpot from, int edge, double distance);
 
 /// Does the surface end or bend sharply at this edge? Real-time safe.

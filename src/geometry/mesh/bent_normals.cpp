@@ -11,7 +11,7 @@
 namespace icome::geometry {
 namespace {
 
-constexpr double kNoTangent = 1e-6;  // of an edge: what lies across a normal that it runs along
+constexpr double kNoTangent = 1e-6;  // of an edge: with a smaller part across the normal it gives no tangent
 
 /// Corner i of triangle t is 3 t + i here.
 using MeshCorner = std::uint32_t;
@@ -77,7 +77,7 @@ class NormalBender {
     for_each([&](MeshCorner c, std::uint32_t v) { corners_[next[v]++] = c; });
   }
 
-  /// Corners of one place by their normals and where they go: equal ones stay one.
+  /// Orders corners of one place by their normals and new positions: equal ones form one group.
   std::strong_ordering compare(MeshCorner a, MeshCorner b) const {
     const std::strong_ordering normals = compare(normal(a), normal(b));
     return std::is_eq(normals) ? compare(after_[vertex(a)], after_[vertex(b)]) : normals;
@@ -103,7 +103,7 @@ class NormalBender {
     }
   }
 
-  /// Takes the average normal to the new one and a tangent to the new one, where there is one.
+  /// The rotation that takes the average normal, and a tangent if there is one, to the new ones.
   Matrix3 turn_of(std::span<const MeshCorner> group, const Vector3& from, const Vector3& to) const {
     for (const MeshCorner c : group) {
       const CornerFrame old{from, tangent_of(c, before_.positions, from)};
@@ -113,7 +113,7 @@ class NormalBender {
     return base::rotation_between(from, to).toRotationMatrix();
   }
 
-  /// Unit; zero where the triangles have no area.
+  /// The average normal of the group's triangles, unit; zero where they have no area.
   Vector3 normal_of(std::span<const MeshCorner> group, std::span<const Vector3> positions) const {
     Vector3 sum = Vector3::Zero();
     for (const MeshCorner c : group) {
@@ -135,7 +135,7 @@ class NormalBender {
 
   std::uint32_t vertex(MeshCorner c) const { return before_.triangles[c / 3][c % 3]; }
   const Vector3& normal(MeshCorner c) const { return old_[c / 3][c % 3]; }
-  /// From a corner to the next one of its triangle, or to the one after that.
+  /// The vector from a corner to the next one of its triangle, or to the one after that.
   Vector3 edge(MeshCorner c, std::uint32_t on, std::span<const Vector3> positions) const {
     return positions[before_.triangles[c / 3][(c % 3 + on) % 3]] - positions[vertex(c)];
   }

@@ -16,9 +16,9 @@ namespace {
 using Triangle = TriangleMesh::Triangle;
 
 constexpr std::uint32_t kGone = ~std::uint32_t{0};
-/// Of many vertices that could go, some only can when their neighbours have.
+/// Some vertices can be removed only after their neighbours.
 constexpr int kMostRounds = 100;
-constexpr std::uint32_t kAskEach = 4096;  // vertices between two looks at `go_on`
+constexpr std::uint32_t kAskEach = 4096;  // vertices between two calls of `go_on`
 
 class FaceMerger {
  public:
@@ -52,7 +52,7 @@ class FaceMerger {
   }
 
  private:
-  /// The first round takes most of the time; how many follow is not known: each counts half of what is left.
+  /// The part done. The first round takes most time; each of the others, however many, is half of the rest.
   double done(int round, std::uint32_t vertex) const {
     return 1.0 - std::ldexp(1.0 - 0.5 * double(vertex) / double(at_.size()), -round);
   }
@@ -81,7 +81,7 @@ class FaceMerger {
     bool only_one;
   };
 
-  /// Nothing where the vertex is a corner: of three faces, of no face, or where a face meets itself.
+  /// The vertex's faces; nothing at a corner: of three faces, of no face, or of a face that meets itself.
   std::optional<Faces> faces_around(std::uint32_t vertex) const {
     std::uint32_t creases = 0;
     for (const std::uint32_t t : around_[vertex]) {
@@ -128,7 +128,7 @@ class FaceMerger {
     return (b - a).cross(c - a);
   }
 
-  /// The triangle's corners when the vertex lies where `to` does.
+  /// The triangle's corners when the vertex is moved to the place of `to`.
   std::array<Vector3, 3> moved(std::uint32_t triangle, std::uint32_t vertex, std::uint32_t to) const {
     std::array<Vector3, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
@@ -142,7 +142,7 @@ class FaceMerger {
     });
   }
 
-  /// Of the triangles that change, m; 0 where one is turned over.
+  /// The least height of the triangles that change, m; 0 where one is turned over.
   double least_height(std::uint32_t vertex, std::uint32_t to) const {
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t t : around_[vertex]) {
@@ -162,7 +162,7 @@ class FaceMerger {
     const auto one = neighbours(vertex), two = neighbours(other);
     std::vector<std::uint32_t> common;
     std::set_intersection(one.begin(), one.end(), two.begin(), two.end(), std::back_inserter(common));
-    // A tetrahedron has nothing that could go.
+    // Nothing can be removed from a tetrahedron.
     return common.size() == 2 && (one.size() > 3 || two.size() > 3);
   }
 

@@ -28,13 +28,13 @@ const std::array<Vector3, kCorners>& icosahedron_corners() {
   return kPositions;
 }
 
-/// Counter-clockwise seen from outside.
+/// The faces of the icosahedron, counter-clockwise seen from outside.
 constexpr std::array<TriangleMesh::Triangle, 20> kFaces{
     {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-/// Where each vertex of the subdivided icosahedron stands in the list of positions: the 12 corners,
+/// The number of each vertex of the subdivided icosahedron in the list of positions: the 12 corners,
 /// then the inner vertices of the 30 edges, then those of the 20 faces. Numbers are computed, so that
 /// faces share the vertices of an edge without a search.
 class VertexNumbers {

@@ -8,7 +8,7 @@
 
 namespace icome::geometry {
 
-/// Fails with a sentence when a vertex is not finite or a triangle names a vertex that is not there. For
+/// Fails with a sentence when a vertex is not finite or a triangle names a vertex that does not exist. For
 /// tools that are given meshes and choices from outside.
 base::Result<void> check_mesh(const TriangleMesh& mesh);
 

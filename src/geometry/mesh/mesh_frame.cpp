@@ -9,7 +9,7 @@ Vector3 near_origin(const Bounds& bounds) {
   const double size = bounds.isEmpty() ? 0.0 : bounds.sizes().maxCoeff();
   Vector3 middle = Vector3::Zero();
   if (!(size > 0.0) || !std::isfinite(size)) return middle;
-  // Far out, coordinates have no digits as small as differences of them have; and the middle has none smaller
+  // Far out, coordinates have coarser last digits than their differences need; and the middle has none finer
   // than about the size: differences from it need no rounding.
   const double grid = std::ldexp(1.0, std::ilogb(size));
   const Vector3 centre = bounds.center();

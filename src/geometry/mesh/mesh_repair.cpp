@@ -27,7 +27,7 @@ constexpr std::size_t kFlatGrain = std::size_t{1} << 15U;  // triangles
 /// Turning an edge can leave a flat triangle on the next one; chains longer than this are rare.
 constexpr int kMaximumFlipRounds = 16;
 
-/// Removes the triangles for which `unwanted(triangle)` holds; returns how many.
+/// Removes the triangles for which `unwanted(triangle)` holds; returns their number.
 template <typename Predicate>
 std::size_t drop_triangles(TriangleMesh& mesh, Predicate unwanted) {
   const auto first_dropped = std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), unwanted);
@@ -48,7 +48,7 @@ bool repeats_a_vertex(const Triangle& triangle) {
   return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
 }
 
-/// Which edge of the triangle is longest.
+/// The number of the triangle's longest edge.
 int longest_edge(const TriangleMesh& mesh, const Triangle& triangle) {
   std::array<double, 3> squared_lengths{};
   for (int i = 0; i < 3; ++i)
@@ -154,10 +154,10 @@ void drop_duplicates(TriangleMesh& mesh, RepairReport& report) {
 
 void turn(Triangle& triangle) { std::swap(triangle[1], triangle[2]); }
 
-/// How much of a patch its holes may be, by area, for it still to have an inside.
+/// The share of a patch, by area, that its holes may have for it still to have an inside.
 constexpr double kSmallHoles = 0.1;
 
-/// What a patch encloses, measured from the middle of its box.
+/// The volume and the area of a patch, measured from the middle of its box.
 struct PatchVolume {
   Bounds box;
   double six_volumes = 0.0;

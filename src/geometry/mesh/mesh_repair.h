@@ -8,7 +8,7 @@
 
 namespace icome::geometry {
 
-/// What repair() did to a mesh, and the surface that came out of it.
+/// The changes that repair() made to a mesh, and the resulting surface.
 struct RepairReport {
   std::size_t non_finite_vertices = 0;   ///< vertices with a NaN or infinite coordinate, removed
   std::size_t non_finite_faces = 0;      ///< triangles that used them, dropped
@@ -25,8 +25,8 @@ struct RepairReport {
 
   /// Did repair() change anything but the vertex numbering?
   bool changed() const;
-  /// What was done and what is still wrong, one sentence each, for people: "12 degenerate faces dropped",
-  /// "the surface is open: 96 boundary edges". Empty for a sound closed surface.
+  /// The changes and the remaining faults, one sentence each, for people: "12 degenerate faces dropped",
+  /// "the surface is open: 96 boundary edges". Empty for an unchanged, sound closed surface.
   std::vector<std::string> sentences() const;
 };
 
@@ -45,7 +45,7 @@ struct RepairReport {
 /// Precondition: indices in range, coordinates below 1e70. The mesh may come out empty.
 RepairReport repair(TriangleMesh& mesh);
 
-/// Is there a triangle without area, which repair() would take away? Indices must be in range.
+/// Is there a triangle without area, which repair() would save or drop? Indices must be in range.
 bool has_flat_triangle(const TriangleMesh& mesh);
 
 /// Removes vertices that no triangle uses, keeping the order of the others. Indices must be in range.

@@ -63,7 +63,7 @@ class SheetSeparator {
     std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) {
       return std::tie(a.first, a.second.triangle) < std::tie(b.first, b.second.triangle);
     });
-    // As brackets: a falling edge's triangle has its solid ahead, a rising one's behind it.
+    // Paired like brackets: a falling edge's triangle has its solid ahead, a rising one's behind it.
     std::vector<SheetEdge> begun;
     for (std::size_t i = 0; i < 2 * around.size(); ++i) {
       SheetEdge& edge = around[i % around.size()].second;
@@ -113,7 +113,7 @@ class SheetSeparator {
   static constexpr std::uint32_t kTaken = ~std::uint32_t{0};
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> sheet_;  // by corner: one that shares its vertex; the least of them its own
+  std::vector<std::uint32_t> sheet_;  // by corner: another that shares its vertex; itself for the lowest
 };
 
 }  // namespace

@@ -8,14 +8,14 @@
 
 namespace icome::geometry {
 
-/// Stands where a triangle has no neighbour over an edge.
+/// The neighbour of a triangle over an edge where there is none.
 inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
 
 /// For each triangle the triangles over its edges; edge i runs from corner i to corner i + 1.
 using EdgeNeighbours = std::vector<std::array<std::uint32_t, 3>>;
 
-/// What the edges of a mesh say about it as a surface. Edges are told apart by their vertex indices, so
-/// weld first; a triangle that names a vertex twice has no edges.
+/// The properties of a mesh as a surface, by its edges. Edges are distinguished by their vertex indices,
+/// so weld first; a triangle that names a vertex twice has no edges.
 struct MeshReport {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
@@ -43,7 +43,7 @@ EdgeNeighbours edge_neighbours(const TriangleMesh& mesh);
 /// The neighbours and the report. Indices must be in range.
 MeshTopology analyse_topology(const TriangleMesh& mesh);
 
-/// Which connected part each triangle belongs to, and how many parts there are. Two triangles are
+/// The connected part to which each triangle belongs, and the number of parts. Two triangles are
 /// connected when a chain of `neighbours` leads from one to the other, so parts end at boundary and
 /// non-manifold edges.
 struct Patches {

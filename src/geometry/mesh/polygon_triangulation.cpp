@@ -31,13 +31,13 @@ std::vector<Vector2> flatten(std::span<const Vector3> corners) {
   return flat;
 }
 
-/// How often all corners may be judged anew: never needed more than a few times by polygons that do not
-/// cross themselves, and a bound on the time for those that do.
+/// The most times that all corners are judged anew: a few are enough for polygons that do not cross
+/// themselves, and the limit bounds the time for those that do.
 constexpr int kMaximumReviews = 32;
 
 /// Cuts ears off a polygon, kept as a ring of the corners not yet cut. The worth of each corner as an ear
 /// is cached. Cutting one changes that of its two neighbours, and may free a corner further away that it
-/// blocked; those are looked for only when no ear is known, so that the whole takes O(n^2).
+/// blocked; those are searched for only when no ear is known, so that the whole takes O(n^2).
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Vector2> points) : points_(std::move(points)), left_(points_.size()) {
@@ -69,9 +69,9 @@ class EarClipper {
     double worth;
   };
 
-  /// How good a triangle cutting this corner gives: 2 * area / longest edge^2 for an ear. Corners that
-  /// are no ear rank below every ear: straight ones at -1, convex ones with a corner inside at -2, reflex
-  /// ones at -3. They are cut only when a polygon that crosses itself leaves no choice.
+  /// The quality of the triangle cut off at this corner: 2 * area / longest edge^2 for an ear. Corners
+  /// that are no ear rank below every ear: straight ones at -1, convex ones with a corner inside at -2,
+  /// reflex ones at -3. They are cut only when a polygon that crosses itself leaves no choice.
   double worth(std::uint32_t corner) const {
     const Vector2& a = points_[ring_[corner].previous];
     const Vector2& b = points_[corner];

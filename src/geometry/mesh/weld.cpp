@@ -28,7 +28,7 @@ std::uint64_t position_hash(const Vector3& position) {
 }
 
 /// For each vertex the first one at exactly its position (itself when it is the first). An
-/// open-addressing hash table: one probe a vertex on average. For none when it is not to last.
+/// open-addressing hash table: one probe a vertex on average. Empty when `lasts` returns false.
 std::vector<std::uint32_t> first_at_position(const std::vector<Vector3>& positions,
                                              const std::function<bool()>& lasts) {
   constexpr std::uint32_t kVerticesForOneQuestion = 1U << 16U;
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vector3>& positio
   return first;
 }
 
-/// Makes the triangles use replacement[v] for v; returns how many vertices that replaces.
+/// Makes the triangles use replacement[v] for v; returns the number of replaced vertices.
 std::size_t replace_vertices(TriangleMesh& mesh, const std::vector<std::uint32_t>& replacement) {
   std::size_t replaced = 0;
   for (std::uint32_t v = 0; v < replacement.size(); ++v) replaced += replacement[v] != v;

@@ -53,7 +53,7 @@ Meridian meridian(const Vector3& point) {
   return {{radial.length, point.z()}, radial.direction};
 }
 
-/// What Nearest is in the half-plane.
+/// The counterpart of Nearest in the half-plane.
 struct ProfileNearest {
   Vector2 point;
   Vector2 normal;
@@ -234,7 +234,7 @@ Bounds bounds_of(const Plane&) {
 constexpr double kSmallestSize = 1e-9;  // metres
 constexpr double kLargestSize = 1e6;    // metres
 
-/// How a primitive is written, and how many sizes that may take.
+/// The written form of a primitive, and the numbers of sizes that it may have.
 struct Form {
   std::string_view kind;
   std::string_view usage;
@@ -269,13 +269,13 @@ std::string all_usages() {
 std::optional<double> parse_number(std::string_view text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  // Beyond the range of a double is a number still: let the check of sizes speak about it.
+  // A number beyond the range of a double is still a number: the check of sizes reports it.
   if (error == std::errc::result_out_of_range) number = std::numeric_limits<double>::infinity();
   if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
   return number;
 }
 
-/// Numbers between 'x's. The error is the middle of a sentence: what is wrong with which part.
+/// Reads numbers between 'x's. The error is the middle of a sentence: the faulty part and its fault.
 base::Result<std::vector<double>> parse_sizes(std::string_view text) {
   std::vector<double> sizes;
   for (std::size_t begin = 0; begin <= text.size();) {

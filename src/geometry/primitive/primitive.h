@@ -58,7 +58,7 @@ struct SurfacePoint {
   Vector3 normal;
 };
 
-// The three questions of thesis section 5.5 that make a shape usable in a CSG tree, in closed form.
+// The three queries of thesis section 5.5 that make a shape usable in a CSG tree, in closed form.
 // Precondition of all: sizes as parse_primitive accepts them, and a finite point.
 // Rounding is a few units in the last place of the larger of the shape and the point's coordinates;
 // there are no epsilons, so a shape in metres and the same in millimetres get the same answers.
@@ -67,20 +67,20 @@ struct SurfacePoint {
 /// Real-time safe.
 bool inside(const Primitive& primitive, const Vector3& point);
 
-/// The surface point nearest to `point`, which lies inside: what the outside surface answers to a
+/// The surface point nearest to `point`, which lies inside: the response of the outside surface to a
 /// tip that has entered (5.3.2, figure 5.10(a)). The normal is that of the nearest face. Where
 /// several are equally near, one is always chosen: +z at the centre of a sphere and on a torus's
 /// core circle, +x on an axis of revolution, the first of x, y, z in a box. Real-time safe.
 SurfacePoint scp_from_inside(const Primitive& primitive, const Vector3& point);
 
-/// The surface point nearest to `point`, which lies outside: what the inside surface answers to a
+/// The surface point nearest to `point`, which lies outside: the response of the inside surface to a
 /// tip that has left the solid's hollow. Space is divided into one region for each face, edge and
 /// vertex (5.5.3: 27 for a box, 6 for a cylinder); on edges and vertices the normal points from the
 /// surface point to `point`, and for a point on the edge or vertex itself it is the mean of the
 /// adjoining faces' normals. Real-time safe.
 ///
-/// Both functions answer the nearest surface point whichever side `point` lies on, so that a caller
-/// whose tip sits within rounding of the surface need not care which it asks.
+/// Both functions return the nearest surface point whichever side `point` lies on, so that a caller
+/// whose tip is within rounding of the surface may call either.
 SurfacePoint scp_from_outside(const Primitive& primitive, const Vector3& point);
 
 /// Distance from `point` to the surface in metres, negative inside. Exact everywhere. Real-time safe.

@@ -25,25 +25,25 @@ InnerPart shared_part(const InnerPart& a, const InnerPart& b) {
   return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
-/// Of two parts of one convex solid, which together are one part.
+/// The union of two parts of one convex solid, which together are one part.
 InnerPart joined(const InnerPart& a, const InnerPart& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
   return {std::min(a.first, b.first), std::max(a.last, b.last)};
 }
 
-/// Where a value that starts so and changes by that for each t is in [low, high].
+/// The part on which the value start + t * step is in [low, high].
 InnerPart within_slab(double start, double step, double low, double high) {
   if (step == 0.0) return start >= low && start <= high ? InnerPart{} : kNoPart;
   const double s = (low - start) / step, t = (high - start) / step;
   return {std::min(s, t), std::max(s, t)};
 }
 
-/// Where a t^2 + 2 b t + c <= 0, within a part in which that is one piece.
+/// The part on which a t^2 + 2 b t + c <= 0, within a part in which that is one piece.
 InnerPart below_zero(double a, double b, double c, const InnerPart& part) {
   const double discriminant = b * b - a * c;
   if (discriminant < 0.0) return a < 0.0 ? part : kNoPart;
-  // Without the cancellation of the school formula.
+  // This form avoids the cancellation of the usual formula.
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   if (q == 0.0 && a == 0.0) return c <= 0.0 ? part : kNoPart;
   const double one = a == 0.0 ? std::copysign(kEndless, -q * c) : q / a;
@@ -56,14 +56,14 @@ InnerPart below_zero(double a, double b, double c, const InnerPart& part) {
   return before.last - before.first > after.last - after.first ? before : after;
 }
 
-/// A line through the frame of a primitive, t = 0 where it is nearest to the origin, so that far away starts
-/// cost no digits.
+/// A line through the frame of a primitive, with t = 0 at its place nearest to the origin, so that starts far
+/// away cost no digits.
 class Line {
  public:
   Line(const Vector3& start, const Vector3& step)
       : nearest_(-start.dot(step) / step.squaredNorm()), start_(start + nearest_ * step), step_(step) {}
 
-  double nearest() const { return nearest_; }  // t of the caller's
+  double nearest() const { return nearest_; }  // in the caller's t
   const Vector3& start() const { return start_; }
   const Vector3& step() const { return step_; }
 

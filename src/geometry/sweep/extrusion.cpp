@@ -29,31 +29,31 @@ constexpr double kLeastHeight = 0x1p-6;
 /// angles are typed with few digits.
 constexpr double kMeetingShare = 0x1p-10;
 constexpr double kMeetingShareOfProfile = 0x1p-6;
-/// The other diagonal of a quad is taken where what the cosine of its fold lacks to 1 is less than this
-/// share.
+/// The other diagonal of a quad is taken where 1 less the cosine of its fold is less than this share of that
+/// of the first.
 constexpr double kMuchBetter = 0.5;
 constexpr double kBetter = 1.0;
 
-/// How many tests of an edge against a triangle a sweep may take to find where it crosses itself, and how
-/// many more for each triangle: a bound for profiles with thousands of long corners side by side.
+/// The most tests of an edge against a triangle in a sweep's search for crossings with itself, and the
+/// number added for each triangle: a bound for profiles with thousands of long corners side by side.
 constexpr std::uint64_t kTests = std::uint64_t{1} << 27U;
 constexpr std::uint64_t kTestsOfATriangle = 200;
 /// The direction in the profile in which cuts lead; few edges are drawn across it.
 constexpr double kSlant = 0.618;
-/// A quad is plane when its fold's cosine is as near to 1.
+/// A quad is plane when its fold's cosine is this near to 1.
 constexpr double kPlaneFold = 0x1p-40;
-/// How far a profile that is scaled to nothing may move on, in tolerances: it shrinks and shrinks where a
-/// step is repeated more often than can be seen.
+/// The longest further move of a profile that is scaled to nothing, in tolerances: it goes on shrinking where
+/// a step is repeated more often than can be seen.
 constexpr double kNothingMoves = 0x1p10;
 
-/// Along which diagonal a quad is cut: from its second corner, or from its first. Unless this is a must, the
-/// other is taken where it folds the quad less.
+/// The diagonal along which a quad is cut: from its second corner, or from its first. Unless it is a must,
+/// the other is taken where it folds the quad less.
 struct Cut {
   bool from_second = false;
   bool is_must = false;
 };
 
-/// Does the outline go back from this corner to where it came from?
+/// Does the outline go back from this corner to the one before it?
 bool folds_at(const std::vector<std::uint32_t>& outline, std::size_t corner) {
   const std::size_t count = outline.size();
   const std::uint32_t before = outline[(corner + count - 1) % count];
@@ -74,7 +74,7 @@ std::vector<Triangle> cap_triangles(const std::vector<Vector3>& outline) {
   triangulate_polygon(outline, cap.triangles);
   TriangleMesh repaired = cap;
   repair(repaired);
-  // Where repair took away more than that it has seen cracks, in details near to its own limits.
+  // If repair removed more than that, it has seen cracks in details near to its own limits.
   const bool is_whole =
       repaired.positions.size() == outline.size() && repaired.triangles.size() == cap.triangles.size();
   return is_whole ? repaired.triangles : cap.triangles;
@@ -85,7 +85,7 @@ std::string step_name(std::span<const SweepStep> steps, std::size_t step, int re
   return fmt::format("step {} (repeat {} of {})", step + 1, repeat, steps[step].repeat);
 }
 
-/// How the picture on an outline lies, nearly: texture coordinates for a metre along x and y (least squares).
+/// The texture coordinates for a metre along x and y on an outline, approximately (least squares).
 Eigen::Matrix2d places_per_metre(const std::vector<Vector2>& points, const std::vector<Vector2>& places) {
   Vector2 middle = Vector2::Zero(), middle_place = Vector2::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -134,11 +134,11 @@ class Extruder {
     if (auto sound = finish(); !sound) return tl::unexpected(sound.error());
     return std::move(mesh_);
   }
-  /// Of every triangle that run() has made, where the profile has places.
+  /// The texture coordinates of every triangle that run() has made, if the profile has places; else none.
   std::vector<std::array<Vector2, 3>>& coordinates() { return coordinates_; }
 
  private:
-  /// From each edge of the outline straight out, texture coordinates for a metre.
+  /// Finds for each edge of the outline the texture coordinates for a metre straight out.
   void find_ways_out(const std::vector<Vector2>& points) {
     const Eigen::Matrix2d per_metre = places_per_metre(points, places_);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -157,7 +157,7 @@ class Extruder {
         sections - 1, first_.points.size(), kMaximumExtrusionTriangles, most - 1));
   }
 
-  /// Finds what rounding may do to coordinates, from how large they get.
+  /// Sets the tolerance by the largest coordinates of the sweep; fails where these are too large.
   Result<void> measure() {
     double largest = 0.0;
     for (const Vector3& point : first_.points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
@@ -214,7 +214,7 @@ class Extruder {
     return longest;
   }
 
-  /// The last section lies on the first, whose corner `corner` its corner 0 meets.
+  /// Joins the last section, which lies on the first, to it: corner 0 meets the first one's corner `corner`.
   Result<void> join_at(SweepSection& section, std::size_t corner) {
     if (ends_ != ExtrusionEnds::Joined)
       return fail_here("ends where the profile starts; join the ends, or go less far");
@@ -239,7 +239,7 @@ class Extruder {
     if (!has_folds_) return {};
     tests_left_ += kTestsOfATriangle * (mesh_.triangles.size() - before);
     if (find_crossing(mesh_, before, tolerance_, !open_, tests_left_) == TriangleCrossing::None) return {};
-    // Far twists go better where each quad is cut for itself.
+    // Strong twists succeed more often where each quad is cut by itself.
     mesh_.triangles.resize(before);
     if (!places_.empty()) coordinates_.resize(before);
     better_fold_ = kBetter;
@@ -253,7 +253,7 @@ class Extruder {
     return fail_here("twists or squeezes the profile so far that its triangles meet; do it in smaller parts");
   }
 
-  /// False: the sheet crosses itself.
+  /// Adds the quads up to the section; false where the sheet crosses itself.
   bool add_quads(const SweepSection& to) {
     has_folds_ = false;
     const std::size_t count = to.vertices.size();
@@ -267,8 +267,8 @@ class Extruder {
     return true;
   }
 
-  /// Gives the triangles that were made of a quad their places in the picture. Corners that came together lie
-  /// half-way.
+  /// Gives the triangles that were made of a quad their places in the picture. Corners that came together are
+  /// placed half-way.
   void place_quad(const Quad& quad, std::size_t i, std::size_t j, std::size_t before) {
     const Vector2& out = ways_out_[i];
     const std::array<Vector2, 4> places = {places_[i] + way_[i] * out, places_[j] + way_[j] * out,
@@ -288,7 +288,7 @@ class Extruder {
     }
   }
 
-  /// Where an outline folds, both quads are cut towards the fold: two cuts from the other side would end in
+  /// At a fold of an outline, both quads are cut towards the fold: two cuts from the other side would end in
   /// the same vertex. Elsewhere all cuts lead the same way through the profile, so that the two sides of a
   /// thin wall that is twisted bulge alike.
   Cut cut_between(const std::vector<std::uint32_t>& to, std::size_t i, std::size_t j) const {
@@ -316,7 +316,7 @@ class Extruder {
     return fail_here("turns back into what the steps before it have made; go on in their direction");
   }
 
-  /// A step within the plane, which must leave the old outline all inside the new one, or all outside.
+  /// Checks a step within the plane: the old outline must be all inside the new one, or all outside.
   Result<void> check_level(std::size_t before) {
     const Vector3 normal = latest_.normal();
     bool shrinks = false;
@@ -364,7 +364,7 @@ class Extruder {
     }
   }
 
-  /// `corners` are those of the outline.
+  /// `corners` are numbers of the outline's corners.
   void add_cap_triangle(const SweepSection& section, const Triangle& corners) {
     const std::size_t before = mesh_.triangles.size();
     add_triangle({section.vertices[corners[0]], section.vertices[corners[1]], section.vertices[corners[2]]});
@@ -372,7 +372,7 @@ class Extruder {
     coordinates_.push_back({places_[corners[0]], places_[corners[1]], places_[corners[2]]});
   }
 
-  /// A sheet whose rims lie on the axis of a ring has an outside.
+  /// Turns a sheet whose rims lie on the axis of a ring to face out: such a sheet has an outside.
   void turn_closed_sheet(bool joins) {
     const bool is_closed = joins && first_.vertices.front() == latest_.vertices.front() &&
                            first_.vertices.back() == latest_.vertices.back();
@@ -384,7 +384,7 @@ class Extruder {
     for (auto& corners : coordinates_) std::swap(corners[1], corners[2]);
   }
 
-  /// Corners that are one leave a triangle, or nothing. False: an open profile's quad crosses itself.
+  /// Adds a quad; with equal corners, a triangle or nothing. False: an open profile's quad crosses itself.
   bool add_quad(const Quad& quad, Cut cut) {
     std::vector<std::uint32_t>& corners = quad_corners_;
     corners.clear();
@@ -436,9 +436,9 @@ class Extruder {
   ExtrusionEnds ends_;
   bool open_;
   std::vector<Vector2> places_;         // in the picture, of the outline's corners; none: there is no picture
-  std::vector<Vector2> ways_out_ = {};  // of the edges from them
+  std::vector<Vector2> ways_out_ = {};  // of the edges from them, per metre
   std::vector<std::array<Vector2, 3>> coordinates_ = {};
-  std::vector<double> way_ = {};     // m, that each corner has come, to the latest section
+  std::vector<double> way_ = {};     // m, the length that each corner has moved to the latest section
   std::vector<double> way_to_ = {};  // and to the next
   AdvanceRules rules_;
   double profile_size_ = 0.0;
@@ -448,7 +448,7 @@ class Extruder {
   SweepSection latest_ = {};                  // the last that made triangles
   SectionShape shape_ = SectionShape::Whole;  // of the latest
   bool is_joined_ = false;
-  std::size_t step_ = 0;  // where the sweep is, for errors
+  std::size_t step_ = 0;  // the current step of the sweep, for errors
   int repeat_ = 0;
   bool is_past_steps_ = false;
   double better_fold_ = kBetter;

@@ -11,7 +11,7 @@
 
 namespace icome::geometry {
 
-/// What becomes of the first and the last section.
+/// The treatment of the first and the last section.
 enum class ExtrusionEnds {
   Capped,  ///< each is filled with triangles, so that an outline gives a closed surface
   Open,    ///< each stays a rim
@@ -21,7 +21,7 @@ enum class ExtrusionEnds {
 
 /// The most triangles that extrude() makes.
 inline constexpr std::size_t kMaximumExtrusionTriangles = 20'000'000;
-/// How far from the origin a section may get, m.
+/// The largest coordinate that a section may reach, m.
 inline constexpr double kLargestExtrusion = 1e9;
 
 /// Extrude 2D: sweeps the profile, which starts in the plane z = 0, through the placements that the steps
@@ -36,7 +36,7 @@ inline constexpr double kLargestExtrusion = 1e9;
 /// inside the profile, the triangles between the two meet after too far a twist, or the sweep turns back into
 /// what it has just made, where a flattened profile moves on, or where numbers or triangles become too many.
 /// Parts of the sweep that are no neighbours are not compared: a spiral may run through itself. A profile of
-/// thousands of long corners side by side may be refused when it is twisted, as looking for triangles that
+/// thousands of long corners side by side may be refused when it is twisted, as the search for triangles that
 /// meet would take too long. In a ring whose profile only touches the axis with a corner, all of that
 /// corner's triangles share one vertex. A given input gives the same mesh every time.
 base::Result<TriangleMesh> extrude(const Profile& profile, std::span<const SweepStep> steps,

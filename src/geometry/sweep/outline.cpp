@@ -22,7 +22,7 @@ double side_of(const Vector2& a, const Vector2& b, const Vector2& c) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
-/// Does the point lie on the line from a to b, its ends included? It lies on the endless one.
+/// Does the point lie on the segment from a to b, its ends included? Precondition: it lies on the line.
 bool lies_between(const Vector2& a, const Vector2& b, const Vector2& point) {
   return (point - a).dot(point - b) <= 0.0;
 }

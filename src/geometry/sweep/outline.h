@@ -7,14 +7,14 @@
 
 namespace icome::geometry {
 
-/// A piece of the plane: what lies within the rim and in no hole. Edges meet at corners only.
+/// A piece of the plane: the part within the rim and in no hole. Edges meet at corners only.
 struct Outline {
   std::vector<Vector2> rim = {};                 ///< counter-clockwise
   std::vector<std::vector<Vector2>> holes = {};  ///< each clockwise, within the rim and beside the others
 };
 
-/// Cuts the piece into triangles that wind like the rim, by joining each hole to what lies right of it with a
-/// bridge (Eberly, Triangulation by Ear Clipping). Decisions are exact where coordinates are whole numbers,
+/// Cuts the piece into triangles that wind like the rim, by joining each hole with a bridge to a corner right
+/// of it (Eberly, Triangulation by Ear Clipping). Decisions are exact where coordinates are whole numbers,
 /// no two of which differ by more than 2^26. Appends indices that count the corners of the rim, then those of
 /// the holes in turn. Fails for holes that are not within the rim, for a ring of less than 3 corners, for
 /// corners that are not finite, and for more than kMaximumPolygonCorners with those of the bridges, two for

@@ -47,8 +47,8 @@ ThinnedProfile without_repeats(const Profile& profile, double tolerance) {
   return thinned;
 }
 
-/// Looks for edges of a profile that come nearer to one another than the tolerance, other than where one goes
-/// on from the other.
+/// Searches for edges of a profile that come nearer to one another than the tolerance, except where one
+/// continues the other.
 class EdgeCrossings {
  public:
   EdgeCrossings(const std::vector<Vector2>& points, bool open, double tolerance)

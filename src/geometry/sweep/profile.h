@@ -15,8 +15,8 @@ struct Profile {
   std::vector<Vector2> places = {};  ///< texture coordinates of the points; none, or as many
 };
 
-/// What two neighbouring numbers of a sweep must differ by to count as different, as a share of the largest
-/// coordinate: far more than rounding takes away, far less than anybody draws.
+/// The difference above which two neighbouring numbers of a sweep count as different, as a share of the
+/// largest coordinate: far more than rounding errors, far less than anybody draws.
 inline constexpr double kSweepTolerance = 0x1p-40;
 
 /// The smallest extent and the largest coordinate of a profile, m: those of the primitives.
@@ -30,7 +30,7 @@ inline constexpr double kFarthestPictureRepeat = 1e6;
 /// corners make a circle.
 base::Result<Profile> regular_polygon(int corners, double radius, const Vector2& centre = Vector2::Zero());
 
-/// The profile fit to be swept: repeated corners left out and an outline counter-clockwise. Fails for numbers
+/// The profile prepared for a sweep: repeated corners left out, outlines counter-clockwise. Fails for numbers
 /// that are not finite or out of range, for too few or too many corners (kMaximumPolygonCorners), for an
 /// outline without area, for places that are not as many or out of range, and for edges that cross or touch.
 /// O(n^2) at worst, nearly O(n) as a rule.

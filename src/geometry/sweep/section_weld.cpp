@@ -19,7 +19,7 @@ class SectionWelder {
     section_.vertices.assign(section_.points.size(), 0);
   }
 
-  /// Corners become one with what they were, or else with their neighbours.
+  /// Unites corners with their own vertices in the section before, or else with their neighbours.
   void weld_neighbours(bool open) {
     const std::size_t count = section_.points.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -30,7 +30,7 @@ class SectionWelder {
     }
   }
 
-  /// Corners become one wherever they meet on the line.
+  /// Unites corners wherever they meet on the line.
   void weld_along(const Vector3& direction) {
     const std::size_t count = section_.points.size();
     std::vector<double> places(count);
@@ -50,7 +50,7 @@ class SectionWelder {
   }
 
  private:
-  /// Takes the vertex when the corner is there.
+  /// Gives the corner the vertex if it lies there; false if it does not.
   bool stays(std::size_t corner, std::uint32_t vertex) {
     if ((section_.points[corner] - positions_[vertex]).norm() > tolerance_) return false;
     section_.vertices[corner] = vertex;

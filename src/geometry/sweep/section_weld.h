@@ -7,12 +7,12 @@
 
 namespace icome::geometry {
 
-/// What the corners of a section come down to.
+/// The shape to which the corners of a section are reduced.
 enum class SectionShape {
   Whole,  ///< they keep apart
   Line,   ///< an outline flattened so that its edges meet in pairs, each way along one another
   Point,
-  Ragged,  ///< an outline flattened to a line without that
+  Ragged,  ///< an outline flattened to a line without such pairs
 };
 
 /// Gives the section's corners vertices: those of `before` where corners stay in place, one where they come

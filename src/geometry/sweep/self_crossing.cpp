@@ -15,7 +15,7 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-/// On which sides of the plane of `of` the corners lie.
+/// The sides of the plane of `of` on which the corners lie.
 Signs sides(const Corners& of, const Corners& corners) {
   return {side_sign(of[0], of[1], of[2], corners[0]), side_sign(of[0], of[1], of[2], corners[1]),
           side_sign(of[0], of[1], of[2], corners[2])};
@@ -62,7 +62,7 @@ class Flattened {
     second_ = (steepest + 2) % 3;
   }
   Vector2 operator()(const Vector3& point) const { return {point[first_], point[second_]}; }
-  /// The same triangle, counter-clockwise.
+  /// The triangle in these coordinates, counter-clockwise.
   std::array<Vector2, 3> operator()(const Corners& corners) const {
     std::array<Vector2, 3> flat = {(*this)(corners[0]), (*this)(corners[1]), (*this)(corners[2])};
     if (turn_sign(flat[0], flat[1], flat[2]) < 0) std::swap(flat[1], flat[2]);
@@ -131,7 +131,7 @@ class SelfCrossingSearch {
       if (!spans_area(corners)) continue;
       const Bounds box = box_of(t);
       SegmentQuery query(box.min(), box.max(), 0.0);
-      query.slanted = false;  // all that its box meets
+      query.slanted = false;  // visits all boxes that its box meets
       tree_.near(query, [&](std::uint32_t other) {
         if (other <= t) return true;
         if (tests_left_ == 0) {
@@ -150,14 +150,14 @@ class SelfCrossingSearch {
   Corners corners_of(std::uint32_t t) const {
     return {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
   }
-  /// Seen from one of the vertices, so that single precision tells them apart.
+  /// The box of a triangle, relative to one vertex of the mesh, so that single precision tells boxes apart.
   Bounds box_of(std::uint32_t t) const {
     Bounds box;
     for (int i = 0; i < 3; ++i) box.extend(mesh_.corner(t, i) - origin_);
     return box;
   }
 
-  /// Near where the two cross.
+  /// A place near the crossing of the two; nothing if they do not cross.
   std::optional<Vector3> crossing(std::uint32_t t, const Corners& corners, std::uint32_t other) const {
     const Corners others = corners_of(other);
     if (!spans_area(others) || !cross(t, corners, other, others)) return std::nullopt;

@@ -26,7 +26,7 @@ Affine3 multiplied(const SweepStep& step, double times) {
   return Eigen::Translation3d(times * step.translation) * about_point(step.centre, moved);
 }
 
-/// What is wrong with the step, and what to do; empty when nothing is.
+/// The fault of the step, and its remedy; empty when there is none.
 const char* fault_of(const SweepStep& step) {
   if (!step.scaling.allFinite() || !std::isfinite(step.angle) || !step.axis.allFinite() ||
       !step.centre.allFinite() || !step.translation.allFinite())

@@ -46,7 +46,7 @@ Quadratic seen_along(const Normals& normals, const Vector3& direction) {
   return {normals[0].dot(direction), normals[1].dot(direction), normals[2].dot(direction)};
 }
 
-/// Is there hardly anything left of a section on the way? So it is after half a turn.
+/// Does a section nearly vanish on the way? It does so in half a turn.
 bool vanishes_between(const Normals& normals) {
   constexpr double kHardlyAnything = 0x1p-20;
   const Quadratic areas = seen_along(normals, normals[0].normalized() + normals[2].normalized());

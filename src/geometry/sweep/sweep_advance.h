@@ -18,7 +18,7 @@ struct SweepSection {
   Vector3 normal() const { return place.linear().col(0).cross(place.linear().col(1)); }
 };
 
-/// How the inside of an outline gets from one section to the next.
+/// The direction in which the inside of an outline moves from one section to the next.
 enum class SweepAdvance {
   Forward,   ///< towards the side from which the outline runs counter-clockwise
   Backward,  ///< to the other side
@@ -31,7 +31,7 @@ enum class SweepAdvance {
 /// so that the corners tell about all of the inside. Steps below `tolerance` (m) do not count.
 SweepAdvance advance_between(const SweepSection& from, const SweepSection& to, double tolerance);
 
-/// Remembers how a sweep has advanced and says when it runs back into itself. Within a plane an outline may
+/// Remembers the advance of a sweep and tells when it runs back into itself. Within a plane an outline may
 /// shrink, as for the bottom of a cup, and then turn back; after growing it may not.
 class AdvanceRules {
  public:

@@ -13,11 +13,11 @@ enum class TriangleCrossing {
 };
 
 /// Does an edge of the mesh's triangles from number `first` on go through another of them? Triangles that
-/// share a vertex with the edge are not asked, what goes through by less than `tolerance` (m) only
-/// touches. `closed` tells that an edge of one triangle alone lies where nothing goes through, so that each
-/// edge need be looked at but once. O(n log n) for n triangles that lie in some order along a surface; O(n^2)
-/// where they are long and lie side by side, aslant, which `tests_left` bounds: it is counted down by one for
-/// each edge near a triangle.
+/// share a vertex with the edge are left out; an edge that goes through by less than `tolerance` (m) only
+/// touches. `closed` tells that edges of only one triangle lie where nothing goes through, so that each edge
+/// need be tested only once. O(n log n) for n triangles that lie in some order along a surface; O(n^2) where
+/// they are long and lie side by side, aslant, which `tests_left` bounds: it is counted down by one for each
+/// edge near a triangle.
 TriangleCrossing find_crossing(const TriangleMesh& mesh, std::size_t first, double tolerance, bool closed,
                                std::uint64_t& tests_left);
 

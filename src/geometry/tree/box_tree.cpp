@@ -105,8 +105,8 @@ void BoxTree::set_child(std::size_t level, std::size_t child, const FloatBox& bo
 }
 
 // Separating axes between a box grown by the radius and a segment: the three cross products of the
-// segment with the box axes (Ericson, Real-Time Collision Detection, 5.3.3); the box axes themselves
-// are what overlap_mask tested.
+// segment with the box axes (Ericson, Real-Time Collision Detection, 5.3.3); overlap_mask has tested
+// the box axes themselves.
 unsigned FourBoxes::beside_mask(const SegmentQuery& query) const {
   std::array<FourFloats, 3> middle{};
   std::array<FourFloats, 3> extent{};
@@ -126,8 +126,8 @@ unsigned FourBoxes::beside_mask(const SegmentQuery& query) const {
   return detail::mask_of(~apart);
 }
 
-// The place of the box nearest to the middle of the segment, and the plane through it at right angles to the
-// way there: the box lies behind the plane, and no point of the segment is nearer to that than its ends are.
+// Tests the plane through the place of the box nearest to the middle of the segment, at right angles to the
+// way there: the box lies behind it, and no point of the segment is nearer to the plane than its ends are.
 unsigned FourBoxes::within_mask(const SegmentQuery& query) const {
   FourFloats squared{};
   FourFloats along{};

@@ -63,7 +63,7 @@ struct SegmentQuery {
   FloatBox box;                 // around the capsule
   std::array<float, 3> centre;  // of the segment
   std::array<float, 3> half;    // half the segment, signed
-  float rounding;               // m, what single precision may have moved
+  float rounding;               // m, the possible error of single precision
   float radius;                 // with room for that
   bool slanted;                 // worth more than the test against `box`
   bool round;                   // worth a distance
@@ -105,7 +105,7 @@ class BoxTree {
   };
   struct FloatPoint {
     std::array<float, 3> position;
-    float rounding;  // m, how far the position may be off
+    float rounding;  // m, the possible error of the position
   };
 
   void set_child(std::size_t level, std::size_t child, const FloatBox& box);
@@ -135,7 +135,7 @@ inline float above(double value) {
   return rounded + (std::abs(rounded) * kRounding + kTiny);
 }
 
-/// What comparing FourFloats gives: all bits of a number are set where it holds.
+/// The result of comparing FourFloats: all bits of a number are set where the comparison holds.
 using FourTruths = decltype(FourFloats() < FourFloats());
 
 /// Bit i is set where number i holds.

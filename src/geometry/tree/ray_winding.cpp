@@ -5,7 +5,7 @@
 namespace icome::geometry {
 namespace {
 
-/// How often a triangle in the plane winds around a point that is moved a bit to the right, and much less up.
+/// The winding number of a triangle in the plane around a point moved a bit to the right, and much less up.
 int plane_winding(const std::array<Eigen::Vector2d, 3>& corners, const Eigen::Vector2d& point) {
   int winding = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -13,11 +13,11 @@ class WindingRay {
   /// The ray that leaves the box, which holds the point, soonest.
   WindingRay(const Vector3& point, const Bounds& box);
 
-  /// Where the ray has left the box.
+  /// A point of the ray beyond the box.
   const Vector3& end() const { return end_; }
 
-  /// What a triangle adds to the winding number: 1, 0 or -1; for a point on the triangle 0, or that of a
-  /// point beside it. Real-time safe.
+  /// The contribution of a triangle to the winding number: 1, 0 or -1; for a point on the triangle 0, or
+  /// that of a point beside it. Real-time safe.
   int through(const Corners& triangle) const;
 
  private:
@@ -25,7 +25,7 @@ class WindingRay {
 
   Vector3 point_;
   Vector3 end_;
-  std::array<int, 2> across_{};  // the axes that the ray is seen along, which with its own are right-handed
+  std::array<int, 2> across_{};  // the axes across the ray, which with its own are right-handed
   bool up_ = true;               // along its axis, not against it
 };
 

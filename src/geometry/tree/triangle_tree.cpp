@@ -33,7 +33,7 @@ double edge_side(const Vector3& u, const Vector3& v, const Vector3& direction) {
          (u.x() * v.y() - u.y() * v.x()) * direction.z();
 }
 
-/// Where on the segment start + t * direction, t in [0, 1], the triangle is crossed.
+/// The t in [0, 1] at which the segment start + t * direction crosses the triangle; nothing if it does not.
 std::optional<double> crossing(const Corners& corners, const Vector3& start, const Vector3& direction) {
   const Vector3 u = corners[0] - start;
   const Vector3 v = corners[1] - start;
@@ -41,7 +41,7 @@ std::optional<double> crossing(const Corners& corners, const Vector3& start, con
   const double a = edge_side(v, w, direction);
   const double b = edge_side(w, u, direction);
   const double c = edge_side(u, v, direction);
-  // What rounding can make of zero: a path through a corner belongs to all triangles that meet there.
+  // The rounding error of zero: a path through a corner belongs to all triangles that meet there.
   const double zero = kRoundingOfVolume * std::sqrt(direction.squaredNorm()) *
                       std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
   if (std::min({a, b, c}) < -zero && std::max({a, b, c}) > zero) return std::nullopt;

@@ -17,7 +17,7 @@ using Corners = std::array<Vector3, 3>;
 /// Real-time safe.
 Vector3 nearest_point(const Corners& corners, const Vector3& point);
 
-/// Where a query met a mesh.
+/// The place at which a query met a mesh.
 struct MeshHit {
   Vector3 point;           // m
   std::uint32_t triangle;  // index in the mesh
@@ -25,16 +25,16 @@ struct MeshHit {
 };
 
 /// A spatial tree over the triangles of a mesh, laid out for a tip that moves little from one tick to
-/// the next: corners are copied in Hilbert order, so what is near in space is near in memory.
-/// Owns its copies; the mesh may go. About 84 bytes a triangle. Queries never allocate and may run in
-/// several threads at once; "slot" is a triangle's place in the tree's order.
+/// the next: corners are copied in Hilbert order, so neighbours in space are near in memory.
+/// Owns its copies, so the mesh is not needed later. About 84 bytes a triangle. Queries never allocate and
+/// may run in several threads at once; "slot" is a triangle's place in the tree's order.
 class TriangleTree {
  public:
   /// Builds on all cores. The mesh has at most 2^32 - 1 triangles with indices in range.
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  /// Over a mesh with the same triangles as that of `other`, some of them elsewhere: O(triangles), in the
-  /// order that the other has. It answers the same as one built anew, and the faster the less has moved.
+  /// The tree over a mesh with the same triangles as that of `other`, some of them moved: O(triangles), in
+  /// the order of the other. It gives the same answers as a new one, faster the less has moved.
   TriangleTree(const TriangleTree& other, const TriangleMesh& mesh);
 
   /// Takes the new positions of a mesh with the same triangles: O(triangles).
@@ -47,10 +47,10 @@ class TriangleTree {
     near(SegmentQuery(a, b, radius), visit);
   }
 
-  /// The same for a query made before.
+  /// As near() above, for a query that has been prepared.
   template <typename Visit>
   void near(const SegmentQuery& query, Visit&& visit) const {
-    // Groups are looked at a few at a time, so that memory fetches their corners side by side.
+    // Groups are visited a few at a time, so that memory fetches their corners side by side.
     std::array<std::uint32_t, kBatch> groups;
     unsigned count = 0;
     bool more = true;
@@ -81,8 +81,8 @@ class TriangleTree {
   std::optional<MeshHit> nearest(const Vector3& point,
                                  double limit = std::numeric_limits<double>::infinity()) const;
 
-  /// How often a closed mesh winds around the point, outward normals out; its parts may overlap. Exact, as
-  /// WindingRay tells; of a point on the surface as of one beside it. Real-time safe.
+  /// The winding number of a closed mesh, outward normals out, around the point; its parts may overlap. Exact
+  /// (see WindingRay); for a point on the surface that of a point beside it. Real-time safe.
   int winding(const Vector3& point) const;
 
   /// Does a closed mesh, outward normals out, enclose the point? Real-time safe.
