@@ -28,8 +28,9 @@ constexpr double kFarthestHead = 2.0;  // m
 Pose heading_of(const View& view) {
   const auto axes = view.world_from_eye.linear();
   Vector3 right(axes(0, 0), 0.0, axes(2, 0));
-  // A view that lies on its side has its right above; the picture's up is then to the left.
-  if (right.norm() < 1e-6) right = Vector3(axes(0, 1), 0.0, axes(2, 1));
+  // A view that lies on its side has its right above or below: the level right is then down or up in the
+  // picture.
+  if (right.norm() < 1e-6) right = (axes(1, 0) > 0.0 ? -1.0 : 1.0) * Vector3(axes(0, 1), 0.0, axes(2, 1));
   const double angle = std::atan2(-right.z(), right.x());
   return Pose(Eigen::AngleAxisd(angle, Vector3::UnitY()));
 }

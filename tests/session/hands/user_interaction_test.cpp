@@ -94,6 +94,24 @@ TEST(UserInteraction, WorkspacesStandUprightAtWhatIsLookedAt) {
   EXPECT_TRUE((user.stage_from_device().linear() * Vector3::UnitX()).isApprox(-Vector3::UnitZ(), 1e-12));
 }
 
+// Rolled by a right angle the picture's right has no level part: the heading is the one that rolling led to.
+TEST(UserInteraction, WorkspacesKeepTheirHeadingInAViewOnItsSide) {
+  for (const double roll : {-1.0, 1.0}) {
+    const auto heading = [&](double part) {
+      View view = from_aside();
+      const Vector3 back = view.world_from_eye.linear().col(2);
+      view.world_from_eye.linear() =
+          base::Quaternion::FromTwoVectors(back, Vector3(back.x(), 0.0, back.z())) *
+          view.world_from_eye.linear();
+      view.world_from_eye.rotate(Eigen::AngleAxisd(part * roll * pi / 2.0, Vector3::UnitZ()));
+      UserInteraction user(nullptr, nullptr);
+      user.set_view(view);
+      return Vector3(user.stage_from_device().linear().col(0));
+    };
+    EXPECT_LT((heading(1.0) - heading(0.9)).norm(), 1e-3) << roll;
+  }
+}
+
 TEST(UserInteraction, MovingTheViewCarriesThePointers) {
   UserInteraction user;
   const Vector3 tip(0.02, -0.03, 0.05);
