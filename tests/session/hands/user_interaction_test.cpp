@@ -98,11 +98,7 @@ TEST(UserInteraction, WorkspacesStandUprightAtWhatIsLookedAt) {
 TEST(UserInteraction, WorkspacesKeepTheirHeadingInAViewOnItsSide) {
   for (const double roll : {-1.0, 1.0}) {
     const auto heading = [&](double part) {
-      View view = from_aside();
-      const Vector3 back = view.world_from_eye.linear().col(2);
-      view.world_from_eye.linear() =
-          base::Quaternion::FromTwoVectors(back, Vector3(back.x(), 0.0, back.z())) *
-          view.world_from_eye.linear();
+      View view = interaction::orbited(interaction::zoomed(View(), 2.0, Vector3::Zero()), 0.7, 0.0);
       view.world_from_eye.rotate(Eigen::AngleAxisd(part * roll * pi / 2.0, Vector3::UnitZ()));
       UserInteraction user(nullptr, nullptr);
       user.set_view(view);
