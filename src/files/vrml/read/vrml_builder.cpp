@@ -295,8 +295,8 @@ class VrmlBuilder {
       std::unordered_set<ObjectId> known;
       std::size_t missing = 0;
       if (from.members()) {
-        for (const flat::String* name : *from.members()) {
-          const auto found = by_name.find(reader_.text(name->text()));
+        for (const flat::String* member : *from.members()) {
+          const auto found = by_name.find(reader_.text(member->text()));
           if (found == by_name.end())
             ++missing;
           else if (known.insert(found->second).second)
