@@ -17,7 +17,7 @@
 namespace icome::stats {
 namespace {
 
-constexpr double kNotCompared = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostTests = 10000.0;
 
 /// The place of a factor in a table.
@@ -123,17 +123,7 @@ class SlicedTable {
 
 LevelPair pair_of(const SlicedTable& table, const std::vector<std::vector<double>>& samples,
                   std::size_t first, std::size_t second, bool within, double confidence) {
-  LevelPair pair{first,
-                 second,
-                 kNotCompared,
-                 kNotCompared,
-                 kNotCompared,
-                 kNotCompared,
-                 kNotCompared,
-                 {kNotCompared, kNotCompared},
-                 kNotCompared,
-                 {kNotCompared, kNotCompared},
-                 {}};
+  LevelPair pair{first, second, kNaN, kNaN, kNaN, kNaN, kNaN, {kNaN, kNaN}, kNaN, {kNaN, kNaN}, {}};
   const std::vector<double>&one = samples[first], &other = samples[second];
   if (!one.empty() && !other.empty()) pair.difference = mean(other) - mean(one);
   std::vector<double> differences;
@@ -278,9 +268,7 @@ base::Result<LevelComparisons> compare_levels(std::span<const double> values, co
       slicing == Slicing::None ? std::vector<std::vector<int>>{{}} : table.combinations();
   for (const std::vector<int>& at : all) {
     const std::vector<std::vector<double>> samples = table.samples(at);
-    LevelSlice slice{
-        at, 0, kNotCompared, kNotCompared, kNotCompared, 1.0, kNotCompared, kNotCompared, kNotCompared,
-        {}, {}};
+    LevelSlice slice{at, 0, kNaN, kNaN, kNaN, 1.0, kNaN, kNaN, kNaN, {}, {}};
     for (const std::vector<double>& sample : samples)
       slice.subjects = role->within ? sample.size() : slice.subjects + sample.size();
     if (role->within)
