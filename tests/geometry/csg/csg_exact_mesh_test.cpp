@@ -126,14 +126,13 @@ TEST(CsgMesh, SlitsStayOpenHoweverNarrow) {
 }
 
 TEST(CsgMesh, DrilledPlatesKeepThicknessAndHole) {
-  const double pi = std::numbers::pi;
   for (const double thickness : {0.018, 0.005, 1e-4}) {
     const CsgTree plate = with_hole(Box{{0.5, 0.5, 0.5 * thickness}}, Cylinder{0.1, 0.3});
     for (const CsgTree& tree : {plate, placed(plate, tilted())}) {
       for (const double cell : {0.036, 0.01}) {
         SCOPED_TRACE(testing::Message() << thickness << " " << cell);
         const ContourMesh made = csg_meshed(tree, cell);
-        EXPECT_NEAR(volume(made.mesh) / (thickness * (1.0 - pi * 0.01)), 1.0, 0.005);
+        EXPECT_NEAR(volume(made.mesh) / (thickness * (1.0 - std::numbers::pi * 0.01)), 1.0, 0.005);
         EXPECT_EQ(euler_characteristic(made.mesh), 0);
         EXPECT_FALSE(made.lost);
       }

@@ -28,10 +28,10 @@ CsgTree figure_5_6(double scale) {
 
 /// The cube of half size 0.5 without six caps of the ball and without the hole.
 double volume_of_figure_5_6() {
-  const double pi = std::numbers::pi, ball = 0.65, half = 0.5, drill = 0.25;
+  const double ball = 0.65, half = 0.5, drill = 0.25;
   const double height = ball - half;
-  const double caps = 6 * pi * height * height * (3 * ball - height) / 3;
-  return 4 * pi / 3 * ball * ball * ball - caps - 2 * half * pi * drill * drill;
+  const double caps = 6 * std::numbers::pi * height * height * (3 * ball - height) / 3;
+  return 4 * std::numbers::pi / 3 * ball * ball * ball - caps - 2 * half * std::numbers::pi * drill * drill;
 }
 
 TEST(CsgMesh, TreeOfFigure56HasTheRightShapeAndVolume) {

@@ -63,7 +63,7 @@ TEST(CurveArc, FindsTheNearestPlace) {
 
 TEST(CurveArc, IsTouchedWhereTheDistanceSaysSo) {
   base::Random random(4);
-  constexpr double kSlack = 1e-11;
+  constexpr double kTouchSlack = 1e-11;
   int touched = 0;
   for (int i = 0; i < 600; ++i) {
     const double angle = random.uniform(0.0, 6.0);
@@ -72,7 +72,7 @@ TEST(CurveArc, IsTouchedWhereTheDistanceSaysSo) {
     const Vector3 start = on_ring(angle) + (radius + random.uniform(0.0, 0.01)) * random.direction();
     if (densely_sampled(arc, start) < radius + 1e-7) continue;
     const Vector3 step = 2.0 * (on_ring(angle) + place_in_ball(random, 0.003) - start);
-    const auto touch = arc.first_touch(radius, start, step, kSlack);
+    const auto touch = arc.first_touch(radius, start, step, kTouchSlack);
     const double end = touch ? touch->t : 1.0;
     for (int k = 0; k <= 30; ++k)  // free until then
       ASSERT_GT(densely_sampled(arc, start + end * k / 30.0 * step), radius - 1e-10) << i;

@@ -108,10 +108,10 @@ TEST(FormulaPieces, AreOneAtEveryPlaceOfConditionsAndAngles) {
 }
 
 TEST(FormulaPieces, AreOneAtEveryPlaceOfZigzags) {
-  constexpr double kExact = 1e-9;  // near a turn, asin(sin(x)) loses digits that the straight pieces have
+  constexpr double kNearExact = 1e-9;  // near a turn, asin(sin(x)) loses digits that the straight pieces have
   for (const char* text : {"z - asin(sin(9*x + y))", "z*acos(sin(7*x))",
                            "acos(cos(5*abs(y) - x)) - asin(cos(8*z))", "z + atan(tan(6*x - y))"}) {
-    expect_one_piece_everywhere(text, kExact);
+    expect_one_piece_everywhere(text, kNearExact);
   }
 }
 
