@@ -488,7 +488,7 @@ TEST(Session, RecoversWorkOfASessionThatWasNotClosed) {
   }
   SessionSettings last = quiet_settings();
   last.autosave_folder = folder.path();
-  EXPECT_TRUE(start(std::move(last))->recoverable().empty());
+  EXPECT_TRUE(start(std::move(last))->files().recoverable().empty());
 }
 
 TEST(Session, WhatWasSavedInTheEndIsNotRecovered) {
