@@ -19,7 +19,7 @@ Vector3 in_cube(Random& random) {
 
 /// Boxes at random places of a room of 20 m.
 std::vector<HapticObject> boxes(std::uint32_t count, Random& random) {
-  const auto box = shape_of(primitive("box:0.2,0.3,0.4"));
+  const auto box = shape_of(primitive("box:0.2x0.3x0.4"));
   std::vector<HapticObject> objects;
   for (std::uint32_t i = 0; i < count; ++i) {
     // Ids come in any order.
