@@ -587,7 +587,7 @@ TEST(VrmlBuilder, RefusesNonsense) {
   EXPECT_EQ(build_failure({.nodes = {{.appearance = 3}}}), head + "a node names what is not there");
   EXPECT_EQ(build_failure({.nodes = {{.matrix = {1, 2, 3}}}}), head + "a node has half a matrix");
   EXPECT_EQ(build_failure({.nodes = {{.scene = "a"}, {.parent = 0}}}), head + "a node lies below a scene");
-  EXPECT_EQ(build_failure({.appearances = {{.picture = 0}}}), head + "a look names what is not there");
+  EXPECT_EQ(build_failure({.appearances = {{.picture = 0}}}), head + "an appearance names what is not there");
   Answer deep;
   deep.nodes.resize(20'000);
   for (int i = 1; i < 20'000; ++i) deep.nodes[std::size_t(i)].parent = i - 1;
