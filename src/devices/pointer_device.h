@@ -28,6 +28,7 @@ struct PointerState {
   std::uint32_t buttons = 0;                        // bit i: button i is down
   bool jumped = false;                              // moved without a path in between: contacts are left
   bool parked = false;                              // it lies aside, touching nothing
+  double grip = 0.0;                                // 0 open to 1 closed; 0 without a gripper
 };
 
 /// The outcome of a read or write.
@@ -47,6 +48,9 @@ class PointerDevice {
   virtual DeviceStatus read(PointerState& state) = 0;
   /// Sends a force (N, device frame) that is held until the next write. Real-time safe.
   virtual DeviceStatus write(const Vector3& force) = 0;
+  /// Sentences about the device that people should know now, such as that its motors are hot or why it is
+  /// lost; empty: nothing. Any thread but the servo's.
+  virtual std::string condition() const { return {}; }
 };
 
 }  // namespace icome::devices

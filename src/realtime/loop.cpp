@@ -1,13 +1,10 @@
 #include "realtime/loop.h"
 
 #include <pthread.h>
-#include <sched.h>
 #include <sys/prctl.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <system_error>
@@ -15,6 +12,7 @@
 
 #include "base/clock.h"
 #include "realtime/locked_memory.h"
+#include "realtime/this_thread.h"
 
 namespace icome::realtime {
 namespace {
@@ -22,19 +20,6 @@ namespace {
 constexpr double kLowestRate = 500.0;     // Hz
 constexpr double kHighestRate = 10000.0;  // Hz
 constexpr std::size_t kLongestThreadName = 15;
-
-// Returns at once when the time has passed. Absolute, so that a signal does not prolong it.
-void sleep_until(std::int64_t nanoseconds) {
-  const timespec until{nanoseconds / 1'000'000'000, nanoseconds % 1'000'000'000};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
-}
-
-bool ask_for_realtime_priority(int priority) {
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
-}
 
 std::string notice_for(const LoopSettings& settings, const LoopReport& report) {
   std::string notice;

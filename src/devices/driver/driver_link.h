@@ -1,0 +1,101 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "devices/pointer_device.h"
+#include "realtime/latest_value.h"
+
+namespace icome::devices {
+
+/// Counts of what a link kept from the servo or from the device since its beginning.
+struct LinkCounts {
+  std::uint64_t passed = 0;          // readings that the servo could have
+  std::uint64_t not_finite = 0;      // readings with something that is not a number
+  std::uint64_t far_away = 0;        // readings far outside the workspace
+  std::uint64_t spikes = 0;          // readings that no hand could have come to, and that did not last
+  std::uint64_t watchdog_stops = 0;  // times that the servo said nothing new and the forces were taken away
+};
+
+/// What passes between a servo and the thread that talks to a device (a driver), neither of which ever waits
+/// for the other. It stands for the hand whatever either does: readings that make no sense never reach the
+/// servo, and no force that is too old, too strong or not a number reaches the device. One thread calls the
+/// servo's part and one the driver's; between two runs the driver's may be another one.
+class DriverLink {
+ public:
+  /// A force is taken away once it is older than this: the servo's thread stands still.
+  static constexpr std::int64_t kWatchdog = 10'000'000;  // ns
+  /// After that, and at the start, forces grow from none to what is asked for within this time.
+  static constexpr double kRamp = 0.3;  // s
+
+  explicit DriverLink(const DeviceInfo& info);
+
+  // The servo. Times are of base::steady_nanoseconds; real-time safe.
+  /// Ok with the newest reading, Stalled without a new one, Lost while no device is connected.
+  DeviceStatus read(PointerState& state);
+  /// Holds the force (N, device frame) until the next one, or until it is too old.
+  DeviceStatus write(const Vector3& force, std::int64_t now);
+
+  // The driver.
+  /// A device with these limits is there; forces begin at none. Its limits count where they are lower.
+  void connect(const DeviceInfo& info);
+  /// It is gone: the servo reads Lost, and people are told why.
+  void disconnect(const std::string& why);
+  /// Passes a reading on, or refuses it (see LinkCounts). `now`: when it was taken. A reading at another
+  /// place than a hand can have moved to is refused while it may be a spike; if it lasts, it counts as
+  /// jumped. The velocity is the device's own. Real-time safe.
+  void pass(const PointerState& reading, std::int64_t now);
+  /// The force to send now, N, device frame. Real-time safe.
+  Vector3 force(std::int64_t now);
+  /// Sets the sentences about the device that people should know now; empty: none. Takes a lock.
+  void tell(const std::string& condition);
+
+  // Any thread.
+  bool connected() const { return connected_.load(std::memory_order_acquire); }
+  LinkCounts counts() const;
+  std::string condition() const;
+
+ private:
+  struct Reading {
+    PointerState state;
+    std::uint64_t jumps = 0;  // so far
+  };
+  struct Asked {
+    Vector3 force = Vector3::Zero();  // N
+    std::int64_t time = 0;            // ns, 0: none was asked for yet
+  };
+  bool makes_sense(const PointerState& reading);
+  bool is_spike(const PointerState& reading, std::int64_t now);
+
+  double workspace_radius_;  // m
+  double max_force_;         // N, the lower of the expected and the connected device's
+  double expected_max_force_;
+  realtime::LatestValue<Reading> readings_;
+  realtime::LatestValue<Asked> asked_;
+  std::atomic<bool> connected_ = false;
+
+  std::uint64_t jumps_seen_ = 0;  // the servo's
+
+  // The driver's.
+  PointerState last_;
+  std::int64_t last_time_ = 0;  // ns, 0: nothing has been passed since it was connected
+  PointerState odd_;            // the last reading that may be a spike
+  std::int64_t odd_time_ = 0;   // ns
+  int odd_readings_ = 0;        // in a row, that agree
+  std::uint64_t jumps_ = 0;
+  double ramp_ = 0.0;            // 0 to 1
+  std::int64_t force_time_ = 0;  // ns, of the last force()
+  bool stopped_ = true;          // forces were taken away
+
+  std::atomic<std::uint64_t> passed_ = 0;
+  std::atomic<std::uint64_t> not_finite_ = 0;
+  std::atomic<std::uint64_t> far_away_ = 0;
+  std::atomic<std::uint64_t> spikes_ = 0;
+  std::atomic<std::uint64_t> watchdog_stops_ = 0;
+
+  mutable std::mutex condition_guard_;
+  std::string condition_;
+};
+
+}  // namespace icome::devices
