@@ -100,7 +100,8 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
   next.state = reading;
   // An orientation is a rotation for whoever uses it, also where a device rounds it to few digits.
   const double length = reading.orientation.norm();
-  next.state.orientation = length > 1e-6 ? reading.orientation.normalized() : Quaternion::Identity();
+  next.state.orientation =
+      length > 1e-6 && length < 1e6 ? reading.orientation.normalized() : Quaternion::Identity();
   // A hand is never faster; a driver that says so would make damping a blow.
   const double speed = reading.velocity.norm();
   if (speed > kFastest) next.state.velocity *= kFastest / speed;
