@@ -11,6 +11,8 @@
 #include <string_view>
 
 #include "apps/desktop/desktop_command.h"
+#include "apps/devices/devices_command.h"
+#include "apps/devices/devices_help.h"
 #include "apps/help_text.h"
 #include "apps/stats/stats_command.h"
 #include "apps/stats/stats_help.h"
@@ -38,6 +40,7 @@ struct Entries {
   StatsOptions stats;
   StudyOptions study;
   TechniquesOptions techniques;
+  DevicesOptions devices;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -163,8 +166,16 @@ void add_run_options(CLI::App& touch, Entries& entries) {
       ->type_name("PATH.csv");
   touch.add_option("--device", options.device, kDeviceHelp)->type_name("NAME");
   touch
+      .add_option(
+          "--hand-scale", options.hand_scale,
+          "Metres that the tip moves for each metre of a real device (default: its profile's, or so that "
+          "the models fit its workspace)")
+      ->type_name("S")
+      ->check(CLI::Range(0.01, 100.0));
+  touch
       .add_option("--seconds", options.seconds,
-                  "When to end (default: after 5 s of exploring, at the end of a path)")
+                  "When to end (default: after 5 s of exploring, at the end of a path, by Ctrl-C with a real "
+                  "device)")
       ->type_name("S");
   touch.add_option("--rate", options.rate_hz, "Ticks a second, 500 to 10000 (default 1000)")->type_name("HZ");
 }
@@ -290,6 +301,10 @@ void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
   app.add_option("--theme", options.theme, kThemeHelp)
       ->type_name("dark|light")
       ->check(CLI::IsMember({"dark", "light"}));
+  app.add_option(
+         "--device", options.devices,
+         "A device to touch with, as icome devices lists it; may be given several times (default: the mouse)")
+      ->type_name("NAME");
 }
 
 base::Result<ShotOptions> understood_shot(const Entries& entries) {
@@ -365,6 +380,8 @@ CommandLine bad_usage(const std::string& sentence, const std::string& help) {
 base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptions& options,
                                                        const CLI::App& app) {
   if (app.get_subcommands().empty()) return options;
+  if (!options.devices.empty())
+    return base::fail("--device before a command is for the window; it comes after touch.");
   if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");
   if (!options.design.empty())
     return base::fail(
@@ -452,6 +469,8 @@ CommandLine parse_command_line(int argc, char** argv) {
   CLI::App& techniques = *app.add_subcommand("techniques", kTechniquesSummary);
   techniques.footer(kTechniquesExamples);
   add_techniques_options(techniques, entries.techniques);
+  CLI::App& devices = *app.add_subcommand("devices", kDevicesSummary);
+  add_devices_options(devices, entries.devices);
   CLI::App& stats = *app.add_subcommand("stats", kStatsSummary);
   add_stats_options(stats, entries.stats);
   CLI::App& study = *app.add_subcommand("study", kStudySummary);
@@ -499,6 +518,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.stats = std::move(entries.stats);
   } else if (study.parsed()) {
     command_line.study = std::move(entries.study);
+  } else if (devices.parsed()) {
+    command_line.devices = std::move(entries.devices);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

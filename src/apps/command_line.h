@@ -5,6 +5,7 @@
 #include "apps/design/design_options.h"
 #include "apps/design/shot_options.h"
 #include "apps/desktop/desktop_options.h"
+#include "apps/devices/devices_options.h"
 #include "apps/stats/stats_options.h"
 #include "apps/study/study_options.h"
 #include "apps/techniques/techniques_options.h"
@@ -24,6 +25,7 @@ struct CommandLine {
   std::optional<StatsOptions> stats;
   std::optional<StudyOptions> study;
   std::optional<TechniquesOptions> techniques;
+  std::optional<DevicesOptions> devices;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

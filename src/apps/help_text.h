@@ -31,6 +31,7 @@ constexpr const char* kProgramExamples =
     "  icome edit new --apply table.jsonl --out table.wrl\n"
     "                                              model by script: every tool is an operation\n"
     "  icome shot house.wrl house.png --view iso   a picture of a design\n"
+    "  icome devices                               the devices that are there, and what is missing\n"
     "  icome techniques --picture techniques.png   which way of selecting is quick, by simulated people\n"
     "  icome stats anova times.csv --response time --factor interface\n"
     "                                              whether a difference between interfaces is chance\n"
@@ -54,9 +55,8 @@ constexpr const char* kModelHelp =
     "cylinder:RxH, cone:RxH, cone:R1xR2xH, torus:RxR, capsule:RxH";
 
 constexpr const char* kDeviceHelp =
-    "simulated, or the name of a device such as \"Touch\" or \"omega.x\": the simulated hand then has that "
-    "device's "
-    "forces, stiffness and mass (hardware itself cannot be driven yet)";
+    "The address of a device, as icome devices lists it; or simulated, or the name of a device such as "
+    "\"Touch\" or \"omega.x\": the simulated hand then has that device's forces, stiffness and mass";
 
 constexpr const char* kTouchExamples =
     "Examples:\n"
@@ -98,7 +98,9 @@ constexpr const char* kTouchExamples =
     "the\n"
     "same trace (but tick_us). Forces are limited as for --device; they grow from zero at the start of a "
     "run.\n"
-    "Without --path the simulated hand explores in real time, on any machine, and Ctrl-C ends it early.\n";
+    "Without --path the simulated hand explores in real time, on any machine, and Ctrl-C ends it early. With "
+    "the\n"
+    "address of a device a person touches with it: its workspace lies about the middle of the models.\n";
 
 constexpr const char* kTouchFormats =
     "\n"

@@ -8,6 +8,7 @@
 #include "apps/design/info_command.h"
 #include "apps/design/shot_command.h"
 #include "apps/desktop/desktop_command.h"
+#include "apps/devices/devices_command.h"
 #include "apps/stats/stats_command.h"
 #include "apps/study/study_command.h"
 #include "apps/techniques/techniques_command.h"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
     if (command_line.stats) return icome::apps::run_stats(*command_line.stats);
     if (command_line.study) return icome::apps::run_study(argc, argv, *command_line.study);
     if (command_line.techniques) return icome::apps::run_techniques(*command_line.techniques);
+    if (command_line.devices) return icome::apps::run_devices(*command_line.devices);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {

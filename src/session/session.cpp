@@ -47,6 +47,7 @@ SessionParts::SessionParts(SessionSettings given,
       ungrabbed(hands.pointers(), false),
       lost(hands.pointers(), false),
       losses(hands.pointers(), 0),
+      conditions(hands.pointers()),
       felt({haptics::HapticScene::compile({}), std::make_shared<const TouchedNames>()}),
       seen(std::make_shared<const render::RenderScene>()) {}
 
@@ -146,24 +147,40 @@ void SessionParts::take_followers() {
     if (const auto news = follower->news()) tell(SessionEvent::Kind::Notice, *news);
 }
 
+void SessionParts::tell_of_loss(std::size_t pointer) {
+  const std::string& name = hands.info(pointer).name;
+  const std::string why = hands.condition(pointer);
+  tell(
+      SessionEvent::Kind::DeviceLost,
+      why.empty()
+          ? fmt::format("The device \"{}\" does not answer: see that it is plugged in and switched on. It is "
+                        "used again as soon as it answers.",
+                        name)
+          : fmt::format("The device \"{}\" is lost: {} It is used again as soon as it answers.", name, why));
+}
+
+/// Tells what a device says of itself, such as that its motors are hot, when that changes.
+void SessionParts::tell_condition(std::size_t pointer) {
+  const std::string condition = hands.condition(pointer);
+  if (condition == std::exchange(conditions[pointer], condition) || condition.empty()) return;
+  tell(SessionEvent::Kind::Notice, fmt::format("{}: {}", hands.info(pointer).name, condition));
+}
+
 void SessionParts::notice_devices() {
   for (std::size_t i = 0; i < hands.pointers(); ++i) {
     const PointerView& pointer = hands.view(i);
     if (pointer.time == 0) continue;  // no tick yet
     const bool is_lost = pointer.status == devices::DeviceStatus::Lost;
-    const std::string& name = hands.info(i).name;
     // A device that was lost and came back in between is reported, too.
     if (pointer.losses > std::exchange(losses[i], pointer.losses) && !lost[i]) {
       lost[i] = true;
-      tell(SessionEvent::Kind::DeviceLost,
-           fmt::format("The device \"{}\" does not answer: see that it is plugged in and switched on. It is "
-                       "used again as soon as it answers.",
-                       name));
+      tell_of_loss(i);
     }
     if (lost[i] && !is_lost) {
       lost[i] = false;
-      tell(SessionEvent::Kind::DeviceBack, fmt::format("The device \"{}\" is back.", name));
+      tell(SessionEvent::Kind::DeviceBack, fmt::format("The device \"{}\" is back.", hands.info(i).name));
     }
+    if (!is_lost) tell_condition(i);
   }
 }
 

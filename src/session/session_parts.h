@@ -83,6 +83,8 @@ struct SessionParts {
   // session.cpp
   void take_in();
   void notice_devices();
+  void tell_of_loss(std::size_t pointer);
+  void tell_condition(std::size_t pointer);
   void tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details = {});
   void take_followers();
   void tell_what_is_not_as_it_is();
@@ -149,6 +151,7 @@ struct SessionParts {
   std::vector<bool> ungrabbed;               // pointers that begin to grab when their button has come up
   std::vector<bool> lost;                    // the pointer's device, as a person was told last
   std::vector<std::uint64_t> losses;         // that a person was told of
+  std::vector<std::string> conditions;       // of the pointers' devices, as a person was told last
   realtime::LatestValue<FeltVersion> felt;
   realtime::LatestValue<render::RenderScenePointer> seen;
   std::set<std::string> told;  // of differences from the design, since it was opened

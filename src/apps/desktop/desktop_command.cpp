@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/terminal.h"
+#include "devices/catalogue.h"
 #include "devices/spacemouse/space_mouse.h"
 #include "ui/window/desktop.h"
 
@@ -24,7 +26,16 @@ int run_desktop_window(int argc, char** argv, const DesktopCommandOptions& optio
   ui::DesktopOptions wanted;
   wanted.design = options.design;
   wanted.theme = options.theme;
-  return ui::run_desktop(argc, argv, wanted, desktop_settings());
+  session::SessionSettings settings = desktop_settings();
+  for (const std::string& name : options.devices) {
+    auto device = devices::open_device(name);
+    if (!device) {
+      tell("--device: " + device.error().message);
+      return 1;
+    }
+    settings.pointers.push_back(std::move(*device));
+  }
+  return ui::run_desktop(argc, argv, wanted, std::move(settings));
 }
 
 }  // namespace icome::apps

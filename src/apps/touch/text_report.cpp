@@ -7,6 +7,7 @@
 
 #include "apps/touch/touch_report.h"
 #include "base/shown_text.h"
+#include "devices/catalogue.h"
 
 namespace icome::apps {
 namespace {
@@ -108,8 +109,9 @@ void add_run(Table& table, const TouchFigures& figures, const RunOutcome& outcom
     table.row("run", fmt::format("{} along {} in {}, no clock", counted(figures.ticks, "tick"),
                                  options.path->string(), seconds_text(outcome.wall_seconds)));
   } else {
-    table.row("run", fmt::format("{} at {:g} Hz by a simulated hand ({})", counted(figures.ticks, "tick"),
-                                 figures.rate_hz, options.device));
+    const char* const whose = devices::is_device_address(options.device) ? "by hand" : "by a simulated hand";
+    table.row("run", fmt::format("{} at {:g} Hz {} ({})", counted(figures.ticks, "tick"), figures.rate_hz,
+                                 whose, options.device));
     const realtime::Quantiles& late = outcome.lateness;
     table.row("lateness",
               fmt::format("median {}, 99.9 % within {}, worst {}", microseconds_text(late.median * 1e6),

@@ -22,7 +22,9 @@
 #include "apps/touch/touch_report.h"
 #include "apps/touch/touch_run.h"
 #include "apps/touch/trace_file.h"
+#include "devices/catalogue.h"
 #include "devices/device_profiles.h"
+#include "devices/mapping_file.h"
 #include "devices/path_player.h"
 #include "haptics/judge/contact_judge.h"
 #include "render/pictures/touch_picture.h"
@@ -39,17 +41,59 @@ struct Prepared {
   std::shared_ptr<const haptics::HapticScene> scene;
   double build_seconds = 0.0;
   devices::DeviceInfo device;
-  std::optional<devices::PathPlayer> player;  // none: explore
-  std::optional<Exploration> exploration;     // once it is planned
+  std::unique_ptr<devices::PointerDevice> hand;  // a real one; null: simulated, or a path
+  std::optional<devices::PathPlayer> player;     // none: explore
+  std::optional<Exploration> exploration;        // once it is planned
   std::optional<haptics::ContactJudge> judge;
   std::optional<TraceFile> trace;
 };
 
-base::Result<devices::DeviceInfo> chosen_device(const std::string& name) {
-  if (name == "simulated") return devices::DeviceInfo{.name = name};
+base::Result<devices::DeviceInfo> chosen_device(const TouchOptions& options) {
+  const std::string& name = options.device;
+  if (options.path && devices::is_device_address(name))
+    return base::fail("--path replays without a device: leave --device out, or name a simulated one.");
+  if (name == "simulated" || devices::is_device_address(name)) return devices::DeviceInfo{.name = name};
   auto profile = devices::find_device_profile(name);
-  if (!profile) return base::fail("--device: " + profile.error().message + ", or simulated.");
+  if (!profile)
+    return base::fail("--device: " + profile.error().message +
+                      ", or simulated, or the address of a device (icome devices lists what is there).");
   return profile;
+}
+
+/// The sphere about all models, m; empty where one has no end.
+std::optional<double> radius_of(const std::vector<TouchModel>& models) {
+  constexpr double kEndless = 100.0;  // m
+  base::Bounds all;
+  for (const TouchModel& model : models)
+    if (!model.bodies.empty()) all.extend(bounds(model));
+  const double radius = all.isEmpty() ? 0.0 : 0.5 * all.diagonal().norm();
+  if (!(radius > 0.0 && radius < kEndless)) return std::nullopt;
+  return radius;
+}
+
+base::Vector3 middle_of(const std::vector<TouchModel>& models) {
+  base::Bounds all;
+  for (const TouchModel& model : models)
+    if (!model.bodies.empty()) all.extend(bounds(model));
+  const base::Vector3 middle =
+      all.isEmpty() ? base::Vector3(base::Vector3::Zero()) : base::Vector3(all.center());
+  return middle.allFinite() ? middle : base::Vector3(base::Vector3::Zero());
+}
+
+/// Opens a real device, with a workspace a little larger than the models where nobody says how large.
+base::Result<std::unique_ptr<devices::PointerDevice>> open_hand(const std::vector<TouchModel>& models,
+                                                                const TouchOptions& options) {
+  constexpr double kRoom = 1.25;
+  auto mapping = devices::read_mapping(options.device);
+  if (!mapping) return tl::unexpected(mapping.error());
+  if (options.hand_scale) mapping->scale = *options.hand_scale;
+  if (options.hand_scale || mapping->scale != 1.0) return devices::open_device(options.device, *mapping);
+  auto device = devices::open_device(options.device, *mapping);
+  const auto radius = radius_of(models);
+  if (!device || !radius || (*device)->info().workspace_radius <= 0.0) return device;
+  devices::DeviceMapping fit;
+  fit.scale = std::clamp(kRoom * *radius / (*device)->info().workspace_radius, 0.01, 100.0);
+  return std::make_unique<devices::MappedDevice>(std::move(*device), fit);
 }
 
 base::Result<void> check_picture_place(const std::filesystem::path& path) {
@@ -125,7 +169,7 @@ bool surfaces_alone(const std::vector<TouchModel>& models, const TouchOptions& o
 // behind when something else fails.
 base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) {
   Prepared prepared;
-  auto device = chosen_device(options.device);
+  auto device = chosen_device(options);
   if (!device) return tl::unexpected(device.error());
   prepared.device = std::move(*device);
   if (options.picture) {
@@ -139,6 +183,12 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
     prepared.player = std::move(*player);
   }
   if (const auto loaded = load(options, status, prepared); !loaded) return tl::unexpected(loaded.error());
+  if (!options.path && devices::is_device_address(options.device)) {
+    status.say("Opening " + options.device);
+    auto hand = open_hand(prepared.models, options);
+    if (!hand) return tl::unexpected(hand.error());
+    prepared.hand = std::move(*hand);
+  }
   if (options.check) {
     status.say("Preparing the check");
     prepared.judge = judge_for(prepared.models, options);
@@ -155,6 +205,12 @@ base::Result<Prepared> prepare(const TouchOptions& options, StatusLine& status) 
 base::Result<RunOutcome> run(Prepared& prepared, const TouchOptions& options, TickLog& log,
                              StatusLine& status) {
   if (prepared.player) return replay(*prepared.player, prepared.scene, prepared.models, options, log, status);
+  if (prepared.hand) {
+    constexpr double kEndless = 86400.0;  // s
+    status.say("Touching with " + prepared.hand->info().name + "; Ctrl-C ends it");
+    return touch_on_clock(*prepared.hand, middle_of(prepared.models), options.seconds.value_or(kEndless),
+                          prepared.scene, prepared.models, options, log, status);
+  }
   status.say("Planning where to touch");
   prepared.exploration =
       Exploration::plan(prepared.models, options.radius, options.seconds.value_or(kDefaultSeconds));

@@ -35,7 +35,8 @@ struct TouchOptions {
   ReadingOptions reading;                     // of the files
   std::optional<double> fit;                  // m, longest side of each model
 
-  std::string device = "simulated";           // or a profile's name
+  std::string device = "simulated";           // or a profile's name, or the address of a real device
+  std::optional<double> hand_scale;           // m that the tip moves for each m of a real hand; none: to fit
   double rate_hz = 1000.0;                    // Hz, 500 to 10,000
   std::optional<double> seconds;              // s, after which a run ends; none: see kDefaultSeconds
   std::optional<std::filesystem::path> path;  // tip positions to replay

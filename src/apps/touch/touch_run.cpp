@@ -160,15 +160,14 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
   return outcome;
 }
 
-base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
-                                 const std::shared_ptr<const haptics::HapticScene>& scene,
-                                 const std::vector<TouchModel>& models, const TouchOptions& options,
-                                 TickLog& log, StatusLine& status) {
-  const double seconds = options.seconds.value_or(kDefaultSeconds);
-  devices::SimulatedDevice hand(simulated_settings(exploration, device, options.rate_hz));
+base::Result<RunOutcome> touch_on_clock(devices::PointerDevice& device, const base::Vector3& centre,
+                                        double seconds,
+                                        const std::shared_ptr<const haptics::HapticScene>& scene,
+                                        const std::vector<TouchModel>& models, const TouchOptions& options,
+                                        TickLog& log, StatusLine& status) {
   haptics::ServoSettings settings = servo_settings(options);
-  settings.world_from_device.translation() = exploration.centre();
-  haptics::Servo servo(hand, settings);
+  settings.world_from_device.translation() = centre;
+  haptics::Servo servo(device, settings);
   const MovingScene moving(models, options, scene);
   moving.publish(servo, 0.0, MovingScene::kPeriod);
   ClockedRun run(servo, options, seconds);
@@ -186,6 +185,7 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
     run.drain(log, status, seconds, MovingScene::kPeriod);
   }
   (*loop)->stop();
+  device.write(base::Vector3::Zero());
   run.drain(log, status, seconds);
   status.clear();
   RunOutcome outcome = outcome_of(**loop);
@@ -194,6 +194,15 @@ base::Result<RunOutcome> explore(const Exploration& exploration, const devices::
   outcome.wall_seconds = watch.seconds();
   outcome.capped = capped_feel(models, options, servo);
   return outcome;
+}
+
+base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,
+                                 const std::shared_ptr<const haptics::HapticScene>& scene,
+                                 const std::vector<TouchModel>& models, const TouchOptions& options,
+                                 TickLog& log, StatusLine& status) {
+  devices::SimulatedDevice hand(simulated_settings(exploration, device, options.rate_hz));
+  return touch_on_clock(hand, exploration.centre(), options.seconds.value_or(kDefaultSeconds), scene, models,
+                        options, log, status);
 }
 
 }  // namespace icome::apps

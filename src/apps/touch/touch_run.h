@@ -10,6 +10,7 @@
 #include "apps/touch/touch_models.h"
 #include "apps/touch/touch_options.h"
 #include "devices/path_player.h"
+#include "devices/pointer_device.h"
 #include "haptics/contact/haptic_scene.h"
 #include "realtime/recorder.h"
 
@@ -32,6 +33,14 @@ struct RunOutcome {
 RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const haptics::HapticScene>& scene,
                   const std::vector<TouchModel>& models, const TouchOptions& options, TickLog& log,
                   StatusLine& status);
+
+/// Lets a person touch with a device whose workspace lies about `centre` (m), for so many seconds, or until
+/// Ctrl-C.
+base::Result<RunOutcome> touch_on_clock(devices::PointerDevice& device, const base::Vector3& centre,
+                                        double seconds,
+                                        const std::shared_ptr<const haptics::HapticScene>& scene,
+                                        const std::vector<TouchModel>& models, const TouchOptions& options,
+                                        TickLog& log, StatusLine& status);
 
 /// Lets the simulated hand explore in real time, with the limits of `device`.
 base::Result<RunOutcome> explore(const Exploration& exploration, const devices::DeviceInfo& device,

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "devices/pointer_device.h"
@@ -30,6 +31,8 @@ class HapticLoop {
   // The main thread.
   std::size_t pointers() const { return hands_.size(); }
   const devices::DeviceInfo& info(std::size_t pointer) const { return hands_[pointer]->device->info(); }
+  /// PointerDevice::condition() of a pointer's device.
+  std::string condition(std::size_t pointer) const { return hands_[pointer]->device->condition(); }
   /// The servo's last report on a pointer, as update() took it in.
   const PointerView& view(std::size_t pointer) const { return hands_[pointer]->to_main.read(); }
   void update();

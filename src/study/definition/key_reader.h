@@ -7,9 +7,13 @@
 
 #include "base/near_names.h"
 #include "base/vector.h"
-#include "study/definition/toml_tree.h"
+#include "io/toml_tree.h"
+#include "study/definition/study.h"
 
 namespace icome::study {
+
+using io::TomlMember;
+using io::TomlNode;
 
 /// The problems of a study file, with their places.
 class Problems {

@@ -6,14 +6,11 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "io/toml_tree.h"
 
 namespace icome::study {
 
-/// A place in the study file, line and column both counted from 1; 0 for no place.
-struct Place {
-  std::size_t line = 0;
-  std::size_t column = 0;
-};
+using io::Place;  // in the study file
 
 /// A text in every language of the study, in the order of Study::languages; empty where none was given.
 using Text = std::vector<std::string>;

@@ -59,7 +59,7 @@ void read_head(KeyReader& keys, Study& study) {
 }  // namespace
 
 base::Result<Study> read_study(std::string_view text, const std::string& source) {
-  const auto root = parse_toml(text, source);
+  const auto root = io::parse_toml(text, source);
   if (!root) return tl::unexpected(root.error());
   Problems problems;
   Study study;
@@ -74,7 +74,7 @@ base::Result<Study> read_study(std::string_view text, const std::string& source)
   keys.finish();
   check_references(study, problems);
   if (!problems.none()) return base::fail(problems.text(source));
-  study.hash = toml_hash(*root);
+  study.hash = io::toml_hash(*root);
   return study;
 }
 

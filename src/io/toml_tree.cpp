@@ -1,4 +1,4 @@
-#include "study/definition/toml_tree.h"
+#include "io/toml_tree.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
 
-namespace icome::study {
+namespace icome::io {
 namespace {
 
 Place place_of(const toml::source_region& region) { return {region.begin.line, region.begin.column}; }
@@ -105,4 +105,4 @@ std::uint64_t toml_hash(const TomlNode& node) {
   return hash;
 }
 
-}  // namespace icome::study
+}  // namespace icome::io

@@ -1,12 +1,19 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/result.h"
-#include "study/definition/study.h"
 
-namespace icome::study {
+namespace icome::io {
+
+/// A place in a text file, line and column both counted from 1; 0 for no place.
+struct Place {
+  std::size_t line = 0;
+  std::size_t column = 0;
+};
 
 struct TomlMember;
 
@@ -35,4 +42,4 @@ base::Result<TomlNode> parse_toml(std::string_view text, const std::string& sour
 /// spelling of numbers do not count.
 std::uint64_t toml_hash(const TomlNode& node);
 
-}  // namespace icome::study
+}  // namespace icome::io

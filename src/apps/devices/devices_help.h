@@ -1,0 +1,58 @@
+#pragma once
+
+namespace icome::apps {
+
+// The words of `icome devices --help` that do not stand beside an option.
+
+constexpr const char* kDevicesSummary =
+    "List the devices that are there and what is missing for the rest; test, calibrate or share one";
+constexpr const char* kDevicesTestSummary =
+    "Measure a device: rate, jitter and noise at rest, then, after asking, forces and their delay";
+constexpr const char* kDevicesCalibrateSummary =
+    "Find the middle and size of a device's workspace, and write its profile";
+
+constexpr const char* kDevicesExamples =
+    "Examples:\n"
+    "  icome devices                               what is there, and what is missing for the rest\n"
+    "  icome devices test haply                    rate, jitter, noise; a small force after asking\n"
+    "  icome devices test hd --yes --picture touch.png\n"
+    "                                              the same without asking, drawn\n"
+    "  icome devices calibrate dhd --seconds 20    lead it to the corners of its workspace for 20 s\n"
+    "  icome touch bunny.obj --fit 0.1 --device haply\n"
+    "                                              touch a model with it\n"
+    "\n"
+    "An address is a back-end, such as haply, for the first device of its kind, or BACKEND:WHICH for "
+    "another\n"
+    "one. docs/devices.md tells for each device what it needs, its axes and units, and with what it was "
+    "tried.\n"
+    "\n"
+    "JSON of icome devices: devices, an array of {name (the address that opens it), family (pointer, "
+    "navigation\n"
+    "  or head), backend, present, why (what is missing and what to do; of a present one what it is)}.\n"
+    "\n"
+    "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 interrupted.";
+
+constexpr const char* kDevicesTestNotes =
+    "The device is held still for the first seconds. Then, where it has forces and somebody at the terminal\n"
+    "agrees (or with --yes), it pushes upwards: slowly up to --force, and in ten short pushes to and fro. "
+    "Hold it\n"
+    "loosely then. Forces go through the same limiter as when a model is touched.\n"
+    "\n"
+    "JSON: device, address, condition (what the device says of itself, or empty), seconds, readings, "
+    "rate_hz,\n"
+    "  interval_ms {median, p99, max} between fresh readings, as far as ticks of --rate can tell, "
+    "stalled_ticks,\n"
+    "  lost_ticks, noise_um [x, y, z] (standard deviation at rest without slow drift), force (null, or\n"
+    "  {strongest_n, moved_mm, delay_ms (from a force to the motion it makes; null where too little "
+    "moved)}).";
+
+constexpr const char* kDevicesCalibrateNotes =
+    "Lead the device to all corners of its workspace meanwhile; it gives no force. The profile is a small "
+    "TOML\n"
+    "file in $XDG_CONFIG_HOME/icome/devices (or ~/.config/icome/devices) that may be edited; all commands "
+    "that\n"
+    "use the device read it.\n"
+    "\n"
+    "JSON: device, profile (the file), centre_m, extent_m, workspace_radius_m.";
+
+}  // namespace icome::apps

@@ -1,0 +1,108 @@
+#include "devices/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "devices/device_profiles.h"
+#include "devices/mapping_file.h"
+#include "devices/simulated/simulated_device.h"
+#include "devices/spacemouse/spnav_link.h"
+
+namespace icome::devices {
+namespace {
+
+constexpr std::string_view kSimulated = "simulated";
+
+std::vector<DeviceEntry> list_simulated() {
+  return {{std::string(kSimulated), "pointer", std::string(kSimulated), true,
+           "a hand and a device in software, always there"}};
+}
+
+base::Result<std::unique_ptr<PointerDevice>> open_simulated(std::string_view profile) {
+  SimulatedSettings settings;
+  if (!profile.empty()) {
+    auto info = find_device_profile(profile);
+    if (!info) return tl::unexpected(info.error());
+    settings.info = std::move(*info);
+  }
+  return std::make_unique<SimulatedDevice>(std::move(settings));
+}
+
+std::vector<DeviceEntry> list_space_mouse() {
+  DeviceEntry entry{"spacemouse", "navigation", "spacemouse", SpnavLink::somebody_listens(), {}};
+  entry.why = entry.present ? "a 3D mouse, through spacenavd"
+                            : "spacenavd is not running: install the package spacenavd, or start it";
+  return {entry};
+}
+
+const std::array kBackEnds = {
+    BackEnd{kSimulated, kSimulated, list_simulated, open_simulated},
+    BackEnd{"spacemouse", "spacemouse", list_space_mouse, nullptr},
+};
+
+const BackEnd* back_end_of(std::string_view name) {
+  const std::string_view prefix = name.substr(0, name.find(':'));
+  for (const BackEnd& back_end : kBackEnds)
+    if (back_end.prefix == prefix) return &back_end;
+  return nullptr;
+}
+
+std::string_view address_of(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? std::string_view{} : name.substr(colon + 1);
+}
+
+base::Result<std::unique_ptr<PointerDevice>> open_raw(std::string_view name) {
+  const BackEnd* const back_end = back_end_of(name);
+  if (back_end == nullptr) {
+    auto simulated = open_simulated(name);
+    if (simulated) return simulated;
+    std::string known;
+    for (const BackEnd& it : kBackEnds)
+      if (it.open != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", it.prefix);
+    return base::fail(
+        fmt::format("{}; or an address that begins with one of: {} (icome devices lists what is there)",
+                    simulated.error().message, known));
+  }
+  if (back_end->open == nullptr)
+    return base::fail(fmt::format("{}: this moves the view, and is no pointer", name));
+  return back_end->open(address_of(name));
+}
+
+bool changes_nothing(const DeviceMapping& mapping) {
+  return mapping.centre.isZero(0.0) && mapping.ours_from_device.coeffs() == Quaternion::Identity().coeffs() &&
+         mapping.scale == 1.0 && mapping.workspace_radius == 0.0 && mapping.max_force == 0.0 &&
+         mapping.clutch_button < 0;
+}
+
+}  // namespace
+
+std::span<const BackEnd> back_ends() { return kBackEnds; }
+
+std::vector<DeviceEntry> list_devices() {
+  std::vector<DeviceEntry> all;
+  for (const BackEnd& back_end : kBackEnds)
+    for (DeviceEntry& entry : back_end.list()) all.push_back(std::move(entry));
+  return all;
+}
+
+bool is_device_address(std::string_view name) {
+  const BackEnd* const back_end = back_end_of(name);
+  return back_end != nullptr && back_end->prefix != kSimulated;
+}
+
+base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name) {
+  const auto mapping = read_mapping(name);
+  if (!mapping) return tl::unexpected(mapping.error());
+  return open_device(name, *mapping);
+}
+
+base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name,
+                                                         const DeviceMapping& mapping) {
+  auto device = open_raw(name);
+  if (!device || changes_nothing(mapping)) return device;
+  return std::make_unique<MappedDevice>(std::move(*device), mapping);
+}
+
+}  // namespace icome::devices

@@ -1,0 +1,31 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "devices/back_end.h"
+#include "devices/mapped_device.h"
+
+namespace icome::devices {
+
+/// All ways to devices, in the order in which `icome devices` lists them.
+std::span<const BackEnd> back_ends();
+
+/// The devices that are there, and for each back-end without one why not. May take some seconds.
+std::vector<DeviceEntry> list_devices();
+
+/// Does the name stand for a device that a back-end opens, such as "haply:049D", rather than for a simulated
+/// one with a profile's abilities?
+bool is_device_address(std::string_view name);
+
+/// Opens a pointer device, with the mapping of its profile file: "simulated", the name of a profile such as
+/// "Touch" (a simulated hand with that device's abilities), or an address, "BACKEND" for its first device or
+/// "BACKEND:WHICH". May take seconds. Fails with what is missing and what to do.
+base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name);
+/// Likewise with another mapping.
+base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name, const DeviceMapping& mapping);
+
+}  // namespace icome::devices

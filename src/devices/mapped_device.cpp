@@ -1,0 +1,50 @@
+#include "devices/mapped_device.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace icome::devices {
+namespace {
+
+DeviceInfo info_through(DeviceInfo info, const DeviceMapping& mapping) {
+  if (mapping.workspace_radius > 0.0) info.workspace_radius = mapping.workspace_radius;
+  if (mapping.max_force > 0.0) info.max_force = std::min(info.max_force, mapping.max_force);
+  info.continuous_force = std::min(info.continuous_force, info.max_force);
+  info.workspace_radius *= mapping.scale;
+  info.nominal_stiffness /= mapping.scale;
+  info.effective_mass /= mapping.scale;
+  return info;
+}
+
+}  // namespace
+
+MappedDevice::MappedDevice(std::unique_ptr<PointerDevice> device, const DeviceMapping& mapping)
+    : device_(std::move(device)), mapping_(mapping), info_(info_through(device_->info(), mapping)) {}
+
+DeviceStatus MappedDevice::read(PointerState& state) {
+  PointerState raw = state;
+  raw.jumped = raw.parked = false;
+  const DeviceStatus status = device_->read(raw);
+  if (status != DeviceStatus::Ok) return status;
+  const Quaternion& turn = mapping_.ours_from_device;
+  const Vector3 place = mapping_.scale * (turn * (raw.position - mapping_.centre));
+  const bool clutch = mapping_.clutch_button >= 0 && ((raw.buttons >> mapping_.clutch_button) & 1U) != 0;
+  const bool let_go = clutched_ && !clutch;
+  // Its own reading is where the hand rests when the clutch is let go of.
+  if (clutch || let_go) shift_ = tip_ - place;
+  clutched_ = clutch;
+  tip_ = place + shift_;
+  state = raw;
+  state.position = tip_;
+  state.velocity = clutch ? Vector3::Zero() : Vector3(mapping_.scale * (turn * raw.velocity));
+  state.orientation = turn * raw.orientation * turn.conjugate();
+  state.parked = raw.parked || clutch;
+  state.jumped = raw.jumped || let_go;
+  return status;
+}
+
+DeviceStatus MappedDevice::write(const Vector3& force) {
+  return device_->write(mapping_.ours_from_device.conjugate() * force);
+}
+
+}  // namespace icome::devices

@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "devices/pointer_device.h"
+
+namespace icome::devices {
+
+/// How a device's workspace lies in ours, and what may be asked of it: what `icome devices calibrate` finds
+/// out and a person may edit.
+struct DeviceMapping {
+  Vector3 centre = Vector3::Zero();  // m, in the device's frame: the middle of our workspace
+  Quaternion ours_from_device = Quaternion::Identity();  // turns the device's axes into ours
+  double scale = 1.0;             // m that the tip moves for each m of the hand, 0.01 to 100
+  double workspace_radius = 0.0;  // m, in the device's frame; 0: the device's own
+  double max_force = 0.0;         // N, if lower than the device's own; 0: that
+  int clutch_button = -1;         // while it is down the tip stays; -1: none
+};
+
+/// A device as it is felt through a mapping: its tip moves `scale` times as far as the hand, and its forces
+/// are the device's own. The wall that the hand feels is then `scale` times as stiff as the wall is, so its
+/// abilities count for the tip: a mass 1/scale times and a stiffness 1/scale times the device's. While
+/// the clutch is held the tip is laid aside and the hand is free; let go of, the tip goes on from where it
+/// was. Owns the device; the threads are those of PointerDevice.
+class MappedDevice final : public PointerDevice {
+ public:
+  MappedDevice(std::unique_ptr<PointerDevice> device, const DeviceMapping& mapping);
+
+  const DeviceInfo& info() const override { return info_; }
+  DeviceStatus read(PointerState& state) override;
+  DeviceStatus write(const Vector3& force) override;
+  std::string condition() const override { return device_->condition(); }
+
+ private:
+  std::unique_ptr<PointerDevice> device_;
+  DeviceMapping mapping_;
+  DeviceInfo info_;
+  bool clutched_ = false;
+  Vector3 shift_ = Vector3::Zero();  // m, ours: what the clutch has moved
+  Vector3 tip_ = Vector3::Zero();    // m, ours, as it was read last
+};
+
+}  // namespace icome::devices

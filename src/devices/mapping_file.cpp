@@ -1,0 +1,186 @@
+#include "devices/mapping_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+#include "base/near_names.h"
+#include "io/file_bytes.h"
+#include "io/new_file.h"
+#include "io/toml_tree.h"
+
+namespace icome::devices {
+namespace {
+
+constexpr std::uint64_t kLongestMapping = 100'000;  // bytes
+constexpr std::array<std::string_view, 6> kAxisNames = {"x", "y", "z", "-x", "-y", "-z"};
+
+using io::TomlNode;
+
+/// Reads a mapping's keys; the first problem is kept.
+class MappingReader {
+ public:
+  explicit MappingReader(std::string source) : source_(std::move(source)) {}
+
+  void take(const io::TomlMember& member) {
+    const TomlNode& value = member.value;
+    if (member.key == "centre_m") {
+      if (const auto place = three(value, member.key)) mapping.centre = *place;
+    } else if (member.key == "axes") {
+      take_axes(value);
+    } else if (member.key == "scale") {
+      mapping.scale = number(value, member.key, 0.01, 100.0);
+    } else if (member.key == "workspace_radius_m") {
+      mapping.workspace_radius = number(value, member.key, 0.001, 10.0);
+    } else if (member.key == "max_force_n") {
+      mapping.max_force = number(value, member.key, 0.01, 1000.0);
+    } else if (member.key == "clutch_button") {
+      take_button(value);
+    } else if (member.key != "device" && member.key != "made_by") {
+      const std::vector<std::string> known = {"centre_m",    "axes",          "scale",  "workspace_radius_m",
+                                              "max_force_n", "clutch_button", "device", "made_by"};
+      fail(member.place,
+           fmt::format("a device has no key \"{}\"{}", member.key, base::suggestion(member.key, known)));
+    }
+  }
+
+  DeviceMapping mapping;
+  std::optional<base::Error> error;
+
+ private:
+  void fail(const io::Place& place, const std::string& sentence) {
+    if (!error) error = base::Error{fmt::format("{}:{}:{}: {}", source_, place.line, place.column, sentence)};
+  }
+
+  double number(const TomlNode& node, const std::string& key, double least, double most) {
+    if (node.kind == TomlNode::Kind::Number && node.number >= least && node.number <= most)
+      return node.number;
+    fail(node.place, fmt::format("{} must be a number from {} to {}", key, least, most));
+    return least;
+  }
+
+  std::optional<Vector3> three(const TomlNode& node, const std::string& key) {
+    Vector3 result = Vector3::Zero();
+    if (node.kind != TomlNode::Kind::Array || node.elements.size() != 3) {
+      fail(node.place, key + " must be three numbers, such as [0.0, 0.02, 0.0]");
+      return std::nullopt;
+    }
+    for (int i = 0; i < 3; ++i) result[i] = number(node.elements[std::size_t(i)], key, -10.0, 10.0);
+    return result;
+  }
+
+  void take_axes(const TomlNode& node) {
+    base::Matrix3 turn = base::Matrix3::Zero();
+    bool good = node.kind == TomlNode::Kind::Array && node.elements.size() == 3;
+    for (int row = 0; good && row < 3; ++row) {
+      const TomlNode& name = node.elements[std::size_t(row)];
+      const auto* const found = std::find(kAxisNames.begin(), kAxisNames.end(), name.text);
+      good = name.kind == TomlNode::Kind::String && found != kAxisNames.end();
+      if (!good) break;
+      const auto axis = int(found - kAxisNames.begin());
+      turn(row, axis % 3) = axis < 3 ? 1.0 : -1.0;
+    }
+    if (good && std::abs(turn.determinant() - 1.0) < 1e-9) {
+      mapping.ours_from_device = Quaternion(turn);
+      return;
+    }
+    fail(node.place,
+         "axes must be the device's axes that point right, up and to the user, of a right-handed frame, such "
+         "as "
+         "[\"y\", \"z\", \"x\"]");
+  }
+
+  void take_button(const TomlNode& node) {
+    const double button = number(node, "clutch_button", 0.0, 31.0);
+    if (button != std::floor(button))
+      fail(node.place, "clutch_button must be a whole number, counted from 0");
+    mapping.clutch_button = int(button);
+  }
+
+  std::string source_;
+};
+
+/// The device's axis that lies nearest to ours.
+std::string_view axis_along(const Vector3& ours) {
+  int axis = 0;
+  ours.cwiseAbs().maxCoeff(&axis);
+  return kAxisNames[std::size_t(ours[axis] >= 0.0 ? axis : axis + 3)];
+}
+
+std::string file_name_of(std::string_view address) {
+  std::string name;
+  for (const char letter : address) {
+    const bool plain =
+        std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' || letter == '.';
+    name += plain ? letter : '_';
+  }
+  return name + ".toml";
+}
+
+}  // namespace
+
+base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::string& source) {
+  const auto root = io::parse_toml(text, source);
+  if (!root) return tl::unexpected(root.error());
+  MappingReader reader(source);
+  for (const io::TomlMember& member : root->members) reader.take(member);
+  if (reader.error) return tl::unexpected(*reader.error);
+  return reader.mapping;
+}
+
+std::string mapping_text(const DeviceMapping& mapping, const std::string& made_by) {
+  const base::Matrix3 turn = mapping.ours_from_device.toRotationMatrix();
+  std::string text = fmt::format("# {}\n", made_by);
+  text += fmt::format(
+      "centre_m = [{:.6f}, {:.6f}, {:.6f}]  # the middle of the workspace, in the device's frame\n",
+      mapping.centre.x(), mapping.centre.y(), mapping.centre.z());
+  text += fmt::format(
+      "axes = [\"{}\", \"{}\", \"{}\"]  # the device's axes that point right, up and to the user\n",
+      axis_along(turn.row(0).transpose()), axis_along(turn.row(1).transpose()),
+      axis_along(turn.row(2).transpose()));
+  text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", mapping.scale);
+  if (mapping.workspace_radius > 0.0)
+    text += fmt::format("workspace_radius_m = {:.6g}\n", mapping.workspace_radius);
+  if (mapping.max_force > 0.0) text += fmt::format("max_force_n = {:.6g}\n", mapping.max_force);
+  if (mapping.clutch_button >= 0)
+    text += fmt::format("clutch_button = {}  # while it is down the tip stays\n", mapping.clutch_button);
+  return text;
+}
+
+std::filesystem::path mapping_path(std::string_view address) {
+  const char* const config = std::getenv("XDG_CONFIG_HOME");
+  const char* const home = std::getenv("HOME");
+  std::filesystem::path folder;
+  if (config != nullptr && *config == '/') {
+    folder = config;
+  } else {
+    folder = std::filesystem::path(home != nullptr && *home != '\0' ? home : ".") / ".config";
+  }
+  return folder / "icome" / "devices" / file_name_of(address);
+}
+
+base::Result<DeviceMapping> read_mapping(std::string_view address) {
+  const std::filesystem::path path = mapping_path(address);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return DeviceMapping{};
+  const auto text = io::read_bytes(path, kLongestMapping);
+  if (!text) return tl::unexpected(text.error());
+  return parse_mapping(*text, path.string());
+}
+
+base::Result<void> write_mapping(std::string_view address, const DeviceMapping& mapping,
+                                 const std::string& made_by) {
+  const std::filesystem::path path = mapping_path(address);
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  auto file = io::NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  file->write(mapping_text(mapping, made_by));
+  return file->finish();
+}
+
+}  // namespace icome::devices
