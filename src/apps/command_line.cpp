@@ -408,6 +408,7 @@ std::string no_such_part(const CLI::App& named, int argc, char** argv) {
   const auto all = named.get_subcommands([](const CLI::App*) { return true; });
   if (all.empty() || named_subcommand(named, 2, argc, argv) != nullptr) return {};
   if (argc > 2 && argv[2][0] == '-') return {};
+  if (argc == 2 && named.get_require_subcommand_min() == 0) return {};
   std::string names;
   for (const CLI::App* const command : all) names += (names.empty() ? "" : ", ") + command->get_name();
   const char* const part = named.get_name() == "stats" ? "test" : "command";

@@ -14,9 +14,10 @@ BUNNY = pathlib.Path("/usr/share/glmark2/models/bunny.obj")
 TRACE_HEADER = "t,tip_x,tip_y,tip_z,scp_x,scp_y,scp_z,force_x,force_y,force_z,touching,object,tick_us"
 
 
-def run(*arguments):
-    """Runs the program and returns the finished process, with text output."""
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=250)
+def run(*arguments, **environment):
+    """Runs the program and returns the finished process, with text output; `environment`: variables set for it."""
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=250,
+                          env={**os.environ, **environment})
 
 
 class ProgramTest(unittest.TestCase):

@@ -19,7 +19,7 @@ constexpr double kLongestTest = 600.0;  // s
 constexpr double kRampSeconds = 1.5;    // s that the slow force takes to grow, and again to fall
 constexpr int kPushes = 10;             // short ones, to and fro
 constexpr double kPushSeconds = 0.03;   // s that each lasts
-constexpr double kPauseSeconds = 0.22;  // s to come to rest after it
+constexpr double kPauseSeconds = 0.4;   // s to come to rest after it
 constexpr double kLeastWay = 20e-6;     // m, of which a push is told from noise
 constexpr double kRate = 2000.0;        // N/s, the fastest that a force changes here
 
@@ -30,7 +30,7 @@ double asked_force(double t, double strongest) {
   const double since = t - 2.0 * kRampSeconds;
   const int push = int(since / (kPushSeconds + kPauseSeconds));
   // Each push begins with a pause.
-  if (since - push * (kPushSeconds + kPauseSeconds) < kPauseSeconds) return 0.0;
+  if (push >= kPushes || since - push * (kPushSeconds + kPauseSeconds) < kPauseSeconds) return 0.0;
   return push % 2 == 0 ? strongest : -strongest;
 }
 
@@ -156,13 +156,33 @@ void measure_noise(DeviceTestResult& result, double seconds) {
   for (int axis = 0; axis < 3; ++axis) result.noise[axis] = noise_about_line(t, x[std::size_t(axis)]);
 }
 
-/// The first time at which the device has gone `way` (m, signed) from `from` since a tick, between readings;
-/// NaN if it has not within the push and the pause.
-double time_of_way(const std::vector<ProbedTick>& ticks, std::size_t start, double from, double way) {
-  for (std::size_t i = start + 1; i < ticks.size() && ticks[i].t < ticks[start].t + kPushSeconds + 0.1; ++i) {
-    const double gone = (ticks[i].position.y() - from) / way;
+/// A push: the tick in which it begins, and how the device moved before.
+struct Push {
+  std::size_t start = 0;
+  double from = 0.0;   // m
+  double speed = 0.0;  // m/s
+};
+
+Push push_at(const std::vector<ProbedTick>& ticks, std::size_t start) {
+  constexpr double kLookBack = 0.03;  // s
+  std::size_t first = start;
+  while (first > 0 && ticks[start].t - ticks[first].t < kLookBack) --first;
+  const double time = ticks[start].t - ticks[first].t;
+  const double way = ticks[start].position.y() - ticks[first].position.y();
+  return {start, ticks[start].position.y(), time > 0.0 ? way / time : 0.0};
+}
+
+/// The first time at which a push has moved the device by `way` (m, signed), between readings; NaN if it has
+/// not soon.
+double time_of_way(const std::vector<ProbedTick>& ticks, const Push& push, double way) {
+  const double begin = ticks[push.start].t;
+  const auto share_gone = [&](const ProbedTick& tick) {
+    return (tick.position.y() - push.from - push.speed * (tick.t - begin)) / way;
+  };
+  for (std::size_t i = push.start + 1; i < ticks.size() && ticks[i].t < begin + kPushSeconds + 0.1; ++i) {
+    const double gone = share_gone(ticks[i]);
     if (gone < 1.0) continue;
-    const double before = (ticks[i - 1].position.y() - from) / way;
+    const double before = share_gone(ticks[i - 1]);
     const double share = gone > before ? std::clamp((1.0 - before) / (gone - before), 0.0, 1.0) : 1.0;
     return std::lerp(ticks[i - 1].t, ticks[i].t, share);
   }
@@ -174,11 +194,10 @@ std::optional<double> delay_of_pushes(const std::vector<ProbedTick>& ticks, doub
   std::vector<double> delays;
   for (std::size_t i = 1; i < ticks.size(); ++i) {
     const double force = ticks[i].force.y();
-    const double before = ticks[i - 1].force.y();
-    if (before != 0.0 || std::abs(force) < 0.05) continue;
-    const double from = ticks[i].position.y();
-    const double t1 = time_of_way(ticks, i, from, std::copysign(way, force));
-    const double t2 = time_of_way(ticks, i, from, std::copysign(4.0 * way, force));
+    if (ticks[i - 1].force.y() != 0.0 || std::abs(force) < 0.05) continue;
+    const Push push = push_at(ticks, i);
+    const double t1 = time_of_way(ticks, push, std::copysign(way, force));
+    const double t2 = time_of_way(ticks, push, std::copysign(4.0 * way, force));
     if (std::isfinite(t1) && std::isfinite(t2)) delays.push_back(2.0 * t1 - t2 - ticks[i].t);
   }
   if (delays.size() < kPushes / 2) return std::nullopt;

@@ -1,0 +1,120 @@
+#include "devices/mapped_device.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <numbers>
+
+namespace icome::devices {
+namespace {
+
+/// A device that says what the test wants, and keeps what it was told.
+class ToldDevice final : public PointerDevice {
+ public:
+  const DeviceInfo& info() const override { return info_; }
+  DeviceStatus read(PointerState& state) override {
+    if (states.empty()) return DeviceStatus::Stalled;
+    state = states.front();
+    states.pop_front();
+    return DeviceStatus::Ok;
+  }
+  DeviceStatus write(const Vector3& written) override {
+    force = written;
+    return DeviceStatus::Ok;
+  }
+  std::string condition() const override { return "warm"; }
+
+  std::deque<PointerState> states;
+  Vector3 force = Vector3::Zero();
+
+ private:
+  DeviceInfo info_ = {.name = "told",
+                      .workspace_radius = 0.1,
+                      .max_force = 4.0,
+                      .continuous_force = 2.0,
+                      .nominal_stiffness = 1000.0,
+                      .effective_mass = 0.1};
+};
+
+PointerState at(const Vector3& place, std::uint32_t buttons = 0) {
+  PointerState state;
+  state.position = place;
+  state.buttons = buttons;
+  return state;
+}
+
+class MappedDeviceTest : public testing::Test {
+ protected:
+  void map(const DeviceMapping& mapping) {
+    auto device = std::make_unique<ToldDevice>();
+    told = device.get();
+    mapped = std::make_unique<MappedDevice>(std::move(device), mapping);
+  }
+
+  PointerState read(const PointerState& raw) {
+    told->states.push_back(raw);
+    EXPECT_EQ(mapped->read(state), DeviceStatus::Ok);
+    return state;
+  }
+
+  ToldDevice* told = nullptr;
+  std::unique_ptr<MappedDevice> mapped;
+  PointerState state;
+};
+
+TEST_F(MappedDeviceTest, TurnsMovesAndScales) {
+  // Force Dimension's axes: x to the user, y right, z up.
+  DeviceMapping mapping;
+  mapping.centre = {0.01, 0.0, 0.0};
+  mapping.ours_from_device = Quaternion((base::Matrix3() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished());
+  mapping.scale = 2.0;
+  map(mapping);
+  PointerState raw = at({0.02, 0.03, 0.04});
+  raw.velocity = {0.1, 0.2, 0.3};
+  raw.orientation = Quaternion(Eigen::AngleAxisd(0.5, Vector3::UnitZ()));  // about its up
+  const PointerState ours = read(raw);
+  EXPECT_TRUE(ours.position.isApprox(Vector3(0.06, 0.08, 0.02)));
+  EXPECT_TRUE(ours.velocity.isApprox(Vector3(0.4, 0.6, 0.2)));
+  EXPECT_NEAR(ours.orientation.angularDistance(Quaternion(Eigen::AngleAxisd(0.5, Vector3::UnitY()))), 0.0,
+              1e-9);
+  mapped->write({1.0, 2.0, 3.0});
+  EXPECT_TRUE(told->force.isApprox(Vector3(3.0, 1.0, 2.0)));
+  EXPECT_EQ(mapped->condition(), "warm");
+}
+
+TEST_F(MappedDeviceTest, ItsAbilitiesAreThoseOfTheTip) {
+  map({.scale = 2.0, .workspace_radius = 0.08, .max_force = 1.5});
+  EXPECT_DOUBLE_EQ(mapped->info().workspace_radius, 0.16);
+  EXPECT_DOUBLE_EQ(mapped->info().max_force, 1.5);
+  EXPECT_DOUBLE_EQ(mapped->info().continuous_force, 1.5);
+  EXPECT_DOUBLE_EQ(mapped->info().nominal_stiffness, 500.0);
+  EXPECT_DOUBLE_EQ(mapped->info().effective_mass, 0.05);
+  map({.max_force = 100.0});
+  EXPECT_DOUBLE_EQ(mapped->info().max_force, 4.0) << "no profile makes a device stronger";
+}
+
+TEST_F(MappedDeviceTest, AClutchLeavesTheTipWhereItIs) {
+  map({.clutch_button = 1});
+  EXPECT_EQ(read(at({0.05, 0, 0})).position.x(), 0.05);
+  PointerState held = read(at({0.05, 0, 0}, 2));
+  EXPECT_TRUE(held.parked);
+  held = read(at({0.01, 0, 0}, 2));
+  EXPECT_EQ(held.position.x(), 0.05);
+  EXPECT_TRUE(held.velocity.isZero());
+  const PointerState back = read(at({0.0, 0, 0}));
+  EXPECT_EQ(back.position.x(), 0.05);
+  EXPECT_FALSE(back.parked);
+  EXPECT_TRUE(back.jumped) << "contacts are left";
+  EXPECT_NEAR(read(at({0.02, 0, 0})).position.x(), 0.07, 1e-15);
+  EXPECT_FALSE(state.jumped);
+}
+
+TEST_F(MappedDeviceTest, KeepsTheOldStateWithoutANewReading) {
+  map({.scale = 3.0});
+  read(at({0.01, 0, 0}));
+  EXPECT_EQ(mapped->read(state), DeviceStatus::Stalled);
+  EXPECT_DOUBLE_EQ(state.position.x(), 0.03);
+}
+
+}  // namespace
+}  // namespace icome::devices

@@ -1,0 +1,81 @@
+#include "devices/mapping_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace icome::devices {
+namespace {
+
+TEST(MappingFile, WhatIsWrittenIsRead) {
+  DeviceMapping mapping;
+  mapping.centre = {0.01, -0.02, 0.0035};
+  mapping.ours_from_device = Quaternion((base::Matrix3() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished());
+  mapping.scale = 1.5;
+  mapping.workspace_radius = 0.07;
+  mapping.max_force = 2.0;
+  mapping.clutch_button = 2;
+  const auto read = parse_mapping(mapping_text(mapping, "test"), "device.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(read->centre.isApprox(mapping.centre));
+  EXPECT_NEAR(read->ours_from_device.angularDistance(mapping.ours_from_device), 0.0, 1e-9);
+  EXPECT_EQ(read->scale, 1.5);
+  EXPECT_EQ(read->workspace_radius, 0.07);
+  EXPECT_EQ(read->max_force, 2.0);
+  EXPECT_EQ(read->clutch_button, 2);
+}
+
+TEST(MappingFile, WhatIsLeftOutChangesNothing) {
+  const auto read = parse_mapping("", "device.toml");
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->centre.isZero());
+  EXPECT_EQ(read->scale, 1.0);
+  EXPECT_EQ(read->clutch_button, -1);
+}
+
+TEST(MappingFile, ErrorsNameTheLine) {
+  const auto fails = [](const std::string& text) {
+    const auto read = parse_mapping(text, "device.toml");
+    return read ? std::string() : read.error().message;
+  };
+  EXPECT_EQ(fails("scale = 1\nscael = 2\n"),
+            "device.toml:2:1: a device has no key \"scael\"; did you mean 'scale'?");
+  EXPECT_NE(fails("scale = 0").find("device.toml:1:9: scale must be a number from 0.01 to 100"),
+            std::string::npos);
+  EXPECT_NE(fails("scale = nan").find("scale must be"), std::string::npos);
+  EXPECT_NE(fails("centre_m = [1, 2]").find("three numbers"), std::string::npos);
+  EXPECT_NE(fails("axes = [\"x\", \"y\", \"-z\"]").find("right-handed"), std::string::npos);
+  EXPECT_NE(fails("axes = [\"x\", \"x\", \"z\"]").find("right-handed"), std::string::npos);
+  EXPECT_NE(fails("axes = [\"x\", \"y\", \"up\"]").find("right-handed"), std::string::npos);
+  EXPECT_NE(fails("clutch_button = 1.5").find("whole number"), std::string::npos);
+  EXPECT_NE(fails("centre_m = [").find("device.toml:1"), std::string::npos);
+}
+
+TEST(MappingFile, LiesInTheUsersSettings) {
+  ::setenv("XDG_CONFIG_HOME", "/somewhere", 1);
+  EXPECT_EQ(mapping_path("vrpn:Phantom0@lab/../x:3883"),
+            "/somewhere/icome/devices/vrpn_Phantom0_lab_.._x_3883.toml");
+  ::unsetenv("XDG_CONFIG_HOME");
+}
+
+TEST(MappingFile, IsWrittenAndReadByAddress) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "icome-mapping-test";
+  std::filesystem::remove_all(folder);
+  ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
+  const auto none = read_mapping("hd");
+  EXPECT_TRUE(none && none->scale == 1.0);
+  ASSERT_TRUE(write_mapping("hd", {.scale = 2.0}, "test"));
+  const auto read = read_mapping("hd");
+  EXPECT_TRUE(read && read->scale == 2.0);
+  std::ofstream(mapping_path("hd")) << "scale = \"large\"\n";
+  const auto bad = read_mapping("hd");
+  ASSERT_FALSE(bad);
+  EXPECT_NE(bad.error().message.find("hd.toml:1:"), std::string::npos);
+  ::unsetenv("XDG_CONFIG_HOME");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace icome::devices
