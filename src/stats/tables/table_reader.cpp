@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <unordered_map>
 
+#include "base/parse_number.h"
 #include "base/utf8.h"
 
 namespace icome::stats {
@@ -279,8 +279,8 @@ std::optional<LineRange> data_lines(std::string_view line) {
   if (words.size() != 5 || words[0] != "Data" || words[1] != "(lines" || words[3] != "to")
     return std::nullopt;
   LineRange range;
-  std::from_chars(words[2].data(), words[2].data() + words[2].size(), range.first);
-  std::from_chars(words[4].data(), words[4].data() + words[4].size(), range.last);
+  range.first = base::number_at_front<std::size_t>(words[2]).value;
+  range.last = base::number_at_front<std::size_t>(words[4]).value;
   if (range.first < 2 || range.last < range.first) return std::nullopt;
   return range;
 }

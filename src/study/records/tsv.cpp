@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 #include "base/near_names.h"
+#include "base/parse_number.h"
 #include "base/utf8.h"
 
 namespace icome::study {
@@ -58,10 +58,9 @@ bool take_escaped(std::string_view& rest, std::string& text) {
     return true;
   }
   if (kind != 'x' || rest.size() < 2) return false;
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + 2, value, 16);
-  if (error != std::errc{} || end != rest.data() + 2) return false;
-  text += static_cast<char>(value);
+  const auto value = base::parse_number<unsigned>(rest.substr(0, 2), 16);
+  if (!value) return false;
+  text += static_cast<char>(*value);
   rest.remove_prefix(2);
   return true;
 }
@@ -192,20 +191,15 @@ const std::string& RowReader::text() { return row_.texts[next_++]; }
 
 double RowReader::number() {
   const std::string& cell = text();
-  double value = std::nan("");
-  if (cell.empty()) return value;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
-    refuse("is no number");
-  return value;
+  const auto value = base::parse_finite(cell);
+  if (!value && !cell.empty()) refuse("is no number");
+  return value.value_or(std::nan(""));
 }
 
 std::size_t RowReader::whole() {
-  const std::string& cell = text();
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) refuse("is no whole number");
-  return value;
+  const auto value = base::parse_number<std::size_t>(text());
+  if (!value) refuse("is no whole number");
+  return value.value_or(0);
 }
 
 std::optional<std::size_t> RowReader::whole_or_none() {
