@@ -10,6 +10,7 @@
 #include "base/near_names.h"
 #include "base/parse_number.h"
 #include "base/utf8.h"
+#include "io/table_reader.h"
 
 namespace icome::study {
 namespace {
@@ -65,19 +66,8 @@ bool take_escaped(std::string_view& rest, std::string& text) {
   return true;
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t tab = line.find('\t'); tab != line.npos; tab = line.find('\t')) {
-    cells.push_back(line.substr(0, tab));
-    line.remove_prefix(tab + 1);
-  }
-  cells.push_back(line);
-  return cells;
-}
-
-base::Result<TsvRow> parse_row(std::string_view line, std::size_t number, const std::string& source,
-                               const Columns& columns) {
-  const std::vector<std::string_view> cells = split(line);
+base::Result<TsvRow> parse_row(const std::vector<std::string_view>& cells, std::size_t number,
+                               const std::string& source, const Columns& columns) {
   if (cells.size() != columns.size())
     return base::fail(fmt::format("{}:{}: has {} columns, and the table has {}.", source, number,
                                   cells.size(), columns.size()));
@@ -171,14 +161,14 @@ base::Result<TsvTable> parse_tsv(std::string_view text, const std::string& sourc
   if (!text.starts_with(header))
     return base::fail(fmt::format("{}:1: the header is not '{}'; put back the file as it was written.",
                                   source, header.substr(0, header.size() - 1)));
-  table.whole = header.size();
-  for (std::size_t line = 2; table.whole < text.size(); ++line) {
-    const std::size_t end = text.find('\n', table.whole);
-    if (end == text.npos) break;
-    auto row = parse_row(text.substr(table.whole, end - table.whole), line, source, columns);
+  io::TableReader reader(text, source, '\t', io::TableStyle::Plain);
+  // Plain cells cannot be wrong, so that every next() succeeds.
+  for (auto more = reader.next(); *more && reader.has_line_end(); more = reader.next()) {
+    table.whole = reader.end();
+    if (reader.line() == 1) continue;  // the header
+    auto row = parse_row(reader.cells(), reader.line(), source, columns);
     if (!row) return tl::unexpected(row.error());
     table.rows.push_back(std::move(*row));
-    table.whole = end + 1;
   }
   table.torn = table.whole < text.size();
   return table;
