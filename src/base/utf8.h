@@ -4,7 +4,7 @@
 
 namespace icome::base {
 
-/// Bytes of the UTF-8 character that begins a text; 0 if the text begins with none.
+/// Bytes of the UTF-8 character that begins a text, which is not empty; 0 if it begins with none.
 inline std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };

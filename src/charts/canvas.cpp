@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "charts/palette.h"
+
 namespace icome::charts {
 namespace {
 
@@ -126,7 +128,7 @@ Canvas::Canvas(int width, int height, double scale)
     : Canvas(std::make_unique<Page>(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height),
                                     width / scale, height / scale, nullptr)) {
   cairo_scale(page_->cairo, scale, scale);
-  fill({0.0, 0.0, width / scale, height / scale}, {1.0, 1.0, 1.0});
+  fill({0.0, 0.0, width / scale, height / scale}, kPaper);
 }
 
 Canvas Canvas::of_lines(double width, double height) {
@@ -134,7 +136,7 @@ Canvas Canvas::of_lines(double width, double height) {
   cairo_surface_t* surface = cairo_svg_surface_create_for_stream(append_to_text, text.get(), width, height);
   cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
   Canvas canvas(std::make_unique<Page>(surface, width, height, std::move(text)));
-  canvas.fill({0.0, 0.0, width, height}, {1.0, 1.0, 1.0});
+  canvas.fill({0.0, 0.0, width, height}, kPaper);
   return canvas;
 }
 

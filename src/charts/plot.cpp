@@ -10,9 +10,6 @@ namespace {
 
 using base::Vector2;
 
-const Colour kPlotInk{0.25, 0.27, 0.31};
-const Colour kGrid{0.90, 0.91, 0.93};
-const Colour kShade{0.925, 0.94, 0.965};
 constexpr double kTextSize = 16.0;
 
 /// Maps the plotted quantities to places on the page.
@@ -67,26 +64,26 @@ void draw_x_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
   const double base = axes.frame.bottom();
   for (const double value : ticks.at) {
     const Vector2 mark[] = {{axes.x(value), base}, {axes.x(value), base + 5.0}};
-    canvas.line(mark, {kPlotInk, 1.0, {}});
+    canvas.line(mark, {kAxisInk, 1.0, {}});
     canvas.text({axes.x(value), base + 24.0}, tick_label(value, ticks.step),
-                {kTextSize, kPlotInk, false, 0.5});
+                {kTextSize, kAxisInk, false, 0.5});
   }
   canvas.text({axes.frame.x + 0.5 * axes.frame.width, base + 50.0}, label,
-              {kTextSize + 1.0, kPlotInk, false, 0.5});
+              {kTextSize + 1.0, kAxisInk, false, 0.5});
   const Vector2 line[] = {{axes.frame.x, base}, {axes.frame.right(), base}};
-  canvas.line(line, {kPlotInk, 1.2, {}});
+  canvas.line(line, {kAxisInk, 1.2, {}});
 }
 
 void draw_y_axis(Canvas& canvas, const Axes& axes, const std::string& label) {
   const Ticks ticks = nice_ticks(0.0, axes.y_max, 5);
   for (const double value : ticks.at) {
     const Vector2 grid[] = {{axes.frame.x, axes.y(value)}, {axes.frame.right(), axes.y(value)}};
-    if (value > 0.0) canvas.line(grid, {kGrid, 1.0, {}});
+    if (value > 0.0) canvas.line(grid, {kGridLine, 1.0, {}});
     canvas.text({axes.frame.x - 10.0, axes.y(value) + 0.36 * kTextSize}, tick_label(value, ticks.step),
-                {kTextSize, kPlotInk, false, 1.0});
+                {kTextSize, kAxisInk, false, 1.0});
   }
   canvas.text({axes.frame.x - 58.0, axes.frame.y + 0.5 * axes.frame.height}, label,
-              {kTextSize + 1.0, kPlotInk, false, 0.5, 0.5 * M_PI});
+              {kTextSize + 1.0, kAxisInk, false, 0.5, 0.5 * M_PI});
 }
 
 void draw_shades(Canvas& canvas, const Axes& axes, const std::vector<Span>& shaded) {
@@ -110,7 +107,7 @@ void draw_line(Canvas& canvas, const Axes& axes, const TimePlot& plot) {
   if (!plot.mark_peak) return;
   const auto peak = std::min_element(line.begin(), line.end(),
                                      [](const Vector2& a, const Vector2& b) { return a.y() < b.y(); });
-  canvas.fill_disc(*peak, 5.5, {1.0, 1.0, 1.0});
+  canvas.fill_disc(*peak, 5.5, kPaper);
   canvas.circle(*peak, 5.5, {plot.line, 2.0, {}});
 }
 

@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 #include "charts/canvas.h"
-#include "charts/colour.h"
+#include "charts/palette.h"
 
 namespace icome::charts {
 
@@ -35,7 +35,7 @@ struct TimePlot {
   Span x_range{0.0, 1.0};
   double y_max = 1.0;        ///< the axis begins at 0; > 0
   std::vector<Colour> fill;  ///< from 0 to y_max, under the line; may be empty
-  Colour line{0.12, 0.14, 0.18};
+  Colour line = kInk;
   bool mark_peak = false;  ///< a ring on the highest point
 };
 

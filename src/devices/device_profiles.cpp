@@ -10,7 +10,7 @@ namespace icome::devices {
 namespace {
 
 // Half of the peak force is taken where a data sheet gives no continuous rating: the motors of the
-// devices that do give one (PHANToM) hold 14 to 27 % for hours, parallel devices more.
+// devices that do give one (PHANToM) hold 14 to 27 % for minutes, parallel devices more.
 constexpr double kContinuousShare = 0.5;
 
 // Apparent mass at the tip where no data sheet gives it. Low on purpose: a lighter device has the

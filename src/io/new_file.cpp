@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "base/parse_number.h"
 #include "io/open_file.h"
 
 namespace icome::io {
@@ -40,10 +40,9 @@ std::FILE* open_beside(const std::filesystem::path& path, std::filesystem::path&
 
 /// Is there no process of the number with which the text begins?
 bool is_gone(std::string_view text) {
-  pid_t process = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), process);
-  if (error != std::errc() || process <= 0) return true;
-  return ::kill(process, 0) != 0 && errno == ESRCH;
+  const auto process = base::number_at_front<pid_t>(text);
+  if (!process.good() || process.value <= 0) return true;
+  return ::kill(process.value, 0) != 0 && errno == ESRCH;
 }
 
 /// Removes files that ended processes left beside the path.

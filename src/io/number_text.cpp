@@ -5,6 +5,8 @@
 #include <charconv>
 #include <limits>
 
+#include "base/parse_number.h"
+
 namespace icome::io {
 namespace {
 
@@ -30,9 +32,7 @@ float to_single(double number) {
 double as_written(float number) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
-  double value = 0.0;
-  std::from_chars(text.data(), end, value);
-  return value;
+  return base::number_at_front<double>({text.data(), end}).value;
 }
 
 }  // namespace icome::io

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "io/sync_folder.h"
+
 namespace icome::io {
 namespace {
 
@@ -116,12 +118,18 @@ base::Result<void> OpenFile::sync() const {
   return {};
 }
 
+base::Result<void> sync_folder(const std::filesystem::path& folder) {
+  const int descriptor =
+      retry_on_eintr([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  const bool synced = descriptor >= 0 && retry_on_eintr([&] { return ::fsync(descriptor); }) == 0;
+  const int why = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (synced) return {};
+  return base::fail(fmt::format("{}: cannot be written ({}).", folder.string(), std::strerror(why)));
+}
+
 void sync_folder_of(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)::fsync(descriptor);
-  ::close(descriptor);
+  (void)sync_folder(path.has_parent_path() ? path.parent_path() : ".");
 }
 
 }  // namespace icome::io

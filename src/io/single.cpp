@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/parse_number.h"
+
 namespace icome::io {
 
 double from_single(float value) {
@@ -12,9 +14,7 @@ double from_single(float value) {
   if (!std::isfinite(value) || (std::fabs(value) < kWhole && std::trunc(value) == value)) return value;
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  double result = value;
-  std::from_chars(text.data(), end, result);
-  return result;
+  return base::number_at_front<double>({text.data(), end}).value;
 }
 
 double from_short_single(float value) {

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
+
+#include "base/parse_number.h"
 
 namespace icome::io {
 namespace {
@@ -94,13 +95,9 @@ std::string_view TextScanner::rest() {
 
 double TextScanner::number(const char* what) {
   const std::string_view text = word();
-  const char* begin = text.data();
-  const char* const end = begin + text.size();
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
-  double value = 0.0;
-  const auto [stop, code] = std::from_chars(begin, end, value);
-  if (code == std::errc{} && stop == end) return value;
-  if (code == std::errc::result_out_of_range && stop == end)
+  const auto read = base::number_at_front<double>(text);
+  if (read.good() && read.rest.empty()) return read.value;
+  if (read.is_all())
     fail(quoted(text) + " is out of range");
   else
     fail_word(text, what);
@@ -109,9 +106,7 @@ double TextScanner::number(const char* what) {
 
 std::int64_t TextScanner::integer(const char* what) {
   const std::string_view text = word();
-  std::int64_t value = 0;
-  const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code == std::errc{} && stop == text.data() + text.size()) return value;
+  if (const auto value = base::parse_number<std::int64_t>(text)) return *value;
   fail_word(text, what);
   return 0;
 }

@@ -7,15 +7,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+
+#include "base/parse_number.h"
 
 namespace icome::realtime {
 namespace {
 
 constexpr std::size_t kStack = 256 * 1024;  // bytes that ticks may use of the thread's stack
+
+/// Takes a word and the blanks behind it off the text.
+std::string_view take_word(std::string_view& text) {
+  const std::size_t length = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, length);
+  text.remove_prefix(std::min(text.find_first_not_of(' ', length), text.size()));
+  return word;
+}
 
 /// A line of /proc/self/maps.
 struct Mapping {
@@ -23,14 +32,15 @@ struct Mapping {
   std::string access;  // such as "rw-p"
   std::string path;    // empty for memory without a file
 
-  static Mapping of(const std::string& line) {
+  static Mapping of(std::string_view line) {
     Mapping mapping;
-    std::istringstream words(line);
-    std::string offset, device, inode;
-    char dash = 0;
-    words >> std::hex >> mapping.begin >> dash >> mapping.end >> mapping.access >> offset >> device >>
-        inode >> std::ws;
-    std::getline(words, mapping.path);
+    const auto begin = base::number_at_front<std::uintptr_t>(take_word(line), 16);
+    const auto end = base::number_at_front<std::uintptr_t>(begin.rest.substr(begin.good() ? 1 : 0), 16);
+    mapping.begin = begin.value;
+    mapping.end = end.value;
+    mapping.access = take_word(line);
+    for (int i = 0; i < 3; ++i) take_word(line);  // offset, device, inode
+    mapping.path = line;
     return mapping;
   }
 };

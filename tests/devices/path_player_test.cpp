@@ -82,13 +82,13 @@ TEST(PathPlayer, ErrorsNameFileAndLine) {
   EXPECT_EQ(error_of("t,x,y,z\n0,0,0,0\n1,2,3\n"),
             "path.csv:3: a row has 4 numbers (t,x,y,z), this one has 3");
   EXPECT_EQ(error_of("t,x,y,z\n0,0,0,0,0\n"), "path.csv:2: a row has 4 numbers (t,x,y,z), this one has 5");
-  EXPECT_EQ(error_of("t,x,y,z\n0,0,1.2.3,0\n"), "path.csv:2: y is not a number: \"1.2.3\"");
-  EXPECT_EQ(error_of("t,x,y,z\n0,0,,0\n"), "path.csv:2: y is not a number: \"\"");
-  EXPECT_EQ(error_of("t,x,y,z\n0,0,0,nan\n"), "path.csv:2: z is not finite: \"nan\"");
-  EXPECT_EQ(error_of("t,x,y,z\n0,inf,0,0\n"), "path.csv:2: x is not finite: \"inf\"");
+  EXPECT_EQ(error_of("t,x,y,z\n0,0,1.2.3,0\n"), "path.csv:2: y is not a number: '1.2.3'");
+  EXPECT_EQ(error_of("t,x,y,z\n0,0,,0\n"), "path.csv:2: y is not a number: ''");
+  EXPECT_EQ(error_of("t,x,y,z\n0,0,0,nan\n"), "path.csv:2: z is not finite: 'nan'");
+  EXPECT_EQ(error_of("t,x,y,z\n0,inf,0,0\n"), "path.csv:2: x is not finite: 'inf'");
   EXPECT_EQ(error_of("t,x,y,z\n0,0,0,0\n0,0,0,0\n"), "path.csv:3: t must increase, but 0 follows 0");
   EXPECT_EQ(error_of("t,x,y,z\n0,0,0,0\n\n1,0,0,0\n"),
-            "path.csv:3: a row has 4 numbers (t,x,y,z), this one has 1");
+            "path.csv:3: a row has 4 numbers (t,x,y,z), this one has 0");
 }
 
 TEST(PathPlayer, MissingFileIsAnError) {

@@ -17,6 +17,7 @@
 #include "files/vrml_answers.h"
 #include "fuzz/harness.h"
 #include "geometry/csg/csg_mesh.h"
+#include "memory_place.h"
 #include "world/edit/edit_bytes.h"
 #include "world/edit/edits_of.h"
 #include "world/every_edit.h"
@@ -28,9 +29,7 @@ using files::LoadedDesign;
 
 /// Where files take no time: one for all runs of a process.
 const files::ScratchFolder& memory_folder() {
-  static const files::ScratchFolder kFolder(std::filesystem::exists("/dev/shm")
-                                                ? std::filesystem::path("/dev/shm")
-                                                : std::filesystem::temp_directory_path());
+  static const files::ScratchFolder kFolder(memory_place());
   return kFolder;
 }
 

@@ -13,6 +13,7 @@
 #include "files/journal/journal.h"
 #include "files/remark.h"
 #include "files/sample_files.h"
+#include "memory_place.h"
 #include "session/storage/autosave_journal.h"
 #include "session/storage/claimed_work.h"
 #include "world/sample_world.h"
@@ -22,13 +23,7 @@ namespace icome::session {
 /// A folder of its own for one test, where waiting for the disk takes no time.
 class ScratchFolder : public files::ScratchFolder {
  public:
-  ScratchFolder() : files::ScratchFolder(place()) {}
-
- private:
-  static std::filesystem::path place() {
-    const std::filesystem::path memory = "/dev/shm";
-    return ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
-  }
+  ScratchFolder() : files::ScratchFolder(memory_place()) {}
 };
 
 /// Number `step` of edits that build on each other: a counter whose name tells how many are done, and

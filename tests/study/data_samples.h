@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "files/sample_files.h"
+#include "memory_place.h"
 #include "study/definition/conditions.h"
 #include "study/definition/counterbalancing.h"
 #include "study/definition/study_reader.h"
@@ -101,14 +102,8 @@ inline void put_bytes(const std::filesystem::path& path, std::string_view bytes)
 /// A place for a data folder, where waiting for the disk takes no time.
 class StudyScratch : public files::ScratchFolder {
  public:
-  StudyScratch() : files::ScratchFolder(place()) {}
+  StudyScratch() : files::ScratchFolder(memory_place()) {}
   std::filesystem::path data() const { return path() / "data"; }
-
- private:
-  static std::filesystem::path place() {
-    const std::filesystem::path memory = "/dev/shm";
-    return ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
-  }
 };
 
 inline DataFolder opened(const std::filesystem::path& path, const std::string& text = kDataStudy,

@@ -2,30 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <string_view>
 
+#include "base/parse_number.h"
+
 namespace icome::apps {
-namespace {
-
-/// The whole text as a number; nothing where it is none.
-template <typename Number>
-std::optional<Number> whole_number(std::string_view text, int base) {
-  Number value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
 base::Result<void> parse_size(const std::string& text, ShotOptions& options) {
   constexpr int kMostSide = 16384;
   const std::string_view all = text;
   const std::size_t cross = all.find('x');
   if (cross != std::string_view::npos) {
-    const auto width = whole_number<int>(all.substr(0, cross), 10);
-    const auto height = whole_number<int>(all.substr(cross + 1), 10);
+    const auto width = base::parse_number<int>(all.substr(0, cross));
+    const auto height = base::parse_number<int>(all.substr(cross + 1));
     if (width && height && *width >= 1 && *height >= 1 && *width <= kMostSide && *height <= kMostSide) {
       options.width = *width;
       options.height = *height;
@@ -45,7 +33,7 @@ base::Result<void> parse_background(const std::string& text, ShotOptions& option
   if (text == "white") options.background = 0xffffff;
   if (text == "black") options.background = 0x000000;
   if (text.size() == 7 && text[0] == '#')
-    options.background = whole_number<unsigned>(std::string_view(text).substr(1), 16);
+    options.background = base::parse_number<unsigned>(std::string_view(text).substr(1), 16);
   if (options.background) return {};
   return base::fail(fmt::format(
       "--background \"{}\" is no colour: give none, white, black or #rrggbb, such as #e0e8f0.", text));

@@ -231,11 +231,11 @@ ChartFrame frame_of(const Canvas& canvas, const StatsChart& chart, const AxisRan
 void draw_y_axis_of(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame, const AxisRange& y) {
   for (const double value : y.at) {
     const Vector2 grid[] = {{frame.area.x, frame.y(value)}, {frame.area.right(), frame.y(value)}};
-    canvas.line(grid, {kChartGrid, 1.0, {}});
+    canvas.line(grid, {charts::kGridLine, 1.0, {}});
     canvas.text({frame.area.x - 10.0, frame.y(value) + 0.36 * kLabelSize}, y_tick(chart, value, y.step),
-                {kLabelSize, kChartInk, false, 1.0});
+                {kLabelSize, charts::kInk, false, 1.0});
   }
-  const charts::TextStyle style{kLabelSize + 1.0, kChartInk, false, 0.5, 0.5 * M_PI};
+  const charts::TextStyle style{kLabelSize + 1.0, charts::kInk, false, 0.5, 0.5 * M_PI};
   canvas.text({kSideMargin + 12.0, frame.area.y + 0.5 * frame.area.height},
               fitted(canvas, chart.y_label, style, frame.area.height + 60.0), style);
 }
@@ -245,15 +245,15 @@ void draw_group_labels(Canvas& canvas, const StatsChart& chart, const ChartFrame
   for (std::size_t i = 0; i < chart.groups.size(); ++i) {
     const double x = frame.slot_middle(i);
     if (turned) {
-      const charts::TextStyle style{13.5, kChartInk, false, 1.0, kLabelTurn};
+      const charts::TextStyle style{13.5, charts::kInk, false, 1.0, kLabelTurn};
       const std::string count = fmt::format(" ({})", counts_below(chart, i));
       const double room =
           std::min(kLongestTurned, (x - 12.0) / std::cos(kLabelTurn)) - canvas.text_width(count, style);
       canvas.text({x + 5.0, base + 18.0}, fitted(canvas, chart.groups[i], style, room) + count, style);
       continue;
     }
-    canvas.text({x, base + 23.0}, chart.groups[i], {kLabelSize, kChartInk, false, 0.5});
-    canvas.text({x, base + 41.0}, counts_below(chart, i), {13.0, kChartQuiet, false, 0.5});
+    canvas.text({x, base + 23.0}, chart.groups[i], {kLabelSize, charts::kInk, false, 0.5});
+    canvas.text({x, base + 41.0}, counts_below(chart, i), {13.0, charts::kQuietInk, false, 0.5});
   }
 }
 
@@ -261,19 +261,19 @@ void draw_x_axis_of(Canvas& canvas, const StatsChart& chart, const ChartFrame& f
                     const GroupLabels& labels) {
   const Vector2 base[] = {{frame.area.x, frame.area.bottom()}, {frame.area.right(), frame.area.bottom()}};
   const bool below_zero = chart.kind == ChartKind::Bars && frame.y.low < 0.0;  // bars stand on their own line
-  if (!below_zero) canvas.line(base, {kChartInk, 1.2, {}});
+  if (!below_zero) canvas.line(base, {charts::kInk, 1.2, {}});
   if (has_groups(chart)) {
     draw_group_labels(canvas, chart, frame, labels.turned);
   } else {
     for (const double value : x.at) {
       const Vector2 mark[] = {{frame.x(value), frame.area.bottom()},
                               {frame.x(value), frame.area.bottom() + 5.0}};
-      canvas.line(mark, {kChartInk, 1.0, {}});
+      canvas.line(mark, {charts::kInk, 1.0, {}});
       canvas.text({frame.x(value), frame.area.bottom() + 23.0}, charts::tick_label(value, x.step),
-                  {kLabelSize, kChartInk, false, 0.5});
+                  {kLabelSize, charts::kInk, false, 0.5});
     }
   }
-  const charts::TextStyle style{kLabelSize + 1.0, kChartInk, false, 0.5};
+  const charts::TextStyle style{kLabelSize + 1.0, charts::kInk, false, 0.5};
   canvas.text({frame.area.x + 0.5 * frame.area.width, frame.area.bottom() + labels.height + 20.0},
               fitted(canvas, chart.x_label, style, frame.area.width), style);
 }
@@ -281,19 +281,20 @@ void draw_x_axis_of(Canvas& canvas, const StatsChart& chart, const ChartFrame& f
 void draw_legend(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame) {
   const double x = frame.area.right() + 26.0, width = kChartWidth - kSideMargin - x;
   double y = frame.area.y - 4.0;
-  const charts::TextStyle head{14.0, kChartQuiet}, style{kLabelSize, kChartInk};
+  const charts::TextStyle head{14.0, charts::kQuietInk}, style{kLabelSize, charts::kInk};
   for (const std::string& name : legend_heads(chart))
     canvas.text({x, y += 19.0}, fitted(canvas, name, head, width), head);
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     y += 26.0;
-    canvas.fill_disc({x + 7.0, y - 5.0}, 6.5, chart_colour(i));
+    canvas.fill_disc({x + 7.0, y - 5.0}, 6.5, charts::series_colour(i));
     canvas.text({x + 22.0, y}, fitted(canvas, chart.series[i], style, width - 22.0), style);
   }
 }
 
 void draw_head_of(Canvas& canvas, const StatsChart& chart) {
   const double width = kChartWidth - 2.0 * kSideMargin;
-  const charts::TextStyle head{21.0, kChartInk, true}, below{16.0, kChartQuiet}, foot{12.5, kChartQuiet};
+  const charts::TextStyle head{21.0, charts::kInk, true}, below{16.0, charts::kQuietInk},
+      foot{12.5, charts::kQuietInk};
   canvas.text({kSideMargin, 44.0}, fitted(canvas, heading_of(chart), head, width), head);
   if (chart.kind != ChartKind::Matrix)
     canvas.text({kSideMargin, 72.0}, fitted(canvas, with_minus(chart.title), below, width), below);

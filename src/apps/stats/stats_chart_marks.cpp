@@ -27,8 +27,8 @@ constexpr double kWidestBox = 96.0;
 
 /// Groups without series have colours of their own, as long as there are enough.
 Colour colour_of(const StatsChart& chart, std::size_t series, std::size_t group) {
-  if (chart.series.size() > 1) return chart_colour(series);
-  return chart_colour(chart.groups.size() <= 6 ? group : 0);
+  if (chart.series.size() > 1) return charts::series_colour(series);
+  return charts::series_colour(chart.groups.size() <= 6 ? group : 0);
 }
 
 /// The middle and width of a series' place in a group's slot.
@@ -122,22 +122,11 @@ void draw_box(Canvas& canvas, const ChartFrame& frame, const Place& place, const
                              {place.middle + half, middle},
                              {place.middle, middle + half},
                              {place.middle - half, middle}};
-  canvas.fill_polygon(diamond, kChartPaper);
-  canvas.line(diamond, {kChartInk, 1.5, {}});
+  canvas.fill_polygon(diamond, charts::kPaper);
+  canvas.line(diamond, {charts::kInk, 1.5, {}});
 }
 
 }  // namespace
-
-Colour chart_colour(std::size_t which) {
-  static const Colour kColours[] = {{0.0, 0.447, 0.698},   {0.902, 0.624, 0.0},   {0.0, 0.620, 0.451},
-                                    {0.835, 0.369, 0.0},   {0.800, 0.475, 0.655}, {0.298, 0.667, 0.882},
-                                    {0.450, 0.480, 0.530}, {0.420, 0.300, 0.600}};
-  const Colour& base = kColours[which % std::size(kColours)];
-  const std::size_t round = which / std::size(kColours) % 3;
-  const double share = round == 0 ? 0.0 : 0.5, end = round == 1 ? 1.0 : 0.0;
-  const auto mix = [&](double ink) { return ink + share * (end - ink); };
-  return {mix(base.red), mix(base.green), mix(base.blue)};
-}
 
 AxisRange axis_over(double low, double high, int count) {
   if (!std::isfinite(low) || !std::isfinite(high) || low > high) return axis_over(0.0, 1.0, count);
@@ -196,17 +185,18 @@ void draw_bars(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame)
             {colour, 3.0, {}});
       if (!std::isnan(it.low))
         interval_mark(canvas, place.middle, frame.y(it.low), frame.y(it.high),
-                      std::min(9.0, 0.25 * place.width), {kChartInk, 1.6, {}});
+                      std::min(9.0, 0.25 * place.width), {charts::kInk, 1.6, {}});
     }
   }
-  if (frame.y.low < 0.0) level(canvas, frame.y(0.0), frame.area.x, frame.area.right(), {kChartInk, 1.2, {}});
+  if (frame.y.low < 0.0)
+    level(canvas, frame.y(0.0), frame.area.x, frame.area.right(), {charts::kInk, 1.2, {}});
 }
 
 void draw_interaction(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame) {
   // Series stand a little beside each other, so that no interval hides another.
   const double step = std::min(16.0, 0.5 * frame.slot / double(chart.series.size()));
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
-    const Colour colour = chart_colour(s);
+    const Colour colour = charts::series_colour(s);
     const double aside = step * (double(s) - 0.5 * (double(chart.series.size()) - 1.0));
     std::vector<Vector2> means;
     for (std::size_t g = 0; g < chart.groups.size(); ++g) {
@@ -219,7 +209,7 @@ void draw_interaction(Canvas& canvas, const StatsChart& chart, const ChartFrame&
     }
     canvas.line(means, {colour, 2.8, {}});
     for (const Vector2& mean : means) {
-      canvas.fill_disc(mean, 6.4, kChartPaper);
+      canvas.fill_disc(mean, 6.4, charts::kPaper);
       canvas.fill_disc(mean, 5.2, colour);
     }
   }
@@ -276,7 +266,7 @@ void draw_fit(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame, 
 
 /// Red, paper, blue for -1, 0, 1.
 Colour correlation_colour(double r) {
-  const Colour end = r < 0.0 ? Colour{0.78, 0.28, 0.16} : chart_colour(0);
+  const Colour end = r < 0.0 ? Colour{0.78, 0.28, 0.16} : charts::colour_of(charts::Hue::Blue);
   const double share = std::pow(std::min(1.0, std::abs(r)), 1.2);
   const auto mix = [&](double paper, double ink) { return paper + share * (ink - paper); };
   return {mix(0.965, end.red), mix(0.97, end.green), mix(0.975, end.blue)};
@@ -284,12 +274,12 @@ Colour correlation_colour(double r) {
 
 void draw_correlation(Canvas& canvas, const Area& cell, double r, double p) {
   if (std::isnan(r)) {
-    canvas.fill(cell, kChartGrid);
+    canvas.fill(cell, charts::kGridLine);
     return;
   }
   const Colour colour = correlation_colour(r);
   canvas.fill(cell, colour);
-  const Colour ink = charts::lightness(colour) > 0.66 ? kChartInk : kChartPaper;
+  const Colour ink = charts::lightness(colour) > 0.66 ? charts::kInk : charts::kPaper;
   const char* const stars = p < 0.001 ? "***" : p < 0.01 ? "**" : p < 0.05 ? "*" : "";
   const double size = std::clamp(0.24 * cell.width, 6.0, 17.0);
   const double x = cell.x + 0.5 * cell.width, y = cell.y + 0.5 * cell.height;
@@ -320,7 +310,7 @@ FittedLine fitted_line(const StatsChart& chart) {
 
 void draw_scatter(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame) {
   canvas.clip({frame.area.x, frame.area.y - 4.0, frame.area.width, frame.area.height + 4.0});
-  const Colour colour = chart_colour(0);
+  const Colour colour = charts::colour_of(charts::Hue::Blue);
   const bool thin = chart.points.size() > kMostPoints;
   const double alpha = chart.points.size() > 600 ? 0.35 : 0.6;
   std::set<std::pair<long, long>> drawn;
@@ -329,7 +319,7 @@ void draw_scatter(Canvas& canvas, const StatsChart& chart, const ChartFrame& fra
     if (thin && !drawn.emplace(std::lround(0.5 * at.x()), std::lround(0.5 * at.y())).second) continue;
     canvas.fill_disc(at, chart.points.size() > 600 ? 3.0 : 4.4, colour.with_alpha(alpha));
   }
-  draw_fit(canvas, chart, frame, chart_colour(3));
+  draw_fit(canvas, chart, frame, charts::colour_of(charts::Hue::Vermilion));
   canvas.unclip();
 }
 
@@ -337,18 +327,18 @@ void draw_curve(Canvas& canvas, const StatsChart& chart, const ChartFrame& frame
   std::vector<Vector2> curve;
   for (const Vector2& point : chart.points) curve.emplace_back(frame.x(point.x()), frame.y(point.y()));
   canvas.clip({frame.area.x, frame.area.y - 4.0, frame.area.width, frame.area.height + 4.0});
-  canvas.line(curve, {chart_colour(0), 3.0, {}});
+  canvas.line(curve, {charts::colour_of(charts::Hue::Blue), 3.0, {}});
   canvas.unclip();
   for (const Vector2& mark : chart.marks) {
     const Vector2 at(frame.x(mark.x()), frame.y(mark.y()));
-    const charts::Stroke guide{kChartQuiet, 1.2, {4.0, 5.0}};
+    const charts::Stroke guide{charts::kQuietInk, 1.2, {4.0, 5.0}};
     vertical(canvas, at.x(), at.y(), frame.area.bottom(), guide);
     level(canvas, at.y(), frame.area.x, at.x(), guide);
-    canvas.fill_disc(at, 7.0, kChartPaper);
-    canvas.circle(at, 6.5, {chart_colour(3), 2.8, {}});
+    canvas.fill_disc(at, 7.0, charts::kPaper);
+    canvas.circle(at, 6.5, {charts::colour_of(charts::Hue::Vermilion), 2.8, {}});
     canvas.text({at.x() + 14.0, at.y() + 22.0},
                 fmt::format("{:g}: {}", mark.x(), with_minus(share_text(mark.y(), 3))),
-                {15.0, kChartInk, true});
+                {15.0, charts::kInk, true});
   }
 }
 
@@ -367,7 +357,7 @@ void draw_shares(Canvas& canvas, const StatsChart& chart, const ChartFrame& fram
       if (part > 0.0) level(canvas, top, left, left + width, {colour_of(chart, s, stacked ? g : 0), 2.0, {}});
       if (stacked && bottom - top > 18.0 && width > 24.0)
         canvas.text({frame.slot_middle(g), 0.5 * (top + bottom) + 5.0}, fmt::format("{:.10g}", count),
-                    {14.0, kChartInk, false, 0.5});
+                    {14.0, charts::kInk, false, 0.5});
       below += part;
     }
   }
@@ -377,8 +367,8 @@ void draw_matrix(Canvas& canvas, const StatsChart& chart, const Area& area) {
   const auto count = double(chart.groups.size());
   constexpr double kNames = 190.0;
   const double side = std::min((area.height - 8.0) / count, (area.width - 2.0 * kNames) / count);
-  const charts::TextStyle row{std::clamp(0.3 * side, 7.0, 15.5), kChartInk, false, 1.0};
-  const charts::TextStyle column{row.size, kChartQuiet};
+  const charts::TextStyle row{std::clamp(0.3 * side, 7.0, 15.5), charts::kInk, false, 1.0};
+  const charts::TextStyle column{row.size, charts::kQuietInk};
   // Centred, unless the names of rows need the room that the names of columns leave.
   const double spare = area.width - count * side;
   double for_rows = 0.0, for_columns = 0.0;

@@ -5,6 +5,7 @@
 
 #include "apps/stats/stats_chart.h"
 #include "charts/canvas.h"
+#include "charts/palette.h"
 
 namespace icome::apps {
 
@@ -12,14 +13,6 @@ namespace icome::apps {
 
 inline constexpr double kChartWidth = 960.0;
 inline constexpr double kChartHeight = 640.0;
-inline const charts::Colour kChartInk{0.12, 0.14, 0.18};
-inline const charts::Colour kChartQuiet{0.40, 0.43, 0.48};
-inline const charts::Colour kChartGrid{0.90, 0.91, 0.93};
-inline const charts::Colour kChartPaper{1.0, 1.0, 1.0};
-
-/// The colours of Okabe and Ito, which colour-blind eyes tell apart, grey and violet; then the same lighter,
-/// then darker, then again from the first.
-charts::Colour chart_colour(std::size_t which);
 
 /// Maps a quantity to a stretch of the page.
 struct ChartScale {

@@ -6,6 +6,7 @@
 #include "apps/stats/stats_data.h"
 #include "apps/stats/stats_report.h"
 #include "apps/stats/stats_text.h"
+#include "base/parse_number.h"
 #include "base/utf8.h"
 #include "stats/tests/binomial_test.h"
 #include "stats/tests/contingency.h"
@@ -41,7 +42,7 @@ base::Result<Counted> counts_in_words(std::string_view text) {
     std::vector<double> row;
     do {
       const std::string_view cell = take_until(line, ',');
-      const auto count = stats::parse_number(cell);
+      const auto count = base::parse_finite(cell);
       if (!count)
         return base::fail(fmt::format("--counts: {} is no count; write 63,180/16,180: rows parted by /.",
                                       stats::quoted_cell(cell)));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "apps/desktop/desktop_command.h"
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
+#include "base/parse_number.h"
 #include "io/file_bytes.h"
 #include "study/definition/needs.h"
 #include "study/definition/scene_check.h"
@@ -187,15 +189,25 @@ std::string text_of(Moment moment) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", whole, (moment - whole).count());
 }
 
-std::optional<Moment> moment_of(const std::string& text) {
+/// The moment of which this is text_of(); nothing for other text.
+std::optional<Moment> moment_of(std::string_view text) {
+  std::array<int, 7> numbers{};
+  constexpr std::string_view kBehind = "--T::.Z";
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto read = base::number_at_front<int>(text);
+    if (!read.good() || !read.rest.starts_with(kBehind[i])) return {};
+    numbers[i] = read.value;
+    text = read.rest.substr(1);
+  }
+  const auto [year, month, day, hour, minute, second, millisecond] = numbers;
   std::tm parts = {};
-  int milliseconds = 0;
-  if (std::sscanf(text.c_str(), "%d-%d-%dT%d:%d:%d.%dZ", &parts.tm_year, &parts.tm_mon, &parts.tm_mday,
-                  &parts.tm_hour, &parts.tm_min, &parts.tm_sec, &milliseconds) != 7)
-    return {};
-  parts.tm_year -= 1900;
-  parts.tm_mon -= 1;
-  return Moment(std::chrono::seconds(timegm(&parts)) + std::chrono::milliseconds(milliseconds));
+  parts.tm_year = year - 1900;
+  parts.tm_mon = month - 1;
+  parts.tm_mday = day;
+  parts.tm_hour = hour;
+  parts.tm_min = minute;
+  parts.tm_sec = second;
+  return Moment(std::chrono::seconds(timegm(&parts)) + std::chrono::milliseconds(millisecond));
 }
 
 /// Seconds since the person's session began, going on evenly while this program runs.

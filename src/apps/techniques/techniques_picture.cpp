@@ -7,6 +7,7 @@
 
 #include "apps/techniques/techniques_report.h"
 #include "charts/canvas.h"
+#include "charts/palette.h"
 #include "charts/plot.h"
 
 namespace icome::apps {
@@ -16,6 +17,7 @@ using base::Vector2;
 using charts::Area;
 using charts::Canvas;
 using charts::Colour;
+using charts::Hue;
 using interaction::BenchResult;
 using interaction::ConditionResult;
 using interaction::Selecting;
@@ -24,28 +26,23 @@ using interaction::TechniqueResult;
 constexpr int kPageWidth = 1600;
 constexpr int kPageHeight = 1240;
 constexpr double kPageMargin = 56.0;
-const Colour kPageInk{0.12, 0.14, 0.18};
-const Colour kPageQuiet{0.40, 0.43, 0.48};
-const Colour kPageGrid{0.90, 0.91, 0.93};
-const Colour kPagePanel{0.968, 0.973, 0.98};
 
-/// The colours of Okabe and Ito, which colour-blind eyes tell apart.
 Colour technique_colour(Selecting selecting) {
   switch (selecting) {
     case Selecting::VirtualHand:
-      return {0.902, 0.624, 0.0};
+      return charts::colour_of(Hue::Orange);
     case Selecting::GoGo:
-      return {0.835, 0.369, 0.0};
+      return charts::colour_of(Hue::Vermilion);
     case Selecting::RayPointer:
-      return {0.0, 0.447, 0.698};
+      return charts::colour_of(Hue::Blue);
     case Selecting::Spotlight:
-      return {0.298, 0.667, 0.882};
+      return charts::colour_of(Hue::Sky);
     case Selecting::Miniature:
-      return {0.0, 0.620, 0.451};
+      return charts::colour_of(Hue::Green);
     case Selecting::LookAt:
-      return {0.800, 0.475, 0.655};
+      return charts::colour_of(Hue::Purple);
   }
-  return kPageInk;
+  return charts::kInk;
 }
 
 std::string capitalised(std::string_view name) {
@@ -55,8 +52,8 @@ std::string capitalised(std::string_view name) {
 }
 
 void panel_title(Canvas& canvas, const Area& area, const std::string& title, const std::string& below) {
-  canvas.text({area.x, area.y + 20.0}, title, {21.0, kPageInk, true});
-  canvas.text({area.x, area.y + 44.0}, below, {15.5, kPageQuiet});
+  canvas.text({area.x, area.y + 20.0}, title, {21.0, charts::kInk, true});
+  canvas.text({area.x, area.y + 44.0}, below, {15.5, charts::kQuietInk});
 }
 
 /// Maps a quantity to a stretch of the page.
@@ -75,7 +72,7 @@ double axis_end(double greatest) {
 
 /// A disc for the nearest distance, a ring within for farther ones.
 void distance_mark(Canvas& canvas, const Vector2& at, std::size_t which, const Colour& colour) {
-  canvas.fill_disc(at, 7.5, {1.0, 1.0, 1.0});
+  canvas.fill_disc(at, 7.5, charts::kPaper);
   if (which == 0) {
     canvas.fill_disc(at, 6.5, colour);
   } else {
@@ -98,12 +95,12 @@ void ranking_row(Canvas& canvas, const BenchResult& result, std::size_t rank, do
   const Colour colour = technique_colour(technique.selecting);
   const double middle = y + 0.5 * height;
   canvas.text({scale.from - 16.0, middle - 1.0}, capitalised(name_of(technique.selecting)),
-              {18.0, kPageInk, true, 1.0});
+              {18.0, charts::kInk, true, 1.0});
   const std::string figures =
       technique.reached == 0
           ? std::string("out of reach")
           : fmt::format("{:.2f} s   {:.1f} % errors", technique.time.mean, 100.0 * technique.error_rate);
-  canvas.text({scale.from - 16.0, middle + 19.0}, figures, {13.5, kPageQuiet, false, 1.0});
+  canvas.text({scale.from - 16.0, middle + 19.0}, figures, {13.5, charts::kQuietInk, false, 1.0});
   canvas.fill({scale.from, middle - 12.0, scale(technique.score) - scale.from, 24.0},
               colour.with_alpha(0.28));
   const Vector2 end[] = {{scale(technique.score), middle - 15.0}, {scale(technique.score), middle + 15.0}};
@@ -122,21 +119,21 @@ void draw_ranking(Canvas& canvas, const Area& area, const BenchResult& result) {
   const charts::Ticks ticks = charts::nice_ticks(0.0, scale.high, 6);
   for (const double value : ticks.at) {
     const Vector2 grid[] = {{scale(value), top}, {scale(value), bottom}};
-    canvas.line(grid, {kPageGrid, 1.0, {}});
+    canvas.line(grid, {charts::kGridLine, 1.0, {}});
     canvas.text({scale(value), bottom + 22.0}, charts::tick_label(value, ticks.step),
-                {15.0, kPageInk, false, 0.5});
+                {15.0, charts::kInk, false, 0.5});
   }
   canvas.text({0.5 * (scale.from + scale.to), bottom + 46.0}, "effective throughput (bit/s)",
-              {16.0, kPageInk, false, 0.5});
+              {16.0, charts::kInk, false, 0.5});
   const double height = (bottom - top) / double(result.techniques.size());
   for (std::size_t i = 0; i < result.techniques.size(); ++i)
     ranking_row(canvas, result, i, top + height * double(i), height, scale);
   double x = scale.from;
   for (std::size_t i = 0; i < result.settings.distances.size(); ++i) {
     const std::string label = fmt::format("{:g} m", result.settings.distances[i]);
-    distance_mark(canvas, {x + 8.0, area.y + 74.0}, i, kPageInk);
-    canvas.text({x + 22.0, area.y + 79.5}, label, {15.0, kPageInk});
-    x += 46.0 + canvas.text_width(label, {15.0, kPageInk});
+    distance_mark(canvas, {x + 8.0, area.y + 74.0}, i, charts::kInk);
+    canvas.text({x + 22.0, area.y + 79.5}, label, {15.0, charts::kInk});
+    x += 46.0 + canvas.text_width(label, {15.0, charts::kInk});
   }
 }
 
@@ -162,20 +159,20 @@ void law_axes(Canvas& canvas, const Area& frame, const PageScale& x, const PageS
   const charts::Ticks times = charts::nice_ticks(0.0, y.high, 6);
   for (const double value : times.at) {
     const Vector2 grid[] = {{frame.x, y(value)}, {frame.right(), y(value)}};
-    canvas.line(grid, {kPageGrid, 1.0, {}});
+    canvas.line(grid, {charts::kGridLine, 1.0, {}});
     canvas.text({frame.x - 10.0, y(value) + 5.4}, charts::tick_label(value, times.step),
-                {15.0, kPageInk, false, 1.0});
+                {15.0, charts::kInk, false, 1.0});
   }
   const charts::Ticks ids = charts::nice_ticks(x.low, x.high, 7);
   for (const double value : ids.at)
     canvas.text({x(value), frame.bottom() + 22.0}, charts::tick_label(value, ids.step),
-                {15.0, kPageInk, false, 0.5});
+                {15.0, charts::kInk, false, 0.5});
   const Vector2 base[] = {{frame.x, frame.bottom()}, {frame.right(), frame.bottom()}};
-  canvas.line(base, {kPageInk, 1.2, {}});
+  canvas.line(base, {charts::kInk, 1.2, {}});
   canvas.text({frame.x + 0.5 * frame.width, frame.bottom() + 46.0}, "index of difficulty (bit)",
-              {16.0, kPageInk, false, 0.5});
+              {16.0, charts::kInk, false, 0.5});
   canvas.text({frame.x - 46.0, frame.y + 0.5 * frame.height}, "movement time (s)",
-              {16.0, kPageInk, false, 0.5, 0.5 * M_PI});
+              {16.0, charts::kInk, false, 0.5, 0.5 * M_PI});
 }
 
 void law_of(Canvas& canvas, const TechniqueResult& technique, const PageScale& x, const PageScale& y) {
@@ -192,7 +189,7 @@ void law_of(Canvas& canvas, const TechniqueResult& technique, const PageScale& x
     return Vector2(x(id), y(technique.line->intercept + technique.line->slope * id));
   };
   const Vector2 line[] = {at(least), at(greatest)};
-  canvas.line(line, {Colour{1.0, 1.0, 1.0, 0.85}, 6.0, {}});
+  canvas.line(line, {charts::kPaper.with_alpha(0.85), 6.0, {}});
   canvas.line(line, {colour, 3.0, {}});
 }
 
@@ -212,13 +209,13 @@ void draw_laws(Canvas& canvas, const Area& area, const BenchResult& result) {
     const Vector2 sample[] = {{frame.right() + 30.0, row - 5.0}, {frame.right() + 58.0, row - 5.0}};
     canvas.line(sample, {technique_colour(technique.selecting), 3.5, {}});
     canvas.text({frame.right() + 70.0, row}, capitalised(name_of(technique.selecting)),
-                {16.0, kPageInk, true});
+                {16.0, charts::kInk, true});
     const std::string law =
         technique.line ? fmt::format("{:.2f} {} {:.2f} ID   r\u00b2 {:.2f}", technique.line->intercept,
                                      technique.line->slope < 0.0 ? "\u2212" : "+",
                                      std::abs(technique.line->slope), technique.line->r_squared)
                        : std::string("no line");
-    canvas.text({frame.right() + 70.0, row + 20.0}, law, {14.0, kPageQuiet});
+    canvas.text({frame.right() + 70.0, row + 20.0}, law, {14.0, charts::kQuietInk});
     row += 56.0;
   }
 }
@@ -256,12 +253,12 @@ void condition_cell(Canvas& canvas, const Area& cell, const ConditionResult& it,
   const Vector2 middle(cell.x + 0.5 * cell.width, cell.y + 0.5 * cell.height + 5.0);
   if (!it.reachable) {
     canvas.fill(inner, {0.925, 0.93, 0.94});
-    canvas.text(middle, "\u2013", {14.0, kPageQuiet, false, 0.5});
+    canvas.text(middle, "\u2013", {14.0, charts::kQuietInk, false, 0.5});
     return;
   }
   const Colour colour = time_colour(range, it.time.mean);
   canvas.fill(inner, colour);
-  const Colour ink = charts::lightness(colour) > 0.6 ? kPageInk : Colour{1.0, 1.0, 1.0};
+  const Colour ink = charts::lightness(colour) > 0.6 ? charts::kInk : charts::kPaper;
   canvas.text(middle, fmt::format("{:.1f}", it.time.mean), {14.0, ink, false, 0.5});
   // Each dot stands for a started 5 % of errors, up to four dots.
   const int dots = std::min(4, int(std::ceil(20.0 * it.error_rate - 1e-9)));
@@ -281,17 +278,17 @@ void condition_grid(Canvas& canvas, const Area& area, const BenchResult& result,
   const double height = (area.bottom() - top) / double(sizes);
   canvas.fill_disc({area.x + 7.0, area.y + 10.0}, 6.5, technique_colour(technique.selecting));
   canvas.text({area.x + 20.0, area.y + 16.0}, capitalised(name_of(technique.selecting)),
-              {17.0, kPageInk, true});
+              {17.0, charts::kInk, true});
   for (std::size_t s = 0; s < sizes; ++s)
     canvas.text({left - 8.0, top + height * (double(s) + 0.5) + 5.0},
-                fmt::format("{:g} cm", 100.0 * settings.sizes[s]), {13.5, kPageQuiet, false, 1.0});
+                fmt::format("{:g} cm", 100.0 * settings.sizes[s]), {13.5, charts::kQuietInk, false, 1.0});
   for (std::size_t d = 0; d < settings.distances.size(); ++d) {
     const double x = left + block * double(d);
     canvas.text({x + 0.5 * (block - kGap), area.y + 36.0}, fmt::format("{:g} m", settings.distances[d]),
-                {13.5, kPageInk, false, 0.5});
+                {13.5, charts::kInk, false, 0.5});
     for (std::size_t n = 0; n < densities; ++n) {
       canvas.text({x + width * (double(n) + 0.5), area.y + 53.0}, fmt::format("+{}", settings.distractors[n]),
-                  {12.0, kPageQuiet, false, 0.5});
+                  {12.0, charts::kQuietInk, false, 0.5});
       for (std::size_t s = 0; s < sizes; ++s)
         condition_cell(canvas, {x + width * double(n), top + height * double(s), width, height},
                        technique.conditions[(d * sizes + s) * densities + n], range);
@@ -307,9 +304,9 @@ void time_key(Canvas& canvas, const Area& area, const TimeRange& range) {
   }
   canvas.fill_gradient(area, colours, false);
   canvas.text({area.x - 10.0, area.y + 12.0}, fmt::format("{:.1f} s", range.least),
-              {14.0, kPageInk, false, 1.0});
+              {14.0, charts::kInk, false, 1.0});
   canvas.text({area.right() + 10.0, area.y + 12.0}, fmt::format("{:.1f} s", range.greatest),
-              {14.0, kPageInk});
+              {14.0, charts::kInk});
 }
 
 void draw_conditions(Canvas& canvas, const Area& area, const BenchResult& result) {
@@ -331,14 +328,14 @@ void draw_conditions(Canvas& canvas, const Area& area, const BenchResult& result
 }
 
 void draw_head(Canvas& canvas, const BenchResult& result) {
-  canvas.text({kPageMargin, 60.0}, "Selecting with six techniques, simulated", {31.0, kPageInk, true});
+  canvas.text({kPageMargin, 60.0}, "Selecting with six techniques, simulated", {31.0, charts::kInk, true});
   const auto& settings = result.settings;
   canvas.text({kPageMargin, 94.0},
               fmt::format("{} simulated people \u00d7 {} movements \u00d7 {} conditions with every technique "
                           "\u00b7 seed {}",
                           settings.users, settings.trials, result.techniques.front().conditions.size(),
                           settings.seed),
-              {18.0, kPageQuiet});
+              {18.0, charts::kQuietInk});
 }
 
 }  // namespace
@@ -350,11 +347,11 @@ charts::Image draw_techniques(const BenchResult& result) {
   draw_ranking(canvas, {kPageMargin, 128.0, 690.0, 500.0}, result);
   draw_laws(canvas, {kPageMargin + 740.0, 128.0, wide - 740.0, 500.0}, result);
   draw_conditions(canvas, {kPageMargin, 664.0, wide, 500.0}, result);
-  canvas.fill({0.0, kPageHeight - 50.0, double(kPageWidth), 50.0}, kPagePanel);
+  canvas.fill({0.0, kPageHeight - 50.0, double(kPageWidth), 50.0}, charts::kPanel);
   canvas.text({kPageMargin, kPageHeight - 19.0},
               std::string("A simulation. ") + kSimulationNotice +
                   " The assumptions are listed by icome techniques --json.",
-              {16.0, kPageQuiet});
+              {16.0, charts::kQuietInk});
   return canvas.snapshot();
 }
 

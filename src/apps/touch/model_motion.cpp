@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include "apps/touch/effect_options.h"
 #include "apps/touch/touch_models.h"
+#include "base/parse_number.h"
 #include "base/shown_text.h"
 #include "haptics/effects/parameter_text.h"
 
@@ -19,13 +19,6 @@ namespace {
 
 using base::Pose;
 using base::Vector3;
-
-std::optional<std::size_t> model_number(std::string_view text) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 base::Result<geometry::Formula> formula_of_time(std::string_view text, std::size_t number) {
   auto formula = geometry::Formula::parse(std::string(text));
@@ -52,7 +45,7 @@ struct Going {
 
 base::Result<ModelMotion> ModelMotion::parse(const std::string& text) {
   const std::size_t colon = text.find(':');
-  const auto number = model_number(std::string_view(text).substr(0, colon));
+  const auto number = base::parse_number<std::size_t>(std::string_view(text).substr(0, colon));
   if (!number || colon == std::string::npos)
     return base::fail("say the number of the MODEL, from 0, a colon, and how it moves: 0:0.02*sin(3*t),0,0.");
   ModelMotion motion;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "apps/touch/effect_options.h"
 #include "apps/touch/model_motion.h"
 #include "apps/touch/touch_models.h"
+#include "base/parse_number.h"
 #include "io/file_ending.h"
 
 namespace icome::apps {
@@ -23,11 +23,6 @@ base::Result<void> check_range(const char* option, double value, double least, d
   if (value >= least && value <= most) return {};
   return base::fail(fmt::format("{} {} makes no sense: choose a value from {} to {} {}.", option, value,
                                 least, most, unit));
-}
-
-bool read_number(std::string_view text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
 }
 
 base::Result<void> check_exact(const TouchOptions& options) {
@@ -68,11 +63,10 @@ haptics::Renderer renderer_of(const TouchOptions& options) {
 base::Result<Subdivision> parse_subdivision(const std::string& text) {
   constexpr std::string_view kThesis = "thesis:";
   if (text == "limit") return Subdivision{};
-  double level = -1.0;
-  const bool thesis = text.substr(0, kThesis.size()) == kThesis;
-  if (thesis && read_number(std::string_view(text).substr(kThesis.size()), level) && level >= 0.0 &&
-      level <= 10.0 && level == std::floor(level)) {
-    return Subdivision{true, int(level)};
+  if (text.starts_with(kThesis)) {
+    const auto level = base::parse_number<double>(std::string_view(text).substr(kThesis.size()));
+    if (level && *level >= 0.0 && *level <= 10.0 && *level == std::floor(*level))
+      return Subdivision{true, int(*level)};
   }
   return base::fail(
       fmt::format("--subdivide \"{}\": say limit, or thesis:LEVEL with a level from 0 to 10.", text));
@@ -83,9 +77,9 @@ base::Result<base::Bounds> parse_bounds(const std::string& text) {
   std::string_view rest = text;
   for (bool more = true; more && numbers.size() < 7;) {
     const std::size_t comma = rest.find(',');
-    double number = 0.0;
-    if (!read_number(rest.substr(0, comma), number) || !std::isfinite(number)) numbers.resize(7);
-    numbers.push_back(number);
+    const auto number = base::parse_finite(rest.substr(0, comma));
+    if (!number) numbers.resize(7);
+    numbers.push_back(number.value_or(0.0));
     more = comma != std::string_view::npos;
     if (more) rest.remove_prefix(comma + 1);
   }
@@ -148,9 +142,10 @@ base::Result<void> parse_friction(const std::string& text, TouchOptions& options
   const std::size_t comma = whole.find(',');
   const std::string_view first = whole.substr(0, comma);
   const std::string_view second = comma == std::string_view::npos ? first : whole.substr(comma + 1);
-  Friction friction;
-  if (read_number(first, friction.at_rest) && read_number(second, friction.sliding)) {
-    options.friction = friction;
+  const auto at_rest = base::parse_number<double>(first);
+  const auto sliding = base::parse_number<double>(second);
+  if (at_rest && sliding) {
+    options.friction = Friction{*at_rest, *sliding};
     return {};
   }
   return base::fail(

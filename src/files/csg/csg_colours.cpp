@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 
+#include "base/parse_number.h"
 #include "io/text_scanner.h"
 
 namespace icome::files {
@@ -177,10 +177,9 @@ CsgTree::Colour from_rgba(std::uint32_t packed) {
 
 /// The colour of the digits after the '#'; nothing for other text.
 std::optional<CsgTree::Colour> parse_hexadecimal(std::string_view digits) {
-  std::uint32_t packed = 0;
-  const char* const end = digits.data() + digits.size();
-  const auto [stop, code] = std::from_chars(digits.data(), end, packed, 16);
-  if (code != std::errc{} || stop != end) return std::nullopt;
+  const auto number = base::parse_number<std::uint32_t>(digits, 16);
+  if (!number) return std::nullopt;
+  std::uint32_t packed = *number;
   switch (digits.size()) {
     case 3:
       packed = (packed << 4U) | 0xfU;

@@ -1,10 +1,10 @@
 // The grammar of .csg: a text becomes a CsgDocument. One pass, without recursion.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <limits>
 #include <utility>
 
+#include "base/parse_number.h"
 #include "files/csg/csg_document.h"
 #include "io/byte_watch.h"
 #include "io/text_scanner.h"
@@ -274,14 +274,12 @@ bool CsgParser::number() {
   const std::string_view digits = word.substr(word[0] == '-' || word[0] == '+' ? 1 : 0);
   if (digits.starts_with("inf") || digits.starts_with("nan"))
     return fail(at_, io::quoted(word) + " is not a finite number");
-  double magnitude = 0.0;
-  const char* const last = digits.data() + digits.size();
-  const auto [stop, code] = std::from_chars(digits.data(), last, magnitude);
-  if (digits.starts_with('-') || stop != last || code == std::errc::invalid_argument)
+  const auto read = base::number_at_front<double>(word);
+  if (!read.is_all())
     return fail(at_, fmt::format("a number is expected, but there is {}", io::quoted(word)));
-  if (code == std::errc::result_out_of_range) return fail(at_, io::quoted(word) + " is out of range");
-  document_.values_.push_back({word[0] == '-' ? -magnitude : magnitude, offset(at_), Kind::Number});
-  at_ = last;
+  if (!read.good()) return fail(at_, io::quoted(word) + " is out of range");
+  document_.values_.push_back({read.value, offset(at_), Kind::Number});
+  at_ += word.size();
   return true;
 }
 

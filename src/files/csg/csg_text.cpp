@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parse_number.h"
 #include "io/number_text.h"
 #include "io/text_scanner.h"
 #include "world/shape/geometry_check.h"
@@ -250,12 +250,11 @@ class CsgTextReader {
   /// A part of a colour, not read by way of a double: it would be rounded twice.
   float colour_part() {
     const std::string_view word = scanner_.word();
-    float part = 0.0F;
-    const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), part);
-    if (code != std::errc() || stop != word.data() + word.size())
+    const auto part = base::parse_number<float>(word);
+    if (!part)
       scanner_.fail(fmt::format("A colour needs four numbers, red, green, blue and alpha, but there is {}",
                                 io::quoted(word)));
-    return part;
+    return part.value_or(0.0F);
   }
 
   std::uint32_t index(const char* what, std::size_t count) {

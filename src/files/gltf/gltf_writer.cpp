@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <optional>
 #include <ostream>
@@ -16,6 +15,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/parse_number.h"
 #include "base/srgb.h"
 #include "base/utf8.h"
 #include "files/exact_looks.h"
@@ -59,7 +59,9 @@ std::vector<double> numbers_of(const world::Colour& colour) {
 }
 
 /// Rounded to digits that stay the same when the number is read and derived again.
-double settled(double number) { return std::strtod(fmt::format("{:.12g}", number).c_str(), nullptr); }
+double settled(double number) {
+  return base::parse_number<double>(fmt::format("{:.12g}", number)).value_or(number);
+}
 
 /// The fields of KHR_texture_transform; none for a frame that is flat, or stretched after being turned.
 std::optional<Value> texture_transform(const world::PictureFrame& frame) {

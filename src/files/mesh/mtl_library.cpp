@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
+#include "base/parse_number.h"
 #include "io/number_text.h"
 #include "io/text_scanner.h"
 
@@ -120,9 +120,7 @@ class MtlReading {
   static std::array<double, 2> numbers_of_option(std::string_view& rest, double otherwise) {
     std::array<double, 2> numbers = {otherwise, otherwise};
     for (std::size_t i = 0; i < 3 && begins_with_number(rest); ++i) {
-      const std::string_view word = take_word(rest);
-      double value = 0.0;
-      std::from_chars(word.data(), word.data() + word.size(), value);
+      const double value = base::number_at_front<double>(take_word(rest)).value;
       if (i < numbers.size() && std::isfinite(value)) numbers[i] = value;
     }
     return numbers;
@@ -136,18 +134,12 @@ class MtlReading {
     return word;
   }
   static bool begins_with_number(std::string_view rest) {
-    const std::string_view word = take_word(rest);
-    double value = 0.0;
-    const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
-    return !word.empty() && read.ec == std::errc{} && read.ptr == word.data() + word.size();
+    return base::parse_number<double>(take_word(rest)).has_value();
   }
 
   std::optional<float> number() {
-    const std::string_view word = scanner_.word();
-    float value = 0.0F;
-    const auto code = std::from_chars(word.data(), word.data() + word.size(), value).ec;
-    return !word.empty() && code == std::errc{} && std::isfinite(value) ? std::optional<float>(value)
-                                                                        : std::nullopt;
+    const auto read = base::number_at_front<float>(scanner_.word());
+    return read.good() && std::isfinite(read.value) ? std::optional(read.value) : std::nullopt;
   }
 
   /// A colour of three numbers; one number stands for grey.

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 
+#include "base/parse_number.h"
 #include "files/mesh/face_collector.h"
 #include "geometry/mesh/polygon_triangulation.h"
 #include "io/text_scanner.h"
@@ -71,10 +71,9 @@ class ObjReading {
   void read_colour() {
     world::Colour colour{};
     for (float& part : colour) {
-      const std::string_view word = scanner_.word();
-      const auto code = std::from_chars(word.data(), word.data() + word.size(), part).ec;
-      if (word.empty() || code != std::errc{} || !std::isfinite(part)) return;
-      part = std::clamp(part, 0.0F, 1.0F);
+      const auto read = base::number_at_front<float>(scanner_.word());
+      if (!read.good() || !std::isfinite(read.value)) return;
+      part = std::clamp(read.value, 0.0F, 1.0F);
     }
     document_.colours.resize(document_.positions.size() - 1, kNoColour);
     document_.colours.push_back(colour);
@@ -92,11 +91,10 @@ class ObjReading {
   ObjDocument::Corner read_corner() {
     const std::string_view word = scanner_.word();
     const auto so_far = static_cast<std::int64_t>(document_.positions.size());
-    std::int64_t given = 0;
-    const char* const end = word.data() + word.size();
-    const auto [stop, code] = std::from_chars(word.data(), end, given);
-    const bool ends = stop == end || *stop == '/';
-    if (code != std::errc{} || !ends) {
+    const auto read = base::number_at_front<std::int64_t>(word);
+    const std::int64_t given = read.value;
+    std::string_view rest = read.rest;
+    if (!read.good() || !(rest.empty() || rest.starts_with('/'))) {
       scanner_.fail(io::quoted(word) + " is not a vertex index");
       return {};
     }
@@ -109,19 +107,18 @@ class ObjReading {
     }
     highest_index_ = std::max(highest_index_, index);
     ObjDocument::Corner corner{static_cast<std::uint32_t>(index - 1)};
-    if (!all_ || stop == end) return corner;
-    const char* at = stop + 1;
-    corner.coordinate = read_index(at, end, document_.coordinates.size());
-    if (at < end && *at == '/') corner.normal = read_index(++at, end, document_.normals.size());
+    if (!all_ || rest.empty()) return corner;
+    corner.coordinate = take_index(rest, document_.coordinates.size());
+    if (rest.starts_with('/')) corner.normal = take_index(rest, document_.normals.size());
     return corner;
   }
 
-  /// Leaves `at` behind the index. kNone for text that is no index.
-  static std::uint32_t read_index(const char*& at, const char* end, std::size_t so_far) {
-    std::int64_t given = 0;
-    const auto [stop, code] = std::from_chars(at, end, given);
-    if (code != std::errc{}) return ObjDocument::kNone;
-    at = stop;
+  /// Takes the slash in front and the index behind it off the text. kNone where no index is there.
+  static std::uint32_t take_index(std::string_view& text, std::size_t so_far) {
+    const auto read = base::number_at_front<std::int64_t>(text.substr(1));
+    text = read.rest;
+    if (!read.good()) return ObjDocument::kNone;
+    const std::int64_t given = read.value;
     const std::int64_t index = given < 0 ? static_cast<std::int64_t>(so_far) + given : given - 1;
     return index >= 0 && index < ObjDocument::kNone ? static_cast<std::uint32_t>(index) : ObjDocument::kNone;
   }
@@ -156,8 +153,7 @@ class ObjReading {
 
   /// "off" and other words than numbers are no group.
   static std::uint32_t read_group(std::string_view word) {
-    std::uint32_t group = word == "on" ? 1 : 0;
-    std::from_chars(word.data(), word.data() + word.size(), group);
+    const std::uint32_t group = word == "on" ? 1 : base::number_at_front<std::uint32_t>(word).value;
     return group == ObjDocument::kNone ? 0 : group;
   }
 

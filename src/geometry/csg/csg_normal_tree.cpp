@@ -65,12 +65,12 @@ class Multiplication {
   };
 
   struct Choice {
-    Term second;
-    Index pending;                // the terms after it
-    std::size_t cells, literals;  // the sizes of the lists at it
-    Bounds box;                   // the product's box before it
+    Term second;                  // the side that is taken second
+    Index pending;                // the terms that are multiplied by after either side
+    std::size_t cells, literals;  // sizes of cells_ and literals_ when the choice was met
+    Bounds box;                   // of the product when the choice was met
     bool at_second;
-    std::optional<Index> first;  // the tree that its first side became
+    std::optional<Index> first;  // the tree that the first side became
   };
 
   /// Visits all products, counts their nodes and, the second time, makes them.

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
 #include <numbers>
 #include <vector>
 
+#include "base/parse_number.h"
 #include "geometry/implicit/formula.h"
 
 // muParser reads the text: it knows precedence and tells where something is wrong. But it computes numbers,
@@ -139,13 +139,10 @@ int read_literal(const char* text, int* position, double* value) {
   const bool digit = text[0] >= '0' && text[0] <= '9';
   const bool point = text[0] == '.' && text[1] >= '0' && text[1] <= '9';
   if (!digit && !point) return 0;
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text, text + std::strlen(text), number);
-  if (error == std::errc::result_out_of_range && current_site->literal_too_large == nullptr) {
-    current_site->literal_too_large = text;
-  }
-  *position += static_cast<int>(end - text);
-  *value = as_value(current_site->expression->constant(number));
+  const auto read = base::number_at_front<double>(text);
+  if (!read.good() && current_site->literal_too_large == nullptr) current_site->literal_too_large = text;
+  *position += static_cast<int>(read.rest.data() - text);
+  *value = as_value(current_site->expression->constant(read.value));
   return 1;
 }
 

@@ -6,11 +6,11 @@
 
 namespace icome::geometry {
 
-/// A formula f without its choices, which abs, min, max, if and atan2 make, and asin, acos and atan of their
-/// inverses or of a quotient, as asin(sin(a)) and atan(a/b): the solid f <= 0 is the union of ways, each the
-/// space in which none of some smooth functions is positive. Where f rises or falls with a choice, as
-/// z - max(x, -2*x) falls, a min in it joins solids and a max intersects them (where f falls, the reverse).
-/// Otherwise each combination of choices is a way, bounded also by the functions of its choices.
+/// The solid f <= 0 of a formula, as a union of ways: a way is the space in which none of its smooth
+/// functions is positive. Choices make f unsmooth: abs, min, max, if, atan2, and asin, acos or atan of their
+/// inverses or of a quotient, as asin(sin(a)) and atan(a/b). If f grows with a min or max, the min joins
+/// solids and the max intersects them; if f falls with it, as z - max(x, -2*x) does, the reverse. Otherwise
+/// each combination of choices is a way, bounded also by the functions of its choices.
 struct FormulaWays {
   /// sign * formula <= 0
   struct Term {

@@ -36,17 +36,17 @@ struct CellShape {
   std::array<Interval, 3> slope;
   base::Matrix3 least = base::Matrix3::Zero();  // as Condition::least
   double most_slope = 0.0;
-  Vector3 inwards = Vector3::Zero();  // unit: along this the function bends down most, for the middles of
+  Vector3 inwards = Vector3::Zero();  // unit: along this the middles of the second derivatives bend down most
   double least_bend = 0.0, largest_bend = 0.0,
-         doubt = 0.0;  // the second derivatives' ranges: their extreme eigenvalues, and their error
+         doubt = 0.0;  // extreme eigenvalues of the second derivatives in the cell, and their error
 
   /// A lower bound, for every place of the cell, of the curvature (1/m) with which a surface of the function
   /// curves in along some tangent.
   double least_hollow() const;
 };
 
-// The direction in which it bends down most, less its part along the gradient, is a tangent w of the length
-// sqrt(1 - c^2), where c is the cosine between it and the gradient; and w'Hw = least (1 - 2 c^2) + c^2 g'Hg.
+// With c the cosine between the unit vector `inwards` and the unit gradient g, the tangent w = inwards - c g
+// has the length sqrt(1 - c^2), and the second derivatives H bend w'Hw = least_bend (1 - 2 c^2) + c^2 g'Hg.
 double CellShape::least_hollow() const {
   Interval along{0.0, 0.0};
   for (std::size_t i = 0; i < 3; ++i) along = along + slope[i] * inwards[Eigen::Index(i)];

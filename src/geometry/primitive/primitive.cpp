@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
+
+#include "base/parse_number.h"
 
 namespace icome::geometry {
 namespace {
@@ -266,13 +267,11 @@ std::string all_usages() {
 }
 
 /// The number that the whole of `text` spells, or nothing.
-std::optional<double> parse_number(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+std::optional<double> parse_size(std::string_view text) {
+  const auto read = base::number_at_front<double>(text);
+  if (!read.is_all()) return std::nullopt;
   // A number beyond the range of a double is still a number: the check of sizes reports it.
-  if (error == std::errc::result_out_of_range) number = std::numeric_limits<double>::infinity();
-  if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return read.good() ? read.value : std::numeric_limits<double>::infinity();
 }
 
 /// Reads numbers between 'x's. The error is the middle of a sentence: the faulty part and its fault.
@@ -281,7 +280,7 @@ base::Result<std::vector<double>> parse_sizes(std::string_view text) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('x', begin), text.size());
     const std::string_view part = text.substr(begin, end - begin);
-    const std::optional<double> size = parse_number(part);
+    const std::optional<double> size = parse_size(part);
     if (!size) return base::fail(fmt::format("\"{}\" is not a number", part));
     sizes.push_back(*size);
     begin = end + 1;

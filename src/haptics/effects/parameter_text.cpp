@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <utility>
 
 #include "base/near_names.h"
+#include "base/parse_number.h"
 #include "base/shown_text.h"
 
 namespace icome::haptics {
@@ -20,14 +19,6 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-std::optional<double> number_in(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars takes no plus
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 std::string with_unit(std::string text, const Parameter& parameter) {
   return parameter.unit.empty() ? text : fmt::format("{} {}", text, parameter.unit);
 }
@@ -38,7 +29,7 @@ std::string range_text(const Parameter& parameter) {
 
 base::Result<double> read_parameter(std::string_view text, std::size_t place, const Parameter& parameter) {
   const std::string_view said = without_blanks(text);
-  const auto value = number_in(said);
+  const auto value = base::parse_finite(said);
   if (!value) {
     return base::fail(fmt::format("number {} ({}) is \"{}\", which is no number.", place,
                                   with_unit(std::string(parameter.name), parameter), base::shown_text(said)));

@@ -4,13 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
+#include "base/parse_number.h"
 #include "interaction/operations/looks/colour_names.h"
 #include "interaction/operations/near_names.h"
 
@@ -254,11 +254,10 @@ bool ends_path(const world::World& world, const world::PhysicalObject& object, s
 }
 
 world::ObjectId numbered(const world::World& world, std::string_view name) {
+  if (!name.starts_with('#')) return {};
   world::ObjectId id;
-  if (!name.starts_with('#')) return id;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), id.value);
-  const bool good = error == std::errc() && end == name.data() + name.size() && world.find(id);
-  return good ? id : world::ObjectId();
+  id.value = base::parse_number<std::uint64_t>(name.substr(1)).value_or(id.value);
+  return world.find(id) ? id : world::ObjectId();
 }
 
 }  // namespace

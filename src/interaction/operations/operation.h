@@ -39,13 +39,13 @@ std::string kind_of(const Parameter& parameter);
 /// The help text of an operation: its summary, and a line or more for every parameter.
 std::string help_of(const Operation& operation);
 
-// The groups that make up operations(), one source file each.
+// The groups that make up operations().
 std::vector<Operation> shape_operations();    // create, reshape, extrude, repeat
-std::vector<Operation> vertex_operations();   // drag, subdivide, refine, deform
-std::vector<Operation> object_operations();   // copy and clone, move, turn, align, group, delete
-std::vector<Operation> solid_operations();    // combine, take apart, move and change parts
+std::vector<Operation> vertex_operations();   // drag, subdivide, ffd, refine, smooth, mesh, own-shape
+std::vector<Operation> object_operations();   // all that duplicates, groups, moves and arranges objects
+std::vector<Operation> solid_operations();    // combine, separate, move-operand, change-operator
 std::vector<Operation> look_operations();     // colour, material, feel
 std::vector<Operation> effect_operations();   // effect
-std::vector<Operation> texture_operations();  // texture
+std::vector<Operation> texture_operations();  // texture, move-projector
 
 }  // namespace icome::interaction

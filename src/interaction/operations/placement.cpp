@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <optional>
 
+#include "base/parse_number.h"
 #include "interaction/operations/looks/material_edits.h"
 
 namespace icome::interaction {
@@ -59,11 +59,8 @@ struct NumberedName {
 
 /// The number that these digits spell; none for other characters, and for leading zeros.
 std::optional<std::uint64_t> number_of(std::string_view digits) {
-  std::uint64_t number = 0;
-  const char* const last = digits.data() + digits.size();
-  const auto [end, error] = std::from_chars(digits.data(), last, number);
-  if (error != std::errc() || end != last || digits.front() == '0') return std::nullopt;
-  return number;
+  if (digits.starts_with('0')) return std::nullopt;
+  return base::parse_number<std::uint64_t>(digits);
 }
 
 NumberedName numbered_name(const std::string& name) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "base/parse_number.h"
 #include "interaction/techniques/technique_stream.h"
 
 namespace icome::interaction {
@@ -61,16 +62,10 @@ std::optional<std::array<double, kCount>> take_numbers(std::string_view& text, s
   const auto line = take_line(text);
   if (!line) return std::nullopt;
   std::array<double, kCount> numbers;
-  const char* at = line->data();
-  const char* const end = at + line->size();
-  for (std::size_t i = 0; i < kCount; ++i) {
-    if (i > 0 && (at == end || *at++ != ' ')) return std::nullopt;
-    const auto read = std::from_chars(at, end, numbers[i]);
-    if (read.ec != std::errc() || (i < finite && !std::isfinite(numbers[i]))) return std::nullopt;
-    at = read.ptr;
-  }
-  if (at != end) return std::nullopt;
-  return numbers;
+  if (!base::parse_numbers(*line, numbers)) return std::nullopt;
+  const bool good = std::all_of(numbers.begin(), numbers.begin() + finite,
+                                [](double number) { return std::isfinite(number); });
+  return good ? std::optional(numbers) : std::nullopt;
 }
 
 template <typename Way, std::size_t kCount>

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/parse_number.h"
+
 namespace icome::interaction {
 namespace {
 
@@ -48,16 +50,9 @@ HandInput hand_of(const double* numbers) {
 /// The numbers of a line, divided by single spaces; nothing where there are others, more or fewer.
 std::optional<StepNumbers> numbers_of(std::string_view line) {
   StepNumbers numbers;
-  const char* at = line.data();
-  const char* const end = line.data() + line.size();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0 && (at == end || *at++ != ' ')) return std::nullopt;
-    const auto read = std::from_chars(at, end, numbers[i]);
-    if (read.ec != std::errc() || !std::isfinite(numbers[i])) return std::nullopt;
-    at = read.ptr;
-  }
-  if (at != end) return std::nullopt;
-  return numbers;
+  const bool good = base::parse_numbers(line, numbers) &&
+                    std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+  return good ? std::optional(numbers) : std::nullopt;
 }
 
 }  // namespace

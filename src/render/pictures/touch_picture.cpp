@@ -9,6 +9,7 @@
 
 #include "charts/canvas.h"
 #include "charts/length_text.h"
+#include "charts/palette.h"
 #include "charts/plot.h"
 #include "render/gl/offscreen.h"
 #include "render/model/camera.h"
@@ -29,8 +30,6 @@ constexpr double kMargin = 56.0;
 constexpr double kHeader = 124.0;
 constexpr double kPlotHeight = 318.0;
 
-const charts::Colour kInk{0.12, 0.14, 0.18};
-const charts::Colour kQuiet{0.40, 0.43, 0.48};
 const charts::Colour kTip{0.10, 0.42, 0.66};
 const charts::Stroke kTipSeen{kTip, 1.8, {}};
 const charts::Stroke kTipHidden{kTip.with_alpha(0.75), 1.7, {0.5, 5.0}};
@@ -208,7 +207,7 @@ void draw_scp_path(charts::Canvas& canvas, const Scene& scene, const PlacedPictu
   for (const auto& stretch : stretches) {
     for (const auto run : visibility_runs(stretch)) {
       if (run.front().visible) {
-        canvas.line(page_points(run), {charts::Colour{1.0, 1.0, 1.0, 0.9}, 8.0, {}});
+        canvas.line(page_points(run), {charts::kPaper.with_alpha(0.9), 8.0, {}});
       } else {
         canvas.line(page_points(run), {charts::Colour{0.35, 0.36, 0.40, 0.28}, 2.5, {}});
       }
@@ -227,13 +226,13 @@ void draw_strongest(charts::Canvas& canvas, const Scene& scene, const PlacedPict
   const Vector3& scp = scene.picture.samples[*scene.summary.strongest].scp;
   const auto at = place_on_page(placed, scp);
   if (!at || !is_visible(placed, scp)) return;
-  canvas.fill_disc(*at, 7.0, {1.0, 1.0, 1.0});
-  canvas.circle(*at, 7.0, {kInk, 2.4, {}});
+  canvas.fill_disc(*at, 7.0, charts::kPaper);
+  canvas.circle(*at, 7.0, {charts::kInk, 2.4, {}});
 }
 
 void draw_header(charts::Canvas& canvas, const Scene& scene) {
-  const charts::TextStyle title{31.0, kInk, true};
-  const charts::TextStyle quiet{18.5, kQuiet};
+  const charts::TextStyle title{31.0, charts::kInk, true};
+  const charts::TextStyle quiet{18.5, charts::kQuietInk};
   charts::TextStyle note = quiet;
   note.align = 1.0;
   const double right = canvas.width() - kMargin;
@@ -260,10 +259,10 @@ void draw_colour_bar(charts::Canvas& canvas, const Scene& scene) {
   for (const double value : ticks.at) {
     const double y = bar.bottom() - bar.height * value / scene.newtons;
     const Vector2 mark[] = {{bar.right() + 2.0, y}, {bar.right() + 7.0, y}};
-    canvas.line(mark, {kInk, 1.2, {}});
-    canvas.text({bar.right() + 13.0, y + 5.8}, charts::tick_label(value, ticks.step), {16.0, kInk});
+    canvas.line(mark, {charts::kInk, 1.2, {}});
+    canvas.text({bar.right() + 13.0, y + 5.8}, charts::tick_label(value, ticks.step), {16.0, charts::kInk});
   }
-  canvas.text({bar.x + 9.0, bar.y - 18.0}, "force (N)", {17.0, kInk, false, 0.5});
+  canvas.text({bar.x + 9.0, bar.y - 18.0}, "force (N)", {17.0, charts::kInk, false, 0.5});
 }
 
 void draw_scale_bar(charts::Canvas& canvas, const Scene& scene, const PlacedPicture& placed) {
@@ -278,19 +277,20 @@ void draw_scale_bar(charts::Canvas& canvas, const Scene& scene, const PlacedPict
   const double right = scene.layout.view.right() - kMargin;
   const double y = scene.layout.view.bottom() - 34.0;
   const Vector2 bar[] = {{right - length, y}, {right, y}};
-  canvas.line(bar, {kInk, 2.6, {}});
+  canvas.line(bar, {charts::kInk, 2.6, {}});
   for (const Vector2& end : bar) {
     const Vector2 tick[] = {{end.x(), y - 6.0}, {end.x(), y + 6.0}};
-    canvas.line(tick, {kInk, 2.0, {}});
+    canvas.line(tick, {charts::kInk, 2.0, {}});
   }
-  canvas.text({right - 0.5 * length, y - 14.0}, charts::length_text(metres), {17.0, kInk, false, 0.5});
+  canvas.text({right - 0.5 * length, y - 14.0}, charts::length_text(metres),
+              {17.0, charts::kInk, false, 0.5});
 }
 
 /// One line of the legend: a sample of the stroke and what it stands for.
 void draw_key(charts::Canvas& canvas, double y, const charts::Stroke& stroke, const std::string& text) {
   const Vector2 sample[] = {{kMargin, y}, {kMargin + 46.0, y}};
   canvas.line(sample, stroke);
-  canvas.text({kMargin + 60.0, y + 5.8}, text, {17.0, kInk});
+  canvas.text({kMargin + 60.0, y + 5.8}, text, {17.0, charts::kInk});
 }
 
 void draw_legend(charts::Canvas& canvas, const Scene& scene) {
@@ -302,13 +302,13 @@ void draw_legend(charts::Canvas& canvas, const Scene& scene) {
   if (scene.summary.touching == 0) return;
   y -= 28.0;
   const charts::Area swatch{kMargin, y - 2.5, 46.0, 5.0};
-  canvas.fill({swatch.x - 1.5, swatch.y - 1.5, swatch.width + 3.0, swatch.height + 3.0}, {1.0, 1.0, 1.0});
+  canvas.fill({swatch.x - 1.5, swatch.y - 1.5, swatch.width + 3.0, swatch.height + 3.0}, charts::kPaper);
   canvas.fill_gradient(swatch, force_colours(1.0), false);
-  canvas.text({kMargin + 60.0, y + 5.8}, "surface contact point", {17.0, kInk});
+  canvas.text({kMargin + 60.0, y + 5.8}, "surface contact point", {17.0, charts::kInk});
   y -= 28.0;
-  canvas.fill_disc({kMargin + 23.0, y}, 7.0, {1.0, 1.0, 1.0});
-  canvas.circle({kMargin + 23.0, y}, 7.0, {kInk, 2.4, {}});
-  canvas.text({kMargin + 60.0, y + 5.8}, "greatest force", {17.0, kInk});
+  canvas.fill_disc({kMargin + 23.0, y}, 7.0, charts::kPaper);
+  canvas.circle({kMargin + 23.0, y}, 7.0, {charts::kInk, 2.4, {}});
+  canvas.text({kMargin + 60.0, y + 5.8}, "greatest force", {17.0, charts::kInk});
 }
 
 /// The stretches of time in which something is touched.
@@ -328,7 +328,7 @@ void draw_force_plot(charts::Canvas& canvas, const Scene& scene) {
   const charts::Area& area = scene.layout.plot;
   if (scene.summary.ticks == 0) {
     canvas.text({area.x + 0.5 * area.width, area.y + 0.5 * area.height}, "no force to plot",
-                {18.5, kQuiet, false, 0.5});
+                {18.5, charts::kQuietInk, false, 0.5});
     return;
   }
   std::vector<Vector2> points;

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
 
+#include "base/parse_number.h"
 #include "base/utf8.h"
 
 namespace icome::stats {
@@ -36,7 +35,7 @@ std::string list_of(const std::vector<Column>& columns) {
 void sort_by_number(Levels& levels) {
   std::vector<double> values;
   for (const std::string& name : levels.names) {
-    const auto value = parse_number(name);
+    const auto value = base::parse_finite(name);
     if (!value) return;
     values.push_back(*value);
   }
@@ -123,10 +122,10 @@ Column& DataTable::add_column(std::string name) { return columns_.emplace_back(s
 
 std::optional<double> DataTable::number(std::string_view cell) const {
   const std::size_t comma = decimal_comma_ ? cell.find(',') : std::string_view::npos;
-  if (comma == std::string_view::npos) return parse_number(cell);
+  if (comma == std::string_view::npos) return base::parse_finite(cell);
   std::string with_point(cell);
   with_point[comma] = '.';
-  return parse_number(with_point);  // text with a second comma, or a point beside it, is not a number
+  return base::parse_finite(with_point);  // text with a second comma, or a point beside it, is not a number
 }
 
 std::string quoted_cell(std::string_view text) {
@@ -139,14 +138,6 @@ std::string quoted_cell(std::string_view text) {
     shown += control ? '?' : c;
   }
   return shown + (end < text.size() ? "...\"" : "\"");
-}
-
-std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace icome::stats

@@ -85,7 +85,4 @@ class DataTable {
 /// The text in quotation marks for a message: shortened where it is long, and printable.
 std::string quoted_cell(std::string_view text);
 
-/// The whole text as a finite number, such as 1, -2.5, +3 or 1e-3; nothing for any other text.
-std::optional<double> parse_number(std::string_view text);
-
 }  // namespace icome::stats

@@ -3,145 +3,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <unordered_map>
 
+#include "base/parse_number.h"
 #include "base/utf8.h"
+#include "io/table_reader.h"
 
 namespace icome::stats {
 namespace {
 
-constexpr std::size_t kLargestCell = 1U << 20U;     // bytes
 constexpr std::size_t kLargestTable = 0xffff'ffff;  // bytes
 constexpr std::string_view kRowNames = "row";
 
-/// Reads the text cell by cell.
-class CellScanner {
- public:
-  enum class After { Cell, Row, Error };
-
-  CellScanner(std::string_view text, char separator) : text_(text), separator_(separator) {}
-
-  bool at_end() const { return at_ >= text_.size(); }
-  /// The line of the cell that next() reads or has read.
-  std::size_t line() const { return line_; }
-  std::string_view cell() const { return cell_; }
-  /// Did the cell stand between quotes?
-  bool quoted() const { return quoted_; }
-  const std::string& error() const { return error_; }
-
-  /// Reads a cell. Returns whether another cell or the row's end follows it, or an error.
-  After next() {
-    line_ = next_line_;
-    quoted_ = false;
-    const std::size_t begin = text_.find_first_not_of(separator_ == '\t' ? " " : " \t", at_);
-    if (begin != std::string_view::npos && text_[begin] == '"') {
-      at_ = begin + 1;
-      return quoted_cell();
-    }
-    return plain_cell();
+/// The character between the cells of this text.
+char separator_in(std::string_view text, Separator separator) {
+  switch (separator) {
+    case Separator::Found:
+      return io::find_separator(text);
+    case Separator::Comma:
+      return ',';
+    case Separator::Tab:
+      return '\t';
+    case Separator::Semicolon:
+      return ';';
   }
-
- private:
-  static bool ends_row(char c) { return c == '\n' || c == '\r'; }
-
-  After fail(std::string what) {
-    error_ = std::move(what);
-    return After::Error;
-  }
-
-  /// Reads the end of the cell: the separator, the row's end in one of its three forms, or the text's end.
-  After take_end() {
-    if (at_ >= text_.size()) return After::Row;
-    const char end = text_[at_++];
-    if (end == separator_) return After::Cell;
-    if (end == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
-    ++next_line_;
-    return After::Row;
-  }
-
-  After plain_cell() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && text_[at_] != separator_ && !ends_row(text_[at_])) ++at_;
-    cell_ = text_.substr(begin, at_ - begin);
-    const std::size_t first = cell_.find_first_not_of(" \t");
-    cell_ = first == std::string_view::npos ? std::string_view{}
-                                            : cell_.substr(first, cell_.find_last_not_of(" \t") - first + 1);
-    if (cell_.size() > kLargestCell) return fail("a cell is larger than 1 MiB; give a table of values");
-    return take_end();
-  }
-
-  /// Reads a quoted cell from behind its opening quote.
-  After quoted_cell() {
-    quoted_ = true;
-    unquoted_.clear();
-    for (;;) {
-      const std::size_t quote = text_.find('"', at_);
-      const std::size_t length = std::min(quote, text_.size()) - at_;
-      if (unquoted_.size() + length > kLargestCell || quote == std::string_view::npos)
-        return fail(unclosed());
-      take_quoted(length);
-      at_ = quote + 1;
-      if (at_ >= text_.size() || text_[at_] != '"') break;
-      unquoted_ += '"';
-      ++at_;
-    }
-    cell_ = unquoted_;
-    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
-    if (at_ < text_.size() && text_[at_] != separator_ && !ends_row(text_[at_]))
-      return fail("text follows a closing quote; write a quote within quotes twice");
-    return take_end();
-  }
-
-  std::string unclosed() const {
-    return text_.find('"', at_) == std::string_view::npos
-               ? std::string("a quote is opened and never closed")
-               : std::string("a quoted cell is larger than 1 MiB; close its quote");
-  }
-
-  void take_quoted(std::size_t length) {
-    const std::string_view piece = text_.substr(at_, length);
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const bool line_ends = piece[i] == '\n' || (piece[i] == '\r' && !piece.substr(i + 1).starts_with('\n'));
-      next_line_ += line_ends ? 1U : 0U;
-    }
-    unquoted_ += piece;
-  }
-
-  std::string_view text_;
-  char separator_;
-  std::size_t at_ = 0;
-  std::size_t line_ = 1;
-  std::size_t next_line_ = 1;
-  std::string_view cell_;
-  bool quoted_ = false;
-  std::string unquoted_;
-  std::string error_;
-};
-
-char character(Separator separator) {
-  return separator == Separator::Tab ? '\t' : separator == Separator::Semicolon ? ';' : ',';
+  return ',';
 }
 
-const char* word_for(Separator separator) {
-  return separator == Separator::Tab ? "tab" : separator == Separator::Semicolon ? "semicolon" : "comma";
-}
-
-/// The most frequent separator outside quotes in the first line; in a tie the one that is rarer in text.
-Separator separator_of(std::string_view text) {
-  constexpr std::array kAll = {Separator::Tab, Separator::Semicolon, Separator::Comma};
-  std::array<std::size_t, kAll.size()> counts{};
-  bool in_quotes = false, any = false;
-  for (const char c : text) {
-    if (c == '"') in_quotes = !in_quotes;
-    if (in_quotes) continue;
-    if ((c == '\n' || c == '\r') && any) break;
-    any = any || (c != '\n' && c != '\r');
-    for (std::size_t i = 0; i < kAll.size(); ++i) counts[i] += c == character(kAll[i]) ? 1U : 0U;
-  }
-  const auto most = std::ranges::max_element(counts);
-  return *most == 0 ? Separator::Comma : kAll[static_cast<std::size_t>(most - counts.begin())];
+const char* word_for(char separator) {
+  return separator == '\t' ? "tab" : separator == ';' ? "semicolon" : "comma";
 }
 
 /// The reason why these bytes are not a table of text; empty if they may be one.
@@ -168,78 +58,72 @@ std::size_t find_not_utf8(std::string_view text) {
 /// Reads rows into a table; errors are sentences that begin with source and line.
 class TableFiller {
  public:
-  TableFiller(std::string_view text, const std::string& source, Separator separator)
-      : scanner_(text, character(separator)),
+  TableFiller(std::string_view text, const std::string& source, char separator)
+      : reader_(text, source, separator),
         source_(source),
         separator_(separator),
-        table_(source, separator == Separator::Semicolon) {}
+        table_(source, separator == ';') {}
 
   base::Result<DataTable> read() {
     if (const auto named = read_headings(); !named) return tl::unexpected(named.error());
-    while (!scanner_.at_end())
-      if (const auto row = read_row(); !row) return tl::unexpected(row.error());
+    for (;;) {
+      const auto more = reader_.next();
+      if (!more) return tl::unexpected(more.error());
+      if (!*more) break;
+      if (reader_.is_blank()) continue;
+      if (const auto added = add_row(); !added) return tl::unexpected(added.error());
+    }
     if (table_.rows() == 0) return base::fail(fmt::format("{}: there is no row under the heading.", source_));
     return std::move(table_);
   }
 
  private:
   tl::unexpected<base::Error> fail_here(const std::string& what) const {
-    return base::fail(fmt::format("{}:{}: {}.", source_, scanner_.line(), what));
+    return base::fail(fmt::format("{}:{}: {}.", source_, reader_.line(), what));
   }
 
+  /// Reads the first row with text, which must be there.
   base::Result<void> read_headings() {
-    std::unordered_map<std::string, std::size_t> seen;
-    for (bool more = true; more;) {
-      const auto after = scanner_.next();
-      if (after == CellScanner::After::Error) return fail_here(scanner_.error());
-      more = after == CellScanner::After::Cell;
-      std::string name(scanner_.cell());
-      const std::size_t number = table_.columns().size() + 1;
-      const bool blank_line = number == 1 && !more && name.empty() && !scanner_.quoted();
-      if (blank_line) {
-        more = true;
-        continue;
-      }
-      if (name.empty() && number == 1 && more) name = kRowNames;
+    do {
+      if (const auto more = reader_.next(); !more) return tl::unexpected(more.error());
+    } while (reader_.is_blank());
+    std::unordered_map<std::string_view, std::size_t> seen;  // views into the row
+    const std::vector<std::string_view>& cells = reader_.cells();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const bool names_rows = i == 0 && cells.size() > 1 && cells[i].empty();
+      const std::string_view name = names_rows ? kRowNames : cells[i];
       if (name.empty())
         return fail_here(
-            fmt::format("column {} has no heading; the first line must name every column", number));
-      if (const auto [place, fresh] = seen.try_emplace(name, number); !fresh)
-        return fail_here(fmt::format("columns {} and {} are both called {}; name them apart", place->second,
-                                     number, stats::quoted_cell(name)));
-      table_.add_column(std::move(name));
+            fmt::format("column {} has no heading; the first line must name every column", i + 1));
+      if (const auto [place, fresh] = seen.try_emplace(name, i); !fresh)
+        return fail_here(fmt::format("columns {} and {} are both called {}; name them apart",
+                                     place->second + 1, i + 1, quoted_cell(name)));
+      table_.add_column(std::string(name));
     }
     return {};
   }
 
-  base::Result<void> read_row() {
+  base::Result<void> add_row() {
+    const std::vector<std::string_view>& cells = reader_.cells();
     std::vector<Column>& columns = table_.columns();
-    std::size_t cells = 0, line = 0;
-    for (bool more = true; more; ++cells) {
-      const auto after = scanner_.next();
-      if (after == CellScanner::After::Error)
-        return fail_here(fmt::format("column {}: {}", cells + 1, scanner_.error()));
-      if (cells == 0) line = scanner_.line();
-      more = after == CellScanner::After::Cell;
-      if (cells == 0 && !more && scanner_.cell().empty() && !scanner_.quoted()) return {};  // an empty line
-      if (cells < columns.size()) columns[cells].add(scanner_.cell());
-    }
-    if (cells != columns.size()) return wrong_count(cells, line);
-    table_.add_row(line);
+    if (cells.size() != columns.size()) return wrong_count();
+    for (std::size_t i = 0; i < cells.size(); ++i) columns[i].add(cells[i]);
+    table_.add_row(reader_.line());
     return {};
   }
 
-  base::Result<void> wrong_count(std::size_t cells, std::size_t line) const {
+  base::Result<void> wrong_count() const {
+    const std::size_t cells = reader_.cells().size();
     const std::size_t expected = table_.columns().size();
-    return base::fail(fmt::format(
-        "{}:{}: the row has {} cell{} where {} column{} {} named; put quotes around a cell that holds a {}.",
-        source_, line, cells, cells == 1 ? "" : "s", expected, expected == 1 ? "" : "s",
-        expected == 1 ? "is" : "are", word_for(separator_)));
+    return fail_here(fmt::format(
+        "the row has {} cell{} where {} column{} {} named; put quotes around a cell that holds a {}", cells,
+        cells == 1 ? "" : "s", expected, expected == 1 ? "" : "s", expected == 1 ? "is" : "are",
+        word_for(separator_)));
   }
 
-  CellScanner scanner_;
+  io::TableReader reader_;
   std::string source_;
-  Separator separator_;
+  char separator_;
   DataTable table_;
 };
 
@@ -279,8 +163,8 @@ std::optional<LineRange> data_lines(std::string_view line) {
   if (words.size() != 5 || words[0] != "Data" || words[1] != "(lines" || words[3] != "to")
     return std::nullopt;
   LineRange range;
-  std::from_chars(words[2].data(), words[2].data() + words[2].size(), range.first);
-  std::from_chars(words[4].data(), words[4].data() + words[4].size(), range.last);
+  range.first = base::number_at_front<std::size_t>(words[2]).value;
+  range.last = base::number_at_front<std::size_t>(words[4]).value;
   if (range.first < 2 || range.last < range.first) return std::nullopt;
   return range;
 }
@@ -293,7 +177,7 @@ std::vector<std::string_view> nist_headings(std::string_view line) {
 }  // namespace
 
 base::Result<DataTable> read_table(std::string_view bytes, const std::string& source, Separator separator) {
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  bytes = io::without_byte_order_mark(bytes);
   if (const std::string why = not_text(bytes); !why.empty())
     return base::fail(fmt::format("{} {}", source, why));
   if (const std::size_t at = find_not_utf8(bytes); at != std::string_view::npos)
@@ -301,8 +185,7 @@ base::Result<DataTable> read_table(std::string_view bytes, const std::string& so
         "{}:{}: the byte 0x{:02x} is no UTF-8; save the table as UTF-8 (spreadsheets: \"CSV UTF-8\").",
         source, 1 + std::count(bytes.begin(), bytes.begin() + std::ptrdiff_t(at), '\n'),
         static_cast<unsigned char>(bytes[at])));
-  if (separator == Separator::Found) separator = separator_of(bytes);
-  return TableFiller(bytes, source, separator).read();
+  return TableFiller(bytes, source, separator_in(bytes, separator)).read();
 }
 
 bool is_nist_layout(std::string_view bytes) { return bytes.starts_with(kNistBegin); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/parse_number.h"
 #include "stats/tables/data_table.h"
 #include "study/analysis/analysis_parts.h"
 #include "study/definition/needs.h"
@@ -21,7 +22,7 @@ ControlSummary summarise_control(const StudyData& data, std::size_t variable) {
     const std::string& answer = person.participant.control[variable];
     const auto level = std::ranges::find(control.levels, answer, &Level::id);
     if (level != control.levels.end()) ++summary.counts[std::size_t(level - control.levels.begin())].second;
-    if (const auto number = stats::parse_number(answer)) numbers.push_back(*number);
+    if (const auto number = base::parse_finite(answer)) numbers.push_back(*number);
   }
   if (!control.levels.empty()) return summary;
   if (const auto description = stats::describe(numbers)) summary.numbers = *description;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "base/parse_number.h"
 #include "base/random.h"
 #include "study/definition/conditions.h"
 
@@ -51,11 +51,9 @@ base::Result<std::size_t> level_class(const ControlVariable& variable, const std
 }
 
 base::Result<std::size_t> split_class(const ControlVariable& variable, const std::string& answer) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(answer.data(), answer.data() + answer.size(), value);
-  if (error != std::errc{} || end != answer.data() + answer.size() || !std::isfinite(value))
-    return base::fail(fmt::format("'{}' is a number, and '{}' is none.", variable.id, answer));
-  return std::size_t(std::ranges::upper_bound(variable.split, value) - variable.split.begin());
+  const auto value = base::parse_finite(answer);
+  if (!value) return base::fail(fmt::format("'{}' is a number, and '{}' is none.", variable.id, answer));
+  return std::size_t(std::ranges::upper_bound(variable.split, *value) - variable.split.begin());
 }
 
 }  // namespace

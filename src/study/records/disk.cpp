@@ -1,119 +1,57 @@
 #include "study/records/disk.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
-#include <utility>
+#include <system_error>
+#include <thread>
 #include <vector>
+
+#include "io/file_bytes.h"
+#include "io/new_file.h"
+#include "io/sync_folder.h"
 
 namespace icome::study {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPartEnding = ".part";
-constexpr std::uint64_t kLargestFile = 1U << 28U;  // bytes; a session of a whole day has less
-constexpr mode_t kForAll = 0666;                   // less the bits of the person's umask
+constexpr std::uint64_t kLargestFile = 1U << 28U;        // bytes; a session of a whole day has less
+constexpr std::chrono::milliseconds kLockAskedAgain(2);  // others hold it while they write a row
 
-/// Repeats a call that a signal interrupted.
-template <typename Call>
-auto retry_on_eintr(Call&& call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-tl::unexpected<base::Error> failed(const fs::path& path, const char* what, int why) {
-  return base::fail(fmt::format("{}: {} ({}).", path.string(), what, std::strerror(why)));
-}
-
-tl::unexpected<base::Error> not_written(const fs::path& path, int why) {
-  return base::fail(
-      fmt::format("{}: cannot be written ({}), and nothing of it is on record. Make room or bring the disk "
-                  "back, and do it again.",
-                  path.string(), std::strerror(why)));
-}
-
-Descriptor opened(const fs::path& path, int flags) {
-  // Opening must not wait for the other end of a pipe.
-  return Descriptor(
-      retry_on_eintr([&] { return ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, kForAll); }));
-}
-
-/// Writes all bytes at the offset. Returns false, with errno, when not all could be written.
-bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t done =
-        retry_on_eintr([&] { return ::pwrite(file, bytes.data(), bytes.size(), off_t(offset)); });
-    if (done < 0) return false;
-    offset += std::uint64_t(done);
-    bytes.remove_prefix(std::size_t(done));
-  }
-  return true;
-}
-
-bool sync_file(int file) {
-  return retry_on_eintr([&] { return ::fsync(file); }) == 0;
+/// The error of a file or folder that could not be written, with what it means and what to do.
+tl::unexpected<base::Error> not_on_record(const base::Error& error) {
+  return base::fail(error.message +
+                    " So nothing of it is on record: make room or bring the disk back, and do it again.");
 }
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  Descriptor old(std::exchange(number_, other.release()));
-  return *this;
-}
-
-Descriptor::~Descriptor() {
-  if (number_ >= 0) ::close(number_);
-}
-
-int Descriptor::release() { return std::exchange(number_, -1); }
-
 base::Result<std::optional<std::string>> read_whole(const fs::path& path) {
-  const Descriptor file = opened(path, O_RDONLY);
-  if (file.number() < 0 && errno == ENOENT) return std::nullopt;
-  struct stat status {};
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return failed(path, "cannot be read", errno);
-  if (!S_ISREG(status.st_mode)) return base::fail(path.string() + ": is not an ordinary file.");
-  if (std::uint64_t(status.st_size) > kLargestFile)
-    return base::fail(path.string() + ": is larger than any file of a study that is read here.");
-  std::string bytes(std::size_t(status.st_size), '\0');
-  std::size_t have = 0;
-  while (have < bytes.size()) {
-    const ssize_t done = retry_on_eintr(
-        [&] { return ::pread(file.number(), &bytes[have], bytes.size() - have, off_t(have)); });
-    if (done < 0) return failed(path, "cannot be read", errno);
-    if (done == 0) break;  // it became shorter meanwhile
-    have += std::size_t(done);
-  }
-  bytes.resize(have);
-  return bytes;
-}
-
-fs::path part_of(const fs::path& path) {
-  return path.parent_path() / fmt::format(".{}{}", path.filename().string(), kPartEnding);
+  std::error_code error;
+  (void)fs::status(path, error);
+  if (error == std::errc::no_such_file_or_directory) return std::nullopt;
+  auto bytes = io::read_bytes(path, kLargestFile);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return std::move(*bytes);
 }
 
 bool is_part(const fs::path& path) {
   const std::string name = path.filename().string();
-  return name.starts_with('.') && name.ends_with(kPartEnding);
+  const bool of_earlier_program = name.starts_with('.') && name.ends_with(".part");
+  const std::size_t whole = name.rfind(".part-");
+  return of_earlier_program || (whole != name.npos && io::is_part_of(name, name.substr(0, whole)));
 }
 
 base::Result<void> write_whole(const fs::path& path, std::string_view bytes) {
-  const fs::path part = part_of(path);
-  const Descriptor file = opened(part, O_WRONLY | O_CREAT | O_TRUNC);
-  if (file.number() < 0) return not_written(path, errno);
-  const bool there = write_at(file.number(), 0, bytes) && sync_file(file.number()) &&
-                     ::rename(part.c_str(), path.c_str()) == 0;
-  if (there) return {};
-  const int why = errno;
-  ::unlink(part.c_str());
-  return not_written(path, why);
+  auto file = io::NewFile::create(path);
+  if (!file) return not_on_record(file.error());
+  file->write(bytes);
+  if (auto wrote = file->finish(); !wrote) return not_on_record(wrote.error());
+  return {};
 }
 
 base::Result<void> write_missing(const fs::path& path, std::string_view bytes) {
@@ -122,20 +60,21 @@ base::Result<void> write_missing(const fs::path& path, std::string_view bytes) {
 }
 
 base::Result<void> sync_folder(const fs::path& folder) {
-  const Descriptor file = opened(folder, O_RDONLY | O_DIRECTORY);
-  if (file.number() < 0 || !sync_file(file.number())) return not_written(folder, errno);
+  if (auto synced = io::sync_folder(folder); !synced) return not_on_record(synced.error());
   return {};
 }
 
 base::Result<void> make_folder(const fs::path& folder) {
+  constexpr mode_t kForAll = 0777;  // less the bits of the person's umask
   if (folder.empty()) return base::fail("give the folder a name.");
   std::error_code error;
   std::vector<fs::path> missing;
   for (fs::path it = fs::absolute(folder); !fs::exists(it, error); it = it.parent_path())
     if (it.has_filename()) missing.push_back(it);  // else the slash at its end
   for (; !missing.empty(); missing.pop_back()) {
-    if (::mkdir(missing.back().c_str(), kForAll | 0111) != 0 && errno != EEXIST)
-      return failed(missing.back(), "this folder cannot be made", errno);
+    if (::mkdir(missing.back().c_str(), kForAll) != 0 && errno != EEXIST)
+      return base::fail(
+          fmt::format("{}: this folder cannot be made ({}).", missing.back().string(), std::strerror(errno)));
     if (auto synced = sync_folder(missing.back().parent_path()); !synced) return synced;
   }
   if (fs::is_directory(folder, error)) return {};
@@ -143,64 +82,58 @@ base::Result<void> make_folder(const fs::path& folder) {
 }
 
 base::Result<FileLock> FileLock::take(const fs::path& path) {
-  Descriptor file = opened(path, O_RDWR | O_CREAT);
-  if (file.number() < 0 || retry_on_eintr([&] { return ::flock(file.number(), LOCK_EX); }) != 0)
-    return failed(path, "cannot be locked against other programs", errno);
-  return FileLock(std::move(file));
+  auto file = io::OpenFile::open(path, io::OpenFile::Use::ChangeOrCreate);
+  if (!file) return tl::unexpected(file.error());
+  for (;;) {
+    const auto locked = file->lock();
+    if (!locked) return tl::unexpected(locked.error());
+    if (*locked) return FileLock(std::move(*file));
+    std::this_thread::sleep_for(kLockAskedAgain);
+  }
 }
 
 base::Result<std::optional<FileLock>> FileLock::try_take(const fs::path& path) {
-  Descriptor file = opened(path, O_RDWR | O_CREAT);
-  const bool held =
-      file.number() >= 0 && retry_on_eintr([&] { return ::flock(file.number(), LOCK_EX | LOCK_NB); }) == 0;
-  if (held) return FileLock(std::move(file));
-  if (file.number() >= 0 && errno == EWOULDBLOCK) return std::nullopt;
-  return failed(path, "cannot be locked against other programs", errno);
+  auto file = io::OpenFile::open(path, io::OpenFile::Use::ChangeOrCreate);
+  if (!file) return tl::unexpected(file.error());
+  const auto locked = file->lock();
+  if (!locked) return tl::unexpected(locked.error());
+  return *locked ? std::optional(FileLock(std::move(*file))) : std::nullopt;
 }
 
-AppendFile::AppendFile(fs::path path, Descriptor file, std::uint64_t size)
-    : path_(std::move(path)), file_(std::move(file)), size_(size) {}
-
 base::Result<AppendFile> AppendFile::open(const fs::path& path, std::uint64_t size) {
-  AppendFile file(path, opened(path, O_RDWR), size);
-  struct stat status {};
-  if (file.file_.number() < 0 || ::fstat(file.file_.number(), &status) != 0)
-    return failed(path, "cannot be opened to add to it", errno);
-  if (!S_ISREG(status.st_mode)) return base::fail(path.string() + ": is not an ordinary file.");
-  file.longer_ = std::uint64_t(status.st_size) > size;
-  if (!file.cut_to_size()) return not_written(path, errno);
+  auto opened = io::OpenFile::open(path, io::OpenFile::Use::Change);
+  if (!opened) return tl::unexpected(opened.error());
+  const auto there = opened->size();
+  if (!there) return tl::unexpected(there.error());
+  AppendFile file(std::move(*opened), size);
+  file.longer_ = *there > size;
+  if (const auto cut = file.cut_to_size(); !cut) return not_on_record(cut.error());
   return file;
 }
 
-bool AppendFile::cut_to_size() {
-  if (!longer_) return true;
-  if (retry_on_eintr([&] { return ::ftruncate(file_.number(), off_t(size_)); }) != 0) return false;
+base::Result<void> AppendFile::cut_to_size() {
+  if (!longer_) return {};
+  if (auto cut = file_.cut_to(size_); !cut) return cut;
   longer_ = false;
-  return sync_file(file_.number());
-}
-
-/// Checks that the path still names this file; otherwise rows would go where nobody finds them.
-base::Result<void> AppendFile::look_that_it_is_there() const {
-  struct stat mine {
-  }, there{};
-  const bool same = ::fstat(file_.number(), &mine) == 0 && ::stat(path_.c_str(), &there) == 0 &&
-                    mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
-  if (same) return {};
-  return base::fail(fmt::format(
-      "{}: was taken away or replaced while it is in use; put it back and do it again.", path_.string()));
+  return file_.sync();
 }
 
 base::Result<void> AppendFile::append(std::string_view row) {
-  if (auto there = look_that_it_is_there(); !there) return there;
-  if (!cut_to_size()) return not_written(path_, errno);
-  if (write_at(file_.number(), size_, row) && sync_file(file_.number())) {
+  // Rows would go where nobody finds them.
+  if (!file_.is_at_its_path())
+    return base::fail(
+        fmt::format("{}: was taken away or replaced while it is in use; put it back and do it again.",
+                    file_.path().string()));
+  if (const auto cut = cut_to_size(); !cut) return not_on_record(cut.error());
+  auto wrote = file_.write(size_, row);
+  if (wrote) wrote = file_.sync();
+  if (wrote) {
     size_ += row.size();
     return {};
   }
-  const int why = errno;
   longer_ = true;
-  cut_to_size();
-  return not_written(path_, why);
+  (void)cut_to_size();  // else before the next row
+  return not_on_record(wrote.error());
 }
 
 }  // namespace icome::study

@@ -4,35 +4,22 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/result.h"
+#include "io/open_file.h"
 
 namespace icome::study {
-
-/// A file descriptor of the system. Owns it; the number is negative if there is none.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  ~Descriptor();
-  int number() const { return number_; }
-
- private:
-  int release();
-  int number_;
-};
 
 /// The bytes of a file; none where there is no such file. Fails when it is not an ordinary file, larger than
 /// any file of a study, or cannot be read.
 base::Result<std::optional<std::string>> read_whole(const std::filesystem::path& path);
 
-/// The name of a file while it is being written.
-std::filesystem::path part_of(const std::filesystem::path& path);
+/// Is this a file that was being written when its program ended?
 bool is_part(const std::filesystem::path& path);
 
 /// Writes a whole file in place of the one that was there, or changes nothing. The bytes are on the disk
-/// itself; the file's name is only after sync_folder().
+/// itself; that the file's name is, too, only sync_folder() tells.
 base::Result<void> write_whole(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes a whole file if there is no such file.
@@ -53,8 +40,8 @@ class FileLock {
   static base::Result<std::optional<FileLock>> try_take(const std::filesystem::path& path);
 
  private:
-  explicit FileLock(Descriptor file) : file_(std::move(file)) {}
-  Descriptor file_;
+  explicit FileLock(io::OpenFile file) : file_(std::move(file)) {}
+  io::OpenFile file_;
 };
 
 /// A file that grows by rows.
@@ -67,12 +54,10 @@ class AppendFile {
   base::Result<void> append(std::string_view row);
 
  private:
-  AppendFile(std::filesystem::path path, Descriptor file, std::uint64_t size);
-  base::Result<void> look_that_it_is_there() const;
-  bool cut_to_size();
+  AppendFile(io::OpenFile file, std::uint64_t size) : file_(std::move(file)), size_(size) {}
+  base::Result<void> cut_to_size();
 
-  std::filesystem::path path_;
-  Descriptor file_;
+  io::OpenFile file_;
   std::uint64_t size_;   // bytes on record
   bool longer_ = false;  // bytes of a failed row could not be removed yet
 };

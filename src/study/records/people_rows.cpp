@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "base/near_names.h"
+#include "base/parse_number.h"
 #include "study/definition/conditions.h"
 #include "study/records/disk.h"
 #include "study/records/study_columns.h"
@@ -36,16 +36,9 @@ std::string order_text(const Study& study, std::size_t group, std::size_t order_
   return text;
 }
 
-std::optional<double> finite_number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 /// The reason why this is not a value of a variable of numbers; empty if it is one.
 std::string why_no_number(const ControlVariable& variable, const std::string& answer) {
-  const auto value = finite_number(answer);
+  const auto value = base::parse_finite(answer);
   if (!value) return fmt::format("'{}' is a number, and '{}' is none.", variable.id, cell_of(answer));
   if (variable.discrete && *value != std::floor(*value))
     return fmt::format("'{}' is counted in whole numbers, and '{}' is none.", variable.id, cell_of(answer));

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/parse_number.h"
 #include "base/version.h"
 #include "study/records/people_rows.h"
 #include "study/records/phenotypes.h"
@@ -84,10 +84,9 @@ Json effective_rate_json(const Trace& trace) {
   return double(trace.samples.size() - 1) / seconds;
 }
 
-bool parse_hash(const std::string& text, std::uint64_t& hash) {
+std::optional<std::uint64_t> parse_hash(const std::string& text) {
   constexpr std::size_t kDigits = 16;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
-  return text.size() == kDigits && error == std::errc{} && end == text.data() + text.size();
+  return text.size() == kDigits ? base::parse_number<std::uint64_t>(text, 16) : std::nullopt;
 }
 
 }  // namespace
@@ -166,9 +165,11 @@ base::Result<Description> parse_description(std::string_view text, const std::st
   const auto* const study = member_of<Json::string_t>(json, "StudyName");
   const auto* const hash = member_of<Json::string_t>(json, "StudyHash");
   const auto* const simulated = member_of<Json::boolean_t>(json, "Simulated");
-  Description description;
-  if (study == nullptr || hash == nullptr || simulated == nullptr || !parse_hash(*hash, description.hash))
+  const auto hash_value = hash == nullptr ? std::nullopt : parse_hash(*hash);
+  if (study == nullptr || !hash_value || simulated == nullptr)
     return base::fail(fmt::format("{}: does not describe data of a study of icome.", source));
+  Description description;
+  description.hash = *hash_value;
   description.study = *study;
   description.simulated = *simulated;
   if (const auto* const needs = member_of<Json::array_t>(json, "WithoutNeeds"))

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 
+#include "base/parse_number.h"
 #include "study/definition/conditions.h"
 #include "study/definition/counterbalancing.h"
 
@@ -55,11 +55,8 @@ std::filesystem::path StudyFolder::trace(const std::string& id, std::size_t run)
 std::size_t StudyFolder::run_of(const std::string& id, const std::string& file_name) const {
   const std::string start = fmt::format("{}_{}_run-", file_stem(*this, id), kTracking);
   if (!file_name.starts_with(start)) return 0;
-  std::size_t run = 0;
-  const char* const end = file_name.data() + file_name.size();
-  const auto [rest, error] = std::from_chars(file_name.data() + start.size(), end, run);
-  const std::string_view ending(rest, std::size_t(end - rest));
-  return error == std::errc{} && (ending == "_motion.tsv" || ending == "_motion.json") ? run : 0;
+  const auto run = base::number_at_front<std::size_t>(std::string_view(file_name).substr(start.size()));
+  return run.rest == "_motion.tsv" || run.rest == "_motion.json" ? run.value : 0;
 }
 
 std::filesystem::path sidecar_of(std::filesystem::path table) { return table.replace_extension(".json"); }

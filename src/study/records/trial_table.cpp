@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/parse_number.h"
 #include "stats/tables/data_table.h"
 #include "stats/tables/sums.h"
 #include "study/definition/session_length.h"
@@ -71,8 +72,8 @@ std::size_t place_of(const std::vector<const IndependentVariable*>& factors,
 
 /// The number or points that were answered; NaN if they cannot be an answer to the question.
 double answered_number(const Item& item, const std::string& text) {
-  const std::optional<double> number = stats::parse_number(text);
-  if (!number || !std::isfinite(*number)) return kNone;
+  const std::optional<double> number = base::parse_finite(text);
+  if (!number) return kNone;
   const bool points = item.kind == ItemKind::Rating;
   if (points && (*number < 1.0 || *number > item.points || *number != std::floor(*number))) return kNone;
   if (*number < item.least.value_or(*number) || *number > item.most.value_or(*number)) return kNone;

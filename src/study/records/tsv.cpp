@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 #include "base/near_names.h"
+#include "base/parse_number.h"
 #include "base/utf8.h"
+#include "io/table_reader.h"
 
 namespace icome::study {
 namespace {
@@ -58,27 +59,15 @@ bool take_escaped(std::string_view& rest, std::string& text) {
     return true;
   }
   if (kind != 'x' || rest.size() < 2) return false;
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + 2, value, 16);
-  if (error != std::errc{} || end != rest.data() + 2) return false;
-  text += static_cast<char>(value);
+  const auto value = base::parse_number<unsigned>(rest.substr(0, 2), 16);
+  if (!value) return false;
+  text += static_cast<char>(*value);
   rest.remove_prefix(2);
   return true;
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t tab = line.find('\t'); tab != line.npos; tab = line.find('\t')) {
-    cells.push_back(line.substr(0, tab));
-    line.remove_prefix(tab + 1);
-  }
-  cells.push_back(line);
-  return cells;
-}
-
-base::Result<TsvRow> parse_row(std::string_view line, std::size_t number, const std::string& source,
-                               const Columns& columns) {
-  const std::vector<std::string_view> cells = split(line);
+base::Result<TsvRow> parse_row(const std::vector<std::string_view>& cells, std::size_t number,
+                               const std::string& source, const Columns& columns) {
   if (cells.size() != columns.size())
     return base::fail(fmt::format("{}:{}: has {} columns, and the table has {}.", source, number,
                                   cells.size(), columns.size()));
@@ -172,14 +161,14 @@ base::Result<TsvTable> parse_tsv(std::string_view text, const std::string& sourc
   if (!text.starts_with(header))
     return base::fail(fmt::format("{}:1: the header is not '{}'; put back the file as it was written.",
                                   source, header.substr(0, header.size() - 1)));
-  table.whole = header.size();
-  for (std::size_t line = 2; table.whole < text.size(); ++line) {
-    const std::size_t end = text.find('\n', table.whole);
-    if (end == text.npos) break;
-    auto row = parse_row(text.substr(table.whole, end - table.whole), line, source, columns);
+  io::TableReader reader(text, source, '\t', io::TableStyle::Plain);
+  // Plain cells cannot be wrong, so that every next() succeeds.
+  for (auto more = reader.next(); *more && reader.has_line_end(); more = reader.next()) {
+    table.whole = reader.end();
+    if (reader.line() == 1) continue;  // the header
+    auto row = parse_row(reader.cells(), reader.line(), source, columns);
     if (!row) return tl::unexpected(row.error());
     table.rows.push_back(std::move(*row));
-    table.whole = end + 1;
   }
   table.torn = table.whole < text.size();
   return table;
@@ -192,20 +181,15 @@ const std::string& RowReader::text() { return row_.texts[next_++]; }
 
 double RowReader::number() {
   const std::string& cell = text();
-  double value = std::nan("");
-  if (cell.empty()) return value;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
-    refuse("is no number");
-  return value;
+  const auto value = base::parse_finite(cell);
+  if (!value && !cell.empty()) refuse("is no number");
+  return value.value_or(std::nan(""));
 }
 
 std::size_t RowReader::whole() {
-  const std::string& cell = text();
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) refuse("is no whole number");
-  return value;
+  const auto value = base::parse_number<std::size_t>(text());
+  if (!value) refuse("is no whole number");
+  return value.value_or(0);
 }
 
 std::optional<std::size_t> RowReader::whole_or_none() {

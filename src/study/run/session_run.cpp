@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parse_number.h"
 #include "stats/tables/data_table.h"
 #include "study/records/record_rows.h"
 
@@ -29,7 +30,7 @@ std::vector<std::string_view> parts_of(std::string_view list) {
 }
 
 std::string why_no_number(const Item& item, const std::string& answer) {
-  const auto number = stats::parse_number(answer);
+  const auto number = base::parse_finite(answer);
   if (!number) return "write a number";
   if (item.least && *number < *item.least) return fmt::format("write a number from {:g} on", *item.least);
   if (item.most && *number > *item.most) return fmt::format("write a number up to {:g}", *item.most);
@@ -37,7 +38,7 @@ std::string why_no_number(const Item& item, const std::string& answer) {
 }
 
 std::string why_no_rating(const Item& item, const std::string& answer) {
-  const auto number = stats::parse_number(answer);
+  const auto number = base::parse_finite(answer);
   const bool fits = number && *number == double(int(*number)) && *number >= 1.0 && *number <= item.points;
   return fits ? std::string() : fmt::format("choose from 1 to {}", item.points);
 }

@@ -1,6 +1,7 @@
 // Things that are taken hold of by a device with a button, and what the hand feels of them.
 #include "session/hands/hand_grab.h"
 
+#include "session/hands/one_hand.h"
 #include "session/sessions.h"
 
 namespace icome::session {
@@ -9,38 +10,19 @@ namespace {
 using base::Vector3;
 
 /// A session with one device, the tip of which rests on top of a box of 1 m, pressing a little.
-class HandGrabTest : public ::testing::Test {
+class HandGrabTest : public OneHandTest {
  protected:
   void SetUp() override {
-    SessionSettings settings = quiet_settings();
-    auto device = hand_at(Vector3(0.0, 1.0, 0.0));
-    hand_ = device.get();
-    settings.pointers.push_back(std::move(device));
-    session_ = start(std::move(settings));
+    start_with_hand();
     box_ = add_box(*session_, world::at(0.0, 0.0, 0.0));
-    session_->settle();
-    offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
-    hand_->put(world_to_device(Vector3(0.0, 0.6, 0.0)));
+    settle();
+    hand_->put(Vector3(0.0, 0.6, 0.0) - offset_);
     aim(Vector3(0.0, 0.498, 0.0));
     run_until(*session_, [&] { return session_->hands().touched(0) == box_; });
   }
 
-  /// In the device's frame, which is the stage's where the view has put the workspace.
-  Vector3 world_to_device(const Vector3& place) const { return place - offset_; }
-  void aim(const Vector3& place) { hand_->set_target(world_to_device(place)); }
   Vector3 box_place() const { return session_->world().find(box_)->parent_from_object.translation(); }
-  void grab() {
-    hand_->hold_buttons(1);
-    run_until(*session_, [&] { return session_->hands().holds(0); });
-  }
-  void let_go() {
-    hand_->hold_buttons(0);
-    run_until(*session_, [&] { return !session_->hands().holds(0); });
-  }
 
-  devices::SimulatedDevice* hand_ = nullptr;
-  std::unique_ptr<Session> session_;
-  Vector3 offset_ = Vector3::Zero();  // of the stage from the device
   world::ObjectId box_;
 };
 
@@ -96,6 +78,11 @@ TEST_F(HandGrabTest, LetsGoWhenTheDeviceIsLost) {
   grab();
   hand_->inject(devices::SimulatedFailure::Unplugged);
   run_until(*session_, [&] { return !session_->hands().holds(0); });
+  const Vector3 left = box_place();
+  aim(Vector3(0.3, 0.7, 0.0));
+  for (int i = 0; i < 20; ++i) session_->update();
+  EXPECT_FALSE(session_->hands().holds(0));
+  EXPECT_EQ(box_place(), left) << "a hand that is lost moves nothing";
   hand_->inject(devices::SimulatedFailure::None);
 }
 

@@ -1,6 +1,7 @@
 // Operands of solids that are taken hold of in the air by a device with a button.
 #include "session/hands/part_grab.h"
 
+#include "session/hands/one_hand.h"
 #include "session/sessions.h"
 
 namespace icome::session {
@@ -9,36 +10,22 @@ namespace {
 using base::Vector3;
 
 /// A block of 0.4 m with a hole of 0.1 m along z through its middle, selected, and a device in the air.
-class PartGrabTest : public ::testing::Test {
+class PartGrabTest : public OneHandTest {
  protected:
   void SetUp() override {
-    SessionSettings settings = quiet_settings();
-    auto device = hand_at(Vector3(0.0, 1.0, 0.0));
-    hand_ = device.get();
-    settings.pointers.push_back(std::move(device));
-    session_ = start(std::move(settings));
+    start_with_hand();
     geometry::CsgTree tree;
     const auto block = tree.add_leaf(geometry::Box{{0.2, 0.2, 0.1}});
     const auto hole = tree.add_leaf(geometry::Cylinder{0.1, 0.6});
     tree.add(geometry::CsgOperator::Difference, block, hole);
     solid_ = add_shape(*session_, std::make_shared<world::CsgGeometry>(std::move(tree)),
                        world::at(0.0, 0.0, 0.0), "block");
-    session_->settle();
-    offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
-  }
-  Vector3 tip() const { return session_->hands().pointer(0).tip; }
-  void put(const Vector3& place) {
-    hand_->put(place - offset_);
-    hand_->set_target(place - offset_);
-    run_until(*session_, [&] { return (tip() - place).norm() < 1e-3; });
+    settle();
   }
   Vector3 hole_at() const {
     return interaction::world_from_part(session_->world(), {solid_, 1})->translation();
   }
 
-  devices::SimulatedDevice* hand_ = nullptr;
-  std::unique_ptr<Session> session_;
-  Vector3 offset_ = Vector3::Zero();  // of the stage from the device
   world::ObjectId solid_;
 };
 
@@ -46,15 +33,13 @@ TEST_F(PartGrabTest, AHoleGoesAlongWithTheHandAsOneActionAndPullsBack) {
   const std::uint64_t before = hash(session_->world());
   session_->select({solid_});
   put(Vector3(0.0, 0.1, 0.3));  // on the ghost's upper rim, before the block
-  hand_->hold_buttons(1);
-  run_until(*session_, [&] { return session_->hands().holds(0); });
+  grab();
   const Vector3 from = tip();
-  hand_->set_target(Vector3(0.15, 0.1, 0.3) - offset_);
+  aim(Vector3(0.15, 0.1, 0.3));
   run_until(*session_, [&] { return tip().x() > 0.1 && session_->hands().pointer(0).force.x() < -0.1; });
   EXPECT_LT((hole_at() - (tip() - from)).norm(), 5e-3) << "it is where the hand is";
   EXPECT_EQ(session_->history().actions().undo_name(), "Move operand 1 of block");
-  hand_->hold_buttons(0);
-  run_until(*session_, [&] { return !session_->hands().holds(0); });
+  let_go();
   session_->settle();
   EXPECT_TRUE(session_->stage().pick({Vector3(-0.05, 0.0, 1.0), -Vector3::UnitZ()})) << "where the hole was";
   const Vector3 left = hole_at();
@@ -83,9 +68,8 @@ TEST_F(PartGrabTest, TakesNothingOfWhatIsNotSelectedOrNotNear) {
 TEST_F(PartGrabTest, LetsGoWhenSomethingElseChangesTheWorld) {
   session_->select({solid_});
   put(Vector3(0.0, 0.1, 0.3));
-  hand_->hold_buttons(1);
-  run_until(*session_, [&] { return session_->hands().holds(0); });
-  hand_->set_target(Vector3(0.05, 0.1, 0.3) - offset_);
+  grab();
+  aim(Vector3(0.05, 0.1, 0.3));
   run_until(*session_, [&] { return hole_at().x() > 0.01; });
   ASSERT_TRUE(session_->history().undo());
   run_until(*session_, [&] { return !session_->hands().holds(0); });

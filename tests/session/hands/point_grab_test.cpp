@@ -2,6 +2,7 @@
 #include "session/hands/point_grab.h"
 
 #include "render/live_renderer.h"
+#include "session/hands/one_hand.h"
 #include "session/sessions.h"
 
 namespace icome::session {
@@ -27,51 +28,26 @@ world::GeometryPointer level_sheet() {
 }
 
 /// A session with one device, the tip of which is 3 mm above the middle of a sheet that is selected.
-class PointGrabTest : public ::testing::Test {
+class PointGrabTest : public OneHandTest {
  protected:
   void SetUp() override {
-    SessionSettings settings = quiet_settings();
-    auto device = hand_at(Vector3(0.0, 1.0, 0.0));
-    hand_ = device.get();
-    settings.pointers.push_back(std::move(device));
-    session_ = start(std::move(settings));
+    start_with_hand();
     sheet_ = add_shape(*session_, level_sheet(), world::at(0.0, 0.0, 0.0), "sheet");
     session_->select({sheet_});
-    session_->settle();
-    offset_ = stage_offset(*session_, Vector3(0.0, 1.0, 0.0));
+    settle();
     put(Vector3(0.0, 0.003, 0.0));
   }
 
-  Vector3 tip() const { return session_->hands().pointer(0).tip; }
-  Vector3 in_device(const Vector3& place) const { return place - offset_; }
-  void put(const Vector3& place) {
-    const Vector3 there = in_device(place);
-    hand_->put(there);
-    hand_->set_target(there);
-    run_until(*session_, [&] { return (tip() - place).norm() < 1e-3; });
-  }
-  void aim(const Vector3& place) { hand_->set_target(in_device(place)); }
   void shape(const interaction::ShapingSettings& settings) {
     const auto done = session_->hands().set_shaping(settings);
     ASSERT_TRUE(done) << done.error().message;
     for (int i = 0; i < 3; ++i) session_->update();
-  }
-  void grab() {
-    hand_->hold_buttons(1);
-    run_until(*session_, [&] { return session_->hands().holds(0); });
-  }
-  void let_go() {
-    hand_->hold_buttons(0);
-    run_until(*session_, [&] { return !session_->hands().holds(0); });
   }
   const std::vector<Vector3>& vertices() const {
     const world::World& world = session_->world();
     return interaction::draggable_mesh(*world.find(world.find(sheet_)->geometry)->shape)->positions;
   }
 
-  devices::SimulatedDevice* hand_ = nullptr;
-  std::unique_ptr<Session> session_;
-  Vector3 offset_ = Vector3::Zero();  // of the stage from the device
   world::ObjectId sheet_;
 };
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/parse_number.h"
 #include "places.h"
 
 namespace icome::stats {
@@ -158,8 +159,8 @@ TEST(DataTable, TextAndInfinityAreNoNumbers) {
             "where a value is missing.");
   for (const std::string_view cell :
        {"inf", "-Infinity", "1e400", "0x10", "1 2", "--1", "+-1", "1e", "%", "-"})
-    EXPECT_FALSE(parse_number(cell)) << cell;
-  EXPECT_EQ(parse_number("+1.5e-3"), 1.5e-3);
+    EXPECT_FALSE(base::parse_finite(cell)) << cell;
+  EXPECT_EQ(base::parse_finite("+1.5e-3"), 1.5e-3);
 }
 
 TEST(QuotedCell, IsCutBetweenCharactersAndPrintable) {

@@ -25,8 +25,17 @@ TEST(Disk, WritesAWholeFileOrNone) {
   EXPECT_EQ(bytes_of(file), "one");
   fs::create_directory(scratch.path() / "folder");
   EXPECT_FALSE(write_whole(scratch.path() / "folder", "x"));
-  EXPECT_FALSE(fs::exists(part_of(scratch.path() / "folder")));
+  const auto entries = fs::directory_iterator(scratch.path());
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 2);  // the file and the folder, and no part
   EXPECT_FALSE(write_whole(scratch.path() / "nowhere/file", "x"));
+}
+
+TEST(Disk, KnowsWhatKilledProgramsLeft) {
+  EXPECT_TRUE(is_part("motion/.x_motion.tsv.part"));  // of earlier programs
+  EXPECT_TRUE(is_part("motion/x_motion.tsv.part-1234"));
+  EXPECT_TRUE(is_part("motion/x_motion.tsv.part-1234-2"));
+  for (const char* const name : {"x_motion.tsv", "x.part", ".part-x", "x.part-", "x.part-1.tsv"})
+    EXPECT_FALSE(is_part(name)) << name;
 }
 
 TEST(Disk, AddsAfterWhatIsOnRecord) {

@@ -168,9 +168,11 @@ TEST_F(WorldTreeTest, FindsManyAndShowsWhichAreSelected) {
 TEST_F(WorldTreeTest, OutlivesNothingThatTheSessionTellsLater) {
   create("one");
   { const WorldTree tree(session(), nullptr); }
+  WorldTree later(session(), nullptr);
   const ObjectId two = create("two");
   session().select({two});
-  SUCCEED();
+  EXPECT_EQ(view(later).model()->rowCount(), 2);
+  EXPECT_EQ(selected(view(later)), std::vector{two});
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 #include <Inventor/fields/SoSFString.h>
 #include <Inventor/misc/SoProtoInstance.h>
 
-#include <charconv>
-
+#include "base/parse_number.h"
 #include "files/vrml/vrml_protos.h"
 #include "files/vrml/worker/face_fields.h"
 #include "files/vrml/worker/field_values.h"
@@ -41,16 +40,16 @@ void fill_mesh(const SceneFiles& files, const Wrapping& wrapping, const SoProtoI
 /// Six numbers with spaces between them; else nothing.
 std::vector<double> six_numbers(const std::string& text) {
   std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (at != end && numbers.size() < 7) {
-    if (*at == ' ') {
-      ++at;
+  std::string_view rest = text;
+  while (!rest.empty() && numbers.size() < 7) {
+    if (rest.front() == ' ') {
+      rest.remove_prefix(1);
       continue;
     }
-    const auto [behind, error] = std::from_chars(at, end, numbers.emplace_back());
-    if (error != std::errc()) return {};
-    at = behind;
+    const auto read = base::number_at_front<double>(rest);
+    if (!read.good()) return {};
+    numbers.push_back(read.value);
+    rest = read.rest;
   }
   return numbers.size() == 6 ? numbers : std::vector<double>();
 }

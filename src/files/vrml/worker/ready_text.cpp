@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/parse_number.h"
 #include "files/vrml/read/vrml_header.h"
 #include "files/vrml/read/vrml_scanner.h"
 #include "files/vrml/worker/refusal.h"
@@ -372,8 +372,9 @@ void TextReader::image() {
   bool is_right = true;
   for (std::size_t i = 0; i < size.size(); ++i) {
     size[i] = word(expect(Kind::Number)).substr(0, 20);
-    const auto [end, error] = std::from_chars(size[i].data(), size[i].data() + size[i].size(), numbers[i]);
-    is_right &= error == std::errc() && end == size[i].data() + size[i].size();
+    const auto number = base::parse_number<std::uint64_t>(size[i]);
+    is_right &= number.has_value();
+    numbers[i] = number.value_or(0);
   }
   const auto [width, height, components] = numbers;
   is_right &= width <= kImageSideLimit && height <= kImageSideLimit && components <= 4;

@@ -12,10 +12,10 @@
 #include <Inventor/nodes/SoNode.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <unordered_set>
 
+#include "base/parse_number.h"
 #include "files/vrml/worker/ready_text.h"
 
 namespace icome::files {
@@ -50,7 +50,7 @@ TextNote told_by_coin(const SbString& message) {
   TextNote note;
   if (const std::size_t at = text.rfind("Occurred at line"); at != std::string_view::npos) {
     const std::size_t digits = std::min(text.find_first_of("0123456789", at), text.size());
-    std::from_chars(text.data() + digits, text.data() + text.size(), note.line);
+    note.line = base::number_at_front<decltype(note.line)>(text.substr(digits)).value;
   }
   constexpr std::string_view kStart = "Coin read error: ";
   if (text.starts_with(kStart)) text.remove_prefix(kStart.size());
@@ -189,10 +189,10 @@ const SceneFile* SceneFiles::home(const SoProto* proto) const {
 
 std::string SceneFiles::original(const char* text) const {
   const std::string_view name = text;
-  std::size_t number = changed_names_.size();
-  if (name.starts_with(kChangedName))
-    std::from_chars(name.data() + kChangedName.size(), name.data() + name.size(), number);
-  return number < changed_names_.size() ? changed_names_[number] : std::string(name);
+  if (!name.starts_with(kChangedName)) return std::string(name);
+  const auto number = base::number_at_front<std::size_t>(name.substr(kChangedName.size()));
+  return number.good() && number.value < changed_names_.size() ? changed_names_[number.value]
+                                                               : std::string(name);
 }
 
 std::string SceneFiles::original_name(const SbName& name) const { return original(name.getString()); }

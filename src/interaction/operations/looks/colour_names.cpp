@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 
+#include "base/parse_number.h"
 #include "interaction/operations/near_names.h"
 
 namespace icome::interaction {
@@ -50,10 +50,8 @@ base::Result<world::Colour> colour_from_text(std::string_view text) {
   std::ranges::transform(said, said.begin(), lower);
   if (said.starts_with('#')) {
     constexpr std::size_t kLength = 7;
-    std::uint32_t rgb = 0;
-    const char* const end = said.data() + said.size();
-    const auto [last, error] = std::from_chars(said.data() + 1, end, rgb, 16);
-    if (said.size() == kLength && error == std::errc() && last == end) return colour_of(rgb);
+    const auto rgb = base::parse_number<std::uint32_t>(std::string_view(said).substr(1), 16);
+    if (rgb && said.size() == kLength) return colour_of(*rgb);
     return base::fail(fmt::format("'{}' is no colour: say #rrggbb with six digits, such as #ff8000", text));
   }
   const auto found = std::ranges::find(kColours, said, &NamedColour::name);

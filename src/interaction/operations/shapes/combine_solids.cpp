@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <charconv>
 #include <map>
 #include <unordered_map>
 
+#include "base/parse_number.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "interaction/operations/object_frames.h"
 #include "world/shape/geometry_check.h"
@@ -183,10 +183,8 @@ class LeafShapes {
 
 Result<CsgTree::Index> leaf_numbered(const CsgTree& tree, std::string_view name) {
   const std::vector<CsgTree::Index> leaves = leaves_of(tree);
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error == std::errc() && end == name.data() + name.size() && number < leaves.size())
-    return leaves[number];
+  const auto number = base::parse_number<std::size_t>(name);
+  if (number && *number < leaves.size()) return leaves[*number];
   return fail(
       fmt::format("there is no operand '{}': name one by its way from the top, such as 'lr', or by its "
                   "number among the shapes from the left, 0 to {}",
