@@ -160,7 +160,7 @@ TEST(StoppedMove, MovesObjectsTogether) {
 TEST(StoppedMove, NeverEndsOverlappingInRandomClutter) {
   base::Random random(6);
   int stops = 0, tried = 0;
-  while (tried < 200) {
+  while (tried < repeats(200)) {
     Clutter clutter;
     clutter.fill(random, 30);
     if (random.index(4) == 0) clutter.add(solid(geometry::Plane{}), at(0.0, 0.0, -1.2));
@@ -182,7 +182,7 @@ TEST(StoppedMove, NeverEndsOverlappingInRandomClutter) {
       ASSERT_FALSE(index.overlaps(thing)) << tried;
     }
   }
-  EXPECT_GT(stops, 60);
+  EXPECT_GT(stops, repeats(60));
 }
 
 TEST(StoppedMove, MissesNothingThatFineStepsFind) {
@@ -287,7 +287,7 @@ TEST(StoppedMove, OfAPlinthUnderAScanTakesNoLongEffort) {
   for (const double sunk : {0.0, 2e-5, 0.004}) {
     Sculpture sculpture(sunk);
     const std::vector<ObjectId> plinth = {sculpture.plinth};
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < (kSanitizerShare > 1 ? 3 : 10); ++i) {
       const Vector3 wanted = random.uniform(0.001, 0.3) * random.direction();
       world::Effort effort(100'000'000);
       const auto move =
@@ -377,7 +377,7 @@ TEST(Landing, OfBallsOnADrilledPlateIsOnItHoweverThinItIs) {
       const double radius = 0.05;
       const ObjectId ball = clutter.add(solid(geometry::Sphere{radius}), at(0.0, 0.0, 0.4));
       CollisionIndex index(clutter.world);
-      for (int i = 0; i < 20; ++i) {
+      for (int i = 0; i < (kSanitizerShare > 1 ? 3 : 20); ++i) {
         SCOPED_TRACE(testing::Message() << thickness << " " << rows << " " << i);
         const Vector3 above(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 0.4);
         const world::Edit edit = world::PlaceObject{ball, Affine3(Eigen::Translation3d(above))};
