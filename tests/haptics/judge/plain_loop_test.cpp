@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "haptics/judge/contact_judge.h"
 #include "haptics/loop_controls.h"
+#include "repeats.h"
 
 namespace icome::haptics {
 namespace {
@@ -16,7 +17,7 @@ double farthest_off(const ControlMesh& control, const TriangleMesh& mesh) {
   const geometry::TriangleTree tree(mesh);
   base::Random random(5);
   double farthest = 0.0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < repeats(20'000); ++i) {
     const double u = random.uniform(0.0, 1.0), v = random.uniform(0.0, 1.0 - u);
     const auto triangle = std::uint32_t(random.index(control.mesh.triangles.size()));
     farthest = std::max(farthest, tree.nearest((*surface)->sample(triangle, u, v).point)->parameter);
