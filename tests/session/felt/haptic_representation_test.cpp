@@ -6,6 +6,7 @@
 #include "haptics/servo/effect_feed.h"
 #include "haptics/servo/renderer.h"
 #include "haptics/shapes/mesh_shape.h"
+#include "repeats.h"
 #include "world/random_edits.h"
 
 namespace icome::session {
@@ -499,7 +500,8 @@ void expect_up_to_date(const World& world, const HapticRepresentation& felt, wor
 }
 
 TEST(HapticRepresentation, FollowsRandomEdits) {
-  for (std::uint64_t seed = 0; seed < 20 && !testing::Test::HasFatalFailure(); ++seed) {
+  for (std::uint64_t seed = 0; seed < (kSanitizerShare > 1 ? 4 : 20) && !testing::Test::HasFatalFailure();
+       ++seed) {
     World world;
     world::RandomEdits edits(seed);
     HapticRepresentation whole, part;
