@@ -9,6 +9,7 @@
 #include "apps/devices/calibrate_command.h"
 #include "apps/devices/device_test_command.h"
 #include "apps/devices/devices_help.h"
+#include "apps/devices/serve_command.h"
 #include "devices/catalogue.h"
 
 namespace icome::apps {
@@ -64,6 +65,23 @@ void add_calibrate_options(CLI::App& devices, DevicesOptions& options) {
   calibrate.callback([&options] { options.task = "calibrate"; });
 }
 
+void add_serve_options(CLI::App& devices, DevicesOptions& options) {
+  CLI::App& serve = *devices.add_subcommand("serve", kDevicesServeSummary);
+  serve.footer(kDevicesServeNotes);
+  serve
+      .add_option("--vrpn", options.vrpn, "Where to listen; port 0 takes a free one (default 127.0.0.1:3883)")
+      ->type_name("HOST:PORT");
+  serve
+      .add_option("--device", options.shared,
+                  "A device's address; may be given several times (default: simulated)")
+      ->type_name("NAME");
+  serve.add_option("--rate", options.rate_hz, "Ticks a second, 500 to 10000 (default 1000)")
+      ->type_name("HZ")
+      ->check(CLI::Range(500.0, 10000.0));
+  serve.add_flag("--json", options.json, "Say as JSON where it listens (fields below)");
+  serve.callback([&options] { options.task = "serve"; });
+}
+
 std::string list_json(const std::vector<devices::DeviceEntry>& entries) {
   nlohmann::ordered_json json;
   json["devices"] = nlohmann::ordered_json::array();
@@ -104,11 +122,13 @@ void add_devices_options(CLI::App& devices, DevicesOptions& options) {
   devices.add_flag("--json", options.json, "Print the list as JSON (fields below)");
   add_test_options(devices, options);
   add_calibrate_options(devices, options);
+  add_serve_options(devices, options);
 }
 
 int run_devices(const DevicesOptions& options) {
   if (options.task == "test") return run_device_test(options);
   if (options.task == "calibrate") return run_calibrate(options);
+  if (options.task == "serve") return run_serve(options);
   return run_list(options);
 }
 

@@ -11,6 +11,18 @@ constexpr const char* kDevicesTestSummary =
 constexpr const char* kDevicesCalibrateSummary =
     "Find the middle and size of a device's workspace, and write its profile";
 
+constexpr const char* kDevicesServeSummary = "Share devices with other programs over the network (VRPN)";
+
+constexpr const char* kDevicesServeNotes =
+    "Each device is a vrpn_Tracker, vrpn_Button and vrpn_ForceDevice named Pointer0, Pointer1 and so on, in "
+    "metres\n"
+    "(x right, y up, z to the user). Planes and force fields of clients are rendered here, through the "
+    "limiter. The\n"
+    "simulated hand goes round a circle of 20 mm. It ends at Ctrl-C or SIGTERM. Another ICOME takes it as\n"
+    "--device vrpn:Pointer0@HOST:PORT. There is no protection: listen where only friends are.\n"
+    "\n"
+    "JSON, one line as soon as it listens: listening (HOST:PORT), names.";
+
 constexpr const char* kDevicesExamples =
     "Examples:\n"
     "  icome devices                               what is there, and what is missing for the rest\n"
@@ -18,6 +30,8 @@ constexpr const char* kDevicesExamples =
     "  icome devices test hd --yes --picture touch.png\n"
     "                                              the same without asking, drawn\n"
     "  icome devices calibrate dhd --seconds 20    lead it to the corners of its workspace for 20 s\n"
+    "  icome devices serve --vrpn 127.0.0.1:3883 --device dhd\n"
+    "                                              other programs use it over VRPN\n"
     "  icome touch bunny.obj --fit 0.1 --device haply\n"
     "                                              touch a model with it\n"
     "\n"
