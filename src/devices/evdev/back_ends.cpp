@@ -48,11 +48,12 @@ std::vector<DeviceEntry> list_kind() {
 
 }  // namespace
 
-const BackEnd kTabletBackEnd = {"tablet", "tablet", list_kind<InputKind::Tablet>,
-                                open_kind<InputKind::Tablet>};
-const BackEnd kMouseBackEnd = {"mouse", "mouse", list_kind<InputKind::Mouse>, open_kind<InputKind::Mouse>};
-const BackEnd kGamepadBackEnd = {"gamepad", "gamepad", list_kind<InputKind::Gamepad>,
-                                 open_kind<InputKind::Gamepad>};
+constinit const BackEnd kTabletBackEnd = {"tablet", "tablet", list_kind<InputKind::Tablet>,
+                                          open_kind<InputKind::Tablet>};
+constinit const BackEnd kMouseBackEnd = {"mouse", "mouse", list_kind<InputKind::Mouse>,
+                                         open_kind<InputKind::Mouse>};
+constinit const BackEnd kGamepadBackEnd = {"gamepad", "gamepad", list_kind<InputKind::Gamepad>,
+                                           open_kind<InputKind::Gamepad>};
 
 base::Result<std::unique_ptr<DrivenDevice>> open_input_pointer(std::shared_ptr<InputSystem> system,
                                                                InputKind kind, std::string_view address,

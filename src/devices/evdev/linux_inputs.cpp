@@ -10,13 +10,14 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <string_view>
 #include <utility>
+
+#include "base/parse_number.h"
 
 namespace icome::devices {
 namespace {
@@ -178,10 +179,7 @@ class LinuxInputs final : public InputSystem {
   static std::optional<unsigned> number_of(std::string_view file) {
     constexpr std::string_view kStart = "event";
     if (!file.starts_with(kStart)) return std::nullopt;
-    unsigned number = 0;
-    const auto [end, error] = std::from_chars(file.data() + kStart.size(), file.data() + file.size(), number);
-    if (error != std::errc() || end != file.data() + file.size()) return std::nullopt;
-    return number;
+    return base::parse_number<unsigned>(file.substr(kStart.size()));
   }
 
   static tl::expected<std::unique_ptr<InputNode>, std::error_code> opened(OpenNode file,

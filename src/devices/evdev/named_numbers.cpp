@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -10,18 +9,12 @@
 #include <vector>
 
 #include "base/near_names.h"
+#include "base/parse_number.h"
 #include "base/shown_text.h"
 #include "base/utf8.h"
 
 namespace icome::devices {
 namespace {
-
-std::optional<double> whole_number(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 /// The number of that name; null where there is none.
 const NamedNumber* named(std::span<const NamedNumber> numbers, std::string_view name) {
@@ -54,7 +47,7 @@ base::Result<void> set_numbers(std::string_view source, std::string_view text,
       return base::fail(
           fmt::format("{}: \"{}\" is no setting{}", source, shown, nearest_name(numbers, name)));
     const auto value =
-        equals == std::string_view::npos ? std::nullopt : whole_number(word.substr(equals + 1));
+        equals == std::string_view::npos ? std::nullopt : base::parse_finite(word.substr(equals + 1));
     if (!value || !(*value >= number->least && *value <= number->most))
       return base::fail(fmt::format("{}: \"{}\" should read {}=NUMBER, with a number from {:g} to {:g}",
                                     source, shown, name, number->least, number->most));
