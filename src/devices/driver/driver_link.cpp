@@ -49,6 +49,7 @@ void DriverLink::connect(const DeviceInfo& info) {
   max_force_ = std::min(expected_max_force_, info.max_force);
   last_time_ = 0;
   odd_readings_ = 0;
+  jump_told_ = false;
   ramp_ = 0.0;
   stopped_ = true;
   ++jumps_;
@@ -89,9 +90,11 @@ bool DriverLink::is_spike(const PointerState& reading, std::int64_t now) {
 
 void DriverLink::pass(const PointerState& reading, std::int64_t now) {
   if (!makes_sense(reading)) return;
+  jump_told_ = jump_told_ || reading.jumped;
   if (is_spike(reading, now)) return count(spikes_);
-  if (odd_readings_ > 0) {
+  if (odd_readings_ > 0 || jump_told_) {
     odd_readings_ = 0;
+    jump_told_ = false;
     ++jumps_;
   }
   last_ = reading;

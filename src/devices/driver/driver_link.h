@@ -83,6 +83,7 @@ class DriverLink {
   PointerState odd_;            // the last reading that may be a spike
   std::int64_t odd_time_ = 0;   // ns
   int odd_readings_ = 0;        // in a row, that agree
+  bool jump_told_ = false;      // by the driver, in a reading that was refused since
   std::uint64_t jumps_ = 0;
   double ramp_ = 0.0;            // 0 to 1
   std::int64_t force_time_ = 0;  // ns, of the last force()

@@ -99,6 +99,24 @@ TEST_F(DriverLinkTest, RefusesASpikeButFollowsAJumpThatLasts) {
   EXPECT_EQ(link.counts().spikes, 4u);
 }
 
+TEST_F(DriverLinkTest, AJumpThatTheDriverToldCountsAlsoWhereItsReadingWasReplaced) {
+  ASSERT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
+  PointerState jumped = reading_at(0.001);
+  jumped.jumped = true;
+  link.pass(jumped, now += kMillisecond);
+  ASSERT_EQ(passed(reading_at(0.001)), DeviceStatus::Ok);
+  EXPECT_TRUE(state.jumped);
+  ASSERT_EQ(passed(reading_at(0.001)), DeviceStatus::Ok);
+  EXPECT_FALSE(state.jumped);
+  // Refused as a spike at first, and soon within what a hand may have moved.
+  jumped = reading_at(0.03);
+  jumped.jumped = true;
+  EXPECT_EQ(passed(jumped), DeviceStatus::Stalled);
+  now += kMillisecond;
+  ASSERT_EQ(passed(reading_at(0.03)), DeviceStatus::Ok);
+  EXPECT_TRUE(state.jumped);
+}
+
 TEST_F(DriverLinkTest, TellsOfAJumpWhoseOwnReadingWasReplaced) {
   EXPECT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
   for (int i = 0; i < 6; ++i) link.pass(reading_at(0.1), now += kMillisecond);
