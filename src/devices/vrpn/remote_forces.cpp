@@ -96,13 +96,10 @@ Vector3 RemoteForces::push(Wall& wall, const ClientForces::PlaneSlot& slot, cons
     change(wall, wall.there ? felt(wall, wall.to) : Plane(), slot.plane, state, now);
     wall.to = slot.plane;
   }
+  if (depth_behind(slot.plane, state.position) <= 0.0) wall.behind = false;
   const Plane plane = felt(wall, slot.plane);
   const double depth = depth_behind(plane, state.position);
-  if (depth <= 0.0) {
-    wall.behind = false;
-    return Vector3::Zero();
-  }
-  if (wall.behind) return Vector3::Zero();
+  if (wall.behind || depth <= 0.0) return Vector3::Zero();
   const double outwards = plane.normal.dot(state.velocity);
   const double press = std::max(0.0, plane.spring * depth - plane.damper * outwards);
   const Vector3 along = state.velocity - outwards * plane.normal;

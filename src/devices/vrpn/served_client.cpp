@@ -121,7 +121,6 @@ void ServedClient::take_field(std::size_t device, std::string_view payload) {
 }
 
 void ServedClient::share(std::size_t device, const SharedState& shared) {
-  if (!talks() || has_waiting()) return;
   const base::Matrix3 theirs_from_ours = devices_.frame.ours_from_theirs.transpose();
   const Quaternion turn(theirs_from_ours);
   const double scale = 1.0 / devices_.frame.scale;

@@ -37,7 +37,10 @@ class ServedClient {
 
   /// Receives and sends what can be at once. False once it is to be dropped.
   bool serve(std::int64_t now);
-  /// Sends a device's state, unless earlier messages still wait: then the next is newer.
+  /// Has it greeted, and taken all that was said before? States that would wait are left out: later ones are
+  /// newer.
+  bool ready() const { return talks() && !has_waiting(); }
+  /// Says a device's state, where it is ready.
   void share(std::size_t device, const SharedState& shared);
   void say_farewell();
 

@@ -61,9 +61,7 @@ bool TrackerReadings::take(Kind kind, const Message& message, std::int64_t now) 
     }
     case Kind::ButtonChange: {
       const auto button = read_button(message.payload);
-      if (!button) return false;
-      take_button(*button);
-      return posed_;
+      return button && take_button(*button) && posed_;
     }
     case Kind::ButtonStates: {
       const auto buttons = read_buttons(message.payload);
@@ -92,10 +90,11 @@ bool TrackerReadings::take_pose(const PosQuat& pose, std::int64_t sent, std::int
   return true;
 }
 
-void TrackerReadings::take_button(const Button& button) {
-  if (button.button < 0 || button.button >= kButtons) return;
+bool TrackerReadings::take_button(const Button& button) {
+  if (button.button < 0 || button.button >= kButtons) return false;
   const std::uint32_t bit = 1U << button.button;
   state_.buttons = button.down ? state_.buttons | bit : state_.buttons & ~bit;
+  return true;
 }
 
 }  // namespace icome::devices::vrpn

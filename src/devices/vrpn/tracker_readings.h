@@ -47,7 +47,7 @@ class TrackerReadings {
 
  private:
   bool take_pose(const PosQuat& pose, std::int64_t sent, std::int64_t now);
-  void take_button(const Button& button);
+  bool take_button(const Button& button);
 
   VrpnFrame frame_;
   int sensor_;

@@ -31,7 +31,7 @@ DeviceEntry entry(std::string name, bool present, std::string why) {
   return {std::move(name), "pointer", std::string(kVrpn), present, std::move(why)};
 }
 
-/// The names of devices that told a pose while we listened; empty, and `why`, where the server left.
+/// The names of devices that told a pose while we listened.
 std::set<std::string> heard_trackers(vrpn::ClientLink& link) {
   std::set<std::string> trackers;
   const auto listen = [&](const vrpn::Message& message, vrpn::Kind kind, bool) {
@@ -74,7 +74,23 @@ std::vector<DeviceEntry> list_vrpn() {
   return entries;
 }
 
+/// The address of the first tracker there is.
+base::Result<std::string> first_vrpn() {
+  std::string why;
+  for (const DeviceEntry& it : list_vrpn()) {
+    if (it.present) return it.name.substr(kVrpn.size() + 1);
+    if (why.empty()) why = it.why;
+  }
+  return base::fail(why);
+}
+
 base::Result<std::unique_ptr<PointerDevice>> open_vrpn(std::string_view text) {
+  std::string first;
+  if (text.empty()) {
+    const auto found = first_vrpn();
+    if (!found) return tl::unexpected(found.error());
+    text = first = *found;
+  }
   auto address = VrpnAddress::parse(text);
   if (!address) return tl::unexpected(address.error());
   auto device = DrivenDevice::create(std::make_unique<VrpnDriver>(std::move(*address)));

@@ -199,16 +199,18 @@ void VrpnServer::answer_requests(std::int64_t now) {
 
 void VrpnServer::share(std::int64_t now) {
   if (now < due_) return;
-  bool fresh = false;
-  for (std::size_t device = 0; device < states_.size(); ++device) {
-    if (!states_[device]->states.update()) continue;
-    fresh = true;
-    for (const auto& client : clients_) {
-      if (client) client->share(device, states_[device]->states.read());
+  std::array<bool, kMostNames> fresh = {};
+  for (std::size_t device = 0; device < states_.size(); ++device)
+    fresh[device] = states_[device]->states.update();
+  for (const auto& client : clients_) {
+    if (!client || !client->ready()) continue;
+    for (std::size_t device = 0; device < states_.size(); ++device) {
+      if (fresh[device]) client->share(device, states_[device]->states.read());
     }
   }
   // A turn that comes late takes nothing from the next one.
-  if (fresh) due_ = std::max(due_ + period_, now - period_ / 2);
+  if (std::find(fresh.begin(), fresh.end(), true) != fresh.end())
+    due_ = std::max(due_ + period_, now - period_ / 2);
 }
 
 void VrpnServer::serve(std::int64_t now) {

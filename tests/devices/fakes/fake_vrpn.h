@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <type_traits>
 
 #include "base/clock.h"
 #include "devices/fakes/fake_arm.h"
@@ -67,7 +68,7 @@ class FakeVrpn {
 
  private:
   template <typename Act>
-  auto locked(Act act) {
+  std::invoke_result_t<Act> locked(Act act) {
     const std::lock_guard lock(guard_);
     return act();
   }

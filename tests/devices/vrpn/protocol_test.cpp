@@ -9,7 +9,7 @@
 
 #include "devices/vrpn/remote_forces.h"
 #include "devices/vrpn/tracker_readings.h"
-#include "realtime/guard/realtime_guard.h"
+#include "realtime/guard/guard.h"
 #include "repeats.h"
 
 namespace icome::devices::vrpn {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "realtime/guard/realtime_guard.h"
+#include "realtime/guard/guard.h"
 
 namespace icome::devices::vrpn {
 namespace {

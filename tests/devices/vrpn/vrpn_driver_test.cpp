@@ -174,11 +174,15 @@ TEST(VrpnBackEnd, ListsTrackersThatReportAndOpensThem) {
   EXPECT_EQ(entries[0].backend, "vrpn");
   EXPECT_TRUE(entries[0].present);
   EXPECT_TRUE(back_end.open(fake.address()));
+  EXPECT_TRUE(back_end.open("")) << "the first there is";
   fake.switch_on(false);
   const auto absent = back_end.list();
   ASSERT_EQ(absent.size(), 1U);
   EXPECT_FALSE(absent[0].present);
   EXPECT_NE(absent[0].why.find("no VRPN server answers at 127.0.0.1"), std::string::npos) << absent[0].why;
+  const auto none = back_end.open("");
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, absent[0].why);
   unsetenv("ICOME_VRPN");
 }
 

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "base/clock.h"
-#include "realtime/guard/realtime_guard.h"
+#include "realtime/guard/guard.h"
 #include "repeats.h"
 
 namespace icome::devices {
