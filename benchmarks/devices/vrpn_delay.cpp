@@ -23,17 +23,18 @@ using icome::base::steady_nanoseconds;
 
 constexpr int kTicks = 10'000;
 constexpr std::int64_t kPeriod = 1'000'000;  // ns
-constexpr double kStep = 1e-6;               // m and N a number, so that a place or a force says which it is
+constexpr double kStep = 1e-6;               // m a number, so that a place says which it is
+constexpr double kSlope = 1e-3;              // a number, of a force's y to its x, which ramps leave as it is
 constexpr int kNumbers = 1000;
 
 /// When number n was given to the one side.
 struct Stamps {
-  std::vector<std::atomic<std::int64_t>> given{kNumbers};
+  std::vector<std::atomic<std::int64_t>> given = std::vector<std::atomic<std::int64_t>>(kNumbers);
   std::vector<std::int64_t> delays;  // ns, of those that came to the other side
 
   void note(int number) { given[static_cast<std::size_t>(number)].store(steady_nanoseconds()); }
   void arrived(double value) {
-    const auto number = static_cast<int>(value / kStep + 0.5);
+    const auto number = static_cast<int>(value + 0.5);
     if (number <= 0 || number >= kNumbers) return;
     const std::int64_t since = given[static_cast<std::size_t>(number)].exchange(0);
     if (since != 0) delays.push_back(steady_nanoseconds() - since);
@@ -51,7 +52,8 @@ void run_device(VrpnServer& server, Stamps& states, Stamps& forces, const std::a
     server.feed(state, Vector3::Zero());
     // Ten looks a period, so that the delay is that of the way and not of this loop.
     for (int look = 1; look <= 10; ++look) {
-      forces.arrived(server.wanted_force(state, steady_nanoseconds()).x());
+      const Vector3 wanted = server.wanted_force(state, steady_nanoseconds());
+      if (wanted.x() > 0.0) forces.arrived(wanted.y() / wanted.x() / kSlope);
       icome::realtime::sleep_until(next + look * kPeriod / 10);
     }
     next = std::max(next + kPeriod, steady_nanoseconds());
@@ -65,9 +67,9 @@ void run_servo(PointerDevice& device, Stamps& states, Stamps& forces) {
   for (int tick = 0; tick < kTicks; ++tick) {
     const int number = 1 + tick % (kNumbers - 1);
     forces.note(number);
-    device.write({kStep * number, 0, 0});
+    device.write({1.0, kSlope * number, 0.0});
     for (int look = 1; look <= 10; ++look) {
-      if (device.read(state) == DeviceStatus::Ok) states.arrived(state.position.x());
+      if (device.read(state) == DeviceStatus::Ok) states.arrived(state.position.x() / kStep);
       icome::realtime::sleep_until(next + look * kPeriod / 10);
     }
     next = std::max(next + kPeriod, steady_nanoseconds());

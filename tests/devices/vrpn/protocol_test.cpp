@@ -279,6 +279,7 @@ TEST(VrpnProtocol, HostileMessagesGiveNoForceBeyondTheBounds) {
   }
   std::uint64_t revision = 0;
   int usable = 0;
+  int tried = 0;
   for (int i = 0; i < repeats(1'000'000);) {
     for (int k = 0; k < 50; ++k) stream += peer.message();
     give(decoder, stream);
@@ -300,10 +301,11 @@ TEST(VrpnProtocol, HostileMessagesGiveNoForceBeyondTheBounds) {
         wanted.clients[1].field = *field;
         ++usable;
       }
+      if (usable == tried) continue;
+      tried = usable;
       PointerState state;
       state.position = {0.01 * (i % 7), 0.0, 0.0};
-      const Vector3 force = forces.force(wanted, state, std::int64_t{i} * 1'000'000);
-      ASSERT_TRUE(force.allFinite());
+      ASSERT_TRUE(forces.force(wanted, state, std::int64_t{i} * 1'000'000).allFinite());
     }
     ASSERT_EQ(decoder.next(message), Decoder::Step::More);
   }
