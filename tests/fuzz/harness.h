@@ -17,13 +17,14 @@ struct Harness {
   std::vector<std::string> (*seeds)();  // good input of our own making, to begin with
 };
 
-/// All of them: of files, of shapes and edits, and of texts that people write.
+/// All of them: of files, of shapes and edits, of texts that people write, and of devices over the network.
 std::vector<Harness> harnesses();
 
 // Parts of that list.
 std::span<const Harness> mesh_harnesses();
 std::span<const Harness> design_harnesses();
 std::span<const Harness> text_harnesses();
+std::span<const Harness> vrpn_harnesses();
 
 /// Ends the program, telling what was promised, unless that holds.
 void require(bool holds, const char* promise);

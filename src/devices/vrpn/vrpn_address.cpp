@@ -1,0 +1,135 @@
+#include "devices/vrpn/vrpn_address.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "devices/device_profiles.h"
+#include "devices/vrpn/protocol.h"
+
+namespace icome::devices {
+namespace vrpn {
+namespace {
+
+template <typename Number>
+std::optional<Number> whole_number(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// Takes the text up to the next separator off the front.
+std::string_view take_until(std::string_view& text, char separator) {
+  const std::size_t end = text.find(separator);
+  const std::string_view taken = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return taken;
+}
+
+std::optional<Vector3> axis_named(std::string_view name) {
+  const bool negative = name.starts_with('-');
+  if (negative) name.remove_prefix(1);
+  constexpr std::string_view kAxes = "xyz";
+  const std::size_t index = name.size() == 1 ? kAxes.find(name) : std::string_view::npos;
+  if (index == std::string_view::npos) return std::nullopt;
+  return (negative ? -1.0 : 1.0) * Vector3::Unit(static_cast<Eigen::Index>(index));
+}
+
+/// What is wrong with an option of an address; empty: it was taken.
+std::string take_option(VrpnAddress& address, std::string_view key, std::string_view value) {
+  const std::string text(value);
+  const auto number = whole_number<double>(value);
+  const auto integer = whole_number<int>(value);
+  const auto positive = [&](double& setting) -> std::string {
+    if (!number || !(*number > 0.0) || !std::isfinite(*number))
+      return std::string(key) + "=" + text + ": this must be a number above 0";
+    setting = *number;
+    return {};
+  };
+  if (key == "axes") {
+    auto frame = VrpnFrame::parse(value, address.frame.scale);
+    if (!frame) return frame.error().message;
+    address.frame = *frame;
+    return {};
+  }
+  if (key == "scale") return positive(address.frame.scale);
+  if (key == "unit") return positive(address.spring_unit);
+  if (key == "radius") return positive(address.info.workspace_radius);
+  if (key == "sensor" || key == "grip") {
+    if (!integer || *integer < 0) return std::string(key) + "=" + text + ": this must be 0, 1, 2 ...";
+    (key == "grip" ? address.grip : address.sensor) = *integer;
+    return {};
+  }
+  if (key == "forces") {
+    if (value == "planes")
+      address.forces = VrpnForces::Planes;
+    else if (value == "fields")
+      address.forces = VrpnForces::Fields;
+    else if (value == "none")
+      address.forces = VrpnForces::Off;
+    else
+      return "forces=" + text + ": there are planes, fields and none";
+    return {};
+  }
+  if (key == "profile") {
+    auto profile = find_device_profile(value);
+    if (!profile) return profile.error().message;
+    address.info = *profile;
+    return {};
+  }
+  return "'" + std::string(key) +
+         "' is no setting of a VRPN device; there are axes, scale, sensor, grip, forces, unit, profile, "
+         "radius";
+}
+
+}  // namespace
+}  // namespace vrpn
+
+base::Result<VrpnFrame> VrpnFrame::parse(std::string_view axes, double scale) {
+  VrpnFrame frame;
+  frame.scale = scale;
+  const std::string text(axes);
+  for (int row = 0; row < 3; ++row) {
+    const auto axis = vrpn::axis_named(vrpn::take_until(axes, ','));
+    if (!axis) return base::fail("axes=" + text + ": this must be three axes such as x,z,-y");
+    frame.ours_from_theirs.row(row) = *axis;
+  }
+  if (!axes.empty() || !(frame.ours_from_theirs.determinant() > 0.5))
+    return base::fail("axes=" + text + ": these are no three axes of a right-handed frame; x,z,-y is one");
+  return frame;
+}
+
+Quaternion VrpnFrame::orientation(const Quaternion& theirs) const {
+  const Quaternion turn(ours_from_theirs);
+  return turn * theirs * turn.conjugate();
+}
+
+base::Result<VrpnAddress> VrpnAddress::parse(std::string_view text) {
+  VrpnAddress address;
+  std::string_view options = text;
+  std::string_view place = vrpn::take_until(options, '?');
+  if (const auto name = vrpn::take_until(place, '@'); !name.empty()) address.name = name;
+  if (address.name.size() > vrpn::kLongestName)
+    return base::fail("'" + address.name + "': names of VRPN devices have 100 letters at most");
+  if (place.starts_with("tcp://")) place.remove_prefix(6);  // as programs of VRPN write it
+  if (const auto host = vrpn::take_until(place, ':'); !host.empty()) address.host = host;
+  if (!place.empty()) {
+    const auto port = vrpn::whole_number<int>(place);
+    if (!port || *port < 1 || *port > 65535)
+      return base::fail("'" + std::string(place) + "' is no port; a VRPN device is NAME@HOST:PORT, such as " +
+                        "Tracker0@localhost:3883");
+    address.port = *port;
+  }
+  while (!options.empty()) {
+    std::string_view value = vrpn::take_until(options, '&');
+    const std::string_view key = vrpn::take_until(value, '=');
+    const std::string wrong = vrpn::take_option(address, key, value);
+    if (!wrong.empty()) return base::fail(wrong);
+  }
+  address.info.name = address.name + "@" + address.host;
+  return address;
+}
+
+}  // namespace icome::devices

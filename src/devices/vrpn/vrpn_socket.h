@@ -1,0 +1,65 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace icome::devices::vrpn {
+
+/// Owns a socket (or none: -1). No call waits, unless it says so.
+class Socket {
+ public:
+  Socket() = default;
+  explicit Socket(int number) : number_(number) {}
+  ~Socket() { close(); }
+  Socket(Socket&& other) noexcept : number_(other.number_) { other.number_ = -1; }
+  Socket& operator=(Socket&& other) noexcept;
+
+  int number() const { return number_; }
+  explicit operator bool() const { return number_ >= 0; }
+  void close();
+
+ private:
+  int number_ = -1;
+};
+
+/// What became of bytes.
+enum class Flow : std::uint8_t {
+  Some,   // some went
+  Later,  // none could go now
+  Ended,  // the other side is gone
+};
+
+/// An IPv4 address in the order of the network, and a port in ours.
+struct Place {
+  std::uint32_t host = 0;
+  std::uint16_t port = 0;
+};
+/// "127.0.0.1:3883".
+std::string shown(const Place& place);
+/// Looks a name up, which may take seconds; the error says that it is unknown.
+base::Result<Place> find_host(const std::string& host, int port);
+
+/// A TCP socket that connects or is connected; writes on it tell when poll() says that it can be written.
+Socket begin_connecting(const Place& place);
+/// Is it connected by now?
+bool connected(const Socket& socket);
+/// Small messages go at once, few wait in the system, so that a slow reader gets no old ones, and a peer that
+/// is gone without a word is given up after `patience` s.
+void prepare(const Socket& socket, double patience);
+/// A listening TCP socket, or a UDP one, at a place; none where it is taken. Asks for the port that it got.
+Socket listen_at(Place& place);
+Socket datagrams_at(const Place& place);
+Socket accept_from(const Socket& listener);
+
+Flow receive(const Socket& socket, std::span<char> bytes, std::size_t& count);
+Flow send(const Socket& socket, std::string_view bytes, std::size_t& count);
+/// One datagram, cut off at the end of `bytes`, and who sent it.
+Flow receive_datagram(const Socket& socket, std::span<char> bytes, std::size_t& count, Place& sender);
+/// Waits for something to receive (and, if asked, for room to send), `nanoseconds` at most.
+void wait_for(const Socket& socket, bool to_send, std::int64_t nanoseconds);
+
+}  // namespace icome::devices::vrpn
