@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <vector>
 
 #include "devices/device_profiles.h"
+#include "devices/evdev/back_ends.h"
 #include "devices/mapping_file.h"
 #include "devices/simulated/simulated_device.h"
 #include "devices/spacemouse/spnav_link.h"
+#include "devices/vrpn/vrpn_back_end.h"
 
 namespace icome::devices {
 namespace {
@@ -36,14 +38,21 @@ std::vector<DeviceEntry> list_space_mouse() {
   return {entry};
 }
 
-const std::array kBackEnds = {
-    BackEnd{kSimulated, kSimulated, list_simulated, open_simulated},
-    BackEnd{"spacemouse", "spacemouse", list_space_mouse, nullptr},
-};
+const std::vector<BackEnd>& table() {
+  static const std::vector<BackEnd> kBackEnds = {
+      {kSimulated, kSimulated, list_simulated, open_simulated},
+      vrpn_back_end(),
+      kTabletBackEnd,
+      kMouseBackEnd,
+      kGamepadBackEnd,
+      {"spacemouse", "spacemouse", list_space_mouse, nullptr},
+  };
+  return kBackEnds;
+}
 
 const BackEnd* back_end_of(std::string_view name) {
   const std::string_view prefix = name.substr(0, name.find(':'));
-  for (const BackEnd& back_end : kBackEnds)
+  for (const BackEnd& back_end : table())
     if (back_end.prefix == prefix) return &back_end;
   return nullptr;
 }
@@ -59,7 +68,7 @@ base::Result<std::unique_ptr<PointerDevice>> open_raw(std::string_view name) {
     auto simulated = open_simulated(name);
     if (simulated) return simulated;
     std::string known;
-    for (const BackEnd& it : kBackEnds)
+    for (const BackEnd& it : table())
       if (it.open != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", it.prefix);
     return base::fail(
         fmt::format("{}; or an address that begins with one of: {} (icome devices lists what is there)",
@@ -78,11 +87,11 @@ bool changes_nothing(const DeviceMapping& mapping) {
 
 }  // namespace
 
-std::span<const BackEnd> back_ends() { return kBackEnds; }
+std::span<const BackEnd> back_ends() { return table(); }
 
 std::vector<DeviceEntry> list_devices() {
   std::vector<DeviceEntry> all;
-  for (const BackEnd& back_end : kBackEnds)
+  for (const BackEnd& back_end : table())
     for (DeviceEntry& entry : back_end.list()) all.push_back(std::move(entry));
   return all;
 }
