@@ -305,6 +305,12 @@ void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
          "--device", options.devices,
          "A device to touch with, as icome devices lists it; may be given several times (default: the mouse)")
       ->type_name("NAME");
+  app.add_option("--head", options.head, "A tracker on the user's head, such as vrpn:Tracker0@localhost")
+      ->type_name("NAME");
+  app.add_option(
+         "--navigation", options.navigation,
+         "What moves the view: gamepad, or another one that icome devices lists (default: a 3D mouse)")
+      ->type_name("NAME");
 }
 
 base::Result<ShotOptions> understood_shot(const Entries& entries) {
@@ -380,6 +386,8 @@ CommandLine bad_usage(const std::string& sentence, const std::string& help) {
 base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptions& options,
                                                        const CLI::App& app) {
   if (app.get_subcommands().empty()) return options;
+  if (!options.head.empty() || !options.navigation.empty())
+    return base::fail("--head and --navigation are for the window, and no command opens it.");
   if (!options.devices.empty())
     return base::fail("--device before a command is for the window; it comes after touch.");
   if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");

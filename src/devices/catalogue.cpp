@@ -6,10 +6,13 @@
 
 #include "devices/device_profiles.h"
 #include "devices/evdev/back_ends.h"
+#include "devices/evdev/gamepad_navigation.h"
+#include "devices/evdev/linux_inputs.h"
 #include "devices/mapping_file.h"
 #include "devices/simulated/simulated_device.h"
 #include "devices/spacemouse/spnav_link.h"
 #include "devices/vrpn/vrpn_back_end.h"
+#include "devices/vrpn/vrpn_head.h"
 
 namespace icome::devices {
 namespace {
@@ -94,6 +97,23 @@ std::vector<DeviceEntry> list_devices() {
   for (const BackEnd& back_end : table())
     for (DeviceEntry& entry : back_end.list()) all.push_back(std::move(entry));
   return all;
+}
+
+base::Result<std::unique_ptr<HeadDevice>> open_head(std::string_view name) {
+  if (!name.starts_with("vrpn:"))
+    return base::fail(fmt::format("{}: a tracker for the head is named vrpn:NAME@HOST:PORT", name));
+  auto head = VrpnHead::create(address_of(name));
+  if (!head) return tl::unexpected(head.error());
+  return std::move(*head);
+}
+
+base::Result<std::unique_ptr<NavigationDevice>> open_navigation(std::string_view name) {
+  if (name.substr(0, name.find(':')) != kGamepadBackEnd.prefix)
+    return base::fail(
+        fmt::format("{}: a device that moves the view is gamepad, gamepad:WHICH or spacemouse", name));
+  auto gamepad = GamepadNavigation::create(linux_inputs(), std::string(address_of(name)));
+  if (!gamepad) return tl::unexpected(gamepad.error());
+  return std::move(*gamepad);
 }
 
 bool is_device_address(std::string_view name) {

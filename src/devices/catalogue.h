@@ -7,7 +7,9 @@
 
 #include "base/result.h"
 #include "devices/back_end.h"
+#include "devices/head_device.h"
 #include "devices/mapped_device.h"
+#include "devices/navigation_device.h"
 
 namespace icome::devices {
 
@@ -27,5 +29,10 @@ bool is_device_address(std::string_view name);
 base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name);
 /// Likewise with another mapping.
 base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name, const DeviceMapping& mapping);
+
+/// Opens a tracker for the user's head: "vrpn:NAME@HOST:PORT". May take seconds.
+base::Result<std::unique_ptr<HeadDevice>> open_head(std::string_view name);
+/// Opens a device that moves the view: "gamepad" or "gamepad:WHICH". May take seconds.
+base::Result<std::unique_ptr<NavigationDevice>> open_navigation(std::string_view name);
 
 }  // namespace icome::devices

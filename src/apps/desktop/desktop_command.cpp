@@ -22,20 +22,41 @@ bool is_design_name(const std::string& word) {
   return word.find_first_of("./") != std::string::npos || std::filesystem::exists(word, error);
 }
 
+namespace {
+
+/// Opens the pointers, the head's tracker and what moves the view, as the options name them.
+base::Result<session::SessionSettings> settings_with_devices(const DesktopCommandOptions& options) {
+  session::SessionSettings settings = desktop_settings();
+  for (const std::string& name : options.devices) {
+    auto device = devices::open_device(name);
+    if (!device) return base::fail("--device: " + device.error().message);
+    settings.pointers.push_back(std::move(*device));
+  }
+  if (!options.head.empty()) {
+    auto head = devices::open_head(options.head);
+    if (!head) return base::fail("--head: " + head.error().message);
+    settings.head = std::move(*head);
+  }
+  if (!options.navigation.empty() && options.navigation != "spacemouse") {
+    auto navigation = devices::open_navigation(options.navigation);
+    if (!navigation) return base::fail("--navigation: " + navigation.error().message);
+    settings.navigation = std::move(*navigation);
+  }
+  return settings;
+}
+
+}  // namespace
+
 int run_desktop_window(int argc, char** argv, const DesktopCommandOptions& options) {
   ui::DesktopOptions wanted;
   wanted.design = options.design;
   wanted.theme = options.theme;
-  session::SessionSettings settings = desktop_settings();
-  for (const std::string& name : options.devices) {
-    auto device = devices::open_device(name);
-    if (!device) {
-      tell("--device: " + device.error().message);
-      return 1;
-    }
-    settings.pointers.push_back(std::move(*device));
+  auto settings = settings_with_devices(options);
+  if (!settings) {
+    tell(settings.error().message);
+    return 1;
   }
-  return ui::run_desktop(argc, argv, wanted, std::move(settings));
+  return ui::run_desktop(argc, argv, wanted, std::move(*settings));
 }
 
 }  // namespace icome::apps

@@ -94,13 +94,30 @@ std::string list_json(const std::vector<devices::DeviceEntry>& entries) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// Lines of words, at most 100 characters each, indented.
+std::string in_lines(std::string_view words) {
+  constexpr std::size_t kIndent = 6, kWidth = 100;
+  std::string text;
+  while (!words.empty()) {
+    std::size_t end = words.size();
+    if (end > kWidth - kIndent) {
+      const std::size_t blank = words.rfind(' ', kWidth - kIndent);
+      end = blank == std::string_view::npos || blank == 0 ? words.find(' ') : blank;
+      end = std::min(end, words.size());
+    }
+    text += std::string(kIndent, ' ') + std::string(words.substr(0, end)) + "\n";
+    words.remove_prefix(std::min(words.size(), end + 1));
+  }
+  return text;
+}
+
 std::string list_text(const std::vector<devices::DeviceEntry>& entries) {
   std::string text;
   for (const bool present : {true, false}) {
     text += present ? "There are:\n" : "\nNot there:\n";
     for (const devices::DeviceEntry& it : entries) {
       if (it.present != present) continue;
-      text += fmt::format("  {:<18} {:<12} {}\n", it.name, it.family, it.why);
+      text += fmt::format("  {:<28} {} ({})\n", it.name, it.family, it.backend) + in_lines(it.why);
     }
   }
   return text + "\nicome devices test NAME measures one; icome touch MODEL --device NAME touches with it.\n";
