@@ -35,7 +35,7 @@ ServedClient::ServedClient(Socket socket, const Place& place, bool connecting, c
 
 bool ServedClient::serve(std::int64_t now) {
   if (connecting_) {
-    if (!connected(socket_)) return now - since_ < kConnectWithin;
+    if (!connected(socket_)) return !refused(socket_) && now - since_ < kConnectWithin;
     connecting_ = false;
     since_ = now;
   }

@@ -98,6 +98,12 @@ bool connected(const Socket& socket) {
   return getpeername(socket.number(), reinterpret_cast<sockaddr*>(&peer), &size) == 0;
 }
 
+bool refused(const Socket& socket) {
+  int error = 0;
+  socklen_t size = sizeof(error);
+  return getsockopt(socket.number(), SOL_SOCKET, SO_ERROR, &error, &size) != 0 || error != 0;
+}
+
 void prepare(const Socket& socket, double patience) {
   set_option(socket.number(), IPPROTO_TCP, TCP_NODELAY, 1);
   set_option(socket.number(), SOL_SOCKET, SO_SNDBUF, kBacklog);

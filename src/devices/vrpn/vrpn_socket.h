@@ -47,6 +47,8 @@ base::Result<Place> find_host(const std::string& host, int port);
 Socket begin_connecting(const Place& place);
 /// Is it connected by now?
 bool connected(const Socket& socket);
+/// Has the attempt to connect failed?
+bool refused(const Socket& socket);
 /// Small messages go at once, few wait in the system, so that a slow reader gets no old ones, and a peer that
 /// is gone without a word is given up after `patience` s.
 void prepare(const Socket& socket, double patience);
