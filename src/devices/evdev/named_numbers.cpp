@@ -17,7 +17,7 @@ namespace icome::devices {
 namespace {
 
 /// The number of that name; null where there is none.
-const NamedNumber* named(std::span<const NamedNumber> numbers, std::string_view name) {
+const NamedNumber* named_number(std::span<const NamedNumber> numbers, std::string_view name) {
   for (const NamedNumber& number : numbers) {
     if (number.name == name) return &number;
   }
@@ -41,7 +41,7 @@ base::Result<void> set_numbers(std::string_view source, std::string_view text,
     if (word.empty()) continue;
     const std::size_t equals = word.find('=');
     const std::string_view name = word.substr(0, equals);
-    const NamedNumber* number = named(numbers, name);
+    const NamedNumber* number = named_number(numbers, name);
     const std::string shown = base::shown_text(base::as_utf8(word));
     if (number == nullptr)
       return base::fail(

@@ -22,20 +22,21 @@ using suite::holds_soon;
 constexpr DrivenSettings kImpatient = {.retry = 0.01};
 
 template <typename Reader, typename Settings>
-base::Result<std::unique_ptr<DrivenDevice>> driven(std::shared_ptr<FakeInputs> inputs, InputKind kind,
-                                                   const std::string& address, const Settings& settings) {
+base::Result<std::unique_ptr<DrivenDevice>> driven_input(std::shared_ptr<FakeInputs> inputs, InputKind kind,
+                                                         const std::string& address,
+                                                         const Settings& settings) {
   auto reader = std::make_unique<Reader>(settings);
   return DrivenDevice::create(
       std::make_unique<InputDriver>(std::move(inputs), kind, address, std::move(reader)), kImpatient);
 }
 
 /// Reads until a condition holds of the newest state.
-bool reads_soon(PointerDevice& device, const std::function<bool(const PointerState&)>& condition) {
+bool input_reads_soon(PointerDevice& device, const std::function<bool(const PointerState&)>& condition) {
   PointerState state;
   return holds_soon([&] { return device.read(state) == DeviceStatus::Ok && condition(state); });
 }
 
-bool is_lost_soon(PointerDevice& device) {
+bool input_lost_soon(PointerDevice& device) {
   PointerState state;
   return holds_soon([&] { return device.read(state) == DeviceStatus::Lost; });
 }
@@ -56,9 +57,9 @@ TEST(InputDriver, PassesWhatAPenDoes) {
   ASSERT_TRUE(device) << device.error().message;
   EXPECT_EQ((*device)->info().name, "Fake Pen");
   EXPECT_EQ((*device)->info().max_force, 0.0);
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.parked; }));
+  EXPECT_TRUE(input_reads_soon(**device, [](const PointerState& state) { return state.parked; }));
   put_pen(tablet, 40000, 0, 1000);
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState& state) {
+  EXPECT_TRUE(input_reads_soon(**device, [](const PointerState& state) {
     return !state.parked && state.buttons == 1U && state.position.isApprox(Vector3(0.1, 0.05, -0.0025), 1e-9);
   }));
   EXPECT_TRUE((*device)->condition().empty());
@@ -70,12 +71,14 @@ TEST(InputDriver, AFrameIsPassedWholeOrNotAtAll) {
   auto device = open_input_pointer(inputs, InputKind::Tablet, "", kImpatient);
   ASSERT_TRUE(device);
   put_pen(tablet, 20000, 10000, 1000);
-  ASSERT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.buttons == 1U; }));
+  ASSERT_TRUE(input_reads_soon(**device, [](const PointerState& state) { return state.buttons == 1U; }));
   tablet.axis(ABS_X, 30000);
   for (int i = 0; i < 20; ++i)
-    ASSERT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.position.x() == 0.0; }));
+    ASSERT_TRUE(
+        input_reads_soon(**device, [](const PointerState& state) { return state.position.x() == 0.0; }));
   tablet.report();
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.position.x() == 0.05; }));
+  EXPECT_TRUE(
+      input_reads_soon(**device, [](const PointerState& state) { return state.position.x() == 0.05; }));
 }
 
 TEST(InputDriver, DroppedEventsAreMadeUpFor) {
@@ -84,14 +87,14 @@ TEST(InputDriver, DroppedEventsAreMadeUpFor) {
   auto device = open_input_pointer(inputs, InputKind::Tablet, "", kImpatient);
   ASSERT_TRUE(device);
   put_pen(tablet, 20000, 10000, 1000);
-  ASSERT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.buttons == 1U; }));
+  ASSERT_TRUE(input_reads_soon(**device, [](const PointerState& state) { return state.buttons == 1U; }));
   tablet.overflow();
   put_pen(tablet, 22000, 10000, 0);
   tablet.key(BTN_STYLUS, true);
   tablet.report();
   tablet.drained();
   bool jumped = false;
-  EXPECT_TRUE(reads_soon(**device, [&](const PointerState& state) {
+  EXPECT_TRUE(input_reads_soon(**device, [&](const PointerState& state) {
     jumped = jumped || state.jumped;
     return state.buttons == 0b10U && state.position.isApprox(Vector3(0.01, 0.0, 0.0), 1e-9);
   }));
@@ -104,18 +107,19 @@ TEST(InputDriver, UnpluggedAndPluggedInAgain) {
   auto device = open_input_pointer(inputs, InputKind::Tablet, "Fake Pen", kImpatient);
   ASSERT_TRUE(device);
   put_pen(tablet, 20000, 10000, 1000);
-  ASSERT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.buttons == 1U; }));
+  ASSERT_TRUE(input_reads_soon(**device, [](const PointerState& state) { return state.buttons == 1U; }));
   tablet.plug(false);
-  ASSERT_TRUE(is_lost_soon(**device));
+  ASSERT_TRUE(input_lost_soon(**device));
   EXPECT_TRUE(holds_soon([&] { return !(*device)->condition().empty(); }));
   EXPECT_EQ((*device)->condition(), "Fake Pen: unplugged or switched off; plug it in again");
   EXPECT_TRUE(holds_soon([&] { return tablet.open_count() == 0; }));
   tablet.plug(true);
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState& state) {
+  EXPECT_TRUE(input_reads_soon(**device, [](const PointerState& state) {
     return state.parked && state.buttons == 0U;
   })) << "nobody knows what it does now";
   put_pen(tablet, 40000, 10000, 1000);
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState& state) { return state.position.x() == 0.1; }));
+  EXPECT_TRUE(
+      input_reads_soon(**device, [](const PointerState& state) { return state.position.x() == 0.1; }));
 }
 
 TEST(InputDriver, AnotherNodeOfTheSameNameIsFoundAgain) {
@@ -129,14 +133,14 @@ TEST(InputDriver, AnotherNodeOfTheSameNameIsFoundAgain) {
   ASSERT_TRUE(device);
   EXPECT_EQ((*device)->info().name, "Mine");
   before.plug(false);
-  ASSERT_TRUE(is_lost_soon(**device));
+  ASSERT_TRUE(input_lost_soon(**device));
   after.plug(true);
   other.plug(true);
   ASSERT_TRUE(holds_soon([&] { return after.open_count() + other.open_count() == 1; }));
   // Either may have been seen first, but where both are there it is the one of its name.
   if (other.open_count() == 1) {
     other.plug(false);
-    ASSERT_TRUE(is_lost_soon(**device));
+    ASSERT_TRUE(input_lost_soon(**device));
     EXPECT_TRUE(holds_soon([&] { return after.open_count() == 1; }));
   }
 }
@@ -153,10 +157,10 @@ TEST(InputDriver, TwoOfOneKindAtOnce) {
   right.moved(REL_Y, -200);
   right.key(BTN_LEFT, true);
   right.report();
-  EXPECT_TRUE(reads_soon(**one, [](const PointerState& state) {
+  EXPECT_TRUE(input_reads_soon(**one, [](const PointerState& state) {
     return state.buttons == 0U && state.position.isApprox(Vector3(0.005, 0.0, 0.0), 1e-9);
   }));
-  EXPECT_TRUE(reads_soon(**two, [](const PointerState& state) {
+  EXPECT_TRUE(input_reads_soon(**two, [](const PointerState& state) {
     return state.buttons == 1U && state.position.isApprox(Vector3(0.0, 0.01, 0.0), 1e-9);
   }));
   EXPECT_FALSE(open_input_pointer(inputs, InputKind::Mouse, "", kImpatient)) << "there is no third";
@@ -165,7 +169,8 @@ TEST(InputDriver, TwoOfOneKindAtOnce) {
 TEST(InputDriver, RumblesAsStronglyAsItIsPushed) {
   auto inputs = std::make_shared<FakeInputs>();
   FakeInput& pad = inputs->add(fakes::gamepad_abilities());
-  auto device = driven<GamepadPointer>(inputs, InputKind::Gamepad, "", GamepadSettings{.full_force = 2.0});
+  auto device =
+      driven_input<GamepadPointer>(inputs, InputKind::Gamepad, "", GamepadSettings{.full_force = 2.0});
   ASSERT_TRUE(device);
   const std::int64_t start = base::steady_nanoseconds();
   EXPECT_EQ((*device)->info().max_force, 2.0);
@@ -207,7 +212,7 @@ TEST(InputDriver, WithoutRumbleThereIsNoForce) {
         "Fake Pad: no rumble, as it may not be written to; add yourself");
   })) << (*device)->condition();
   (*device)->write({1.0, 0.0, 0.0});
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState&) { return true; }));
+  EXPECT_TRUE(input_reads_soon(**device, [](const PointerState&) { return true; }));
   EXPECT_TRUE(pad.commands().empty());
 }
 
@@ -221,7 +226,7 @@ TEST(InputDriver, ARumbleThatFailsIsToldAndTheRestGoesOn) {
     (*device)->write({3.0, 0.0, 0.0});
     return (*device)->condition().starts_with("Fake Pad: no rumble any more");
   })) << (*device)->condition();
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState&) { return true; }));
+  EXPECT_TRUE(input_reads_soon(**device, [](const PointerState&) { return true; }));
 }
 
 TEST(InputDriver, AFloodOfEventsDoesNotHoldItUp) {
@@ -235,7 +240,7 @@ TEST(InputDriver, AFloodOfEventsDoesNotHoldItUp) {
   }
   mouse.moved(REL_X, 100);
   mouse.report();
-  EXPECT_TRUE(reads_soon(
+  EXPECT_TRUE(input_reads_soon(
       **device, [](const PointerState& state) { return std::abs(state.position.x() - 0.005) < 1e-9; }));
 }
 
@@ -243,7 +248,7 @@ TEST(InputDriver, APenWithoutForceTouchesInAServo) {
   auto inputs = std::make_shared<FakeInputs>();
   FakeInput& tablet = inputs->add(fakes::tablet_abilities());
   const TabletSettings settings{.depth = 0.02, .lies_as_on_desk = true};
-  auto device = driven<Tablet>(inputs, InputKind::Tablet, "", settings);
+  auto device = driven_input<Tablet>(inputs, InputKind::Tablet, "", settings);
   ASSERT_TRUE(device);
   suite::Rig rig;
   rig.device = std::move(*device);
@@ -306,7 +311,7 @@ class SteeredPad final : public PointerDevice {
 suite::Rig steered_pad() {
   auto inputs = std::make_shared<FakeInputs>();
   FakeInput& pad = inputs->add(fakes::gamepad_abilities());
-  auto device = driven<GamepadPointer>(inputs, InputKind::Gamepad, "", GamepadSettings{});
+  auto device = driven_input<GamepadPointer>(inputs, InputKind::Gamepad, "", GamepadSettings{});
   EXPECT_TRUE(device);
   const double full = (*device)->info().max_force;
   auto steered = std::make_unique<SteeredPad>(inputs, pad, std::move(*device));
