@@ -97,11 +97,12 @@ function(icome_unit_test name program)
   endforeach()
 endfunction()
 
-# icome_tests(NAME [LINKS target...] [THREADED file...] [UNTHREADED file...] [SHARDS n]): the *_test.cpp files of this
-# folder as one GoogleTest program, run as icome_unit_test says. Where only some of a folder's code is threaded, THREADED
-# names the tests of it, which are all that the thread sanitizer runs; where most of it is, UNTHREADED names the others.
+# icome_tests(NAME [LINKS target...] [THREADED file...] [UNTHREADED file...] [EXCEPT file...] [SHARDS n]): the *_test.cpp
+# files of this folder as one GoogleTest program, run as icome_unit_test says. Where only some of a folder's code is
+# threaded, THREADED names the tests of it, which are all that the thread sanitizer runs; where most of it is, UNTHREADED
+# names the others. EXCEPT names sources that belong to other targets.
 function(icome_tests name)
-  cmake_parse_arguments(ARG "" "SHARDS" "LINKS;THREADED;UNTHREADED" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS" "LINKS;THREADED;UNTHREADED;EXCEPT" ${ARGN})
   if(ICOME_SANITIZE STREQUAL "thread" AND ARG_THREADED)
     list(TRANSFORM ARG_THREADED PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   else()
@@ -110,6 +111,8 @@ function(icome_tests name)
       list(TRANSFORM ARG_UNTHREADED PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
       list(REMOVE_ITEM sources ${ARG_UNTHREADED})
     endif()
+    list(TRANSFORM ARG_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    list(REMOVE_ITEM sources ${ARG_EXCEPT})
   endif()
   if(NOT sources)
     return()

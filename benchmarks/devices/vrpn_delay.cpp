@@ -5,12 +5,12 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <thread>
 #include <vector>
 
 #include "base/clock.h"
+#include "device_figures.h"
 #include "devices/driver/driven_device.h"
 #include "devices/vrpn/vrpn_driver.h"
 #include "devices/vrpn/vrpn_server.h"
@@ -21,7 +21,6 @@ namespace {
 using namespace icome::devices;
 using icome::base::steady_nanoseconds;
 
-constexpr int kTicks = 10'000;
 constexpr std::int64_t kPeriod = 1'000'000;  // ns
 constexpr double kStep = 1e-6;               // m a number, so that a place says which it is
 constexpr double kSlope = 1e-3;              // a number, of a force's y to its x, which ramps leave as it is
@@ -61,10 +60,10 @@ void run_device(VrpnServer& server, Stamps& states, Stamps& forces, const std::a
 }
 
 /// A servo at 1 kHz, which looks for a new state ten times a period.
-void run_servo(PointerDevice& device, Stamps& states, Stamps& forces) {
+void run_servo(PointerDevice& device, Stamps& states, Stamps& forces, int ticks) {
   std::int64_t next = steady_nanoseconds();
   PointerState state;
-  for (int tick = 0; tick < kTicks; ++tick) {
+  for (int tick = 0; tick < ticks; ++tick) {
     const int number = 1 + tick % (kNumbers - 1);
     forces.note(number);
     device.write({1.0, kSlope * number, 0.0});
@@ -90,22 +89,27 @@ void print_row(const char* name, std::vector<std::int64_t> delays) {
 
 }  // namespace
 
-int main() {
+namespace icome::benchmarks {
+
+void print_vrpn_delays(int ticks) {
   VrpnServerSettings settings;
   settings.port = 0;
   auto server = VrpnServer::create(settings);
-  if (!server) return std::fprintf(stderr, "%s\n", server.error().message.c_str()), EXIT_FAILURE;
+  if (!server) return static_cast<void>(std::fprintf(stderr, "%s\n", server.error().message.c_str()));
   Stamps states;
   Stamps forces;
   std::atomic<bool> stop = false;
   std::thread device([&] { run_device(**server, states, forces, stop); });
   auto address = VrpnAddress::parse("Pointer0@" + (*server)->listening() + "?forces=fields");
   auto client = DrivenDevice::create(std::make_unique<VrpnDriver>(*address));
-  if (client) run_servo(**client, states, forces);
+  if (client) run_servo(**client, states, forces, ticks);
   stop = true;
   device.join();
-  if (!client) return std::fprintf(stderr, "%s\n", client.error().message.c_str()), EXIT_FAILURE;
-  std::printf("%-40s %9s %12s %12s %12s\n", "way", "samples", "median us", "p99.9 us", "worst us");
-  print_row("device -> VRPN server -> client's servo", states.delays);
+  if (!client) return static_cast<void>(std::fprintf(stderr, "%s\n", client.error().message.c_str()));
+  std::printf("\n%-40s %9s %12s %12s %12s\n", "VRPN on this computer", "samples", "median us", "p99.9 us",
+              "worst us");
+  print_row("device -> server -> client's servo", states.delays);
   print_row("client's servo -> server -> device", forces.delays);
 }
+
+}  // namespace icome::benchmarks

@@ -8,7 +8,9 @@
 #include "devices/evdev/back_ends.h"
 #include "devices/evdev/gamepad_navigation.h"
 #include "devices/evdev/linux_inputs.h"
+#include "devices/forcedimension/force_dimension.h"
 #include "devices/mapping_file.h"
+#include "devices/openhaptics/open_haptics.h"
 #include "devices/simulated/simulated_device.h"
 #include "devices/spacemouse/spnav_link.h"
 #include "devices/vrpn/vrpn_back_end.h"
@@ -44,6 +46,8 @@ std::vector<DeviceEntry> list_space_mouse() {
 const std::vector<BackEnd>& table() {
   static const std::vector<BackEnd> kBackEnds = {
       {kSimulated, kSimulated, list_simulated, open_simulated},
+      kOpenHaptics,
+      kForceDimension,
       vrpn_back_end(),
       kTabletBackEnd,
       kMouseBackEnd,

@@ -1,0 +1,37 @@
+#include "devices/driver/environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string>
+
+namespace icome::devices {
+
+base::Result<void> environment_number(const char* variable, double least, double most, double& value) {
+  const char* text = std::getenv(variable);
+  if (text == nullptr || *text == '\0') return {};
+  const std::string_view all = text;
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
+  // Written so that what is not a number fails too.
+  if (error != std::errc() || end != all.data() + all.size() || !(number >= least && number <= most))
+    return base::fail(fmt::format("{} is \"{}\"; set it to a number from {} to {}, or unset it", variable,
+                                  text, least, most));
+  value = number;
+  return {};
+}
+
+base::Result<std::size_t> environment_choice(const char* variable, std::span<const std::string_view> words,
+                                             std::size_t otherwise) {
+  const char* text = std::getenv(variable);
+  if (text == nullptr || *text == '\0') return otherwise;
+  const auto word = std::find(words.begin(), words.end(), std::string_view(text));
+  if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
+  std::string known;
+  for (const std::string_view each : words) known += (known.empty() ? "" : " or ") + std::string(each);
+  return base::fail(fmt::format("{} is \"{}\"; set it to {}, or unset it", variable, text, known));
+}
+
+}  // namespace icome::devices

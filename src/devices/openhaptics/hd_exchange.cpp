@@ -1,0 +1,104 @@
+#include "devices/openhaptics/hd_exchange.h"
+
+#include <array>
+#include <limits>
+
+#include "base/clock.h"
+
+namespace icome::devices {
+namespace {
+
+constexpr double kMetre = 0.001;         // of a millimetre
+constexpr int kMostFailingFrames = 200;  // so many in a row: the device has failed
+
+}  // namespace
+
+bool HdExchange::frame() {
+  if (failure() != 0) return false;
+  const std::lock_guard lock(frames_);
+  hd_.make_current_device(device_);
+  hd_.begin_frame(device_);
+  const PointerState reading = read();
+  const std::int64_t now = base::steady_nanoseconds();
+  link_.pass(reading, now);
+  send(link_.force(now));
+  hd_.end_frame(device_);
+  take_errors(now);
+  count_.fetch_add(1, std::memory_order_relaxed);
+  return failure() == 0;
+}
+
+PointerState HdExchange::read() const {
+  // What the library leaves as it is, the link refuses.
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 3> position = {kNothing, kNothing, kNothing};
+  std::array<double, 3> velocity = position;
+  std::array<double, 16> columns;
+  columns.fill(kNothing);
+  int buttons = 0;
+  hd_.get_doublev(HdLibrary::kPosition, position.data());
+  hd_.get_doublev(HdLibrary::kVelocity, velocity.data());
+  hd_.get_doublev(HdLibrary::kTransform, columns.data());
+  hd_.get_integerv(HdLibrary::kButtons, &buttons);
+  PointerState reading;
+  reading.position = kMetre * Vector3(position[0], position[1], position[2]);
+  reading.velocity = kMetre * Vector3(velocity[0], velocity[1], velocity[2]);
+  const base::Matrix3 turned = Eigen::Map<const Eigen::Matrix4d>(columns.data()).topLeftCorner<3, 3>();
+  reading.orientation = Quaternion(turned);
+  reading.buttons = static_cast<std::uint32_t>(buttons);
+  return reading;
+}
+
+void HdExchange::send(const Vector3& force) const {
+  const std::array<double, 3> newtons = {force.x(), force.y(), force.z()};
+  hd_.set_doublev(HdLibrary::kForce, newtons.data());
+}
+
+void HdExchange::take_errors(std::int64_t now) {
+  bool is_failing = false;
+  for (HdError error = hd_.get_error(); error.code != 0; error = hd_.get_error()) {
+    switch (error.code) {
+      case HdLibrary::kWarmMotors:
+        warnings_.note(std::size_t(HdWarning::Hot), now);
+        break;
+      case HdLibrary::kExceededForce:
+        warnings_.note(std::size_t(HdWarning::TooStrong), now);
+        break;
+      case HdLibrary::kDeviceFault:
+      case HdLibrary::kCommunication:
+        failure_.store(error.code, std::memory_order_release);
+        return;
+      default:
+        warnings_.note(std::size_t(HdWarning::Other), now);
+        if (!is_failing && ++failing_frames_ >= kMostFailingFrames) {
+          failure_.store(error.code, std::memory_order_release);
+          return;
+        }
+        is_failing = true;
+    }
+  }
+  if (!is_failing) failing_frames_ = 0;
+}
+
+void HdExchange::rest() {
+  const std::lock_guard lock(frames_);
+  hd_.make_current_device(device_);
+  hd_.begin_frame(device_);
+  send(Vector3::Zero());
+  hd_.end_frame(device_);
+  hd_.disable(HdLibrary::kForceOutput);
+  static_cast<void>(hd_.first_error());
+}
+
+void HdExchange::check_calibration() {
+  if (hd_.check_calibration == nullptr) return;
+  const std::lock_guard lock(frames_);
+  hd_.make_current_device(device_);
+  const unsigned state = hd_.check_calibration();
+  static_cast<void>(hd_.first_error());
+  const std::int64_t now = base::steady_nanoseconds();
+  if (state == HdLibrary::kCalibrationNeedsUpdate) warnings_.note(std::size_t(HdWarning::Calibrate), now);
+  if (state == HdLibrary::kCalibrationNeedsHand) warnings_.note(std::size_t(HdWarning::Inkwell), now);
+}
+
+}  // namespace icome::devices

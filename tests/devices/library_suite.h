@@ -1,0 +1,123 @@
+#pragma once
+// Tests that the back-ends of makers' libraries share, beside those of driver_suite.h.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "base/clock.h"
+#include "devices/driver/driven_device.h"
+#include "devices/driver_suite.h"
+#include "devices/fakes/fake_unit.h"
+#include "realtime/guard/guard.h"
+#include "repeats.h"
+
+namespace icome::devices::suite {
+
+/// Opens the driver's device, which is looked for often when it is lost.
+inline std::unique_ptr<DrivenDevice> driven(std::unique_ptr<Driver> driver) {
+  auto device = DrivenDevice::create(std::move(driver), {.retry = 0.02});
+  EXPECT_TRUE(device) << (device ? "" : device.error().message);
+  return device ? std::move(*device) : nullptr;
+}
+
+/// Reads the device and holds a force, once a millisecond, until a condition on the newest reading holds;
+/// false when it never does.
+inline bool held_until(PointerDevice& device, const Vector3& force,
+                       const std::function<bool(const PointerState&)>& condition) {
+  PointerState state;
+  bool has_read = false;
+  return holds_soon([&] {
+    has_read = device.read(state) == DeviceStatus::Ok || has_read;
+    device.write(force);
+    return has_read && condition(state);
+  });
+}
+
+/// A servo that goes mad, and readings that are: none gives a force above the limits, nor one that is not a
+/// number. The driver must not wait between its frames.
+inline void stands_a_million_readings(PointerDevice& device, fakes::FakeUnit& unit) {
+  const auto readings = static_cast<std::uint64_t>(repeats(1'000'000));
+  unit.fail(fakes::UnitFault::Hostile);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::array<Vector3, 4> mad = {Vector3(kNan, 1.0, 1.0), Vector3(1.0, kInfinity, 1.0),
+                                      Vector3(1e300, -1e300, 1e300), Vector3(-50.0, 0.0, 3.0)};
+  PointerState state;
+  double farthest = 0.0;
+  const auto end = std::chrono::steady_clock::now() + 4 * kPatience;
+  for (std::size_t i = 0; unit.pushes() < readings; ++i) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end) << "after " << unit.pushes() << " readings";
+    if (device.read(state) == DeviceStatus::Ok) {
+      ASSERT_TRUE(state.position.allFinite() && state.velocity.allFinite() &&
+                  state.orientation.coeffs().allFinite() && std::isfinite(state.grip));
+      ASSERT_NEAR(state.orientation.norm(), 1.0, 1e-6);
+      farthest = std::max(farthest, state.position.norm());
+    }
+    device.write(i % 16 < 4 ? mad[i % 4] : Vector3(-1e4 * state.position));
+    std::this_thread::yield();
+  }
+  EXPECT_LE(unit.strongest(), device.info().max_force * (1.0 + 1e-9));
+  EXPECT_GT(unit.strongest(), 0.5 * device.info().max_force) << "forces were asked for";
+  EXPECT_LE(farthest, 10.0 * device.info().workspace_radius + 1.0);
+  unit.fail(fakes::UnitFault::None);
+  EXPECT_TRUE(held_until(device, Vector3::Zero(), [](const PointerState&) { return true; }));
+}
+
+/// The last force of a servo that stands still is taken away, not before its time.
+inline void takes_the_force_away(DrivenDevice& device, fakes::FakeUnit& unit) {
+  ASSERT_TRUE(held_until(device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit.held().norm() > 0.9; }));
+  device.write({1.0, 0.0, 0.0});
+  const std::int64_t last = base::steady_nanoseconds();
+  ASSERT_TRUE(holds_soon([&] { return unit.held().norm() == 0.0; }));
+  EXPECT_GE(unit.held_since() - last, DriverLink::kWatchdog - 1'000'000);
+  EXPECT_GE(device.counts().watchdog_stops, 1U);
+}
+
+/// What the servo calls neither allocates nor locks.
+inline void is_real_time_safe(PointerDevice& device) {
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
+  ASSERT_TRUE(held_until(device, {0.1, 0.0, 0.0}, [](const PointerState&) { return true; }));
+  PointerState state;
+  realtime::RealtimeGuard guard;
+  for (int i = 0; i < 200; ++i) {
+    device.read(state);
+    device.write({0.1, 0.0, 0.0});
+    realtime::sleep_until(base::steady_nanoseconds() + 100'000);
+  }
+  guard.stop();
+  EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0U);
+}
+
+/// A driver that makes frames on the thread of its run() takes no memory for them. The fake is held at a
+/// place, as its arm takes some.
+inline void exchanges_without_memory(Driver& driver, fakes::FakeUnit& unit) {
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
+  unit.pose({});
+  const auto info = driver.open();
+  ASSERT_TRUE(info) << info.error().message;
+  DriverLink link(*info);
+  link.connect(*info);
+  std::atomic<bool> stop = false;
+  std::uint64_t taken = 1;
+  std::string why;
+  std::thread thread([&] {
+    realtime::RealtimeGuard guard;
+    why = driver.run(link, stop);
+    guard.stop();
+    taken = guard.allocations() + guard.frees();
+  });
+  EXPECT_TRUE(holds_soon([&] { return unit.pushes() > 1000; }));
+  stop = true;
+  thread.join();
+  driver.close();
+  EXPECT_EQ(why, "");
+  EXPECT_EQ(taken, 0U);
+}
+
+}  // namespace icome::devices::suite
