@@ -25,7 +25,7 @@ TEST(SharedLibrary, IsTheFirstThatThereIs) {
   ASSERT_TRUE(library) << library.error().message;
   double (*cube_root)(double) = nullptr;
   ASSERT_TRUE(library->get("cbrt", cube_root));
-  EXPECT_EQ(cube_root(27.0), 3.0);
+  EXPECT_NEAR(cube_root(27.0), 3.0, 1e-9);
 }
 
 TEST(SharedLibrary, MissingFunctionIsNamed) {

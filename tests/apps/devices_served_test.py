@@ -1,0 +1,115 @@
+"""Devices over the network and through fakes: `icome devices serve`, and the back-ends as a person would use them."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import unittest
+
+from icome_program import PROGRAM, ProgramTest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "devices" / "fakes"))
+from vrpn_peer import Client, Server  # an independent speaker of VRPN, written from the facts
+
+FAKES = pathlib.Path(PROGRAM).parent / "fakes"
+
+
+class Serving:
+    """`icome devices serve` on a free port, for as long as a `with` lasts."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([PROGRAM, "devices", "serve", "--vrpn", "127.0.0.1:0", "--json", *arguments],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.said = json.loads(self.process.stdout.readline())
+        self.host, port = self.said["listening"].rsplit(":", 1)
+        self.port = int(port)
+
+    def end(self):
+        """Ends it as systemd would; gives the exit code."""
+        self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(timeout=60)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate()
+
+
+class ServedTest(ProgramTest):
+    def test_it_says_where_it_listens_and_ends_when_asked(self):
+        with Serving() as serving:
+            self.assertEqual(set(serving.said), {"listening", "names"})
+            self.assertEqual(serving.said["names"], ["Pointer0"])
+            self.assertEqual(serving.end(), 0)
+
+    def test_a_program_of_others_sees_the_hand_move(self):
+        with Serving() as serving:
+            client = Client(serving.host, serving.port, "Pointer0")
+            self.addCleanup(client.close)
+            first = client.wait_for("vrpn_Tracker Pos_Quat")
+            client.wait_for("vrpn_Tracker Pos_Quat", lambda now: abs(now[2] - first[2]) > 0.001)
+
+    def test_a_plane_of_others_stops_the_hand(self):
+        with Serving() as serving:
+            client = Client(serving.host, serving.port, "Pointer0")
+            self.addCleanup(client.close)
+            client.wait_for("vrpn_Tracker Pos_Quat")
+            client.send_plane((0.0, 1.0, 0.0, 0.0), 0.3)
+            client.wait_for("vrpn_ForceDevice Force", lambda force: force[1] > 0.1)
+
+    def test_several_devices_have_names_of_their_own(self):
+        with Serving("--device", "simulated", "--device", "Touch") as serving:
+            self.assertEqual(serving.said["names"], ["Pointer0", "Pointer1"])
+
+    def test_one_icome_measures_the_device_of_another(self):
+        with Serving() as serving:
+            answer = json.loads(self.succeeds("devices", "test", f"vrpn:Pointer0@{serving.host}:{serving.port}", "--seconds",
+                                              "1", "--json").stdout)
+        self.assertGreater(answer["readings"], 20)
+
+    def test_a_server_of_others_is_touched_with(self):
+        with Server("Tracker0") as server:
+            server.pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+            report = self.report("sphere:0.03", "--device", f"vrpn:Tracker0@127.0.0.1:{server.port}", "--seconds", "0.5")
+        self.assertGreater(report["ticks"], 10)
+
+    def test_an_impossible_place_is_told(self):
+        self.fails("devices", "serve", "--vrpn", "nowhere", code=1, saying="HOST:PORT")
+        with Serving() as serving:
+            self.fails("devices", "serve", "--vrpn", f"127.0.0.1:{serving.port}", code=1, saying=str(serving.port))
+
+
+class FakeLibrariesTest(ProgramTest):
+    """Libraries with the makers' interfaces and a physical model behind them; no real device is there."""
+
+    def setUp(self):
+        super().setUp()
+        for name, library in (("ICOME_LIBHD", "libfake_hd.so"), ("ICOME_LIBDHD", "libfake_dhd.so")):
+            os.environ[name] = str(FAKES / library)
+            self.addCleanup(os.environ.pop, name)
+
+    def test_they_are_listed_and_named_as_fakes(self):
+        found = {it["backend"]: it for it in json.loads(self.succeeds("devices", "--json").stdout)["devices"]
+                 if it["present"]}
+        for back_end in ("openhaptics", "forcedimension"):
+            self.assertIn("fake", found[back_end]["why"])
+
+    def test_each_is_tested_and_touched_with(self):
+        for name in ("hd", "dhd"):
+            answer = json.loads(self.succeeds("devices", "test", name, "--seconds", "0.5", "--yes", "--json").stdout)
+            self.assertGreater(answer["force"]["moved_mm"], 0.1)
+            report = self.report("sphere:0.03", "--device", name, "--seconds", "1")
+            self.assertGreater(report["touch_fraction"], 0.1, "the hand rests in the middle of the sphere")
+            self.assertLessEqual(report["max_force_n"], 12.0 if name == "dhd" else 3.3)
+
+    def test_a_library_that_is_none_is_told_with_its_path(self):
+        os.environ["ICOME_LIBHD"] = str(self.write("libHD.so", "this is no library"))
+        self.fails("devices", "test", "hd", code=1, saying="libHD.so")
+
+
+if __name__ == "__main__":
+    unittest.main()
