@@ -17,7 +17,7 @@ constexpr std::array<const char*, 5> kHdWarnings = {
     "The device is not calibrated: put the stylus into the inkwell",
     "The library of the device reports errors; it goes on as long as they pass"};
 
-constexpr auto kLook = std::chrono::milliseconds(2);  // how often the scheduler's callback is looked at
+constexpr auto kCallbackLook = std::chrono::milliseconds(2);  // how often the scheduler's callback is looked at
 constexpr std::int64_t kStandsStill = 1'000'000'000;  // ns without a frame
 constexpr std::int64_t kCheckEvery = 1'000'000'000;   // ns, of the calibration
 
@@ -62,7 +62,7 @@ bool wait_for_last(HdCallback& callback) {
   callback.finish.store(true, std::memory_order_release);
   const std::int64_t end = base::steady_nanoseconds() + kStandsStill;
   while (!callback.finished.load(std::memory_order_acquire) && base::steady_nanoseconds() < end)
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kCallbackLook);
   return callback.finished.load(std::memory_order_acquire);
 }
 
@@ -101,7 +101,7 @@ std::string OpenHapticsDriver::be_driven(HdExchange& exchange, DriverLink& link,
   bool stands_still = false;
   while (!stop.load(std::memory_order_relaxed) && exchange.failure() == 0 && !stands_still) {
     watch(exchange, link);
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kCallbackLook);
     stands_still = frames.stands_still(exchange);
   }
   if (!wait_for_last(callback)) {
