@@ -25,6 +25,7 @@ std::span<const Harness> mesh_harnesses();
 std::span<const Harness> design_harnesses();
 std::span<const Harness> text_harnesses();
 std::span<const Harness> vrpn_harnesses();
+std::span<const Harness> haply_harnesses();
 
 /// Ends the program, telling what was promised, unless that holds.
 void require(bool holds, const char* promise);

@@ -1,0 +1,56 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/driver/driver.h"
+#include "devices/haply/haply_frame.h"
+#include "devices/haply/haply_settings.h"
+#include "devices/haply/inverse_service.h"
+#include "devices/haply/service_events.h"
+
+namespace icome::devices {
+
+/// A Haply Inverse3, and the VerseGrip that belongs to it, by Haply's Inverse Service.
+class HaplyDriver final : public Driver {
+ public:
+  /// The Inverse3 of that id; empty: the first there is, and once found only that one.
+  explicit HaplyDriver(const HaplySettings& settings, std::string device_id = {});
+  ~HaplyDriver() override;
+
+  base::Result<DeviceInfo> open() override;
+  std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
+  void close() override;
+
+  /// One exchange with the service: sends the link's force and passes the reading on; false when the device
+  /// is lost. After open(). Real-time safe but for waiting, unless there is something to tell people.
+  bool exchange(DriverLink& link);
+
+ private:
+  void tell(DriverLink& link, std::int64_t now);
+  std::string sentences() const;
+
+  const HaplySettings settings_;
+  const HaplyFrame frame_;
+  std::string device_id_;
+  std::unique_ptr<InverseService> service_;  // while open
+  std::optional<ServiceEvents> events_;      // while running, where they are wanted
+  // What was told last.
+  struct Shown {
+    bool calibrated = true;
+    bool powered = true;
+    bool ready = true;
+    bool sense = true;         // the service's messages make sense
+    std::uint64_t events = 0;  // version of what the events say; 0: nothing, or it is long ago
+    bool operator==(const Shown&) const = default;
+  };
+  Shown shown_;
+  std::uint64_t disconnections_ = 0;  // that are seen to
+  std::uint64_t heard_ = 0;           // version of what the events say
+  std::int64_t heard_time_ = 0;       // ns, when that changed
+  std::int64_t refused_time_ = 0;     // ns, when a message last made no sense; 0: never
+};
+
+}  // namespace icome::devices

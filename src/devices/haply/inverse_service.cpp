@@ -1,0 +1,154 @@
+#include "devices/haply/inverse_service.h"
+
+#include <fmt/format.h>
+
+#include "base/clock.h"
+#include "base/shown_text.h"
+#include "base/terminal_text.h"
+
+namespace icome::devices {
+namespace {
+
+constexpr std::int64_t kGoodbye = 50'000'000;  // ns
+constexpr int kMostWaiting = 4;                // messages that are taken beside an answer
+constexpr int kGreetings = 2;                  // the picture that everybody gets, and the answer
+constexpr int kFullAnswers = 3;                // so many answers after it was asked for, one is a full one
+constexpr std::string_view kInstall =
+    "install it from haply.co/support and start it, and name its place in ICOME_HAPLY=HOST:PORT where that "
+    "is "
+    "another one";
+
+std::int64_t nanoseconds(double seconds) { return std::int64_t(1e9 * seconds); }
+
+std::string service_name(const HaplySettings& settings) {
+  return "Haply's Inverse Service at " + shown_address(settings.service);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<InverseService>> InverseService::connect(const HaplySettings& settings) {
+  // Who does not know this page speaks the WebSocket all the same.
+  const auto answer = get_by_http(settings.service, "/version", settings.connect_patience);
+  auto socket = WebSocket::connect(settings.service, settings.connect_patience);
+  if (!socket)
+    return base::fail(fmt::format("{}: {}; {}", service_name(settings), socket.error().message, kInstall));
+  ServiceVersion version = answer ? read_service_version(*answer) : ServiceVersion{};
+  std::unique_ptr<InverseService> service(
+      new InverseService(settings, std::move(version), std::move(*socket)));
+  if (const auto greeted = service->greet(); !greeted) return tl::unexpected(greeted.error());
+  return service;
+}
+
+InverseService::InverseService(const HaplySettings& settings, ServiceVersion version,
+                               std::unique_ptr<WebSocket> socket)
+    : settings_(settings), version_(std::move(version)), socket_(std::move(socket)) {}
+
+InverseService::~InverseService() { socket_->close(base::steady_nanoseconds() + kGoodbye); }
+
+std::string InverseService::name() const { return service_name(settings_); }
+
+/// Waits for a message that makes sense: the picture that it sends to whoever connects, or the answer.
+base::Result<void> InverseService::greet() {
+  const std::int64_t deadline = base::steady_nanoseconds() + nanoseconds(settings_.connect_patience);
+  bool fine = socket_->send(greeting_message(), deadline);
+  while (fine && state_.taken() == 0 && state_.refused() < kGreetings) {
+    fine = socket_->receive(deadline);
+    if (fine) state_.take(socket_->text());
+  }
+  if (state_.taken() > 0) return {};
+  if (state_.refused() > 0)
+    return base::fail(name() + " answers with what makes no sense; is it an Inverse Service of version 3?");
+  if (!fine) return base::fail(name() + ": " + socket_->why() + "; restart it");
+  return {};
+}
+
+std::string_view InverseService::force_field() const {
+  if (settings_.force_field == ForceField::Values) return "values";
+  if (settings_.force_field == ForceField::Vector) return "vector";
+  return version_.major == 3 && version_.minor < 5 ? "values" : "vector";
+}
+
+base::Result<std::string> InverseService::choose(std::string_view id) {
+  const auto arms = state_.arms();
+  if (arms.empty())
+    return base::fail(name() + " runs, but no Inverse3 is connected: plug one in and switch it on");
+  std::string known;
+  for (chosen_ = 0; chosen_ < arms.size(); ++chosen_) {
+    const ServiceArm& arm = arms[chosen_];
+    if (id.empty() || arm.id.is(id)) {
+      command_.emplace(arm.id.text(), force_field());
+      understood_ = told_time_ = base::steady_nanoseconds();
+      last_told_ = arm.told;
+      return std::string(arm.id.text());
+    }
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", arm.id.text());
+  }
+  chosen_ = 0;
+  return base::fail(fmt::format("{} knows no Inverse3 \"{}\"; there is {}", name(),
+                                base::terminal_text(base::shown_text(id)), known));
+}
+
+void InverseService::stop_by(const std::atomic<bool>* stop) { socket_->stop_by(stop); }
+
+InverseService::Answer InverseService::exchange(const Vector3& force) {
+  if (!take_what_waits()) return lost(socket_->why());
+  const bool doubting = doubted_ && !full_asked_;
+  std::int64_t now = base::steady_nanoseconds();
+  const std::int64_t patience = nanoseconds(settings_.patience);
+  if (!socket_->send(command_->write(force, doubting || missed_), now + patience) ||
+      !socket_->receive(now + patience))
+    return lost(socket_->why());
+  now = base::steady_nanoseconds();
+  missed_ = false;
+  if (doubting) {
+    full_asked_ = true;
+    asked_time_ = now;
+    answers_since_ = 0;
+  }
+  if (!state_.take(socket_->text())) {
+    missed_ = true;
+    if (now - understood_ > patience) return lost("it sends nothing that makes sense");
+    return Answer::Refused;
+  }
+  understood_ = now;
+  if (!is_listed(now))
+    return lost(fmt::format("it no longer lists the Inverse3 {}; plug it in again", arm().id.text()));
+  return arm().has_position() ? Answer::Fresh : Answer::Refused;
+}
+
+/// An answer more than was asked for (it sends one to whoever connects) must not make all later ones late.
+bool InverseService::take_what_waits() {
+  for (int i = 0; i < kMostWaiting && socket_->waiting(); ++i) {
+    if (!socket_->receive(base::steady_nanoseconds() + nanoseconds(settings_.patience))) return false;
+    if (!state_.take(socket_->text())) missed_ = true;
+  }
+  return true;
+}
+
+/// False when full answers have not mentioned the arm.
+bool InverseService::is_listed(std::int64_t now) {
+  const std::int64_t half = nanoseconds(settings_.patience) / 2;
+  if (full_asked_) ++answers_since_;
+  if (arm().told != last_told_) {
+    last_told_ = arm().told;
+    told_time_ = now;
+    // What was on its way when it was doubted says nothing.
+    if (!full_asked_ || answers_since_ >= kFullAnswers) doubted_ = full_asked_ = false;
+    return true;
+  }
+  if (now - told_time_ > half) doubted_ = true;
+  return !(full_asked_ && answers_since_ > kFullAnswers && now - asked_time_ > half);
+}
+
+InverseService::Answer InverseService::lost(std::string why) {
+  why_ = name() + ": " + std::move(why);
+  return Answer::Lost;
+}
+
+void InverseService::let_go() {
+  socket_->stop_by(nullptr);
+  const std::int64_t deadline = base::steady_nanoseconds() + kGoodbye;
+  if (command_) socket_->send(command_->write(Vector3::Zero(), false), deadline);
+}
+
+}  // namespace icome::devices

@@ -1,0 +1,53 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "devices/haply/wire/service_address.h"
+#include "devices/haply/wire/service_state.h"
+
+namespace icome::devices {
+
+/// What the service's events say about one Inverse3, read on a thread of its own, as they come seldom and
+/// nobody shall wait for them. Without such a channel there are none; it is looked for now and then. Owns
+/// the thread.
+class ServiceEvents {
+ public:
+  /// Begins to listen for what concerns the device of that id.
+  ServiceEvents(ServiceAddress channel, std::string device_id);
+  ~ServiceEvents();
+  ServiceEvents(const ServiceEvents&) = delete;
+  ServiceEvents& operator=(const ServiceEvents&) = delete;
+
+  /// Changes with the sentence. Any thread; real-time safe.
+  std::uint64_t version() const { return version_.load(std::memory_order_acquire); }
+  /// What people should know now, a sentence that begins with a small letter and has no full stop; empty:
+  /// nothing. Any thread.
+  std::string sentence() const;
+  /// How often the device was said to be disconnected. Any thread; real-time safe.
+  std::uint64_t disconnections() const { return disconnections_.load(std::memory_order_acquire); }
+  /// Is somebody there? Any thread.
+  bool connected() const { return connected_.load(std::memory_order_acquire); }
+
+ private:
+  void listen();
+  void hear_out();
+  void take(const ServiceEvent& event);
+  void say(std::string sentence);
+  bool concerns_device(const ServiceEvent& event) const;
+
+  const ServiceAddress channel_;
+  const std::string device_id_;
+  std::atomic<bool> stop_ = false;
+  std::atomic<bool> connected_ = false;
+  std::atomic<std::uint64_t> version_ = 0;
+  std::atomic<std::uint64_t> disconnections_ = 0;
+  mutable std::mutex guard_;
+  std::string sentence_;
+  std::thread thread_;
+};
+
+}  // namespace icome::devices
