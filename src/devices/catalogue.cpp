@@ -9,6 +9,7 @@
 #include "devices/evdev/gamepad_navigation.h"
 #include "devices/evdev/linux_inputs.h"
 #include "devices/forcedimension/force_dimension.h"
+#include "devices/haply/haply_back_end.h"
 #include "devices/mapping_file.h"
 #include "devices/openhaptics/open_haptics.h"
 #include "devices/simulated/simulated_device.h"
@@ -48,6 +49,7 @@ const std::vector<BackEnd>& table() {
       {kSimulated, kSimulated, list_simulated, open_simulated},
       kOpenHaptics,
       kForceDimension,
+      haply_back_end(),
       vrpn_back_end(),
       kTabletBackEnd,
       kMouseBackEnd,

@@ -5,8 +5,7 @@
 
 #include "base/clock.h"
 #include "devices/device_profiles.h"
-#include "realtime/loop.h"
-#include "realtime/this_thread.h"
+#include "devices/driver/pace.h"
 
 namespace icome::devices {
 namespace {
@@ -52,13 +51,8 @@ std::string HaplyDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
   refused_time_ = 0;
   if (settings_.events_port != 0)
     events_.emplace(ServiceAddress{settings_.service.host, settings_.events_port}, device_id_);
-  const realtime::Timetable timetable(base::steady_nanoseconds(), settings_.rate);
-  std::uint64_t index = 0;
-  while (!stop.load(std::memory_order_relaxed)) {
-    if (!exchange(link)) break;
-    index = timetable.next(index, base::steady_nanoseconds());
-    realtime::sleep_until(timetable.deadline(index));
-  }
+  Pace pace(settings_.rate);
+  while (!stop.load(std::memory_order_relaxed) && exchange(link)) pace.wait();
   service_->let_go();
   return stop.load(std::memory_order_relaxed) ? std::string() : service_->why();
 }

@@ -10,11 +10,12 @@
 #include <optional>
 
 #include "base/shown_text.h"
+#include "devices/forcedimension/axes.h"
 
 namespace icome::devices {
 namespace {
 
-std::optional<double> number_of(std::string_view text) {
+std::optional<double> finite_number(std::string_view text) {
   double number = 0.0;
   const char* const end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(text.data(), end, number);
@@ -35,7 +36,7 @@ std::optional<std::array<std::string_view, 3>> three_of(std::string_view text) {
 }
 
 bool set_number(double& to, std::string_view text, double least, double most) {
-  const auto number = number_of(text);
+  const auto number = finite_number(text);
   if (!number || *number < least || *number > most) return false;
   to = *number;
   return true;
@@ -48,27 +49,16 @@ bool set_events(HaplySettings& settings, std::string_view text) {
   return true;
 }
 
-bool set_force(HaplySettings& settings, std::string_view text) {
+bool set_force_field(HaplySettings& settings, std::string_view text) {
   if (text != "vector" && text != "values") return false;
   settings.force_field = text == "vector" ? ForceField::Vector : ForceField::Values;
   return true;
 }
 
 bool set_axes(HaplySettings& settings, std::string_view text) {
-  const auto names = three_of(text);
-  if (!names) return false;
-  base::Matrix3 axes = base::Matrix3::Zero();
-  for (int row = 0; row < 3; ++row) {
-    std::string_view name = (*names)[std::size_t(row)];
-    const double sign = name.starts_with('-') ? -1.0 : 1.0;
-    if (name.starts_with('-') || name.starts_with('+')) name.remove_prefix(1);
-    const std::size_t column = std::string_view("xyz").find(name);
-    if (name.size() != 1 || column == std::string_view::npos) return false;
-    axes(row, Eigen::Index(column)) = sign;
-  }
-  // The determinant of a mirrored frame is -1, and of one that names an axis twice 0.
-  if (std::abs(axes.determinant() - 1.0) > 1e-9) return false;
-  settings.axes = base::Quaternion(axes);
+  const auto rotation = rotation_from_axes(text);
+  if (!rotation) return false;
+  settings.axes = base::Quaternion(*rotation);
   return true;
 }
 
@@ -102,13 +92,13 @@ constexpr std::array<HaplyOption, 8> kHaplyOptions{{
     {"connect",
      [](HaplySettings& to, std::string_view text) { return set_number(to.connect_patience, text, 0.05, 60); },
      "0.05 to 60 s"},
-    {"force", set_force, "vector or values"},
+    {"force", set_force_field, "vector or values"},
     {"grip", set_grip, "the device id of a VerseGrip"},
-    {"axes", set_axes, "the service's axes that are our x, y and z, right-handed, such as x,z,-y"},
+    {"axes", set_axes, "the service's axes that point right, up and to the user, right-handed, such as xz-y"},
     {"middle", set_middle, "three lengths in m, such as 0,-0.14,0.2"},
 }};
 
-base::Result<void> set_option(HaplySettings& settings, std::string_view option) {
+base::Result<void> set_haply_option(HaplySettings& settings, std::string_view option) {
   const std::size_t equals = option.find('=');
   const std::string_view name = option.substr(0, equals);
   const std::string_view value = equals == std::string_view::npos ? "" : option.substr(equals + 1);
@@ -137,7 +127,7 @@ base::Result<HaplySettings> parse_haply_settings(std::string_view place, std::st
   while (!options.empty()) {
     const std::size_t end = std::min(options.find(' '), options.size());
     if (end > 0) {
-      if (const auto set = set_option(settings, options.substr(0, end)); !set)
+      if (const auto set = set_haply_option(settings, options.substr(0, end)); !set)
         return tl::unexpected(set.error());
     }
     options.remove_prefix(std::min(end + 1, options.size()));

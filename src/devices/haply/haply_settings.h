@@ -30,8 +30,9 @@ struct HaplySettings {
 
 /// Settings from the texts of two environment variables, either of which may be empty: `place` as
 /// parse_service_address() takes it, and `options` as in
-/// "events=10020 rate=2000 patience=0.1 force=values grip=61576 axes=x,z,-y middle=0,-0.14,0.2": in any
-/// order, all of them optional. Axes: which axis of the service is our x, y and z. The error is a sentence.
+/// "events=10020 rate=2000 patience=0.1 force=values grip=61576 axes=xz-y middle=0,-0.14,0.2": in any
+/// order, all of them optional. Axes: those of the service that point right, up and to the user. The error is
+/// a sentence.
 base::Result<HaplySettings> parse_haply_settings(std::string_view place, std::string_view options);
 
 /// Settings from ICOME_HAPLY (place) and ICOME_HAPLY_OPTIONS.

@@ -18,7 +18,7 @@ constexpr std::string_view kInstall =
     "is "
     "another one";
 
-std::int64_t nanoseconds(double seconds) { return std::int64_t(1e9 * seconds); }
+std::int64_t whole_nanoseconds(double seconds) { return std::int64_t(1e9 * seconds); }
 
 std::string service_name(const HaplySettings& settings) {
   return "Haply's Inverse Service at " + shown_address(settings.service);
@@ -49,7 +49,7 @@ std::string InverseService::name() const { return service_name(settings_); }
 
 /// Waits for a message that makes sense: the picture that it sends to whoever connects, or the answer.
 base::Result<void> InverseService::greet() {
-  const std::int64_t deadline = base::steady_nanoseconds() + nanoseconds(settings_.connect_patience);
+  const std::int64_t deadline = base::steady_nanoseconds() + whole_nanoseconds(settings_.connect_patience);
   bool fine = socket_->send(greeting_message(), deadline);
   while (fine && state_.taken() == 0 && state_.refused() < kGreetings) {
     fine = socket_->receive(deadline);
@@ -94,7 +94,7 @@ InverseService::Answer InverseService::exchange(const Vector3& force) {
   if (!take_what_waits()) return lost(socket_->why());
   const bool doubting = doubted_ && !full_asked_;
   std::int64_t now = base::steady_nanoseconds();
-  const std::int64_t patience = nanoseconds(settings_.patience);
+  const std::int64_t patience = whole_nanoseconds(settings_.patience);
   if (!socket_->send(command_->write(force, doubting || missed_), now + patience) ||
       !socket_->receive(now + patience))
     return lost(socket_->why());
@@ -119,7 +119,7 @@ InverseService::Answer InverseService::exchange(const Vector3& force) {
 /// An answer more than was asked for (it sends one to whoever connects) must not make all later ones late.
 bool InverseService::take_what_waits() {
   for (int i = 0; i < kMostWaiting && socket_->waiting(); ++i) {
-    if (!socket_->receive(base::steady_nanoseconds() + nanoseconds(settings_.patience))) return false;
+    if (!socket_->receive(base::steady_nanoseconds() + whole_nanoseconds(settings_.patience))) return false;
     if (!state_.take(socket_->text())) missed_ = true;
   }
   return true;
@@ -127,7 +127,7 @@ bool InverseService::take_what_waits() {
 
 /// False when full answers have not mentioned the arm.
 bool InverseService::is_listed(std::int64_t now) {
-  const std::int64_t half = nanoseconds(settings_.patience) / 2;
+  const std::int64_t half = whole_nanoseconds(settings_.patience) / 2;
   if (full_asked_) ++answers_since_;
   if (arm().told != last_told_) {
     last_told_ = arm().told;

@@ -52,7 +52,7 @@ std::string accept_of(const std::string& key) {
   return base64(bytes);
 }
 
-std::string frame(std::string_view text, unsigned kind = 1) {
+std::string web_frame(std::string_view text, unsigned kind = 1) {
   std::string bytes(1, char(0x80U | kind));
   const auto append_size = [&](int count) {
     for (int i = count - 1; i >= 0; --i) bytes += char(text.size() >> unsigned(8 * i) & 255U);
@@ -251,11 +251,11 @@ struct FakeInverseService::State {
     const unsigned kind = byte(0) & 15U;
     client.in.erase(0, at + 4 + size);
     if (kind == 8) {
-      client.out += frame(text, 8);
+      client.out += web_frame(text, 8);
       client.leaving = true;
       return false;
     }
-    if (kind == 9) client.out += frame(text, 10);
+    if (kind == 9) client.out += web_frame(text, 10);
     if (kind == 1 && !client.of_events) take_message(client, text);
     return true;
   }
@@ -373,7 +373,7 @@ struct FakeInverseService::State {
 
   void queue(Client& client, const std::string& text) {
     const std::int64_t due = base::steady_nanoseconds() + std::int64_t(1e9 * settings.latency);
-    client.answers.emplace_back(due, frame(text));
+    client.answers.emplace_back(due, web_frame(text));
   }
 
   void write_to(Client& client) {

@@ -28,21 +28,22 @@ inline base::Result<std::unique_ptr<DrivenDevice>> open_haply_at(const HaplySett
 }
 
 /// A reading that has come and fulfils the condition, in time.
-inline bool reads_soon(PointerDevice& device, const std::function<bool(const PointerState&)>& condition) {
+inline bool haply_reads_soon(PointerDevice& device,
+                             const std::function<bool(const PointerState&)>& condition) {
   PointerState state;
   return suite::holds_soon([&] { return device.read(state) == DeviceStatus::Ok && condition(state); });
 }
 
-inline bool reads_soon(PointerDevice& device) {
-  return reads_soon(device, [](const PointerState&) { return true; });
+inline bool haply_reads_soon(PointerDevice& device) {
+  return haply_reads_soon(device, [](const PointerState&) { return true; });
 }
 
-inline bool is_lost_soon(PointerDevice& device) {
+inline bool haply_is_lost_soon(PointerDevice& device) {
   PointerState state;
   return suite::holds_soon([&] { return device.read(state) == DeviceStatus::Lost; });
 }
 
-inline bool tells_soon(const PointerDevice& device, const std::string& words) {
+inline bool haply_tells_soon(const PointerDevice& device, const std::string& words) {
   return suite::holds_soon([&] { return device.condition().find(words) != std::string::npos; });
 }
 

@@ -18,7 +18,7 @@ using fakes::FakeServiceSettings;
 using fakes::ServiceFault;
 using suite::holds_soon;
 
-std::unique_ptr<DrivenDevice> opened(const FakeInverseService& fake) {
+std::unique_ptr<DrivenDevice> haply_at(const FakeInverseService& fake) {
   auto device = open_haply_at(settings_for(fake));
   EXPECT_TRUE(device) << device.error().message;
   return device ? std::move(*device) : nullptr;
@@ -26,7 +26,7 @@ std::unique_ptr<DrivenDevice> opened(const FakeInverseService& fake) {
 
 TEST(HaplyDriver, KnownPoses) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   EXPECT_EQ(device->info().name, "Haply Inverse3");
   EXPECT_EQ(device->info().max_force, 5.0);
@@ -38,7 +38,7 @@ TEST(HaplyDriver, KnownPoses) {
        {Pose{{0.05, 0, 0}, {0.05, 0, 0}}, Pose{{0, -0.05, 0}, {0, 0, 0.05}},
         Pose{{0, 0, -0.05}, {0, -0.05, 0}}, Pose{{-0.02, 0.03, 0.04}, {-0.02, 0.04, -0.03}}}) {
     fake.aim(middle + pose.service);
-    EXPECT_TRUE(reads_soon(*device, [&](const PointerState& state) {
+    EXPECT_TRUE(haply_reads_soon(*device, [&](const PointerState& state) {
       return (state.position - pose.ours).norm() < 1e-4 && state.velocity.norm() < 0.01;
     })) << pose.ours.transpose();
   }
@@ -52,14 +52,14 @@ TEST(HaplyDriver, AnotherStandIsASetting) {
   const auto device = open_haply_at(settings);
   ASSERT_TRUE(device);
   fake.aim({0.04, -0.1, 0.2});
-  EXPECT_TRUE(reads_soon(**device, [](const PointerState& state) {
+  EXPECT_TRUE(haply_reads_soon(**device, [](const PointerState& state) {
     return (state.position - Vector3(0.03, -0.12, 0.17)).norm() < 1e-4;
   }));
 }
 
 TEST(HaplyDriver, AForceUpwardsIsFeltUpwards) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   EXPECT_TRUE(holds_soon([&] {
     device->write({0.5, 1.0, -1.5});
@@ -71,15 +71,15 @@ TEST(HaplyDriver, AWirelessVerseGripTurnsAndPresses) {
   FakeServiceSettings with;
   with.wired_grip = with.wireless_grip = true;
   FakeInverseService fake(with);
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   fake.hold_grips(Quaternion(Eigen::AngleAxisd(M_PI / 2, Vector3::UnitZ())), 0b110);
-  EXPECT_TRUE(reads_soon(*device, [](const PointerState& state) {
+  EXPECT_TRUE(haply_reads_soon(*device, [](const PointerState& state) {
     return state.buttons == 0b110 &&
            (state.orientation * Vector3(0, 0, -1)).isApprox(Vector3(-1, 0, 0), 1e-9);
   }));
   fake.hold_grips(Quaternion::Identity(), 0);
-  EXPECT_TRUE(reads_soon(*device, [](const PointerState& state) {
+  EXPECT_TRUE(haply_reads_soon(*device, [](const PointerState& state) {
     return state.buttons == 0 && state.orientation.isApprox(Quaternion::Identity());
   }));
 }
@@ -89,13 +89,13 @@ TEST(HaplyDriver, AWiredVerseGripTurnsAndPresses) {
   with.wired_grip = true;
   FakeInverseService fake(with);
   fake.hold_grips(Quaternion(Eigen::AngleAxisd(M_PI, Vector3::UnitX())), 0b01);
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
-  EXPECT_TRUE(reads_soon(*device, [](const PointerState& state) {
+  EXPECT_TRUE(haply_reads_soon(*device, [](const PointerState& state) {
     return state.buttons == 0b01 && (state.orientation * Vector3(0, 0, -1)).isApprox(Vector3(0, 0, 1), 1e-9);
   }));
   fake.hold_grips(Quaternion::Identity(), 0b10);
-  EXPECT_TRUE(reads_soon(*device, [](const PointerState& state) { return state.buttons == 0b10; }));
+  EXPECT_TRUE(haply_reads_soon(*device, [](const PointerState& state) { return state.buttons == 0b10; }));
 }
 
 TEST(HaplyDriver, TheForceIsCalledWhatTheVersionCallsIt) {
@@ -124,7 +124,7 @@ TEST(HaplyDriver, TheForceIsCalledWhatTheVersionCallsIt) {
 
 TEST(HaplyDriver, ItSaysWhoItIsFirst) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   ASSERT_TRUE(holds_soon([&] { return !fake.first_message().empty(); }));
   const auto first = nlohmann::json::parse(fake.first_message());
@@ -180,14 +180,15 @@ TEST(HaplyDriver, OneOfTwoByItsId) {
   const auto first = open_haply_at(settings_for(fake), "049d");
   ASSERT_TRUE(first) << first.error().message;
   fake.aim(HaplySettings().middle + Vector3(0.03, 0, 0));
-  EXPECT_TRUE(reads_soon(**first, [](const PointerState& state) { return state.position.x() > 0.02; }));
-  EXPECT_TRUE(reads_soon(**second, [](const PointerState& state) { return state.position.norm() < 1e-6; }));
+  EXPECT_TRUE(haply_reads_soon(**first, [](const PointerState& state) { return state.position.x() > 0.02; }));
+  EXPECT_TRUE(
+      haply_reads_soon(**second, [](const PointerState& state) { return state.position.norm() < 1e-6; }));
 }
 
 // Failures: the device is lost, people are told, and it comes back by itself.
 
-void expect_back(DrivenDevice& device) {
-  EXPECT_TRUE(reads_soon(device)) << device.condition();
+void expect_haply_back(DrivenDevice& device) {
+  EXPECT_TRUE(haply_reads_soon(device)) << device.condition();
   EXPECT_TRUE(holds_soon([&] { return device.condition().empty(); })) << device.condition();
 }
 
@@ -198,33 +199,33 @@ TEST(HaplyFailures, AServiceThatStopsAnswering) {
   const auto device = open_haply_at(settings);
   ASSERT_TRUE(device);
   fake.set_fault(ServiceFault::Silent);
-  ASSERT_TRUE(is_lost_soon(**device));
-  EXPECT_TRUE(tells_soon(**device, "does not answer in time"));
+  ASSERT_TRUE(haply_is_lost_soon(**device));
+  EXPECT_TRUE(haply_tells_soon(**device, "does not answer in time"));
   EXPECT_TRUE(holds_soon([&] { return fake.held().isZero(0.0); }));
   fake.set_fault(ServiceFault::None);
-  EXPECT_TRUE(reads_soon(**device));
+  EXPECT_TRUE(haply_reads_soon(**device));
 }
 
 TEST(HaplyFailures, AConnectionThatEnds) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
-  ASSERT_TRUE(reads_soon(*device));
+  ASSERT_TRUE(haply_reads_soon(*device));
   fake.hang_up();
-  ASSERT_TRUE(is_lost_soon(*device));
-  expect_back(*device);
+  ASSERT_TRUE(haply_is_lost_soon(*device));
+  expect_haply_back(*device);
 }
 
 TEST(HaplyFailures, AServiceThatIsRestarted) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
-  ASSERT_TRUE(reads_soon(*device));
+  ASSERT_TRUE(haply_reads_soon(*device));
   fake.stop();
-  ASSERT_TRUE(is_lost_soon(*device));
-  EXPECT_TRUE(tells_soon(*device, "Inverse Service"));
+  ASSERT_TRUE(haply_is_lost_soon(*device));
+  EXPECT_TRUE(haply_tells_soon(*device, "Inverse Service"));
   fake.start();
-  expect_back(*device);
+  expect_haply_back(*device);
 }
 
 TEST(HaplyFailures, AnswersThatMakeNoSense) {
@@ -236,41 +237,41 @@ TEST(HaplyFailures, AnswersThatMakeNoSense) {
     settings.patience = 0.3;
     const auto device = open_haply_at(settings);
     ASSERT_TRUE(device) << device.error().message;
-    ASSERT_TRUE(reads_soon(**device));
+    ASSERT_TRUE(haply_reads_soon(**device));
     fake.aim(settings.middle + Vector3(0.05, 0, 0));  // what does not change is not told
     fake.set_fault(fault);
-    ASSERT_TRUE(is_lost_soon(**device));
-    EXPECT_TRUE(tells_soon(**device, "nothing that makes sense")) << (*device)->condition();
+    ASSERT_TRUE(haply_is_lost_soon(**device));
+    EXPECT_TRUE(haply_tells_soon(**device, "nothing that makes sense")) << (*device)->condition();
     fake.set_fault(ServiceFault::None);
-    EXPECT_TRUE(reads_soon(**device));
+    EXPECT_TRUE(haply_reads_soon(**device));
   }
 }
 
 TEST(HaplyFailures, AFewAnswersThatMakeNoSenseAreLeftOut) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   fake.fail(ArmFault::NotANumber);
-  EXPECT_TRUE(tells_soon(*device, "makes no sense and is left out"));
+  EXPECT_TRUE(haply_tells_soon(*device, "makes no sense and is left out"));
   EXPECT_TRUE(holds_soon([&] {
     PointerState state;
     return device->read(state) == DeviceStatus::Stalled;
   }));
   fake.fail(ArmFault::None);
-  EXPECT_TRUE(reads_soon(*device));
+  EXPECT_TRUE(haply_reads_soon(*device));
   EXPECT_EQ(device->counts().not_finite, 0u);
 }
 
 TEST(HaplyFailures, AnEnormousAnswer) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
-  ASSERT_TRUE(reads_soon(*device));
+  ASSERT_TRUE(haply_reads_soon(*device));
   fake.answer_by(WebSocket::kMostBytes + 1);
-  ASSERT_TRUE(is_lost_soon(*device));
-  expect_back(*device);
+  ASSERT_TRUE(haply_is_lost_soon(*device));
+  expect_haply_back(*device);
   fake.answer_by(WebSocket::kMostBytes / 2);
-  EXPECT_TRUE(reads_soon(*device));
+  EXPECT_TRUE(haply_reads_soon(*device));
 }
 
 TEST(HaplyFailures, ADeviceThatIsUnpluggedWhetherOrNotThereAreEvents) {
@@ -283,12 +284,12 @@ TEST(HaplyFailures, ADeviceThatIsUnpluggedWhetherOrNotThereAreEvents) {
     settings.patience = 0.5;
     const auto device = open_haply_at(settings);
     ASSERT_TRUE(device) << device.error().message;
-    ASSERT_TRUE(reads_soon(**device));
+    ASSERT_TRUE(haply_reads_soon(**device));
     fake.plug(false);
-    ASSERT_TRUE(is_lost_soon(**device));
-    EXPECT_TRUE(tells_soon(**device, "no longer lists the Inverse3 049D"));
+    ASSERT_TRUE(haply_is_lost_soon(**device));
+    EXPECT_TRUE(haply_tells_soon(**device, "no longer lists the Inverse3 049D"));
     fake.plug(true);
-    EXPECT_TRUE(reads_soon(**device));
+    EXPECT_TRUE(haply_reads_soon(**device));
   }
 }
 
@@ -298,7 +299,7 @@ TEST(HaplyFailures, LeavingDoesNotWaitForAServiceThatSaysNothing) {
   settings.patience = 60.0;
   auto device = open_haply_at(settings);
   ASSERT_TRUE(device);
-  ASSERT_TRUE(reads_soon(**device));
+  ASSERT_TRUE(haply_reads_soon(**device));
   fake.set_fault(ServiceFault::Silent);
   const std::int64_t begin = base::steady_nanoseconds();
   device->reset();
@@ -308,20 +309,20 @@ TEST(HaplyFailures, LeavingDoesNotWaitForAServiceThatSaysNothing) {
 
 TEST(HaplyDriver, WhatTheDeviceLacksIsTold) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   fake.set_status(false, true, true);
-  EXPECT_TRUE(tells_soon(*device, "Haply Inverse3 049D: it is not calibrated"));
+  EXPECT_TRUE(haply_tells_soon(*device, "Haply Inverse3 049D: it is not calibrated"));
   fake.set_status(true, false, false);
-  EXPECT_TRUE(
-      tells_soon(*device, "it has no power; plug in its power supply. Haply Inverse3 049D: it is not ready"));
+  EXPECT_TRUE(haply_tells_soon(
+      *device, "it has no power; plug in its power supply. Haply Inverse3 049D: it is not ready"));
   fake.set_status(true, true, true);
   EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << device->condition();
 }
 
 TEST(HaplyDriver, EventsAreTold) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   const auto say = [&](const char* name, const char* level, const char* data, const char* message) {
     fake.say_event(std::string("{\"name\":\"") + name + R"(","category":"device","level":")" + level +
@@ -340,16 +341,16 @@ TEST(HaplyDriver, EventsAreTold) {
   EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << device->condition();
   say("device-battery-low", "warning", R"({"device_family":"wireless_verse_grip","device_id":"8A21"})",
       "battery at 5 %");
-  EXPECT_TRUE(tells_soon(*device, "a VerseGrip: \"battery at 5 %\""));
+  EXPECT_TRUE(haply_tells_soon(*device, "a VerseGrip: \"battery at 5 %\""));
   // It says that it is disconnected, but the service still lists it.
   say("device-disconnected", "warning", ours, "");
-  EXPECT_TRUE(tells_soon(*device, "it is disconnected"));
-  EXPECT_TRUE(reads_soon(*device));
+  EXPECT_TRUE(haply_tells_soon(*device, "it is disconnected"));
+  EXPECT_TRUE(haply_reads_soon(*device));
 }
 
 TEST(HaplyDriver, NoForceAboveTheProfileReachesTheService) {
   FakeInverseService fake;
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   for (const Vector3& force : {Vector3(100, 0, 0), Vector3(-7, 7, 7), Vector3(1e300, -1e300, 0),
                                Vector3(std::nan(""), 1, 1), Vector3(0, INFINITY, 0)}) {
@@ -398,10 +399,11 @@ TEST(HaplyDriver, ALateServiceIsFollowed) {
   FakeServiceSettings late;
   late.latency = 0.005;
   FakeInverseService fake(late);
-  const auto device = opened(fake);
+  const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   fake.aim(HaplySettings().middle + Vector3(0.02, 0, 0));
-  EXPECT_TRUE(reads_soon(*device, [](const PointerState& state) { return state.position.x() > 0.019; }));
+  EXPECT_TRUE(
+      haply_reads_soon(*device, [](const PointerState& state) { return state.position.x() > 0.019; }));
 }
 
 class HaplySuite : public testing::Test {

@@ -22,8 +22,8 @@ std::optional<std::uint16_t> port_of(std::string_view digits) {
 
 base::Result<ServiceAddress> parse_service_address(std::string_view text, std::uint16_t port) {
   const auto refused = [&] {
-    return base::fail(fmt::format(
-        "\"{}\" is no place of a service; write HOST:PORT, such as localhost:10001", base::shown_text(text)));
+    return base::fail(fmt::format("\"{}\" is no place of a service; write HOST:PORT, such as localhost:10001",
+                                  base::shown_text(text)));
   };
   std::string_view host = text;
   std::string_view rest;
