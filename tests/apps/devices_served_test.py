@@ -111,5 +111,38 @@ class FakeLibrariesTest(ProgramTest):
         self.fails("devices", "test", "hd", code=1, saying="libHD.so")
 
 
+class FakeServiceTest(ProgramTest):
+    """A fake of Haply's Inverse Service, which is a program of its own."""
+
+    def setUp(self):
+        super().setUp()
+        self.service = subprocess.Popen([pathlib.Path(PROGRAM).parent / "icome_fake_inverse_service"], text=True,
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.addCleanup(self.service.communicate)
+        ports = json.loads(self.service.stdout.readline())
+        for name, value in (("ICOME_HAPLY", f"127.0.0.1:{ports['port']}"),
+                            ("ICOME_HAPLY_OPTIONS", f"events={ports['events_port']}")):
+            os.environ[name] = value
+            self.addCleanup(os.environ.pop, name)
+
+    def test_it_is_listed(self):
+        found = [it for it in json.loads(self.succeeds("devices", "--json").stdout)["devices"] if it["backend"] == "haply"]
+        self.assertTrue(found[0]["present"])
+        self.assertTrue(found[0]["name"].startswith("haply"))
+
+    def test_it_is_tested_and_touched_with(self):
+        answer = json.loads(self.succeeds("devices", "test", "haply", "--seconds", "0.5", "--yes", "--json").stdout)
+        self.assertGreater(answer["force"]["moved_mm"], 0.1)
+        self.service.stdin.write("aim 0 -0.14 0.2\n")
+        self.service.stdin.flush()
+        report = self.report("sphere:0.03", "--device", "haply", "--seconds", "1.5")
+        self.assertGreater(report["touch_fraction"], 0.1)
+        self.assertLessEqual(report["max_force_n"], 5.0 * 3 ** 0.5)
+
+    def test_without_it_people_are_told_what_to_start(self):
+        os.environ["ICOME_HAPLY"] = "127.0.0.1:9"
+        self.fails("devices", "test", "haply", code=1, saying="Inverse Service")
+
+
 if __name__ == "__main__":
     unittest.main()
