@@ -19,6 +19,7 @@ struct DelayRow {
 // standard error says why.
 std::vector<DelayRow> openhaptics_rows(int trips);
 std::vector<DelayRow> forcedimension_rows(int trips);
+std::vector<DelayRow> haply_rows(int trips);
 
 /// Prints how long VRPN takes both ways between a device and a program on this computer, over so many ticks
 /// of 1 ms.

@@ -30,5 +30,6 @@ int main(int count, char** arguments) {
               "added us");
   print(icome::benchmarks::openhaptics_rows(trips));
   print(icome::benchmarks::forcedimension_rows(trips));
+  print(icome::benchmarks::haply_rows(trips));
   icome::benchmarks::print_vrpn_delays(3 * trips);
 }

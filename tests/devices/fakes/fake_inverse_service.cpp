@@ -14,6 +14,7 @@
 #include <deque>
 #include <list>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <string_view>
 
@@ -301,11 +302,16 @@ struct FakeInverseService::State {
       strongest_component = std::max(strongest_component, newtons.cwiseAbs().maxCoeff());
     read(arms[index]);
     arms[index].commanded = arms[index].time;
+    if (index == 0 && newtons != commanded) {
+      commanded = newtons;
+      commanded_since = base::steady_nanoseconds();
+    }
     arms[index].arm.push(newtons, arms[index].commanded);
   }
 
   Json arm_entry(std::size_t index) {
-    const FakeArm::Reading reading = read(arms[index]);
+    FakeArm::Reading reading = read(arms[index]);
+    if (index == 0 && pinned) reading = {*pinned - settings.middle, Vector3::Zero()};
     return {{"device_id", settings.devices[index]},
             {"config", {{"type", "inverse3"}, {"handedness", "right"}}},
             {"state",
@@ -429,6 +435,9 @@ struct FakeInverseService::State {
   bool ready = true;
   Quaternion orientation = Quaternion::Identity();
   std::uint32_t buttons = 0;
+  std::optional<Vector3> pinned;  // m from the mounting plate
+  Vector3 commanded = Vector3::Zero();
+  std::int64_t commanded_since = 0;
   double strongest_component = 0.0;
   std::uint64_t messages = 0;
   std::uint64_t vectors = 0;
@@ -530,6 +539,10 @@ void FakeInverseService::aim(const Vector3& place) {
   state_->read(state_->arms.front());
   state_->arms.front().arm.aim(place - state_->settings.middle);
 }
+void FakeInverseService::pin(const Vector3& place) {
+  const std::lock_guard lock(guard_);
+  state_->pinned = place;
+}
 void FakeInverseService::fail(ArmFault fault) {
   const std::lock_guard lock(guard_);
   state_->arms.front().arm.fail(fault);
@@ -551,6 +564,14 @@ double FakeInverseService::given() const {
   const std::lock_guard lock(guard_);
   state_->read(state_->arms.front());
   return state_->arms.front().arm.given();
+}
+Vector3 FakeInverseService::commanded() const {
+  const std::lock_guard lock(guard_);
+  return state_->commanded;
+}
+std::int64_t FakeInverseService::commanded_since() const {
+  const std::lock_guard lock(guard_);
+  return state_->commanded_since;
 }
 std::uint64_t FakeInverseService::messages() const {
   const std::lock_guard lock(guard_);

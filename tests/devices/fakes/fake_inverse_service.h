@@ -72,11 +72,16 @@ class FakeInverseService {
   // The first device; service's axes.
   /// The place that its hand aims for, m from the mounting plate.
   void aim(const Vector3& place);
+  /// Holds it at a place, m from the mounting plate, whatever pulls.
+  void pin(const Vector3& place);
   void fail(ArmFault fault);
   double strongest() const;            // N, that was ever commanded
   double strongest_component() const;  // N, in one coordinate
   Vector3 held() const;                // N, now
   double given() const;                // J
+  /// The force that was commanded last, N, and when it became that, ns on the steady clock.
+  Vector3 commanded() const;
+  std::int64_t commanded_since() const;
 
   /// Messages of clients that were understood, that named the force `vector`, and `values`.
   std::uint64_t messages() const;
