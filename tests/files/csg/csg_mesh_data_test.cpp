@@ -13,7 +13,6 @@
 #include "geometry/csg/csg_mesh.h"
 #include "geometry/mesh/mesh_topology.h"
 #include "places.h"
-#include "repeats.h"
 
 namespace icome::files {
 namespace {
@@ -43,14 +42,14 @@ double filled_share(const CsgTree& tree, const Bounds& box, int throws) {
 void expect_meshed(const CsgTree& tree) {
   const Bounds box = bounds(tree);
   if (box.isEmpty()) return;
-  const double cell = box.diagonal().norm() / (kSanitizerShare > 1 ? 16 : 40);
+  const double cell = box.diagonal().norm() / 40;
   const auto made = contour(tree, {.cell = cell});
   ASSERT_TRUE(made) << made.error().message;
   const geometry::MeshReport report = analyse_topology(made->mesh).report;
   EXPECT_EQ(report.boundary_edges + report.non_manifold_edges + report.inconsistent_edges, 0U);
   EXPECT_LT(made->error, 2 * cell);
 
-  constexpr int kThrows = kSanitizerShare > 1 ? 1000 : 5000;
+  constexpr int kThrows = 5000;
   const double share = filled_share(tree, box, kThrows);
   const double spread = std::sqrt(share * (1 - share) / kThrows);
   const double thin = 0.2 * cell * surface_area(made->mesh) / box.volume();  // what a coarse grid may miss

@@ -20,9 +20,6 @@ namespace {
 using base::Random;
 using std::numbers::pi;
 
-/// A cell, larger where a sanitizer makes each slow.
-constexpr double cell_of(double size) { return kSanitizerShare > 1 ? 2 * size : size; }
-
 /// Around every vertex one fan: the triangles there are connected over edges at the vertex.
 bool one_fan_each(const TriangleMesh& mesh) {
   std::vector<std::map<std::uint32_t, std::uint32_t>> next(mesh.positions.size());
@@ -87,7 +84,6 @@ TEST(DualContouring, SphereIsRoundAndItsErrorFallsWithTheSquareOfTheCell) {
   ball.add(Sphere{1.0});
   double last = 0.0;
   for (const double cell : {0.2, 0.1, 0.05}) {
-    if (kSanitizerShare > 1 && cell < 0.1) continue;
     const ContourMesh made = meshed(ball, cube_around_origin(1.0), cell);
     EXPECT_EQ(euler_characteristic(made.mesh), 2);
     // Of inscribed triangles with edges of up to sqrt(3) cells.
@@ -107,7 +103,6 @@ TEST(DualContouring, BoxIsReproduced) {
   AnalyticSolid box;
   box.add(Box{half});
   for (const double cell : {0.29, 0.1, 0.04}) {  // 0.1 divides every side
-    if (kSanitizerShare > 1 && cell < 0.1) continue;
     const ContourMesh made = meshed(box, Bounds(-half, half), cell);
     EXPECT_LT(made.error, 1e-12);
     EXPECT_NEAR(signed_volume(made.mesh), 8 * half.prod(), 1e-9);
@@ -164,7 +159,6 @@ TEST(DualContouring, BoxWithoutBallHasTheRightVolume) {
   solid.add(Box{{0.5, 0.5, 0.5}}).cut(Sphere{0.3}, pose_at(0, 0, 0.5));
   const double volume = 1.0 - 2 * pi / 3 * 0.027;
   for (const double cell : {0.1, 0.05}) {
-    if (kSanitizerShare > 1 && cell < 0.1) continue;
     const ContourMesh made = meshed(solid, cube_around_origin(0.5), cell);
     EXPECT_EQ(euler_characteristic(made.mesh), 2);
     EXPECT_NEAR(signed_volume(made.mesh) / volume, 1.0, cell * cell);
@@ -183,7 +177,7 @@ TEST(DualContouring, TorusHasItsHole) {
 
 TEST(DualContouring, BallsThatTouchOrNearlyTouchStayManifold) {
   for (const double gap : {-0.01, 0.0, 1e-9, 0.03}) {
-    for (const double cell : {cell_of(0.1), cell_of(0.06)}) {
+    for (const double cell : {0.1, 0.06}) {
       const double x = 0.5 + gap / 2;
       AnalyticSolid pair;
       const Pose turn = pose_turned(0.7, {1, 2, 3});
@@ -203,7 +197,7 @@ TEST(DualContouring, ThinPlateSurvives) {
   EXPECT_NEAR(signed_volume(flat.mesh), 0.15, 1e-9);
 
   Random random(11);
-  for (int i = 0; i < (kSanitizerShare > 1 ? 3 : 10); ++i) {
+  for (int i = 0; i < 10; ++i) {
     AnalyticSolid tilted;
     tilted.add(Box{{0.5, 0.5, 0.075}}, pose_turned(random.uniform(0, 3), random.direction()));
     const ContourMesh made = meshed(tilted, cube_around_origin(0.75), 0.1);
@@ -259,8 +253,7 @@ TEST(DualContouring, SpecksAroundOnePointFaceOut) {
 TEST(DualContouring, RandomSignsAreClosedManifolds) {
   // No geometry at all: every grid point is inside or outside by a throw of dice, so that every kind of cell
   // occurs beside every other.
-  const std::uint64_t every = kSanitizerShare > 1 ? 5 : 1;
-  for (std::uint64_t seed = 0; seed < 20; seed += every) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     const auto inside = [seed](const Vector3& point) {
       const Vector3 tile = (point.array() * 1.0).floor();
@@ -282,7 +275,7 @@ TEST(DualContouring, RandomSignsAreClosedManifolds) {
 TEST(DualContouring, SolidsThatReachTheirBoundsOrBeyondAreClosed) {
   AnalyticSolid ball;
   ball.add(Sphere{1.0});
-  const ContourMesh cut_off = meshed(ball, cube_around_origin(0.6), cell_of(0.1));
+  const ContourMesh cut_off = meshed(ball, cube_around_origin(0.6), 0.1);
   EXPECT_EQ(euler_characteristic(cut_off.mesh), 2);
   const SampledSolid everything{cube_around_origin(1), [](const Vector3&) { return true; },
                                 [](const Vector3& a, const Vector3& b) {
@@ -311,8 +304,8 @@ TEST(DualContouring, SameSolidInAnotherUnitGivesTheSameMesh) {
   one.add(Box{{0.5, 0.4, 0.3}}, turn).cut(Sphere{0.35}, pose_at(0.3, 0.1, 0));
   other.add(Box{{0.5 * scale, 0.4 * scale, 0.3 * scale}}, turn)
       .cut(Sphere{0.35 * scale}, pose_at(0.3 * scale, 0.1 * scale, 0));
-  const ContourMesh small = meshed(one, cube_around_origin(0.75), cell_of(0.06));
-  const ContourMesh large = meshed(other, cube_around_origin(0.75 * scale), cell_of(0.06) * scale);
+  const ContourMesh small = meshed(one, cube_around_origin(0.75), 0.06);
+  const ContourMesh large = meshed(other, cube_around_origin(0.75 * scale), 0.06 * scale);
   ASSERT_EQ(small.mesh.triangles, large.mesh.triangles);
   EXPECT_NEAR(large.error, small.error * scale, 1e-9 * large.error);
   for (std::size_t i = 0; i < small.mesh.positions.size(); ++i) {
@@ -330,14 +323,14 @@ TEST(DualContouring, BlocksWithoutSurfaceMakeNoDifference) {
     ++asked;
     return ball.inside(point);
   };
-  const ContourMesh all = meshed(solid, cell_of(0.05));
+  const ContourMesh all = meshed(solid, 0.05);
   const int without = asked.exchange(0);
   solid.may_cross = [](const Bounds& box) {
     const Vector3 centre(0.1, 0.2, 0.3);
     const double far = (box.center() - centre).cwiseAbs().cwiseMax(0).norm() + box.diagonal().norm() / 2;
     return box.squaredExteriorDistance(centre) <= 1.0 && far >= 1.0;
   };
-  const ContourMesh some = meshed(solid, cell_of(0.05));
+  const ContourMesh some = meshed(solid, 0.05);
   EXPECT_EQ(all.mesh.triangles, some.mesh.triangles);
   EXPECT_EQ(all.mesh.positions, some.mesh.positions);
   EXPECT_LT(asked, without / 2);

@@ -10,7 +10,6 @@
 #include "geometry/csg_trees.h"
 #include "geometry/mesh/mesh_sheets.h"
 #include "geometry/mesh/mesh_topology.h"
-#include "repeats.h"
 
 namespace icome::geometry {
 namespace {
@@ -79,13 +78,12 @@ std::vector<ThinSolid> thin_solids() {
 }
 
 TEST(CsgCut, ThinSolidsKeepTheirVolumeAtAnyOrientation) {
-  constexpr double kCells = kSanitizerShare > 1 ? 20.0 : 60.0;  // along the longest side
   Random random(7);
   for (const ThinSolid& solid : thin_solids()) {
-    for (int i = 0; i < (kSanitizerShare > 1 ? 2 : 3); ++i) {
+    for (int i = 0; i < 3; ++i) {
       SCOPED_TRACE(testing::Message() << solid.name << " " << i);
       const CsgTree tree = i == 0 ? solid.tree : placed_tree(solid.tree, turned(random));
-      const auto made = contour(tree, {.cell = bounds(tree).sizes().maxCoeff() / kCells, .measures = false});
+      const auto made = contour(tree, {.cell = bounds(tree).sizes().maxCoeff() / 60, .measures = false});
       ASSERT_TRUE(made.has_value()) << made.error().message;
       expect_manifold(made->mesh);
       EXPECT_NEAR(signed_volume(made->mesh) / solid.volume, 1.0, solid.tolerance);

@@ -14,15 +14,11 @@
 #include "geometry/csg_meshed.h"
 #include "geometry/csg_trees.h"
 #include "geometry/tree/triangle_tree.h"
-#include "repeats.h"
 
 namespace icome::geometry {
 namespace {
 
 using base::Random;
-
-// Larger where sanitizers make each slow.
-constexpr double kFineCell = kSanitizerShare > 1 ? 0.02 : 0.01;
 
 /// Boxes whose corners have whole coordinates below `size`, put together at random.
 CsgTree random_boxes(Random& random, int leaves, int size) {
@@ -80,7 +76,7 @@ CsgTree with_hole(const Primitive& whole, const Primitive& hole, const Affine3& 
 TEST(CsgMesh, BoxesAreExactAndOfFewTriangles) {
   Random random(17);
   constexpr int kSize = 6;
-  for (int i = 0; i < (kSanitizerShare > 1 ? 12 : 60); ++i) {
+  for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
     const CsgTree tree = random_boxes(random, 2 + int(random.index(7)), kSize);
     const int cubes = unit_cubes(tree, kSize);
@@ -110,7 +106,7 @@ TEST(CsgMesh, SlitsStayOpenHoweverNarrow) {
   for (const double width : {0.002, 1e-5}) {
     const CsgTree slit =
         with_hole(Box{Vector3::Constant(0.5)}, Box{{0.5 * width, 0.6, 0.4}}, moved(0, 0, 0.2));
-    for (const double cell : {0.036, kFineCell}) {
+    for (const double cell : {0.036, 0.01}) {
       for (const CsgTree& tree : {slit, placed(slit, tilted())}) {
         const ContourMesh made = csg_meshed(tree, cell);
         EXPECT_NEAR(volume(made.mesh), 1.0 - width * 0.7, 1e-9);
@@ -123,7 +119,7 @@ TEST(CsgMesh, SlitsStayOpenHoweverNarrow) {
   CsgTree bearing = with_hole(Cylinder{0.3, 0.2}, Cylinder{0.2, 0.4});
   const auto ring = bearing.root();
   bearing.add(CsgOperator::Union, ring, bearing.add_leaf(Primitive(Cylinder{0.1995, 0.2})));
-  const ContourMesh made = csg_meshed(bearing, kFineCell);
+  const ContourMesh made = csg_meshed(bearing, 0.01);
   EXPECT_EQ(analyse_topology(made.mesh).report.components, 2u);
   EXPECT_EQ(euler_characteristic(made.mesh), 0 + 2);
   EXPECT_FALSE(made.lost);
@@ -133,7 +129,7 @@ TEST(CsgMesh, DrilledPlatesKeepThicknessAndHole) {
   for (const double thickness : {0.018, 0.005, 1e-4}) {
     const CsgTree plate = with_hole(Box{{0.5, 0.5, 0.5 * thickness}}, Cylinder{0.1, 0.3});
     for (const CsgTree& tree : {plate, placed(plate, tilted())}) {
-      for (const double cell : {0.036, kFineCell}) {
+      for (const double cell : {0.036, 0.01}) {
         SCOPED_TRACE(testing::Message() << thickness << " " << cell);
         const ContourMesh made = csg_meshed(tree, cell);
         EXPECT_NEAR(volume(made.mesh) / (thickness * (1.0 - std::numbers::pi * 0.01)), 1.0, 0.005);
@@ -150,7 +146,7 @@ TEST(CsgMesh, BallThatTouchesAPlateAndOneThatDipsIn) {
     const auto plate = tree.add_leaf(Primitive(Box{{0.5, 0.5, 0.05}}));
     const auto ball = tree.add_leaf(Primitive(Sphere{0.2}), moved(0.1, 0.07, 0.25 - dip));
     tree.add(CsgOperator::Union, plate, ball);
-    const ContourMesh made = csg_meshed(tree, kFineCell);
+    const ContourMesh made = csg_meshed(tree, 0.01);
     EXPECT_NEAR(volume(made.mesh) / (0.1 + 4 * std::numbers::pi / 3 * 0.008), 1.0, 0.005);
     EXPECT_FALSE(made.lost);
     if (dip > 0.0) {
@@ -369,7 +365,7 @@ TEST(CsgMesh, BentFacesHaveTheTrianglesThatTheyNeed) {
   const CsgTree plate = with_hole(Box{{0.05, 0.05, 0.0025}}, Cylinder{0.0025, 0.1});
   for (const CsgTree& tree : {plate, placed(plate, tilted())}) {
     std::size_t last = 0;
-    for (const double cell : {5e-4, kSanitizerShare > 1 ? 2e-4 : 5e-5}) {
+    for (const double cell : {5e-4, 5e-5}) {
       const ContourMesh made = csg_meshed(tree, cell);
       EXPECT_LE(made.error, 0.06 * cell);  // measured askew: an upper bound
       EXPECT_EQ(euler_characteristic(made.mesh), 0);
@@ -431,7 +427,7 @@ TEST_P(MixedSolids, KeepToTheirSurface) {
     for (const Vector3& position : made.mesh.positions)
       EXPECT_LT(nearest_operand(tree, position), kOff) << position.transpose();
     const TriangleTree triangles(made.mesh);
-    for (int k = 0; k < repeats(2000); ++k) {
+    for (int k = 0; k < 2000; ++k) {
       const Vector3 point(random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2));
       if (triangles.encloses(point) != recursively_inside(tree, point)) {
         EXPECT_LT(nearest_operand(tree, point), 3 * kOff) << point.transpose();
@@ -445,16 +441,15 @@ TEST_P(MixedSolids, KeepToTheirSurface) {
 INSTANTIATE_TEST_SUITE_P(Parts, MixedSolids, testing::Range(0, 4));
 
 TEST(CsgMesh, ConesKeepTheirTips) {
-  constexpr double kCell = 2 * kFineCell;
   CsgTree tree;
   tree.add_leaf(Primitive(Cone{0.5, 0.0, 1.0}));
   for (const CsgTree& cone : {tree, placed(tree, tilted())}) {
-    const ContourMesh made = csg_meshed(cone, kCell);
+    const ContourMesh made = csg_meshed(cone, 0.02);
     const Vector3 tip = cone.node(cone.root()).parent_from_node * Vector3(0, 0, 0.5);
     double nearest = 1.0;
     for (const Vector3& position : made.mesh.positions) nearest = std::min(nearest, (position - tip).norm());
     EXPECT_LT(nearest, 1e-9);
-    EXPECT_LT(made.error, 0.06 * kCell);
+    EXPECT_LT(made.error, 0.06 * 0.02);
     EXPECT_EQ(euler_characteristic(made.mesh), 2);
   }
 }

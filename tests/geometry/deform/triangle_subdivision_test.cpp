@@ -14,7 +14,6 @@
 #include "geometry/mesh/geodesic_sphere.h"
 #include "geometry/mesh/mesh_topology.h"
 #include "geometry/meshes.h"
-#include "repeats.h"
 
 namespace icome::geometry {
 namespace {
@@ -147,7 +146,7 @@ TEST(TriangleSubdivision, RandomSelectionsOfAClosedMeshStayClosedAndSound) {
   base::Random random(61);
   const TriangleMesh mesh = bumpy_geodesic_sphere(5, 0.3, 0.2, 3);
   const std::int64_t euler = euler_characteristic(mesh);
-  for (int levels = 0; levels <= (kSanitizerShare > 1 ? 4 : 5); ++levels) {
+  for (int levels = 0; levels <= 5; ++levels) {
     for (const double share : {0.01, 0.2, 0.6, 1.0}) {
       const Indices selection = random_triangles(mesh, share, random);
       const auto result = subdivide_triangles(mesh, selection, levels);

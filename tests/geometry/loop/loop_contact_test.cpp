@@ -10,7 +10,6 @@
 #include "geometry/loop/loop_surface.h"
 #include "geometry/loop_reference.h"
 #include "geometry/tree/triangle_tree.h"
-#include "repeats.h"
 
 namespace icome::geometry {
 namespace loop_contact_test {
@@ -163,8 +162,7 @@ TEST(LoopContact, FootAtExtraordinaryVerticesEndsThere) {
 }
 
 /// Segments between random places around and on the surface.
-void compare_with_mesh(const ControlMesh& control, int level, int full_trials, std::uint64_t seed) {
-  const int trials = kSanitizerShare > 1 ? full_trials / 5 : full_trials;
+void compare_with_mesh(const ControlMesh& control, int level, int trials, std::uint64_t seed) {
   const auto surface = touchable(control);
   const auto mesh = surface->tessellate(level);
   ASSERT_TRUE(mesh.has_value());
@@ -206,7 +204,7 @@ TEST(LoopContact, NothingSlipsThroughVerticesAndEdges) {
     const ControlMesh control{ref::wild_ball(1, 30, 0.15, seed), {}, {}};
     const auto surface = touchable(control);
     base::Random random(seed);
-    for (int trial = 0; trial < repeats(1500); ++trial) {
+    for (int trial = 0; trial < 1500; ++trial) {
       const auto face = std::uint32_t(random.index(control.mesh.triangles.size()));
       // Corners, middles of sides, places on sides and on the edges of pieces.
       const double along = trial % 5 == 0 ? 0.5 : trial % 5 == 1 ? 0.0 : random.uniform();
@@ -271,7 +269,7 @@ TEST(LoopContact, InsideIsToldNextToTheSurface) {
     const auto surface = touchable(control);
     ASSERT_TRUE(surface->closed());
     base::Random random(seed);
-    for (int trial = 0; trial < repeats(2000); ++trial) {
+    for (int trial = 0; trial < 2000; ++trial) {
       const auto face = std::uint32_t(random.index(control.mesh.triangles.size()));
       const double u = trial % 7 == 0 ? 0.0 : random.uniform(0.0, 0.5);
       const auto at = surface->sample(face, u, random.uniform(0.01, 0.49));

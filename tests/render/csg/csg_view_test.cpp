@@ -11,7 +11,6 @@
 #include "render/csg_scenes.h"
 #include "render/pictures/studio.h"
 #include "render/pictures/touch_view.h"
-#include "repeats.h"
 
 namespace icome::render {
 namespace {
@@ -133,14 +132,11 @@ struct Agreement {
 };
 
 Agreement compare(const Shot& shot, const std::function<bool(const Vector3&)>& inside) {
-  constexpr int kEvery = kSanitizerShare > 1 ? 3 : 1;
-  int all = 0;
   int same = 0;
   int both = 0;
   int near = 0;
-  for (int y = 0; y < kHeight; y += kEvery) {
-    for (int x = 0; x < kWidth; x += kEvery) {
-      ++all;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
       const float cast = cast_ray(shot, inside, x, y);
       const float seen = shot.distance(x, y);
       same += std::isinf(cast) == std::isinf(seen);
@@ -150,7 +146,7 @@ Agreement compare(const Shot& shot, const std::function<bool(const Vector3&)>& i
               near_surface(inside, seen_point(shot, x, y), 1e-3 * shot.ball.radius);
     }
   }
-  return {static_cast<double>(same) / all, static_cast<double>(near) / std::max(1, both)};
+  return {static_cast<double>(same) / (kWidth * kHeight), static_cast<double>(near) / std::max(1, both)};
 }
 
 /// `reference` is the same solid.
