@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kWay = 0.001;                     // m, that the hand moves
 constexpr std::int64_t kPatience = 5'000'000'000;  // ns
+constexpr std::int64_t kGlance = 20'000;           // ns
 constexpr std::int64_t kServoPeriod = 1'000'000;   // ns
 
 /// Reads and answers until told to stop.
@@ -24,11 +25,8 @@ void serve(devices::PointerDevice& device, ServoPace pace, const std::atomic<boo
   while (!stop.load(std::memory_order_relaxed)) {
     device.read(state);
     device.write({answer_to(state.position.x()), 0.0, 0.0});
-    if (pace == ServoPace::AtOnce) {
-      std::this_thread::yield();
-      continue;
-    }
-    next += kServoPeriod;
+    // Not without any wait, as the system takes the processor away from who never does.
+    next = pace == ServoPace::AtOnce ? base::steady_nanoseconds() + kGlance : next + kServoPeriod;
     realtime::sleep_until(next);
   }
 }

@@ -16,7 +16,7 @@ struct FakeEnd {
 
 /// How the servo is called.
 enum class ServoPace : std::uint8_t {
-  AtOnce,     // reads all the time: what is measured is the way to it and back
+  AtOnce,     // reads every 20 us: what is measured is the way to it and back
   Kilohertz,  // on a timer of its own, as ours is
 };
 
