@@ -3,6 +3,7 @@
 // wants it on the device. Both loops at 1 kHz, as they are in use; a row each, median and p99.9.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -33,7 +34,7 @@ struct Stamps {
 
   void note(int number) { given[static_cast<std::size_t>(number)].store(steady_nanoseconds()); }
   void arrived(double value) {
-    const auto number = static_cast<int>(value + 0.5);
+    const auto number = static_cast<int>(std::lround(value));
     if (number <= 0 || number >= kNumbers) return;
     const std::int64_t since = given[static_cast<std::size_t>(number)].exchange(0);
     if (since != 0) delays.push_back(steady_nanoseconds() - since);
