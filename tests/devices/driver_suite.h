@@ -3,6 +3,8 @@
 // Nothing here counts on the machine to keep time: conditions are waited for, and what is bounded holds
 // however late a tick comes.
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <chrono>
@@ -45,6 +47,19 @@ inline bool holds_soon(const std::function<bool()>& condition) {
   }
   return true;
 }
+
+/// Lets no ordinary thread delay the calling one as long as it lives, where the system permits that: a servo
+/// whose ticks come more than the watchdog's time apart never gets its force to the hand.
+class Undelayed {
+ public:
+  Undelayed() { static_cast<void>(realtime::ask_for_realtime_priority(50)); }
+  ~Undelayed() {
+    const sched_param ordinary{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  }
+  Undelayed(const Undelayed&) = delete;
+  Undelayed& operator=(const Undelayed&) = delete;
+};
 
 /// A servo with a floor, whose top is 10 mm below the middle of the device's workspace.
 class Touching {
@@ -100,6 +115,7 @@ class Touching {
     return haptics::HapticScene::compile({object});
   }
 
+  Undelayed undelayed_;
   Rig& rig_;
   haptics::Servo servo_;
   std::int64_t last_ = 0;  // ns, of the last tick; 0 before the first

@@ -7,7 +7,6 @@
 
 #include "geometry/loop/loop_offset.h"
 #include "haptics/loop_controls.h"
-#include "repeats.h"
 
 namespace icome::haptics {
 namespace {
@@ -55,7 +54,7 @@ TEST_P(BallsOnLoops, KeepTheirRadiusFromTheSurface) {
   Toucher toucher =
       ball_on_loop(named.control, radius, loop.closed() ? TouchableSides::Front : TouchableSides::Both);
   // A sheet's way begins below it, far from its ground.
-  const auto count = std::size_t(loop.closed() ? std::max(60, repeats(600)) : 3000);
+  const auto count = std::size_t(loop.closed() ? std::max(150, repeats(600)) : 3000);
   const auto path = loop.closed() ? random_touch(loop, 7, count, kLoopSize)
                                   : random_touch(SheetGround{loop}, 7, count, kLoopSize);
   const double margin = 2.0 * loop.margin() + 1e-5 * radius;
@@ -104,11 +103,10 @@ TEST(BallOnLoop, RestsOnBothWallsOfANarrowGroove) {
       height_field(0.1, 20, [](double x, double) { return -0.01 * std::exp(-x * x / 2e-5); }), {}, {}};
   const BruteLoop loop(ground, 12'000 / kSanitizerShare);
   const double radius = 0.01, margin = 2.0 * loop.margin() + 1e-7;
-  constexpr int kSteps = kSanitizerShare > 1 ? 40 : 200;
   Toucher toucher = ball_on_loop(ground, radius);
   toucher.step({0.0, -0.02, 0.02});
   toucher.go({0.0, -0.02, 0.02}, {0.0, -0.02, -0.005}, 30);
-  for (int i = 0; i <= kSteps; ++i) {
+  for (int i = 0; i <= 200; ++i) {
     const ScpState& state = toucher.step({0.0, -0.02 + 2e-4 * i, -0.005});
     ASSERT_TRUE(state.touching);
     ASSERT_NEAR(loop.tree().nearest(state.scp)->parameter, radius, margin) << i;
@@ -121,7 +119,7 @@ TEST(BallOnLoop, ComesOutWhereItOverlapsAtTheStart) {
   Random random(3);
   for (const ControlMesh& control : {icosahedron(), quad_torus(10, 6), creased_box()}) {
     const BruteLoop loop(control, 12'000 / kSanitizerShare);
-    for (int i = 0; i < std::max(2, repeats(20)); ++i) {
+    for (int i = 0; i < std::max(4, repeats(20)); ++i) {
       const double radius = random.uniform(1e-3, 6e-3);
       const Vector3 tip = 0.06 * random.uniform(0.0, 1.0) * random.direction();
       Toucher toucher = ball_on_loop(control, radius);
