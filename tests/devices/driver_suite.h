@@ -38,8 +38,26 @@ struct Rig {
 
 constexpr auto kPatience = std::chrono::seconds(30);
 
+/// Lets no ordinary thread delay the calling one as long as it lives, where the system permits that: a servo
+/// whose ticks come more than the watchdog's time apart never gets its force to the hand.
+class Undelayed {
+ public:
+  Undelayed() {
+    pthread_getschedparam(pthread_self(), &policy_, &before_);
+    static_cast<void>(realtime::ask_for_realtime_priority(50));
+  }
+  ~Undelayed() { pthread_setschedparam(pthread_self(), policy_, &before_); }
+  Undelayed(const Undelayed&) = delete;
+  Undelayed& operator=(const Undelayed&) = delete;
+
+ private:
+  int policy_ = SCHED_OTHER;
+  sched_param before_{};
+};
+
 /// Waits until a condition holds; false when it never does.
 inline bool holds_soon(const std::function<bool()>& condition) {
+  const Undelayed undelayed;  // conditions write forces
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
@@ -47,19 +65,6 @@ inline bool holds_soon(const std::function<bool()>& condition) {
   }
   return true;
 }
-
-/// Lets no ordinary thread delay the calling one as long as it lives, where the system permits that: a servo
-/// whose ticks come more than the watchdog's time apart never gets its force to the hand.
-class Undelayed {
- public:
-  Undelayed() { static_cast<void>(realtime::ask_for_realtime_priority(50)); }
-  ~Undelayed() {
-    const sched_param ordinary{};
-    pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
-  }
-  Undelayed(const Undelayed&) = delete;
-  Undelayed& operator=(const Undelayed&) = delete;
-};
 
 /// A servo with a floor, whose top is 10 mm below the middle of the device's workspace.
 class Touching {

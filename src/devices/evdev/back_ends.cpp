@@ -30,19 +30,19 @@ base::Result<std::unique_ptr<InputReader>> reader_of(InputKind kind) {
   return reader_with<GamepadPointer>(gamepad_settings_from_environment());
 }
 
-template <InputKind kind>
+template <InputKind Kind>
 base::Result<std::unique_ptr<PointerDevice>> open_kind(std::string_view address) {
-  auto device = open_input_pointer(linux_inputs(), kind, address);
+  auto device = open_input_pointer(linux_inputs(), Kind, address);
   if (!device) return tl::unexpected(device.error());
   return std::move(*device);
 }
 
-template <InputKind kind>
+template <InputKind Kind>
 std::vector<DeviceEntry> list_kind() {
   const std::shared_ptr<InputSystem> system = linux_inputs();
-  std::vector<DeviceEntry> entries = list_inputs(*system, kind, "pointer");
-  if (kind != InputKind::Gamepad) return entries;
-  for (DeviceEntry& entry : list_inputs(*system, kind, "navigation")) entries.push_back(std::move(entry));
+  std::vector<DeviceEntry> entries = list_inputs(*system, Kind, "pointer");
+  if (Kind != InputKind::Gamepad) return entries;
+  for (DeviceEntry& entry : list_inputs(*system, Kind, "navigation")) entries.push_back(std::move(entry));
   return entries;
 }
 
