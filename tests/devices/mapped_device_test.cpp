@@ -47,19 +47,19 @@ class MappedDeviceTest : public testing::Test {
  protected:
   void map(const DeviceMapping& mapping) {
     auto device = std::make_unique<ToldDevice>();
-    told = device.get();
-    mapped = std::make_unique<MappedDevice>(std::move(device), mapping);
+    told_ = device.get();
+    mapped_ = std::make_unique<MappedDevice>(std::move(device), mapping);
   }
 
   PointerState read(const PointerState& raw) {
-    told->states.push_back(raw);
-    EXPECT_EQ(mapped->read(state), DeviceStatus::Ok);
-    return state;
+    told_->states.push_back(raw);
+    EXPECT_EQ(mapped_->read(state_), DeviceStatus::Ok);
+    return state_;
   }
 
-  ToldDevice* told = nullptr;
-  std::unique_ptr<MappedDevice> mapped;
-  PointerState state;
+  ToldDevice* told_ = nullptr;
+  std::unique_ptr<MappedDevice> mapped_;
+  PointerState state_;
 };
 
 TEST_F(MappedDeviceTest, TurnsMovesAndScales) {
@@ -77,20 +77,20 @@ TEST_F(MappedDeviceTest, TurnsMovesAndScales) {
   EXPECT_TRUE(ours.velocity.isApprox(Vector3(0.4, 0.6, 0.2)));
   EXPECT_NEAR(ours.orientation.angularDistance(Quaternion(Eigen::AngleAxisd(0.5, Vector3::UnitY()))), 0.0,
               1e-9);
-  mapped->write({1.0, 2.0, 3.0});
-  EXPECT_TRUE(told->force.isApprox(Vector3(3.0, 1.0, 2.0)));
-  EXPECT_EQ(mapped->condition(), "warm");
+  mapped_->write({1.0, 2.0, 3.0});
+  EXPECT_TRUE(told_->force.isApprox(Vector3(3.0, 1.0, 2.0)));
+  EXPECT_EQ(mapped_->condition(), "warm");
 }
 
 TEST_F(MappedDeviceTest, ItsAbilitiesAreThoseOfTheTip) {
   map({.scale = 2.0, .workspace_radius = 0.08, .max_force = 1.5});
-  EXPECT_DOUBLE_EQ(mapped->info().workspace_radius, 0.16);
-  EXPECT_DOUBLE_EQ(mapped->info().max_force, 1.5);
-  EXPECT_DOUBLE_EQ(mapped->info().continuous_force, 1.5);
-  EXPECT_DOUBLE_EQ(mapped->info().nominal_stiffness, 500.0);
-  EXPECT_DOUBLE_EQ(mapped->info().effective_mass, 0.05);
+  EXPECT_DOUBLE_EQ(mapped_->info().workspace_radius, 0.16);
+  EXPECT_DOUBLE_EQ(mapped_->info().max_force, 1.5);
+  EXPECT_DOUBLE_EQ(mapped_->info().continuous_force, 1.5);
+  EXPECT_DOUBLE_EQ(mapped_->info().nominal_stiffness, 500.0);
+  EXPECT_DOUBLE_EQ(mapped_->info().effective_mass, 0.05);
   map({.max_force = 100.0});
-  EXPECT_DOUBLE_EQ(mapped->info().max_force, 4.0) << "no profile makes a device stronger";
+  EXPECT_DOUBLE_EQ(mapped_->info().max_force, 4.0) << "no profile makes a device stronger";
 }
 
 TEST_F(MappedDeviceTest, AClutchLeavesTheTipWhereItIs) {
@@ -106,14 +106,14 @@ TEST_F(MappedDeviceTest, AClutchLeavesTheTipWhereItIs) {
   EXPECT_FALSE(back.parked);
   EXPECT_TRUE(back.jumped) << "contacts are left";
   EXPECT_NEAR(read(at({0.02, 0, 0})).position.x(), 0.07, 1e-15);
-  EXPECT_FALSE(state.jumped);
+  EXPECT_FALSE(state_.jumped);
 }
 
 TEST_F(MappedDeviceTest, KeepsTheOldStateWithoutANewReading) {
   map({.scale = 3.0});
   read(at({0.01, 0, 0}));
-  EXPECT_EQ(mapped->read(state), DeviceStatus::Stalled);
-  EXPECT_DOUBLE_EQ(state.position.x(), 0.03);
+  EXPECT_EQ(mapped_->read(state_), DeviceStatus::Stalled);
+  EXPECT_DOUBLE_EQ(state_.position.x(), 0.03);
 }
 
 }  // namespace

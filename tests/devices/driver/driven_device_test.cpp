@@ -63,7 +63,7 @@ class ArmDriver final : public Driver {
 };
 
 class DrivenDeviceTest : public testing::Test {
- protected:
+ public:
   DrivenDeviceTest() {
     auto device = DrivenDevice::create(std::make_unique<ArmDriver>(table), {.retry = 0.02});
     rig.device = std::move(*device);

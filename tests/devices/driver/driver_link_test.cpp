@@ -25,7 +25,7 @@ PointerState reading_at(double x, double y = 0.0, double z = 0.0) {
 
 /// A link to a connected device, with a clock of its own.
 class DriverLinkTest : public testing::Test {
- protected:
+ public:
   DriverLinkTest() { link.connect(touch_like()); }
 
   DeviceStatus passed(const PointerState& reading) {

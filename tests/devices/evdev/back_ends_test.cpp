@@ -12,7 +12,7 @@ namespace {
 
 /// A folder in which the back-ends look for input devices.
 class InputFolder : public testing::Test {
- protected:
+ public:
   InputFolder() : folder("/tmp/icome-input-" + std::to_string(getpid())) {
     std::filesystem::create_directory(folder);
     setenv("ICOME_INPUT_FOLDER", folder.c_str(), 1);

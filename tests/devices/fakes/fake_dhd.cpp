@@ -19,7 +19,7 @@ int dhd_failed(const char* why) {
   return kErrorResult;
 }
 
-FakeDhd& made_from_environment() {
+FakeDhd& dhd_from_environment() {
   static FakeDhd dhd;
   const FakeEnvironment environment("FAKE_DHD");
   dhd.set_up(std::clamp(int(environment.number("_DEVICES", 1.0)), 0, FakeDhd::kMost),
@@ -33,7 +33,7 @@ FakeDhd& made_from_environment() {
 }
 
 FakeDhd& the_dhd() {
-  static FakeDhd& dhd = made_from_environment();
+  static FakeDhd& dhd = dhd_from_environment();
   return dhd;
 }
 

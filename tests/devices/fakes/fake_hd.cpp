@@ -63,7 +63,7 @@ class ErrorStack {
 };
 thread_local ErrorStack hd_errors;
 
-FakeHd& made_from_environment() {
+FakeHd& hd_from_environment() {
   static FakeHd hd;
   const FakeEnvironment environment("FAKE_HD");
   hd.set_up(std::clamp(int(environment.number("_DEVICES", 1.0)), 0, FakeHd::kMost),
@@ -80,7 +80,7 @@ FakeHd& made_from_environment() {
 }
 
 FakeHd& the_hd() {
-  static FakeHd& hd = made_from_environment();
+  static FakeHd& hd = hd_from_environment();
   return hd;
 }
 
