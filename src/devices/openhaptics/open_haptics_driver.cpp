@@ -17,7 +17,8 @@ constexpr std::array<const char*, 5> kHdWarnings = {
     "The device is not calibrated: put the stylus into the inkwell",
     "The library of the device reports errors; it goes on as long as they pass"};
 
-constexpr auto kCallbackLook = std::chrono::milliseconds(2);  // how often the scheduler's callback is looked at
+constexpr auto kCallbackLook =
+    std::chrono::milliseconds(2);                     // how often the scheduler's callback is looked at
 constexpr std::int64_t kStandsStill = 1'000'000'000;  // ns without a frame
 constexpr std::int64_t kCheckEvery = 1'000'000'000;   // ns, of the calibration
 
