@@ -51,7 +51,7 @@ std::size_t expect_at_distance(const CsgTree& tree, double radius, std::uint64_t
                                Distance&& distance) {
   SphereToucher toucher(tree, radius);
   std::size_t touching = 0;
-  for (const Vector3& tip : wandering(seed, std::size_t(std::max(400, repeats(3000))), reach)) {
+  for (const Vector3& tip : wandering(seed, std::size_t(std::max(1500, repeats(3000))), reach)) {
     const ScpState& state = toucher.step(tip);
     const double apart = distance(state.scp) - radius;
     EXPECT_GT(apart, -1e-9) << tip.transpose();
