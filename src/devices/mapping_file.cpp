@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
 
 #include "base/near_names.h"
+#include "devices/axes.h"
 #include "io/file_bytes.h"
 #include "io/new_file.h"
 #include "io/toml_tree.h"
@@ -17,7 +17,6 @@ namespace icome::devices {
 namespace {
 
 constexpr std::uint64_t kLongestMapping = 100'000;  // bytes
-constexpr std::array<std::string_view, 6> kAxisNames = {"x", "y", "z", "-x", "-y", "-z"};
 
 using io::TomlNode;
 
@@ -74,24 +73,9 @@ class MappingReader {
   }
 
   void take_axes(const TomlNode& node) {
-    base::Matrix3 turn = base::Matrix3::Zero();
-    bool good = node.kind == TomlNode::Kind::Array && node.elements.size() == 3;
-    for (int row = 0; good && row < 3; ++row) {
-      const TomlNode& name = node.elements[std::size_t(row)];
-      const auto* const found = std::find(kAxisNames.begin(), kAxisNames.end(), name.text);
-      good = name.kind == TomlNode::Kind::String && found != kAxisNames.end();
-      if (!good) break;
-      const auto axis = int(found - kAxisNames.begin());
-      turn(row, axis % 3) = axis < 3 ? 1.0 : -1.0;
-    }
-    if (good && std::abs(turn.determinant() - 1.0) < 1e-9) {
-      mapping.ours_from_device = Quaternion(turn);
-      return;
-    }
-    fail(node.place,
-         "axes must be the device's axes that point right, up and to the user, of a right-handed frame, such "
-         "as "
-         "[\"y\", \"z\", \"x\"]");
+    const auto rotation = rotation_from_axes(node.kind == TomlNode::Kind::String ? node.text : "");
+    if (!rotation) return fail(node.place, "axes: " + rotation.error().message);
+    mapping.ours_from_device = Quaternion(*rotation);
   }
 
   void take_button(const TomlNode& node) {
@@ -103,13 +87,6 @@ class MappingReader {
 
   std::string source_;
 };
-
-/// The device's axis that lies nearest to ours.
-std::string_view axis_along(const Vector3& ours) {
-  int axis = 0;
-  ours.cwiseAbs().maxCoeff(&axis);
-  return kAxisNames[std::size_t(ours[axis] >= 0.0 ? axis : axis + 3)];
-}
 
 std::string file_name_of(std::string_view address) {
   std::string name;
@@ -133,15 +110,12 @@ base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::stri
 }
 
 std::string mapping_text(const DeviceMapping& mapping, const std::string& made_by) {
-  const base::Matrix3 turn = mapping.ours_from_device.toRotationMatrix();
   std::string text = fmt::format("# {}\n", made_by);
   text += fmt::format(
       "centre_m = [{:.6f}, {:.6f}, {:.6f}]  # the middle of the workspace, in the device's frame\n",
       mapping.centre.x(), mapping.centre.y(), mapping.centre.z());
-  text += fmt::format(
-      "axes = [\"{}\", \"{}\", \"{}\"]  # the device's axes that point right, up and to the user\n",
-      axis_along(turn.row(0).transpose()), axis_along(turn.row(1).transpose()),
-      axis_along(turn.row(2).transpose()));
+  text += fmt::format("axes = \"{}\"  # the device's axes that point right, up and to the user\n",
+                      axes_text(mapping.ours_from_device.toRotationMatrix()));
   text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", mapping.scale);
   if (mapping.workspace_radius > 0.0)
     text += fmt::format("workspace_radius_m = {:.6g}\n", mapping.workspace_radius);

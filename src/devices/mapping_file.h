@@ -8,9 +8,9 @@
 
 namespace icome::devices {
 
-// A device's profile, device.toml, holds its mapping: `centre_m`, `axes` (which of the device's axes lie
-// along ours: three of "x", "-x", "y", ...), `scale`, `workspace_radius_m`, `max_force_n`, `clutch_button`.
-// What is left out keeps its value of DeviceMapping.
+// A device's profile, device.toml, holds its mapping: `centre_m`, `axes` (the device's axes that
+// point right, up and to the user, as in axes.h), `scale`, `workspace_radius_m`, `max_force_n`,
+// `clutch_button`. What is left out keeps its value of DeviceMapping.
 
 /// Reads a mapping from text; the error names the source, line and column.
 base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::string& source);

@@ -9,6 +9,7 @@
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
+#include "devices/axes.h"
 #include "devices/catalogue.h"
 #include "devices/mapping_file.h"
 #include "session/probe/device_test.h"
@@ -24,12 +25,9 @@ base::Result<devices::DeviceMapping> mapping_of(const DevicesOptions& options) {
   auto mapping = devices::read_mapping(options.name);
   if (!mapping) return mapping;
   if (!options.axes.empty()) {
-    std::string list = "axes = [\"" + options.axes + "\"]";
-    for (std::size_t at = list.find(','); at != std::string::npos; at = list.find(',', at + 3))
-      list.replace(at, 1, "\",\"");
-    const auto axes = devices::parse_mapping(list, "--axes");
-    if (!axes) return tl::unexpected(axes.error());
-    mapping->ours_from_device = axes->ours_from_device;
+    const auto rotation = devices::rotation_from_axes(options.axes);
+    if (!rotation) return base::fail("--axes " + rotation.error().message + ".");
+    mapping->ours_from_device = devices::Quaternion(*rotation);
   }
   if (options.scale) mapping->scale = *options.scale;
   if (options.max_force) mapping->max_force = *options.max_force;

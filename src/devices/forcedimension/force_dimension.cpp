@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <optional>
 
+#include "base/parse_number.h"
+#include "devices/axes.h"
 #include "devices/device_profiles.h"
 #include "devices/driver/driven_device.h"
 #include "devices/driver/environment.h"
 #include "devices/driver/model_profile.h"
-#include "devices/forcedimension/axes.h"
 #include "devices/forcedimension/dhd_session.h"
 #include "devices/forcedimension/force_dimension_driver.h"
 
@@ -42,9 +42,8 @@ DeviceInfo lowest_limits() {
 /// The number of "dhd:0"; nothing for the first one that is not open yet.
 base::Result<std::optional<int>> index_of(std::string_view address) {
   if (address.empty()) return std::nullopt;
-  int index = -1;
-  const auto [end, error] = std::from_chars(address.data(), address.data() + address.size(), index);
-  if (error != std::errc() || end != address.data() + address.size() || index < 0 || index > kMostIndex)
+  const auto index = base::parse_number<int>(address);
+  if (!index || *index < 0 || *index > kMostIndex)
     return base::fail(
         fmt::format("dhd:{} names no device; write dhd, or dhd:0 for the first one, dhd:1 for "
                     "the second",

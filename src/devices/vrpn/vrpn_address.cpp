@@ -1,24 +1,15 @@
 #include "devices/vrpn/vrpn_address.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <optional>
 
+#include "base/parse_number.h"
+#include "devices/axes.h"
 #include "devices/device_profiles.h"
 #include "devices/vrpn/protocol.h"
 
 namespace icome::devices {
 namespace vrpn {
 namespace {
-
-template <typename Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 /// Takes the text up to the next separator off the front.
 std::string_view take_until(std::string_view& text, char separator) {
@@ -28,20 +19,11 @@ std::string_view take_until(std::string_view& text, char separator) {
   return taken;
 }
 
-std::optional<Vector3> axis_named(std::string_view name) {
-  const bool negative = name.starts_with('-');
-  if (negative) name.remove_prefix(1);
-  constexpr std::string_view kAxes = "xyz";
-  const std::size_t index = name.size() == 1 ? kAxes.find(name) : std::string_view::npos;
-  if (index == std::string_view::npos) return std::nullopt;
-  return (negative ? -1.0 : 1.0) * Vector3::Unit(static_cast<Eigen::Index>(index));
-}
-
 /// What is wrong with an option of an address; empty: it was taken.
 std::string take_option(VrpnAddress& address, std::string_view key, std::string_view value) {
   const std::string text(value);
-  const auto number = whole_number<double>(value);
-  const auto integer = whole_number<int>(value);
+  const auto number = base::parse_number<double>(value);
+  const auto integer = base::parse_number<int>(value);
   const auto positive = [&](double& setting) -> std::string {
     if (!number || !(*number > 0.0) || !std::isfinite(*number))
       return std::string(key) + "=" + text + ": this must be a number above 0";
@@ -88,17 +70,9 @@ std::string take_option(VrpnAddress& address, std::string_view key, std::string_
 }  // namespace vrpn
 
 base::Result<VrpnFrame> VrpnFrame::parse(std::string_view axes, double scale) {
-  VrpnFrame frame;
-  frame.scale = scale;
-  const std::string text(axes);
-  for (int row = 0; row < 3; ++row) {
-    const auto axis = vrpn::axis_named(vrpn::take_until(axes, ','));
-    if (!axis) return base::fail("axes=" + text + ": this must be three axes such as x,z,-y");
-    frame.ours_from_theirs.row(row) = *axis;
-  }
-  if (!axes.empty() || !(frame.ours_from_theirs.determinant() > 0.5))
-    return base::fail("axes=" + text + ": these are no three axes of a right-handed frame; x,z,-y is one");
-  return frame;
+  const auto rotation = rotation_from_axes(axes);
+  if (!rotation) return base::fail("axes=" + rotation.error().message);
+  return VrpnFrame{*rotation, scale};
 }
 
 Quaternion VrpnFrame::orientation(const Quaternion& theirs) const {
@@ -116,7 +90,7 @@ base::Result<VrpnAddress> VrpnAddress::parse(std::string_view text) {
   if (place.starts_with("tcp://")) place.remove_prefix(6);  // as programs of VRPN write it
   if (const auto host = vrpn::take_until(place, ':'); !host.empty()) address.host = host;
   if (!place.empty()) {
-    const auto port = vrpn::whole_number<int>(place);
+    const auto port = base::parse_number<int>(place);
     if (!port || *port < 1 || *port > 65535)
       return base::fail("'" + std::string(place) + "' is no port; a VRPN device is NAME@HOST:PORT, such as " +
                         "Tracker0@localhost:3883");

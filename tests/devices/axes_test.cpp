@@ -1,4 +1,4 @@
-#include "devices/forcedimension/axes.h"
+#include "devices/axes.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,8 @@ TEST(DeviceAxes, NameTheirAxesForRightUpAndTheUser) {
   EXPECT_EQ(*rotation_from_axes("xyz"), base::Matrix3(base::Matrix3::Identity()));
   EXPECT_EQ(*rotation_from_axes("+y-x+z") * base::Vector3(1, 2, 3), base::Vector3(2, -1, 3));
   EXPECT_EQ(rotation_from_axes("y-xz")->determinant(), 1.0);
+  EXPECT_EQ(*rotation_from_axes("y,-x,z"), *rotation_from_axes("y-xz"));
+  EXPECT_EQ(axes_text(*rotation_from_axes("y-xz")), "y,-x,z");
 }
 
 TEST(DeviceAxes, ThatMirrorOrAreNoThreeAreRefused) {
@@ -21,7 +23,8 @@ TEST(DeviceAxes, ThatMirrorOrAreNoThreeAreRefused) {
     ASSERT_FALSE(rotation) << text;
     EXPECT_NE(rotation.error().message.find("mirror left and right"), std::string::npos);
   }
-  for (const char* text : {"", "xy", "xxz", "xyzx", "abc", "x y z", "-"}) {
+  for (const char* text :
+       {"", "xy", "xxz", "xyzx", "abc", "x y z", "-", "x,y", ",x,y,z", "x,,y,z", "x,y,z,"}) {
     const auto rotation = rotation_from_axes(text);
     ASSERT_FALSE(rotation) << text;
     EXPECT_NE(rotation.error().message.find("three axes"), std::string::npos) << text;

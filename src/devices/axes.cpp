@@ -1,0 +1,44 @@
+#include "devices/axes.h"
+
+#include <fmt/format.h>
+
+namespace icome::devices {
+
+base::Result<base::Matrix3> rotation_from_axes(std::string_view axes) {
+  base::Matrix3 rotation = base::Matrix3::Zero();
+  int row = 0;
+  double sign = 1.0;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const char letter = axes[i];
+    const bool between = row > 0 && i + 1 < axes.size() && axes[i - 1] >= 'x' && axes[i - 1] <= 'z';
+    if (letter == ',' && between) continue;
+    if (letter == '+' || letter == '-') {
+      sign = letter == '-' ? -1.0 : 1.0;
+      continue;
+    }
+    if (letter < 'x' || letter > 'z' || row == 3) {
+      row = 0;
+      break;
+    }
+    rotation(row++, letter - 'x') = sign;
+    sign = 1.0;
+  }
+  const double volume = row == 3 ? rotation.determinant() : 0.0;
+  if (volume > 0.5) return rotation;
+  return base::fail(
+      fmt::format("\"{}\" {}; give the device's axes that point right, up and to the user, such as y,z,x",
+                  axes, volume < -0.5 ? "would mirror left and right" : "does not name three axes"));
+}
+
+std::string axes_text(const base::Matrix3& ours_from_device) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    int axis = 0;
+    ours_from_device.row(row).cwiseAbs().maxCoeff(&axis);
+    text +=
+        fmt::format("{}{}{}", row > 0 ? "," : "", ours_from_device(row, axis) < 0.0 ? "-" : "", "xyz"[axis]);
+  }
+  return text;
+}
+
+}  // namespace icome::devices
