@@ -142,7 +142,8 @@ int run_device_test(const DevicesOptions& options) {
   StatusLine status;
   const auto text = test(options, status);
   if (!text) return end_without_result(text.error(), status);
-  return print_answer(*text);
+  const int printed = print_answer(*text);
+  return printed == 0 && interrupted() ? kDesignInterrupted : printed;
 }
 
 }  // namespace icome::apps
