@@ -3,23 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <string>
+
+#include "base/parse_number.h"
 
 namespace icome::devices {
 
 base::Result<void> environment_number(const char* variable, double least, double most, double& value) {
   const char* text = std::getenv(variable);
   if (text == nullptr || *text == '\0') return {};
-  const std::string_view all = text;
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
+  const auto number = base::parse_number<double>(text);
   // Written so that what is not a number fails too.
-  if (error != std::errc() || end != all.data() + all.size() || !(number >= least && number <= most))
+  if (!number || !(*number >= least && *number <= most))
     return base::fail(fmt::format("{} is \"{}\"; set it to a number from {} to {}, or unset it", variable,
                                   text, least, most));
-  value = number;
+  value = *number;
   return {};
 }
 

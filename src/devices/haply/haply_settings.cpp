@@ -4,24 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 
+#include "base/parse_number.h"
 #include "base/shown_text.h"
-#include "devices/forcedimension/axes.h"
+#include "devices/axes.h"
 
 namespace icome::devices {
 namespace {
-
-std::optional<double> finite_number(std::string_view text) {
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stopped != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
 
 /// Three texts with commas between them.
 std::optional<std::array<std::string_view, 3>> three_of(std::string_view text) {
@@ -36,7 +28,7 @@ std::optional<std::array<std::string_view, 3>> three_of(std::string_view text) {
 }
 
 bool set_number(double& to, std::string_view text, double least, double most) {
-  const auto number = finite_number(text);
+  const auto number = base::parse_finite(text);
   if (!number || *number < least || *number > most) return false;
   to = *number;
   return true;
@@ -94,7 +86,8 @@ constexpr std::array<HaplyOption, 8> kHaplyOptions{{
      "0.05 to 60 s"},
     {"force", set_force_field, "vector or values"},
     {"grip", set_grip, "the device id of a VerseGrip"},
-    {"axes", set_axes, "the service's axes that point right, up and to the user, right-handed, such as xz-y"},
+    {"axes", set_axes,
+     "the service's axes that point right, up and to the user, right-handed, such as x,z,-y"},
     {"middle", set_middle, "three lengths in m, such as 0,-0.14,0.2"},
 }};
 

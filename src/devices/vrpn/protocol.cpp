@@ -3,8 +3,9 @@
 #include <time.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
+
+#include "io/byte_order.h"
 
 namespace icome::devices::vrpn {
 namespace {
@@ -16,23 +17,9 @@ constexpr std::array<std::string_view, kKinds> kNames = {
     "vrpn_ForceDevice SCP",   "vrpn_ForceDevice Plane", "vrpn_ForceDevice Force_Field",
     "vrpn_Base ping_message", "vrpn_Base pong_message",
 };
+constexpr io::ByteOrder kNetwork = io::ByteOrder::BigEndian;
 constexpr int kButtonBits = 32;
 constexpr std::size_t kMostChannels = 16;
-
-template <typename Number>
-Number load(const char* bytes) {
-  std::array<char, sizeof(Number)> raw;
-  std::memcpy(raw.data(), bytes, raw.size());
-  if constexpr (std::endian::native == std::endian::little) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<Number>(raw);
-}
-
-template <typename Number>
-void store(Number number, char* bytes) {
-  auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-  if constexpr (std::endian::native == std::endian::little) std::reverse(raw.begin(), raw.end());
-  std::memcpy(bytes, raw.data(), raw.size());
-}
 
 /// Reads a payload from its beginning; its end must have been looked at before.
 class PayloadReader {
@@ -41,7 +28,7 @@ class PayloadReader {
 
   template <typename Number>
   Number take() {
-    const Number number = load<Number>(at_);
+    const Number number = io::load<Number>(at_, kNetwork);
     at_ += sizeof(Number);
     return number;
   }
@@ -127,9 +114,9 @@ std::optional<std::uint32_t> read_buttons(std::string_view payload) {
 
 std::optional<double> read_channel(std::string_view payload, int channel) {
   if (channel < 0 || payload.size() / 8 < static_cast<std::size_t>(channel) + 2) return std::nullopt;
-  const auto count = load<double>(payload.data());
+  const auto count = io::load<double>(payload.data(), kNetwork);
   if (!(count > channel)) return std::nullopt;
-  return load<double>(payload.data() + 8 * (static_cast<std::size_t>(channel) + 1));
+  return io::load<double>(payload.data() + 8 * (static_cast<std::size_t>(channel) + 1), kNetwork);
 }
 
 std::optional<Vector3> read_vector(std::string_view payload) {
@@ -163,7 +150,7 @@ std::optional<ForceField> read_force_field(std::string_view payload) {
 
 std::optional<std::string_view> read_name(std::string_view payload) {
   if (payload.size() < 4) return std::nullopt;
-  const auto length = load<std::int32_t>(payload.data());
+  const auto length = io::load<std::int32_t>(payload.data(), kNetwork);
   payload.remove_prefix(4);
   if (length < 1 || static_cast<std::size_t>(length) > payload.size()) return std::nullopt;
   const std::string_view name = payload.substr(0, std::min<std::size_t>(payload.find('\0'), length));
@@ -174,7 +161,7 @@ std::optional<std::string_view> read_name(std::string_view payload) {
 template <typename Number>
 Payload& Payload::append(Number number) {
   if (size_ + sizeof(number) > kRoom) return *this;
-  store(number, bytes_.data() + size_);
+  io::store(number, kNetwork, bytes_.data() + size_);
   size_ += sizeof(number);
   return *this;
 }
@@ -265,12 +252,12 @@ bool Outbox::put(std::int32_t sender, std::int32_t type, std::string_view payloa
   if (at == nullptr) return false;
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
-  store(static_cast<std::uint32_t>(length), at);
-  store(static_cast<std::uint32_t>(now.tv_sec), at + 4);
-  store(static_cast<std::uint32_t>(now.tv_nsec / 1000), at + 8);
-  store(sender, at + 12);
-  store(type, at + 16);
-  store(sequence_++, at + 20);
+  io::store(static_cast<std::uint32_t>(length), kNetwork, at);
+  io::store(static_cast<std::uint32_t>(now.tv_sec), kNetwork, at + 4);
+  io::store(static_cast<std::uint32_t>(now.tv_nsec / 1000), kNetwork, at + 8);
+  io::store(sender, kNetwork, at + 12);
+  io::store(type, kNetwork, at + 16);
+  io::store(sequence_++, kNetwork, at + 20);
   std::copy(payload.begin(), payload.end(), at + kHeaderSize);
   std::fill(at + length, at + padded(length), '\0');
   return true;
@@ -279,7 +266,7 @@ bool Outbox::put(std::int32_t sender, std::int32_t type, std::string_view payloa
 bool Outbox::describe(std::int32_t what, std::int32_t number, std::string_view name) {
   std::array<char, 4 + kLongestName + 1> bytes = {};
   name = name.substr(0, kLongestName);
-  store(static_cast<std::int32_t>(name.size() + 1), bytes.data());
+  io::store(static_cast<std::int32_t>(name.size() + 1), kNetwork, bytes.data());
   std::copy(name.begin(), name.end(), bytes.begin() + 4);
   return put(number, what, {bytes.data(), 4 + name.size() + 1});
 }
@@ -321,12 +308,13 @@ Decoder::Step Decoder::next(Message& message) {
   }
   if (end_ - begin_ < kHeaderSize) return Step::More;
   const char* at = bytes_.data() + begin_;
-  const std::size_t length = load<std::uint32_t>(at);
+  const std::size_t length = io::load<std::uint32_t>(at, kNetwork);
   if (length < kHeaderSize || padded(length) > kLongestMessage) return give_up();
   if (end_ - begin_ < padded(length)) return Step::More;
-  message.time = std::int64_t{load<std::uint32_t>(at + 4)} * 1'000'000 + load<std::uint32_t>(at + 8);
-  message.sender = load<std::int32_t>(at + 12);
-  message.type = load<std::int32_t>(at + 16);
+  message.time = std::int64_t{io::load<std::uint32_t>(at + 4, kNetwork)} * 1'000'000 +
+                 io::load<std::uint32_t>(at + 8, kNetwork);
+  message.sender = io::load<std::int32_t>(at + 12, kNetwork);
+  message.type = io::load<std::int32_t>(at + 16, kNetwork);
   message.payload = {at + kHeaderSize, length - kHeaderSize};
   begin_ += padded(length);
   return Step::Message;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/parse_number.h"
 #include "realtime/this_thread.h"
 
 namespace icome::devices {
@@ -37,10 +37,8 @@ std::optional<std::uint16_t> asked_port(std::string_view text) {
   const std::size_t space = text.rfind(' ');
   if (space == std::string_view::npos || space == 0) return std::nullopt;
   text.remove_prefix(space + 1);
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (error != std::errc() || end != text.data() + text.size() || port == 0) return std::nullopt;
-  return port;
+  const auto port = base::parse_number<std::uint16_t>(text);
+  return port && *port != 0 ? port : std::nullopt;
 }
 
 base::Result<void> check(const VrpnServerSettings& settings) {

@@ -2,20 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
 
+#include "base/parse_number.h"
 #include "base/shown_text.h"
 
 namespace icome::devices {
 namespace {
 
 std::optional<std::uint16_t> port_of(std::string_view digits) {
-  unsigned port = 0;
-  const char* const end = digits.data() + digits.size();
-  const auto [stopped, error] = std::from_chars(digits.data(), end, port);
-  if (error != std::errc() || stopped != end || port == 0 || port > 65535) return std::nullopt;
-  return std::uint16_t(port);
+  const auto port = base::parse_number<std::uint16_t>(digits);
+  return port && *port != 0 ? port : std::nullopt;
 }
 
 }  // namespace
