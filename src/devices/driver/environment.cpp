@@ -15,7 +15,7 @@ base::Result<void> environment_number(const char* variable, double least, double
   const std::string_view all = text;
   double number = 0.0;
   const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
-  // Written so that what is not a number fails too.
+  // The range as a negated comparison, so that NaN fails too.
   if (error != std::errc() || end != all.data() + all.size() || !(number >= least && number <= most))
     return base::fail(fmt::format("{} is \"{}\"; set it to a number from {} to {}, or unset it", variable,
                                   text, least, most));

@@ -37,7 +37,7 @@ std::optional<Vector3> axis_named(std::string_view name) {
   return (negative ? -1.0 : 1.0) * Vector3::Unit(static_cast<Eigen::Index>(index));
 }
 
-/// What is wrong with an option of an address; empty: it was taken.
+/// Takes an option of an address. Returns the fault that it has; empty: none.
 std::string take_option(VrpnAddress& address, std::string_view key, std::string_view value) {
   const std::string text(value);
   const auto number = whole_number<double>(value);
