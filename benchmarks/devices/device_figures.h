@@ -9,7 +9,7 @@ namespace icome::benchmarks {
 /// A line of the table: delays from a move of the hand until the motors have the force that answers it.
 struct DelayRow {
   std::string backend;
-  std::string way;         // who calls whom
+  std::string way;         // the arrangement that is measured
   double rate = 0.0;       // Hz, of the library or the connection
   Quantiles us;            // of single round trips
   double direct_us = 0.0;  // median of a loop without our layers, in the same run; 0: this is that loop
@@ -21,7 +21,7 @@ std::vector<DelayRow> openhaptics_rows(int trips);
 std::vector<DelayRow> forcedimension_rows(int trips);
 std::vector<DelayRow> haply_rows(int trips);
 
-/// Prints how long VRPN takes both ways between a device and a program on this computer, over so many ticks
+/// Prints the delays of VRPN, both ways, between a device and a program on this computer, over so many ticks
 /// of 1 ms.
 void print_vrpn_delays(int ticks);
 

@@ -29,7 +29,7 @@ FakeEnd dhd_end(devices::fakes::FakeUnit& unit) {
           [&unit] { return unit.held().y(); }, [&unit] { return unit.held_since(); }};
 }
 
-/// What a program without our layers would do: one loop that reads and answers.
+/// A program without our layers: one loop that reads and answers.
 std::vector<std::int32_t> direct_dhd(double rate, const FakeEnd& fake, int trips) {
   const auto dhd = DhdLibrary::load();
   if (!dhd) return {};

@@ -23,7 +23,7 @@ FakeEnd haply_end(FakeInverseService& fake, const devices::Vector3& middle) {
           [&fake] { return fake.commanded().x(); }, [&fake] { return fake.commanded_since(); }};
 }
 
-/// What a program without our layers would do: one loop that sends the force and takes the answer.
+/// A program without our layers: one loop that sends the force and takes the answer.
 std::vector<std::int32_t> direct_haply(const devices::HaplySettings& settings, const FakeEnd& fake,
                                        int trips) {
   auto service = devices::InverseService::connect(settings);
@@ -59,7 +59,7 @@ std::vector<DelayRow> haply_rows(int trips) {
   devices::HaplySettings settings;
   settings.service = {"127.0.0.1", fake.port()};
   settings.events_port = fake.events_port();
-  settings.patience = 5.0;  // it is not the service that stands still where the machine does
+  settings.patience = 5.0;  // a machine that stands still is no fault of the service
   const FakeEnd end = haply_end(fake, settings.middle);
   std::vector<DelayRow> rows;
   for (const double rate : {1000.0, 2000.0, 4000.0}) {

@@ -32,7 +32,7 @@ FakeEnd end_of(devices::fakes::FakeUnit& unit) {
           [&unit] { return unit.held().x(); }, [&unit] { return unit.held_since(); }};
 }
 
-/// What a program without our layers would do: one callback that reads and answers.
+/// A program without our layers: one callback that reads and answers.
 struct DirectHd {
   HdLibrary hd;
   unsigned device = 0;

@@ -25,7 +25,7 @@ void serve(devices::PointerDevice& device, ServoPace pace, const std::atomic<boo
   while (!stop.load(std::memory_order_relaxed)) {
     device.read(state);
     device.write({answer_to(state.position.x()), 0.0, 0.0});
-    // Not without any wait, as the system takes the processor away from who never does.
+    // A short wait at least, as the system takes the processor away from a thread that never waits.
     next = pace == ServoPace::AtOnce ? base::steady_nanoseconds() + kGlance : next + kServoPeriod;
     realtime::sleep_until(next);
   }
@@ -45,7 +45,7 @@ bool wait_for_answer(const FakeEnd& fake, double x) {
 
 std::vector<std::int32_t> timed_answers(const FakeEnd& fake, int count) {
   std::mt19937 random(7);
-  // So that moves meet every phase of the frames.
+  // Random pauses, so that moves meet every phase of the frames.
   std::uniform_int_distribution<int> pause(1000, 4000);  // us
   std::vector<std::int32_t> durations;
   double x = kWay;

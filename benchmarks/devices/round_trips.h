@@ -11,12 +11,12 @@ namespace icome::benchmarks {
 struct FakeEnd {
   std::function<void(double x)> move;         // m
   std::function<double()> force;              // N, along x, that the motors were told last
-  std::function<std::int64_t()> force_since;  // ns, steady clock: when they were told another one than before
+  std::function<std::int64_t()> force_since;  // ns, steady clock, of that force's last change
 };
 
-/// How the servo is called.
+/// The pace at which the servo calls the device.
 enum class ServoPace : std::uint8_t {
-  AtOnce,     // reads every 20 us: what is measured is the way to it and back
+  AtOnce,     // reads every 20 us, so that the way to it and back is measured
   Kilohertz,  // on a timer of its own, as ours is
 };
 
@@ -28,7 +28,7 @@ inline double answer_to(double x) { return 1000.0 * x; }
 std::vector<std::int32_t> round_trips(devices::PointerDevice& device, const FakeEnd& fake, ServoPace pace,
                                       int count);
 
-/// The same where some other thread answers.
+/// Round trips, ns, where some other thread answers.
 std::vector<std::int32_t> timed_answers(const FakeEnd& fake, int count);
 
 }  // namespace icome::benchmarks

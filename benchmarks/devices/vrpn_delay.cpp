@@ -1,5 +1,5 @@
-// How long VRPN takes between a device and a program on the same computer: the state of a device that the
-// server shares until the client's servo could read it, and the force that the servo writes until the server
+// Delays of VRPN between a device and a program on the same computer: of the state of a device, from the
+// server that shares it until the client's servo could read it, and of the servo's force, until the server
 // wants it on the device. Both loops at 1 kHz, as they are in use; a row each, median and p99.9.
 #include <algorithm>
 #include <atomic>
@@ -23,14 +23,14 @@ using namespace icome::devices;
 using icome::base::steady_nanoseconds;
 
 constexpr std::int64_t kPeriod = 1'000'000;  // ns
-constexpr double kStep = 1e-6;               // m a number, so that a place says which it is
-constexpr double kSlope = 1e-3;              // a number, of a force's y to its x, which ramps leave as it is
+constexpr double kStep = 1e-6;               // m a number, so that a place tells its number
+constexpr double kSlope = 1e-3;              // a number: a force's y by its x, a ratio that ramps keep
 constexpr int kNumbers = 1000;
 
-/// When number n was given to the one side.
+/// The times at which numbers were given to the one side.
 struct Stamps {
   std::vector<std::atomic<std::int64_t>> given = std::vector<std::atomic<std::int64_t>>(kNumbers);
-  std::vector<std::int64_t> delays;  // ns, of those that came to the other side
+  std::vector<std::int64_t> delays;  // ns, of the numbers that came to the other side
 
   void note(int number) { given[static_cast<std::size_t>(number)].store(steady_nanoseconds()); }
   void arrived(double value) {
@@ -41,7 +41,7 @@ struct Stamps {
   }
 };
 
-/// The device's own loop: it shares its state and holds what is wanted on it.
+/// The device's own loop: it shares its state and takes the force that is wanted on it.
 void run_device(VrpnServer& server, Stamps& states, Stamps& forces, const std::atomic<bool>& stop) {
   std::int64_t next = steady_nanoseconds();
   PointerState state;

@@ -27,7 +27,7 @@ bool is_device_address(std::string_view name);
 /// "Touch" (a simulated hand with that device's abilities), or an address, "BACKEND" for its first device or
 /// "BACKEND:WHICH". May take seconds. Fails with what is missing and what to do.
 base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name);
-/// Likewise with another mapping.
+/// Opens a pointer device likewise, with this mapping in place of its file's.
 base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name, const DeviceMapping& mapping);
 
 /// Opens a tracker for the user's head: "vrpn:NAME@HOST:PORT". May take seconds.

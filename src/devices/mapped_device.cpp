@@ -30,7 +30,7 @@ DeviceStatus MappedDevice::read(PointerState& state) {
   const Vector3 place = mapping_.scale * (turn * (raw.position - mapping_.centre));
   const bool clutch = mapping_.clutch_button >= 0 && ((raw.buttons >> mapping_.clutch_button) & 1U) != 0;
   const bool let_go = clutched_ && !clutch;
-  // Its own reading is where the hand rests when the clutch is let go of.
+  // The reading at which the clutch is let go of still moves the shift, not the tip.
   if (clutch || let_go) shift_ = tip_ - place;
   clutched_ = clutch;
   tip_ = place + shift_;

@@ -6,8 +6,8 @@
 
 namespace icome::devices {
 
-/// How a device's workspace lies in ours, and what may be asked of it: what `icome devices calibrate` finds
-/// out and a person may edit.
+/// The place of a device's workspace in ours, and the limits of its use: `icome devices calibrate` finds them
+/// out, and a person may edit them.
 struct DeviceMapping {
   Vector3 centre = Vector3::Zero();  // m, in the device's frame: the middle of our workspace
   Quaternion ours_from_device = Quaternion::Identity();  // turns the device's axes into ours
@@ -36,7 +36,7 @@ class MappedDevice final : public PointerDevice {
   DeviceMapping mapping_;
   DeviceInfo info_;
   bool clutched_ = false;
-  Vector3 shift_ = Vector3::Zero();  // m, ours: what the clutch has moved
+  Vector3 shift_ = Vector3::Zero();  // m, ours: the shift by the clutch
   Vector3 tip_ = Vector3::Zero();    // m, ours, as it was read last
 };
 

@@ -98,7 +98,7 @@ const char* TableReader::read_quoted(std::size_t begin) {
   return nullptr;
 }
 
-/// Reads what ends a cell: a separator, the end of the line in one of its forms, or the end of the text.
+/// Reads the end of a cell: a separator, the end of the line in one of its forms, or the end of the text.
 /// Returns whether another cell of the row follows.
 bool TableReader::take_separator() {
   has_line_end_ = at_ < text_.size() && text_[at_] != separator_;

@@ -9,7 +9,7 @@
 
 namespace icome::io {
 
-/// How a table is written as text.
+/// The ways in which a table is written as text.
 enum class TableStyle {
   /// RFC 4180: a cell with separators, line ends or quotes stands between quotes, with quotes in it doubled.
   /// Blanks around other cells are removed, lines end with LF, CR LF or CR, and a UTF-8 byte order mark may

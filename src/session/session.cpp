@@ -159,7 +159,7 @@ void SessionParts::tell_of_loss(std::size_t pointer) {
           : fmt::format("The device \"{}\" is lost: {} It is used again as soon as it answers.", name, why));
 }
 
-/// Tells what a device says of itself, such as that its motors are hot, when that changes.
+/// Tells people a device's condition, such as that its motors are hot, when it changes.
 void SessionParts::tell_condition(std::size_t pointer) {
   const std::string condition = hands.condition(pointer);
   if (condition == std::exchange(conditions[pointer], condition) || condition.empty()) return;

@@ -8,7 +8,7 @@ namespace {
 TEST(DeviceAxes, NameTheirAxesForRightUpAndTheUser) {
   const auto rotation = rotation_from_axes("yzx");
   ASSERT_TRUE(rotation);
-  // Its x points to the user, which is our z.
+  // The device's x points to the user, which is our z.
   EXPECT_EQ(*rotation * base::Vector3(1, 2, 3), base::Vector3(2, 3, 1));
   EXPECT_EQ(*rotation_from_axes("xyz"), base::Matrix3(base::Matrix3::Identity()));
   EXPECT_EQ(*rotation_from_axes("+y-x+z") * base::Vector3(1, 2, 3), base::Vector3(2, -1, 3));

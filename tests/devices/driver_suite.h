@@ -1,7 +1,7 @@
 #pragma once
 // Tests that every back-end with forces passes through its fake: a whole servo touches a floor with it.
-// Nothing here counts on the machine to keep time: conditions are waited for, and what is bounded holds
-// however late a tick comes.
+// Nothing here counts on the machine to keep time: conditions are waited for, and bounds hold however late a
+// tick comes.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
@@ -156,9 +156,9 @@ inline double work_of_a_press(Rig& rig, Touching& touching) {
   return rig.given() - before;
 }
 
-/// What the motors give while a hand goes into the floor and out again they have been given before: a virtual
+/// While a hand goes into the floor and out again the motors give no more work than they take: a virtual
 /// floor has no energy of its own. Where the machine stands still meanwhile, the watchdog takes the force
-/// away and gives it back, which costs what the spring holds; so the best of some presses counts.
+/// away and gives it back, which costs the energy that the spring holds; so the best of some presses counts.
 inline void is_passive(Rig& rig) {
   constexpr double kNothing = 5e-4;  // J, of 5 mJ that the floor's spring holds
   Touching touching(rig);
@@ -185,7 +185,7 @@ inline void comes_back(Rig& rig) {
   EXPECT_LE(rig.strongest(), rig.device->info().max_force * (1.0 + 1e-6));
 }
 
-/// When the servo's thread stands still its last force is taken away.
+/// The last force of a servo whose thread stands still is taken away.
 inline void is_watched(Rig& rig) {
   Touching touching(rig);
   rig.aim({0, Touching::kFloor - 0.01, 0});

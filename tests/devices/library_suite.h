@@ -117,7 +117,7 @@ inline void takes_the_force_away(DrivenDevice& device, fakes::FakeUnit& unit) {
   EXPECT_GE(device.counts().watchdog_stops, 1U);
 }
 
-/// What the servo calls neither allocates nor locks.
+/// The calls of the servo neither allocate nor lock.
 inline void is_real_time_safe(PointerDevice& device) {
   if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer needs malloc for itself";
   ASSERT_TRUE(held_until(device, {0.1, 0.0, 0.0}, [](const PointerState&) { return true; }));

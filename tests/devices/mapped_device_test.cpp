@@ -8,7 +8,7 @@
 namespace icome::devices {
 namespace {
 
-/// A device that says what the test wants, and keeps what it was told.
+/// A device that gives the readings of the test, and keeps the force that it was told.
 class ToldDevice final : public PointerDevice {
  public:
   const DeviceInfo& info() const override { return info_; }

@@ -1,4 +1,4 @@
-// What Haply's Inverse Service sends.
+// The messages of Haply's Inverse Service.
 #include <array>
 
 #include "devices/haply/padded_message.h"

@@ -17,7 +17,7 @@ struct Harness {
   std::vector<std::string> (*seeds)();  // good input of our own making, to begin with
 };
 
-/// All of them: of files, of shapes and edits, of texts that people write, and of devices over the network.
+/// All harnesses: of files, of shapes and edits, of texts that people write, and of devices over the network.
 std::vector<Harness> harnesses();
 
 // Parts of that list.

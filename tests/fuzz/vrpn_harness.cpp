@@ -12,7 +12,7 @@ namespace {
 
 using namespace devices::vrpn;
 
-/// What a server and a client of ours make of one message.
+/// Takes in one message as a server and a client of ours do.
 void take_in(const Message& message, PeerNames& names, TrackerReadings& readings, WantedForces& wanted) {
   const RemoteForceSettings settings;
   if (message.type < 0) return names.learn(message);

@@ -24,7 +24,7 @@ bool is_design_name(const std::string& word) {
 
 namespace {
 
-/// Opens the pointers, the head's tracker and what moves the view, as the options name them.
+/// Opens the pointers, the head's tracker and the device that moves the view, as the options name them.
 base::Result<session::SessionSettings> settings_with_devices(const DesktopCommandOptions& options) {
   session::SessionSettings settings = desktop_settings();
   for (const std::string& name : options.devices) {

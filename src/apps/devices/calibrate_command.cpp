@@ -20,7 +20,7 @@ namespace {
 constexpr double kCalibrateSeconds = 10.0;
 constexpr double kLeastExtent = 0.005;  // m, of each axis
 
-/// The mapping with what the command line says in place of what was there.
+/// The mapping of the device's file, with the values of the command line in place of its own.
 base::Result<devices::DeviceMapping> mapping_of(const DevicesOptions& options) {
   auto mapping = devices::read_mapping(options.name);
   if (!mapping) return mapping;
@@ -68,7 +68,7 @@ std::string answer(const DevicesOptions& options, const devices::DeviceMapping& 
 base::Result<std::string> calibrate(const DevicesOptions& options, StatusLine& status) {
   auto mapping = mapping_of(options);
   if (!mapping) return tl::unexpected(mapping.error());
-  // The device's own frame: its profile is what is to be found.
+  // The device in its own frame, as its mapping is to be found.
   auto device = devices::open_device(options.name, {});
   if (!device) return tl::unexpected(device.error());
   tell("lead the device to all corners of its workspace.");

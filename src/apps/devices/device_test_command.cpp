@@ -24,7 +24,7 @@ constexpr double kRestSeconds = 2.0;
 using session::DeviceTestResult;
 using Json = nlohmann::ordered_json;
 
-/// Does somebody agree that the device pushes? Nobody at a terminal does not.
+/// Has a person agreed, by --yes or at the terminal, that the device pushes?
 bool may_push(const DevicesOptions& options, const devices::DeviceInfo& info) {
   if (options.force <= 0.0 || info.max_force <= 0.0) return false;
   if (options.yes) return true;

@@ -12,8 +12,8 @@ struct DevicesOptions {
   std::string name;           // of the device
   double rate_hz = 1000.0;    // ticks a second, 500 to 10,000
   std::optional<double> seconds;
-  double force = 0.5;             // N, that a test pushes with at most; 0: none
-  bool yes = false;               // nobody need be asked
+  double force = 0.5;             // N, the most that a test pushes with; 0: none
+  bool yes = false;               // the device may push without a question
   std::filesystem::path picture;  // empty: none
   // calibrate
   std::string axes;                 // such as "y,z,x"; empty: as they are

@@ -189,7 +189,7 @@ std::string text_of(Moment moment) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", whole, (moment - whole).count());
 }
 
-/// The moment of which this is text_of(); nothing for other text.
+/// The moment whose text_of() is this text; nothing for other text.
 std::optional<Moment> moment_of(std::string_view text) {
   std::array<int, 7> numbers{};
   constexpr std::string_view kBehind = "--T::.Z";

@@ -39,7 +39,7 @@ struct TouchBody {
   /// The inside of a solid that is touched without a mesh, as its model defines it; else empty.
   std::optional<haptics::MembershipSolid> membership = {};
   JudgedMesh judged = {};  // of a Loop surface, in its own frame; only where it is judged
-  bool exact = false;      // is its surface itself touched, not a mesh of it? True of primitives
+  bool exact = false;      // its surface itself is touched, not a mesh of it; true of primitives
   bool is_mesh = false;    // it is a mesh in its file
   bool closed = true;
   haptics::Surface surface = {};              // as the model gives it; the options take precedence

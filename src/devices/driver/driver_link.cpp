@@ -7,8 +7,8 @@ namespace icome::devices {
 namespace {
 
 constexpr double kFastest = 20.0;        // m/s, faster than any hand that holds a device
-constexpr double kSlack = 0.005;         // m, that a reading may be off beside that
-constexpr int kLastingReadings = 4;      // so many odd readings in a row that agree are no spike
+constexpr double kSlack = 0.005;         // m, error of a reading beside that
+constexpr int kLastingReadings = 4;      // odd readings in a row that agree, and so are no spike
 constexpr double kFarthest = 10.0;       // workspace radii from the origin
 constexpr double kFarthestBeside = 1.0;  // m, beyond those
 
@@ -101,11 +101,11 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
   last_time_ = now;
   Reading& next = readings_.write_slot();
   next.state = reading;
-  // An orientation is a rotation for whoever uses it, also where a device rounds it to few digits.
+  // The servo's orientation is a rotation, also where a device rounds it to few digits.
   const double length = reading.orientation.norm();
   next.state.orientation =
       length > 1e-6 && length < 1e6 ? reading.orientation.normalized() : Quaternion::Identity();
-  // A hand is never faster; a driver that says so would make damping a blow.
+  // A driver's velocity above that of any hand would make damping a blow.
   const double speed = reading.velocity.norm();
   if (speed > kFastest) next.state.velocity *= kFastest / speed;
   next.jumps = jumps_;
@@ -126,7 +126,7 @@ Vector3 DriverLink::force(std::int64_t now) {
   }
   stopped_ = false;
   if (!asked.force.allFinite()) return Vector3::Zero();
-  // A step as long as the watchdog's time at most: what lay longer still was no ramp.
+  // The ramp's step is as long as the watchdog's time at most, as a longer pause is no part of a ramp.
   ramp_ = std::min(1.0, ramp_ + std::clamp(seconds, 0.0, 1e-9 * kWatchdog) / kRamp);
   const Vector3 force = ramp_ * asked.force;
   const double length = force.norm();

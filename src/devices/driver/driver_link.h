@@ -9,7 +9,7 @@
 
 namespace icome::devices {
 
-/// Counts of what a link kept from the servo or from the device since its beginning.
+/// Counts since a link's beginning: readings passed to the servo or kept from it, and forces taken away.
 struct LinkCounts {
   std::uint64_t passed = 0;          // readings that the servo could have
   std::uint64_t not_finite = 0;      // readings with something that is not a number
@@ -18,15 +18,15 @@ struct LinkCounts {
   std::uint64_t watchdog_stops = 0;  // times that the servo said nothing new and the forces were taken away
 };
 
-/// What passes between a servo and the thread that talks to a device (a driver), neither of which ever waits
-/// for the other. It stands for the hand whatever either does: readings that make no sense never reach the
-/// servo, and no force that is too old, too strong or not a number reaches the device. One thread calls the
-/// servo's part and one the driver's; between two runs the driver's may be another one.
+/// The exchange between a servo and the thread that talks to a device (a driver); neither ever waits for the
+/// other. It guards the hand whatever either does: readings that make no sense never reach the servo, and no
+/// force that is too old, too strong or not a number reaches the device. One thread calls the servo's part
+/// and one the driver's; between two runs the driver's may be another one.
 class DriverLink {
  public:
-  /// A force is taken away once it is older than this: the servo's thread stands still.
+  /// Age at which a force is taken away: the servo's thread stands still.
   static constexpr std::int64_t kWatchdog = 10'000'000;  // ns
-  /// After that, and at the start, forces grow from none to what is asked for within this time.
+  /// Time in which forces grow from none to the ones asked for, at the start and after they were taken away.
   static constexpr double kRamp = 0.3;  // s
 
   explicit DriverLink(const DeviceInfo& info);
@@ -38,13 +38,13 @@ class DriverLink {
   DeviceStatus write(const Vector3& force, std::int64_t now);
 
   // The driver.
-  /// A device with these limits is there; forces begin at none. Its limits count where they are lower.
+  /// Connects a device: its limits count where they are lower, and forces begin at none.
   void connect(const DeviceInfo& info);
-  /// It is gone: the servo reads Lost, and people are told why.
+  /// Takes the device away: the servo reads Lost, and people are told why.
   void disconnect(const std::string& why);
-  /// Passes a reading on, or refuses it (see LinkCounts). `now`: when it was taken. A reading at another
-  /// place than a hand can have moved to is refused while it may be a spike; if it lasts, it counts as
-  /// jumped. The velocity is the device's own. Real-time safe.
+  /// Passes a reading on, or refuses it (see LinkCounts). `now`: the time at which it was taken. A reading at
+  /// another place than a hand can have moved to is refused while it may be a spike; if it lasts, it counts
+  /// as jumped. The velocity is the device's own. Real-time safe.
   void pass(const PointerState& reading, std::int64_t now);
   /// The force to send now, N, device frame. Real-time safe.
   Vector3 force(std::int64_t now);
@@ -83,7 +83,7 @@ class DriverLink {
   PointerState odd_;            // the last reading that may be a spike
   std::int64_t odd_time_ = 0;   // ns
   int odd_readings_ = 0;        // in a row, that agree
-  bool jump_told_ = false;      // by the driver, in a reading that was refused since
+  bool jump_told_ = false;      // the driver told a jump in a reading that was refused
   std::uint64_t jumps_ = 0;
   double ramp_ = 0.0;            // 0 to 1
   std::int64_t force_time_ = 0;  // ns, of the last force()

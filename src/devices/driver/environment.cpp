@@ -14,7 +14,7 @@ base::Result<void> environment_number(const char* variable, double least, double
   const char* text = std::getenv(variable);
   if (text == nullptr || *text == '\0') return {};
   const auto number = base::parse_number<double>(text);
-  // Written so that what is not a number fails too.
+  // The range as a negated comparison, so that NaN fails too.
   if (!number || !(*number >= least && *number <= most))
     return base::fail(fmt::format("{} is \"{}\"; set it to a number from {} to {}, or unset it", variable,
                                   text, least, most));

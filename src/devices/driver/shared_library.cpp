@@ -18,7 +18,7 @@ std::string joined(std::span<const char* const> names) {
   return text;
 }
 
-/// What dlopen said if it is more than that there is no such file.
+/// The message of dlopen, if it says more than that there is no such file.
 std::string trouble_with(const char* file) {
   const char* said = dlerror();
   if (said == nullptr) return {};

@@ -11,7 +11,7 @@ namespace icome::devices {
 /// A library of a device's maker that is found when it is needed, not when the program is built.
 struct LibrarySought {
   std::string_view what;                    // for people: "OpenHaptics of 3D Systems"
-  const char* variable;                     // environment variable that names another one, or its path
+  const char* variable;                     // environment variable that names another library, or its path
   std::span<const char* const> file_names;  // tried in this order where the variable is not set
   std::string_view advice;                  // a sentence: what to install
 };
@@ -20,7 +20,7 @@ struct LibrarySought {
 /// leave threads behind.
 class SharedLibrary {
  public:
-  /// Loads the first one that there is. The error is for people: what was looked for, where, and what to do.
+  /// Loads the first library that there is. The error tells people the library, the places, and what to do.
   /// Main's and a driver's thread's.
   static base::Result<SharedLibrary> open(const LibrarySought& sought);
 

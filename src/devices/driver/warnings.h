@@ -15,20 +15,20 @@ namespace icome::devices {
 class Warnings {
  public:
   static constexpr std::size_t kMost = 8;
-  static constexpr std::int64_t kLasting = 2'000'000'000;  // ns after it was noted last
+  static constexpr std::int64_t kLasting = 2'000'000'000;  // ns that a warning lasts after its last note
 
-  /// A sentence for each, at most kMost; they outlive this.
+  /// `sentences`: one for each warning, kMost at most; they outlive this.
   explicit Warnings(std::span<const char* const> sentences) : sentences_(sentences) {}
 
-  /// Warning `which` is given now (ns). Real-time safe.
+  /// Notes that warning `which` is given now (ns). Real-time safe.
   void note(std::size_t which, std::int64_t now);
   /// Tells the link which warnings last, if others than at the last call; after a link was connected anew,
   /// forget() comes first.
   void tell(DriverLink& link, std::int64_t now);
-  /// The link has been told nothing so far, and nothing lasts.
+  /// Forgets the warnings that last, and those that the link was told.
   void forget();
 
-  /// So often it was noted. Any thread.
+  /// Number of times that a warning was noted. Any thread.
   std::uint64_t count(std::size_t which) const { return counts_[which].load(std::memory_order_relaxed); }
 
  private:

@@ -13,7 +13,7 @@
 namespace icome::devices {
 namespace {
 
-constexpr double kLargestDead = 0.5;   // of a stick's way, whatever the device says
+constexpr double kLargestDead = 0.5;   // share of a stick's way, whatever the device says
 constexpr double kLongestPass = 0.05;  // s: a thread that stood still longer does not make the tip leap
 constexpr std::array kPadButtons = {BTN_SOUTH, BTN_EAST,   BTN_WEST,  BTN_NORTH,  BTN_TL,
                                     BTN_TR,    BTN_TL2,    BTN_TR2,   BTN_SELECT, BTN_START,
@@ -41,7 +41,7 @@ GamepadSticks Gamepad::sticks() const {
   return result;
 }
 
-/// By the kernel's rules for gamepads; others, and those by Bluetooth, say the right stick as z and rz.
+/// Is the right stick rx and ry, by the kernel's rules? For others, and those by Bluetooth, it is z and rz.
 bool Gamepad::right_stick_is_r() const {
   return abilities_.axes[ABS_RX].has_value() && abilities_.axes[ABS_RY].has_value();
 }
@@ -53,7 +53,7 @@ base::Vector2 Gamepad::stick(std::size_t across, std::size_t down) const {
   return beyond > 0.0 ? base::Vector2(way * (beyond / length)) : base::Vector2::Zero();
 }
 
-/// -1 to 1; 0 without the axis.
+/// Deflection of an axis, -1 to 1; 0 without the axis.
 double Gamepad::deflection(std::size_t axis) const {
   const auto& range = abilities_.axes[axis];
   if (!range || range->most <= range->least) return 0.0;

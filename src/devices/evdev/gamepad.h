@@ -11,7 +11,7 @@ struct GamepadSettings {
   double dead = 0.15;       // share of a stick's or trigger's way that counts as rest, usually 0.05 to 0.3
   double speed = 0.1;       // m/s, of the tip at full deflection, usually 0.02 to 0.5
   double radius = 0.1;      // m, the sphere that the tip stays in
-  double full_force = 3.0;  // N, that rumbles as strongly as the gamepad can; weaker ones in proportion
+  double full_force = 3.0;  // N, the force of the strongest rumble; weaker ones in proportion
 };
 
 /// The deflections of a gamepad's sticks and triggers, after their dead zones.
@@ -22,7 +22,7 @@ struct GamepadSticks {
   double right_trigger = 0.0;
 };
 
-/// What a gamepad's events mean: sticks, triggers and buttons.
+/// The meaning of a gamepad's events: sticks, triggers and buttons.
 class Gamepad {
  public:
   explicit Gamepad(double dead = GamepadSettings{}.dead) : dead_(dead) {}

@@ -7,7 +7,7 @@
 
 namespace icome::devices {
 
-/// What passes from the thread that reads the gamepad to the one that asks.
+/// The newest state, from the thread that reads the gamepad to the one that asks.
 struct GamepadNavigation::Box {
   realtime::LatestValue<NavigationState> states;
 };

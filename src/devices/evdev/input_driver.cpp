@@ -50,7 +50,7 @@ std::string InputDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
 
 void InputDriver::close() { input_ = {}; }
 
-/// Takes in what there is; false when the device is gone.
+/// Takes in the events there are; false when the device is gone.
 bool InputDriver::take_in() {
   InputEvent event;
   for (int i = 0; i < kMostInputEvents; ++i) {
@@ -70,8 +70,8 @@ bool InputDriver::take_in() {
   return true;
 }
 
-/// Takes in what came of events that the system dropped. All of it, as other events stand behind: there are
-/// no more than the device has keys and axes.
+/// Takes in the differences that dropped events have left. All of them, as other events stand behind: there
+/// are no more than the device has keys and axes.
 bool InputDriver::take_in_missed() {
   reader_->missed();
   InputEvent event;
@@ -88,7 +88,7 @@ void InputDriver::take(const InputEvent& event) {
   if (event.type != EV_SYN) reader_->take(event);
 }
 
-/// Rumbles as strongly as the share that the force has of the strongest.
+/// Rumbles with the strength of the force, as a share of the strongest force.
 void InputDriver::rumble(DriverLink& link, std::int64_t now) {
   if (!rumbles_) return;
   const auto strength = pacer_.next(link.force(now).norm() / info_.max_force, now);

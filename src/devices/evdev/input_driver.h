@@ -10,8 +10,8 @@
 
 namespace icome::devices {
 
-/// Talks to an input device of Linux: passes what a reader makes of its events 1000 times a second, also
-/// while none come, and turns forces into rumble where the device has it.
+/// Talks to an input device of Linux: passes the state that a reader makes of its events 1000 times a second,
+/// also while none come, and turns forces into rumble where the device has it.
 class InputDriver final : public Driver {
  public:
   /// The device of an address (see find_input).

@@ -42,7 +42,7 @@ int name_fit(const std::string& name, std::string_view address, std::string_view
   return small == asked ? 2 : 1;
 }
 
-/// What udev calls devices of that kind.
+/// The property that udev gives devices of that kind.
 std::string_view udev_property(InputKind kind) {
   switch (kind) {
     case InputKind::Tablet:
@@ -59,10 +59,10 @@ bool is_refused(const std::error_code& error) {
   return error == std::errc::permission_denied || error == std::errc::operation_not_permitted;
 }
 
-/// What a look through the nodes came to.
+/// The result of a look through the nodes.
 struct Look {
   std::vector<std::unique_ptr<InputNode>> of_kind;
-  int refused = 0;        // may not be opened, so nobody knows what they are
+  int refused = 0;        // nodes of unknown kind, as they may not be opened
   std::error_code error;  // of the folder
 };
 
@@ -81,7 +81,7 @@ Look look_around(InputSystem& system, InputKind kind) {
   return look;
 }
 
-/// Why a look found nothing: a sentence or two.
+/// The reason why a look found nothing: a sentence or two.
 std::string why_none(const InputSystem& system, const Look& look, InputKind kind) {
   const std::string_view name = kind_name(kind);
   if (is_refused(look.error))

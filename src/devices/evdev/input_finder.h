@@ -15,21 +15,21 @@ enum class InputKind : std::uint8_t { Tablet, Mouse, Gamepad };
 /// "tablet", "mouse" or "gamepad": back-end, prefix of addresses, and the word for people.
 std::string_view kind_name(InputKind kind);
 
-/// Decided by what a device can say, as udev does: a tablet has a pen, a mouse moves relatively and has a
+/// Judges a device by its abilities, as udev does: a tablet has a pen, a mouse moves relatively and has a
 /// left button, a gamepad or joystick has its own kind of buttons; tablets and gamepads have axes x and y.
 bool is_of_kind(const InputAbilities& abilities, InputKind kind);
 
 /// A device's name in UTF-8 and without control characters; "unnamed" without one.
 std::string shown_name(const InputAbilities& abilities);
 
-/// The sentence on how to be permitted to use devices of that kind.
+/// A sentence that tells people how to be permitted to use devices of that kind.
 std::string permission_advice(InputKind kind);
 
 /// The use of a node by this program: two devices that are opened at once never share one.
 class InputClaim {
  public:
   InputClaim() = default;
-  /// Empty where the node is in use. Any thread.
+  /// Claims a node; empty where the node is in use. Any thread.
   static InputClaim of(const std::string& path);
   InputClaim(InputClaim&& other) noexcept;
   InputClaim& operator=(InputClaim&& other) noexcept;

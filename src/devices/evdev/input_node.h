@@ -1,6 +1,6 @@
 #pragma once
-// What the back-ends of this folder need of the input devices of Linux (evdev). Codes, types and values are
-// those of linux/input-event-codes.h.
+// The input devices of Linux (evdev), as far as the back-ends of this folder need them. Codes, types and
+// values are those of linux/input-event-codes.h.
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -33,12 +33,12 @@ struct InputAxis {
   std::int32_t resolution = 0;  // counts per mm, or per radian for tilts; 0: not told
 };
 
-/// What is pressed, and where the absolute axes are.
+/// The keys that are pressed, and the values of the absolute axes.
 struct InputState {
   std::bitset<kInputKeys> keys;
   std::array<std::int32_t, kInputAxes> axes{};
 
-  /// Takes in an event of a key or an axis; others, and codes that there are not, change nothing.
+  /// Takes in an event of a key or an axis; others, and unknown codes, change nothing.
   void take(const InputEvent& event);
 };
 
@@ -55,9 +55,9 @@ struct InputAbilities {
 };
 
 enum class InputTold : std::uint8_t {
-  Event,    // here it is
-  Nothing,  // none is left for now
-  Missed,   // the system dropped events (SYN_DROPPED): next_missed() tells what came of them
+  Event,    // the next event was given
+  Nothing,  // no event is left for now
+  Missed,   // the system dropped events (SYN_DROPPED): next_missed() tells the differences
   Gone,     // unplugged
 };
 
@@ -66,11 +66,11 @@ class InputNode {
  public:
   virtual ~InputNode() = default;
   virtual const InputAbilities& abilities() const = 0;
-  /// Returns when there is something to take, or after that time, ms.
+  /// Waits until there is something to take, for that time at most, ms.
   virtual void wait(int milliseconds) = 0;
   /// The next event; never waits.
   virtual InputTold next(InputEvent& event) = 0;
-  /// After Missed: the next difference between what was told and what is so now; Nothing after the last.
+  /// After Missed: the next difference of the state now from the events told; Nothing after the last.
   virtual InputTold next_missed(InputEvent& event) = 0;
   /// Rumbles by that strength, 0 to 1, for that time, ms, or until told otherwise.
   virtual std::error_code rumble(double strength, int milliseconds) = 0;

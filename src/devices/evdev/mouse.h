@@ -26,12 +26,12 @@ class Mouse final : public InputReader {
   void frame(std::int64_t time) override;
   void pass(DriverLink& link, std::int64_t now) override;
 
-  /// The newest frame's; its velocity is that of the last pass().
+  /// The state of the newest frame; its velocity is that of the last pass().
   const PointerState& pointer() const { return pointer_; }
 
  private:
   MouseSettings settings_;
-  bool fine_wheel_ = false;  // it tells parts of a notch
+  bool fine_wheel_ = false;  // the wheel tells parts of a notch
   InputState state_;
   Vector3 counts_ = Vector3::Zero();  // since the last frame: right, away, and notches away
   PointerState pointer_;

@@ -19,7 +19,7 @@ struct NamedNumber {
 base::Result<void> set_numbers(std::string_view source, std::string_view text,
                                std::span<const NamedNumber> numbers);
 
-/// Those of an environment variable; all is left where there is none.
+/// Sets the numbers that an environment variable gives; sets none where there is no such variable.
 base::Result<void> set_numbers_from_environment(const char* variable, std::span<const NamedNumber> numbers);
 
 }  // namespace icome::devices

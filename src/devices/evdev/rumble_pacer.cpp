@@ -6,7 +6,7 @@
 namespace icome::devices {
 namespace {
 
-constexpr double kLeastChange = 1.0 / 64.0;  // of strength, that can be felt
+constexpr double kLeastChange = 1.0 / 64.0;  // of strength, the least that can be felt
 
 }  // namespace
 

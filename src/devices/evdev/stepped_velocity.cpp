@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSmoothing = 0.015;      // s
 constexpr double kShortestStep = 0.0005;  // s: times that are nearer together are of the system's making
-constexpr double kLongestStep = 0.05;     // s: what lay longer still moved only at its end
+constexpr double kLongestStep = 0.05;     // s: a tip that rested longer moved only at the end
 constexpr std::int64_t kRestsAfter = 30'000'000;  // ns, longer than slow tablets take for a report
 
 }  // namespace
@@ -21,7 +21,7 @@ void SteppedVelocity::restart(const Vector3& place) {
 }
 
 void SteppedVelocity::step(const Vector3& place, std::int64_t time) {
-  // As numbers of floating point: hostile times may be as far apart as there are any.
+  // A difference in floating point, as hostile times may lie farther apart than integers hold.
   const double passed = 1e-9 * (static_cast<double>(time) - static_cast<double>(time_));
   const double seconds = std::clamp(passed, kShortestStep, kLongestStep);
   velocity_ += (1.0 - std::exp(-seconds / kSmoothing)) * ((place - place_) / seconds - velocity_);

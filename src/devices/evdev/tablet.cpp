@@ -16,7 +16,7 @@ namespace {
 constexpr double kSmallestTablet = 0.01;  // m, workspace radius of one that tells nonsense
 constexpr double kLargestTablet = 1.0;    // m
 constexpr double kSteepestTilt = 1.4;     // rad
-// Pens, and what is used like one; fingers, lenses and mice on a tablet are none.
+// Pens, and tools that are used like pens; fingers, lenses and mice on a tablet are none.
 constexpr std::array kPenTools = {BTN_TOOL_PEN, BTN_TOOL_RUBBER, BTN_TOOL_BRUSH, BTN_TOOL_PENCIL,
                                   BTN_TOOL_AIRBRUSH};
 
@@ -102,8 +102,8 @@ double Tablet::share(std::size_t axis) const {
   return std::clamp((double(state_.axes[axis]) - range->least) / span_of(*range), 0.0, 1.0);
 }
 
-/// Of the tip above the tablet, m. Pens are some way off by their tablet's distance when they touch: that is
-/// where the height begins.
+/// Height of the tip above the tablet, m. Pens are some way off by their tablet's distance when they touch:
+/// there the height begins.
 double Tablet::height() {
   const bool tells_distance = abilities_.axes[ABS_DISTANCE].has_value();
   if (touches()) {
@@ -114,7 +114,7 @@ double Tablet::height() {
   return std::max(0.0, metres_per_count_.z() * (state_.axes[ABS_DISTANCE] - touch_distance_));
 }
 
-/// Of the tip, m, device frame.
+/// Place of the tip, m, device frame.
 Vector3 Tablet::place() {
   const auto from_middle = [this](std::size_t axis) {
     return state_.axes[axis] - middle_of(abilities_.axes[axis].value_or(InputAxis{}));

@@ -33,7 +33,7 @@ class Tablet final : public InputReader {
   void missed() override { jumped_ = true; }
   void pass(DriverLink& link, std::int64_t now) override;
 
-  /// The newest frame's; its velocity is that of the last pass().
+  /// The state of the newest frame; its velocity is that of the last pass().
   const PointerState& pointer() const { return pointer_; }
 
  private:

@@ -25,13 +25,13 @@ struct DhdLibrary {
   int (*enable_force)(unsigned char on, char id) = nullptr;
   int (*set_gravity_compensation)(int on, char id) = nullptr;
   const char* (*error_get_last_str)() = nullptr;
-  // Null in a library without them.
+  // Functions that not every library has; null where they are missing.
   bool (*has_gripper)(char id) = nullptr;
   int (*get_gripper_angle_deg)(double* angle, char id) = nullptr;
 
-  /// Loads it: ICOME_LIBDHD, or one of the names that it is installed by.
+  /// Loads the library: ICOME_LIBDHD, or one of the names that it is installed by.
   static base::Result<DhdLibrary> load();
-  /// What the last call that failed on this thread failed of.
+  /// The error of the last call that failed on this thread.
   const char* last_error() const;
 };
 

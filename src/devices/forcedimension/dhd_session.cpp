@@ -44,7 +44,7 @@ base::Result<DhdDevice> DhdSession::open(const DhdLibrary& dhd, std::optional<in
 base::Result<DhdDevice> DhdSession::open_one(const DhdLibrary& dhd, int index) const {
   const int id = dhd.open_id(static_cast<char>(index));
   if (id < 0) return base::fail(dhd.last_error());
-  // Indices may have changed with what is plugged in.
+  // Indices may have changed as devices were plugged in or out.
   if (std::any_of(open_.begin(), open_.end(), [&](const DhdDevice& other) { return other.id == id; }))
     return base::fail(
         "the library takes it for another one that is open; unplug both and plug them in again");

@@ -26,8 +26,8 @@ class DhdSession {
   base::Result<DhdDevice> open(const DhdLibrary& dhd, std::optional<int> index, const std::string& model);
   void close(const DhdLibrary& dhd, const DhdDevice& device);
 
-  /// What is plugged in, open or not; those that are not are opened for a moment. An entry without model
-  /// could not be opened.
+  /// The devices that are plugged in, open or not; closed ones are opened for a moment. An entry without
+  /// model could not be opened.
   std::vector<DhdDevice> all(const DhdLibrary& dhd);
 
  private:

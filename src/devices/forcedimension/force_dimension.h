@@ -9,7 +9,7 @@
 
 namespace icome::devices {
 
-/// How the devices of Force Dimension (omega, delta, sigma, lambda) and the Novint Falcon are used.
+/// Settings of the devices of Force Dimension (omega, delta, sigma, lambda) and of the Novint Falcon.
 struct ForceDimensionSettings {
   double rate = 4000.0;              // Hz, 1000 to 4000; 0: as fast as the library answers
   std::string axes = "yzx";          // its axes that point right, up and to the user (rotation_from_axes)
@@ -17,7 +17,7 @@ struct ForceDimensionSettings {
   double grip_open = 30.0;           // degrees between the fingers of an open gripper, 5 to 90
 };
 
-/// The settings with what the environment says: ICOME_DHD_RATE, ICOME_DHD_AXES, ICOME_DHD_GRAVITY (on, off),
+/// The settings by the environment: ICOME_DHD_RATE, ICOME_DHD_AXES, ICOME_DHD_GRAVITY (on, off),
 /// ICOME_DHD_GRIP_DEGREES. The error names the variable that makes no sense.
 base::Result<ForceDimensionSettings> force_dimension_settings();
 
@@ -26,8 +26,8 @@ base::Result<ForceDimensionSettings> force_dimension_settings();
 base::Result<std::unique_ptr<Driver>> force_dimension_driver(std::string_view address,
                                                              const ForceDimensionSettings& settings);
 
-/// The profile of a device that calls itself that ("omega.7", "Falcon"); of an unknown one the lowest limits
-/// of all of them.
+/// The profile of a device of that name ("omega.7", "Falcon"); of an unknown one the lowest limits of all of
+/// them.
 DeviceInfo force_dimension_profile(std::string_view model);
 
 /// Back-end "forcedimension" with addresses "dhd" and "dhd:0"; settings from the environment.

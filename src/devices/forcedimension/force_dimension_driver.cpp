@@ -16,7 +16,7 @@ constexpr std::array<const char*, 2> kDhdWarnings = {
     "rough",
     "The motors give all they have (saturated): the force is less than what was asked for"};
 
-/// Do motors turn the hand or close the gripper? They are told to give nothing.
+/// Does the model have motors that turn the hand or close the gripper? They are told to give nothing.
 bool has_more_motors(std::string_view model) {
   return model.find(".7") != std::string_view::npos || model.find("delta.6") != std::string_view::npos;
 }
@@ -85,7 +85,7 @@ bool ForceDimensionDriver::exchange(DriverLink& link) {
 }
 
 bool ForceDimensionDriver::read(PointerState& reading) {
-  // What the library leaves as it is, the link refuses.
+  // A part that the library does not set stays NaN, which the link refuses.
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   Vector3 position = Vector3::Constant(kNothing);
   Vector3 velocity = Vector3::Constant(kNothing);

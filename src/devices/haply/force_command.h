@@ -11,7 +11,7 @@ namespace icome::devices {
 /// The message that gives one Inverse3 a force: written anew for each exchange, without taking memory.
 class ForceCommand {
  public:
-  /// Clients of the service keep to this in each coordinate, N.
+  /// Largest force in each coordinate, N, to which clients of the service keep.
   static constexpr double kMostForce = 5.0;
 
   /// The force field is called `field`; the id is a ServiceDeviceId's.
@@ -30,7 +30,7 @@ class ForceCommand {
   std::size_t size_ = 0;
 };
 
-/// The first message of a connection: who we are. It asks for a full answer, and for no force.
+/// The first message of a connection, with our name. It asks for a full answer, and for no force.
 std::string_view greeting_message();
 
 }  // namespace icome::devices

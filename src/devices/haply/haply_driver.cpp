@@ -74,7 +74,7 @@ bool HaplyDriver::exchange(DriverLink& link) {
   return true;
 }
 
-/// Tells people what has changed, and only that: a sentence takes memory.
+/// Tells people of changes, and only of these, as a sentence takes memory.
 void HaplyDriver::tell(DriverLink& link, std::int64_t now) {
   const ServiceArm& arm = service_->arm();
   const bool sense = refused_time_ == 0 || now - refused_time_ > kNonsenseShown;

@@ -37,19 +37,19 @@ class HaplyDriver final : public Driver {
   std::string device_id_;
   std::unique_ptr<InverseService> service_;  // while open
   std::optional<ServiceEvents> events_;      // while running, where they are wanted
-  // What was told last.
+  // The state that people were told last.
   struct Shown {
     bool calibrated = true;
     bool powered = true;
     bool ready = true;
     bool sense = true;         // the service's messages make sense
-    std::uint64_t events = 0;  // version of what the events say; 0: nothing, or it is long ago
+    std::uint64_t events = 0;  // version of the events' sentence; 0: none, or it is old
     bool operator==(const Shown&) const = default;
   };
   Shown shown_;
-  std::uint64_t disconnections_ = 0;  // that are seen to
-  std::uint64_t heard_ = 0;           // version of what the events say
-  std::int64_t heard_time_ = 0;       // ns, when that changed
+  std::uint64_t disconnections_ = 0;  // those that have been dealt with
+  std::uint64_t heard_ = 0;           // version of the events' sentence
+  std::int64_t heard_time_ = 0;       // ns, of the last change of that version
   std::int64_t refused_time_ = 0;     // ns, when a message last made no sense; 0: never
 };
 

@@ -6,7 +6,7 @@
 
 namespace icome::devices {
 
-/// How the service's axes and ours lie to each other. Real-time safe.
+/// The turn and the shift between the service's axes and ours. Real-time safe.
 class HaplyFrame {
  public:
   explicit HaplyFrame(const HaplySettings& settings)

@@ -12,7 +12,7 @@ namespace icome::devices {
 /// The name of the field that a force stands in: it has changed between versions of the service.
 enum class ForceField : std::uint8_t { ByVersion, Vector, Values };
 
-/// Where the Inverse Service is, and how an Inverse3 stands before its user.
+/// The place of the Inverse Service, the exchanges with it, and the stance of an Inverse3 before its user.
 struct HaplySettings {
   ServiceAddress service{"localhost", 10001};
   std::uint16_t events_port = 10020;  // of its events, on the same host; 0: they are not asked for

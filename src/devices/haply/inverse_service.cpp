@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::int64_t kGoodbye = 50'000'000;  // ns
 constexpr int kMostWaiting = 4;                // messages that are taken beside an answer
-constexpr int kGreetings = 2;                  // the picture that everybody gets, and the answer
-constexpr int kFullAnswers = 3;                // so many answers after it was asked for, one is a full one
+constexpr int kGreetings = 2;                  // the picture that each new client gets, and the answer
+constexpr int kFullAnswers = 3;                // answers after a request for a full one, of which one is full
 constexpr std::string_view kInstall =
     "install it from haply.co/support and start it, and name its place in ICOME_HAPLY=HOST:PORT where that "
     "is "
@@ -27,7 +27,7 @@ std::string service_name(const HaplySettings& settings) {
 }  // namespace
 
 base::Result<std::unique_ptr<InverseService>> InverseService::connect(const HaplySettings& settings) {
-  // Who does not know this page speaks the WebSocket all the same.
+  // A service without this page speaks the WebSocket all the same.
   const auto answer = get_by_http(settings.service, "/version", settings.connect_patience);
   auto socket = WebSocket::connect(settings.service, settings.connect_patience);
   if (!socket)
@@ -47,7 +47,7 @@ InverseService::~InverseService() { socket_->close(base::steady_nanoseconds() + 
 
 std::string InverseService::name() const { return service_name(settings_); }
 
-/// Waits for a message that makes sense: the picture that it sends to whoever connects, or the answer.
+/// Waits for a message that makes sense: the picture that each new client gets, or the answer.
 base::Result<void> InverseService::greet() {
   const std::int64_t deadline = base::steady_nanoseconds() + whole_nanoseconds(settings_.connect_patience);
   bool fine = socket_->send(greeting_message(), deadline);
@@ -116,7 +116,7 @@ InverseService::Answer InverseService::exchange(const Vector3& force) {
   return arm().has_position() ? Answer::Fresh : Answer::Refused;
 }
 
-/// An answer more than was asked for (it sends one to whoever connects) must not make all later ones late.
+/// Takes surplus answers (each new client gets one), so that they do not make all later ones late.
 bool InverseService::take_what_waits() {
   for (int i = 0; i < kMostWaiting && socket_->waiting(); ++i) {
     if (!socket_->receive(base::steady_nanoseconds() + whole_nanoseconds(settings_.patience))) return false;
@@ -125,14 +125,14 @@ bool InverseService::take_what_waits() {
   return true;
 }
 
-/// False when full answers have not mentioned the arm.
+/// Is the arm still listed? False once full answers have not mentioned it.
 bool InverseService::is_listed(std::int64_t now) {
   const std::int64_t half = whole_nanoseconds(settings_.patience) / 2;
   if (full_asked_) ++answers_since_;
   if (arm().told != last_told_) {
     last_told_ = arm().told;
     told_time_ = now;
-    // What was on its way when it was doubted says nothing.
+    // Answers that were on their way when the doubt began say nothing.
     if (!full_asked_ || answers_since_ >= kFullAnswers) doubted_ = full_asked_ = false;
     return true;
   }

@@ -14,8 +14,8 @@
 
 namespace icome::devices {
 
-/// A connection to Haply's Inverse Service, on which each message of ours gets one answer, and what it has
-/// told. One thread uses it.
+/// A connection to Haply's Inverse Service, on which each message of ours gets one answer, and the state that
+/// it has told. One thread uses it.
 class InverseService {
  public:
   /// Connects, asks for the version and for everything that there is; takes three times the settings'
@@ -30,25 +30,25 @@ class InverseService {
   /// "Haply's Inverse Service at localhost:10001", which begins a sentence.
   std::string name() const;
 
-  /// The Inverse3 of that id, or the first one, that exchanges are with from now on. The error is a sentence.
+  /// Chooses the Inverse3 of that id, or the first one, for exchanges; gives its id. The error is a sentence.
   base::Result<std::string> choose(std::string_view id);
   const ServiceArm& arm() const { return state_.arms()[chosen_]; }
-  /// The VerseGrip that belongs to it; null without one. Real-time safe.
+  /// The VerseGrip that belongs to the arm; null without one. Real-time safe.
   const ServiceGrip* grip() const { return state_.grip_of(chosen_, settings_.grip); }
 
   enum class Answer : std::uint8_t {
-    Fresh,    // it says where the arm is
-    Refused,  // it makes no sense
-    Lost,     // why() tells
+    Fresh,    // the answer tells the place of the arm
+    Refused,  // the answer makes no sense
+    Lost,     // why() tells the reason
   };
   /// Sends a force (N, service's axes) and waits for the answer, settings' patience at most, or until `stop`
   /// is set. Real-time safe but for that wait, unless Lost.
   Answer exchange(const Vector3& force);
   /// A flag that ends every wait once it is set; null: none. It must live as long as it is used.
   void stop_by(const std::atomic<bool>* stop);
-  /// Sends no force, the last message, if there is a way.
+  /// Sends the last message, one without force, if there is a way.
   void let_go();
-  /// It may be gone: the next answers shall tell.
+  /// Doubts that the arm is still there: the next answers shall tell.
   void doubt() { full_asked_ = false, doubted_ = true; }
   const std::string& why() const { return why_; }
 
@@ -70,7 +70,7 @@ class InverseService {
   // An arm that is not mentioned stands still, or is gone: everything is asked for then.
   std::uint64_t last_told_ = 0;  // ServiceArm::told of the arm
   std::int64_t told_time_ = 0;   // ns
-  bool missed_ = false;          // a message was refused, and what it told will not be told again unasked
+  bool missed_ = false;          // a message was refused; its news will not be told again unasked
   bool doubted_ = false;
   bool full_asked_ = false;
   std::int64_t asked_time_ = 0;  // ns

@@ -35,7 +35,7 @@ ServiceEvents::ServiceEvents(ServiceAddress channel, std::string device_id)
   try {
     thread_ = std::thread([this] { listen(); });
   } catch (const std::system_error&) {
-    // Without a thread the device works, and what the service would say of it is not heard.
+    // Without a thread the device works, and the service's events about it are not heard.
   }
 }
 

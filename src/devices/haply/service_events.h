@@ -11,25 +11,24 @@
 
 namespace icome::devices {
 
-/// What the service's events say about one Inverse3, read on a thread of its own, as they come seldom and
-/// nobody shall wait for them. Without such a channel there are none; it is looked for now and then. Owns
-/// the thread.
+/// The service's events about one Inverse3, read on a thread of its own, as they come seldom and nobody shall
+/// wait for them. Without their channel there are none; it is looked for now and then. Owns the thread.
 class ServiceEvents {
  public:
-  /// Begins to listen for what concerns the device of that id.
+  /// Begins to listen to events about the device of that id.
   ServiceEvents(ServiceAddress channel, std::string device_id);
   ~ServiceEvents();
   ServiceEvents(const ServiceEvents&) = delete;
   ServiceEvents& operator=(const ServiceEvents&) = delete;
 
-  /// Changes with the sentence. Any thread; real-time safe.
+  /// A number that changes with the sentence. Any thread; real-time safe.
   std::uint64_t version() const { return version_.load(std::memory_order_acquire); }
-  /// What people should know now, a sentence that begins with a small letter and has no full stop; empty:
-  /// nothing. Any thread.
+  /// The sentence that people should know now, which begins with a small letter and has no full stop; empty:
+  /// none. Any thread.
   std::string sentence() const;
-  /// How often the device was said to be disconnected. Any thread; real-time safe.
+  /// Number of times that the device was said to be disconnected. Any thread; real-time safe.
   std::uint64_t disconnections() const { return disconnections_.load(std::memory_order_acquire); }
-  /// Is somebody there? Any thread.
+  /// Is the channel of the events connected? Any thread.
   bool connected() const { return connected_.load(std::memory_order_acquire); }
 
  private:

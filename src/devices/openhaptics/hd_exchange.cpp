@@ -8,8 +8,8 @@
 namespace icome::devices {
 namespace {
 
-constexpr double kMetre = 0.001;         // of a millimetre
-constexpr int kMostFailingFrames = 200;  // so many in a row: the device has failed
+constexpr double kMetre = 0.001;         // m in a millimetre
+constexpr int kMostFailingFrames = 200;  // in a row, after which the device has failed
 
 }  // namespace
 
@@ -29,7 +29,7 @@ bool HdExchange::frame() {
 }
 
 PointerState HdExchange::read() const {
-  // What the library leaves as it is, the link refuses.
+  // A part that the library does not set stays NaN, which the link refuses.
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   std::array<double, 3> position = {kNothing, kNothing, kNothing};
   std::array<double, 3> velocity = position;

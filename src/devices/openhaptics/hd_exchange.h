@@ -14,17 +14,17 @@ namespace icome::devices {
 enum class HdWarning : std::uint8_t { Hot, TooStrong, Calibrate, Inkwell, Other };
 
 /// The frames of one device: readings and forces that pass through a link. One thread calls frame() and
-/// rest(), any thread the rest.
+/// rest(), any thread the others.
 class HdExchange {
  public:
-  /// All outlive it. `frames`: held for the length of a frame.
+  /// All outlive the exchange. `frames`: held for the length of a frame.
   HdExchange(const HdLibrary& hd, unsigned device, DriverLink& link, Warnings& warnings, std::mutex& frames)
       : hd_(hd), device_(device), link_(link), warnings_(warnings), frames_(frames) {}
 
   /// Reads the device, passes the reading on and sends a force; false once the device has failed. Real-time
   /// safe, apart from a lock that is taken for a moment when a device is opened or looked at.
   bool frame();
-  /// A last frame without force; then its force is switched off.
+  /// Makes a last frame without force; then the device's force is switched off.
   void rest();
   /// Notes whether the device wants to be calibrated.
   void check_calibration();

@@ -6,7 +6,7 @@
 
 namespace icome::devices {
 
-/// What OpenHaptics says went wrong, as it lays it out.
+/// An error of OpenHaptics, as the library lays it out.
 struct HdError {
   unsigned code = 0;  // 0: nothing
   int internal_code = 0;
@@ -17,7 +17,7 @@ struct HdError {
 /// them are about the current device.
 struct HdLibrary {
   static constexpr unsigned kInvalidDevice = 0xFFFFFFFF;
-  // What a callback returns.
+  // Results of a callback.
   static constexpr unsigned kDone = 0;
   static constexpr unsigned kContinue = 1;
   static constexpr std::uint16_t kMaxPriority = 0xFFFF;
@@ -66,13 +66,13 @@ struct HdLibrary {
   void (*unschedule)(unsigned long callback) = nullptr;
   HdError (*get_error)() = nullptr;
   const char* (*get_error_string)(unsigned code) = nullptr;
-  // Null in a library without them.
+  // Functions that not every library has; null where they are missing.
   const char* (*get_string)(unsigned what) = nullptr;
   unsigned (*check_calibration)() = nullptr;
 
-  /// Loads it: ICOME_LIBHD, or one of the names that it is installed by.
+  /// Loads the library: ICOME_LIBHD, or one of the names that it is installed by.
   static base::Result<HdLibrary> load();
-  /// What an error means, in the library's words.
+  /// The meaning of an error, in the library's words.
   std::string text_of(unsigned code) const;
   /// The first error since it was asked for last; all others are forgotten. Real-time safe.
   unsigned first_error() const;

@@ -27,7 +27,7 @@ class HdSession {
   /// Opens a device, ready for frames: its forces are ramped, limited, and switched on. The error is for
   /// people.
   base::Result<HdDevice> open(const HdLibrary& hd, const std::string& name, double rate);
-  /// Disables it; none of its callbacks may be scheduled any more.
+  /// Disables a device; none of its callbacks may be scheduled any more.
   void close(const HdLibrary& hd, const HdDevice& device);
 
   /// The device of that name, open or not; one that is not is opened for a moment.

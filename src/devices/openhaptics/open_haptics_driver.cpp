@@ -18,11 +18,11 @@ constexpr std::array<const char*, 5> kHdWarnings = {
     "The library of the device reports errors; it goes on as long as they pass"};
 
 constexpr auto kCallbackLook =
-    std::chrono::milliseconds(2);                     // how often the scheduler's callback is looked at
+    std::chrono::milliseconds(2);                     // from one look at the scheduler's callback to the next
 constexpr std::int64_t kStandsStill = 1'000'000'000;  // ns without a frame
 constexpr std::int64_t kCheckEvery = 1'000'000'000;   // ns, of the calibration
 
-/// What the scheduler's callback and the thread that watches it share.
+/// The state that the scheduler's callback and the thread that watches it share.
 struct HdCallback {
   HdExchange& exchange;
   std::atomic<bool> finish = false;    // the next call is the last
@@ -41,7 +41,7 @@ unsigned hd_callback(void* context) {
   return HdLibrary::kContinue;
 }
 
-/// Looks whether frames are made at all.
+/// Watches whether frames are made at all.
 class FrameWatch {
  public:
   bool stands_still(const HdExchange& exchange) {
@@ -124,7 +124,7 @@ std::string OpenHapticsDriver::follow(HdExchange& exchange, DriverLink& link, co
   return exchange.failure() == 0 ? std::string() : sentence_of(exchange.failure());
 }
 
-/// What is done now and then beside the frames.
+/// Checks the calibration now and then beside the frames, and tells the link of warnings.
 void OpenHapticsDriver::watch(HdExchange& exchange, DriverLink& link) {
   const std::int64_t now = base::steady_nanoseconds();
   if (now >= next_check_) {

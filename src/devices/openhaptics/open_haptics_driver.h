@@ -21,7 +21,7 @@ class OpenHapticsDriver final : public Driver {
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
 
-  /// So often a warning was given. Any thread.
+  /// Number of times that a warning was given. Any thread.
   std::uint64_t count(HdWarning warning) const { return warnings_.count(std::size_t(warning)); }
 
  private:

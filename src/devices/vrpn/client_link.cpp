@@ -121,7 +121,7 @@ bool ClientLink::take(const Message& message, Handler handler) {
     return true;
   }
   const Kind kind = names_.kind(message.type);
-  // Where the pong finds no room it is left out: what waits shows as well that we are there.
+  // A pong that finds no room is left out: the messages that wait show as well that we are there.
   if (kind == Kind::Ping && introduced_) outbox_.put(kOurDevice, Kind::Pong, {});
   handler(message, kind, names_.sender(message.sender) == name_);
   return true;

@@ -18,11 +18,11 @@ class ClientLink {
   /// Connects and greets, which may take `patience` s for each; the error says what is missing.
   static base::Result<std::unique_ptr<ClientLink>> connect(const VrpnAddress& address, double patience = 2.0);
 
-  /// What the server says of a message: its kind; whether it is about our device.
+  /// Called with a message of the server, its kind, and whether it is about our device.
   using Handler = base::FunctionRef<void(const Message&, Kind, bool)>;
-  /// Waits for bytes, `nanoseconds` at most, and hands out what has come whole. Answers pings, and pings
-  /// where nothing came for long. False once the connection has ended: why() says how. Real-time safe but for
-  /// descriptions, which come at the beginning.
+  /// Waits for bytes, `nanoseconds` at most, and hands out the messages that have come whole. Answers pings,
+  /// and pings after a long silence. False once the connection has ended: why() says how. Real-time safe but
+  /// for descriptions, which come at the beginning.
   bool receive(std::int64_t nanoseconds, Handler handler);
   /// Tells our device's name and the kinds of messages that we send. Not before the names of the server were
   /// looked at: a stock one takes over every name that it is told, and tells it as its own.
@@ -54,7 +54,7 @@ class ClientLink {
   bool introduced_ = false;
   std::int64_t heard_ = 0;        // ns, of the last bytes
   std::int64_t asked_ = 0;        // ns, of the last ping
-  std::int64_t stuck_since_ = 0;  // ns, when the server began to take nothing; 0: it takes what we say
+  std::int64_t stuck_since_ = 0;  // ns, when the server began to take nothing; 0: it takes our messages
   std::string why_;
 };
 

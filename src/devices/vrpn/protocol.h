@@ -24,7 +24,7 @@ using base::Vector3;
 constexpr int kPort = 3883;
 constexpr std::size_t kCookieSize = 24;
 constexpr std::size_t kHeaderSize = 24;
-/// With its header and padding; a stock peer's buffers hold 64,000 bytes.
+/// Bytes, with header and padding; a stock peer's buffers hold 64,000 bytes.
 constexpr std::size_t kLongestMessage = 65536;
 constexpr std::size_t kLongestName = 100;
 
@@ -32,10 +32,10 @@ constexpr std::int32_t kSenderDescription = -1;
 constexpr std::int32_t kTypeDescription = -2;
 constexpr std::int32_t kDisconnect = -5;
 
-/// What each side sends first.
+/// The bytes that each side sends first.
 std::array<char, kCookieSize> cookie();
-/// Can we talk with a side that sent this? The text up to its last dot must be ours, as that is the version
-/// that tells of changes to the wire; what follows does not matter.
+/// Can we talk with a side that sent these bytes? The text up to its last dot must be ours, as that is the
+/// version that tells of changes to the wire; the rest does not matter.
 bool cookie_fits(std::string_view bytes);
 
 /// The types of messages that we know, by name on the wire. The number that we give a type is its place here.
@@ -158,7 +158,7 @@ class Outbox {
   bool describe_kinds();
 
   std::string_view waiting() const { return {bytes_.data() + begin_, end_ - begin_}; }
-  /// So many of the waiting bytes are gone.
+  /// Drops so many of the waiting bytes, which were sent.
   void sent(std::size_t count);
 
  private:
@@ -176,7 +176,7 @@ class Decoder {
  public:
   Decoder() : bytes_(2 * kLongestMessage) {}
 
-  /// Where bytes are to be received to, at least kLongestMessage once next() gave More; messages that were
+  /// Room for the next bytes, at least kLongestMessage of them once next() gave More; messages that were
   /// given are invalid from here on.
   std::span<char> room();
   void received(std::size_t count) { end_ += count; }
@@ -194,7 +194,7 @@ class Decoder {
   bool broken_ = false;
 };
 
-/// What the numbers of a peer mean, as far as it has told. Its memory is bounded, whatever is told.
+/// The meanings of a peer's numbers, as far as it has told them. Memory is bounded, whatever is told.
 class PeerNames {
  public:
   PeerNames() : kinds_(kMostTypes, Kind::Unknown) {}
@@ -202,14 +202,14 @@ class PeerNames {
   /// Takes note of a description; does nothing with other messages.
   void learn(const Message& message);
   Kind kind(std::int32_t type) const;
-  /// Empty when unknown.
+  /// The name of a sender; empty when unknown.
   std::string_view sender(std::int32_t number) const;
   const std::vector<std::string>& senders() const { return senders_; }
   bool knows(Kind kind) const { return known_[static_cast<std::size_t>(kind)]; }
 
  private:
   static constexpr std::int32_t kMostTypes = 2000;   // a stock peer has no more
-  static constexpr std::int32_t kMostSenders = 512;  // 2000 there
+  static constexpr std::int32_t kMostSenders = 512;  // a stock peer has 2000
 
   std::vector<Kind> kinds_;
   std::vector<std::string> senders_;

@@ -11,17 +11,17 @@ namespace icome::devices::vrpn {
 constexpr std::size_t kMostClients = 16;
 constexpr std::size_t kPlanes = 4;  // of one client
 
-/// What one client wants to be felt.
+/// The forces that one client wants to be felt.
 struct ClientForces {
   struct PlaneSlot {
     Plane plane;                 // normal of length 1, or zero: none; SI units; all finite
-    std::uint64_t revision = 0;  // another one for each that was sent
+    std::uint64_t revision = 0;  // changes with each plane that was sent
   };
   std::array<PlaneSlot, kPlanes> planes;
   ForceField field;  // radius 0: none; all finite
 };
 
-/// What all clients want to be felt on one device.
+/// The forces that all clients want to be felt on one device.
 struct WantedForces {
   std::array<ClientForces, kMostClients> clients;
 };
@@ -47,7 +47,7 @@ class RemoteForces {
  public:
   explicit RemoteForces(const RemoteForceSettings& settings) : settings_(settings) {}
 
-  /// N, at a time (ns, steady). Real-time safe.
+  /// The force on a tip in this state, N, at a time (ns, steady). Real-time safe.
   Vector3 force(const WantedForces& wanted, const PointerState& state, std::int64_t now);
 
  private:
@@ -55,7 +55,7 @@ class RemoteForces {
     std::uint64_t revision = 0;
     bool there = false;
     bool behind = false;  // the tip came from its back
-    Plane from;           // where it began to change
+    Plane from;           // the plane as it began to change
     Plane to;
     std::int64_t changed = 0;  // ns
   };

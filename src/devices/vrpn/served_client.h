@@ -14,13 +14,13 @@
 
 namespace icome::devices::vrpn {
 
-/// What a server shares of a device.
+/// The state and the force of a device, as a server shares them.
 struct SharedState {
   PointerState state;
   Vector3 force = Vector3::Zero();  // N
 };
 
-/// What is the same for all clients of a server.
+/// The devices of a server, the same for all its clients.
 struct ServedDevices {
   std::vector<std::string> names;
   VrpnFrame frame;
@@ -35,12 +35,12 @@ class ServedClient {
   ServedClient(Socket socket, const Place& place, bool connecting, const ServedDevices& devices,
                std::int64_t now);
 
-  /// Receives and sends what can be at once. False once it is to be dropped.
+  /// Receives and sends as much as goes at once. False once the client is to be dropped.
   bool serve(std::int64_t now);
-  /// Has it greeted, and taken all that was said before? States that would wait are left out: later ones are
-  /// newer.
+  /// Has the client greeted, and taken all that was said before? States that would wait are left out: later
+  /// ones are newer.
   bool ready() const { return talks() && !has_waiting(); }
-  /// Says a device's state, where it is ready.
+  /// Says a device's state, to a client that is ready.
   void share(std::size_t device, const SharedState& shared);
   void say_farewell();
 
@@ -49,10 +49,10 @@ class ServedClient {
   bool connecting() const { return connecting_; }
   bool talks() const { return decoder_.greeted(); }
   bool has_waiting() const { return connecting_ || !outbox_.waiting().empty(); }
-  /// It sent as much as is read in one turn, and more may be waiting.
+  /// Did the client send as much as is read in one turn? More may be waiting.
   bool floods() const { return floods_; }
   const ClientForces& wanted(std::size_t device) const { return wanted_[device]; }
-  /// Its wishes have changed since this was asked last.
+  /// Have the client's wishes changed since this was asked last?
   bool wishes_changed() { return std::exchange(wishes_changed_, false); }
 
  private:
@@ -71,7 +71,7 @@ class ServedClient {
   Outbox outbox_;
   PeerNames names_;
   std::int64_t since_;            // ns
-  std::int64_t stuck_since_ = 0;  // ns; 0: it takes what we say
+  std::int64_t stuck_since_ = 0;  // ns; 0: it takes our messages
   bool floods_ = false;
   bool left_ = false;
   bool wishes_changed_ = false;

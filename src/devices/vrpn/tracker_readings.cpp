@@ -56,7 +56,7 @@ bool TrackerReadings::take(Kind kind, const Message& message, std::int64_t now) 
       if (!told || told->sensor != sensor_ || !told->velocity.allFinite()) return false;
       state_.velocity = frame_.position(told->velocity);
       told_velocity_ = now;
-      // It comes behind its pose, mostly in the same piece of bytes; no reading of its own.
+      // A velocity is no reading of its own: it comes behind its pose, mostly in the same piece of bytes.
       return false;
     }
     case Kind::ButtonChange: {
@@ -83,7 +83,7 @@ bool TrackerReadings::take(Kind kind, const Message& message, std::int64_t now) 
 bool TrackerReadings::take_pose(const PosQuat& pose, std::int64_t sent, std::int64_t now) {
   state_.position = frame_.position(pose.position);
   state_.orientation = frame_.orientation(pose.orientation);
-  // By the server's clock, as messages bunch up on the way; by ours where it has none.
+  // Time by the server's clock, as messages bunch up on the way; by ours where it has none.
   slope_.add(state_.position, sent != 0 ? 1e-6 * static_cast<double>(sent) : 1e-9 * static_cast<double>(now));
   if (told_velocity_ == 0 || now - told_velocity_ > kVelocityLasts) state_.velocity = slope_.velocity();
   posed_ = true;

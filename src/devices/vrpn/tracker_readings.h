@@ -13,9 +13,9 @@ namespace icome::devices::vrpn {
 /// 10 ms (least squares), or through the last two where it is slower.
 class VelocitySlope {
  public:
-  /// A position (m) and its time (s).
+  /// Adds a position (m) and its time (s).
   void add(const Vector3& position, double time);
-  /// m/s; zero while there is one position only.
+  /// The velocity, m/s; zero while there is one position only.
   Vector3 velocity() const;
 
  private:
@@ -55,7 +55,7 @@ class TrackerReadings {
   PointerState state_;
   VelocitySlope slope_;
   bool posed_ = false;
-  std::int64_t told_velocity_ = 0;  // ns, when the tracker told one last; 0: never
+  std::int64_t told_velocity_ = 0;  // ns, of the last velocity that the tracker told; 0: none
 };
 
 }  // namespace icome::devices::vrpn

@@ -19,7 +19,7 @@ std::string_view take_until(std::string_view& text, char separator) {
   return taken;
 }
 
-/// What is wrong with an option of an address; empty: it was taken.
+/// Takes an option of an address. Returns the fault that it has; empty: none.
 std::string take_option(VrpnAddress& address, std::string_view key, std::string_view value) {
   const std::string text(value);
   const auto number = base::parse_number<double>(value);

@@ -8,7 +8,7 @@
 
 namespace icome::devices {
 
-/// How the axes of a tracker lie to ours (x right, y up, z to the user).
+/// The axes of a tracker in ours (x right, y up, z to the user), and its unit of length.
 struct VrpnFrame {
   base::Matrix3 ours_from_theirs = base::Matrix3::Identity();  // a rotation
   double scale = 1.0;                                          // m for one of their units, > 0
@@ -28,7 +28,7 @@ enum class VrpnForces : std::uint8_t {
   Off,
 };
 
-/// A device of a VRPN server, and what VRPN does not tell about it.
+/// A device of a VRPN server, with the facts about it that VRPN does not tell.
 struct VrpnAddress {
   std::string name = "Tracker0";
   std::string host = "localhost";

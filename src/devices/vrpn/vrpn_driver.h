@@ -12,7 +12,7 @@
 
 namespace icome::devices {
 
-/// What a server says of the force that it gives, in our axes.
+/// The force that a server says it gives, and its SCP, in our axes.
 struct VrpnTold {
   Vector3 force = Vector3::Zero();          // N
   Vector3 surface_point = Vector3::Zero();  // m, the SCP that it has found
@@ -36,7 +36,7 @@ class VrpnDriver final : public Driver {
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override { link_.reset(); }
 
-  /// What the server says of its force, the newest. One other thread, which may outlive run() but not the
+  /// The newest words of the server about its force. One other thread, which may outlive run() but not the
   /// driver.
   const VrpnTold& told() {
     told_.update();
@@ -57,8 +57,8 @@ class VrpnDriver final : public Driver {
   bool gives_force_ = false;
   // Since run():
   Vector3 tip_ = Vector3::Zero();         // m, of the last reading that the servo could have
-  Vector3 said_force_ = Vector3::Zero();  // N, as the server has it
-  Vector3 said_tip_ = Vector3::Zero();    // m, that it was said for
+  Vector3 said_force_ = Vector3::Zero();  // N, the force that the server has
+  Vector3 said_tip_ = Vector3::Zero();    // m, the tip that it was said for
   VrpnTold telling_;
   realtime::LatestValue<VrpnTold> told_;
 };

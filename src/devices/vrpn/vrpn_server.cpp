@@ -138,8 +138,8 @@ void VrpnServer::run() {
 }
 
 void VrpnServer::wait() {
-  // Who sends more than is read in a turn is read once a millisecond; it must not keep the thread from
-  // resting.
+  // A client that sends more than is read in a turn is read once a millisecond, so that the thread can rest
+  // between.
   if (std::exchange(flooded_, false)) realtime::sleep_until(base::steady_nanoseconds() + kFloodBreak);
   std::array<pollfd, kMostClients + 2> waiting = {};
   std::size_t count = 0;

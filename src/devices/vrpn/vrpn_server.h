@@ -20,7 +20,7 @@ struct VrpnServerSettings {
   int port = 3883;                                // of TCP and UDP; 0: a free one
   std::vector<std::string> names = {"Pointer0"};  // of the devices, 1 to 8
   double rate = 1000.0;                           // Hz, states a second that a client gets, 1 to 1000
-  int buttons = 8;                                // that clients are told there are, 0 to 32
+  int buttons = 8;                                // number that clients are told, 0 to 32
   VrpnFrame frame{};                              // axes and unit of length that clients see
   vrpn::RemoteForceSettings forces{};
 };
@@ -38,11 +38,11 @@ class VrpnServer {
   static base::Result<std::unique_ptr<VrpnServer>> create(const VrpnServerSettings& settings);
   ~VrpnServer() { stop(); }
 
-  /// "127.0.0.1:3883".
+  /// The place where it listens: "127.0.0.1:3883".
   std::string listening() const { return vrpn::shown(place_); }
   const std::vector<std::string>& names() const { return devices_.names; }
 
-  /// The state of a device (by its place among the names), and the force that it gives, N. One thread a
+  /// Takes the state of a device (by its place among the names), and the force that it gives, N. One thread a
   /// device, that of its servo. Real-time safe.
   void feed(const PointerState& state, const Vector3& force, std::size_t device = 0);
   /// The force that clients want on a device in this state, N, not limited; `now` is of
@@ -82,7 +82,7 @@ class VrpnServer {
   vrpn::Socket listener_;
   vrpn::Socket requests_;
   std::vector<std::unique_ptr<Device>> states_;
-  // Of the server's thread. A client keeps its place as long as it is there.
+  // The server's thread's. A client keeps its place as long as it is there.
   std::vector<std::unique_ptr<vrpn::ServedClient>> clients_;
   std::int64_t due_ = 0;  // ns, of the next states
   bool wishes_changed_ = false;

@@ -26,10 +26,10 @@ class Socket {
   int number_ = -1;
 };
 
-/// What became of bytes.
+/// The outcome of a call that moves bytes.
 enum class Flow : std::uint8_t {
-  Some,   // some went
-  Later,  // none could go now
+  Some,   // some bytes went
+  Later,  // no byte could go now
   Ended,  // the other side is gone
 };
 
@@ -38,21 +38,21 @@ struct Place {
   std::uint32_t host = 0;
   std::uint16_t port = 0;
 };
-/// "127.0.0.1:3883".
+/// The place as people write it: "127.0.0.1:3883".
 std::string shown(const Place& place);
 /// Looks a name up, which may take seconds; the error says that it is unknown.
 base::Result<Place> find_host(const std::string& host, int port);
 
 /// A TCP socket that connects or is connected; writes on it tell when poll() says that it can be written.
 Socket begin_connecting(const Place& place);
-/// Is it connected by now?
+/// Is the socket connected by now?
 bool connected(const Socket& socket);
 /// Has the attempt to connect failed?
 bool refused(const Socket& socket);
 /// Small messages go at once, few wait in the system, so that a slow reader gets no old ones, and a peer that
 /// is gone without a word is given up after `patience` s.
 void prepare(const Socket& socket, double patience);
-/// A listening TCP socket, or a UDP one, at a place; none where it is taken. Asks for the port that it got.
+/// A listening TCP socket, or a UDP one, at a place; none where it is taken. Fills in the port that it got.
 Socket listen_at(Place& place);
 Socket datagrams_at(const Place& place);
 Socket accept_from(const Socket& listener);

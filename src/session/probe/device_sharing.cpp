@@ -7,7 +7,7 @@
 namespace icome::session {
 namespace {
 
-constexpr double kFastestChange = 2000.0;  // N/s: what programs ask for comes in steps of their own
+constexpr double kFastestChange = 2000.0;  // N/s, as programs ask for forces in steps of their own
 
 }  // namespace
 

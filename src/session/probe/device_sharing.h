@@ -11,12 +11,12 @@
 
 namespace icome::session {
 
-/// Shares pointer devices with programs that speak VRPN: a loop reads each, gives what the programs ask for
-/// through the limiter, and tells them its state. Owns devices, server and loop.
+/// Shares pointer devices with programs that speak VRPN: a loop reads each, gives the forces that programs
+/// ask for through the limiter, and tells them its state. Owns devices, server and loop.
 class DeviceSharing {
  public:
-  /// Starts both. The server has a name for each device. Fails where it cannot listen or the loop cannot
-  /// start.
+  /// Starts server and loop. The server has a name for each device. Fails where it cannot listen or the loop
+  /// cannot start.
   static base::Result<std::unique_ptr<DeviceSharing>> create(
       std::vector<std::unique_ptr<devices::PointerDevice>> devices, const devices::VrpnServerSettings& server,
       double rate_hz);

@@ -20,7 +20,7 @@ constexpr double kRampSeconds = 1.5;    // s that the slow force takes to grow, 
 constexpr int kPushes = 10;             // short ones, to and fro
 constexpr double kPushSeconds = 0.03;   // s that each lasts
 constexpr double kPauseSeconds = 0.4;   // s to come to rest after it
-constexpr double kLeastWay = 20e-6;     // m, of which a push is told from noise
+constexpr double kLeastWay = 20e-6;     // m, by which a push is told from noise
 constexpr double kRate = 2000.0;        // N/s, the fastest that a force changes here
 
 /// The force along y (N) at a time since the forces began, for a test with this strongest one.
@@ -38,7 +38,7 @@ double force_seconds() {
   return 2.0 * kRampSeconds + kPushes * (kPushSeconds + kPauseSeconds) + kPauseSeconds;
 }
 
-/// Ticks a device on a loop, and keeps what it said.
+/// Ticks a device on a loop, and keeps its readings.
 class Probe {
  public:
   Probe(devices::PointerDevice& device, const DeviceTestSettings& settings, double seconds)
@@ -156,7 +156,7 @@ void measure_noise(DeviceTestResult& result, double seconds) {
   for (int axis = 0; axis < 3; ++axis) result.noise[axis] = noise_about_line(t, x[std::size_t(axis)]);
 }
 
-/// A push: the tick in which it begins, and how the device moved before.
+/// A push: the tick in which it begins, and the device's place and speed before.
 struct Push {
   std::size_t start = 0;
   double from = 0.0;   // m

@@ -14,7 +14,7 @@ using base::Vector3;
 /// One tick of a device while it is tested.
 struct ProbedTick {
   double t = 0.0;                      // s, since the first tick
-  bool fresh = false;                  // it gave a new reading
+  bool fresh = false;                  // the device gave a new reading
   Vector3 position = Vector3::Zero();  // m, of the newest reading
   Vector3 force = Vector3::Zero();     // N, as it was sent
 };
@@ -30,21 +30,21 @@ struct ReadingIntervals {
   double median = 0.0, p99 = 0.0, longest = 0.0;
 };
 
-/// What came out when the device pushed.
+/// The outcome of the device's pushes.
 struct ForceTest {
   double strongest = 0.0;       // N
   double moved = 0.0;           // m, the farthest from rest
   std::optional<double> delay;  // s from a force to the motion that it makes; none: too little moved to tell
 };
 
-/// What a test has found.
+/// The findings of a test.
 struct DeviceTestResult {
   std::uint64_t readings = 0;
   double rate_hz = 0.0;  // fresh readings a second, as far as the ticks can tell: no more than theirs
   ReadingIntervals interval_ms;
   Vector3 noise = Vector3::Zero();  // m, standard deviation at rest, slow drift taken out
   std::uint64_t stalled = 0;        // ticks without a fresh reading
-  std::uint64_t lost = 0;           // ticks in which it was not there
+  std::uint64_t lost = 0;           // ticks in which the device was not there
   std::optional<ForceTest> force;
   std::vector<ProbedTick> ticks;
 };

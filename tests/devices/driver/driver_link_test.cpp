@@ -108,7 +108,7 @@ TEST_F(DriverLinkTest, AJumpThatTheDriverToldCountsAlsoWhereItsReadingWasReplace
   EXPECT_TRUE(state.jumped);
   ASSERT_EQ(passed(reading_at(0.001)), DeviceStatus::Ok);
   EXPECT_FALSE(state.jumped);
-  // Refused as a spike at first, and soon within what a hand may have moved.
+  // Refused as a spike at first, and soon within a hand's reach.
   jumped = reading_at(0.03);
   jumped.jumped = true;
   EXPECT_EQ(passed(jumped), DeviceStatus::Stalled);

@@ -12,7 +12,7 @@
 
 namespace icome::devices {
 
-/// What the program evemu recorded of an input device: its abilities and its events.
+/// A recording of an input device by the program evemu: its abilities and its events.
 struct EvemuRecording {
   InputAbilities abilities;
   std::vector<InputEvent> events;
@@ -51,7 +51,7 @@ inline void add_evemu_event(std::istream& words, EvemuRecording& recording) {
   recording.events.push_back(event);
 }
 
-/// What files have together: a description first where the events have none.
+/// The recording in several files: a description first where the events have none.
 inline EvemuRecording read_evemu(const std::vector<std::filesystem::path>& files) {
   EvemuRecording recording;
   for (const std::filesystem::path& path : files) {

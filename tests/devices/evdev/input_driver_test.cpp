@@ -137,7 +137,7 @@ TEST(InputDriver, AnotherNodeOfTheSameNameIsFoundAgain) {
   after.plug(true);
   other.plug(true);
   ASSERT_TRUE(holds_soon([&] { return after.open_count() + other.open_count() == 1; }));
-  // Either may have been seen first, but where both are there it is the one of its name.
+  // Either node may have been seen first, but where both are there the one of its name is opened.
   if (other.open_count() == 1) {
     other.plug(false);
     ASSERT_TRUE(input_lost_soon(**device));
@@ -183,7 +183,7 @@ TEST(InputDriver, RumblesAsStronglyAsItIsPushed) {
   EXPECT_TRUE(pushed(1.0, 0.5));
   EXPECT_TRUE(pushed(-2.0, 1.0)) << "a rumble has no direction";
   EXPECT_TRUE(pushed(100.0, 1.0));
-  // Who pushes no more, be it that its thread stands still, is not rumbled at.
+  // The rumble ends for a servo that pushes no more, also where its thread stands still.
   EXPECT_TRUE(holds_soon([&] { return pad.rumbling() == 0.0; }));
   EXPECT_TRUE(pushed(1.0, 0.5));
   device->reset();

@@ -261,7 +261,7 @@ std::int32_t hostile_number(base::Random& random) {
   return kEdges[random.index(kEdges.size())];
 }
 
-// Ranges and values of any kind: what passes the link is a place near the workspace, whatever was told.
+// Ranges and values of any kind: only places near the workspace pass the link, whatever was told.
 TEST(Tablet, HostileDevices) {
   base::Random random(20);
   for (int device = 0; device < repeats(2000); ++device) {
@@ -291,7 +291,7 @@ TEST(Tablet, HostileDevices) {
   }
 }
 
-/// What a recording came to.
+/// The outcome of a recording.
 struct Replay {
   int strokes = 0;           // times that the pen was put down
   double fastest = 0.0;      // m/s
@@ -340,7 +340,7 @@ TEST(Tablet, ARealPenOnACintiq) {
   const Replay replayed = replay(recording);
   EXPECT_EQ(replayed.strokes, 2);
   ASSERT_FALSE(replayed.way.empty());
-  // Its first report: x 27246 of 400 to 59152, y 10992 of 400 to 33448, 200 counts/mm; distance 31 of 63.
+  // First report: x 27246 of 400 to 59152, y 10992 of 400 to 33448, 200 counts/mm; distance 31 of 63.
   EXPECT_TRUE(replayed.way[0].isApprox(Vector3(-0.01265, 0.02966, 0.01 * 31.0 / 63.0), 1e-9))
       << replayed.way[0].transpose();
   EXPECT_NEAR(replayed.info.workspace_radius, 0.5 * std::hypot(0.29376, 0.16524), 1e-9);

@@ -8,9 +8,9 @@
 
 namespace icome::devices::fakes {
 
-/// What a test sees and sets of the fake of Force Dimension's library; the library exports
+/// The part of the fake of Force Dimension's library that a test sees and sets; the library exports
 /// `FakeDhd* fake_dhd()`. A program that loads it steers it by the environment: FAKE_DHD_DEVICES (1),
-/// FAKE_DHD_MODEL (omega.7), and what FakeEnvironment tells.
+/// FAKE_DHD_MODEL (omega.7), and the variables of FakeEnvironment.
 struct FakeDhd {
   static constexpr int kMost = 4;
 
@@ -25,7 +25,7 @@ struct FakeDhd {
   std::array<Device, kMost> devices;
   std::atomic<int> misuses = 0;  // calls with an id that is not open
 
-  /// So many devices of that model, plugged in, without faults; no misuse so far.
+  /// Plugs in so many devices of that model, without faults; no misuse so far.
   void set_up(int count, const std::string& model, const UnitSettings& settings = {}) {
     for (Device& device : devices) {
       device.unit.set_up(settings);

@@ -19,8 +19,8 @@
 
 namespace icome::devices::fakes {
 
-/// An input device that is none: a test tells its events, drops some, unplugs it, and sees what it was told
-/// to rumble. Any thread.
+/// A fake of an input device: a test tells its events, drops some, unplugs it, and sees the rumble that it
+/// was told. Any thread.
 class FakeInput {
  public:
   struct Command {
@@ -31,7 +31,7 @@ class FakeInput {
 
   explicit FakeInput(InputAbilities abilities) : abilities_(std::move(abilities)) {}
 
-  /// One event; programs that have it open see it.
+  /// Gives one event to the programs that have the device open.
   void emit(int type, int code, std::int32_t value) { emit(type, code, value, base::steady_nanoseconds()); }
   void emit(int type, int code, std::int32_t value, std::int64_t time) {
     const std::lock_guard lock(guard_);
@@ -47,7 +47,7 @@ class FakeInput {
   void moved(int code, std::int32_t value) { emit(EV_REL, code, value); }
   void report() { emit(EV_SYN, SYN_REPORT, 0); }
 
-  /// The system's buffer is full from now on: what follows is lost, and what waits with it.
+  /// Fills the system's buffer: events that wait are lost, and those that follow too.
   void overflow() {
     const std::lock_guard lock(guard_);
     for (Reader* reader : readers_) {
@@ -55,7 +55,7 @@ class FakeInput {
       reader->events.clear();
     }
   }
-  /// There is room again; programs hear that they missed something.
+  /// Makes room again; programs hear that they missed something.
   void drained() {
     const std::lock_guard lock(guard_);
     for (Reader* reader : readers_) {
@@ -64,7 +64,7 @@ class FakeInput {
     told_.notify_all();
   }
 
-  /// Who has it open notices; whoever comes then finds no such device.
+  /// Plugs it in or out; once out, programs that have it open notice, and later ones find no such device.
   void plug(bool in) {
     const std::lock_guard lock(guard_);
     plugged_ = in;
@@ -101,7 +101,7 @@ class FakeInput {
   }
 
  private:
-  /// What one program that has it open has still to read.
+  /// The events that one program that has it open has still to read.
   struct Reader {
     std::deque<InputEvent> events;
     InputState known;
@@ -162,7 +162,7 @@ class FakeInput {
       return InputTold::Event;
     }
 
-    /// As libevdev does it: it compares what it has told with what is.
+    /// Compares the state that was told with the present one, as libevdev does.
     void look_for_differences() {
       const InputState& now = input_.abilities_.state;
       const std::int64_t time = base::steady_nanoseconds();

@@ -84,7 +84,7 @@ FakeHd& the_hd() {
   return hd;
 }
 
-// Each thread has its own: what the makers publish does not say, and other threads' frames must not be upset.
+// One for each thread: the makers publish nothing on it, and other threads' frames must not be upset.
 thread_local unsigned current_device = kNoDevice;
 
 void misuse(unsigned device) {
@@ -99,7 +99,7 @@ FakeHd::Device* device_of(unsigned handle) {
   return nullptr;
 }
 
-/// What a frame of the device ends with.
+/// The error that a frame of the device ends with.
 unsigned error_of(const FakeHd::Device& device) {
   if (!device.unit.is_plugged()) return kCommunicationError;
   switch (device.unit.fault()) {

@@ -8,10 +8,10 @@
 
 namespace icome::devices::fakes {
 
-/// What a test sees and sets of the fake of OpenHaptics; the library exports `FakeHd* fake_hd()`. A program
-/// that loads it steers it by the environment: FAKE_HD_DEVICES (1; "Left" is the default and the first,
-/// "Right" the second), FAKE_HD_MODEL (Touch), FAKE_HD_CALIBRATION (ok, update, inkwell), and what
-/// FakeEnvironment tells.
+/// The part of the fake of OpenHaptics that a test sees and sets; the library exports `FakeHd* fake_hd()`. A
+/// program that loads it steers it by the environment: FAKE_HD_DEVICES (1; "Left" is the default and the
+/// first, "Right" the second), FAKE_HD_MODEL (Touch), FAKE_HD_CALIBRATION (ok, update, inkwell), and the
+/// variables of FakeEnvironment.
 struct FakeHd {
   static constexpr int kMost = 2;
   static constexpr std::array<const char*, kMost> kNames = {"Left", "Right"};
@@ -32,7 +32,7 @@ struct FakeHd {
   std::atomic<unsigned> calibration = 0x5000;  // ok
   std::atomic<double> max_force = 3.3;         // N, that the device says it has
 
-  /// So many devices of that model, plugged in, without faults; no misuse so far.
+  /// Plugs in so many devices of that model, without faults; no misuse so far.
   void set_up(int count, const std::string& model, const UnitSettings& settings = {}) {
     for (Device& device : devices) {
       device.unit.set_up(settings);

@@ -41,7 +41,7 @@ std::string base64(const std::array<unsigned char, 20>& bytes) {
   return text;
 }
 
-/// What a server proves that it speaks WebSocket by (RFC 6455, 1.3).
+/// The text by which a server proves that it speaks WebSocket (RFC 6455, 1.3).
 std::string accept_of(const std::string& key) {
   boost::uuids::detail::sha1 sum;
   const std::string text = key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
@@ -114,12 +114,12 @@ double coordinate(const Json& vector, const char* name) {
   return found != vector.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
-/// A number that JSON has no word for becomes null; a place that is none is told each time.
+/// Has a part been told as it is? One with NaN, which JSON writes as null, is told each time.
 bool is_told(const Json& told, const std::string& name, const Json& part) {
   return told.contains(name) && told[name] == part && part.dump().find("null") == std::string::npos;
 }
 
-/// The entry without what a client has been told: fields of its state and whole other fields.
+/// The parts of an entry that a client has not been told: fields of its state and whole other fields.
 Json news_of(const Json& entry, const Json& told, bool named) {
   Json news = Json::object();
   for (const auto& [key, value] : entry.items()) {
@@ -152,7 +152,7 @@ struct FakeInverseService::State {
     bool leaving = false;
     std::string in;
     std::string out;
-    std::deque<std::pair<std::int64_t, std::string>> answers;  // when they are due, ns
+    std::deque<std::pair<std::int64_t, std::string>> answers;  // with the times when they are due, ns
     Json told = Json::object();
     bool greeted = false;  // has sent a message
   };
@@ -411,7 +411,7 @@ struct FakeInverseService::State {
     });
   }
 
-  /// How long nothing is due, ns.
+  /// Time until an answer is due, ns, kWait at most.
   std::int64_t free_time() const {
     std::int64_t time = kWait;
     for (const Client& client : clients) {

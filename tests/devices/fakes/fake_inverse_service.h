@@ -28,7 +28,7 @@ struct FakeServiceSettings {
   bool names_devices = false;       // each answer, not only full ones, has ids
 };
 
-/// What goes wrong with the service's answers.
+/// Faults of the service's answers.
 enum class ServiceFault : std::uint8_t {
   None,
   Silent,     // takes messages and says nothing
@@ -39,7 +39,7 @@ enum class ServiceFault : std::uint8_t {
 
 /// A stand-in for Haply's Inverse Service, written from what is known of its protocol: HTTP and WebSocket on
 /// a port of this machine, events on another one, and a model of each arm behind them. It answers each
-/// message of a client by one, tells everything to whoever connects or asks for it and only what has changed
+/// message of a client by one, tells everything to a client that connects or asks for it, and only changes
 /// after that. A force is held for 50 ms without another message. It calls itself a fake in /version. All
 /// methods may be called from any thread; it works on a thread of its own, which it owns.
 class FakeInverseService {
@@ -79,7 +79,7 @@ class FakeInverseService {
   double strongest_component() const;  // N, in one coordinate
   Vector3 held() const;                // N, now
   double given() const;                // J
-  /// The force that was commanded last, N, and when it became that, ns on the steady clock.
+  /// The force that was commanded last, N, and the time of its last change, ns on the steady clock.
   Vector3 commanded() const;
   std::int64_t commanded_since() const;
 

@@ -15,7 +15,7 @@
 
 namespace icome::devices::fakes {
 
-/// What else goes wrong with a device that a fake library has, beside the faults of a reading (ArmFault).
+/// Faults of a fake library's device, beside the faults of a reading (ArmFault).
 enum class UnitFault : std::uint8_t {
   None,
   Hostile,    // every reading has one fault or another, at random, now and then a gap of 100 ms
@@ -35,7 +35,7 @@ struct UnitSettings {
   double circle = 0.0;          // m, radius of the circle on which the hand moves, once a second
 };
 
-/// One device of a fake library: an arm in the device's own axes, and what a test makes of it. Any thread.
+/// One device of a fake library: an arm in the device's own axes, which a test steers. Any thread.
 class FakeUnit {
  public:
   struct Sample {
@@ -103,12 +103,12 @@ class FakeUnit {
     const std::lock_guard lock(guard_);
     return held_;
   }
-  /// When it was told to give another force than before, ns.
+  /// Time of the last change of the force that it was told, ns.
   std::int64_t held_since() const {
     const std::lock_guard lock(guard_);
     return held_since_;
   }
-  /// So often it was told a force.
+  /// Number of times that it was told a force.
   std::uint64_t pushes() const {
     const std::lock_guard lock(guard_);
     return pushes_;
@@ -227,7 +227,7 @@ class FakeUnit {
       case 9:
         sample = frozen_;
         break;
-      default:  // one without
+      default:  // no fault
         break;
     }
     if (random_() % 1000 == 0) frozen_ = last_;
@@ -243,7 +243,7 @@ class FakeUnit {
   std::uint64_t counted_ = 0;  // readings
   Sample pose_;
   Sample last_;    // without a fault
-  Sample frozen_;  // what it stands still at
+  Sample frozen_;  // the reading that it stands still at
   Sample read_;    // given last
   bool is_posed_ = false;
   bool is_plugged_ = true;

@@ -25,7 +25,7 @@ class EnvironmentValue {
   const char* name_;
 };
 
-/// Where the fake library of that name lies: beside the program.
+/// Path of the fake library of that name, beside the program.
 inline std::string fake_path(const std::string& name) {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fakes" / ("lib" + name + ".so");
 }

@@ -69,7 +69,7 @@ TEST_F(ForceDimension, KnownPosesInOurAxes) {
   EXPECT_TRUE(seen.position.isApprox(Vector3(0.02, 0.03, 0.01), 1e-12)) << seen.position.transpose();
   EXPECT_TRUE(seen.velocity.isApprox(Vector3(0.2, 0.3, 0.1), 1e-12)) << seen.velocity.transpose();
   EXPECT_EQ(seen.buttons, 0b101U);
-  // A quarter turn about what points up, from its right (our x) away from the user (our -z).
+  // A quarter turn about the axis that points up, from its right (our x) away from the user (our -z).
   const Vector3 right = seen.orientation * Vector3::UnitX();
   EXPECT_NEAR((right - Vector3(0, 0, -1)).norm(), 0.0, 1e-12) << right.transpose();
   EXPECT_NEAR((seen.orientation * Vector3::UnitY() - Vector3::UnitY()).norm(), 0.0, 1e-12);

@@ -27,7 +27,7 @@ inline base::Result<std::unique_ptr<DrivenDevice>> open_haply_at(const HaplySett
   return DrivenDevice::create(std::make_unique<HaplyDriver>(settings, id), driven);
 }
 
-/// A reading that has come and fulfils the condition, in time.
+/// Does the device give a reading that fulfils the condition, in time?
 inline bool haply_reads_soon(PointerDevice& device,
                              const std::function<bool(const PointerState&)>& condition) {
   PointerState state;

@@ -238,7 +238,7 @@ TEST(HaplyFailures, AnswersThatMakeNoSense) {
     const auto device = open_haply_at(settings);
     ASSERT_TRUE(device) << device.error().message;
     ASSERT_TRUE(haply_reads_soon(**device));
-    fake.aim(settings.middle + Vector3(0.05, 0, 0));  // what does not change is not told
+    fake.aim(settings.middle + Vector3(0.05, 0, 0));  // a place that does not change is not told
     fake.set_fault(fault);
     ASSERT_TRUE(haply_is_lost_soon(**device));
     EXPECT_TRUE(haply_tells_soon(**device, "nothing that makes sense")) << (*device)->condition();
@@ -342,7 +342,7 @@ TEST(HaplyDriver, EventsAreTold) {
   say("device-battery-low", "warning", R"({"device_family":"wireless_verse_grip","device_id":"8A21"})",
       "battery at 5 %");
   EXPECT_TRUE(haply_tells_soon(*device, "a VerseGrip: \"battery at 5 %\""));
-  // It says that it is disconnected, but the service still lists it.
+  // An event says that the device is disconnected, but the service still lists it.
   say("device-disconnected", "warning", ours, "");
   EXPECT_TRUE(haply_tells_soon(*device, "it is disconnected"));
   EXPECT_TRUE(haply_reads_soon(*device));

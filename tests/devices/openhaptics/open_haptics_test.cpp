@@ -60,7 +60,7 @@ TEST_P(OpenHaptics, KnownPosesInMetres) {
   FakeUnit::Sample pose;
   pose.position = {0.01, 0.02, -0.03};  // right, up, away from the user: 10, 20, -30 mm
   pose.velocity = {0.1, 0.2, 0.3};
-  // A quarter turn about what points to the user: right becomes up.
+  // A quarter turn about the axis that points to the user: right becomes up.
   pose.rotation = Eigen::AngleAxisd(M_PI / 2.0, Vector3::UnitZ()).toRotationMatrix();
   unit().pose(pose);
   unit().press(0b11);
@@ -286,7 +286,7 @@ TEST_P(OpenHaptics, TakesTheForceAwayWhenTheServoStandsStill) {
 
 TEST_P(OpenHaptics, StandsAMillionHostileReadings) {
   unit().set_up({.counted_period = 0.001});
-  fake_->scheduler_waits = GetParam() == Mode::Follows;  // who makes no frames does not hurry
+  fake_->scheduler_waits = GetParam() == Mode::Follows;  // a scheduler that makes no frames does not hurry
   const auto device = suite::patient(open_haptics_driver("", {.mode = GetParam(), .rate = 0.0}));
   ASSERT_TRUE(device);
   suite::stands_a_million_readings(*device, unit());
@@ -303,7 +303,7 @@ TEST_F(OpenHapticsFake, FollowingTakesNoMemory) {
   suite::exchanges_without_memory(*owned, unit());
 }
 
-/// Counts what the scheduler's thread takes, from one call to a later one.
+/// Counts the memory that the scheduler's thread takes and frees, from one call to a later one.
 struct SchedulerGuard {
   std::optional<realtime::RealtimeGuard> guard;
   std::atomic<int> calls = 0;

@@ -89,7 +89,7 @@ TEST(VrpnForces, APlaneUnderTheTipComesWithinItsRecoveryCycles) {
     last = force;
   }
   EXPECT_NEAR(felt.at(0.0).y(), 2.0, 1e-6);
-  // It moves 2 mm up: again within 10 cycles, from where it was.
+  // The plane moves 2 mm up: again within 10 cycles, from where it was.
   felt.set(floor_at(0.006, 0.5, 10));
   EXPECT_NEAR(felt.at(0.0).y(), 2.0, 1e-6);
   EXPECT_NEAR(felt.at(0.0).y(), 2.1, 1e-6);

@@ -47,7 +47,7 @@ TEST_F(VrpnSuite, ComesBack) { suite::comes_back(rig_); }
 TEST_F(VrpnSuite, IsWatched) { suite::is_watched(rig_); }
 TEST_F(VrpnSuite, StandsFaults) { suite::stands_faults(rig_); }
 
-/// Reads until the device has moved on to what is waited for.
+/// Reads until the newest state fulfils the condition; false when it never does.
 bool reads_soon(PointerDevice& device, const std::function<bool(const PointerState&)>& condition) {
   PointerState state;
   return holds_soon([&] { return device.read(state) == DeviceStatus::Ok && condition(state); });

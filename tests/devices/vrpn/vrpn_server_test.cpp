@@ -256,7 +256,7 @@ TEST_F(VrpnServing, GarbageAndFloodsDisturbNobody) {
   broken.greet();
   broken.say(std::string("\0\0\0\1", 4) + std::string(20, 'x'));
   EXPECT_TRUE(broken.is_closed());
-  // One that sends without end, and one that never reads.
+  // A client that sends without end, and one that never reads.
   std::atomic<bool> enough = false;
   std::thread flood([&] {
     PlainClient client(port_);

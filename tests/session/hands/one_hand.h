@@ -18,7 +18,7 @@ class OneHandTest : public ::testing::Test {
     settings.pointers.push_back(std::move(device));
     session_ = start(std::move(settings));
   }
-  /// Waits until what was added is felt, and finds where the view has put the stage.
+  /// Waits until added things are felt, and finds the place that the view has given the stage.
   void settle() {
     session_->settle();
     offset_ = stage_offset(*session_, start_);

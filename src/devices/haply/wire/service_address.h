@@ -16,7 +16,7 @@ struct ServiceAddress {
 /// "HOST:PORT", "HOST" or "[IPV6]:PORT"; without a port, it is `port`. The error is a sentence.
 base::Result<ServiceAddress> parse_service_address(std::string_view text, std::uint16_t port);
 
-/// As people write it: "localhost:10001", "[::1]:10001".
+/// The address as people write it: "localhost:10001", "[::1]:10001".
 std::string shown_address(const ServiceAddress& address);
 
 }  // namespace icome::devices

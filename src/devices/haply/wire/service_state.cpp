@@ -22,7 +22,7 @@ bool is_id_letter(char letter) {
          letter == '.' || letter == ':';
 }
 
-// Each reads a part of a message: true if it makes sense. Null stands for what is left out.
+// Each function reads a part of a message: true if it makes sense. Null stands for a part that is left out.
 
 /// Calls `read(key, value)` for each field, until one is false.
 template <typename Read>
@@ -57,7 +57,7 @@ bool read_quaternion(json::element from, Quaternion& to) {
   });
 }
 
-/// Anything but true, false and a number counts as not told.
+/// Reads true, false or a number; anything else counts as not told.
 void read_flag(json::element from, bool& to) {
   double number = 0.0;
   if (from.get(to) == simdjson::SUCCESS) return;
@@ -108,8 +108,8 @@ bool read_part(std::string_view key, json::element value, ServiceGrip& grip) {
   });
 }
 
-/// The device that an entry is of, a new one where its id is new; null for one that nothing names, or for
-/// which there is no room.
+/// The device of an entry, a new one where its id is new; null for an entry without an id whose place has
+/// none, and where there is no room.
 template <typename Listed>
 auto find_device(Listed& listed, std::size_t place, std::string_view id) -> decltype(&listed.devices[0]) {
   if (id.empty()) {

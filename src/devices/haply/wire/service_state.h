@@ -20,10 +20,10 @@ using base::Vector3;
 class ServiceDeviceId {
  public:
   static constexpr std::size_t kLongest = 40;
-  /// False, and unchanged, for a text that is no id. Real-time safe.
+  /// Sets the id; false, and unchanged, for a text that is no id. Real-time safe.
   bool set(std::string_view text);
   std::string_view text() const { return {letters_.data(), size_}; }
-  /// Is it this one, upper and lower case alike? Real-time safe.
+  /// Is the id this one, upper and lower case alike? Real-time safe.
   bool is(std::string_view text) const;
 
  private:
@@ -31,7 +31,7 @@ class ServiceDeviceId {
   std::size_t size_ = 0;
 };
 
-/// What the service has told of one Inverse3, in the service's axes.
+/// The state that the service has told of one Inverse3, in the service's axes.
 struct ServiceArm {
   ServiceDeviceId id;
   Vector3 position = Vector3::Zero();  // m
@@ -45,15 +45,15 @@ struct ServiceArm {
   bool has_position() const { return placed == 7; }
 };
 
-/// What the service has told of one VerseGrip, wired or wireless.
+/// The state that the service has told of one VerseGrip, wired or wireless.
 struct ServiceGrip {
   ServiceDeviceId id;
   Quaternion orientation = Quaternion::Identity();
   std::uint32_t buttons = 0;  // wireless: a, b, c; wired: button, hall
 };
 
-/// All that the service's messages have told since the connection began: what a message leaves out keeps its
-/// last value. Owns its memory, which it takes when it is made. One thread uses it.
+/// All that the service's messages have told since the connection began: parts that a message leaves out keep
+/// their last value. Owns its memory, which it takes when it is made. One thread uses it.
 class ServiceState {
  public:
   static constexpr std::size_t kMostArms = 4;
@@ -76,7 +76,7 @@ class ServiceState {
   std::uint64_t taken() const { return told_.messages; }
   std::uint64_t refused() const { return refused_; }
 
-  /// Devices of one kind. What names none is of the device that was last named in its place of the list.
+  /// Devices of one kind. An entry without an id is of the device last named in its place.
   template <typename Device, std::size_t kMost>
   struct Listed {
     std::array<Device, kMost> devices = {};
@@ -94,11 +94,11 @@ class ServiceState {
   class Reader;
   std::unique_ptr<Reader> reader_;
   Told told_;
-  Told next_;  // told_ and what a message adds to it
+  Told next_;  // told_ with the additions of a message
   std::uint64_t refused_ = 0;
 };
 
-/// What the service answers to GET /version.
+/// The service's answer to GET /version.
 struct ServiceVersion {
   std::string text;  // "3.5.0", for people; empty: it does not tell
   int major = 0;     // 0: not known
@@ -115,7 +115,7 @@ struct ServiceEvent {
   std::string device_id;
   std::string message;  // for people
 };
-/// Nothing for what is no event.
+/// The event of a message; nothing for a message that is none.
 std::optional<ServiceEvent> read_service_event(std::string_view message);
 
 }  // namespace icome::devices

@@ -56,7 +56,7 @@ class TimedSocket {
   }
   void shut() { ::shutdown(socket_, SHUT_RDWR); }
 
-  /// Empty, or what went wrong.
+  /// Connects. Returns the reason why not, a part of a sentence; empty when it is connected.
   std::string connect(const ServiceAddress& address) {
     addrinfo wanted = {};
     wanted.ai_socktype = SOCK_STREAM;
@@ -138,7 +138,7 @@ class TimedSocket {
     return 0;
   }
 
-  /// False when it is too late. Looks at the socket once more then: it may be this thread that stood still.
+  /// False once stopped or too late. Looks at the socket once more then, as this thread may have stood still.
   bool wait_for(short what) const {
     while (true) {
       const std::int64_t left = deadline_ - base::steady_nanoseconds();

@@ -17,7 +17,7 @@ class WebSocket {
  public:
   /// The longest message that is taken, bytes; a longer one ends the connection.
   static constexpr std::size_t kMostBytes = 256 * 1024;
-  /// So many bytes after a message may be read, whatever they hold.
+  /// Bytes after a message that may be read, whatever they hold.
   static constexpr std::size_t kPadding = 64;
 
   /// Connects and greets, which takes `patience` (s) at most, beside what the system needs to look up the
@@ -51,7 +51,7 @@ class WebSocket {
   std::unique_ptr<Connection> connection_;
 };
 
-/// What a service answers to GET, at most 64 KB of it, within `patience`, s. Errors as those of connect().
+/// A service's answer to GET, at most 64 KB of it, within `patience`, s. Errors as those of connect().
 base::Result<std::string> get_by_http(const ServiceAddress& address, const std::string& path,
                                       double patience);
 
