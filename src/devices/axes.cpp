@@ -7,21 +7,16 @@ namespace icome::devices {
 base::Result<base::Matrix3> rotation_from_axes(std::string_view axes) {
   base::Matrix3 rotation = base::Matrix3::Zero();
   int row = 0;
-  double sign = 1.0;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const char letter = axes[i];
-    const bool between = row > 0 && i + 1 < axes.size() && axes[i - 1] >= 'x' && axes[i - 1] <= 'z';
-    if (letter == ',' && between) continue;
-    if (letter == '+' || letter == '-') {
-      sign = letter == '-' ? -1.0 : 1.0;
-      continue;
-    }
-    if (letter < 'x' || letter > 'z' || row == 3) {
+  for (std::string_view rest = axes; !rest.empty(); ++row) {
+    if (row > 0 && rest.front() == ',') rest.remove_prefix(1);
+    const bool against = rest.starts_with('-');
+    if (against || rest.starts_with('+')) rest.remove_prefix(1);
+    if (row == 3 || rest.empty() || rest.front() < 'x' || rest.front() > 'z') {
       row = 0;
       break;
     }
-    rotation(row++, letter - 'x') = sign;
-    sign = 1.0;
+    rotation(row, rest.front() - 'x') = against ? -1.0 : 1.0;
+    rest.remove_prefix(1);
   }
   const double volume = row == 3 ? rotation.determinant() : 0.0;
   if (volume > 0.5) return rotation;

@@ -90,7 +90,7 @@ base::Result<std::unique_ptr<PointerDevice>> open_raw(std::string_view name) {
 
 bool changes_nothing(const DeviceMapping& mapping) {
   return mapping.centre.isZero(0.0) && mapping.ours_from_device.coeffs() == Quaternion::Identity().coeffs() &&
-         mapping.scale == 1.0 && mapping.workspace_radius == 0.0 && mapping.max_force == 0.0 &&
+         mapping.scale.value_or(1.0) == 1.0 && mapping.workspace_radius == 0.0 && mapping.max_force == 0.0 &&
          mapping.clutch_button < 0;
 }
 
@@ -117,7 +117,9 @@ base::Result<std::unique_ptr<NavigationDevice>> open_navigation(std::string_view
   if (name.substr(0, name.find(':')) != kGamepadBackEnd.prefix)
     return base::fail(
         fmt::format("{}: a device that moves the view is gamepad, gamepad:WHICH or spacemouse", name));
-  auto gamepad = GamepadNavigation::create(linux_inputs(), std::string(address_of(name)));
+  const auto settings = gamepad_settings_from_environment();
+  if (!settings) return tl::unexpected(settings.error());
+  auto gamepad = GamepadNavigation::create(linux_inputs(), std::string(address_of(name)), *settings);
   if (!gamepad) return tl::unexpected(gamepad.error());
   return std::move(*gamepad);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "devices/pointer_device.h"
@@ -11,17 +12,17 @@ namespace icome::devices {
 struct DeviceMapping {
   Vector3 centre = Vector3::Zero();  // m, in the device's frame: the middle of our workspace
   Quaternion ours_from_device = Quaternion::Identity();  // turns the device's axes into ours
-  double scale = 1.0;             // m that the tip moves for each m of the hand, 0.01 to 100
+  std::optional<double> scale{};  // m that the tip moves for each m of the hand, 0.01 to 100; none: 1
   double workspace_radius = 0.0;  // m, in the device's frame; 0: the device's own
   double max_force = 0.0;         // N, if lower than the device's own; 0: that
   int clutch_button = -1;         // while it is down the tip stays; -1: none
 };
 
 /// A device as it is felt through a mapping: its tip moves `scale` times as far as the hand, and its forces
-/// are the device's own. The wall that the hand feels is then `scale` times as stiff as the wall is, so its
-/// abilities count for the tip: a mass 1/scale times and a stiffness 1/scale times the device's. While
-/// the clutch is held the tip is laid aside and the hand is free; let go of, the tip goes on from where it
-/// was. Owns the device; the threads are those of PointerDevice.
+/// are the device's own, and never above the mapping's. The wall that the hand feels is then `scale` times as
+/// stiff as the wall is, so its abilities count for the tip: a mass 1/scale times and a stiffness 1/scale
+/// times the device's. While the clutch is held the tip is laid aside and the hand is free; let go of, the
+/// tip goes on from where it was. Owns the device; the threads are those of PointerDevice.
 class MappedDevice final : public PointerDevice {
  public:
   MappedDevice(std::unique_ptr<PointerDevice> device, const DeviceMapping& mapping);
@@ -34,6 +35,7 @@ class MappedDevice final : public PointerDevice {
  private:
   std::unique_ptr<PointerDevice> device_;
   DeviceMapping mapping_;
+  double scale_;
   DeviceInfo info_;
   bool clutched_ = false;
   Vector3 shift_ = Vector3::Zero();  // m, ours: the shift by the clutch

@@ -116,7 +116,8 @@ std::string mapping_text(const DeviceMapping& mapping, const std::string& made_b
       mapping.centre.x(), mapping.centre.y(), mapping.centre.z());
   text += fmt::format("axes = \"{}\"  # the device's axes that point right, up and to the user\n",
                       axes_text(mapping.ours_from_device.toRotationMatrix()));
-  text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", mapping.scale);
+  if (mapping.scale)
+    text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", *mapping.scale);
   if (mapping.workspace_radius > 0.0)
     text += fmt::format("workspace_radius_m = {:.6g}\n", mapping.workspace_radius);
   if (mapping.max_force > 0.0) text += fmt::format("max_force_n = {:.6g}\n", mapping.max_force);

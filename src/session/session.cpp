@@ -156,7 +156,8 @@ void SessionParts::tell_of_loss(std::size_t pointer) {
           ? fmt::format("The device \"{}\" does not answer: see that it is plugged in and switched on. It is "
                         "used again as soon as it answers.",
                         name)
-          : fmt::format("The device \"{}\" is lost: {} It is used again as soon as it answers.", name, why));
+          : fmt::format("The device \"{}\" is lost: {}{} It is used again as soon as it answers.", name, why,
+                        why.ends_with('.') ? "" : "."));
 }
 
 /// Tells people a device's condition, such as that its motors are hot, when it changes.

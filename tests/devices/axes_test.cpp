@@ -23,8 +23,8 @@ TEST(DeviceAxes, ThatMirrorOrAreNoThreeAreRefused) {
     ASSERT_FALSE(rotation) << text;
     EXPECT_NE(rotation.error().message.find("mirror left and right"), std::string::npos);
   }
-  for (const char* text :
-       {"", "xy", "xxz", "xyzx", "abc", "x y z", "-", "x,y", ",x,y,z", "x,,y,z", "x,y,z,"}) {
+  for (const char* text : {"", "xy", "xxz", "xyzx", "abc", "x y z", "-", "x,y", ",x,y,z", "x,,y,z", "x,y,z,",
+                           "xyz-", "--xyz", "x+-yz", "xyz,"}) {
     const auto rotation = rotation_from_axes(text);
     ASSERT_FALSE(rotation) << text;
     EXPECT_NE(rotation.error().message.find("three axes"), std::string::npos) << text;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <limits>
 #include <numbers>
 
 namespace icome::devices {
@@ -91,6 +92,18 @@ TEST_F(MappedDeviceTest, ItsAbilitiesAreThoseOfTheTip) {
   EXPECT_DOUBLE_EQ(mapped_->info().effective_mass, 0.05);
   map({.max_force = 100.0});
   EXPECT_DOUBLE_EQ(mapped_->info().max_force, 4.0) << "no profile makes a device stronger";
+}
+
+TEST_F(MappedDeviceTest, NeverGivesMoreThanTheMappingSays) {
+  map({.max_force = 1.5});
+  mapped_->write({0.0, 3.0, -4.0});
+  EXPECT_TRUE(told_->force.isApprox(Vector3(0.0, 0.9, -1.2)));
+  mapped_->write({0.5, 0.0, 0.0});
+  EXPECT_EQ(told_->force, Vector3(0.5, 0.0, 0.0));
+  mapped_->write({std::numeric_limits<double>::quiet_NaN(), 1.0, 0.0});
+  EXPECT_EQ(told_->force, Vector3::Zero());
+  mapped_->write({1e200, 1e200, 0.0});
+  EXPECT_LE(told_->force.norm(), 1.5);
 }
 
 TEST_F(MappedDeviceTest, AClutchLeavesTheTipWhereItIs) {

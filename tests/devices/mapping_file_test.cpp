@@ -31,7 +31,7 @@ TEST(MappingFile, WhatIsLeftOutChangesNothing) {
   const auto read = parse_mapping("", "device.toml");
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->centre.isZero());
-  EXPECT_EQ(read->scale, 1.0);
+  EXPECT_EQ(read->scale, std::nullopt);
   EXPECT_EQ(read->clutch_button, -1);
 }
 
@@ -65,7 +65,7 @@ TEST(MappingFile, IsWrittenAndReadByAddress) {
   std::filesystem::remove_all(folder);
   ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
   const auto none = read_mapping("hd");
-  EXPECT_TRUE(none && none->scale == 1.0);
+  EXPECT_TRUE(none && !none->scale);
   ASSERT_TRUE(write_mapping("hd", {.scale = 2.0}, "test"));
   const auto read = read_mapping("hd");
   EXPECT_TRUE(read && read->scale == 2.0);

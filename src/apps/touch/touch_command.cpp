@@ -87,10 +87,9 @@ base::Result<std::unique_ptr<devices::PointerDevice>> open_hand(const std::vecto
   auto mapping = devices::read_mapping(options.device);
   if (!mapping) return tl::unexpected(mapping.error());
   if (options.hand_scale) mapping->scale = *options.hand_scale;
-  if (options.hand_scale || mapping->scale != 1.0) return devices::open_device(options.device, *mapping);
   auto device = devices::open_device(options.device, *mapping);
   const auto radius = radius_of(models);
-  if (!device || !radius || (*device)->info().workspace_radius <= 0.0) return device;
+  if (!device || mapping->scale || !radius || (*device)->info().workspace_radius <= 0.0) return device;
   devices::DeviceMapping fit;
   fit.scale = std::clamp(kRoom * *radius / (*device)->info().workspace_radius, 0.01, 100.0);
   return std::make_unique<devices::MappedDevice>(std::move(*device), fit);

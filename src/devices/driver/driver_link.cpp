@@ -33,6 +33,8 @@ DeviceStatus DriverLink::read(PointerState& state) {
   if (!connected()) return DeviceStatus::Lost;
   if (!readings_.update()) return DeviceStatus::Stalled;
   const Reading& newest = readings_.read();
+  // A servo that did not look while the device was away finds the last reading of before.
+  if (newest.connection != connection_.load(std::memory_order_acquire)) return DeviceStatus::Stalled;
   state = newest.state;
   // A jump counts although its own reading may have been replaced by newer ones.
   state.jumped = state.jumped || newest.jumps != jumps_seen_;
@@ -51,15 +53,18 @@ void DriverLink::connect(const DeviceInfo& info) {
   odd_readings_ = 0;
   jump_told_ = false;
   ramp_ = 0.0;
+  force_time_ = 0;
   stopped_ = true;
   ++jumps_;
   tell({});
+  connection_.fetch_add(1, std::memory_order_release);
   connected_.store(true, std::memory_order_release);
 }
 
 void DriverLink::disconnect(const std::string& why) {
-  connected_.store(false, std::memory_order_release);
+  // Told first, so that whoever sees that it is lost also finds why.
   tell(why);
+  connected_.store(false, std::memory_order_release);
 }
 
 bool DriverLink::makes_sense(const PointerState& reading) {
@@ -96,6 +101,8 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
     odd_readings_ = 0;
     jump_told_ = false;
     ++jumps_;
+    // The force that is asked for still belongs to the place before.
+    ramp_ = 0.0;
   }
   last_ = reading;
   last_time_ = now;
@@ -109,6 +116,7 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
   const double speed = reading.velocity.norm();
   if (speed > kFastest) next.state.velocity *= kFastest / speed;
   next.jumps = jumps_;
+  next.connection = connection_.load(std::memory_order_relaxed);
   readings_.publish();
   count(passed_);
 }
@@ -116,7 +124,7 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
 Vector3 DriverLink::force(std::int64_t now) {
   asked_.update();
   const Asked& asked = asked_.read();
-  const double seconds = static_cast<double>(now - force_time_) * 1e-9;
+  const double seconds = force_time_ == 0 ? 0.0 : static_cast<double>(now - force_time_) * 1e-9;
   force_time_ = now;
   if (asked.time == 0 || now - asked.time > kWatchdog) {
     if (!stopped_) count(watchdog_stops_);

@@ -38,13 +38,14 @@ class DriverLink {
   DeviceStatus write(const Vector3& force, std::int64_t now);
 
   // The driver.
-  /// Connects a device: its limits count where they are lower, and forces begin at none.
+  /// Connects a device: its limits count where they are lower, and forces begin at none. Readings of the
+  /// connection before are no longer read.
   void connect(const DeviceInfo& info);
   /// Takes the device away: the servo reads Lost, and people are told why.
   void disconnect(const std::string& why);
   /// Passes a reading on, or refuses it (see LinkCounts). `now`: the time at which it was taken. A reading at
   /// another place than a hand can have moved to is refused while it may be a spike; if it lasts, it counts
-  /// as jumped. The velocity is the device's own. Real-time safe.
+  /// as jumped, and forces grow from none again. The velocity is the device's own. Real-time safe.
   void pass(const PointerState& reading, std::int64_t now);
   /// The force to send now, N, device frame. Real-time safe.
   Vector3 force(std::int64_t now);
@@ -59,7 +60,8 @@ class DriverLink {
  private:
   struct Reading {
     PointerState state;
-    std::uint64_t jumps = 0;  // so far
+    std::uint64_t jumps = 0;       // so far
+    std::uint64_t connection = 0;  // the number of the connection that it is of
   };
   struct Asked {
     Vector3 force = Vector3::Zero();  // N
@@ -74,6 +76,7 @@ class DriverLink {
   realtime::LatestValue<Reading> readings_;
   realtime::LatestValue<Asked> asked_;
   std::atomic<bool> connected_ = false;
+  std::atomic<std::uint64_t> connection_ = 0;  // the number of the newest connection
 
   std::uint64_t jumps_seen_ = 0;  // the servo's
 
@@ -86,7 +89,7 @@ class DriverLink {
   bool jump_told_ = false;      // the driver told a jump in a reading that was refused
   std::uint64_t jumps_ = 0;
   double ramp_ = 0.0;            // 0 to 1
-  std::int64_t force_time_ = 0;  // ns, of the last force()
+  std::int64_t force_time_ = 0;  // ns, of the last force(); 0: none since it was connected
   bool stopped_ = true;          // forces were taken away
 
   std::atomic<std::uint64_t> passed_ = 0;

@@ -179,12 +179,16 @@ double time_of_way(const std::vector<ProbedTick>& ticks, const Push& push, doubl
   const auto share_gone = [&](const ProbedTick& tick) {
     return (tick.position.y() - push.from - push.speed * (tick.t - begin)) / way;
   };
+  std::size_t last = push.start;
   for (std::size_t i = push.start + 1; i < ticks.size() && ticks[i].t < begin + kPushSeconds + 0.1; ++i) {
+    if (!ticks[i].fresh) continue;  // its place is that of an earlier time
     const double gone = share_gone(ticks[i]);
-    if (gone < 1.0) continue;
-    const double before = share_gone(ticks[i - 1]);
-    const double share = gone > before ? std::clamp((1.0 - before) / (gone - before), 0.0, 1.0) : 1.0;
-    return std::lerp(ticks[i - 1].t, ticks[i].t, share);
+    const double before = share_gone(ticks[last]);
+    if (gone >= 1.0) {
+      const double share = gone > before ? std::clamp((1.0 - before) / (gone - before), 0.0, 1.0) : 1.0;
+      return std::lerp(ticks[last].t, ticks[i].t, share);
+    }
+    last = i;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -152,6 +152,40 @@ TEST_F(DriverLinkTest, ForcesGrowFromNone) {
   EXPECT_EQ(force_after(400, asked), asked);
 }
 
+TEST_F(DriverLinkTest, TheFirstForceIsNone) {
+  link.write({0, 3, 0}, now);
+  EXPECT_EQ(link.force(now), Vector3::Zero());
+  EXPECT_EQ(force_after(400, {0, 3, 0}), Vector3(0, 3, 0));
+  link.connect(touch_like());
+  link.write({0, 3, 0}, now += kMillisecond);
+  EXPECT_EQ(link.force(now), Vector3::Zero()) << "the ramp begins when the device is back";
+}
+
+TEST_F(DriverLinkTest, ForcesGrowFromNoneAfterAJumpThatLasts) {
+  const Vector3 asked(0, 2, 0);
+  ASSERT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
+  ASSERT_EQ(force_after(400, asked), asked);
+  ASSERT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
+  // A spike changes nothing.
+  ASSERT_EQ(passed(reading_at(0.1)), DeviceStatus::Stalled);
+  EXPECT_EQ(force_after(1, asked), asked);
+  ASSERT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(passed(reading_at(0.1)), DeviceStatus::Stalled);
+  ASSERT_EQ(passed(reading_at(0.1)), DeviceStatus::Ok);
+  EXPECT_LT(force_after(1, asked).norm(), 0.1) << "a blow at the new place";
+  EXPECT_EQ(force_after(400, asked), asked);
+}
+
+TEST_F(DriverLinkTest, ReadsNothingOfTheConnectionBefore) {
+  link.pass(reading_at(0.03), now += kMillisecond);
+  // The servo does not look meanwhile.
+  link.disconnect("It was unplugged.");
+  link.connect(touch_like());
+  EXPECT_EQ(link.read(state), DeviceStatus::Stalled);
+  EXPECT_EQ(passed(reading_at(0.01)), DeviceStatus::Ok);
+  EXPECT_EQ(state.position.x(), 0.01);
+}
+
 TEST_F(DriverLinkTest, NeverGivesMoreThanTheDeviceCan) {
   EXPECT_NEAR(force_after(400, {0, 0, 100}).norm(), 3.0, 1e-12);
   EXPECT_EQ(force_after(1, {0, kNoNumber, 0}), Vector3::Zero());
