@@ -301,16 +301,7 @@ void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
   app.add_option("--theme", options.theme, kThemeHelp)
       ->type_name("dark|light")
       ->check(CLI::IsMember({"dark", "light"}));
-  app.add_option(
-         "--device", options.devices,
-         "A device to touch with, as icome devices lists it; may be given several times (default: the mouse)")
-      ->type_name("NAME");
-  app.add_option("--head", options.head, "A tracker on the user's head, such as vrpn:Tracker0@localhost")
-      ->type_name("NAME");
-  app.add_option(
-         "--navigation", options.navigation,
-         "What moves the view: gamepad, or another one that icome devices lists (default: a 3D mouse)")
-      ->type_name("NAME");
+  add_device_options(app, options.devices);
 }
 
 base::Result<ShotOptions> understood_shot(const Entries& entries) {
@@ -386,10 +377,10 @@ CommandLine bad_usage(const std::string& sentence, const std::string& help) {
 base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptions& options,
                                                        const CLI::App& app) {
   if (app.get_subcommands().empty()) return options;
-  if (!options.head.empty() || !options.navigation.empty())
-    return base::fail("--head and --navigation are for the window, and no command opens it.");
-  if (!options.devices.empty())
-    return base::fail("--device before a command is for the window; it comes after touch.");
+  if (!options.devices.is_default())
+    return base::fail(
+        "--device, --head and --navigation before a command are for the window; they come after study run, "
+        "and --device after touch.");
   if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");
   if (!options.design.empty())
     return base::fail(

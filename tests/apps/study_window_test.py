@@ -207,6 +207,19 @@ class StudyWindowTest(DesktopTest):
         self.assertEqual([row.split("\t")[2] for row in self.rows("events")], ["session", "declined"])
         self.assertIn("did not agree", desktop.printed())
 
+    def test_the_device_that_touches_is_noted_with_the_data(self):
+        desktop = self.run_study("--device", "Novint Falcon")
+        desktop.key("shift+Tab", "Return", "Return")
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
+        kind, _, name = self.rows("events")[0].split("\t")[2:5]
+        self.assertEqual((kind, name), ("session", "Novint Falcon"))
+
+    def test_without_its_device_nobody_takes_part(self):
+        desktop = self.start("study", "run", self.study, "--device", "nonesuch")
+        self.assertEqual(desktop.wait_end(), 1, desktop.printed())
+        self.assertIn("--device", desktop.printed())
+        self.assertFalse((self.folder / "tiny-data").exists())
+
     def test_a_scene_that_is_gone_is_told_and_tried_again(self):
         desktop = self.run_study()
         self.answer(desktop)

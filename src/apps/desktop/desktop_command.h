@@ -2,15 +2,11 @@
 #include <string>
 
 #include "apps/desktop/desktop_options.h"
-#include "session/session.h"
 
 namespace icome::apps {
 
 /// Could the word be meant as a design's file, rather than as a command that does not exist?
 bool is_design_name(const std::string& word);
-
-/// The settings of a session with the devices that there are.
-session::SessionSettings desktop_settings();
 
 /// Opens the desktop window, and gives the process's exit code when it is closed.
 int run_desktop_window(int argc, char** argv, const DesktopCommandOptions& options);

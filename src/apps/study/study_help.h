@@ -22,6 +22,7 @@ constexpr const char* kStudyExamples =
     "  icome study check menus.toml                what it means, how many people, what is missing\n"
     "  icome study run pointing.toml --simulate 16 simulated people, to see what the data will be\n"
     "  icome study run pointing.toml --with age=31 the next person, in a window over the whole screen\n"
+    "  icome study run pointing.toml --with age=31 --device haply  likewise, with a force-feedback device\n"
     "  icome study resume pointing.toml            the person whose session was interrupted goes on\n"
     "  icome study report pointing-data            tables, figures and tests as a page\n"
     "\n"

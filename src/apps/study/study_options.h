@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/desktop/device_choice.h"
 #include "apps/study/study_report_command.h"
 
 namespace icome::apps {
@@ -19,6 +20,7 @@ struct StudyOptions {
   std::optional<std::string> participant;  // none: the next number; for resume the only one to go on
   std::string language;                    // empty: the study's first
   std::vector<std::string> with;           // "age=31": control variables
+  DeviceChoice devices;
   std::size_t simulate = 0;                // people; 0: a real one
   bool pointer_alone = false;
   bool in_window = false;  // not over the whole screen

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/design/design_work.h"
-#include "apps/desktop/desktop_command.h"
+#include "apps/desktop/device_choice.h"
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
 #include "base/parse_number.h"
@@ -225,7 +225,7 @@ study::SessionRun::Clock clock_of(const study::Progress& progress) {
 }
 
 base::Result<study::SessionRun> begin_session(const StudyOptions& options, const OpenedStudy& opened,
-                                              study::DataFolder& data) {
+                                              study::DataFolder& data, const std::string& devices) {
   const auto language = language_of(opened.study, options.language);
   if (!language) return tl::unexpected(language.error());
   base::Result<study::Participant> person = base::fail("");
@@ -241,7 +241,8 @@ base::Result<study::SessionRun> begin_session(const StudyOptions& options, const
   if (!log) return tl::unexpected(log.error());
   for (const std::string& notice : log->notices()) tell(notice);
   auto clock = clock_of(log->progress());
-  return study::SessionRun::begin(opened.study, std::move(*log), std::move(clock), text_of(now()));
+  return study::SessionRun::begin(opened.study, std::move(*log), std::move(clock),
+                                  {.time = text_of(now()), .devices = devices});
 }
 
 /// Tells how the person's session ended, and what comes next.
@@ -271,8 +272,17 @@ void tell_of_forces(const study::Study& study) {
   });
   if (varied)
     tell(
-        "there is no force-feedback device: the mouse or a pen drives a simulated hand, which forces "
+        "no force-feedback device was chosen (--device): the mouse or a pen drives a simulated hand, which "
+        "forces "
         "push, and which nobody feels. Do not take such data for a study of force feedback.");
+}
+
+/// The devices of a session, as they name themselves: what the person's data were taken with.
+std::string names_of(const session::SessionSettings& settings) {
+  std::string names;
+  const auto add = [&names](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const auto& pointer : settings.pointers) add(pointer->info().name);
+  return names.empty() ? "mouse" : names;
 }
 
 /// Fails for resume where there are no data yet.
@@ -287,20 +297,21 @@ int run_person(int argc, char** argv, const StudyOptions& options, const OpenedS
   StatusLine status;
   if (const auto begun = check_begun(options); !begun) return end_without_result(begun.error(), status);
   catch_interrupts();
-  session::SessionSettings settings = desktop_settings();
-  const bool has_device = !settings.pointers.empty();
+  auto settings = session_settings(options.devices);
+  if (!settings) return end_without_result(settings.error(), status);
+  const std::string devices = names_of(*settings);
   ui::StudyWindowOptions window;
   window.full_screen = !options.in_window;
   window.interrupted = [] { return interrupted(); };
   std::string id;
   std::optional<study::DataFolder> data;  // opened once there is a display, without which nothing begins
-  const int code = ui::run_study_window(argc, argv, window, opened.folder, std::move(settings), [&] {
+  const int code = ui::run_study_window(argc, argv, window, opened.folder, std::move(*settings), [&] {
     auto folder = open_data(options, opened);
     if (!folder) return base::Result<study::SessionRun>(tl::unexpected(folder.error()));
     data.emplace(std::move(*folder));
-    auto run = begin_session(options, opened, *data);
+    auto run = begin_session(options, opened, *data, devices);
     if (run) id = run->participant().id;
-    if (run && !has_device) tell_of_forces(opened.study);
+    if (run && options.devices.pointers.empty()) tell_of_forces(opened.study);
     return run;
   });
   if (!id.empty()) tell_end(options, *data, id, code == 0);

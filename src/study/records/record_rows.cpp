@@ -189,8 +189,8 @@ Columns trial_columns(const StudyFolder& folder) {
 
 Columns event_columns(const StudyFolder& folder) {
   const std::vector<ColumnLevel> kinds = {
-      {"session", "The session began; value: the date and time."},
-      {"resumed", "It went on after an interruption; value: the date and time."},
+      {"session", "The session began; name: the devices that touch; value: the date and time."},
+      {"resumed", "It went on after an interruption; name and value likewise."},
       {"page", "A page was read; name: which."},
       {"answer", "A question was answered; name: questionnaire.question; value: the answer."},
       {"unpractised", "Practice ended without its criterion being met."},

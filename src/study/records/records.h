@@ -26,8 +26,8 @@ struct TrialRecord {
 };
 
 enum class EventKind : std::uint8_t {
-  Session,  // began; value: the date and time, ISO 8601
-  Resumed,  // after an interruption; value: the date and time
+  Session,  // began; value: the date and time, ISO 8601; name: the devices it is done with
+  Resumed,  // after an interruption; value and name likewise
   Page,     // was read; name: see PageKind
   Answer,   // name: "questionnaire.question"; value: level ids (comma between several), number, points, text
   Unpractised,  // the criterion was not met after all attempts

@@ -87,7 +87,7 @@ SessionRun::SessionRun(const Study& study, SessionLog log, Clock clock)
       clock_([clock = std::move(clock)] { return in_ticks(clock()); }) {}
 
 base::Result<SessionRun> SessionRun::begin(const Study& study, SessionLog log, Clock clock,
-                                           const std::string& now) {
+                                           const Occasion& occasion) {
   SessionRun run(study, std::move(log), std::move(clock));
   run.step_began_ = run.clock_();
   if (has_event(run.progress(), EventKind::Declined))
@@ -97,7 +97,8 @@ base::Result<SessionRun> SessionRun::begin(const Study& study, SessionLog log, C
   if (!has_ended(run.progress())) {
     EventRecord event;
     event.kind = fresh ? EventKind::Session : EventKind::Resumed;
-    event.value = now;
+    event.name = occasion.devices;
+    event.value = occasion.time;
     if (const auto added = run.add(std::move(event)); !added) return tl::unexpected(added.error());
   }
   if (const auto gone_on = run.go_on(); !gone_on) return tl::unexpected(gone_on.error());

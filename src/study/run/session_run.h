@@ -16,15 +16,21 @@ struct PageText {
 };
 PageText page_text(const Study& study, const Participant& participant, const Step& step);
 
+/// When and with what a session begins or goes on.
+struct Occasion {
+  std::string time;     // the date and time, ISO 8601
+  std::string devices;  // "mouse", or the names of the devices that touch: "Touch, Haply Inverse3"
+};
+
 /// One person's session: the next step, and the record of those that were done, which is on disk before the
 /// next one begins. The study must outlive it.
 class SessionRun {
  public:
   /// Seconds since the person's session began, by any clock.
   using Clock = std::function<double()>;
-  /// Begins the session or goes on with it; `now` is the date and time, ISO 8601. Fails as SessionLog::add().
+  /// Begins the session or goes on with it. Fails as SessionLog::add().
   static base::Result<SessionRun> begin(const Study& study, SessionLog log, Clock clock,
-                                        const std::string& now);
+                                        const Occasion& occasion);
 
   const Study& study() const { return *study_; }
   const Participant& participant() const { return log_.participant(); }

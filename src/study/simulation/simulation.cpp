@@ -31,8 +31,7 @@ class SimulatedSession {
   base::Result<bool> go(SessionLog log) {
     const SimulatedPerson person(study_, log.participant().number);
     time_ = time_so_far(log.progress());
-    auto run = SessionRun::begin(
-        study_, std::move(log), [this] { return time_; }, kBegan);
+    auto run = SessionRun::begin(study_, std::move(log), [this] { return time_; }, {kBegan, "simulated"});
     if (!run) return tl::unexpected(run.error());
     while (run->step().kind != Step::Kind::Over) {
       if (!tell_(run->share())) return false;

@@ -23,16 +23,15 @@ class SmallSession {
   /// As another program would, after the one before has ended.
   void begin(const std::string& now) {
     run_.reset();
-    auto run = SessionRun::begin(
-        study_, log_of(*data_, person_), [this] { return time; }, now);
+    auto run = SessionRun::begin(study_, log_of(*data_, person_), [this] { return time; }, {now, "Touch"});
     ASSERT_TRUE(run) << run.error().message;
     run_ = std::make_unique<SessionRun>(std::move(*run));
   }
 
   std::string begin_error() {
     run_.reset();
-    const auto run = SessionRun::begin(
-        study_, log_of(*data_, person_), [this] { return time; }, "now");
+    const auto run =
+        SessionRun::begin(study_, log_of(*data_, person_), [this] { return time; }, {"now", "mouse"});
     return run ? "begun" : run.error().message;
   }
 
@@ -79,6 +78,7 @@ TEST(SessionRun, GoesToTheEndAndSaysSo) {
   EXPECT_EQ(session.run().share(), 1.0);
   EXPECT_EQ(session.count(EventKind::Session), 1U);
   EXPECT_EQ(session.count(EventKind::Over), 1U);
+  EXPECT_EQ(session.run().progress().events.front().name, "Touch") << "the device it was done with";
   EXPECT_EQ(session.run().progress().trials.size(), 2U * (2U + 2U * 3U));  // practice; scenes
 }
 

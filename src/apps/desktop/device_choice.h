@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "session/session.h"
+
+namespace CLI {
+class App;
+}
+
+namespace icome::apps {
+
+/// The devices that a command line chooses for a window.
+struct DeviceChoice {
+  std::vector<std::string> pointers;  // addresses; none: the mouse is the hand
+  std::string head;                   // address of a tracker on the user's head; empty: none
+  std::string navigation;  // address of a device that moves the view; empty: a 3D mouse, once there is one
+
+  bool is_default() const { return pointers.empty() && head.empty() && navigation.empty(); }
+};
+
+/// Adds the options --device, --head and --navigation.
+void add_device_options(CLI::App& app, DeviceChoice& choice);
+
+/// The settings of a session with these devices, which are opened; that may take seconds. A 3D mouse may be
+/// plugged in at any time. The error names the option and says what is missing.
+base::Result<session::SessionSettings> session_settings(const DeviceChoice& choice);
+
+}  // namespace icome::apps
