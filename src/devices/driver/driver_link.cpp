@@ -96,6 +96,7 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
     odd_readings_ = 0;
     jump_told_ = false;
     ++jumps_;
+    ramp_ = 0.0;  // a hand that is somewhere else is not met by the full force there
   }
   last_ = reading;
   last_time_ = now;
