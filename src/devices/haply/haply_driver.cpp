@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kNonsenseShown = 5'000'000'000;  // ns
 constexpr std::int64_t kEventShown = 30'000'000'000;    // ns
-constexpr std::int64_t kTooOld = 3600'000'000'000;       // ns, age of no force that is still given
+constexpr std::int64_t kTooOld = 3600'000'000'000;      // ns, age of no force that is still given
 
 HaplySettings bounded_settings(HaplySettings settings) {
   settings.rate = std::clamp(settings.rate, 250.0, 8000.0);
