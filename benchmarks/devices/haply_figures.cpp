@@ -34,7 +34,8 @@ std::vector<std::int32_t> direct_haply(const devices::HaplySettings& settings, c
     devices::Pace pace(settings.rate);
     while (!stop) {
       const double x = (*service)->arm().position.x() - settings.middle.x();
-      if ((*service)->exchange({answer_to(x), 0.0, 0.0}) == devices::InverseService::Answer::Lost) return;
+      const auto force = [x] { return devices::Vector3(answer_to(x), 0.0, 0.0); };
+      if ((*service)->exchange(force) == devices::InverseService::Answer::Lost) return;
       pace.wait();
     }
   });

@@ -11,9 +11,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "base/clock.h"
+#include "devices/driver/driven_device.h"
 #include "devices/fakes/fake_arm.h"
 #include "devices/pointer_device.h"
 #include "haptics/contact/haptic_scene.h"
@@ -34,6 +38,15 @@ struct Rig {
   std::function<double()> given;              // J, the motors' work so far
   std::function<void(bool)> plug;             // unplugged and plugged in again
   std::function<void(fakes::ArmFault)> fail;  // faults of readings
+  // Marks of the forces that the motors were told since watch(). Both may be empty.
+  std::function<void()> watch;
+  std::function<fakes::ForceTrace::Marks()> marks;
+
+  /// Times that the watchdog took the forces away.
+  std::uint64_t watchdog_stops() const {
+    const auto* driven = dynamic_cast<const DrivenDevice*>(device.get());
+    return driven != nullptr ? driven->counts().watchdog_stops : 0;
+  }
 };
 
 constexpr auto kPatience = std::chrono::seconds(30);
@@ -87,6 +100,7 @@ class Touching {
     realtime::sleep_until(std::max(last_ + kPeriod, base::steady_nanoseconds()));
     const std::int64_t now = base::steady_nanoseconds();
     const double dt = last_ == 0 ? 1e-9 * kPeriod : 1e-9 * double(now - last_);
+    longest_ = std::max(longest_, last_ == 0 ? 0 : now - last_);
     last_ = now;
     const Vector3 before = servo_.last().force;
     const haptics::TickReport& report = servo_.tick(dt);
@@ -101,6 +115,8 @@ class Touching {
 
   /// The fastest growth of the force so far, N/s.
   double fastest() const { return fastest_; }
+  /// The longest time from one tick to the next since the last call, ns.
+  std::int64_t take_longest() { return std::exchange(longest_, 0); }
 
  private:
   static constexpr std::int64_t kPeriod = 1'000'000;  // ns
@@ -123,7 +139,8 @@ class Touching {
   Undelayed undelayed_;
   Rig& rig_;
   haptics::Servo servo_;
-  std::int64_t last_ = 0;  // ns, of the last tick; 0 before the first
+  std::int64_t last_ = 0;     // ns, of the last tick; 0 before the first
+  std::int64_t longest_ = 0;  // ns
   double fastest_ = 0.0;
 };
 
@@ -142,31 +159,53 @@ inline void feels_the_floor(Rig& rig) {
   EXPECT_LE(touching.fastest(), 2000.0 * (1.0 + 1e-6));
 }
 
-/// The work, J, of the motors while a hand goes into the floor and out again.
-inline double work_of_a_press(Rig& rig, Touching& touching) {
+/// The work, J, of the motors while a hand goes into the floor and out again; nothing where the machine stood
+/// still meanwhile: then motors hold an old force, or the watchdog takes it away and with it the energy that
+/// the spring holds.
+inline std::optional<double> work_of_a_press(Rig& rig, Touching& touching) {
+  constexpr std::int64_t kStandsStill = 4'000'000;  // ns
   rig.aim({0, 0, 0});
   EXPECT_TRUE(touching.until([](const auto& report) { return report.tip.y() > 0.3 * Touching::kFloor; }));
   touching.ticks(100);
   const double before = rig.given();
+  const std::uint64_t stops = rig.watchdog_stops();
+  if (rig.watch) rig.watch();
+  touching.take_longest();
   rig.aim({0, Touching::kFloor - 0.008, 0});
   EXPECT_TRUE(touching.until([](const auto& report) { return report.force.y() > 0.5; }));
   touching.ticks(100);
   rig.aim({0, 0, 0});
   EXPECT_TRUE(touching.until([](const auto& report) { return report.tip.y() > 0.5 * Touching::kFloor; }));
-  return rig.given() - before;
+  const double work = rig.given() - before;
+  const auto marks = rig.marks ? rig.marks() : fakes::ForceTrace::Marks();
+  const bool counts = rig.watchdog_stops() == stops && touching.take_longest() < kStandsStill &&
+                      marks.falls == 0 && marks.longest_gap < kStandsStill;
+  return counts ? std::optional<double>(work) : std::nullopt;
 }
 
-/// While a hand goes into the floor and out again the motors give no more work than they take: a virtual
-/// floor has no energy of its own. Where the machine stands still meanwhile, the watchdog takes the force
-/// away and gives it back, which costs the energy that the spring holds; so the best of some presses counts.
-inline void is_passive(Rig& rig) {
-  constexpr double kNothing = 5e-4;  // J, of 5 mJ that the floor's spring holds
+/// The median work, J, of the motors in five presses; nothing where the machine stands still in most.
+inline std::optional<double> median_work(Rig& rig) {
+  constexpr std::size_t kPresses = 5;
   Touching touching(rig);
-  ASSERT_TRUE(touching.until([](const auto& report) { return report.status == DeviceStatus::Ok; }));
-  double least = work_of_a_press(rig, touching);
-  for (int press = 0; press < 20 && least > kNothing; ++press)
-    least = std::min(least, work_of_a_press(rig, touching));
-  EXPECT_LE(least, kNothing) << "J, more than the hand put in";
+  EXPECT_TRUE(touching.until([](const auto& report) { return report.status == DeviceStatus::Ok; }));
+  std::vector<double> works;
+  for (int press = 0; press < 60 && works.size() < kPresses && !testing::Test::HasFailure(); ++press) {
+    if (const auto work = work_of_a_press(rig, touching)) works.push_back(*work);
+  }
+  if (works.size() < kPresses) return std::nullopt;
+  std::sort(works.begin(), works.end());
+  return works[kPresses / 2];
+}
+
+constexpr double kPassiveWork = 5e-4;  // J, of 5 mJ that the floor's spring holds
+
+/// While a hand goes into the floor and out again the motors give no more work than they take: a virtual
+/// floor has no energy of its own.
+inline void is_passive(Rig& rig) {
+  const auto work = median_work(rig);
+  if (testing::Test::HasFailure()) return;
+  if (!work) GTEST_SKIP() << "the machine stands still in nearly each press";
+  EXPECT_LE(*work, kPassiveWork) << "J, more than the hand put in";
 }
 
 /// Unplugged, the servo is told and there is no force; plugged in again it goes on by itself, gently.
@@ -193,6 +232,36 @@ inline void is_watched(Rig& rig) {
   EXPECT_TRUE(holds_soon([&] { return rig.held() == 0.0; })) << "the motors keep " << rig.held() << " N";
 }
 
+/// A tip that is somewhere else all at once, and stays there, is not met by the force that was asked for
+/// before: it begins at none and grows with the ramp, whoever asks for it.
+inline void ramps_after_a_jump(Rig& rig, fakes::ArmFault to) {
+  constexpr double kForce = 1.0;  // N
+  constexpr double kStep =
+      kForce * 1e-9 * DriverLink::kWatchdog / DriverLink::kRamp;  // N, the ramp's longest
+  const auto holds = [&] {
+    PointerState state;
+    rig.device->read(state);
+    rig.device->write({kForce, 0, 0});
+    return rig.held() > 0.99 * kForce;
+  };
+  // The watchdog takes forces away too, where the machine stands still: then it is tried again.
+  for (int tries = 0; tries < 20; ++tries) {
+    ASSERT_TRUE(holds_soon(holds));
+    const std::uint64_t stops = rig.watchdog_stops();
+    rig.watch();
+    rig.fail(to);
+    const auto end = base::steady_nanoseconds() + 500'000'000;
+    ASSERT_TRUE(holds_soon([&] { return holds() && base::steady_nanoseconds() > end; }));
+    if (rig.watchdog_stops() != stops) {
+      rig.fail(fakes::ArmFault::None);
+      continue;
+    }
+    EXPECT_LT(rig.marks().weakest, 2.0 * kStep) << "the force goes on";
+    EXPECT_LT(rig.marks().steepest, 1.01 * kStep) << "a blow instead of a ramp";
+    return;
+  }
+}
+
 /// Readings that make no sense give no force above the limits, and the device is usable after them.
 inline void stands_faults(Rig& rig) {
   Touching touching(rig);
@@ -205,8 +274,11 @@ inline void stands_faults(Rig& rig) {
     rig.fail(ArmFault::None);
     EXPECT_TRUE(touching.until([](const auto& report) { return report.status == DeviceStatus::Ok; }));
   }
-  EXPECT_LE(rig.strongest(), rig.device->info().max_force * (1.0 + 1e-6));
   EXPECT_TRUE(touching.until([](const auto& report) { return report.contact.touching; }));
+  rig.aim({0, 0, 0});
+  if (rig.marks) ramps_after_a_jump(rig, ArmFault::Displaced);
+  rig.fail(ArmFault::None);
+  EXPECT_LE(rig.strongest(), rig.device->info().max_force * (1.0 + 1e-6));
 }
 
 }  // namespace icome::devices::suite

@@ -5,9 +5,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "base/clock.h"
@@ -75,6 +77,16 @@ inline bool held_until(PointerDevice& device, const Vector3& force,
     return has_read && condition(state);
   });
 }
+
+/// The number that a condition tells how often a warning was given; 0 without one.
+inline int times_told(const std::string& condition) {
+  const std::string_view words = "so far: ";
+  const std::size_t at = condition.find(words);
+  return at == std::string::npos ? 0 : std::atoi(condition.c_str() + at + words.size());
+}
+
+/// A rate at which no driver waits between its frames, Hz.
+constexpr double kUnpaced = 1e9;
 
 /// A servo that goes mad, and readings that are: none gives a force above the limits, nor one that is not a
 /// number. The driver must not wait between its frames.

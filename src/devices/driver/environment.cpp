@@ -10,9 +10,14 @@
 
 namespace icome::devices {
 
-base::Result<void> environment_number(const char* variable, double least, double most, double& value) {
+std::string_view environment_text(const char* variable) {
   const char* text = std::getenv(variable);
-  if (text == nullptr || *text == '\0') return {};
+  return text != nullptr ? std::string_view(text) : std::string_view();
+}
+
+base::Result<void> environment_number(const char* variable, double least, double most, double& value) {
+  const std::string_view text = environment_text(variable);
+  if (text.empty()) return {};
   const auto number = base::parse_number<double>(text);
   // The range as a negated comparison, so that NaN fails too.
   if (!number || !(*number >= least && *number <= most))
@@ -24,9 +29,9 @@ base::Result<void> environment_number(const char* variable, double least, double
 
 base::Result<std::size_t> environment_choice(const char* variable, std::span<const std::string_view> words,
                                              std::size_t otherwise) {
-  const char* text = std::getenv(variable);
-  if (text == nullptr || *text == '\0') return otherwise;
-  const auto word = std::find(words.begin(), words.end(), std::string_view(text));
+  const std::string_view text = environment_text(variable);
+  if (text.empty()) return otherwise;
+  const auto word = std::find(words.begin(), words.end(), text);
   if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
   std::string known;
   for (const std::string_view each : words) known += (known.empty() ? "" : " or ") + std::string(each);

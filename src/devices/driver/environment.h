@@ -7,6 +7,9 @@
 
 namespace icome::devices {
 
+/// The text in an environment variable; empty where it is not set. Valid until it is set. Main's.
+std::string_view environment_text(const char* variable);
+
 /// Sets `value` to the number in an environment variable, if it is set; fails on what is no number from
 /// `least` to `most`, with a sentence that names the variable. Main's.
 base::Result<void> environment_number(const char* variable, double least, double most, double& value);

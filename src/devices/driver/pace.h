@@ -11,19 +11,18 @@ namespace icome::devices {
 /// thread's.
 class Pace {
  public:
-  /// `rate` deadlines a second from now on; 0: no waiting at all.
-  explicit Pace(double rate)
-      : waits_(rate > 0.0), timetable_(base::steady_nanoseconds(), waits_ ? rate : 1.0) {}
+  /// `rate` (> 0) deadlines a second from now on.
+  explicit Pace(double rate) : timetable_(base::steady_nanoseconds(), rate) {}
 
   /// Waits for the next deadline. Real-time safe.
   void wait() {
-    if (!waits_) return;
     index_ = timetable_.next(index_, base::steady_nanoseconds());
-    realtime::sleep_until(timetable_.deadline(index_));
+    const std::int64_t deadline = timetable_.deadline(index_);
+    // At a rate that nobody can keep it has passed already.
+    if (deadline > base::steady_nanoseconds()) realtime::sleep_until(deadline);
   }
 
  private:
-  bool waits_;
   realtime::Timetable timetable_;
   std::uint64_t index_ = 0;
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
 
 #include "base/parse_number.h"
@@ -98,7 +97,7 @@ base::Result<ForceDimensionSettings> force_dimension_settings() {
   auto gravity = environment_choice("ICOME_DHD_GRAVITY", kOffOn, settings.gravity_compensation ? 1 : 0);
   if (!gravity) return tl::unexpected(gravity.error());
   settings.gravity_compensation = *gravity == 1;
-  if (const char* axes = std::getenv("ICOME_DHD_AXES")) settings.axes = axes;
+  if (const std::string_view axes = environment_text("ICOME_DHD_AXES"); !axes.empty()) settings.axes = axes;
   if (const auto rotation = rotation_from_axes(settings.axes); !rotation)
     return base::fail("ICOME_DHD_AXES: " + rotation.error().message);
   return settings;

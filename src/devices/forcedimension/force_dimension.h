@@ -11,7 +11,7 @@ namespace icome::devices {
 
 /// Settings of the devices of Force Dimension (omega, delta, sigma, lambda) and of the Novint Falcon.
 struct ForceDimensionSettings {
-  double rate = 4000.0;              // Hz, 1000 to 4000; 0: as fast as the library answers
+  double rate = 4000.0;              // Hz, 1000 to 4000
   std::string axes = "yzx";          // its axes that point right, up and to the user (rotation_from_axes)
   bool gravity_compensation = true;  // the device carries its own weight
   double grip_open = 30.0;           // degrees between the fingers of an open gripper, 5 to 90

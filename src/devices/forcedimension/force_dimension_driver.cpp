@@ -12,9 +12,9 @@ namespace icome::devices {
 namespace {
 
 constexpr std::array<const char*, 2> kDhdWarnings = {
-    "The device is asked more often than it answers (time guard): lower ICOME_DHD_RATE if contact feels "
-    "rough",
-    "The motors give all they have (saturated): the force is less than what was asked for"};
+    "The device is asked more often than it answers (time guard; times so far: {}): lower ICOME_DHD_RATE if "
+    "contact feels rough",
+    "The motors give all they have (saturated; times so far: {}): the force is less than what was asked for"};
 
 /// Does the model have motors that turn the hand or close the gripper? They are told to give nothing.
 bool has_more_motors(std::string_view model) {

@@ -22,10 +22,6 @@ class ForceDimensionDriver final : public Driver {
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
 
-  // Warnings so far. Any thread.
-  std::uint64_t time_guards() const { return warnings_.count(kTimeGuards); }
-  std::uint64_t saturations() const { return warnings_.count(kSaturations); }
-
  private:
   static constexpr std::size_t kTimeGuards = 0;
   static constexpr std::size_t kSaturations = 1;

@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::int64_t kNonsenseShown = 5'000'000'000;  // ns
 constexpr std::int64_t kEventShown = 30'000'000'000;    // ns
+constexpr std::int64_t kTooOld = 3600'000'000'000;      // ns, age of no force that is still given
 
 HaplySettings bounded_settings(HaplySettings settings) {
-  settings.rate = std::clamp(settings.rate, 100.0, 8000.0);
+  settings.rate = std::clamp(settings.rate, 250.0, 8000.0);
   settings.patience = std::clamp(settings.patience, 0.02, 60.0);
   settings.connect_patience = std::clamp(settings.connect_patience, 0.05, 60.0);
   return settings;
@@ -30,7 +31,7 @@ HaplyDriver::~HaplyDriver() = default;
 base::Result<DeviceInfo> HaplyDriver::open() {
   auto info = find_device_profile("Haply Inverse3");
   if (!info) return info;
-  auto service = InverseService::connect(settings_);
+  auto service = InverseService::connect(settings_, stop_);
   if (!service) return tl::unexpected(service.error());
   const auto id = (*service)->choose(device_id_);
   if (!id) return tl::unexpected(id.error());
@@ -45,7 +46,8 @@ void HaplyDriver::close() {
 }
 
 std::string HaplyDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
-  service_->stop_by(&stop);
+  stop_ = &stop;
+  service_->stop_by(stop_);
   shown_ = {};
   disconnections_ = heard_ = 0;
   refused_time_ = 0;
@@ -62,10 +64,12 @@ bool HaplyDriver::exchange(DriverLink& link) {
     disconnections_ = events_->disconnections();
     service_->doubt();
   }
-  const Vector3 force = frame_.service_force(link.force(base::steady_nanoseconds()));
-  const InverseService::Answer answer = service_->exchange(force);
+  const InverseService::Answer answer =
+      service_->exchange([&] { return frame_.service_force(link.force(base::steady_nanoseconds())); });
   if (answer == InverseService::Answer::Lost) return false;
   const std::int64_t now = base::steady_nanoseconds();
+  // Asked for the force of a time when each is too old, the link begins again with its ramp.
+  if (service_->took_force_away()) static_cast<void>(link.force(now + kTooOld));
   if (answer == InverseService::Answer::Fresh)
     link.pass(frame_.state_of(service_->arm(), service_->grip()), now);
   else

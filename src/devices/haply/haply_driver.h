@@ -21,6 +21,7 @@ class HaplyDriver final : public Driver {
   ~HaplyDriver() override;
 
   base::Result<DeviceInfo> open() override;
+  /// `stop` outlives the driver: it also ends a later open().
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
 
@@ -35,6 +36,7 @@ class HaplyDriver final : public Driver {
   const HaplySettings settings_;
   const HaplyFrame frame_;
   std::string device_id_;
+  const std::atomic<bool>* stop_ = nullptr;  // of the last run
   std::unique_ptr<InverseService> service_;  // while open
   std::optional<ServiceEvents> events_;      // while running, where they are wanted
   // The state that people were told last.

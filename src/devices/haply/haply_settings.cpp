@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "base/parse_number.h"
 #include "base/shown_text.h"
 #include "devices/axes.h"
+#include "devices/driver/environment.h"
 
 namespace icome::devices {
 namespace {
@@ -76,8 +76,8 @@ struct HaplyOption {
 
 constexpr std::array<HaplyOption, 8> kHaplyOptions{{
     {"events", set_events, "a port, or 0 for no events"},
-    {"rate", [](HaplySettings& to, std::string_view text) { return set_number(to.rate, text, 100, 8000); },
-     "100 to 8000 Hz"},
+    {"rate", [](HaplySettings& to, std::string_view text) { return set_number(to.rate, text, 250, 8000); },
+     "250 to 8000 Hz"},
     {"patience",
      [](HaplySettings& to, std::string_view text) { return set_number(to.patience, text, 0.02, 60); },
      "0.02 to 60 s"},
@@ -129,9 +129,7 @@ base::Result<HaplySettings> parse_haply_settings(std::string_view place, std::st
 }
 
 base::Result<HaplySettings> haply_settings_from_environment() {
-  const char* const place = std::getenv("ICOME_HAPLY");
-  const char* const options = std::getenv("ICOME_HAPLY_OPTIONS");
-  return parse_haply_settings(place ? place : "", options ? options : "");
+  return parse_haply_settings(environment_text("ICOME_HAPLY"), environment_text("ICOME_HAPLY_OPTIONS"));
 }
 
 }  // namespace icome::devices

@@ -16,9 +16,9 @@ enum class ForceField : std::uint8_t { ByVersion, Vector, Values };
 struct HaplySettings {
   ServiceAddress service{"localhost", 10001};
   std::uint16_t events_port = 10020;  // of its events, on the same host; 0: they are not asked for
-  double rate = 1000.0;               // Hz, of the exchanges with the service, 100 to 8000
+  double rate = 1000.0;               // Hz, of the exchanges with the service, 250 to 8000
   double patience = 0.1;              // s without an answer that count as a loss, 0.02 to 60
-  double connect_patience = 1.0;      // s, for each of the steps of connecting, 0.05 to 60
+  double connect_patience = 1.0;  // s, for each of three steps of connecting, 0.05 to 60; stopping ends them
   ForceField force_field = ForceField::ByVersion;
   std::string grip;  // device id of the VerseGrip that belongs to it; empty: those there are, in their order
   /// device_from_service: the service's x right, y away from the user, z up become x right, y up, z to the

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "base/clock.h"
 #include "base/shown_text.h"
 #include "base/terminal_text.h"
+#include "devices/driver/driver_link.h"
 
 namespace icome::devices {
 namespace {
@@ -26,10 +29,11 @@ std::string service_name(const HaplySettings& settings) {
 
 }  // namespace
 
-base::Result<std::unique_ptr<InverseService>> InverseService::connect(const HaplySettings& settings) {
+base::Result<std::unique_ptr<InverseService>> InverseService::connect(const HaplySettings& settings,
+                                                                      const std::atomic<bool>* stop) {
   // A service without this page speaks the WebSocket all the same.
-  const auto answer = get_by_http(settings.service, "/version", settings.connect_patience);
-  auto socket = WebSocket::connect(settings.service, settings.connect_patience);
+  const auto answer = get_by_http(settings.service, "/version", settings.connect_patience, stop);
+  auto socket = WebSocket::connect(settings.service, settings.connect_patience, stop);
   if (!socket)
     return base::fail(fmt::format("{}: {}; {}", service_name(settings), socket.error().message, kInstall));
   ServiceVersion version = answer ? read_service_version(*answer) : ServiceVersion{};
@@ -41,7 +45,9 @@ base::Result<std::unique_ptr<InverseService>> InverseService::connect(const Hapl
 
 InverseService::InverseService(const HaplySettings& settings, ServiceVersion version,
                                std::unique_ptr<WebSocket> socket)
-    : settings_(settings), version_(std::move(version)), socket_(std::move(socket)) {}
+    : settings_(settings), version_(std::move(version)), socket_(std::move(socket)) {
+  socket_->while_waiting([this](bool last) { look_after_force(last); });
+}
 
 InverseService::~InverseService() { socket_->close(base::steady_nanoseconds() + kGoodbye); }
 
@@ -90,16 +96,14 @@ base::Result<std::string> InverseService::choose(std::string_view id) {
 
 void InverseService::stop_by(const std::atomic<bool>* stop) { socket_->stop_by(stop); }
 
-InverseService::Answer InverseService::exchange(const Vector3& force) {
-  if (!take_what_waits()) return lost(socket_->why());
+InverseService::Answer InverseService::exchange(const ForceNow& force) {
   const bool doubting = doubted_ && !full_asked_;
-  std::int64_t now = base::steady_nanoseconds();
-  const std::int64_t patience = whole_nanoseconds(settings_.patience);
-  if (!socket_->send(command_->write(force, doubting || missed_), now + patience) ||
-      !socket_->receive(now + patience))
-    return lost(socket_->why());
-  now = base::steady_nanoseconds();
-  missed_ = false;
+  took_away_ = false;
+  force_ = &force;
+  const bool fine = take_what_waits() && ask(force, doubting);
+  force_ = nullptr;
+  if (!fine) return lost(socket_->why());
+  const std::int64_t now = base::steady_nanoseconds();
   if (doubting) {
     full_asked_ = true;
     asked_time_ = now;
@@ -107,7 +111,8 @@ InverseService::Answer InverseService::exchange(const Vector3& force) {
   }
   if (!state_.take(socket_->text())) {
     missed_ = true;
-    if (now - understood_ > patience) return lost("it sends nothing that makes sense");
+    if (now - understood_ > whole_nanoseconds(settings_.patience))
+      return lost("it sends nothing that makes sense");
     return Answer::Refused;
   }
   understood_ = now;
@@ -116,11 +121,41 @@ InverseService::Answer InverseService::exchange(const Vector3& force) {
   return arm().has_position() ? Answer::Fresh : Answer::Refused;
 }
 
+/// Sends the force, and receives the answer to it.
+bool InverseService::ask(const ForceNow& force, bool full) {
+  const Vector3 newtons = force();
+  sent_time_ = base::steady_nanoseconds();
+  const std::int64_t deadline = sent_time_ + whole_nanoseconds(settings_.patience);
+  if (!socket_->send(command_->write(newtons, full || missed_), deadline)) return false;
+  holds_ = !newtons.isZero(0.0);
+  missed_ = false;
+  const bool owed = std::exchange(owes_, false);
+  if (!socket_->receive(deadline)) return false;
+  owes_ = took_away_;
+  if (!owed) return true;
+  // That was the answer to the message that took the force away. A service that answers both by one makes
+  // this late once, and owes nothing any more.
+  if (!state_.take(socket_->text())) missed_ = true;
+  return socket_->receive(deadline);
+}
+
+/// Takes the force away from the service where it would keep it for too long.
+void InverseService::look_after_force(bool last) {
+  if (force_ == nullptr || !holds_) return;
+  const std::int64_t now = base::steady_nanoseconds();
+  const bool is_late = now - sent_time_ >= DriverLink::kWatchdog;
+  if (!last && !is_late && !(*force_)().isZero(0.0)) return;
+  holds_ = false;
+  took_away_ = true;
+  socket_->send(command_->write(Vector3::Zero(), false), now + kGoodbye);
+}
+
 /// Takes surplus answers (each new client gets one), so that they do not make all later ones late.
 bool InverseService::take_what_waits() {
   for (int i = 0; i < kMostWaiting && socket_->waiting(); ++i) {
     if (!socket_->receive(base::steady_nanoseconds() + whole_nanoseconds(settings_.patience))) return false;
     if (!state_.take(socket_->text())) missed_ = true;
+    owes_ = false;
   }
   return true;
 }

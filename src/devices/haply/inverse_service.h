@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,9 +20,11 @@ namespace icome::devices {
 class InverseService {
  public:
   /// Connects, asks for the version and for everything that there is; takes three times the settings'
-  /// connect_patience at most, beside what looking up the host's name takes. The error is a sentence or two
-  /// that name the service and what to do.
-  static base::Result<std::unique_ptr<InverseService>> connect(const HaplySettings& settings);
+  /// connect_patience at most, beside what looking up the host's name takes. Ends within 10 ms, but for that
+  /// look-up, once `stop` is set, which is as in stop_by(). The error is a sentence or two that name the
+  /// service and what to do.
+  static base::Result<std::unique_ptr<InverseService>> connect(const HaplySettings& settings,
+                                                               const std::atomic<bool>* stop = nullptr);
   /// Says goodbye, within 50 ms.
   ~InverseService();
 
@@ -41,9 +44,13 @@ class InverseService {
     Refused,  // the answer makes no sense
     Lost,     // why() tells the reason
   };
-  /// Sends a force (N, service's axes) and waits for the answer, settings' patience at most, or until `stop`
-  /// is set. Real-time safe but for that wait, unless Lost.
-  Answer exchange(const Vector3& force);
+  using ForceNow = std::function<Vector3()>;  // N, service's axes
+  /// Sends the force and waits for the answer, settings' patience at most, or until `stop` is set. Meanwhile
+  /// the service would keep the force: it is told to give none once there is none to give any more, once the
+  /// answer is 10 ms late, and before the wait is given up. Real-time safe but for that wait, unless Lost.
+  Answer exchange(const ForceNow& force);
+  /// Was the force taken away in the last exchange, before its answer came?
+  bool took_force_away() const { return took_away_; }
   /// A flag that ends every wait once it is set; null: none. It must live as long as it is used.
   void stop_by(const std::atomic<bool>* stop);
   /// Sends the last message, one without force, if there is a way.
@@ -55,6 +62,8 @@ class InverseService {
  private:
   InverseService(const HaplySettings& settings, ServiceVersion version, std::unique_ptr<WebSocket> socket);
   base::Result<void> greet();
+  bool ask(const ForceNow& force, bool full);
+  void look_after_force(bool last);
   Answer lost(std::string why);
   bool take_what_waits();
   bool is_listed(std::int64_t now);
@@ -66,6 +75,11 @@ class InverseService {
   ServiceState state_;
   std::size_t chosen_ = 0;  // of state_.arms()
   std::optional<ForceCommand> command_;
+  const ForceNow* force_ = nullptr;  // during an exchange
+  bool holds_ = false;               // the service holds a force of ours
+  std::int64_t sent_time_ = 0;       // ns, of the last force
+  bool took_away_ = false;
+  bool owes_ = false;            // the service owes an answer to a message that took the force away
   std::int64_t understood_ = 0;  // ns, when a message last made sense
   // An arm that is not mentioned stands still, or is gone: everything is asked for then.
   std::uint64_t last_told_ = 0;  // ServiceArm::told of the arm

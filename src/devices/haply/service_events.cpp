@@ -62,11 +62,9 @@ void ServiceEvents::listen() {
 void ServiceEvents::hear_out() {
   auto channel = WebSocket::connect(channel_, kChannelPatience, &stop_);
   if (!channel) return;
-  connected_.store(true, std::memory_order_release);
   while ((*channel)->receive(kForever)) {
     if (const auto event = read_service_event((*channel)->text())) take(*event);
   }
-  connected_.store(false, std::memory_order_release);
 }
 
 bool ServiceEvents::concerns_device(const ServiceEvent& event) const {

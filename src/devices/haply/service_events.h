@@ -28,8 +28,6 @@ class ServiceEvents {
   std::string sentence() const;
   /// Number of times that the device was said to be disconnected. Any thread; real-time safe.
   std::uint64_t disconnections() const { return disconnections_.load(std::memory_order_acquire); }
-  /// Is the channel of the events connected? Any thread.
-  bool connected() const { return connected_.load(std::memory_order_acquire); }
 
  private:
   void listen();
@@ -41,7 +39,6 @@ class ServiceEvents {
   const ServiceAddress channel_;
   const std::string device_id_;
   std::atomic<bool> stop_ = false;
-  std::atomic<bool> connected_ = false;
   std::atomic<std::uint64_t> version_ = 0;
   std::atomic<std::uint64_t> disconnections_ = 0;
   mutable std::mutex guard_;

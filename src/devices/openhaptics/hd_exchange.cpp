@@ -8,24 +8,57 @@
 namespace icome::devices {
 namespace {
 
-constexpr double kMetre = 0.001;         // m in a millimetre
-constexpr int kMostFailingFrames = 200;  // in a row, after which the device has failed
+constexpr double kMetre = 0.001;                     // m in a millimetre
+constexpr int kMostFailingFrames = 200;              // in a row, after which the device has failed
+constexpr std::int64_t kFramePatience = 2'000'000;   // ns, longer than another device's frame takes
+constexpr std::int64_t kRestPatience = 100'000'000;  // ns
 
 }  // namespace
 
 bool HdExchange::frame() {
   if (failure() != 0) return false;
-  const std::lock_guard lock(frames_);
+  if (turns_.paused()) {
+    warnings_->note(std::size_t(HdWarning::Paused), base::steady_nanoseconds());
+    count_.fetch_add(1, std::memory_order_relaxed);
+    return true;
+  }
+  const HdTurns::Turn turn = turns_.take(kFramePatience);
+  if (!turn) return true;
+  if (is_let_go()) return false;
   hd_.make_current_device(device_);
   hd_.begin_frame(device_);
   const PointerState reading = read();
   const std::int64_t now = base::steady_nanoseconds();
-  link_.pass(reading, now);
-  send(link_.force(now));
+  send(pass(reading, now));
   hd_.end_frame(device_);
   take_errors(now);
+  // It hung meanwhile; nobody else can put the device to rest.
+  if (is_let_go()) rest_in_turn();
   count_.fetch_add(1, std::memory_order_relaxed);
   return failure() == 0;
+}
+
+/// Passes a reading on, and gives the force to send; none once the link was let go.
+Vector3 HdExchange::pass(const PointerState& reading, std::int64_t now) {
+  const std::lock_guard lock(link_guard_);
+  if (link_ == nullptr) return Vector3::Zero();
+  PointerState passed = reading;
+  // The hand went on without force during a pause: that is a new beginning, with a ramp.
+  const std::uint64_t pauses = turns_.pauses();
+  passed.jumped = pauses != pauses_;
+  pauses_ = pauses;
+  link_->pass(passed, now);
+  return link_->force(now);
+}
+
+void HdExchange::let_go() {
+  const std::lock_guard lock(link_guard_);
+  link_ = nullptr;
+}
+
+bool HdExchange::is_let_go() {
+  const std::lock_guard lock(link_guard_);
+  return link_ == nullptr;
 }
 
 PointerState HdExchange::read() const {
@@ -59,17 +92,17 @@ void HdExchange::take_errors(std::int64_t now) {
   for (HdError error = hd_.get_error(); error.code != 0; error = hd_.get_error()) {
     switch (error.code) {
       case HdLibrary::kWarmMotors:
-        warnings_.note(std::size_t(HdWarning::Hot), now);
+        warnings_->note(std::size_t(HdWarning::Hot), now);
         break;
       case HdLibrary::kExceededForce:
-        warnings_.note(std::size_t(HdWarning::TooStrong), now);
+        warnings_->note(std::size_t(HdWarning::TooStrong), now);
         break;
       case HdLibrary::kDeviceFault:
       case HdLibrary::kCommunication:
         failure_.store(error.code, std::memory_order_release);
         return;
       default:
-        warnings_.note(std::size_t(HdWarning::Other), now);
+        warnings_->note(std::size_t(HdWarning::Other), now);
         if (!is_failing && ++failing_frames_ >= kMostFailingFrames) {
           failure_.store(error.code, std::memory_order_release);
           return;
@@ -80,8 +113,13 @@ void HdExchange::take_errors(std::int64_t now) {
   if (!is_failing) failing_frames_ = 0;
 }
 
-void HdExchange::rest() {
-  const std::lock_guard lock(frames_);
+bool HdExchange::rest() {
+  const HdTurns::Turn turn = turns_.take(kRestPatience);
+  if (turn) rest_in_turn();
+  return turn.owns_lock();
+}
+
+void HdExchange::rest_in_turn() {
   hd_.make_current_device(device_);
   hd_.begin_frame(device_);
   send(Vector3::Zero());
@@ -92,13 +130,14 @@ void HdExchange::rest() {
 
 void HdExchange::check_calibration() {
   if (hd_.check_calibration == nullptr) return;
-  const std::lock_guard lock(frames_);
+  const HdTurns::Turn turn = turns_.take(kFramePatience);
+  if (!turn) return;  // it is asked for again
   hd_.make_current_device(device_);
   const unsigned state = hd_.check_calibration();
   static_cast<void>(hd_.first_error());
   const std::int64_t now = base::steady_nanoseconds();
-  if (state == HdLibrary::kCalibrationNeedsUpdate) warnings_.note(std::size_t(HdWarning::Calibrate), now);
-  if (state == HdLibrary::kCalibrationNeedsHand) warnings_.note(std::size_t(HdWarning::Inkwell), now);
+  if (state == HdLibrary::kCalibrationNeedsUpdate) warnings_->note(std::size_t(HdWarning::Calibrate), now);
+  if (state == HdLibrary::kCalibrationNeedsHand) warnings_->note(std::size_t(HdWarning::Inkwell), now);
 }
 
 }  // namespace icome::devices

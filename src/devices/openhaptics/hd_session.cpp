@@ -48,28 +48,77 @@ void describe(const HdLibrary& hd, HdDevice& device) {
   lower_limit(device.info.workspace_radius, usable_reach(hd), 0.001);
 }
 
+constexpr std::int64_t kHangs = 500'000'000;  // ns, longer than any turn takes but one in which a call hangs
+
+base::Result<HdDevice> hanging_library() {
+  return base::fail(
+      "a call of OpenHaptics does not end; unplug the PHANToM or Touch, and restart the program");
+}
+
 }  // namespace
 
+/// A turn in which all open devices rest and no frames are made: opening a device may take seconds, for which
+/// a device would else keep the force of its last frame. Frames are left out rather than awaited: the
+/// scheduler makes them, and the library may need it meanwhile.
+class HdSession::Pause {
+ public:
+  Pause(HdSession& session, const HdLibrary& hd) : turns_(session.turns_), turn_(turns_.take(kHangs)) {
+    if (!turn_) return;
+    turns_.pause();
+    for (const HdDevice& device : session.open_) rest(hd, device.handle);
+    static_cast<void>(hd.first_error());
+  }
+  ~Pause() {
+    if (turn_) turns_.resume();
+  }
+  Pause(const Pause&) = delete;
+  Pause& operator=(const Pause&) = delete;
+
+  /// False where a call of the library hangs.
+  explicit operator bool() const { return turn_.owns_lock(); }
+
+ private:
+  static void rest(const HdLibrary& hd, unsigned device) {
+    constexpr std::array<double, 3> kNone = {};  // N
+    hd.make_current_device(device);
+    hd.begin_frame(device);
+    hd.set_doublev(HdLibrary::kForce, kNone.data());
+    hd.end_frame(device);
+  }
+
+  HdTurns& turns_;
+  HdTurns::Turn turn_;
+};
+
 HdSession& HdSession::instance() {
-  static HdSession session;
+  // Never destroyed, as a call that hangs may go on while the program ends.
+  static HdSession& session = *new HdSession();
   return session;
 }
 
 base::Result<HdDevice> HdSession::open(const HdLibrary& hd, const std::string& name, double rate) {
   const std::lock_guard lock(guard_);
-  if (std::any_of(open_.begin(), open_.end(), [&](const HdDevice& other) { return other.name == name; }))
-    return base::fail("another part of the program has this PHANToM or Touch; close that first");
+  shut_those_that_hung(hd);
+  for (const HdDevice& other : open_) {
+    if (other.hangs) return hanging_library();
+    if (other.name == name)
+      return base::fail("another part of the program has this PHANToM or Touch; close that first");
+  }
+  const Pause pause(*this, hd);
+  if (!pause) return hanging_library();
+  auto device = start(hd, name, rate);
+  if (device) open_.push_back(*device);
+  return device;
+}
+
+/// Opens a device in a pause, and starts the scheduler for the first one.
+base::Result<HdDevice> HdSession::start(const HdLibrary& hd, const std::string& name, double rate) {
   auto device = init(hd, name);
   if (!device) return device;
-  unsigned error = 0;
-  {
-    const std::lock_guard frame(frames_);
-    hd.make_current_device(device->handle);
-    hd.enable(HdLibrary::kForceClamping);
-    hd.enable(HdLibrary::kForceRamping);
-    hd.enable(HdLibrary::kForceOutput);
-    error = hd.first_error();
-  }
+  hd.enable(HdLibrary::kForceClamping);
+  hd.enable(HdLibrary::kForceRamping);
+  hd.enable(HdLibrary::kForceOutput);
+  unsigned error = hd.first_error();
   if (error == 0 && open_.empty()) {
     hd.set_scheduler_rate(static_cast<unsigned long>(rate));
     // A rate that the device does not know is no reason to go without it.
@@ -77,19 +126,16 @@ base::Result<HdDevice> HdSession::open(const HdLibrary& hd, const std::string& n
     hd.start_scheduler();
     error = hd.first_error();
   }
-  if (error != 0) {
-    hd.disable_device(device->handle);
-    return base::fail(fmt::format("{} was found, but does not start: {}; switch it off and on again",
-                                  device->info.name, hd.text_of(error)));
-  }
-  open_.push_back(*device);
-  return device;
+  if (error == 0) return device;
+  hd.disable_device(device->handle);
+  return base::fail(fmt::format("{} was found, but does not start: {}; switch it off and on again",
+                                device->info.name, hd.text_of(error)));
 }
 
+/// Opens and describes a device in a pause; it is the current one then.
 base::Result<HdDevice> HdSession::init(const HdLibrary& hd, const std::string& name) {
   HdDevice device;
   device.name = name;
-  static_cast<void>(hd.first_error());
   device.handle = hd.init_device(name.empty() ? nullptr : name.c_str());
   const unsigned error = hd.first_error();
   if (device.handle == HdLibrary::kInvalidDevice || error == HdLibrary::kCommunication ||
@@ -101,7 +147,6 @@ base::Result<HdDevice> HdSession::init(const HdLibrary& hd, const std::string& n
                     name.empty() ? "" : " by the name of " + name,
                     error != 0 ? hd.text_of(error) : "no reason is given"));
   }
-  const std::lock_guard frame(frames_);
   hd.make_current_device(device.handle);
   describe(hd, device);
   static_cast<void>(hd.first_error());
@@ -110,19 +155,46 @@ base::Result<HdDevice> HdSession::init(const HdLibrary& hd, const std::string& n
 
 void HdSession::close(const HdLibrary& hd, const HdDevice& device) {
   const std::lock_guard lock(guard_);
-  std::erase_if(open_, [&](const HdDevice& other) { return other.handle == device.handle; });
-  if (open_.empty()) hd.stop_scheduler();
-  hd.disable_device(device.handle);
+  if (shut(hd, device.handle)) return;
+  for (HdDevice& other : open_) other.hangs = other.hangs || other.handle == device.handle;
+}
+
+/// Disables a device; false where a call of the library hangs, for which stopping the scheduler would wait.
+bool HdSession::shut(const HdLibrary& hd, unsigned device) {
+  if (!turns_.take(kHangs)) return false;
+  if (open_.size() == 1) hd.stop_scheduler();
+  const Pause pause(*this, hd);
+  if (!pause) return false;
+  std::erase_if(open_, [&](const HdDevice& other) { return other.handle == device; });
+  hd.disable_device(device);
+  static_cast<void>(hd.first_error());
+  return true;
+}
+
+void HdSession::shut_those_that_hung(const HdLibrary& hd) {
+  const std::vector<HdDevice> before = open_;
+  for (const HdDevice& device : before) {
+    if (device.hangs && !shut(hd, device.handle)) return;
+  }
 }
 
 base::Result<HdDevice> HdSession::look(const HdLibrary& hd, const std::string& name) {
   const std::lock_guard lock(guard_);
+  shut_those_that_hung(hd);
   for (const HdDevice& device : open_) {
-    if (device.name == name) return device;
+    if (device.name == name && !device.hangs) return device;
   }
+  const Pause pause(*this, hd);
+  if (!pause) return hanging_library();
   auto device = init(hd, name);
   if (device) hd.disable_device(device->handle);
+  static_cast<void>(hd.first_error());
   return device;
+}
+
+void HdSession::keep(std::shared_ptr<void> used) {
+  const std::lock_guard lock(guard_);
+  kept_.push_back(std::move(used));
 }
 
 }  // namespace icome::devices

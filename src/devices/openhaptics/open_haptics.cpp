@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdlib>
 
 #include "devices/device_profiles.h"
 #include "devices/driver/driven_device.h"
@@ -38,8 +37,7 @@ DeviceEntry hd_entry(const HdLibrary& hd, const std::string& name) {
 /// The default device, and those of ICOME_HD_NAMES.
 std::vector<std::string> hd_names() {
   std::vector<std::string> names = {""};
-  const char* text = std::getenv("ICOME_HD_NAMES");
-  std::string_view rest = text != nullptr ? text : "";
+  std::string_view rest = environment_text("ICOME_HD_NAMES");
   while (!rest.empty()) {
     const std::size_t comma = rest.find(',');
     if (comma != 0) names.emplace_back(rest.substr(0, comma));

@@ -10,35 +10,48 @@
 namespace icome::devices {
 namespace {
 
-constexpr std::array<const char*, 5> kHdWarnings = {
+constexpr std::array<const char*, 6> kHdWarnings = {
     "The motors are hot: the device weakens until they have cooled; let it rest",
-    "More force was asked for than the device gives: it is cut",
+    "More force was asked for than the device gives: it is cut (times so far: {})",
     "The device wants to be calibrated: run the setup program of its driver",
     "The device is not calibrated: put the stylus into the inkwell",
-    "The library of the device reports errors; it goes on as long as they pass"};
+    "The library of the device reports errors; it goes on as long as they pass (errors so far: {})",
+    "Another PHANToM or Touch is being opened or closed: this one gives no force meanwhile"};
 
-constexpr auto kCallbackLook =
-    std::chrono::milliseconds(2);                     // from one look at the scheduler's callback to the next
+// From one look at the scheduler's callback to the next.
+constexpr auto kCallbackLook = std::chrono::milliseconds(2);
 constexpr std::int64_t kStandsStill = 1'000'000'000;  // ns without a frame
+constexpr std::int64_t kLastCall = 500'000'000;       // ns until the callback's last call must have ended
+constexpr std::int64_t kTurnPatience = 100'000'000;   // ns
 constexpr std::int64_t kCheckEvery = 1'000'000'000;   // ns, of the calibration
+
+enum class CallbackState : std::uint8_t {
+  Runs,
+  Ends,       // the next call is the last
+  Ended,      // no call follows
+  Abandoned,  // the last call did not come in time: calls that come late do nothing
+};
 
 /// The state that the scheduler's callback and the thread that watches it share.
 struct HdCallback {
-  HdExchange& exchange;
-  std::atomic<bool> finish = false;    // the next call is the last
-  std::atomic<bool> finished = false;  // no call follows
+  HdExchange exchange;
+  std::atomic<CallbackState> state = CallbackState::Runs;
+  std::atomic<bool> is_called = false;  // now
 };
 
 unsigned hd_callback(void* context) {
   HdCallback& callback = *static_cast<HdCallback*>(context);
-  if (callback.finish.load(std::memory_order_acquire)) {
-    callback.exchange.rest();
-    callback.finished.store(true, std::memory_order_release);
-    return HdLibrary::kDone;
-  }
+  callback.is_called.store(true);
+  const CallbackState state = callback.state.load();
   // After a failure it only waits for its last call.
-  static_cast<void>(callback.exchange.frame());
-  return HdLibrary::kContinue;
+  if (state == CallbackState::Runs) static_cast<void>(callback.exchange.frame());
+  if (state == CallbackState::Ends) static_cast<void>(callback.exchange.rest());
+  callback.is_called.store(false);
+  if (state == CallbackState::Runs) return HdLibrary::kContinue;
+  // Once it has ended nothing of it may be touched.
+  CallbackState ends = CallbackState::Ends;
+  callback.state.compare_exchange_strong(ends, CallbackState::Ended);
+  return HdLibrary::kDone;
 }
 
 /// Watches whether frames are made at all.
@@ -58,19 +71,37 @@ class FrameWatch {
   std::int64_t moved_ = base::steady_nanoseconds();  // ns
 };
 
-/// Waits for the callback's last call, for as long as frames may take.
+/// Waits for the callback's last call; false, and it is abandoned, where that does not end in time.
 bool wait_for_last(HdCallback& callback) {
-  callback.finish.store(true, std::memory_order_release);
-  const std::int64_t end = base::steady_nanoseconds() + kStandsStill;
-  while (!callback.finished.load(std::memory_order_acquire) && base::steady_nanoseconds() < end)
+  callback.state.store(CallbackState::Ends);
+  const std::int64_t end = base::steady_nanoseconds() + kLastCall;
+  while (callback.state.load() != CallbackState::Ended && base::steady_nanoseconds() < end)
     std::this_thread::sleep_for(kCallbackLook);
-  return callback.finished.load(std::memory_order_acquire);
+  CallbackState ends = CallbackState::Ends;
+  return !callback.state.compare_exchange_strong(ends, CallbackState::Abandoned);
+}
+
+/// Ends the calls of a callback. One that hangs in the library is left to itself, as unscheduling it would
+/// wait for it: it finds alive what it uses, and puts the device to rest when it goes on.
+void end_callback(const HdLibrary& hd, const std::shared_ptr<HdCallback>& callback, unsigned long scheduled) {
+  if (wait_for_last(*callback)) return;
+  callback->exchange.let_go();
+  HdSession::instance().keep(callback);
+  if (callback->is_called.load()) return;
+  hd.unschedule(scheduled);
+  static_cast<void>(callback->exchange.rest());
+}
+
+/// Takes all errors of the library. Returns the first one; 0 without any.
+unsigned take_hd_errors(const HdLibrary& hd) {
+  const HdTurns::Turn turn = HdSession::instance().turns().take(kTurnPatience);
+  return turn ? hd.first_error() : 0;
 }
 
 }  // namespace
 
 OpenHapticsDriver::OpenHapticsDriver(std::string name, const OpenHapticsSettings& settings)
-    : name_(std::move(name)), settings_(settings), warnings_(kHdWarnings) {}
+    : name_(std::move(name)), settings_(settings), warnings_(std::make_shared<Warnings>(kHdWarnings)) {}
 
 OpenHapticsDriver::~OpenHapticsDriver() { close(); }
 
@@ -86,41 +117,49 @@ base::Result<DeviceInfo> OpenHapticsDriver::open() {
 }
 
 std::string OpenHapticsDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
-  warnings_.forget();
+  warnings_->forget();
   next_check_ = 0;
-  HdExchange exchange(hd_, device_->handle, link, warnings_, HdSession::instance().frames());
-  return settings_.mode == OpenHapticsSettings::Mode::Drives ? be_driven(exchange, link, stop)
-                                                             : follow(exchange, link, stop);
+  return settings_.mode == OpenHapticsSettings::Mode::Drives ? be_driven(link, stop) : follow(link, stop);
 }
 
-std::string OpenHapticsDriver::be_driven(HdExchange& exchange, DriverLink& link,
-                                         const std::atomic<bool>& stop) {
-  HdCallback callback{exchange};
-  const unsigned long scheduled = hd_.schedule_asynchronous(&hd_callback, &callback, HdLibrary::kMaxPriority);
-  if (const unsigned error = hd_.first_error(); error != 0) return sentence_of(error);
+std::string OpenHapticsDriver::be_driven(DriverLink& link, const std::atomic<bool>& stop) {
+  const std::shared_ptr<HdCallback> callback(
+      new HdCallback{{hd_, device_->handle, link, warnings_, HdSession::instance().turns()}});
+  const HdExchange& exchange = callback->exchange;
+  // An old error would be taken for one of scheduling. That is done without a turn, as the library may let it
+  // wait for frames, which wait for turns; other devices' frames leave no errors behind.
+  static_cast<void>(take_hd_errors(hd_));
+  const unsigned long scheduled =
+      hd_.schedule_asynchronous(&hd_callback, callback.get(), HdLibrary::kMaxPriority);
+  const unsigned refused = take_hd_errors(hd_);
   FrameWatch frames;
   bool stands_still = false;
-  while (!stop.load(std::memory_order_relaxed) && exchange.failure() == 0 && !stands_still) {
-    watch(exchange, link);
+  while (refused == 0 && !stop.load(std::memory_order_relaxed) && exchange.failure() == 0 && !stands_still) {
+    watch(callback->exchange, link);
     std::this_thread::sleep_for(kCallbackLook);
     stands_still = frames.stands_still(exchange);
   }
-  if (!wait_for_last(callback)) {
-    hd_.unschedule(scheduled);
-    exchange.rest();
-  }
+  // Also where the library refused: it may have scheduled the callback nevertheless.
+  end_callback(hd_, callback, scheduled);
   if (stands_still)
     return device_->info.name + ": OpenHaptics' scheduler stands still; plug the device in again";
-  return exchange.failure() == 0 ? std::string() : sentence_of(exchange.failure());
+  const unsigned failure = refused != 0 ? refused : exchange.failure();
+  return failure == 0 ? std::string() : sentence_of(failure);
 }
 
-std::string OpenHapticsDriver::follow(HdExchange& exchange, DriverLink& link, const std::atomic<bool>& stop) {
+std::string OpenHapticsDriver::follow(DriverLink& link, const std::atomic<bool>& stop) {
+  HdExchange exchange(hd_, device_->handle, link, warnings_, HdSession::instance().turns());
   Pace pace(settings_.rate);
-  while (!stop.load(std::memory_order_relaxed) && exchange.frame()) {
+  FrameWatch frames;
+  bool stands_still = false;
+  while (!stop.load(std::memory_order_relaxed) && exchange.frame() && !stands_still) {
     watch(exchange, link);
     pace.wait();
+    stands_still = frames.stands_still(exchange);
   }
-  exchange.rest();
+  static_cast<void>(exchange.rest());
+  if (stands_still)
+    return device_->info.name + ": OpenHaptics hangs in a call about another device; plug that in again";
   return exchange.failure() == 0 ? std::string() : sentence_of(exchange.failure());
 }
 
@@ -131,7 +170,7 @@ void OpenHapticsDriver::watch(HdExchange& exchange, DriverLink& link) {
     next_check_ = now + kCheckEvery;
     exchange.check_calibration();
   }
-  warnings_.tell(link, now);
+  warnings_->tell(link, now);
 }
 
 std::string OpenHapticsDriver::sentence_of(unsigned failure) const {

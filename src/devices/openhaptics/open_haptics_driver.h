@@ -11,7 +11,8 @@
 
 namespace icome::devices {
 
-/// Talks to one PHANToM or Touch by OpenHaptics.
+/// Talks to one PHANToM or Touch by OpenHaptics. Where a call of the library hangs while its scheduler
+/// drives, run() returns within 2 s all the same; where a thread of ours makes frames, it cannot.
 class OpenHapticsDriver final : public Driver {
  public:
   OpenHapticsDriver(std::string name, const OpenHapticsSettings& settings);
@@ -21,21 +22,18 @@ class OpenHapticsDriver final : public Driver {
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
 
-  /// Number of times that a warning was given. Any thread.
-  std::uint64_t count(HdWarning warning) const { return warnings_.count(std::size_t(warning)); }
-
  private:
-  std::string be_driven(HdExchange& exchange, DriverLink& link, const std::atomic<bool>& stop);
-  std::string follow(HdExchange& exchange, DriverLink& link, const std::atomic<bool>& stop);
+  std::string be_driven(DriverLink& link, const std::atomic<bool>& stop);
+  std::string follow(DriverLink& link, const std::atomic<bool>& stop);
   void watch(HdExchange& exchange, DriverLink& link);
   std::string sentence_of(unsigned failure) const;
 
   std::string name_;
   OpenHapticsSettings settings_;
   HdLibrary hd_;
-  std::optional<HdDevice> device_;  // while it is open
-  Warnings warnings_;
-  std::int64_t next_check_ = 0;  // ns, of the calibration
+  std::optional<HdDevice> device_;      // while it is open
+  std::shared_ptr<Warnings> warnings_;  // a callback that hangs may outlive the driver
+  std::int64_t next_check_ = 0;         // ns, of the calibration
 };
 
 }  // namespace icome::devices

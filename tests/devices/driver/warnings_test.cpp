@@ -3,14 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <thread>
 
 namespace icome::devices {
 namespace {
 
-constexpr std::array<const char*, 2> kSentences = {"It is hot", "It is loud"};
+constexpr std::array<const char*, 3> kSentences = {"It is hot", "It is loud", "It slips (times so far: {})"};
 constexpr std::int64_t kStart = 1'000'000'000;  // ns
 
-TEST(DriverWarnings, AreToldWhileTheyLastAndCounted) {
+TEST(DriverWarnings, AreToldWhileTheyLast) {
   DriverLink link(DeviceInfo{});
   Warnings warnings(kSentences);
   warnings.tell(link, kStart);
@@ -25,8 +26,35 @@ TEST(DriverWarnings, AreToldWhileTheyLastAndCounted) {
   EXPECT_EQ(link.condition(), "It is hot");
   warnings.tell(link, kStart + 2 * Warnings::kLasting);
   EXPECT_EQ(link.condition(), "");
-  EXPECT_EQ(warnings.count(0), 1U);
-  EXPECT_EQ(warnings.count(1), 1U);
+}
+
+TEST(DriverWarnings, AreCounted) {
+  DriverLink link(DeviceInfo{});
+  Warnings warnings(kSentences);
+  warnings.note(2, kStart);
+  warnings.tell(link, kStart);
+  EXPECT_EQ(link.condition(), "It slips (times so far: 1)");
+  warnings.note(2, kStart);
+  warnings.note(2, kStart + Warnings::kCountShown);
+  warnings.tell(link, kStart + Warnings::kCountShown / 2);
+  EXPECT_EQ(link.condition(), "It slips (times so far: 1)") << "not told too often";
+  warnings.tell(link, kStart + Warnings::kCountShown);
+  EXPECT_EQ(link.condition(), "It slips (times so far: 3)");
+  warnings.tell(link, kStart + 10 * Warnings::kLasting);
+  EXPECT_EQ(link.condition(), "");
+}
+
+TEST(DriverWarnings, NoteOfAnyThreadCounts) {
+  DriverLink link(DeviceInfo{});
+  Warnings warnings(kSentences);
+  const auto note_often = [&] {
+    for (int i = 0; i < 10'000; ++i) warnings.note(2, kStart);
+  };
+  std::thread other(note_often);
+  note_often();
+  other.join();
+  warnings.tell(link, kStart);
+  EXPECT_EQ(link.condition(), "It slips (times so far: 20000)");
 }
 
 TEST(DriverWarnings, OthersSentencesStayUntilThereIsAnother) {

@@ -20,7 +20,42 @@ struct ArmSettings {
 };
 
 /// Faults of a reading.
-enum class ArmFault : std::uint8_t { None, NotANumber, Infinite, Jump, Frozen };
+enum class ArmFault : std::uint8_t {
+  None,
+  NotANumber,
+  Infinite,
+  Jump,  // to and fro, from one reading to the next
+  Frozen,
+  Displaced,  // all readings are half a metre away
+};
+
+/// Marks of the forces that a device was told, one after the other, since begin(). Not thread-safe.
+class ForceTrace {
+ public:
+  struct Marks {
+    double weakest = std::numeric_limits<double>::infinity();  // N
+    double steepest = 0.0;                                     // N, greatest growth from one to the next
+    int falls = 0;                                             // from more than 0.5 N to none at once
+    std::int64_t longest_gap = 0;                              // ns, from one to the next
+  };
+
+  void begin() { marks_ = {}; }
+  const Marks& marks() const { return marks_; }
+  /// A force of so many N was told now, ns.
+  void add(double force, std::int64_t now) {
+    marks_.weakest = std::min(marks_.weakest, force);
+    marks_.steepest = std::max(marks_.steepest, force - last_);
+    if (last_ > 0.5 && force == 0.0) ++marks_.falls;
+    if (last_time_ != 0) marks_.longest_gap = std::max(marks_.longest_gap, now - last_time_);
+    last_ = force;
+    last_time_ = now;
+  }
+
+ private:
+  Marks marks_;
+  double last_ = 0.0;           // N
+  std::int64_t last_time_ = 0;  // ns, 0: none so far
+};
 
 /// The physical model behind the fakes: a mass with friction, held by a spring and a damper, pushed by the
 /// forces that the program sends. It shares nothing with devices::SimulatedDevice, which it is there to stand
@@ -95,6 +130,9 @@ class FakeArm {
         break;
       case ArmFault::Jump:
         reading.position.z() += jump_ = -jump_;
+        break;
+      case ArmFault::Displaced:
+        reading.position.z() += 0.5;
         break;
     }
     return reading;

@@ -37,6 +37,7 @@ constexpr unsigned kWarmError = 0x0200;
 constexpr unsigned kTooStrongError = 0x0201;
 constexpr unsigned kFaultError = 0x0300;
 constexpr unsigned kCommunicationError = 0x0302;
+constexpr unsigned kSchedulerError = 0x0306;
 constexpr unsigned kStrangeError = 0x0999;
 constexpr unsigned kNoDevice = 0xFFFFFFFF;
 
@@ -46,7 +47,7 @@ struct ErrorInfo {
   unsigned device = kNoDevice;
 };
 
-/// The errors of a thread, of which the oldest are lost.
+/// Errors that nobody has taken yet. Where there are too many, the newest are lost.
 class ErrorStack {
  public:
   void add(unsigned code, unsigned device) {
@@ -61,8 +62,6 @@ class ErrorStack {
   std::array<ErrorInfo, 8> errors_;
   std::size_t count_ = 0;
 };
-thread_local ErrorStack hd_errors;
-
 FakeHd& hd_from_environment() {
   static FakeHd hd;
   const FakeEnvironment environment("FAKE_HD");
@@ -84,12 +83,38 @@ FakeHd& the_hd() {
   return hd;
 }
 
-// One for each thread: the makers publish nothing on it, and other threads' frames must not be upset.
-thread_local unsigned current_device = kNoDevice;
+/// The current device and the errors: of a thread, or of all of them (FakeHd::is_per_process).
+struct HdContext {
+  std::atomic<unsigned> device = kNoDevice;
+  std::mutex guard;
+  ErrorStack errors;
+};
+
+std::atomic<std::thread::id> opening_thread;  // none: no device is being opened
+
+HdContext& the_context() {
+  static HdContext of_all;
+  thread_local HdContext of_thread;
+  FakeHd& hd = the_hd();
+  if (!hd.is_per_process) return of_thread;
+  const std::thread::id opening = opening_thread;
+  if (opening != std::thread::id() && opening != std::this_thread::get_id()) ++hd.misuses;
+  return of_all;
+}
+
+void add_error(unsigned code, unsigned device) {
+  HdContext& errors = the_context();
+  const std::lock_guard lock(errors.guard);
+  errors.errors.add(code, device);
+}
 
 void misuse(unsigned device) {
   ++the_hd().misuses;
-  hd_errors.add(kMisuseError, device);
+  add_error(kMisuseError, device);
+}
+
+void hang_in(FakeHd::Call call) {
+  while (the_hd().hangs_in == call) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 /// The open device of that handle; null where there is none, which is a misuse.
@@ -140,12 +165,15 @@ class Scheduler {
     const auto before = std::find_if(tasks_.begin(), tasks_.end(),
                                      [&](const Task& task) { return task.priority < priority; });
     tasks_.insert(before, {callback, context, priority, ++last_handle_});
+    ++the_hd().callbacks;
     return last_handle_;
   }
   void remove(unsigned long handle) {
     const std::lock_guard lock(guard_);
-    if (std::erase_if(tasks_, [&](const Task& task) { return task.handle == handle; }) == 0)
-      misuse(kNoDevice);
+    const auto removed = int(std::erase_if(tasks_, [&](const Task& task) { return task.handle == handle; }));
+    the_hd().callbacks -= removed;
+    if (removed == 0 && handle != 0) misuse(kNoDevice);
+    if (handle == 0) add_error(kBadValueError, kNoDevice);
   }
   bool has(unsigned long handle) {
     const std::lock_guard lock(guard_);
@@ -173,10 +201,12 @@ class Scheduler {
   void tick() {
     const std::lock_guard lock(guard_);
     for (std::size_t i = 0; i < tasks_.size();) {
-      if (tasks_[i].callback(tasks_[i].context) == 0)
-        tasks_.erase(tasks_.begin() + std::ptrdiff_t(i));
-      else
+      if (tasks_[i].callback(tasks_[i].context) != 0) {
         ++i;
+        continue;
+      }
+      tasks_.erase(tasks_.begin() + std::ptrdiff_t(i));
+      --the_hd().callbacks;
     }
   }
 
@@ -210,7 +240,7 @@ void write_transform(const FakeUnit::Sample& sample, double* values) {
 std::array<FakeUnit::Sample, FakeHd::kMost> frame_samples;
 
 void get_number(unsigned what, double* values) {
-  const unsigned handle = current_device;
+  const unsigned handle = the_context().device;
   FakeHd::Device* device = device_of(handle);
   if (device == nullptr) return;
   constexpr std::array<double, 6> kUsable = {-80.0, -60.0, -35.0, 80.0, 60.0, 35.0};
@@ -244,12 +274,12 @@ void get_number(unsigned what, double* values) {
       *values = 0.88;
       return;
     default:
-      hd_errors.add(kBadValueError, handle);
+      add_error(kBadValueError, handle);
   }
 }
 
 void set_ability(unsigned ability, bool on) {
-  FakeHd::Device* device = device_of(current_device);
+  FakeHd::Device* device = device_of(the_context().device);
   if (device == nullptr) return;
   if (ability == kOutputAbility)
     device->has_force = on;
@@ -258,7 +288,22 @@ void set_ability(unsigned ability, bool on) {
   else if (ability == kRampAbility)
     device->has_ramp = on;
   else
-    hd_errors.add(kBadValueError, current_device);
+    add_error(kBadValueError, the_context().device);
+}
+
+/// Makes a device the current one, again and again for as long as opening it takes.
+void spend_opening_time(unsigned handle) {
+  FakeHd& hd = the_hd();
+  const std::int64_t end = base::steady_nanoseconds() + std::int64_t(1e9 * hd.opening_time);
+  opening_thread = std::this_thread::get_id();
+  hd.is_opening = true;
+  the_context().device = handle;
+  while (base::steady_nanoseconds() < end) {
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    the_context().device = handle;
+  }
+  hd.is_opening = false;
+  opening_thread = std::thread::id();
 }
 
 /// A callback that its caller waits for.
@@ -294,14 +339,14 @@ FAKE_EXPORT unsigned hdInitDevice(const char* name) {
     }
     const unsigned error = error_of(device);
     if (error == kCommunicationError || error == kFaultError) {
-      hd_errors.add(error, handle);
+      add_error(error, handle);
       return kNoDevice;
     }
     device.is_open = true;
-    current_device = handle;
+    spend_opening_time(handle);
     return handle;
   }
-  hd_errors.add(kBadValueError, kNoDevice);
+  add_error(kBadValueError, kNoDevice);
   return kNoDevice;
 }
 
@@ -317,59 +362,61 @@ FAKE_EXPORT void hdDisableDevice(unsigned handle) {
 }
 
 FAKE_EXPORT void hdMakeCurrentDevice(unsigned handle) {
-  if (device_of(handle) != nullptr) current_device = handle;
+  if (device_of(handle) != nullptr) the_context().device = handle;
 }
 
-FAKE_EXPORT unsigned hdGetCurrentDevice() { return current_device; }
+FAKE_EXPORT unsigned hdGetCurrentDevice() { return the_context().device; }
 
 FAKE_EXPORT void hdBeginFrame(unsigned handle) {
   FakeHd::Device* device = device_of(handle);
   if (device == nullptr) return;
   if (device->is_in_frame.exchange(true)) misuse(handle);
-  current_device = handle;
+  the_context().device = handle;
   frame_samples[handle] = device->unit.read();
+  hang_in(FakeHd::Call::BeginFrame);
 }
 
 FAKE_EXPORT void hdEndFrame(unsigned handle) {
+  hang_in(FakeHd::Call::EndFrame);
   FakeHd::Device* device = device_of(handle);
   if (device == nullptr) return;
   if (!device->is_in_frame.exchange(false)) misuse(handle);
-  if (const unsigned error = error_of(*device); error != kNoneError) hd_errors.add(error, handle);
+  if (const unsigned error = error_of(*device); error != kNoneError) add_error(error, handle);
 }
 
 FAKE_EXPORT void hdEnable(unsigned ability) { set_ability(ability, true); }
 FAKE_EXPORT void hdDisable(unsigned ability) { set_ability(ability, false); }
 
 FAKE_EXPORT unsigned char hdIsEnabled(unsigned ability) {
-  const FakeHd::Device* device = device_of(current_device);
+  const FakeHd::Device* device = device_of(the_context().device);
   return device != nullptr && ability == kOutputAbility && device->has_force ? 1 : 0;
 }
 
 FAKE_EXPORT void hdGetIntegerv(unsigned what, int* values) {
-  const FakeHd::Device* device = device_of(current_device);
+  const FakeHd::Device* device = device_of(the_context().device);
   if (device == nullptr) return;
   if (what == kButtonsValue)
     *values = int(device->unit.buttons());
   else
-    hd_errors.add(kBadValueError, current_device);
+    add_error(kBadValueError, the_context().device);
 }
 
 FAKE_EXPORT void hdGetDoublev(unsigned what, double* values) { get_number(what, values); }
 
 FAKE_EXPORT const char* hdGetString(unsigned what) {
-  if (device_of(current_device) == nullptr) return nullptr;
+  if (device_of(the_context().device) == nullptr) return nullptr;
   if (what == kModelValue) return the_hd().model();
   if (what == kVendorValue) return "a fake of 3D Systems";
-  if (what == kSerialValue) return current_device == 0 ? "FAKE-0001" : "FAKE-0002";
-  hd_errors.add(kBadValueError, current_device);
+  if (what == kSerialValue) return the_context().device == 0 ? "FAKE-0001" : "FAKE-0002";
+  add_error(kBadValueError, the_context().device);
   return nullptr;
 }
 
 FAKE_EXPORT void hdSetDoublev(unsigned what, const double* values) {
-  FakeHd::Device* device = device_of(current_device);
+  FakeHd::Device* device = device_of(the_context().device);
   if (device == nullptr) return;
-  if (what != kForceValue) return hd_errors.add(kBadValueError, current_device);
-  if (!device->is_in_frame) return misuse(current_device);
+  if (what != kForceValue) return add_error(kBadValueError, the_context().device);
+  if (!device->is_in_frame) return misuse(the_context().device);
   const icome::base::Vector3 force(values[0], values[1], values[2]);
   if (device->unit.is_plugged())
     device->unit.push(device->has_force ? force : icome::base::Vector3(icome::base::Vector3::Zero()));
@@ -378,12 +425,14 @@ FAKE_EXPORT void hdSetDoublev(unsigned what, const double* values) {
 FAKE_EXPORT void hdStartScheduler() { the_scheduler().start(); }
 FAKE_EXPORT void hdStopScheduler() { the_scheduler().stop(); }
 FAKE_EXPORT void hdSetSchedulerRate(unsigned long hertz) {
-  if (hertz < 500 || hertz > 4000) return hd_errors.add(kBadValueError, kNoDevice);
+  if (hertz < 500 || hertz > 4000) return add_error(kBadValueError, kNoDevice);
   the_scheduler().set_rate(double(hertz));
 }
 FAKE_EXPORT unsigned long hdScheduleAsynchronous(unsigned (*callback)(void*), void* context,
                                                  std::uint16_t priority) {
-  return the_scheduler().add(callback, context, priority);
+  const FakeHd::Scheduling answer = the_hd().scheduling;
+  if (answer != FakeHd::Scheduling::Fine) add_error(kSchedulerError, kNoDevice);
+  return answer == FakeHd::Scheduling::Refused ? 0 : the_scheduler().add(callback, context, priority);
 }
 FAKE_EXPORT void hdScheduleSynchronous(unsigned (*callback)(void*), void* context, std::uint16_t priority) {
   Waiting waiting{callback, context};
@@ -392,7 +441,11 @@ FAKE_EXPORT void hdScheduleSynchronous(unsigned (*callback)(void*), void* contex
 }
 FAKE_EXPORT void hdUnschedule(unsigned long handle) { the_scheduler().remove(handle); }
 
-FAKE_EXPORT ErrorInfo hdGetError() { return hd_errors.take(); }
+FAKE_EXPORT ErrorInfo hdGetError() {
+  HdContext& errors = the_context();
+  const std::lock_guard lock(errors.guard);
+  return errors.errors.take();
+}
 
 FAKE_EXPORT const char* hdGetErrorString(unsigned code) {
   switch (code) {
@@ -408,13 +461,15 @@ FAKE_EXPORT const char* hdGetErrorString(unsigned code) {
       return "device fault";
     case kCommunicationError:
       return "communication error";
+    case kSchedulerError:
+      return "scheduler full";
     default:
       return "unknown error";
   }
 }
 
 FAKE_EXPORT unsigned hdCheckCalibration() {
-  return device_of(current_device) != nullptr ? the_hd().calibration.load() : 0;
+  return device_of(the_context().device) != nullptr ? the_hd().calibration.load() : 0;
 }
 
 // NOLINTEND(readability-identifier-naming)

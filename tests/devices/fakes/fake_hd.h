@@ -13,6 +13,15 @@ namespace icome::devices::fakes {
 /// first, "Right" the second), FAKE_HD_MODEL (Touch), FAKE_HD_CALIBRATION (ok, update, inkwell), and the
 /// variables of FakeEnvironment.
 struct FakeHd {
+  /// A call of a frame.
+  enum class Call : std::uint8_t { None, BeginFrame, EndFrame };
+  /// The answer to hdScheduleAsynchronous.
+  enum class Scheduling : std::uint8_t {
+    Fine,
+    Refused,    // an error, and nothing is scheduled
+    Complains,  // an error, although it is scheduled
+  };
+
   static constexpr int kMost = 2;
   static constexpr std::array<const char*, kMost> kNames = {"Left", "Right"};
 
@@ -27,8 +36,16 @@ struct FakeHd {
   std::array<Device, kMost> devices;
   std::atomic<int> misuses = 0;  // calls in a wrong order or about a device that is not open
   std::atomic<bool> scheduler_runs = false;
-  std::atomic<bool> scheduler_hangs = false;   // it calls nobody, as after a crash of the driver
-  std::atomic<bool> scheduler_waits = true;    // false: as fast as it can
+  std::atomic<bool> scheduler_hangs = false;  // it calls nobody, as after a crash of the driver
+  std::atomic<bool> scheduler_waits = true;   // false: as fast as it can
+  std::atomic<int> callbacks = 0;             // that are scheduled
+  std::atomic<Scheduling> scheduling = Scheduling::Fine;
+  std::atomic<Call> hangs_in = Call::None;  // that call does not end as long as this is so
+  /// One current device and one queue of errors for all threads, as the makers' description can be read, not
+  /// for each. Then another thread's call is a misuse while a device is being opened.
+  std::atomic<bool> is_per_process = false;
+  std::atomic<double> opening_time = 0.0;      // s, that hdInitDevice takes
+  std::atomic<bool> is_opening = false;        // hdInitDevice has not ended yet
   std::atomic<unsigned> calibration = 0x5000;  // ok
   std::atomic<double> max_force = 3.3;         // N, that the device says it has
 
@@ -42,6 +59,10 @@ struct FakeHd {
     misuses = 0;
     scheduler_hangs = false;
     scheduler_waits = true;
+    scheduling = Scheduling::Fine;
+    hangs_in = Call::None;
+    is_per_process = false;
+    opening_time = 0.0;
     calibration = 0x5000;
     max_force = 3.3;
     const std::lock_guard lock(guard_);

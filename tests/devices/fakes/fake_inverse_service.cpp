@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include "base/clock.h"
+#include "realtime/this_thread.h"
 
 namespace icome::devices::fakes {
 namespace {
@@ -207,7 +208,7 @@ struct FakeInverseService::State {
 
   void greet(Client& client) {
     const std::size_t end = client.in.find("\r\n\r\n");
-    if (end == std::string::npos) return;
+    if (end == std::string::npos || fault == ServiceFault::Deaf) return;
     const std::string request = client.in.substr(0, end + 2);
     client.in.erase(0, end + 4);
     const std::string key = header_of(request, "Sec-WebSocket-Key");
@@ -302,6 +303,7 @@ struct FakeInverseService::State {
       strongest_component = std::max(strongest_component, newtons.cwiseAbs().maxCoeff());
     read(arms[index]);
     arms[index].commanded = arms[index].time;
+    if (index == 0) trace.add(newtons.norm(), base::steady_nanoseconds());
     if (index == 0 && newtons != commanded) {
       commanded = newtons;
       commanded_since = base::steady_nanoseconds();
@@ -383,7 +385,8 @@ struct FakeInverseService::State {
   }
 
   void write_to(Client& client) {
-    while (!client.answers.empty() && client.answers.front().first <= base::steady_nanoseconds()) {
+    while (!client.answers.empty() && fault != ServiceFault::Frozen &&
+           client.answers.front().first <= base::steady_nanoseconds()) {
       client.out += client.answers.front().second;
       client.answers.pop_front();
     }
@@ -415,7 +418,7 @@ struct FakeInverseService::State {
   std::int64_t free_time() const {
     std::int64_t time = kWait;
     for (const Client& client : clients) {
-      if (!client.answers.empty())
+      if (!client.answers.empty() && fault != ServiceFault::Frozen)
         time = std::min(time, client.answers.front().first - base::steady_nanoseconds());
     }
     return std::max<std::int64_t>(0, time);
@@ -439,6 +442,7 @@ struct FakeInverseService::State {
   Vector3 commanded = Vector3::Zero();
   std::int64_t commanded_since = 0;
   double strongest_component = 0.0;
+  ForceTrace trace;
   std::uint64_t messages = 0;
   std::uint64_t vectors = 0;
   std::uint64_t values = 0;
@@ -467,6 +471,8 @@ void FakeInverseService::stop() {
 }
 
 void FakeInverseService::serve() {
+  // Late answers are a fault that tests ask for.
+  static_cast<void>(realtime::ask_for_realtime_priority(84));
   std::vector<pollfd> waiting;
   while (!stop_) {
     timespec time = {0, 0};
@@ -564,6 +570,14 @@ double FakeInverseService::given() const {
   const std::lock_guard lock(guard_);
   state_->read(state_->arms.front());
   return state_->arms.front().arm.given();
+}
+void FakeInverseService::watch() {
+  const std::lock_guard lock(guard_);
+  state_->trace.begin();
+}
+ForceTrace::Marks FakeInverseService::marks() const {
+  const std::lock_guard lock(guard_);
+  return state_->trace.marks();
 }
 Vector3 FakeInverseService::commanded() const {
   const std::lock_guard lock(guard_);

@@ -32,6 +32,8 @@ struct FakeServiceSettings {
 enum class ServiceFault : std::uint8_t {
   None,
   Silent,     // takes messages and says nothing
+  Frozen,     // takes messages; the answers come all at once when this is over
+  Deaf,       // new connections get no answer at all
   Garbage,    // bytes at random
   Truncated,  // half of each answer
   WrongTypes  // numbers are texts
@@ -79,6 +81,9 @@ class FakeInverseService {
   double strongest_component() const;  // N, in one coordinate
   Vector3 held() const;                // N, now
   double given() const;                // J
+  /// Marks of the forces that were commanded since watch().
+  void watch();
+  ForceTrace::Marks marks() const;
   /// The force that was commanded last, N, and the time of its last change, ns on the steady clock.
   Vector3 commanded() const;
   std::int64_t commanded_since() const;

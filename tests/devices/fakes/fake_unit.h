@@ -113,6 +113,15 @@ class FakeUnit {
     const std::lock_guard lock(guard_);
     return pushes_;
   }
+  /// Marks of the forces that it was told since watch().
+  void watch() {
+    const std::lock_guard lock(guard_);
+    trace_.begin();
+  }
+  ForceTrace::Marks marks() const {
+    const std::lock_guard lock(guard_);
+    return trace_.marks();
+  }
   /// Energy that its motors gave so far, J.
   double given() const {
     const std::lock_guard lock(guard_);
@@ -154,6 +163,7 @@ class FakeUnit {
   void push(const base::Vector3& force) {
     const std::lock_guard lock(guard_);
     ++pushes_;
+    trace_.add(force.norm(), base::steady_nanoseconds());
     if (force != held_) held_since_ = base::steady_nanoseconds();
     held_ = force;
     if (is_posed_)
@@ -254,12 +264,14 @@ class FakeUnit {
   base::Vector3 held_ = base::Vector3::Zero();
   std::int64_t held_since_ = base::steady_nanoseconds();
   std::uint64_t pushes_ = 0;
+  ForceTrace trace_;
   std::mt19937 random_{20};
 };
 
 /// Settings and faults from the environment, for programs that load a fake library: PREFIX_LATENCY_US,
 /// PREFIX_QUANTUM_UM, PREFIX_TRANSFER_US, PREFIX_DROPOUTS (share), PREFIX_CIRCLE_MM, PREFIX_FAULT
-/// (not-a-number, infinite, jump, frozen, hostile, saturated, time-guard, hot, too-strong, broken, unknown).
+/// (not-a-number, infinite, jump, frozen, displaced, hostile, saturated, time-guard, hot, too-strong, broken,
+/// unknown).
 class FakeEnvironment {
  public:
   explicit FakeEnvironment(std::string prefix) : prefix_(std::move(prefix)) {}
@@ -282,8 +294,8 @@ class FakeEnvironment {
     settings.circle = 1e-3 * number("_CIRCLE_MM", 0.0);
     unit.set_up(settings);
     const std::string fault = text("_FAULT", "");
-    constexpr const char* kArmFaults[] = {"", "not-a-number", "infinite", "jump", "frozen"};
-    for (int i = 1; i < 5; ++i) {
+    constexpr const char* kArmFaults[] = {"", "not-a-number", "infinite", "jump", "frozen", "displaced"};
+    for (int i = 1; i < 6; ++i) {
       if (fault == kArmFaults[i]) unit.fail(ArmFault(i));
     }
     constexpr const char* kUnitFaults[] = {"",    "hostile",    "saturated", "time-guard",

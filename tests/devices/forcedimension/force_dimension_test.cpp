@@ -6,7 +6,6 @@
 
 #include "devices/fakes/fake_dhd.h"
 #include "devices/fakes/loaded_fake.h"
-#include "devices/forcedimension/force_dimension_driver.h"
 #include "devices/library_suite.h"
 
 namespace icome::devices {
@@ -46,7 +45,9 @@ class ForceDimension : public testing::Test {
             [this] { return unit().held().norm(); },
             [this] { return unit().given(); },
             [this](bool in) { unit().plug(in); },
-            [this](fakes::ArmFault fault) { unit().fail(fault); }};
+            [this](fakes::ArmFault fault) { unit().fail(fault); },
+            [this] { unit().watch(); },
+            [this] { return unit().marks(); }};
   }
 
   fakes::LoadedFake<FakeDhd> fake_{"fake_dhd", "ICOME_LIBDHD"};
@@ -241,18 +242,18 @@ TEST_F(ForceDimension, ListingClosesWhatItOpened) {
 }
 
 TEST_F(ForceDimension, WarningsAreCountedAndTold) {
-  auto owned = driver();
-  const auto& counted = static_cast<const ForceDimensionDriver&>(*owned);
-  const auto device = suite::driven(std::move(owned));
+  const auto device = suite::driven(driver());
   ASSERT_TRUE(device);
   unit().fail(UnitFault::Saturated);
   EXPECT_TRUE(held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) {
     return device->condition().find("saturated") != std::string::npos;
   }));
-  EXPECT_GT(counted.saturations(), 0U);
+  const int saturations = suite::times_told(device->condition());
+  EXPECT_GT(saturations, 0) << device->condition();
+  EXPECT_TRUE(holds_soon([&] { return suite::times_told(device->condition()) > saturations + 10; }));
   unit().fail(UnitFault::TimeGuard);
   EXPECT_TRUE(holds_soon([&] { return device->condition().find("time guard") != std::string::npos; }));
-  EXPECT_GT(counted.time_guards(), 0U);
+  EXPECT_GT(suite::times_told(device->condition()), 0) << device->condition();
   EXPECT_TRUE(held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.01; }))
       << "warnings end nothing";
   unit().fail(UnitFault::None);
@@ -296,6 +297,14 @@ TEST_F(ForceDimension, SettingsFromTheEnvironment) {
   refused("ICOME_DHD_GRIP_DEGREES", "30 degrees");
 }
 
+TEST_F(ForceDimension, AnEmptyVariableIsNone) {
+  const EnvironmentValue axes("ICOME_DHD_AXES", "");
+  const EnvironmentValue rate("ICOME_DHD_RATE", "");
+  const auto settings = force_dimension_settings();
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->axes, ForceDimensionSettings().axes);
+}
+
 TEST_F(ForceDimension, TakesTheForceAwayWhenTheServoStandsStill) {
   const auto device = suite::driven(driver());
   ASSERT_TRUE(device);
@@ -305,7 +314,7 @@ TEST_F(ForceDimension, TakesTheForceAwayWhenTheServoStandsStill) {
 TEST_F(ForceDimension, StandsAMillionHostileReadings) {
   unit().set_up({.counted_period = 0.00025});
   ForceDimensionSettings settings;
-  settings.rate = 0.0;
+  settings.rate = suite::kUnpaced;
   const auto device = suite::patient(driver("", settings));
   ASSERT_TRUE(device);
   suite::stands_a_million_readings(*device, unit());
@@ -338,6 +347,14 @@ TEST_F(ForceDimension, IsPassive) {
   suite::Rig it = rig();
   ASSERT_TRUE(it.device);
   suite::is_passive(it);
+}
+TEST_F(ForceDimension, AFloorThatComesLateIsNotPassive) {
+  unit().set_up({.arm = {.force_latency = 0.02}});
+  suite::Rig it = rig();
+  ASSERT_TRUE(it.device);
+  const auto work = suite::median_work(it);
+  if (!work) GTEST_SKIP() << "the machine stands still in each press";
+  EXPECT_GT(*work, suite::kPassiveWork) << "the suite does not see it";
 }
 TEST_F(ForceDimension, ComesBack) {
   suite::Rig it = rig();

@@ -38,6 +38,15 @@ inline bool haply_reads_soon(PointerDevice& device) {
   return haply_reads_soon(device, [](const PointerState&) { return true; });
 }
 
+/// Is the force (N) held until a condition is fulfilled, in time?
+inline bool haply_holds_until(PointerDevice& device, const Vector3& force,
+                              const std::function<bool()>& condition) {
+  return suite::holds_soon([&] {
+    device.write(force);
+    return condition();
+  });
+}
+
 inline bool haply_is_lost_soon(PointerDevice& device) {
   PointerState state;
   return suite::holds_soon([&] { return device.read(state) == DeviceStatus::Lost; });

@@ -4,7 +4,9 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "devices/device_profiles.h"
 #include "devices/haply/haply_back_end.h"
 #include "devices/haply/haply_bench.h"
 #include "realtime/guard/guard.h"
@@ -307,6 +309,89 @@ TEST(HaplyFailures, LeavingDoesNotWaitForAServiceThatSaysNothing) {
   EXPECT_TRUE(holds_soon([&] { return fake.held().isZero(0.0); }));
 }
 
+TEST(HaplyFailures, AnAnswerThatDoesNotComeLeavesNoForceBehind) {
+  FakeInverseService fake;
+  const auto device = haply_at(fake);  // which waits for 20 s
+  ASSERT_TRUE(device);
+  ASSERT_TRUE(haply_holds_until(*device, {1, 0, 0}, [&] { return fake.commanded().norm() > 0.5; }));
+  fake.set_fault(ServiceFault::Silent);
+  const std::int64_t begin = base::steady_nanoseconds();
+  // Also while the servo has new forces.
+  EXPECT_TRUE(haply_holds_until(*device, {1, 0, 0}, [&] { return fake.commanded().isZero(0.0); }));
+  EXPECT_LT(base::steady_nanoseconds() - begin, 15'000'000'000);
+  PointerState state;
+  EXPECT_NE(device->read(state), DeviceStatus::Lost);
+}
+
+TEST(HaplyFailures, LeavingGivesNoForce) {
+  FakeInverseService fake;
+  auto device = haply_at(fake);
+  ASSERT_TRUE(device);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(haply_holds_until(*device, {1, 0, 0}, [&] { return fake.commanded().norm() > 0.1; }));
+    device.reset();
+    EXPECT_TRUE(holds_soon([&] { return fake.commanded().isZero(0.0); }));
+    device = haply_at(fake);
+    ASSERT_TRUE(device);
+  }
+}
+
+/// A driver, and the link that a test asks for forces.
+struct LinkedHaply {
+  explicit LinkedHaply(const FakeInverseService& fake) : driver(settings_for(fake)) {
+    const auto info = driver.open();
+    EXPECT_TRUE(info) << info.error().message;
+    link.connect(*info);
+  }
+  /// One exchange, with a force that never gets too old.
+  bool exchange(const Vector3& force) {
+    constexpr std::int64_t kMinute = 60'000'000'000;  // ns
+    link.write(force, base::steady_nanoseconds() + kMinute);
+    return driver.exchange(link);
+  }
+
+  HaplyDriver driver;
+  DriverLink link{*find_device_profile("Haply Inverse3")};
+};
+
+TEST(HaplyFailures, AnswersThatComeLateAllAtOnceMakeNoLaterOneLate) {
+  FakeInverseService fake;
+  const Vector3 middle = HaplySettings().middle;
+  fake.pin(middle);
+  LinkedHaply haply(fake);
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    ASSERT_TRUE(holds_soon([&] { return haply.exchange({1, 0, 0}) && fake.commanded().norm() > 0.1; }));
+    fake.set_fault(ServiceFault::Frozen);
+    std::thread waiting([&] { EXPECT_TRUE(haply.exchange({1, 0, 0})); });
+    EXPECT_TRUE(holds_soon([&] { return fake.commanded().isZero(0.0); }));
+    fake.set_fault(ServiceFault::None);
+    waiting.join();
+    const double x = repeat % 2 == 0 ? 0.001 : -0.001;  // m
+    fake.pin(middle + Vector3(x, 0, 0));
+    ASSERT_TRUE(haply.exchange({1, 0, 0}));
+    PointerState state;
+    ASSERT_EQ(haply.link.read(state), DeviceStatus::Ok);
+    EXPECT_NEAR(state.position.x(), x, 1e-9) << "the answer before";
+    EXPECT_LT(fake.commanded().norm(), 0.1) << "N, a blow instead of a ramp";
+  }
+}
+
+TEST(HaplyFailures, LeavingDoesNotWaitForAConnectionThatIsTried) {
+  FakeInverseService fake;
+  HaplySettings settings = settings_for(fake);
+  settings.connect_patience = 60.0;
+  auto device = open_haply_at(settings);
+  ASSERT_TRUE(device);
+  ASSERT_TRUE(haply_reads_soon(**device));
+  fake.set_fault(ServiceFault::Deaf);
+  fake.hang_up();
+  ASSERT_TRUE(haply_is_lost_soon(**device));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it is looked for by now
+  const std::int64_t begin = base::steady_nanoseconds();
+  device->reset();
+  EXPECT_LT(base::steady_nanoseconds() - begin, 20'000'000'000);
+}
+
 TEST(HaplyDriver, WhatTheDeviceLacksIsTold) {
   FakeInverseService fake;
   const auto device = haply_at(fake);
@@ -423,6 +508,8 @@ class HaplySuite : public testing::Test {
     rig_.given = [this] { return fake_.given(); };
     rig_.plug = [this](bool in) { fake_.plug(in); };
     rig_.fail = [this](ArmFault fault) { fake_.fail(fault); };
+    rig_.watch = [this] { fake_.watch(); };
+    rig_.marks = [this] { return fake_.marks(); };
   }
 
   FakeInverseService fake_;

@@ -4,11 +4,14 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+#include <thread>
+#include <tuple>
 
 #include "devices/fakes/fake_hd.h"
 #include "devices/fakes/loaded_fake.h"
 #include "devices/library_suite.h"
-#include "devices/openhaptics/open_haptics_driver.h"
+#include "devices/openhaptics/hd_library.h"
 
 namespace icome::devices {
 namespace {
@@ -45,7 +48,9 @@ class OpenHapticsFake : public testing::Test {
             [this] { return unit().held().norm(); },
             [this] { return unit().given(); },
             [this](bool in) { unit().plug(in); },
-            [this](fakes::ArmFault fault) { unit().fail(fault); }};
+            [this](fakes::ArmFault fault) { unit().fail(fault); },
+            [this] { unit().watch(); },
+            [this] { return unit().marks(); }};
   }
 
   fakes::LoadedFake<FakeHd> fake_{"fake_hd", "ICOME_LIBHD"};
@@ -103,13 +108,33 @@ TEST_P(OpenHaptics, MotorsAreReadiedAndLetGo) {
   EXPECT_EQ(unit().held().norm(), 0.0);
 }
 
-TEST_P(OpenHaptics, TwoDevicesByName) {
-  fake_->set_up(2, "Touch");
+/// Tests of two devices, also with a library that has one current device for all threads.
+class TwoOpenHaptics : public OpenHapticsFake, public testing::WithParamInterface<std::tuple<Mode, bool>> {
+ protected:
+  TwoOpenHaptics() {
+    fake_->set_up(2, "Touch");
+    fake_->is_per_process = std::get<1>(GetParam());
+  }
+  static std::unique_ptr<suite::PatientDevice> opened(std::string_view name) {
+    return suite::patient(driver(std::get<0>(GetParam()), name));
+  }
+  bool right_is_held(suite::PatientDevice& right) {
+    return held_until(right, {0.0, 2.0, 0.0}, [&](const auto&) { return unit(1).held().y() > 1.99; });
+  }
+};
+INSTANTIATE_TEST_SUITE_P(, TwoOpenHaptics,
+                         testing::Combine(testing::Values(Mode::Drives, Mode::Follows), testing::Bool()),
+                         [](const auto& it) {
+                           return std::string(std::get<0>(it.param) == Mode::Drives ? "Drives" : "Follows") +
+                                  (std::get<1>(it.param) ? "OneForAllThreads" : "OneForEachThread");
+                         });
+
+TEST_P(TwoOpenHaptics, ByName) {
   FakeUnit::Sample pose;
   pose.position = {0.03, 0.0, 0.0};
   unit(1).pose(pose);
-  auto left = suite::patient(driver(GetParam(), "Left"));
-  const auto right = suite::patient(driver(GetParam(), "Right"));
+  auto left = opened("Left");
+  const auto right = opened("Right");
   ASSERT_TRUE(left && right);
   EXPECT_TRUE(held_until(*right, {0.0, 2.0, 0.0}, [&](const PointerState& state) {
     return state.position.isApprox(Vector3(0.03, 0.0, 0.0), 1e-12) && unit(1).held().norm() > 1.9;
@@ -121,17 +146,47 @@ TEST_P(OpenHaptics, TwoDevicesByName) {
   EXPECT_TRUE(held_until(*right, {0.0, -2.0, 0.0}, [&](const auto&) { return unit(1).held().y() < -1.9; }));
 }
 
+TEST_P(TwoOpenHaptics, OneGivesNoForceWhileTheOtherIsOpened) {
+  unit(1).pose({});
+  const auto right = opened("Right");
+  ASSERT_TRUE(right && right_is_held(*right));
+  fake_->opening_time = 1.2;  // longer than a scheduler may stand still
+  unit(1).watch();
+  std::unique_ptr<suite::PatientDevice> left;
+  std::thread opening([&] { left = opened("Left"); });
+  ASSERT_TRUE(holds_soon([&] { return fake_->is_opening.load(); }));
+  while (fake_->is_opening) {
+    const double held = unit(1).held().norm();
+    EXPECT_TRUE(held == 0.0 || !fake_->is_opening) << held << " N";
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  opening.join();
+  ASSERT_TRUE(left);
+  EXPECT_TRUE(right_is_held(*right)) << "it goes on by itself";
+  EXPECT_EQ(unit(1).marks().weakest, 0.0);
+  EXPECT_LT(unit(1).marks().steepest, 0.1) << "N, a blow instead of a ramp";
+  EXPECT_EQ(unit(0).strongest(), 0.0);
+  fake_->opening_time = 0.0;
+}
+
+TEST_P(TwoOpenHaptics, LookingAtOneLeavesTheOtherAlone) {
+  const EnvironmentValue names("ICOME_HD_NAMES", "Right");
+  unit(1).pose({});
+  const auto right = opened("Right");
+  ASSERT_TRUE(right && right_is_held(*right));
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(kOpenHaptics.list()[0].present);
+  EXPECT_TRUE(right_is_held(*right));
+  EXPECT_EQ(unit(0).strongest(), 0.0);
+}
+
 TEST_P(OpenHaptics, WarningsAreCountedAndTold) {
-  auto owned = driver(GetParam());
-  const auto& counted = static_cast<const OpenHapticsDriver&>(*owned);
-  const auto device = suite::driven(std::move(owned));
+  const auto device = suite::driven(driver(GetParam()));
   ASSERT_TRUE(device);
   unit().fail(UnitFault::Hot);
   EXPECT_TRUE(holds_soon([&] { return device->condition().find("motors are hot") != std::string::npos; }));
   unit().fail(UnitFault::TooStrong);
   EXPECT_TRUE(holds_soon([&] { return device->condition().find("More force") != std::string::npos; }));
-  EXPECT_GT(counted.count(HdWarning::Hot), 0U);
-  EXPECT_GT(counted.count(HdWarning::TooStrong), 0U);
+  EXPECT_GT(suite::times_told(device->condition()), 0) << device->condition();
   EXPECT_TRUE(held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.01; }))
       << "warnings end nothing";
   unit().fail(UnitFault::None);
@@ -184,6 +239,87 @@ TEST_F(OpenHapticsFake, ASchedulerThatStandsStillIsASentence) {
       holds_soon([&] { return device->condition().find("scheduler stands still") != std::string::npos; }));
   fake_->scheduler_hangs = false;
   EXPECT_TRUE(holds_soon([&] { return device->read(state) == DeviceStatus::Ok; }));
+}
+
+TEST_F(OpenHapticsFake, ACallThatHangsIsASentence) {
+  for (const FakeHd::Call call : {FakeHd::Call::BeginFrame, FakeHd::Call::EndFrame}) {
+    SCOPED_TRACE(int(call));
+    const auto device = suite::driven(driver(Mode::Drives));
+    ASSERT_TRUE(device);
+    ASSERT_TRUE(
+        held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.1; }));
+    const std::int64_t begin = base::steady_nanoseconds();
+    fake_->hangs_in = call;
+    EXPECT_TRUE(holds_soon([&] {
+      device->write({1.0, 0.0, 0.0});
+      return device->condition().find("stands still") != std::string::npos ||
+             device->condition().find("does not end") != std::string::npos;
+    }));
+    EXPECT_LT(base::steady_nanoseconds() - begin, 10'000'000'000);
+    PointerState state;
+    EXPECT_EQ(device->read(state), DeviceStatus::Lost);
+    fake_->hangs_in = FakeHd::Call::None;
+    EXPECT_TRUE(holds_soon([&] { return unit().held().norm() == 0.0; })) << "it goes on without the servo";
+    EXPECT_TRUE(holds_soon([&] { return device->read(state) == DeviceStatus::Ok; })) << device->condition();
+  }
+}
+
+TEST_F(OpenHapticsFake, ACallThatHangsDoesNotKeepFromLeaving) {
+  for (const FakeHd::Call call : {FakeHd::Call::BeginFrame, FakeHd::Call::EndFrame}) {
+    SCOPED_TRACE(int(call));
+    auto device = suite::driven(driver(Mode::Drives));
+    ASSERT_TRUE(device);
+    ASSERT_TRUE(
+        held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.1; }));
+    fake_->hangs_in = call;
+    const std::int64_t begin = base::steady_nanoseconds();
+    device.reset();
+    EXPECT_LT(base::steady_nanoseconds() - begin, 10'000'000'000);
+    EXPECT_EQ(failure_to_open(),
+              "a call of OpenHaptics does not end; unplug the PHANToM or Touch, and restart the program");
+    fake_->hangs_in = FakeHd::Call::None;
+    EXPECT_TRUE(holds_soon([&] { return unit().held().norm() == 0.0; })) << "it goes on with what is gone";
+    EXPECT_TRUE(kOpenHaptics.list()[0].present) << "it is closed at last";
+  }
+}
+
+TEST_F(OpenHapticsFake, AnOldErrorIsNoneOfScheduling) {
+  fake_->is_per_process = true;
+  const auto owned = driver(Mode::Drives);
+  const auto info = owned->open();
+  ASSERT_TRUE(info);
+  fake_.function<void(unsigned long)>("hdSetSchedulerRate")(1);  // leaves an error
+  DriverLink link(*info);
+  link.connect(*info);
+  std::atomic<bool> stop = false;
+  std::string why;
+  std::thread thread([&] { why = owned->run(link, stop); });
+  EXPECT_TRUE(holds_soon([&] { return link.counts().passed > 10; }));
+  stop = true;
+  thread.join();
+  owned->close();
+  EXPECT_EQ(why, "");
+}
+
+TEST_F(OpenHapticsFake, ASchedulerThatRefusesIsASentence) {
+  for (const auto answer : {FakeHd::Scheduling::Refused, FakeHd::Scheduling::Complains}) {
+    SCOPED_TRACE(int(answer));
+    fake_->scheduling = answer;
+    const auto owned = driver(Mode::Drives);
+    const auto info = owned->open();
+    ASSERT_TRUE(info);
+    DriverLink link(*info);
+    link.connect(*info);
+    EXPECT_EQ(owned->run(link, false),
+              "Touch (fake) does not work any more (scheduler full); switch it off and on again");
+    EXPECT_TRUE(holds_soon([&] { return fake_->callbacks == 0; })) << "it is called with what is gone";
+    owned->close();
+    fake_->scheduling = FakeHd::Scheduling::Fine;
+    const auto device = suite::driven(driver(Mode::Drives));
+    ASSERT_TRUE(device);
+    EXPECT_TRUE(
+        held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.1; }));
+  }
 }
 
 TEST_F(OpenHapticsFake, ProfilesByModelAndItsOwnLimits) {
@@ -287,7 +423,7 @@ TEST_P(OpenHaptics, TakesTheForceAwayWhenTheServoStandsStill) {
 TEST_P(OpenHaptics, StandsAMillionHostileReadings) {
   unit().set_up({.counted_period = 0.001});
   fake_->scheduler_waits = GetParam() == Mode::Follows;  // a scheduler that makes no frames does not hurry
-  const auto device = suite::patient(open_haptics_driver("", {.mode = GetParam(), .rate = 0.0}));
+  const auto device = suite::patient(open_haptics_driver("", {.mode = GetParam(), .rate = suite::kUnpaced}));
   ASSERT_TRUE(device);
   suite::stands_a_million_readings(*device, unit());
 }

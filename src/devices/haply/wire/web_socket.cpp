@@ -28,6 +28,7 @@ namespace beast = boost::beast;
 using SocketError = boost::system::error_code;
 
 constexpr std::int64_t kStopStep = 10'000'000;  // ns, between two looks at `stop`
+constexpr std::int64_t kCallStep = 2'000'000;   // ns, between two calls while a read waits
 constexpr std::size_t kMostOfAnswer = 64 * 1024;
 
 std::int64_t deadline_after(double patience) {
@@ -50,6 +51,7 @@ class TimedSocket {
   executor_type get_executor() const noexcept { return context_.get_executor(); }
   void set_deadline(std::int64_t deadline) { deadline_ = deadline; }
   void stop_by(const std::atomic<bool>* stop) { stop_ = stop; }
+  void while_waiting(std::function<void(bool)> call) { while_waiting_ = std::move(call); }
   bool readable() const {
     pollfd waiting = {socket_, POLLIN, 0};
     return ::poll(&waiting, 1, 0) > 0;
@@ -139,14 +141,21 @@ class TimedSocket {
   }
 
   /// False once stopped or too late. Looks at the socket once more then, as this thread may have stood still.
-  bool wait_for(short what) const {
+  bool wait_for(short what) {
+    const bool calls = what == POLLIN && while_waiting_;
+    const std::int64_t deadline = deadline_;
     while (true) {
-      const std::int64_t left = deadline_ - base::steady_nanoseconds();
-      const std::int64_t step = std::clamp(left, std::int64_t{0}, kStopStep);
+      const std::int64_t left = deadline - base::steady_nanoseconds();
+      const std::int64_t step = std::clamp(left, std::int64_t{0}, calls ? kCallStep : kStopStep);
       const timespec time = {0, step};
       pollfd waiting = {socket_, what, 0};
       if (ppoll(&waiting, 1, &time, nullptr) > 0) return true;
-      if (left <= 0 || (stop_ && stop_->load(std::memory_order_relaxed))) return false;
+      const bool is_last = left <= 0 || (stop_ && stop_->load(std::memory_order_relaxed));
+      if (calls) {
+        while_waiting_(is_last);
+        deadline_ = deadline;  // what was sent meanwhile had another one
+      }
+      if (is_last) return false;
     }
   }
 
@@ -169,8 +178,9 @@ class TimedSocket {
   }
 
   asio::io_context& context_;
-  const std::atomic<bool>* stop_;  // may be null
-  std::int64_t deadline_ = 0;      // ns
+  const std::atomic<bool>* stop_;            // may be null
+  std::function<void(bool)> while_waiting_;  // may be empty
+  std::int64_t deadline_ = 0;                // ns
   int socket_ = -1;
 };
 
@@ -232,6 +242,7 @@ class WebSocket::Connection {
   }
   bool waiting() { return socket().readable(); }
   void stop_by(const std::atomic<bool>* stop) { socket().stop_by(stop); }
+  void while_waiting(std::function<void(bool)> call) { socket().while_waiting(std::move(call)); }
   std::string_view text() const {
     return {static_cast<const char*>(buffer_.data().data()), buffer_.data().size()};
   }
@@ -262,6 +273,9 @@ base::Result<std::unique_ptr<WebSocket>> WebSocket::connect(const ServiceAddress
 }
 
 void WebSocket::stop_by(const std::atomic<bool>* stop) { connection_->stop_by(stop); }
+void WebSocket::while_waiting(std::function<void(bool last)> call) {
+  connection_->while_waiting(std::move(call));
+}
 bool WebSocket::send(std::string_view text, std::int64_t deadline) {
   return connection_->send(text, deadline);
 }
@@ -271,11 +285,11 @@ std::string_view WebSocket::text() const { return connection_->text(); }
 const std::string& WebSocket::why() const { return connection_->why(); }
 void WebSocket::close(std::int64_t deadline) { connection_->close(deadline); }
 
-base::Result<std::string> get_by_http(const ServiceAddress& address, const std::string& path,
-                                      double patience) {
+base::Result<std::string> get_by_http(const ServiceAddress& address, const std::string& path, double patience,
+                                      const std::atomic<bool>* stop) {
   namespace http = beast::http;
   asio::io_context context;
-  TimedSocket socket(context, nullptr);
+  TimedSocket socket(context, stop);
   socket.set_deadline(deadline_after(patience));
   std::string failed = socket.connect(address);
   if (!failed.empty()) return base::fail(std::move(failed));

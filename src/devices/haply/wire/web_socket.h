@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ class WebSocket {
   /// A flag that ends every wait within 10 ms once it is set, and with it the connection; null: none. It must
   /// live as long as it is used.
   void stop_by(const std::atomic<bool>* stop);
+  /// Has this called every 2 ms while receive() waits, and once more, with `last`, before it gives up, as
+  /// after that nothing can be sent. It may send.
+  void while_waiting(std::function<void(bool last)> call);
   /// Leaves without a word unless close() was called.
   ~WebSocket();
 
@@ -51,8 +55,9 @@ class WebSocket {
   std::unique_ptr<Connection> connection_;
 };
 
-/// A service's answer to GET, at most 64 KB of it, within `patience`, s. Errors as those of connect().
-base::Result<std::string> get_by_http(const ServiceAddress& address, const std::string& path,
-                                      double patience);
+/// A service's answer to GET, at most 64 KB of it, within `patience`, s. Errors and `stop` as those of
+/// connect().
+base::Result<std::string> get_by_http(const ServiceAddress& address, const std::string& path, double patience,
+                                      const std::atomic<bool>* stop = nullptr);
 
 }  // namespace icome::devices
