@@ -5,6 +5,8 @@ import pathlib
 import signal
 import subprocess
 import sys
+import threading
+import time
 import unittest
 
 from icome_program import PROGRAM, ProgramTest
@@ -25,9 +27,9 @@ class Serving:
         self.host, port = self.said["listening"].rsplit(":", 1)
         self.port = int(port)
 
-    def end(self):
-        """Ends it as systemd would; gives the exit code."""
-        self.process.send_signal(signal.SIGTERM)
+    def end(self, how=signal.SIGTERM):
+        """Ends it as systemd or, by SIGINT, Ctrl-C would; gives the exit code."""
+        self.process.send_signal(how)
         return self.process.wait(timeout=60)
 
     def __enter__(self):
@@ -45,6 +47,8 @@ class ServedTest(ProgramTest):
             self.assertEqual(set(serving.said), {"listening", "names"})
             self.assertEqual(serving.said["names"], ["Pointer0"])
             self.assertEqual(serving.end(), 0)
+        with Serving() as serving:
+            self.assertEqual(serving.end(signal.SIGINT), 0)
 
     def test_a_program_of_others_sees_the_hand_move(self):
         with Serving() as serving:
@@ -60,6 +64,37 @@ class ServedTest(ProgramTest):
             client.wait_for("vrpn_Tracker Pos_Quat")
             client.send_plane((0.0, 1.0, 0.0, 0.0), 0.3)
             client.wait_for("vrpn_ForceDevice Force", lambda force: force[1] > 0.1)
+
+    def test_planes_of_others_push_as_strongly_as_they_say(self):
+        """A normal that is not of length 1: the floor is at y = 0.008, and its spring 0.1 N/mm."""
+        self.assertFelt(lambda client: client.send_plane((0.0, 2.0, 0.0, -0.016), 0.1),
+                        lambda x, y, z: (0.0, 100.0 * max(0.0, 0.008 - y), 0.0))
+
+    def test_fields_of_others_push_as_strongly_as_they_say(self):
+        jacobian = (-20.0, 5.0, 0.0, 10.0, -30.0, 0.0, 15.0, 0.0, 0.0)
+        self.assertFelt(lambda client: client.send_field((0.005, 0.0, 0.0), (0.1, 0.0, 0.05), jacobian, 1.0),
+                        lambda x, y, z: (0.1 - 20.0 * (x - 0.005) + 5.0 * y, 10.0 * (x - 0.005) - 30.0 * y,
+                                         0.05 + 15.0 * (x - 0.005)))
+
+    def assertFelt(self, ask, expected):
+        """Asks for a force; the one that is told behind each pose is the one that is expected there."""
+        with Serving() as serving:
+            client = Client(serving.host, serving.port, "Pointer0")
+            self.addCleanup(client.close)
+            ask(client)
+            # All forces grow softly at first, and a change comes a little later than it was asked for.
+            client.wait_for("vrpn_ForceDevice Force", lambda force: max(map(abs, force)) > 0.1)
+            begin = time.monotonic()
+            strongest = 0.0
+            while time.monotonic() - begin < 4.5:  # a whole round
+                position = client.wait_for("vrpn_Tracker Pos_Quat")[2:5]
+                force = client.wait_for("vrpn_ForceDevice Force")
+                if time.monotonic() - begin < 1.0:
+                    continue
+                for told, wanted in zip(force, expected(*position)):
+                    self.assertAlmostEqual(told, wanted, delta=1e-4)
+                strongest = max(strongest, *map(abs, force))
+            self.assertGreater(strongest, 0.3)
 
     def test_several_devices_have_names_of_their_own(self):
         with Serving("--device", "simulated", "--device", "Touch") as serving:
@@ -77,8 +112,64 @@ class ServedTest(ProgramTest):
             report = self.report("sphere:0.03", "--device", f"vrpn:Tracker0@127.0.0.1:{server.port}", "--seconds", "0.5")
         self.assertGreater(report["ticks"], 10)
 
+    # An arm whose x points right, y away from the user and z up, and which counts in mm: its place (10, 20, 30) is
+    # (0.010, 0.030, -0.020) m by ours, and a push upwards, by ours along y, is one along its z.
+    ARM = "?axes=x,z,-y&scale=0.001&profile=touch&unit=1000&forces="
+
+    def pushed(self, forces, kind):
+        """What an arm of others, which stands still, is asked for by a test with forces up to 0.5 N."""
+        with Server("Arm", forces=True) as server:
+            stop = threading.Event()
+
+            def stand():
+                while not stop.wait(0.001):
+                    server.pose((10.0, 20.0, 30.0), (0.0, 0.0, 0.0, 1.0))
+
+            arm = threading.Thread(target=stand)
+            arm.start()
+            try:
+                self.succeeds("devices", "test", f"vrpn:Arm@127.0.0.1:{server.port}{self.ARM}{forces}", "--seconds", "0.5",
+                              "--yes", "--json")
+            finally:
+                stop.set()
+                arm.join()
+            return [values for heard, values in server.heard if heard == kind]
+
+    def test_planes_go_out_in_the_axes_and_unit_of_the_server(self):
+        planes = [plane for plane in self.pushed("planes", "vrpn_ForceDevice Plane") if any(plane[:3])]
+        self.assertTrue(planes)
+        spring = 0.55  # N/mm: a Touch renders 550 N/m, and unit=1000 says what a spring of 1 is
+        deepest = 0.0
+        for x, y, z, offset, stiffness, *_ in planes:
+            self.assertAlmostEqual(x, 0.0, places=6)
+            self.assertAlmostEqual(y, 0.0, places=6)
+            self.assertAlmostEqual(abs(z), 1.0, places=6)
+            self.assertAlmostEqual(stiffness, spring, places=6)
+            # The tip is at z = 30 mm; the plane lies so far before it that its spring gives the force.
+            force = spring * (-offset - 30.0 * z)
+            self.assertGreater(force, -1e-5)
+            self.assertLess(force, 0.501)
+            deepest = max(deepest, force)
+        self.assertGreater(deepest, 0.05)
+
+    def test_fields_go_out_in_the_axes_and_unit_of_the_server(self):
+        fields = [field for field in self.pushed("fields", "vrpn_ForceDevice Force_Field") if any(field[3:6])]
+        self.assertTrue(fields)
+        for field in fields:
+            for told, wanted in zip(field[:3], (10.0, 20.0, 30.0)):
+                self.assertAlmostEqual(told, wanted, places=4)
+            self.assertAlmostEqual(field[3], 0.0, places=6)
+            self.assertAlmostEqual(field[4], 0.0, places=6)
+            self.assertEqual(field[6:15], (0.0,) * 9)
+            self.assertAlmostEqual(field[15], 20.0, places=4)  # 20 mm
+        self.assertGreater(max(field[5] for field in fields), 0.05)
+        self.assertLess(max(abs(field[5]) for field in fields), 0.501)
+
     def test_an_impossible_place_is_told(self):
-        self.fails("devices", "serve", "--vrpn", "nowhere", code=1, saying="HOST:PORT")
+        for place, saying in (("nowhere", "HOST:PORT"), ("127.0.0.1:99999", "HOST:PORT"), ("::1:3883", "HOST:PORT"),
+                              ("[::1]:3883", "IPv6"), ("192.0.2.1:0", "no such address")):
+            self.fails("devices", "serve", "--vrpn", place, code=1, saying=saying)
+        self.fails("devices", "serve", "--vrpn", "127.0.0.1:0", "--device", "nothing", code=1, saying="nothing")
         with Serving() as serving:
             self.fails("devices", "serve", "--vrpn", f"127.0.0.1:{serving.port}", code=1, saying=str(serving.port))
 

@@ -24,7 +24,6 @@ void take_in(const Message& message, PeerNames& names, TrackerReadings& readings
   if (auto field = kind == Kind::ForceField ? read_force_field(payload) : std::nullopt;
       field && tidy(*field, settings))
     wanted.clients[0].field = *field;
-  if (kind == Kind::Force || kind == Kind::Scp) (void)read_vector(payload);
 }
 
 void run_vrpn(std::string_view bytes) {
@@ -64,7 +63,7 @@ std::vector<std::string> vrpn_seeds() {
   outbox.put(0, Kind::Velocity, pack(Velocity{}).bytes());
   outbox.put(0, Kind::ButtonStates, pack_buttons(5, 8).bytes());
   outbox.put(0, Kind::ButtonChange, pack(Button{1, true}).bytes());
-  outbox.put(0, Kind::AnalogChannel, pack_channels(std::array{0.5, 0.25}).bytes());
+  outbox.put(0, Kind::AnalogChannel, Payload().put(2.0).put(0.5).put(0.25).bytes());
   Plane plane;
   plane.normal.y() = 1.0;
   plane.spring = 0.5;

@@ -11,8 +11,8 @@
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
-#include "base/parse_number.h"
 #include "devices/catalogue.h"
+#include "devices/host_port.h"
 #include "devices/simulated/simulated_device.h"
 #include "session/probe/device_sharing.h"
 
@@ -52,14 +52,13 @@ base::Result<Devices> open_all(const DevicesOptions& options) {
 /// "HOST:PORT" or "PORT" understood.
 base::Result<devices::VrpnServerSettings> place_of(const std::string& text, std::size_t devices) {
   devices::VrpnServerSettings settings;
-  const std::size_t colon = text.rfind(':');
-  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
-  if (colon != std::string::npos) settings.host = text.substr(0, colon);
-  const auto number = base::parse_number<int>(port);
-  if (!number || *number < 0 || *number > 65535 || settings.host.empty())
+  const bool port_alone = text.find(':') == std::string::npos;
+  const auto place = devices::parse_host_port(port_alone ? ":" + text : text, {settings.host, settings.port});
+  if (!place)
     return base::fail(
         fmt::format("--vrpn {}: say HOST:PORT, such as 127.0.0.1:3883; port 0 takes a free one.", text));
-  settings.port = *number;
+  settings.host = place->host;
+  settings.port = place->port;
   settings.names.clear();
   for (std::size_t i = 0; i < devices; ++i) settings.names.push_back(fmt::format("Pointer{}", i));
   return settings;
@@ -77,6 +76,8 @@ std::string announcement(const DevicesOptions& options, const session::DeviceSha
   for (std::size_t i = 0; i < sharing.devices(); ++i)
     text +=
         fmt::format("{}@{} is {}\n", server.names()[i], server.listening(), sharing.device(i).info().name);
+  if (server.listening().starts_with("0.0.0.0:"))
+    text += "0.0.0.0 stands for every address of this computer; programs elsewhere give one of them.\n";
   return text + "Ctrl-C ends sharing.\n";
 }
 

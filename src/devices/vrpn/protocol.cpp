@@ -12,14 +12,13 @@ namespace {
 
 constexpr std::string_view kGreeting = "vrpn: ver. 07.38  0";
 constexpr std::array<std::string_view, kKinds> kNames = {
-    "vrpn_Tracker Pos_Quat",  "vrpn_Tracker Velocity",  "vrpn_Button Change",
-    "vrpn_Button States",     "vrpn_Analog Channel",    "vrpn_ForceDevice Force",
-    "vrpn_ForceDevice SCP",   "vrpn_ForceDevice Plane", "vrpn_ForceDevice Force_Field",
-    "vrpn_Base ping_message", "vrpn_Base pong_message",
+    "vrpn_Tracker Pos_Quat",  "vrpn_Tracker Velocity",        "vrpn_Button Change",
+    "vrpn_Button States",     "vrpn_Analog Channel",          "vrpn_ForceDevice Force",
+    "vrpn_ForceDevice Plane", "vrpn_ForceDevice Force_Field", "vrpn_Base ping_message",
+    "vrpn_Base pong_message",
 };
 constexpr io::ByteOrder kNetwork = io::ByteOrder::BigEndian;
 constexpr int kButtonBits = 32;
-constexpr std::size_t kMostChannels = 16;
 
 /// Reads a payload from its beginning; its end must have been looked at before.
 class PayloadReader {
@@ -119,11 +118,6 @@ std::optional<double> read_channel(std::string_view payload, int channel) {
   return io::load<double>(payload.data() + 8 * (static_cast<std::size_t>(channel) + 1), kNetwork);
 }
 
-std::optional<Vector3> read_vector(std::string_view payload) {
-  if (payload.size() < 24) return std::nullopt;
-  return PayloadReader(payload).take_vector<double>();
-}
-
 std::optional<Plane> read_plane(std::string_view payload) {
   if (payload.size() < 40) return std::nullopt;
   PayloadReader reader(payload);
@@ -197,14 +191,6 @@ Payload pack_buttons(std::uint32_t buttons, int count) {
   Payload result;
   result.put(std::int32_t{count});
   for (int i = 0; i < count; ++i) result.put(static_cast<std::int32_t>((buttons >> i) & 1U));
-  return result;
-}
-
-Payload pack_channels(std::span<const double> channels) {
-  channels = channels.first(std::min(channels.size(), kMostChannels));
-  Payload result;
-  result.put(static_cast<double>(channels.size()));
-  for (const double value : channels) result.put(value);
   return result;
 }
 

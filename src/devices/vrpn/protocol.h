@@ -46,7 +46,6 @@ enum class Kind : std::uint8_t {
   ButtonStates,
   AnalogChannel,
   Force,
-  Scp,
   Plane,
   ForceField,
   Ping,
@@ -107,8 +106,6 @@ std::optional<Button> read_button(std::string_view payload);
 std::optional<std::uint32_t> read_buttons(std::string_view payload);
 /// The value of one channel.
 std::optional<double> read_channel(std::string_view payload, int channel);
-/// Force (N), or the position of an SCP (m).
-std::optional<Vector3> read_vector(std::string_view payload);
 std::optional<Plane> read_plane(std::string_view payload);
 std::optional<ForceField> read_force_field(std::string_view payload);
 /// The name that a description tells.
@@ -136,7 +133,6 @@ Payload pack(const PosQuat& pose);
 Payload pack(const Velocity& velocity);
 Payload pack(const Button& button);
 Payload pack_buttons(std::uint32_t buttons, int count);
-Payload pack_channels(std::span<const double> channels);  // 16 at most
 Payload pack(const Plane& plane);
 Payload pack(const ForceField& field);
 

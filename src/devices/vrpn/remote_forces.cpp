@@ -55,9 +55,11 @@ bool tidy(ForceField& field, const RemoteForceSettings& settings) {
 Vector3 RemoteForces::force(const WantedForces& wanted, const PointerState& state, std::int64_t now) {
   Vector3 sum = Vector3::Zero();
   if (!state.position.allFinite() || !state.velocity.allFinite()) return sum;
-  for (std::size_t client = 0; client < kMostClients; ++client) {
-    const ClientForces& forces = wanted.clients[client];
-    for (std::size_t i = 0; i < kPlanes; ++i) sum += push(walls_[client][i], forces.planes[i], state, now);
+  for (std::size_t slot = 0; slot < kMostClients; ++slot) {
+    const ClientForces& forces = wanted.clients[slot];
+    Client& client = clients_[slot];
+    if (client.number != forces.client || state.jumped) client = {forces.client, {}};
+    for (std::size_t i = 0; i < kPlanes; ++i) sum += push(client.walls[i], forces.planes[i], state, now);
     const Vector3 away = state.position - forces.field.origin;
     if (forces.field.radius > 0.0 && away.norm() <= forces.field.radius)
       sum += forces.field.force + forces.field.jacobian * away;

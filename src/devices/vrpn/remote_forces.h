@@ -15,8 +15,9 @@ constexpr std::size_t kPlanes = 4;  // of one client
 struct ClientForces {
   struct PlaneSlot {
     Plane plane;                 // normal of length 1, or zero: none; SI units; all finite
-    std::uint64_t revision = 0;  // changes with each plane that was sent
+    std::uint64_t revision = 0;  // changes with each plane that the client sent
   };
+  std::uint64_t client = 0;  // a number that no other client of the server has or had; 0: none
   std::array<PlaneSlot, kPlanes> planes;
   ForceField field;  // radius 0: none; all finite
 };
@@ -42,10 +43,11 @@ bool tidy(ForceField& field, const RemoteForceSettings& settings);
 /// The force of planes and fields on a tip. A plane pushes out of its back, never pulls, and comes to its
 /// place within its recovery cycles: one that is new begins at the tip, one that changes begins at its last
 /// place. One that is new with the tip deeper behind it than `deepest` is no wall for it until the tip has
-/// been in front. A field's force changes at once; the limiter behind this bounds its rate. One thread.
+/// been in front. All planes are new to a tip that jumped, and a client's to the planes of one that had its
+/// slot before. A field's force changes at once; the limiter behind this bounds its rate. One thread.
 class RemoteForces {
  public:
-  explicit RemoteForces(const RemoteForceSettings& settings) : settings_(settings) {}
+  explicit RemoteForces(const RemoteForceSettings& settings = {}) : settings_(settings) {}
 
   /// The force on a tip in this state, N, at a time (ns, steady). Real-time safe.
   Vector3 force(const WantedForces& wanted, const PointerState& state, std::int64_t now);
@@ -62,8 +64,12 @@ class RemoteForces {
   Vector3 push(Wall& wall, const ClientForces::PlaneSlot& slot, const PointerState& state, std::int64_t now);
   void change(Wall& wall, const Plane& last, const Plane& next, const PointerState& state, std::int64_t now);
 
+  struct Client {
+    std::uint64_t number = 0;
+    std::array<Wall, kPlanes> walls;
+  };
   RemoteForceSettings settings_;
-  std::array<std::array<Wall, kPlanes>, kMostClients> walls_;
+  std::array<Client, kMostClients> clients_;
 };
 
 }  // namespace icome::devices::vrpn

@@ -9,27 +9,37 @@ namespace {
 constexpr std::int64_t kConnectWithin = 2'000'000'000;  // ns
 constexpr std::int64_t kGreetWithin = 5'000'000'000;    // ns
 constexpr std::int64_t kStuckFor = 2'000'000'000;       // ns in which it takes nothing
+constexpr std::int64_t kPingEvery = 1'000'000'000;      // ns
+constexpr std::int64_t kForcesLast = 3'000'000'000;     // ns, from a ping without an answer
+constexpr std::int64_t kDropAfter = 10'000'000'000;     // ns, the same
 constexpr std::size_t kPiece = 1 << 14;                 // bytes that are read in one turn
+constexpr std::int32_t kToldButtons = 8;                // that clients are told
 
 std::int32_t number_of(std::size_t device) { return static_cast<std::int32_t>(device) + 1; }
 
+bool wants_force(const ClientForces& forces) {
+  const auto is_there = [](const ClientForces::PlaneSlot& slot) { return !slot.plane.normal.isZero(); };
+  return forces.field.radius > 0.0 || std::any_of(forces.planes.begin(), forces.planes.end(), is_there);
+}
+
 }  // namespace
 
-ServedClient::ServedClient(Socket socket, const Place& place, bool connecting, const ServedDevices& devices,
-                           std::int64_t now)
+ServedClient::ServedClient(Socket socket, const Place& place, bool connecting,
+                           const std::vector<std::string>& devices, std::uint64_t number, std::int64_t now)
     : socket_(std::move(socket)),
       place_(place),
       connecting_(connecting),
       devices_(devices),
+      number_(number),
       since_(now),
-      wanted_(devices.names.size()),
-      buttons_(devices.names.size(), 0),
-      buttons_known_(devices.names.size(), false) {
+      wanted_(devices.size(), ClientForces{number, {}, {}}),
+      buttons_(devices.size(), 0),
+      buttons_known_(devices.size(), false) {
   prepare(socket_, 1e-9 * static_cast<double>(kStuckFor));
   outbox_.put_cookie();
   outbox_.describe(kSenderDescription, 0, "VRPN Control");
-  for (std::size_t i = 0; i < devices.names.size(); ++i)
-    outbox_.describe(kSenderDescription, number_of(i), devices.names[i]);
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    outbox_.describe(kSenderDescription, number_of(i), devices[i]);
   outbox_.describe_kinds();
 }
 
@@ -40,7 +50,27 @@ bool ServedClient::serve(std::int64_t now) {
     since_ = now;
   }
   if (!talks() && now - since_ > kGreetWithin) return false;
-  return receive_some() && send_some(now);
+  return receive_some() && is_alive(now) && send_some(now);
+}
+
+bool ServedClient::is_alive(std::int64_t now) {
+  if (!has_forces_) return true;
+  if (now - pinged_ > kPingEvery) {
+    pinged_ = now;
+    if (quiet_since_ == 0) quiet_since_ = now;
+    outbox_.put(number_of(forced_), Kind::Ping, {});
+  }
+  if (!answers_ || quiet_since_ == 0) return true;
+  if (now - quiet_since_ > kForcesLast) drop_wishes();
+  return now - quiet_since_ <= kDropAfter;
+}
+
+void ServedClient::drop_wishes() {
+  for (ClientForces& forces : wanted_) {
+    if (!wants_force(forces)) continue;
+    forces = {number_, {}, {}};
+    wishes_changed_ = true;
+  }
 }
 
 bool ServedClient::receive_some() {
@@ -50,6 +80,7 @@ bool ServedClient::receive_some() {
   const Flow flow = receive(socket_, room, count);
   if (flow == Flow::Ended) return false;
   if (flow == Flow::Later) return true;
+  quiet_since_ = 0;
   floods_ = count == room.size();
   decoder_.received(count);
   Message message;
@@ -79,13 +110,15 @@ void ServedClient::take(const Message& message) {
     names_.learn(message);
     return;
   }
-  const auto& names = devices_.names;
-  const auto found = std::find(names.begin(), names.end(), names_.sender(message.sender));
-  if (found == names.end()) return;
-  const auto device = static_cast<std::size_t>(found - names.begin());
+  const auto found = std::find(devices_.begin(), devices_.end(), names_.sender(message.sender));
+  if (found == devices_.end()) return;
+  const auto device = static_cast<std::size_t>(found - devices_.begin());
   switch (names_.kind(message.type)) {
     case Kind::Ping:
       outbox_.put(number_of(device), Kind::Pong, {});
+      break;
+    case Kind::Pong:
+      answers_ = true;
       break;
     case Kind::Plane:
       take_plane(device, message.payload);
@@ -101,52 +134,43 @@ void ServedClient::take(const Message& message) {
 void ServedClient::take_plane(std::size_t device, std::string_view payload) {
   auto plane = read_plane(payload);
   if (!plane || plane->index < 0 || static_cast<std::size_t>(plane->index) >= kPlanes) return;
-  if (!tidy(*plane, devices_.forces)) return;
-  plane->normal = devices_.frame.ours_from_theirs * plane->normal;
-  plane->offset *= devices_.frame.scale;
+  if (!tidy(*plane, RemoteForceSettings())) return;
   wanted_[device].planes[static_cast<std::size_t>(plane->index)] = {*plane, ++revision_};
-  wishes_changed_ = true;
+  note_wish(device);
 }
 
 void ServedClient::take_field(std::size_t device, std::string_view payload) {
   auto field = read_force_field(payload);
-  if (!field || !tidy(*field, devices_.forces)) return;
-  const base::Matrix3& ours_from_theirs = devices_.frame.ours_from_theirs;
-  field->origin = devices_.frame.position(field->origin);
-  field->force = ours_from_theirs * field->force;
-  field->jacobian = ours_from_theirs * field->jacobian * ours_from_theirs.transpose();
-  field->radius *= devices_.frame.scale;
+  if (!field || !tidy(*field, RemoteForceSettings())) return;
   wanted_[device].field = *field;
+  note_wish(device);
+}
+
+void ServedClient::note_wish(std::size_t device) {
   wishes_changed_ = true;
+  forced_ = device;
+  has_forces_ = std::any_of(wanted_.begin(), wanted_.end(), wants_force);
 }
 
 void ServedClient::share(std::size_t device, const SharedState& shared) {
-  const base::Matrix3 theirs_from_ours = devices_.frame.ours_from_theirs.transpose();
-  const Quaternion turn(theirs_from_ours);
-  const double scale = 1.0 / devices_.frame.scale;
   const std::int32_t number = number_of(device);
   const PointerState& state = shared.state;
-  PosQuat pose;
-  pose.position = scale * (theirs_from_ours * state.position);
-  pose.orientation = turn * state.orientation * turn.conjugate();
-  Velocity velocity;
-  velocity.velocity = scale * (theirs_from_ours * state.velocity);
-  outbox_.put(number, Kind::PosQuat, pack(pose).bytes());
-  outbox_.put(number, Kind::Velocity, pack(velocity).bytes());
-  outbox_.put(number, Kind::Force, Payload().put(Vector3(theirs_from_ours * shared.force)).bytes());
+  outbox_.put(number, Kind::PosQuat, pack(PosQuat{0, state.position, state.orientation}).bytes());
+  outbox_.put(number, Kind::Velocity, pack(Velocity{0, state.velocity}).bytes());
+  outbox_.put(number, Kind::Force, Payload().put(shared.force).bytes());
   share_buttons(device, state.buttons);
 }
 
 void ServedClient::share_buttons(std::size_t device, std::uint32_t buttons) {
   const std::int32_t number = number_of(device);
   if (!buttons_known_[device]) {
-    outbox_.put(number, Kind::ButtonStates, pack_buttons(buttons, devices_.buttons).bytes());
+    outbox_.put(number, Kind::ButtonStates, pack_buttons(buttons, kToldButtons).bytes());
     buttons_known_[device] = true;
     buttons_[device] = buttons;
     return;
   }
   const std::uint32_t changed = buttons ^ std::exchange(buttons_[device], buttons);
-  for (std::int32_t i = 0; i < devices_.buttons; ++i) {
+  for (std::int32_t i = 0; i < kToldButtons; ++i) {
     if (((changed >> i) & 1U) == 0) continue;
     outbox_.put(number, Kind::ButtonChange, pack(Button{i, ((buttons >> i) & 1U) != 0}).bytes());
   }

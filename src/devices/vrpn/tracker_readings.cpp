@@ -11,14 +11,21 @@ constexpr int kButtons = 32;
 
 }  // namespace
 
+/// Could a hand have come here from the last position?
+bool VelocitySlope::is_path(const Vector3& position, double time) const {
+  const double passed = time - back(0).time;
+  if (passed < 0.0 || passed > kLongest) return false;
+  return (position - back(0).position).norm() <= kFastest * passed + kSlack;
+}
+
 void VelocitySlope::add(const Vector3& position, double time) {
   if (!position.allFinite() || !std::isfinite(time)) return;
-  // Two at one time say nothing of the velocity: the later one counts. Time that runs back begins anew.
+  if (count_ > 0 && !is_path(position, time)) count_ = 0;
+  // Two at one time say nothing of the velocity: the later one counts.
   if (count_ > 0 && time == back(0).time) {
     samples_[(next_ + kMost - 1) % kMost].position = position;
     return;
   }
-  if (count_ > 0 && (time < back(0).time || time - back(0).time > kLongest)) count_ = 0;
   samples_[next_] = {position, time};
   next_ = (next_ + 1) % kMost;
   count_ = std::min(count_ + 1, kMost);

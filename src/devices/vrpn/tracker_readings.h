@@ -10,7 +10,7 @@
 namespace icome::devices::vrpn {
 
 /// The velocity of a tracker that tells none: the slope of a straight line through its positions of the last
-/// 10 ms (least squares), or through the last two where it is slower.
+/// 10 ms (least squares), or through the last two where it is slower. It begins anew at a jump.
 class VelocitySlope {
  public:
   /// Adds a position (m) and its time (s).
@@ -21,11 +21,14 @@ class VelocitySlope {
  private:
   static constexpr double kWindow = 0.01;   // s
   static constexpr double kLongest = 0.25;  // s between two positions; after that it begins anew
+  static constexpr double kFastest = 20.0;  // m/s, faster than any hand: what goes farther has jumped
+  static constexpr double kSlack = 0.005;   // m, error of a position beside that
   static constexpr std::size_t kMost = 32;
   struct Sample {
     Vector3 position = Vector3::Zero();
     double time = 0.0;
   };
+  bool is_path(const Vector3& position, double time) const;
   const Sample& back(std::size_t age) const { return samples_[(next_ + kMost - 1 - age) % kMost]; }
 
   std::array<Sample, kMost> samples_;

@@ -5,11 +5,14 @@
 #include "base/parse_number.h"
 #include "devices/axes.h"
 #include "devices/device_profiles.h"
+#include "devices/host_port.h"
 #include "devices/vrpn/protocol.h"
 
 namespace icome::devices {
 namespace vrpn {
 namespace {
+
+constexpr const char* kExample = "; a VRPN device is NAME@HOST:PORT, such as Tracker0@localhost:3883";
 
 /// Takes the text up to the next separator off the front.
 std::string_view take_until(std::string_view& text, char separator) {
@@ -88,14 +91,11 @@ base::Result<VrpnAddress> VrpnAddress::parse(std::string_view text) {
   if (address.name.size() > vrpn::kLongestName)
     return base::fail("'" + address.name + "': names of VRPN devices have 100 letters at most");
   if (place.starts_with("tcp://")) place.remove_prefix(6);  // as programs of VRPN write it
-  if (const auto host = vrpn::take_until(place, ':'); !host.empty()) address.host = host;
-  if (!place.empty()) {
-    const auto port = base::parse_number<int>(place);
-    if (!port || *port < 1 || *port > 65535)
-      return base::fail("'" + std::string(place) + "' is no port; a VRPN device is NAME@HOST:PORT, such as " +
-                        "Tracker0@localhost:3883");
-    address.port = *port;
-  }
+  const auto server = parse_host_port(place, {address.host, address.port});
+  if (!server) return base::fail(server.error().message + vrpn::kExample);
+  if (server->port == 0) return base::fail("no server is at port 0" + std::string(vrpn::kExample));
+  address.host = server->host;
+  address.port = server->port;
   while (!options.empty()) {
     std::string_view value = vrpn::take_until(options, '&');
     const std::string_view key = vrpn::take_until(value, '=');

@@ -83,9 +83,7 @@ std::string VrpnDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
   std::int64_t now = base::steady_nanoseconds();
   const std::int64_t begin = now;
   const auto listen = [&](const Message& message, Kind kind, bool ours) {
-    if (!ours) return;
-    hear(kind, message);
-    if (readings.take(kind, message, now)) fresh = true;
+    if (ours && readings.take(kind, message, now)) fresh = true;
   };
   while (!stop.load(std::memory_order_relaxed)) {
     if (!link_->receive(kLook, listen)) return link_->why();
@@ -111,17 +109,6 @@ std::string VrpnDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
   else
     link_->leave();
   return {};
-}
-
-void VrpnDriver::hear(Kind kind, const Message& message) {
-  if (kind != Kind::Force && kind != Kind::Scp) return;
-  const auto vector = vrpn::read_vector(message.payload);
-  if (!vector || !vector->allFinite()) return;
-  if (kind == Kind::Force)
-    telling_.force = address_.frame.ours_from_theirs * *vector;
-  else
-    telling_.surface_point = address_.frame.position(*vector);
-  told_.publish(telling_);
 }
 
 Kind VrpnDriver::force_kind() const {

@@ -8,15 +8,8 @@
 #include "devices/vrpn/client_link.h"
 #include "devices/vrpn/tracker_readings.h"
 #include "devices/vrpn/vrpn_address.h"
-#include "realtime/latest_value.h"
 
 namespace icome::devices {
-
-/// The force that a server says it gives, and its SCP, in our axes.
-struct VrpnTold {
-  Vector3 force = Vector3::Zero();          // N
-  Vector3 surface_point = Vector3::Zero();  // m, the SCP that it has found
-};
 
 /// A device of a VRPN server: tracker, buttons, analog channel and force of one name.
 ///
@@ -36,16 +29,8 @@ class VrpnDriver final : public Driver {
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override { link_.reset(); }
 
-  /// The newest words of the server about its force. One other thread, which may outlive run() but not the
-  /// driver.
-  const VrpnTold& told() {
-    told_.update();
-    return told_.read();
-  }
-
  private:
   std::string place() const;
-  void hear(vrpn::Kind kind, const vrpn::Message& message);
   void send_force(const Vector3& force);
   vrpn::Payload plane(const Vector3& force) const;
   vrpn::Payload field(const Vector3& force) const;
@@ -59,8 +44,6 @@ class VrpnDriver final : public Driver {
   Vector3 tip_ = Vector3::Zero();         // m, of the last reading that the servo could have
   Vector3 said_force_ = Vector3::Zero();  // N, the force that the server has
   Vector3 said_tip_ = Vector3::Zero();    // m, the tip that it was said for
-  VrpnTold telling_;
-  realtime::LatestValue<VrpnTold> told_;
 };
 
 }  // namespace icome::devices

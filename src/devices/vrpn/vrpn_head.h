@@ -20,10 +20,6 @@ class VrpnHead final : public HeadDevice {
 
   const std::string& name() const override { return device_->info().name; }
   DeviceStatus read(Pose& user_from_head) override;
-  /// Takes the next pose as the look straight ahead. Main's.
-  void look_ahead() { ahead_known_ = false; }
-  /// Sentences that people should know now; empty: none.
-  std::string condition() const { return device_->condition(); }
 
  private:
   explicit VrpnHead(std::unique_ptr<DrivenDevice> device) : device_(std::move(device)) {}

@@ -25,10 +25,13 @@ using vrpn::Socket;
 constexpr std::size_t kMostNames = 8;
 constexpr std::size_t kMostCalls = 4;           // connections to clients that are under way at once
 constexpr int kMostTaken = 16;                  // connections or requests taken in one turn
+constexpr std::int64_t kPeriod = 1'000'000;     // ns between two states that a client gets
 constexpr std::int64_t kBusyLook = 250'000;     // ns between two looks at the device, with clients
 constexpr std::int64_t kIdleLook = 20'000'000;  // ns, without
-constexpr std::int64_t kFloodBreak =
-    1'000'000;              // ns that the thread rests after more bytes than it reads a turn
+// Rest of the thread after more bytes than it reads in a turn, and of its door while the system has no room
+// for another connection, ns.
+constexpr std::int64_t kFloodBreak = 1'000'000;
+constexpr std::int64_t kFullBreak = 100'000'000;
 constexpr int kTries = 20;  // for a port that is free for TCP and UDP
 
 /// The port in a request to be called: "CLIENT_IP PORT", ended by a zero.
@@ -52,8 +55,6 @@ base::Result<void> check(const VrpnServerSettings& settings) {
     if (std::find(settings.names.begin(), name, *name) != name)
       return base::fail("'" + *name + "' is shared twice; give each device another name");
   }
-  if (!(settings.rate >= 1.0 && settings.rate <= 1000.0))
-    return base::fail("a VRPN server sends 1 to 1000 states a second");
   if (settings.port < 0 || settings.port > 65535)
     return base::fail(std::to_string(settings.port) +
                       " is no port; there are 1 to 65535, and 0 for a free one");
@@ -75,27 +76,25 @@ base::Result<std::unique_ptr<VrpnServer>> VrpnServer::create(const VrpnServerSet
   return server;
 }
 
-VrpnServer::VrpnServer(const VrpnServerSettings& settings)
-    : devices_{settings.names, settings.frame, std::clamp(settings.buttons, 0, 32), settings.forces},
-      period_(static_cast<std::int64_t>(1e9 / settings.rate)),
-      clients_(kMostClients) {
-  for (std::size_t i = 0; i < settings.names.size(); ++i)
-    states_.push_back(std::make_unique<Device>(settings.forces));
+VrpnServer::VrpnServer(const VrpnServerSettings& settings) : names_(settings.names), clients_(kMostClients) {
+  for (std::size_t i = 0; i < names_.size(); ++i) states_.push_back(std::make_unique<Device>());
 }
 
 base::Result<void> VrpnServer::listen(const VrpnServerSettings& settings) {
   const auto place = vrpn::find_host(settings.host, settings.port);
   if (!place) return tl::unexpected(place.error());
-  for (int i = 0; i < kTries; ++i) {
+  const int tries = settings.port == 0 ? kTries : 1;
+  for (int i = 1;; ++i) {
     place_ = *place;
-    listener_ = vrpn::listen_at(place_);
-    if (listener_) requests_ = vrpn::datagrams_at(place_);
-    if (requests_) return {};
-    if (settings.port != 0) break;
+    auto listener = vrpn::listen_at(place_);
+    if (!listener) return tl::unexpected(listener.error());
+    auto requests = vrpn::datagrams_at(place_);
+    if (!requests && i == tries) return tl::unexpected(requests.error());
+    if (!requests) continue;
+    listener_ = std::move(*listener);
+    requests_ = std::move(*requests);
+    return {};
   }
-  return base::fail(
-      "cannot listen at " + vrpn::shown(*place) +
-      "; another VRPN server may be there, or the address is not of this computer: choose another");
 }
 
 void VrpnServer::feed(const PointerState& state, const Vector3& force, std::size_t device) {
@@ -120,7 +119,7 @@ void VrpnServer::run() {
   while (!stop_.load(std::memory_order_relaxed)) {
     wait();
     const std::int64_t now = base::steady_nanoseconds();
-    accept_clients(now);
+    if (now >= full_until_) accept_clients(now);
     answer_requests(now);
     share(now);
     serve(now);
@@ -132,7 +131,6 @@ void VrpnServer::run() {
   }
   listener_.close();
   requests_.close();
-  clients_count_.store(0, std::memory_order_relaxed);
   wishes_changed_ = true;
   publish_wishes();
 }
@@ -143,7 +141,9 @@ void VrpnServer::wait() {
   if (std::exchange(flooded_, false)) realtime::sleep_until(base::steady_nanoseconds() + kFloodBreak);
   std::array<pollfd, kMostClients + 2> waiting = {};
   std::size_t count = 0;
-  waiting[count++] = {listener_.number(), POLLIN, 0};
+  // The system's number -1 stands for none.
+  const bool full = base::steady_nanoseconds() < full_until_;
+  waiting[count++] = {full ? -1 : listener_.number(), POLLIN, 0};
   waiting[count++] = {requests_.number(), POLLIN, 0};
   bool any = false;
   for (const auto& client : clients_) {
@@ -158,8 +158,10 @@ void VrpnServer::wait() {
 
 void VrpnServer::accept_clients(std::int64_t now) {
   for (int i = 0; i < kMostTaken; ++i) {
-    Socket socket = vrpn::accept_from(listener_);
-    if (!socket) return;
+    Socket socket;
+    const vrpn::Flow flow = vrpn::accept_from(listener_, socket);
+    if (flow == vrpn::Flow::Ended) full_until_ = now + kFullBreak;
+    if (flow != vrpn::Flow::Some) return;
     add(std::move(socket), {}, false, now);
   }
 }
@@ -167,7 +169,8 @@ void VrpnServer::accept_clients(std::int64_t now) {
 void VrpnServer::add(Socket socket, const Place& place, bool connecting, std::int64_t now) {
   const auto free = std::find(clients_.begin(), clients_.end(), nullptr);
   if (free == clients_.end()) return;  // the socket closes: no more are taken
-  *free = std::make_unique<ServedClient>(std::move(socket), place, connecting, devices_, now);
+  *free =
+      std::make_unique<ServedClient>(std::move(socket), place, connecting, names_, ++clients_so_far_, now);
 }
 
 bool VrpnServer::may_call(const Place& place) const {
@@ -208,20 +211,17 @@ void VrpnServer::share(std::int64_t now) {
   }
   // A turn that comes late takes nothing from the next one.
   if (std::find(fresh.begin(), fresh.end(), true) != fresh.end())
-    due_ = std::max(due_ + period_, now - period_ / 2);
+    due_ = std::max(due_ + kPeriod, now - kPeriod / 2);
 }
 
 void VrpnServer::serve(std::int64_t now) {
-  int talking = 0;
-  for (std::size_t i = 0; i < clients_.size(); ++i) {
-    if (!clients_[i]) continue;
-    const bool stays = clients_[i]->serve(now);
-    wishes_changed_ = clients_[i]->wishes_changed() || !stays || wishes_changed_;
-    flooded_ = flooded_ || clients_[i]->floods();
-    if (!stays) clients_[i].reset();
-    if (clients_[i] && clients_[i]->talks()) ++talking;
+  for (auto& client : clients_) {
+    if (!client) continue;
+    const bool stays = client->serve(now);
+    wishes_changed_ = client->wishes_changed() || !stays || wishes_changed_;
+    flooded_ = flooded_ || client->floods();
+    if (!stays) client.reset();
   }
-  clients_count_.store(talking, std::memory_order_relaxed);
 }
 
 void VrpnServer::publish_wishes() {

@@ -10,7 +10,7 @@
 #include "base/result.h"
 #include "devices/vrpn/remote_forces.h"
 #include "devices/vrpn/served_client.h"
-#include "devices/vrpn/vrpn_address.h"
+#include "devices/vrpn/vrpn_socket.h"
 #include "realtime/latest_value.h"
 
 namespace icome::devices {
@@ -19,19 +19,16 @@ struct VrpnServerSettings {
   std::string host = "127.0.0.1";                 // name or address of the interface that clients come by
   int port = 3883;                                // of TCP and UDP; 0: a free one
   std::vector<std::string> names = {"Pointer0"};  // of the devices, 1 to 8
-  double rate = 1000.0;                           // Hz, states a second that a client gets, 1 to 1000
-  int buttons = 8;                                // number that clients are told, 0 to 32
-  VrpnFrame frame{};                              // axes and unit of length that clients see
-  vrpn::RemoteForceSettings forces{};
 };
 
-/// Shares devices with programs that speak VRPN: each as a vrpn_Tracker, vrpn_Button and vrpn_ForceDevice of
-/// one name. Clients come by TCP, or ask by UDP to be connected to, and there are 16 at most; a slow, silent
-/// or hostile one delays neither the others nor the device. Owns its thread and sockets.
+/// Shares devices with programs that speak VRPN, 1000 states a second at most: each as a vrpn_Tracker,
+/// vrpn_Button and vrpn_ForceDevice of one name. Clients come by TCP, or ask by UDP to be connected to, and
+/// there are 16 at most; a slow, silent or hostile one delays neither the others nor the device. Owns its
+/// thread and sockets.
 ///
 /// The forces that clients ask for (planes and force fields) are rendered here, for the caller to add to its
-/// own and to limit. They last as long as the client does: the forces of one that is gone, or takes nothing
-/// for 2 s, end.
+/// own and to limit. They last as long as the client does: the forces of one that is gone or hangs end (see
+/// vrpn::ServedClient).
 class VrpnServer {
  public:
   /// Listens from here on. May take seconds to look the host up; the error says what is in the way.
@@ -40,7 +37,7 @@ class VrpnServer {
 
   /// The place where it listens: "127.0.0.1:3883".
   std::string listening() const { return vrpn::shown(place_); }
-  const std::vector<std::string>& names() const { return devices_.names; }
+  const std::vector<std::string>& names() const { return names_; }
 
   /// Takes the state of a device (by its place among the names), and the force that it gives, N. One thread a
   /// device, that of its servo. Real-time safe.
@@ -49,16 +46,12 @@ class VrpnServer {
   /// base::steady_nanoseconds. The same thread. Real-time safe.
   Vector3 wanted_force(const PointerState& state, std::int64_t now, std::size_t device = 0);
 
-  /// Clients that are connected and have greeted. Any thread.
-  int clients() const { return clients_count_.load(std::memory_order_relaxed); }
-
   /// Says farewell to the clients and closes; then there is no wanted force. May be called again. Not the
   /// servo's.
   void stop();
 
  private:
   struct Device {
-    explicit Device(const vrpn::RemoteForceSettings& settings) : forces(settings) {}
     realtime::LatestValue<vrpn::SharedState> states;
     realtime::LatestValue<vrpn::WantedForces> wanted;
     vrpn::RemoteForces forces;  // the servo's
@@ -76,8 +69,7 @@ class VrpnServer {
   void share(std::int64_t now);
   void publish_wishes();
 
-  vrpn::ServedDevices devices_;
-  std::int64_t period_;  // ns
+  std::vector<std::string> names_;
   vrpn::Place place_;
   vrpn::Socket listener_;
   vrpn::Socket requests_;
@@ -85,9 +77,10 @@ class VrpnServer {
   // The server's thread's. A client keeps its place as long as it is there.
   std::vector<std::unique_ptr<vrpn::ServedClient>> clients_;
   std::int64_t due_ = 0;  // ns, of the next states
+  std::uint64_t clients_so_far_ = 0;
+  std::int64_t full_until_ = 0;  // ns; until then the system has no room for new clients
   bool wishes_changed_ = false;
   bool flooded_ = false;
-  std::atomic<int> clients_count_ = 0;
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };

@@ -31,13 +31,28 @@ void set_option(int socket, int level, int option, int value) {
   static_cast<void>(setsockopt(socket, level, option, &value, sizeof(value)));
 }
 
-Socket bound(const Place& place, int type) {
+/// What keeps a server from a place, for people, by the system's number of the error.
+tl::unexpected<base::Error> no_place(const Place& place, int error) {
+  const std::string at = "cannot listen at " + shown(place) + ": ";
+  if (error == EADDRINUSE)
+    return base::fail(at + "another program does; end it, or choose another port (0 takes a free one)");
+  if (error == EADDRNOTAVAIL)
+    return base::fail(at +
+                      "this computer has no such address; 127.0.0.1 is for programs on it, 0.0.0.0 for "
+                      "all networks that it is in");
+  if (error == EACCES)
+    return base::fail(at + "ports below 1024 are the system's; choose a higher one, such as 3883");
+  return base::fail(at + std::strerror(error));
+}
+
+base::Result<Socket> bound(const Place& place, int type) {
   Socket socket(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!socket) return {};
+  if (!socket) return no_place(place, errno);
   // A server that comes back at once finds its port in use by connections that are ending.
   if (type == SOCK_STREAM) set_option(socket.number(), SOL_SOCKET, SO_REUSEADDR, 1);
   const sockaddr_in address = system_address(place);
-  if (bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) return {};
+  if (bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
+    return no_place(place, errno);
   return socket;
 }
 
@@ -71,6 +86,10 @@ std::string shown(const Place& place) {
 }
 
 base::Result<Place> find_host(const std::string& host, int port) {
+  if (host.find(':') != std::string::npos)
+    return base::fail("'" + host +
+                      "' is an address of IPv6, which VRPN does not speak; give a name or an address such as "
+                      "127.0.0.1");
   addrinfo hints = {};
   hints.ai_family = AF_INET;
   addrinfo* found = nullptr;
@@ -110,20 +129,25 @@ void prepare(const Socket& socket, double patience) {
   set_option(socket.number(), IPPROTO_TCP, TCP_USER_TIMEOUT, static_cast<int>(1000.0 * patience));
 }
 
-Socket listen_at(Place& place) {
-  Socket socket = bound(place, SOCK_STREAM);
-  if (!socket || listen(socket.number(), 16) != 0) return {};
+base::Result<Socket> listen_at(Place& place) {
+  auto socket = bound(place, SOCK_STREAM);
+  if (!socket) return socket;
   sockaddr_in address = {};
   socklen_t size = sizeof(address);
-  if (getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0) return {};
+  if (listen(socket->number(), 16) != 0 ||
+      getsockname(socket->number(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+    return no_place(place, errno);
   place.port = ntohs(address.sin_port);
   return socket;
 }
 
-Socket datagrams_at(const Place& place) { return bound(place, SOCK_DGRAM); }
+base::Result<Socket> datagrams_at(const Place& place) { return bound(place, SOCK_DGRAM); }
 
-Socket accept_from(const Socket& listener) {
-  return Socket(accept4(listener.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+Flow accept_from(const Socket& listener, Socket& taken) {
+  taken = Socket(accept4(listener.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (taken) return Flow::Some;
+  const bool full = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
+  return full ? Flow::Ended : Flow::Later;
 }
 
 Flow receive(const Socket& socket, std::span<char> bytes, std::size_t& count) {

@@ -40,7 +40,7 @@ struct Place {
 };
 /// The place as people write it: "127.0.0.1:3883".
 std::string shown(const Place& place);
-/// Looks a name up, which may take seconds; the error says that it is unknown.
+/// Looks a name up, which may take seconds; the error says that it is unknown, or that it is of IPv6.
 base::Result<Place> find_host(const std::string& host, int port);
 
 /// A TCP socket that connects or is connected; writes on it tell when poll() says that it can be written.
@@ -52,10 +52,12 @@ bool refused(const Socket& socket);
 /// Small messages go at once, few wait in the system, so that a slow reader gets no old ones, and a peer that
 /// is gone without a word is given up after `patience` s.
 void prepare(const Socket& socket, double patience);
-/// A listening TCP socket, or a UDP one, at a place; none where it is taken. Fills in the port that it got.
-Socket listen_at(Place& place);
-Socket datagrams_at(const Place& place);
-Socket accept_from(const Socket& listener);
+/// A listening TCP socket at a place, which fills in the port that it got, or a UDP one; the error says what
+/// is in the way and what to do.
+base::Result<Socket> listen_at(Place& place);
+base::Result<Socket> datagrams_at(const Place& place);
+/// Takes a connection that waits. Later: none does; Ended: one does, but the system has no room for it.
+Flow accept_from(const Socket& listener, Socket& taken);
 
 Flow receive(const Socket& socket, std::span<char> bytes, std::size_t& count);
 Flow send(const Socket& socket, std::string_view bytes, std::size_t& count);

@@ -31,9 +31,6 @@ class FakeVrpn {
 
   int port() const { return port_; }
   std::string address() const { return "Pointer0@127.0.0.1:" + std::to_string(port_); }
-  int clients() {
-    return locked([this] { return server_ ? server_->clients() : 0; });
-  }
 
   void switch_on(bool on) {
     locked([&] {

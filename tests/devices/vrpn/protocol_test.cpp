@@ -144,10 +144,9 @@ TEST(VrpnProtocol, PayloadsComeBack) {
   EXPECT_EQ(pack(Button{3, true}).bytes(), "\x00\x00\x00\x03\x00\x00\x00\x01"s);
   EXPECT_TRUE(read_button("\x00\x00\x00\x03\x00\x00\x00\x01"s)->down);
   EXPECT_EQ(read_buttons(pack_buttons(0b101, 3).bytes()), 0b101U);
-  const std::vector<double> channels = {0.25, -2.0};
-  EXPECT_EQ(read_channel(pack_channels(channels).bytes(), 1), -2.0);
-  EXPECT_EQ(read_channel(pack_channels(channels).bytes(), 2), std::nullopt);
-  EXPECT_EQ(read_vector(Payload().put(Vector3(1, 2, 3)).bytes()), Vector3(1, 2, 3));
+  const Payload channels = Payload().put(2.0).put(0.25).put(-2.0);  // their number first
+  EXPECT_EQ(read_channel(channels.bytes(), 1), -2.0);
+  EXPECT_EQ(read_channel(channels.bytes(), 2), std::nullopt);
 }
 
 TEST(VrpnProtocol, ShortPayloadsAreRefused) {
@@ -158,7 +157,6 @@ TEST(VrpnProtocol, ShortPayloadsAreRefused) {
     EXPECT_FALSE(read_pos_quat(bytes));
     EXPECT_FALSE(read_force_field(bytes));
     EXPECT_FALSE(read_velocity(bytes));
-    EXPECT_EQ(read_vector(bytes).has_value(), size >= 24);
     EXPECT_EQ(read_button(bytes).has_value(), size >= 8);
   }
   EXPECT_FALSE(read_buttons("\x7f\xff\xff\xff\x00\x00\x00\x01"s)) << "more states than bytes";

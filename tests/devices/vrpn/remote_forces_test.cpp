@@ -21,26 +21,42 @@ Plane floor_at(double height, double spring = 0.5, std::int32_t recovery = 1) {
   return plane;
 }
 
-/// One client's first plane, felt by a tip.
+/// The first plane of the client in the first slot, felt by a tip.
 class Felt {
  public:
   void set(Plane plane) {
     ASSERT_TRUE(tidy(plane, settings_));
     wanted_.clients[0].planes[0] = {plane, ++revision_};
   }
+  /// Another client comes into the slot, with its first plane.
+  void set_by_another(Plane plane) {
+    wanted_.clients[0] = {wanted_.clients[0].client + 1, {}, {}};
+    revision_ = 0;
+    set(plane);
+  }
   void set(ForceField field) {
     ASSERT_TRUE(tidy(field, settings_));
     wanted_.clients[0].field = field;
   }
   Vector3 at(double height, double speed = 0.0, const Vector3& along = Vector3::Zero()) {
-    now_ += kMs;
     PointerState state;
     state.position = {0, height, 0};
     state.velocity = Vector3(0, speed, 0) + along;
-    return forces_.force(wanted_, state, now_);
+    return in(state);
+  }
+  Vector3 jumped_to(double height) {
+    PointerState state;
+    state.position = {0, height, 0};
+    state.jumped = true;
+    return in(state);
   }
 
  private:
+  Vector3 in(const PointerState& state) {
+    now_ += kMs;
+    return forces_.force(wanted_, state, now_);
+  }
+
   RemoteForceSettings settings_;
   RemoteForces forces_{settings_};
   WantedForces wanted_;
@@ -104,6 +120,29 @@ TEST(VrpnForces, ATipFarBehindANewPlaneIsNotThrownOut) {
   EXPECT_EQ(felt.at(0.045), Vector3::Zero()) << "still behind it, though near";
   felt.at(0.06);
   EXPECT_NEAR(felt.at(0.049).y(), 0.5, 1e-9) << "having been in front it is a wall";
+}
+
+TEST(VrpnForces, APlaneOfANewClientIsNoChangeOfItsPredecessors) {
+  Felt felt;
+  felt.set(floor_at(0.0));
+  EXPECT_EQ(felt.at(0.001), Vector3::Zero());
+  // The predecessor's plane was 1 mm below the tip, and begins nothing here: the new one begins at the tip.
+  felt.set_by_another(floor_at(0.005, 0.5, 10));
+  EXPECT_EQ(felt.at(0.001).y(), 0.0);
+  EXPECT_NEAR(felt.at(0.001).y(), 0.2, 1e-6) << "4 mm at 500 N/m in 10 cycles";
+  // Each client's planes are counted from one; this one is deep behind its own.
+  felt.set_by_another(floor_at(0.05));
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(felt.at(0.001), Vector3::Zero());
+}
+
+TEST(VrpnForces, ATipThatJumpedIsNotThrownOut) {
+  Felt felt;
+  felt.set(floor_at(0.0, 0.5, 10));
+  EXPECT_EQ(felt.at(0.01), Vector3::Zero());
+  EXPECT_EQ(felt.jumped_to(-0.004), Vector3::Zero()) << "the plane begins at the tip";
+  EXPECT_NEAR(felt.at(-0.004).y(), 0.2, 1e-6);
+  EXPECT_EQ(felt.jumped_to(-0.05), Vector3::Zero());
+  EXPECT_EQ(felt.at(-0.05), Vector3::Zero()) << "far behind it";
 }
 
 TEST(VrpnForces, TakenAwayThereIsNothing) {

@@ -57,8 +57,7 @@ TEST(VrpnReadings, ButtonsAndAGrip) {
   EXPECT_FALSE(take(readings, Kind::ButtonChange, pack(Button{77, true}), 0.0));
   EXPECT_TRUE(take(readings, Kind::ButtonStates, pack_buttons(6, 3), 0.0));
   EXPECT_EQ(readings.state().buttons, 6U);
-  const std::array<double, 2> channels = {0.1, 0.75};
-  EXPECT_TRUE(take(readings, Kind::AnalogChannel, pack_channels(channels), 0.0));
+  EXPECT_TRUE(take(readings, Kind::AnalogChannel, Payload().put(2.0).put(0.1).put(0.75), 0.0));
   EXPECT_EQ(readings.state().grip, 0.75);
 }
 
@@ -89,6 +88,22 @@ TEST(VrpnReadings, ASlowTrackerHasTheSlopeOfTwoReadings) {
   EXPECT_EQ(readings.state().velocity, Vector3::Zero()) << "after a long rest nothing is known";
   take(readings, Kind::PosQuat, pack(pose_at({2, 0, 0})), 4.0);
   EXPECT_EQ(readings.state().velocity, Vector3::Zero()) << "a clock that runs back";
+}
+
+TEST(VrpnReadings, TheSlopeBeginsAnewAtAJump) {
+  TrackerReadings readings((VrpnAddress()));
+  for (int i = 0; i < 20; ++i) take(readings, Kind::PosQuat, pack(pose_at({0, 0.0002 * i, 0})), 0.001 * i);
+  EXPECT_NEAR(readings.state().velocity.y(), 0.2, 1e-9);
+  // Half a metre aside, and there 0.1 m/s back.
+  take(readings, Kind::PosQuat, pack(pose_at({0.5, 0, 0})), 0.02);
+  EXPECT_EQ(readings.state().velocity, Vector3::Zero());
+  for (int i = 1; i < 12; ++i) {
+    take(readings, Kind::PosQuat, pack(pose_at({0.5, -0.0001 * i, 0})), 0.02 + 0.001 * i);
+    EXPECT_LT((readings.state().velocity - Vector3(0, -0.1, 0)).norm(), 1e-9);
+  }
+  // A slow tracker, whose jump is farther than a hand comes in that time.
+  take(readings, Kind::PosQuat, pack(pose_at({0.5, 5.0, 0})), 0.2);
+  EXPECT_EQ(readings.state().velocity, Vector3::Zero());
 }
 
 TEST(VrpnReadings, TheTrackersOwnVelocityComesFirst) {

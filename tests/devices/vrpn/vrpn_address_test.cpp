@@ -20,6 +20,8 @@ TEST(VrpnAddress, NameHostAndPort) {
   EXPECT_EQ(address->name, "Tracker0");
   EXPECT_EQ(address->host, "localhost");
   EXPECT_EQ(VrpnAddress::parse("T@tcp://host:77")->host, "host");
+  EXPECT_EQ(VrpnAddress::parse("T@:77")->host, "localhost");
+  EXPECT_EQ(VrpnAddress::parse("T@:77")->port, 77);
 }
 
 TEST(VrpnAddress, Options) {
@@ -38,9 +40,9 @@ TEST(VrpnAddress, Options) {
 
 TEST(VrpnAddress, WhatMakesNoSenseIsToldInASentence) {
   for (const char* text :
-       {"T@h:0", "T@h:99999", "T@h:port", "T@h?axes=x,y", "T@h?axes=x,y,-z", "T@h?axes=x,x,y",
-        "T@h?axes=x,y,z,x", "T@h?scale=0", "T@h?scale=-1", "T@h?scale=nan", "T@h?sensor=-1", "T@h?forces=all",
-        "T@h?colour=red", "T@h?profile=nothing", "T@h?sensor"}) {
+       {"T@h:0", "T@h:99999", "T@h:port", "T@::1:77", "T@[::1", "T@h?axes=x,y", "T@h?axes=x,y,-z",
+        "T@h?axes=x,x,y", "T@h?axes=x,y,z,x", "T@h?scale=0", "T@h?scale=-1", "T@h?scale=nan", "T@h?sensor=-1",
+        "T@h?forces=all", "T@h?colour=red", "T@h?profile=nothing", "T@h?sensor"}) {
     const auto address = VrpnAddress::parse(text);
     ASSERT_FALSE(address) << text;
     EXPECT_GT(address.error().message.size(), 20U) << text;
